@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+
+# strake_module(NAME SOURCES... DEPENDS modules... [LIBS private libraries...])
+# One layer of the library: static library strake_NAME, alias strake::NAME.
+function(strake_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
+  add_library(strake_${name} STATIC ${arg_SOURCES})
+  add_library(strake::${name} ALIAS strake_${name})
+  target_include_directories(strake_${name}
+    PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  foreach(module ${arg_DEPENDS})
+    target_link_libraries(strake_${name} PUBLIC strake::${module})
+  endforeach()
+  target_link_libraries(strake_${name} PRIVATE strake_flags ${arg_LIBS})
+endfunction()
+
+# strake_test(NAME SOURCES... MODULES modules... [LIBS ...] [LABELS fast|slow|parallel ...] [TIMEOUT s])
+# One GoogleTest program, one CTest entry. "fast" programs also run under the sanitizers.
+function(strake_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;MODULES;LIBS;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests)
+  foreach(module ${arg_MODULES})
+    target_link_libraries(${name} PRIVATE strake::${module})
+  endforeach()
+  target_link_libraries(${name} PRIVATE strake_flags GTest::gtest_main ${arg_LIBS})
+  add_test(NAME ${name} COMMAND ${name})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+  foreach(label ${arg_LABELS})
+    if(NOT TARGET strake_tests_${label})
+      add_custom_target(strake_tests_${label})
+    endif()
+    add_dependencies(strake_tests_${label} ${name})
+  endforeach()
+endfunction()

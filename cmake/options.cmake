@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+option(STRAKE_TESTS "Build the tests" ON)
+option(STRAKE_SLOW_TESTS "Build the nightly oracles too (CGAL, long fuzzing)" OFF)
+option(STRAKE_BENCHMARKS "Build the benchmarks" OFF)
+option(STRAKE_FUZZERS "Build the libFuzzer targets (Clang only)" OFF)
+option(STRAKE_WERROR "Warnings are errors" ON)
+set(STRAKE_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(STRAKE_CCACHE ccache)
+if(STRAKE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${STRAKE_CCACHE})
+endif()
+
+# Properties of every target of ours. No contraction of a*b+c: results must not depend on the
+# compiler's choice to fuse.
+add_library(strake_flags INTERFACE)
+target_compile_options(strake_flags INTERFACE
+  -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wcast-align -Wundef
+  $<$<BOOL:${STRAKE_WERROR}>:-Werror>)
+if(STRAKE_SANITIZE)
+  target_compile_options(strake_flags INTERFACE
+    -fsanitize=${STRAKE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(strake_flags INTERFACE -fsanitize=${STRAKE_SANITIZE})
+endif()

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "strake/geometry/vec.hpp"
+
+namespace strake::geometry {
+
+/// The fixed absolute grid on which every exact decision is taken: one unit is one micrometre.
+/// It is fixed so that no object's place depends on the other objects of the model.
+inline constexpr double kGridPerMm = 1000.0;
+inline constexpr double kMmPerGrid = 1.0 / kGridPerMm;
+
+/// Largest absolute coordinate that can be placed: 2^50 units, about 1.1 million kilometres.
+inline constexpr double kMaxGridMm = 1125899906842624.0 / kGridPerMm;
+
+/// The grid value nearest to a coordinate in millimetres; ties go away from zero.
+/// Nothing when the coordinate is not finite or lies beyond kMaxGridMm.
+[[nodiscard]] inline std::optional<std::int64_t> snap(double mm) {
+  if (!(std::fabs(mm) <= kMaxGridMm)) return std::nullopt;
+  return std::llround(mm * kGridPerMm);
+}
+
+[[nodiscard]] inline std::optional<Vec3l> snap(const Vec3d& mm) {
+  const auto x = snap(mm.x), y = snap(mm.y), z = snap(mm.z);
+  if (!x || !y || !z) return std::nullopt;
+  return Vec3l{*x, *y, *z};
+}
+
+/// Back to millimetres (for output only, never for a decision).
+[[nodiscard]] constexpr Vec3d to_mm(const Vec3l& grid) {
+  return {static_cast<double>(grid.x) / kGridPerMm, static_cast<double>(grid.y) / kGridPerMm,
+          static_cast<double>(grid.z) / kGridPerMm};
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "strake/geometry/mesh.hpp"
+#include "strake/geometry/primitive.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::geometry {
+
+enum class PartKind : std::uint8_t {
+  solid,  ///< directed edges cancel: the part bounds a volume
+  sheet,  ///< open or edge-unbalanced surface
+  wire,   ///< polylines: drawn, never clashed
+};
+
+/// What the analysis of a part found; each flag travels with the answers that the part takes part in.
+struct PartFlags {
+  bool inverted : 1 = false;       ///< came inside out (negative exact volume) and was turned
+  bool open : 1 = false;           ///< a sheet because edges are missing their partners
+  bool non_manifold : 1 = false;   ///< an edge with other than two triangles
+  bool unknown_sag : 1 = false;    ///< how far the mesh lies from its surface is not known
+  bool convex_source : 1 = false;  ///< convex before the snap: a filter, never a decision
+};
+
+/// An edge of a part between two welded vertices, v0 < v1. Its triangles stand in
+/// Part::edge_triangles[first .. next edge's first), ascending.
+struct PartEdge {
+  std::uint32_t v0 = 0, v1 = 0;
+  std::uint32_t first_triangle = 0;
+};
+
+/// One part on the grid: an analytic primitive's tessellation, or a nest of mesh shells (an
+/// outermost shell and all that lie inside it), welded and oriented outward.
+///
+/// Coordinates are grid units relative to the origin of the body that places the part, within
+/// ±2^30. Everything exact (clash signs, hidden-line decisions) is decided on these integers.
+struct Part {
+  PartKind kind = PartKind::solid;
+  PartFlags flags;
+  std::vector<Vec3i> vertices;            ///< no two equal
+  std::vector<Triangle> triangles;        ///< none degenerate; outward counter-clockwise for solids
+  std::vector<std::uint32_t> faces;       ///< source face of each triangle; empty: each its own
+  std::vector<PartEdge> edges;            ///< by (v0, v1); one sentinel at the end
+  std::vector<std::uint32_t> edge_triangles;
+  std::vector<std::uint32_t> shells;      ///< connected shell of each triangle, 0-based
+  std::uint32_t shell_count = 0;
+  std::vector<std::uint32_t> chain_first; ///< wires: chain i is vertices[chain_first[i]..[i+1])
+  Box3i box = empty_box<std::int32_t>();
+
+  /// The primitive that the triangles stand for, in the local frame of its body, if analytic.
+  std::optional<Primitive> primitive;
+  double sag = 0;        ///< grid units: bound on the distance between triangles and true surface
+  double volume = 0;     ///< cubic grid units (solids), rounded from the exact value
+  double area = 0;       ///< square grid units
+  /// 2·volume/area in grid units: t for a plate of thickness t. 0 for sheets and wires.
+  [[nodiscard]] double thickness() const { return area > 0 ? 2 * volume / area : 0; }
+};
+
+/// A part and where it stands: world grid coordinate = origin + vertex.
+struct PlacedPart {
+  const Part* part = nullptr;
+  Vec3l origin;
+};
+
+}  // namespace strake::geometry

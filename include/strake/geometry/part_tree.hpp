@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "strake/geometry/part.hpp"
+
+namespace strake::geometry {
+
+/// A bounding-volume hierarchy over the triangles of one part, in the part's own coordinates, so
+/// that every body that places the part shares it.
+class PartTree {
+ public:
+  struct Node {
+    Box3i box;
+    std::uint32_t first = 0;  ///< inner: index of the left child (right = left + 1); leaf: first of order()
+    std::uint32_t count = 0;  ///< 0: inner node; otherwise triangles in the leaf
+  };
+
+  PartTree() = default;
+  explicit PartTree(const Part& part);
+
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< root first
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace strake::geometry

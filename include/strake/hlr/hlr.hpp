@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::hlr {
+
+enum class Stage : std::uint8_t { none, local, global };
+enum class Solver : std::uint8_t { gather, brute_force };
+
+enum class EdgeKind : std::uint8_t { sharp, contour, boundary, non_manifold, polyline };
+enum class State : std::uint8_t {
+  visible,
+  hidden_by_self,
+  hidden_by_other,
+  projecting,  ///< parallel to the view direction: a point on paper
+  clipped,     ///< outside the limits
+};
+
+/// An orthographic view. Directions are integers so that every decision is exact.
+struct View {
+  geometry::Vec3l direction{1, -1, 1};  ///< points to the viewer; |component| <= 2^20
+  geometry::Vec3l up{0, 0, 1};
+  std::optional<geometry::Box3l> limits;  ///< grid units: lines outside are clipped, points outside do not hide
+};
+
+struct Options {
+  Stage stage = Stage::global;
+  Solver solver = Solver::gather;
+  double sharp_angle_deg = 20;
+  /// Contact distance δ, mm; negative: derived from the sources' precision.
+  double contact_distance_mm = -1;
+  bool culling = true;   ///< changes the work, never the answer
+};
+
+/// A piece of an edge in one state. Coordinates are grid units, rounded once from exact values.
+struct Piece {
+  model::ObjectId object{};
+  std::uint32_t edge = 0;       ///< number of the feature edge within the run
+  EdgeKind kind = EdgeKind::sharp;
+  State state = State::visible;
+  geometry::Vec3l a, b;
+};
+
+struct Counters {
+  std::uint64_t objects = 0, objects_drawn = 0, objects_hidden = 0, objects_clipped = 0;
+  std::uint64_t feature_edges = 0;
+  std::uint64_t face_tests = 0;        ///< edge against face
+  std::uint64_t exact_fallbacks = 0;
+};
+
+struct Drawing {
+  View view;
+  Options options;
+  double contact_distance_mm = 0;      ///< the largest that was applied
+  std::vector<Piece> pieces;           ///< by (object, edge, parameter)
+  Counters counters;
+};
+
+/// The lines of the scene in one view, each piece with its state. `drawn` selects the objects
+/// (empty: all); `transparent` objects are hidden but hide nothing.
+[[nodiscard]] Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn,
+                                   const View& view, const Options& options,
+                                   const parallel::Context& context);
+
+}  // namespace strake::hlr

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "strake/core/diagnostics.hpp"
+#include "strake/geometry/mesh.hpp"
+#include "strake/geometry/primitive.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::model {
+
+enum class ShapeId : std::uint32_t {};
+enum class ObjectId : std::uint32_t {};
+enum class GroupId : std::uint32_t { none = 0xffffffffU };
+
+template <class Id>
+[[nodiscard]] constexpr std::uint32_t index(Id id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+/// Geometry in its own frame (millimetres, z up), shared by every body that places it.
+using Shape = std::variant<geometry::TriangleMesh, geometry::Primitive, geometry::Polylines>;
+
+struct Color {
+  std::uint8_t red = 170, green = 170, blue = 170;
+  std::uint8_t alpha = 255;  ///< below 255 is transparent: hidden, but hides nothing
+  friend bool operator==(const Color&, const Color&) = default;
+};
+
+/// What a body stands for in the source system.
+enum class Category : std::uint8_t {
+  physical,
+  obstruction,  ///< space kept free for access or maintenance (RVM OBST)
+  insulation,   ///< RVM INSU
+};
+
+/// One placed shape of an object.
+struct Body {
+  ShapeId shape{};
+  geometry::Placement placement;  ///< local mm to world mm, z up
+  Color color;
+  Category category = Category::physical;
+};
+
+/// A node of the source's hierarchy that is not itself an object (or also is one).
+struct Group {
+  std::string name;
+  GroupId parent = GroupId::none;
+};
+
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+/// What a user would point at: an RVM group that directly holds primitives, a glTF node with a
+/// mesh, an OBJ o/g group, an STL file.
+struct Object {
+  /// Durable: stays the same while the source element does. Unique within its file.
+  std::string id;
+  std::string name;
+  std::uint32_t file = 0;           ///< index into Model::files
+  GroupId parent = GroupId::none;   ///< hierarchy path, outermost group last reached
+  std::uint32_t first_body = 0;     ///< bodies [first_body, first_body + body_count)
+  std::uint32_t body_count = 0;
+  Attributes attributes;
+};
+
+/// Where a part of the model came from.
+struct SourceFile {
+  std::string label;   ///< what results call it: the file name without folders, made unique
+  std::string format;  ///< "RVM 2", "GLB", "OBJ", "STL binary" …
+  std::string unit;    ///< the length unit applied, "mm" …, and whether stated, assumed or given
+  std::string up_axis; ///< "z", "y", …
+  std::uint64_t bytes = 0;
+  /// Half the spacing of the source's numbers at its largest world coordinate, in mm: what the
+  /// contact distance of its geometry is derived from.
+  double precision_mm = 0;
+};
+
+/// Objects read from one or several files, as the sources describe them (doubles, not yet on the
+/// grid; see Scene for that).
+///
+/// Objects are ordered by (file label, id) once `finish` has run, so that ObjectId order is the
+/// durable order of results and does not depend on the order in which files were given.
+struct Model {
+  std::vector<SourceFile> files;
+  std::vector<Group> groups;
+  std::vector<Shape> shapes;
+  std::vector<Object> objects;
+  std::vector<Body> bodies;
+  Diagnostics diagnostics;
+
+  [[nodiscard]] const Object& object(ObjectId id) const { return objects[index(id)]; }
+  /// Names from the outermost group to the object's own parent, joined by '/'.
+  [[nodiscard]] std::string path(const Object& object) const;
+};
+
+/// Makes file labels and object ids unique (a repeated id gains "#2", "#3", … and a diagnostic),
+/// and orders objects by (file label, id) and bodies by object. Readers' output is not a Model
+/// until this ran; io::read_models calls it.
+void finish(Model& model);
+
+/// Appends the files, groups, shapes, objects, bodies and diagnostics of `other`.
+void append(Model& model, Model&& other);
+
+}  // namespace strake::model

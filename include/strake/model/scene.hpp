@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "strake/core/diagnostics.hpp"
+#include "strake/core/result.hpp"
+#include "strake/geometry/part.hpp"
+#include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::model {
+
+struct SceneOptions {
+  /// Largest distance of a tessellated primitive from the true surface, mm.
+  double sag_mm = 0.5;
+  /// Bodies of these categories are placed; the others are counted in Scene::left_out.
+  bool physical = true, obstruction = false, insulation = false;
+};
+
+/// The parts of one (shape, linear part of the placement), shared by every body that has both.
+struct GridShape {
+  std::vector<geometry::Part> parts;
+  geometry::Box3i box = geometry::empty_box<std::int32_t>();
+  ShapeId shape{};
+};
+
+/// A body on the grid: world coordinate of a vertex = origin + vertex.
+struct GridBody {
+  std::uint32_t grid_shape = 0;
+  std::uint32_t body = 0;  ///< index into Model::bodies
+  ObjectId object{};
+  geometry::Vec3l origin;
+
+  [[nodiscard]] geometry::Box3l box(const GridShape& shape) const {
+    return {shape.box.lo.as<std::int64_t>() + origin, shape.box.hi.as<std::int64_t>() + origin};
+  }
+};
+
+/// A model on the grid: what clash detection and hidden-line removal work on.
+///
+/// Vertices are snap(linear·v) + snap(translation), so equal shapes with equal linear parts share
+/// one GridShape whatever their place, and translation by grid steps changes no decision.
+struct Scene {
+  const Model* model = nullptr;         ///< must outlive the scene
+  std::vector<GridShape> shapes;
+  std::vector<GridBody> bodies;         ///< by object, then in the model's order
+  std::vector<std::uint32_t> first_body;///< per object, one more at the end; objects may have none
+  std::uint64_t left_out = 0;           ///< bodies of categories that were not asked for
+  Diagnostics diagnostics;              ///< inverted, open, degenerate, unplaceable …
+
+  [[nodiscard]] std::span<const GridBody> bodies_of(ObjectId id) const {
+    return std::span(bodies).subspan(first_body[index(id)],
+                                     first_body[index(id) + 1] - first_body[index(id)]);
+  }
+};
+
+/// Tessellates, snaps, welds, splits into shells and orients every shape of the model once per
+/// distinct linear part. A body that cannot be placed is skipped with a diagnostic.
+[[nodiscard]] Result<Scene> make_scene(const Model& model, const SceneOptions& options,
+                                       const parallel::Context& context);
+
+}  // namespace strake::model
