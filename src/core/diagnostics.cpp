@@ -7,8 +7,8 @@
 namespace strake {
 
 Diagnostics::Count& Diagnostics::entry(std::string_view code, Severity severity) {
-  const auto found = std::find_if(counts_.begin(), counts_.end(),
-                                  [&](const Count& c) { return c.code == code; });
+  const auto found =
+      std::find_if(counts_.begin(), counts_.end(), [&](const Count& c) { return c.code == code; });
   if (found != counts_.end()) return *found;
   return counts_.emplace_back(Count{std::string(code), severity, 0});
 }
@@ -32,7 +32,8 @@ void Diagnostics::append(const Diagnostics& other) {
   }
   // What the other run counted but did not keep.
   for (const Count& theirs : other.counts_)
-    if (theirs.count > kMaxPerCode) entry(theirs.code, theirs.severity).count += theirs.count - kMaxPerCode;
+    if (theirs.count > kMaxPerCode)
+      entry(theirs.code, theirs.severity).count += theirs.count - kMaxPerCode;
 }
 
 std::uint64_t Diagnostics::count(std::string_view code) const {

@@ -41,11 +41,13 @@ struct Options {
 
 /// Bits of Pair::flags.
 enum Flag : std::uint16_t {
-  kBorderline = 1U << 0U,   ///< the bracket cannot be told from a threshold: the severer class is given
-  kUncertain = 1U << 1U,    ///< the bracket straddles a threshold: the class of the nominal d is given
-  kOpen = 1U << 2U,         ///< one of the two is an open surface
-  kInverted = 1U << 3U,     ///< one of the two came inside out
-  kUnknownSag = 1U << 4U,   ///< an imported mesh whose distance from its surface is unknown
+  kBorderline =
+      1U << 0U,  ///< the bracket cannot be told from a threshold: the severer class is given
+  kUncertain =
+      1U << 1U,          ///< the bracket straddles a threshold: the class of the nominal d is given
+  kOpen = 1U << 2U,      ///< one of the two is an open surface
+  kInverted = 1U << 3U,  ///< one of the two came inside out
+  kUnknownSag = 1U << 4U,  ///< an imported mesh whose distance from its surface is unknown
 };
 
 /// One pair of objects that is not NO_HIT; a < b in the durable order.
@@ -54,10 +56,10 @@ struct Pair {
   Class cls = Class::no_hit;
   Relation relation = Relation::separate;
   std::uint16_t flags = 0;
-  double d_mm = 0;                       ///< signed separation; negative is depth
-  double d_lower_mm = 0, d_upper_mm = 0; ///< certified bracket round d
-  geometry::Vec3d point_mm;              ///< midpoint of the closest pair, or the deepest point
-  std::uint32_t part_a = 0, part_b = 0;  ///< deciding parts, numbered within their objects
+  double d_mm = 0;                        ///< signed separation; negative is depth
+  double d_lower_mm = 0, d_upper_mm = 0;  ///< certified bracket round d
+  geometry::Vec3d point_mm;               ///< midpoint of the closest pair, or the deepest point
+  std::uint32_t part_a = 0, part_b = 0;   ///< deciding parts, numbered within their objects
 };
 
 struct Counters {
@@ -70,16 +72,16 @@ struct Counters {
 
 struct Report {
   Options options;
-  std::vector<Pair> pairs;        ///< by (a, b); NO_HIT pairs are not kept
+  std::vector<Pair> pairs;  ///< by (a, b); NO_HIT pairs are not kept
   std::uint64_t objects_a = 0, objects_b = 0;
   std::uint64_t count_hit = 0, count_contact = 0, count_clearance = 0;
   Counters counters;
-  std::string hash;               ///< of pairs, classes, d and witnesses; not of options
+  std::string hash;  ///< of pairs, classes, d and witnesses; not of options
 };
 
 /// Which of a scene's objects stand against which: each unordered pair once, no self-pair.
 struct Sets {
-  std::vector<bool> in_a, in_b;   ///< one entry per object
+  std::vector<bool> in_a, in_b;  ///< one entry per object
 };
 
 /// Every pair of objects, one of set A and one of set B, that is not NO_HIT.

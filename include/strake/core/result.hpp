@@ -32,8 +32,12 @@ struct Error {
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::move(value)) {}      // NOLINT(google-explicit-constructor): reads as `return value;`
-  Result(Error error) : state_(std::move(error)) {}  // NOLINT(google-explicit-constructor): reads as `return Error{...};`
+  Result(T value)
+      : state_(std::move(value)) {
+  }  // NOLINT(google-explicit-constructor): reads as `return value;`
+  Result(Error error)
+      : state_(std::move(error)) {
+  }  // NOLINT(google-explicit-constructor): reads as `return Error{...};`
 
   [[nodiscard]] bool has_value() const { return state_.index() == 0; }
   explicit operator bool() const { return has_value(); }
@@ -58,7 +62,9 @@ template <>
 class [[nodiscard]] Result<void> {
  public:
   Result() = default;
-  Result(Error error) : error_(std::move(error)) {}  // NOLINT(google-explicit-constructor): reads as `return Error{...};`
+  Result(Error error)
+      : error_(std::move(error)) {
+  }  // NOLINT(google-explicit-constructor): reads as `return Error{...};`
 
   [[nodiscard]] bool has_value() const { return !error_.has_value(); }
   explicit operator bool() const { return has_value(); }

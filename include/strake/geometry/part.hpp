@@ -18,7 +18,8 @@ enum class PartKind : std::uint8_t {
   wire,   ///< polylines: drawn, never clashed
 };
 
-/// What the analysis of a part found; each flag travels with the answers that the part takes part in.
+/// What the analysis of a part found; each flag travels with the answers that the part takes part
+/// in.
 struct PartFlags {
   bool inverted : 1 = false;       ///< came inside out (negative exact volume) and was turned
   bool open : 1 = false;           ///< a sheet because edges are missing their partners
@@ -42,21 +43,21 @@ struct PartEdge {
 struct Part {
   PartKind kind = PartKind::solid;
   PartFlags flags;
-  std::vector<Vec3i> vertices;            ///< no two equal
-  std::vector<Triangle> triangles;        ///< none degenerate; outward counter-clockwise for solids
-  std::vector<std::uint32_t> faces;       ///< source face of each triangle; empty: each its own
-  std::vector<PartEdge> edges;            ///< by (v0, v1); one sentinel at the end
+  std::vector<Vec3i> vertices;       ///< no two equal
+  std::vector<Triangle> triangles;   ///< none degenerate; outward counter-clockwise for solids
+  std::vector<std::uint32_t> faces;  ///< source face of each triangle; empty: each its own
+  std::vector<PartEdge> edges;       ///< by (v0, v1); one sentinel at the end
   std::vector<std::uint32_t> edge_triangles;
-  std::vector<std::uint32_t> shells;      ///< connected shell of each triangle, 0-based
+  std::vector<std::uint32_t> shells;  ///< connected shell of each triangle, 0-based
   std::uint32_t shell_count = 0;
-  std::vector<std::uint32_t> chain_first; ///< wires: chain i is vertices[chain_first[i]..[i+1])
+  std::vector<std::uint32_t> chain_first;  ///< wires: chain i is vertices[chain_first[i]..[i+1])
   Box3i box = empty_box<std::int32_t>();
 
   /// The primitive that the triangles stand for, in the local frame of its body, if analytic.
   std::optional<Primitive> primitive;
-  double sag = 0;        ///< grid units: bound on the distance between triangles and true surface
-  double volume = 0;     ///< cubic grid units (solids), rounded from the exact value
-  double area = 0;       ///< square grid units
+  double sag = 0;     ///< grid units: bound on the distance between triangles and true surface
+  double volume = 0;  ///< cubic grid units (solids), rounded from the exact value
+  double area = 0;    ///< square grid units
   /// 2·volume/area in grid units: t for a plate of thickness t. 0 for sheets and wires.
   [[nodiscard]] double thickness() const { return area > 0 ? 2 * volume / area : 0; }
 };

@@ -20,11 +20,11 @@ struct TreedPart {
 /// How the point sets of two parts meet, decided exactly on the grid. For a solid the set is its
 /// closed volume, for a sheet its surface.
 enum class Meeting : std::uint8_t {
-  apart,        ///< no common point
-  touching,     ///< common points, but no interior point of a solid in the other part's interior
-                ///< (two sheets: they meet without crossing properly)
-  crossing,     ///< interiors meet and the boundaries do too
-  a_inside_b,   ///< interiors meet, boundaries share no point, a lies in b
+  apart,       ///< no common point
+  touching,    ///< common points, but no interior point of a solid in the other part's interior
+               ///< (two sheets: they meet without crossing properly)
+  crossing,    ///< interiors meet and the boundaries do too
+  a_inside_b,  ///< interiors meet, boundaries share no point, a lies in b
   b_inside_a,
 };
 
@@ -32,9 +32,9 @@ enum class Meeting : std::uint8_t {
 struct MeetingResult {
   Meeting meeting = Meeting::apart;
   bool boundaries_meet = false;
-  bool a_within_b = false;   ///< closed: no point of a lies outside b (abutting inside, or equal)
+  bool a_within_b = false;  ///< closed: no point of a lies outside b (abutting inside, or equal)
   bool b_within_a = false;
-  Vec3d point;               ///< a common point, grid units relative to a's origin, if any
+  Vec3d point;  ///< a common point, grid units relative to a's origin, if any
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where it was found
 };
 
@@ -51,9 +51,9 @@ struct PairWork {
 
 /// The closest pair of points of two surfaces.
 struct Closest {
-  double squared = 0;      ///< grid units², the exact rational rounded to nearest
-  double distance = 0;     ///< its square root, rounded
-  Vec3d on_a, on_b;        ///< grid units relative to a's origin
+  double squared = 0;   ///< grid units², the exact rational rounded to nearest
+  double distance = 0;  ///< its square root, rounded
+  Vec3d on_a, on_b;     ///< grid units relative to a's origin
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< lowest ids among exact ties
 };
 

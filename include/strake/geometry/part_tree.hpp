@@ -14,7 +14,8 @@ class PartTree {
  public:
   struct Node {
     Box3i box;
-    std::uint32_t first = 0;  ///< inner: index of the left child (right = left + 1); leaf: first of order()
+    std::uint32_t first =
+        0;  ///< inner: index of the left child (right = left + 1); leaf: first of order()
     std::uint32_t count = 0;  ///< 0: inner node; otherwise triangles in the leaf
   };
 

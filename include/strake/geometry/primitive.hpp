@@ -63,10 +63,9 @@ struct LinePrimitive {
   double half_width = 0, length = 0;
 };
 
-using Primitive =
-    std::variant<BoxPrimitive, PyramidPrimitive, CylinderPrimitive, SnoutPrimitive, SpherePrimitive,
-                 EllipticalDishPrimitive, SphericalDishPrimitive, CircularTorusPrimitive,
-                 RectangularTorusPrimitive, LinePrimitive>;
+using Primitive = std::variant<BoxPrimitive, PyramidPrimitive, CylinderPrimitive, SnoutPrimitive,
+                               SpherePrimitive, EllipticalDishPrimitive, SphericalDishPrimitive,
+                               CircularTorusPrimitive, RectangularTorusPrimitive, LinePrimitive>;
 
 /// Stable name of a primitive's kind, as reports and JSON spell it ("circular_torus").
 [[nodiscard]] std::string_view kind_name(const Primitive& primitive);

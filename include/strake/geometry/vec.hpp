@@ -120,7 +120,8 @@ template <class T>
     return {{kBig, kBig, kBig}, {-kBig, -kBig, -kBig}};
   } else {
     constexpr T kLow = static_cast<T>(T{1} << (sizeof(T) * 8 - 2));
-    return {{kLow, kLow, kLow}, {static_cast<T>(-kLow), static_cast<T>(-kLow), static_cast<T>(-kLow)}};
+    return {{kLow, kLow, kLow},
+            {static_cast<T>(-kLow), static_cast<T>(-kLow), static_cast<T>(-kLow)}};
   }
 }
 

@@ -29,7 +29,8 @@ enum class State : std::uint8_t {
 struct View {
   geometry::Vec3l direction{1, -1, 1};  ///< points to the viewer; |component| <= 2^20
   geometry::Vec3l up{0, 0, 1};
-  std::optional<geometry::Box3l> limits;  ///< grid units: lines outside are clipped, points outside do not hide
+  std::optional<geometry::Box3l>
+      limits;  ///< grid units: lines outside are clipped, points outside do not hide
 };
 
 struct Options {
@@ -38,13 +39,13 @@ struct Options {
   double sharp_angle_deg = 20;
   /// Contact distance δ, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
-  bool culling = true;   ///< changes the work, never the answer
+  bool culling = true;  ///< changes the work, never the answer
 };
 
 /// A piece of an edge in one state. Coordinates are grid units, rounded once from exact values.
 struct Piece {
   model::ObjectId object{};
-  std::uint32_t edge = 0;       ///< number of the feature edge within the run
+  std::uint32_t edge = 0;  ///< number of the feature edge within the run
   EdgeKind kind = EdgeKind::sharp;
   State state = State::visible;
   geometry::Vec3l a, b;
@@ -53,15 +54,15 @@ struct Piece {
 struct Counters {
   std::uint64_t objects = 0, objects_drawn = 0, objects_hidden = 0, objects_clipped = 0;
   std::uint64_t feature_edges = 0;
-  std::uint64_t face_tests = 0;        ///< edge against face
+  std::uint64_t face_tests = 0;  ///< edge against face
   std::uint64_t exact_fallbacks = 0;
 };
 
 struct Drawing {
   View view;
   Options options;
-  double contact_distance_mm = 0;      ///< the largest that was applied
-  std::vector<Piece> pieces;           ///< by (object, edge, parameter)
+  double contact_distance_mm = 0;  ///< the largest that was applied
+  std::vector<Piece> pieces;       ///< by (object, edge, parameter)
   Counters counters;
 };
 

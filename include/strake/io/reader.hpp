@@ -19,7 +19,7 @@ enum class UpAxis { x, y, z };
 
 /// What the user says about a file; overrides what the format states.
 struct ReadOptions {
-  std::optional<double> unit_mm;   ///< length of the file's unit in mm (1000 for metres)
+  std::optional<double> unit_mm;  ///< length of the file's unit in mm (1000 for metres)
   std::optional<UpAxis> up_axis;
   std::optional<std::string> encoding;  ///< of names, where the format leaves it open
 };

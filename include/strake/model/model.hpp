@@ -62,19 +62,19 @@ struct Object {
   /// Durable: stays the same while the source element does. Unique within its file.
   std::string id;
   std::string name;
-  std::uint32_t file = 0;           ///< index into Model::files
-  GroupId parent = GroupId::none;   ///< hierarchy path, outermost group last reached
-  std::uint32_t first_body = 0;     ///< bodies [first_body, first_body + body_count)
+  std::uint32_t file = 0;          ///< index into Model::files
+  GroupId parent = GroupId::none;  ///< hierarchy path, outermost group last reached
+  std::uint32_t first_body = 0;    ///< bodies [first_body, first_body + body_count)
   std::uint32_t body_count = 0;
   Attributes attributes;
 };
 
 /// Where a part of the model came from.
 struct SourceFile {
-  std::string label;   ///< what results call it: the file name without folders, made unique
-  std::string format;  ///< "RVM 2", "GLB", "OBJ", "STL binary" …
-  std::string unit;    ///< the length unit applied, "mm" …, and whether stated, assumed or given
-  std::string up_axis; ///< "z", "y", …
+  std::string label;    ///< what results call it: the file name without folders, made unique
+  std::string format;   ///< "RVM 2", "GLB", "OBJ", "STL binary" …
+  std::string unit;     ///< the length unit applied, "mm" …, and whether stated, assumed or given
+  std::string up_axis;  ///< "z", "y", …
   std::uint64_t bytes = 0;
   /// Half the spacing of the source's numbers at its largest world coordinate, in mm: what the
   /// contact distance of its geometry is derived from.

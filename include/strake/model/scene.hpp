@@ -44,12 +44,13 @@ struct GridBody {
 /// Vertices are snap(linear·v) + snap(translation), so equal shapes with equal linear parts share
 /// one GridShape whatever their place, and translation by grid steps changes no decision.
 struct Scene {
-  const Model* model = nullptr;         ///< must outlive the scene
+  const Model* model = nullptr;  ///< must outlive the scene
   std::vector<GridShape> shapes;
-  std::vector<GridBody> bodies;         ///< by object, then in the model's order
-  std::vector<std::uint32_t> first_body;///< per object, one more at the end; objects may have none
-  std::uint64_t left_out = 0;           ///< bodies of categories that were not asked for
-  Diagnostics diagnostics;              ///< inverted, open, degenerate, unplaceable …
+  std::vector<GridBody> bodies;  ///< by object, then in the model's order
+  std::vector<std::uint32_t>
+      first_body;              ///< per object, one more at the end; objects may have none
+  std::uint64_t left_out = 0;  ///< bodies of categories that were not asked for
+  Diagnostics diagnostics;     ///< inverted, open, degenerate, unplaceable …
 
   [[nodiscard]] std::span<const GridBody> bodies_of(ObjectId id) const {
     return std::span(bodies).subspan(first_body[index(id)],

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# bench.sh [NAME...]: builds and runs the benchmarks (all, or those named); each checks its results.
+set -euo pipefail
+. scripts/common.sh
+need build test bench
+configure_and_build bench
+for program in build/bench/bin/bench_*; do
+  name=${program##*/bench_}
+  if [ $# -gt 0 ]; then
+    case " $* " in *" $name "*) ;; *) continue ;; esac
+  fi
+  say "$name"
+  "$program"
+done

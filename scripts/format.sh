@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# format.sh [--check]: the house format, by clang-format-19.
+set -euo pipefail
+. scripts/common.sh
+need test
+if [ "${1:-}" = --check ]; then
+  sources '*.cpp' '*.hpp' | xargs -P "$jobs" -n 20 clang-format-19 --dry-run --Werror
+  say "format: clean"
+else
+  sources '*.cpp' '*.hpp' | xargs -P "$jobs" -n 20 clang-format-19 -i
+fi

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# test.sh [--all]: build, format, lint, tests; ends with CTest's summary.
+set -euo pipefail
+. scripts/common.sh
+preset=dev
+case "${1:-}" in
+  "") ;;
+  --all) preset=nightly ;;
+  *) echo "test: unknown option '$1' (there is only --all)" >&2; exit 2 ;;
+esac
+need build test
+[ "$preset" = nightly ] && scripts/sanitize.sh
+configure_and_build "$preset"
+scripts/format.sh --check
+scripts/lint.sh "build/$preset"
+ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error
