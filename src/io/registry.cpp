@@ -1,1 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <utility>
+
+#include "io/file_content.hpp"
+#include "strake/io/reader.hpp"
+
+namespace strake::io {
+namespace {
+
+using Readers = std::vector<std::unique_ptr<Reader>>;
+
+const Reader* best_reader(const Readers& readers, const FileBytes& file) {
+  const Reader* best = nullptr;
+  int sureness = 0;
+  for (const std::unique_ptr<Reader>& reader : readers) {
+    const int mine = reader->recognise(file);
+    if (mine <= sureness) continue;
+    best = reader.get();
+    sureness = mine;
+  }
+  return best;
+}
+
+Error unknown_format(const Readers& readers, const FileBytes& file) {
+  std::string formats;
+  for (const std::unique_ptr<Reader>& reader : readers)
+    formats.append(formats.empty() ? "" : ", ").append(reader->format());
+  return {ErrorCode::input, "is in no format that this program reads", file.path.string(),
+          "give a model as " + formats};
+}
+
+Result<model::Model> read_one(const Readers& readers, const std::filesystem::path& path,
+                              const ReadOptions& options, const parallel::Context& context) {
+  const Result<FileContent> content = FileContent::read(path);
+  if (!content) return content.error();
+  const FileBytes file{path, content->bytes()};
+  if (file.bytes.empty())
+    return Error{ErrorCode::input, "is empty", path.string(), "export the model again"};
+  const Reader* const reader = best_reader(readers, file);
+  if (reader == nullptr) return unknown_format(readers, file);
+  return reader->read(file, options, context);
+}
+
+}  // namespace
+
+Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
+                                 const ReadOptions& options, const parallel::Context& context) {
+  if (paths.empty())
+    return Error{ErrorCode::usage, "no model file was given", "", "name at least one file"};
+  if (options.unit_mm && !(*options.unit_mm > 0 && *options.unit_mm < 1e12))
+    return Error{ErrorCode::usage, "the length of a unit must be positive and finite", "",
+                 "give a unit such as mm, m or in"};
+  const Readers readers = all_readers();
+  model::Model all;
+  for (const std::filesystem::path& path : paths) {
+    if (context.stop.stop_requested())
+      return Error{ErrorCode::cancelled, "reading was stopped", path.string(), ""};
+    Result<model::Model> one = read_one(readers, path, options, context);
+    if (!one) return one.error();
+    model::append(all, std::move(*one));
+  }
+  model::finish(all);
+  return all;
+}
+
+}  // namespace strake::io

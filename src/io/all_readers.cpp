@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/io/reader.hpp"
+
+namespace strake::io {
+
+std::vector<std::unique_ptr<Reader>> all_readers() {
+  std::vector<std::unique_ptr<Reader>> readers;
+  readers.push_back(make_obj_reader());
+  return readers;
+}
+
+}  // namespace strake::io

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "strake/core/result.hpp"
+
+namespace strake::io {
+
+/// A whole file in memory. It is read, not mapped: a mapped file that another program shortens
+/// while we read it would end this one.
+class FileContent {
+ public:
+  [[nodiscard]] static Result<FileContent> read(const std::filesystem::path& path);
+
+  [[nodiscard]] std::span<const std::byte> bytes() const { return {data_.get(), size_}; }
+
+ private:
+  std::unique_ptr<std::byte[]> data_;
+  std::size_t size_ = 0;
+};
+
+[[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace strake::io

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/obj/assembly.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+namespace strake::io::obj {
+namespace {
+
+constexpr std::uint32_t kNoEntry = 0xffffffffU;
+
+class Assembler {
+ public:
+  void chunk(std::uint32_t number, const Chunk& chunk, std::uint64_t lines_before);
+  Assembly take() { return std::move(result_); }
+
+ private:
+  void apply(const Statement& statement);
+  void segment(Segment run, const Chunk& chunk, std::uint64_t lines_before);
+  std::uint32_t entry();
+  std::uint32_t material_index(const std::string& name);
+
+  Assembly result_;
+  std::unordered_map<std::string, std::uint32_t> groups_;     ///< entry of each g under this o
+  std::unordered_map<std::string, std::uint32_t> materials_;  ///< index of each name
+  std::string object_name_, group_name_;
+  std::uint32_t object_ = 0;
+  std::uint32_t entry_ = kNoEntry;  ///< made with the first face, so that empty groups are none
+  std::uint32_t material_ = kNoMaterial;
+};
+
+std::uint32_t Assembler::material_index(const std::string& name) {
+  const auto next = static_cast<std::uint32_t>(result_.material_names.size());
+  const auto [place, is_new] = materials_.try_emplace(name, next);
+  if (is_new) result_.material_names.push_back(name);
+  return place->second;
+}
+
+void Assembler::apply(const Statement& statement) {
+  switch (statement.kind) {
+    case StatementKind::object:
+      object_name_ = statement.text;
+      group_name_.clear();
+      groups_.clear();
+      ++object_;
+      entry_ = kNoEntry;
+      break;
+    case StatementKind::group:
+      group_name_ = statement.text;
+      entry_ = kNoEntry;
+      break;
+    case StatementKind::material:
+      material_ = material_index(statement.text);
+      break;
+    case StatementKind::library:
+      result_.libraries.push_back(statement.text);
+      break;
+  }
+}
+
+std::uint32_t Assembler::entry() {
+  if (entry_ != kNoEntry) return entry_;
+  const auto next = static_cast<std::uint32_t>(result_.entries.size());
+  const auto [place, is_new] = groups_.try_emplace(group_name_, next);
+  if (is_new) result_.entries.push_back({object_name_, group_name_, 0, object_, {}});
+  return entry_ = place->second;
+}
+
+void Assembler::segment(Segment run, const Chunk& chunk, std::uint64_t lines_before) {
+  const bool has_faces = run.face_begin != run.face_end;
+  if (!has_faces && run.polyline_begin == run.polyline_end) return;
+  Entry& owner = result_.entries[entry()];
+  if (owner.segments.empty()) {
+    const std::uint32_t line =
+        has_faces ? chunk.faces.line[run.face_begin] : chunk.polylines.line[run.polyline_begin];
+    owner.first_line = lines_before + line + 1;
+  }
+  run.material = material_;
+  owner.segments.push_back(run);
+}
+
+void Assembler::chunk(std::uint32_t number, const Chunk& chunk, std::uint64_t lines_before) {
+  std::uint32_t face = 0, polyline = 0;
+  for (const Statement& statement : chunk.statements) {
+    segment({number, face, statement.face, polyline, statement.polyline, kNoMaterial}, chunk,
+            lines_before);
+    face = statement.face;
+    polyline = statement.polyline;
+    apply(statement);
+  }
+  segment({number, face, chunk.faces.size(), polyline, chunk.polylines.size(), kNoMaterial}, chunk,
+          lines_before);
+}
+
+}  // namespace
+
+Assembly assemble(const std::vector<Chunk>& chunks) {
+  Assembler assembler;
+  std::vector<std::uint64_t> vertex_base{0}, line_base{0};
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    assembler.chunk(static_cast<std::uint32_t>(i), chunks[i], line_base.back());
+    vertex_base.push_back(vertex_base.back() + chunks[i].vertices.size());
+    line_base.push_back(line_base.back() + chunks[i].lines);
+  }
+  Assembly result = assembler.take();
+  result.vertex_base = std::move(vertex_base);
+  result.line_base = std::move(line_base);
+  return result;
+}
+
+}  // namespace strake::io::obj

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/obj/builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "io/face_triangles.hpp"
+
+namespace strake::io::obj {
+namespace {
+
+using geometry::Vec3d;
+
+/// The rows of an entry that go into one shape, with vertices as absolute indices of the file.
+struct Flat {
+  std::vector<std::uint32_t> corners;
+  std::vector<std::size_t> end;
+  std::map<std::uint32_t, std::size_t> rows_by_material;
+};
+
+class Builder {
+ public:
+  Builder(const BuildInput& input, const Entry& entry) : input_(input), entry_(entry) {}
+  BuiltObject build();
+
+ private:
+  bool flatten(const Segment& segment, bool faces, Flat& flat);
+  bool corner(const Segment& segment, const Corner& corner, std::uint32_t line, Flat& flat);
+  void damaged(const Segment& segment, std::uint32_t line, std::string message);
+  [[nodiscard]] model::Color color(std::uint32_t material) const;
+  [[nodiscard]] model::Color main_color(const Flat& flat) const;
+  std::vector<Vec3d> compact(std::vector<std::uint32_t>& corners) const;
+  geometry::TriangleMesh mesh(Flat flat) const;
+  geometry::Polylines polylines(Flat flat) const;
+
+  const BuildInput& input_;
+  const Entry& entry_;
+  BuiltObject result_;
+};
+
+model::Color Builder::color(std::uint32_t material) const {
+  return material == kNoMaterial ? model::Color{} : input_.colors[material];
+}
+
+model::Color Builder::main_color(const Flat& flat) const {
+  std::uint32_t most = kNoMaterial;
+  std::size_t rows = 0;
+  for (const auto& [material, count] : flat.rows_by_material)
+    if (count > rows) {
+      most = material;
+      rows = count;
+    }
+  return color(most);
+}
+
+void Builder::damaged(const Segment& segment, std::uint32_t line, std::string message) {
+  const std::uint64_t number = input_.assembly->line_base[segment.chunk] + line + 1;
+  result_.damage = BuiltObject::Damage{std::move(message), number};
+}
+
+bool Builder::corner(const Segment& segment, const Corner& corner, std::uint32_t line, Flat& flat) {
+  const auto base = static_cast<std::int64_t>(input_.assembly->vertex_base[segment.chunk]);
+  const std::int64_t vertex = corner.vertex + (corner.chunk_relative ? base : 0);
+  if (vertex < 0 || vertex >= static_cast<std::int64_t>(input_.vertices.size())) {
+    damaged(segment, line,
+            corner.chunk_relative
+                ? fmt::format("refers back to vertex {}, before the first", vertex + 1)
+                : fmt::format("refers to vertex {}, but the file has {}", vertex + 1,
+                              input_.vertices.size()));
+    return false;
+  }
+  const auto index = static_cast<std::uint32_t>(vertex);
+  if (!std::isfinite(input_.vertices[index].x)) {
+    damaged(segment, line, fmt::format("uses vertex {}, which has no readable place", vertex + 1));
+    return false;
+  }
+  flat.corners.push_back(index);
+  return true;
+}
+
+bool Builder::flatten(const Segment& segment, bool faces, Flat& flat) {
+  const Chunk& chunk = input_.chunks[segment.chunk];
+  const Rows& rows = faces ? chunk.faces : chunk.polylines;
+  const std::uint32_t begin = faces ? segment.face_begin : segment.polyline_begin;
+  const std::uint32_t end = faces ? segment.face_end : segment.polyline_end;
+  for (std::uint32_t row = begin; row != end; ++row) {
+    if (rows.begin_of(row) == rows.end[row]) {
+      damaged(segment, rows.line[row], "has a corner that is no vertex index");
+      return false;
+    }
+    for (std::uint32_t i = rows.begin_of(row); i != rows.end[row]; ++i)
+      if (!corner(segment, rows.corners[i], rows.line[row], flat)) return false;
+    flat.end.push_back(flat.corners.size());
+  }
+  if (begin != end) flat.rows_by_material[segment.material] += end - begin;
+  return true;
+}
+
+/// Renumbers the corners from 0 in the order of the file's vertices and returns the vertices that
+/// they use.
+std::vector<Vec3d> Builder::compact(std::vector<std::uint32_t>& corners) const {
+  if (corners.empty()) return {};
+  const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
+  const std::uint32_t low = *least;
+  const std::size_t range = std::size_t{*most} - low + 1;
+  std::vector<Vec3d> used;
+  if (range / 4 <= corners.size()) {
+    // The usual case: an object's vertices stand together, a table over their range is small.
+    constexpr std::uint32_t kUnused = 0xffffffffU;
+    std::vector<std::uint32_t> number(range, kUnused);
+    for (const std::uint32_t c : corners) number[c - low] = 0;
+    for (std::size_t i = 0; i < range; ++i)
+      if (number[i] != kUnused) {
+        number[i] = static_cast<std::uint32_t>(used.size());
+        used.push_back(input_.vertices[low + i]);
+      }
+    for (std::uint32_t& c : corners) c = number[c - low];
+    return used;
+  }
+  std::vector<std::uint32_t> sorted = corners;
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  for (const std::uint32_t vertex : sorted) used.push_back(input_.vertices[vertex]);
+  for (std::uint32_t& c : corners)
+    c = static_cast<std::uint32_t>(std::lower_bound(sorted.begin(), sorted.end(), c) -
+                                   sorted.begin());
+  return used;
+}
+
+geometry::TriangleMesh Builder::mesh(Flat flat) const {
+  geometry::TriangleMesh mesh;
+  mesh.vertices = compact(flat.corners);
+  mesh.triangles.reserve(flat.corners.size() - 2 * flat.end.size());
+  const bool polygons = flat.corners.size() != 3 * flat.end.size();
+  std::size_t begin = 0;
+  for (std::size_t face = 0; face < flat.end.size(); ++face) {
+    const std::span corners = std::span(flat.corners).subspan(begin, flat.end[face] - begin);
+    append_face(mesh, corners);
+    if (polygons) mesh.faces.resize(mesh.triangles.size(), static_cast<std::uint32_t>(face));
+    begin = flat.end[face];
+  }
+  return mesh;
+}
+
+geometry::Polylines Builder::polylines(Flat flat) const {
+  geometry::Polylines lines;
+  for (const std::uint32_t c : flat.corners) lines.points.push_back(input_.vertices[c]);
+  for (const std::size_t end : flat.end) lines.first.push_back(static_cast<std::uint32_t>(end));
+  return lines;
+}
+
+BuiltObject Builder::build() {
+  Flat opaque, transparent, lines;
+  for (const Segment& segment : entry_.segments) {
+    Flat& faces = color(segment.material).alpha == 255 ? opaque : transparent;
+    if (!flatten(segment, true, faces) || !flatten(segment, false, lines))
+      return std::move(result_);
+  }
+  result_.opaque_color = main_color(opaque);
+  result_.transparent_color = main_color(transparent);
+  result_.line_color = main_color(lines);
+  if (!opaque.end.empty()) result_.opaque = mesh(std::move(opaque));
+  if (!transparent.end.empty()) result_.transparent = mesh(std::move(transparent));
+  if (!lines.end.empty()) result_.lines = polylines(std::move(lines));
+  return std::move(result_);
+}
+
+}  // namespace
+
+BuiltObject build_object(const BuildInput& input, const Entry& entry) {
+  return Builder(input, entry).build();
+}
+
+}  // namespace strake::io::obj

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/obj/assembly.hpp"
+#include "io/obj/chunk.hpp"
+#include "strake/geometry/mesh.hpp"
+#include "strake/model/model.hpp"
+
+namespace strake::io::obj {
+
+/// All that building an object looks at; shared by the objects, changed by none.
+struct BuildInput {
+  std::span<const Chunk> chunks;
+  const Assembly* assembly = nullptr;
+  std::span<const geometry::Vec3d> vertices;  ///< of the file in order, in mm with z up
+  std::span<const model::Color> colors;       ///< per material of the assembly
+};
+
+/// The geometry of one object: its opaque faces are one mesh whatever their materials, because a
+/// solid cut along its colours would be no solid; so are its transparent ones.
+struct BuiltObject {
+  geometry::TriangleMesh opaque, transparent;
+  geometry::Polylines lines;
+  model::Color opaque_color, transparent_color, line_color;  ///< of most of the faces or lines
+  struct Damage {
+    std::string message;
+    std::uint64_t line = 0;  ///< 1-based
+  };
+  std::optional<Damage> damage;  ///< set: the object must be skipped
+};
+
+[[nodiscard]] BuiltObject build_object(const BuildInput& input, const Entry& entry);
+
+}  // namespace strake::io::obj

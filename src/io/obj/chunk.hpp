@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/text_number.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::io::obj {
+
+/// A vertex reference as written: absolute, or counted back from the last vertex so far, which a
+/// chunk knows only relative to its own first vertex.
+struct Corner {
+  std::int64_t vertex = 0;
+  bool chunk_relative = false;
+};
+
+/// A statement that changes what the following faces and lines belong to.
+enum class StatementKind : std::uint8_t { object, group, material, library };
+
+struct Statement {
+  StatementKind kind = StatementKind::object;
+  std::string text;
+  std::uint32_t face = 0;      ///< first face of the chunk behind it
+  std::uint32_t polyline = 0;  ///< first polyline likewise
+};
+
+/// What is wrong with a line of the file.
+enum class Fault : std::uint8_t {
+  bad_vertex,        ///< `v` without three finite numbers
+  bad_face,          ///< a corner that is not an index
+  short_face,        ///< fewer than three corners
+  bad_polyline,      ///< likewise for `l`
+  short_polyline,    ///< fewer than two points
+  curve_or_surface,  ///< free-form geometry, which is not read
+};
+
+struct Problem {
+  Fault fault = Fault::bad_vertex;
+  std::uint64_t line = 0;  ///< 0-based within the chunk
+};
+
+/// Rows of varying length: row i is values[end[i - 1] .. end[i]).
+struct Rows {
+  std::vector<Corner> corners;
+  std::vector<std::uint32_t> end;
+  std::vector<std::uint32_t> line;  ///< where in the chunk each row stands, 0-based
+
+  [[nodiscard]] std::uint32_t begin_of(std::uint32_t row) const {
+    return row == 0 ? 0 : end[row - 1];
+  }
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(end.size()); }
+};
+
+/// What one piece of the text says, read without knowing the pieces before it.
+struct Chunk {
+  std::vector<geometry::Vec3d> vertices;  ///< as written; a bad one is NaN, to keep the numbering
+  Rows faces;
+  Rows polylines;
+  std::vector<Statement> statements;
+  std::vector<Problem> problems;
+  std::uint64_t lines = 0;
+  DigitStatistics digits;
+};
+
+/// Cuts the text into pieces of about `size` bytes at line ends that no continuation crosses.
+/// The cuts depend on the text and the size alone.
+[[nodiscard]] std::vector<std::string_view> cut_chunks(std::string_view text, std::size_t size);
+
+[[nodiscard]] Chunk parse_chunk(std::string_view text);
+
+}  // namespace strake::io::obj

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/io/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "io/file_content.hpp"
+#include "io/loop.hpp"
+#include "io/obj/assembly.hpp"
+#include "io/obj/builder.hpp"
+#include "io/obj/chunk.hpp"
+#include "io/obj/material.hpp"
+#include "io/reading.hpp"
+#include "io/source_frame.hpp"
+
+namespace strake::io {
+namespace {
+
+using geometry::Vec3d;
+
+/// Large enough that the work per chunk dwarfs its bookkeeping, small enough for any team.
+constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
+constexpr FrameDefault kObjFrame{1.0, UpAxis::z, false};
+
+struct FaultText {
+  const char* code;
+  const char* message;
+};
+
+FaultText fault_text(obj::Fault fault) {
+  switch (fault) {
+    case obj::Fault::bad_vertex:
+      return {"obj-bad-vertex",
+              "a vertex needs three finite numbers; objects that use it are skipped"};
+    case obj::Fault::bad_face:
+      return {"obj-bad-face", "a face corner is no vertex index; the object is skipped"};
+    case obj::Fault::short_face:
+      return {"obj-short-face", "a face with fewer than three corners has no area and is left out"};
+    case obj::Fault::bad_polyline:
+      return {"obj-bad-line", "a line point is no vertex index; the object is skipped"};
+    case obj::Fault::short_polyline:
+      return {"obj-short-line", "a line with fewer than two points is left out"};
+    case obj::Fault::curve_or_surface:
+      return {"obj-free-form", "free-form curves and surfaces are not read: export polygons"};
+  }
+  return {"obj-fault", "the line is not understood"};
+}
+
+class ObjReading {
+ public:
+  ObjReading(const FileBytes& file, const ReadOptions& options, const parallel::Context& context)
+      : file_(file),
+        context_(context),
+        frame_(choose_frame(options, kObjFrame)),
+        model_(start_model(file, "OBJ", options, kObjFrame)) {}
+
+  Result<model::Model> read();
+
+ private:
+  Status parse();
+  void report_problems();
+  bool gather_vertices();
+  [[nodiscard]] std::vector<model::Color> material_colors();
+  bool build(std::vector<obj::BuiltObject>& built, std::span<const model::Color> colors);
+  void add(const obj::Entry& entry, obj::BuiltObject&& built);
+  model::GroupId group(const obj::Entry& entry);
+
+  const FileBytes& file_;
+  const parallel::Context& context_;
+  SourceFrame frame_;
+  std::vector<obj::Chunk> chunks_;
+  obj::Assembly assembly_;
+  std::vector<Vec3d> vertices_;
+  model::Model model_;
+  std::uint32_t last_object_ = 0;  ///< ordinal of the `o` that the last group was made for
+  double largest_ = 0;             ///< coordinate of a vertex in use, mm
+};
+
+Status ObjReading::parse() {
+  const std::vector<std::string_view> pieces = obj::cut_chunks(as_text(file_.bytes), kChunkBytes);
+  for (const std::string_view piece : pieces)
+    if (piece.size() > std::numeric_limits<std::uint32_t>::max())
+      return Error{ErrorCode::input, "has a line of more than 4 GiB", file_.path.string(),
+                   "export the model again"};
+  chunks_.resize(pieces.size());
+  if (!for_each_index(context_, pieces.size(),
+                      [&](std::size_t i) { chunks_[i] = obj::parse_chunk(pieces[i]); }))
+    return cancelled(file_);
+  assembly_ = obj::assemble(chunks_);
+  if (assembly_.vertex_base.back() > std::numeric_limits<std::uint32_t>::max())
+    return Error{ErrorCode::input, "has more than 4 294 967 295 vertices", file_.path.string(),
+                 "split the file"};
+  return {};
+}
+
+void ObjReading::report_problems() {
+  for (std::size_t i = 0; i < chunks_.size(); ++i)
+    for (const obj::Problem& problem : chunks_[i].problems) {
+      const FaultText text = fault_text(problem.fault);
+      model_.diagnostics.add(
+          Severity::warning, text.code, text.message,
+          fmt::format("{}:{}", file_.path.string(), assembly_.line_base[i] + problem.line + 1));
+    }
+}
+
+bool ObjReading::gather_vertices() {
+  vertices_.resize(assembly_.vertex_base.back());
+  return for_each_index(context_, chunks_.size(), [&](std::size_t i) {
+    auto out = vertices_.begin() + static_cast<std::ptrdiff_t>(assembly_.vertex_base[i]);
+    for (const Vec3d& vertex : chunks_[i].vertices) *out++ = frame_.point(vertex);
+    chunks_[i].vertices = {};
+  });
+}
+
+std::vector<model::Color> ObjReading::material_colors() {
+  obj::Materials materials;
+  for (const std::string& names : assembly_.libraries)
+    obj::load_materials(names, file_.path, materials, model_.diagnostics);
+  std::vector<model::Color> colors;
+  for (const std::string& name : assembly_.material_names) {
+    const auto found = materials.find(name);
+    colors.push_back(found == materials.end() ? model::Color{} : found->second);
+  }
+  return colors;
+}
+
+bool ObjReading::build(std::vector<obj::BuiltObject>& built, std::span<const model::Color> colors) {
+  const obj::BuildInput input{chunks_, &assembly_, vertices_, colors};
+  built.resize(assembly_.entries.size());
+  return for_each_index(context_, built.size(), [&](std::size_t i) {
+    built[i] = obj::build_object(input, assembly_.entries[i]);
+  });
+}
+
+model::GroupId ObjReading::group(const obj::Entry& entry) {
+  if (entry.object == 0 || entry.object_name.empty() || entry.group_name.empty())
+    return model::GroupId::none;
+  if (last_object_ != entry.object) {
+    last_object_ = entry.object;
+    model_.groups.push_back({entry.object_name, model::GroupId::none});
+  }
+  return static_cast<model::GroupId>(model_.groups.size() - 1);
+}
+
+void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
+  model::Object object;
+  object.name = !entry.group_name.empty()    ? entry.group_name
+                : !entry.object_name.empty() ? entry.object_name
+                                             : file_.path.stem().string();
+  if (built.damage) {
+    model_.diagnostics.add(Severity::skipped, "obj-damaged-object",
+                           fmt::format("object '{}' is skipped: its face or line {}", object.name,
+                                       built.damage->message),
+                           fmt::format("{}:{}", file_.path.string(), built.damage->line));
+    return;
+  }
+  object.parent = group(entry);
+  object.id =
+      object.parent == model::GroupId::none ? object.name : entry.object_name + "/" + object.name;
+  object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
+  const auto grow = [this](const std::vector<Vec3d>& points) {
+    for (const Vec3d& p : points)
+      largest_ = std::max({largest_, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  };
+  grow(built.opaque.vertices);
+  grow(built.transparent.vertices);
+  grow(built.lines.points);
+  if (!built.opaque.triangles.empty())
+    add_body(model_, object, std::move(built.opaque), built.opaque_color);
+  if (!built.transparent.triangles.empty())
+    add_body(model_, object, std::move(built.transparent), built.transparent_color);
+  if (!built.lines.points.empty())
+    add_body(model_, object, std::move(built.lines), built.line_color);
+  model_.objects.push_back(std::move(object));
+}
+
+Result<model::Model> ObjReading::read() {
+  if (const Status parsed = parse(); !parsed) return parsed.error();
+  report_problems();
+  if (!gather_vertices()) return cancelled(file_);
+  const std::vector<model::Color> colors = material_colors();
+  std::vector<obj::BuiltObject> built;
+  if (!build(built, colors)) return cancelled(file_);
+  for (std::size_t i = 0; i < built.size(); ++i) add(assembly_.entries[i], std::move(built[i]));
+
+  DigitStatistics digits;
+  for (const obj::Chunk& chunk : chunks_) digits.merge(chunk.digits);
+  model_.files[0].precision_mm =
+      frame_.unit_mm * text_half_spacing(digits, largest_ / frame_.unit_mm);
+  return end_model(file_, std::move(model_));
+}
+
+/// Share of a text's lines that OBJ could hold, judged by its start.
+int obj_likeness(std::string_view text) {
+  constexpr std::array<std::string_view, 12> kWords{"v", "vt", "vn",     "f",      "l",  "o",
+                                                    "g", "s",  "usemtl", "mtllib", "vp", "p"};
+  int known = 0, other = 0;
+  bool geometry = false;
+  text = text.substr(0, 4096);
+  while (!text.empty()) {
+    const std::size_t length = std::min(text.find('\n'), text.size());
+    const std::string_view line = trimmed(text.substr(0, length));
+    text.remove_prefix(std::min(length + 1, text.size()));
+    if (line.empty() || line.front() == '#') continue;
+    const std::string_view word = line.substr(0, std::min(line.find_first_of(" \t"), line.size()));
+    const bool match = std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+    geometry = geometry || (match && (word == "v" || word == "f"));
+    ++(match ? known : other);
+  }
+  if (known == 0) return 0;
+  const int share = 90 * known / (known + other);
+  return geometry ? share : share / 2;
+}
+
+class ObjReader final : public Reader {
+ public:
+  [[nodiscard]] std::string_view format() const override { return "OBJ"; }
+
+  [[nodiscard]] int recognise(const FileBytes& file) const override {
+    const std::string_view text = as_text(file.bytes);
+    if (text.substr(0, 4096).find('\0') != std::string_view::npos) return 0;
+    const int likeness = obj_likeness(text);
+    return lower_extension(file.path) == ".obj" ? std::max(likeness + 5, 30) : likeness;
+  }
+
+  [[nodiscard]] Result<model::Model> read(const FileBytes& file, const ReadOptions& options,
+                                          const parallel::Context& context) const override {
+    return ObjReading(file, options, context).read();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Reader> make_obj_reader() { return std::make_unique<ObjReader>(); }
+
+}  // namespace strake::io

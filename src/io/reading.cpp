@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/reading.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace strake::io {
+
+model::Model start_model(const FileBytes& file, std::string format, const ReadOptions& options,
+                         const FrameDefault& fallback) {
+  model::SourceFile source;
+  source.label = file.path.filename().string();
+  source.format = std::move(format);
+  source.unit = unit_text(options, fallback);
+  source.up_axis = up_axis_text(options.up_axis.value_or(fallback.up));
+  source.bytes = file.bytes.size();
+  model::Model model;
+  model.files.push_back(std::move(source));
+  return model;
+}
+
+Result<model::Model> end_model(const FileBytes& file, model::Model&& model) {
+  if (!model.objects.empty()) return std::move(model);
+  const auto& kept = model.diagnostics.kept();
+  const auto reason = std::find_if(kept.begin(), kept.end(), [](const Diagnostic& d) {
+    return d.severity == Severity::skipped;
+  });
+  if (reason != kept.end())
+    return Error{ErrorCode::input, "nothing usable is left of the file: " + reason->message,
+                 reason->where, "mend the model and export it again"};
+  return Error{ErrorCode::input, "holds no faces and no lines", file.path.string(),
+               "export the model with its geometry"};
+}
+
+Error cancelled(const FileBytes& file) {
+  return {ErrorCode::cancelled, "reading was stopped", file.path.string(), ""};
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
+void add_body(model::Model& model, model::Object& object, model::Shape shape,
+              const model::Color& color) {
+  model::Body body;
+  body.shape = static_cast<model::ShapeId>(model.shapes.size());
+  body.color = color;
+  model.shapes.push_back(std::move(shape));
+  model.bodies.push_back(body);
+  ++object.body_count;
+}
+
+}  // namespace strake::io

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "io/source_frame.hpp"
+#include "strake/io/reader.hpp"
+
+namespace strake::io {
+
+/// What every reader starts with: a model of one file whose facts that do not depend on the
+/// content are filled in.
+[[nodiscard]] model::Model start_model(const FileBytes& file, std::string format,
+                                       const ReadOptions& options, const FrameDefault& fallback);
+
+/// What every reader ends with: the model, or an error when no object is left of the file.
+[[nodiscard]] Result<model::Model> end_model(const FileBytes& file, model::Model&& model);
+
+[[nodiscard]] Error cancelled(const FileBytes& file);
+
+/// Extension in lower case, with the point: ".obj".
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
+
+/// Appends a body with a shape of its own to the object that owns the last bodies of the model.
+void add_body(model::Model& model, model::Object& object, model::Shape shape,
+              const model::Color& color);
+
+}  // namespace strake::io

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "strake/geometry/vec.hpp"
+#include "strake/io/reader.hpp"
+
+namespace strake::io {
+
+/// How the numbers of a file become millimetres with z up: a length unit and a turn that is a
+/// signed permutation of the axes, so that no coordinate is rounded by it.
+struct SourceFrame {
+  double unit_mm = 1;
+  UpAxis up = UpAxis::z;
+
+  /// A direction or position in the file's axes, turned so that its up axis is z.
+  [[nodiscard]] constexpr geometry::Vec3d turn(const geometry::Vec3d& v) const {
+    if (up == UpAxis::y) return {v.x, -v.z, v.y};
+    if (up == UpAxis::x) return {v.y, v.z, v.x};
+    return v;
+  }
+  [[nodiscard]] constexpr geometry::Vec3d point(const geometry::Vec3d& v) const {
+    return turn(v) * unit_mm;
+  }
+  /// A matrix of the file's axes and unit as one of millimetres with z up.
+  [[nodiscard]] geometry::Placement placement(const geometry::Placement& file) const;
+};
+
+/// What a format states where the user says nothing.
+struct FrameDefault {
+  double unit_mm = 1;
+  UpAxis up = UpAxis::z;
+  bool stated = false;  ///< by the format itself; otherwise it is assumed
+};
+
+[[nodiscard]] SourceFrame choose_frame(const ReadOptions& options, const FrameDefault& fallback);
+
+/// "mm (assumed)", "m (stated)", "in (given)", "0.7 mm (given)".
+[[nodiscard]] std::string unit_text(const ReadOptions& options, const FrameDefault& fallback);
+[[nodiscard]] std::string up_axis_text(UpAxis axis);
+
+/// Half the distance between a float32 of this magnitude and the next, in the same unit.
+[[nodiscard]] double float32_half_spacing(double magnitude);
+
+}  // namespace strake::io

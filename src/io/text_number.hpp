@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace strake::io {
+
+/// How finely a text file writes its numbers: what its precision is judged by.
+struct DigitStatistics {
+  int most_significant_digits = 0;  ///< as written, from the first digit that is not zero
+  int most_decimals = 0;            ///< digits after the point, exponent applied
+
+  void merge(const DigitStatistics& other);
+};
+
+/// Reads a decimal number (optional sign, digits, point, exponent; "inf" and "nan" too) at `at`,
+/// rounded to nearest as std::from_chars does, and moves `at` behind it. Any number of digits.
+/// False, with `at` unmoved, when no number stands there. A number too large for a double is
+/// infinite, one too small is zero.
+[[nodiscard]] bool read_number(const char*& at, const char* end, double& value,
+                               DigitStatistics& digits);
+
+/// Half the spacing of numbers written so at this magnitude, in their unit. Numbers of at most
+/// five digits are taken as exact design values that went through float32.
+[[nodiscard]] double text_half_spacing(const DigitStatistics& digits, double magnitude);
+
+[[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+inline void skip_blanks(const char*& at, const char* end) {
+  while (at != end && is_blank(*at)) ++at;
+}
+
+/// Without blanks at either end.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+}  // namespace strake::io

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <stop_token>
+
+#include "support/io_files.hpp"
+
+namespace strake::io {
+namespace {
+
+using geometry::Polylines;
+using geometry::TriangleMesh;
+using geometry::Vec3d;
+
+Result<model::Model> read(std::string_view text, const ReadOptions& options = {},
+                          const std::filesystem::path& path = "some/model.obj") {
+  return test::read_bytes(*make_obj_reader(), text, path, options);
+}
+
+model::Model read_ok(std::string_view text, const ReadOptions& options = {}) {
+  Result<model::Model> result = read(text, options);
+  EXPECT_TRUE(result) << (result ? "" : result.error().text());
+  return result ? std::move(*result) : model::Model{};
+}
+
+const TriangleMesh& mesh_of(const model::Model& model, std::size_t object, std::size_t body = 0) {
+  const model::Body& placed = model.bodies.at(model.objects.at(object).first_body + body);
+  return std::get<TriangleMesh>(model.shapes.at(model::index(placed.shape)));
+}
+
+constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST(ObjReader, ReadsOneTriangleAsAnObjectNamedAfterTheFile) {
+  const model::Model model = read_ok(std::string(kTriangle) + "f 1 2 3\n");
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(model.objects[0].name, "model");
+  EXPECT_EQ(model.objects[0].id, "model");
+  EXPECT_EQ(model.files[0].label, "model.obj");
+  EXPECT_EQ(model.files[0].format, "OBJ");
+  EXPECT_EQ(model.files[0].unit, "mm (assumed)");
+  EXPECT_EQ(model.files[0].up_axis, "z");
+  const TriangleMesh& mesh = mesh_of(model, 0);
+  EXPECT_EQ(mesh.vertices, (std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<geometry::Triangle>{{0, 1, 2}}));
+  EXPECT_TRUE(mesh.faces.empty());
+}
+
+TEST(ObjReader, ReadsCornersWithTextureAndNormal) {
+  const model::Model model = read_ok(
+      "v 0 0 0 1 0.5 0.5\r\nv 1 0 0\r\nv 0 1 0\r\nvt 0 0\nvn 0 0 1\n"
+      "f 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\nf -3 -2 -1\r\n"
+      "\tf  -3/-1/-1\t-2/-1/-1 -1/-1/-1 # a comment\n");
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(mesh_of(model, 0).triangles.size(), 6U);
+  for (const auto& t : mesh_of(model, 0).triangles) EXPECT_EQ(t, (geometry::Triangle{0, 1, 2}));
+}
+
+TEST(ObjReader, NamesGroupsUnderObjects) {
+  const model::Model model = read_ok(std::string(kTriangle) +
+                                     "f 1 2 3\no Deck 1\nf 1 2 3\ng plate\nf 1 2 3\ng stiffener\n"
+                                     "f 1 2 3\ng plate\nf 3 2 1\no Deck 2\ng plate\nf 1 2 3\n"
+                                     "o empty\no tail\ng none\n");
+  ASSERT_EQ(model.objects.size(), 5U);
+  const auto text = [&](std::size_t i) {
+    const model::Object& o = model.objects[i];
+    const std::string group =
+        o.parent == model::GroupId::none ? "-" : model.groups.at(model::index(o.parent)).name;
+    return o.id + "|" + o.name + "|" + group;
+  };
+  EXPECT_EQ(text(0), "model|model|-");
+  EXPECT_EQ(text(1), "Deck 1|Deck 1|-");
+  EXPECT_EQ(text(2), "Deck 1/plate|plate|Deck 1");
+  EXPECT_EQ(text(3), "Deck 1/stiffener|stiffener|Deck 1");
+  EXPECT_EQ(text(4), "Deck 2/plate|plate|Deck 2");
+  EXPECT_EQ(mesh_of(model, 2).triangles.size(), 2U) << "a group named again goes on";
+}
+
+TEST(ObjReader, ReadsPolylines) {
+  const model::Model model = read_ok("v 0 0 0\nv 1 0 0\nv 1 1 0\no axis\nl 1 2 3\nl -1 -3\n");
+  ASSERT_EQ(model.objects.size(), 1U);
+  const auto& lines = std::get<Polylines>(model.shapes.at(0));
+  EXPECT_EQ(lines.points,
+            (std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}, {0, 0, 0}}));
+  EXPECT_EQ(lines.first, (std::vector<std::uint32_t>{0, 3, 5}));
+}
+
+TEST(ObjReader, JoinsContinuationLines) {
+  const model::Model model = read_ok(
+      "v 0 0 0\nv 1 \\\n0 0\nv 0 1 \\\r\n 0\nf 1 \\\n 2 \\\n 3\ng late\nf 1 2 9\nf 1 2 3\\");
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(mesh_of(model, 0).vertices.size(), 3U);
+  ASSERT_EQ(model.diagnostics.kept().size(), 1U);
+  EXPECT_EQ(model.diagnostics.kept()[0].where, "some/model.obj:10")
+      << "lines are counted as in an editor";
+}
+
+TEST(ObjReader, AppliesUnitAndUpAxis) {
+  ReadOptions options;
+  options.unit_mm = 1000;
+  options.up_axis = UpAxis::y;
+  const model::Model model = read_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options);
+  EXPECT_EQ(mesh_of(model, 0).vertices[0], (Vec3d{1000, -3000, 2000}));
+  EXPECT_EQ(model.files[0].unit, "m (given)");
+  EXPECT_EQ(model.files[0].up_axis, "y");
+  options.up_axis = UpAxis::x;
+  EXPECT_EQ(mesh_of(read_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options), 0).vertices[0],
+            (Vec3d{2000, 3000, 1000}));
+}
+
+TEST(ObjReader, TakesColoursFromTheLibraryBesideIt) {
+  const test::TemporaryFolder folder;
+  (void)folder.write("my colours.mtl", "newmtl steel\nKd 1 0.5 0\nnewmtl glass\nKd 0 0 1\nd 0.5\n");
+  const std::string text = "mtllib my colours.mtl\n" + std::string(kTriangle) +
+                           "o a\nusemtl steel\nf 1 2 3\nf 3 2 1\nusemtl glass\nf 1 2 3\n"
+                           "o b\nusemtl unknown\nf 1 2 3\n";
+  const Result<model::Model> model = read(text, {}, folder.path() / "x.obj");
+  ASSERT_TRUE(model);
+  ASSERT_EQ(model->objects.size(), 2U);
+  EXPECT_EQ(model->objects[0].body_count, 2U) << "opaque and transparent faces apart";
+  EXPECT_EQ(model->bodies[0].color, (model::Color{255, 128, 0, 255}));
+  EXPECT_EQ(mesh_of(*model, 0, 0).triangles.size(), 2U);
+  EXPECT_EQ(model->bodies[1].color, (model::Color{0, 0, 255, 128}));
+  EXPECT_EQ(model->bodies[2].color, model::Color{});
+}
+
+TEST(ObjReader, KeepsASolidOfTwoOpaqueColoursInOnePiece) {
+  const test::TemporaryFolder folder;
+  (void)folder.write("c.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+  const std::string text =
+      "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 3 2\n"
+      "usemtl blue\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const Result<model::Model> model = read(text, {}, folder.path() / "x.obj");
+  ASSERT_TRUE(model);
+  ASSERT_EQ(model->bodies.size(), 1U);
+  EXPECT_EQ(mesh_of(*model, 0).triangles.size(), 4U);
+  EXPECT_EQ(model->bodies[0].color, (model::Color{0, 0, 255, 255})) << "of most faces";
+}
+
+TEST(ObjReader, ReadsNoLibraryFromElsewhere) {
+  const Result<model::Model> model =
+      read("mtllib ../../etc/passwd\n" + std::string(kTriangle) + "f 1 2 3\n");
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->diagnostics.count("obj-material-library-refused"), 1U);
+}
+
+TEST(ObjReader, SkipsDamagedObjectsAndSaysWhere) {
+  const model::Model model = read_ok(
+      std::string(kTriangle) +
+      "v nan 0 0\nv 1 2\no good\nf 1 2 3\no range\nf 1 2 3\nf 1 2 6\n"
+      "o back\nf -6 -2 -3\no word\nf 1 2 x\no zero\nf 0 1 2\no nan\nf 1 2 4\no short\nf 1 2 5\n"
+      "o huge\nf 1 2 99999999999999999999999\no fine\nf 3 2 1\nf 1 2\nl 1\n");
+  ASSERT_EQ(model.objects.size(), 2U);
+  EXPECT_EQ(model.objects[0].name, "good");
+  EXPECT_EQ(model.objects[1].name, "fine");
+  EXPECT_EQ(model.diagnostics.count("obj-damaged-object"), 7U);
+  EXPECT_EQ(model.diagnostics.skipped(), 7U);
+  EXPECT_EQ(model.diagnostics.count("obj-bad-vertex"), 2U);
+  EXPECT_EQ(model.diagnostics.count("obj-short-face"), 1U);
+  EXPECT_EQ(model.diagnostics.count("obj-short-line"), 1U);
+  std::vector<std::string> places;
+  for (const Diagnostic& d : model.diagnostics.kept())
+    if (d.code == "obj-damaged-object") places.push_back(d.where);
+  EXPECT_EQ(places,
+            (std::vector<std::string>{"some/model.obj:10", "some/model.obj:12", "some/model.obj:14",
+                                      "some/model.obj:16", "some/model.obj:18", "some/model.obj:20",
+                                      "some/model.obj:22"}));
+}
+
+TEST(ObjReader, RefusesFilesWithNothingInThem) {
+  const Result<model::Model> no_faces = read(kTriangle);
+  ASSERT_FALSE(no_faces);
+  EXPECT_EQ(no_faces.error().code, ErrorCode::input);
+  EXPECT_EQ(no_faces.error().where, "some/model.obj");
+  const Result<model::Model> all_bad = read(std::string(kTriangle) + "f 1 2 7\n");
+  ASSERT_FALSE(all_bad);
+  EXPECT_EQ(all_bad.error().where, "some/model.obj:4");
+}
+
+TEST(ObjReader, CountsBackAcrossChunks) {
+  // Several chunks of 1 MiB: every face refers back to the vertices just before it, and a group
+  // goes on over a chunk's end.
+  std::string text = "o first\n";
+  const int count = 60000;
+  for (int i = 0; i < count; ++i) {
+    if (i == count / 2) text += "o second\n";
+    text += fmt::format("v {} 0 0\nv {} 1 0.123456\nv {} 0 1\nf -3 -2 -1\n", i, i, i);
+  }
+  ASSERT_GT(text.size(), 2U << 20U);
+  const model::Model model = read_ok(text);
+  ASSERT_EQ(model.objects.size(), 2U);
+  for (std::size_t object = 0; object < 2; ++object) {
+    const TriangleMesh& mesh = mesh_of(model, object);
+    ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(count) / 2);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const double x = static_cast<double>(i + object * (count / 2));
+      const auto& t = mesh.triangles[i];
+      ASSERT_EQ(mesh.vertices[t[0]], (Vec3d{x, 0, 0}));
+      ASSERT_EQ(mesh.vertices[t[1]], (Vec3d{x, 1, 0.123456}));
+      ASSERT_EQ(mesh.vertices[t[2]], (Vec3d{x, 0, 1}));
+    }
+  }
+}
+
+TEST(ObjReader, FindsVerticesOfObjectsThatShareThemWidely) {
+  // Object "sparse" uses the first and the last of many vertices: a table over its range would be
+  // thousands of times its size.
+  std::string text;
+  for (int i = 0; i < 5000; ++i) text += fmt::format("v {} {} 0\n", i, i % 7);
+  text += "o sparse\nf 1 2500 5000\nf 5000 2500 1\no dense\nf 1 2 3\n";
+  const model::Model model = read_ok(text);
+  ASSERT_EQ(model.objects.size(), 2U);
+  EXPECT_EQ(mesh_of(model, 0).vertices,
+            (std::vector<Vec3d>{{0, 0, 0}, {2499, 0, 0}, {4999, 1, 0}}));
+  EXPECT_EQ(mesh_of(model, 0).triangles[1], (geometry::Triangle{2, 1, 0}));
+}
+
+TEST(ObjReader, StatesThePrecisionOfItsText) {
+  EXPECT_DOUBLE_EQ(
+      read_ok("v 12345.678 0 0\nv 1.000 0 0\nv 0 1.000 0\nf 1 2 3\n").files[0].precision_mm,
+      0.0005);
+}
+
+TEST(ObjReader, StopsWhenAsked) {
+  std::stop_source stop;
+  stop.request_stop();
+  parallel::Context context;
+  context.stop = stop.get_token();
+  const Result<model::Model> result = test::read_bytes(
+      *make_obj_reader(), std::string(kTriangle) + "f 1 2 3\n", "x.obj", {}, context);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::cancelled);
+}
+
+TEST(ObjReader, RecognisesItsContent) {
+  const auto sureness = [](std::string_view text, const char* path) {
+    return make_obj_reader()->recognise({path, std::as_bytes(std::span(text))});
+  };
+  EXPECT_GT(sureness("# made by x\nv 0 0 0\nf 1 1 1\n", "a.txt"), 80);
+  EXPECT_GT(sureness("v 0 0 0\n", "a.obj"), sureness("v 0 0 0\n", "a.txt"));
+  EXPECT_EQ(sureness("solid x\nfacet normal 0 0 1\n", "a.stl"), 0);
+  EXPECT_EQ(sureness(std::string_view("v 0\0 0 0\n", 9), "a.obj"), 0);
+  EXPECT_LT(sureness("hello world, v is a letter\n", "a.txt"), 10);
+}
+
+}  // namespace
+}  // namespace strake::io
