@@ -1,1 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "strake/parallel/team.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+namespace strake::parallel {
+
+Team::Team(unsigned workers) {
+  const unsigned wanted = std::clamp(workers, 1U, kMaxWorkers) - 1;
+  threads_.reserve(wanted);
+  for (unsigned i = 0; i < wanted; ++i) {
+    try {
+      threads_.emplace_back([this, i] { serve(i + 1); });
+    } catch (const std::system_error&) {
+      break;  // the host gives no more threads: work with those that there are
+    }
+  }
+}
+
+Team::~Team() {
+  closing_.store(true, std::memory_order_relaxed);
+  generation_.fetch_add(1, std::memory_order_release);
+  generation_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+bool Team::run(FunctionRef<void(Seat)> body) noexcept {
+  if (threads_.empty() || busy_.exchange(true, std::memory_order_acquire)) {
+    body(Seat{0, 1});
+    return threads_.empty();
+  }
+  body_ = &body;
+  pending_.store(static_cast<std::uint32_t>(threads_.size()), std::memory_order_relaxed);
+  generation_.fetch_add(1, std::memory_order_release);
+  generation_.notify_all();
+  body(Seat{0, size()});
+  for (std::uint32_t left = pending_.load(std::memory_order_acquire); left != 0;
+       left = pending_.load(std::memory_order_acquire))
+    pending_.wait(left, std::memory_order_acquire);
+  busy_.store(false, std::memory_order_release);
+  return true;
+}
+
+void Team::serve(unsigned index) noexcept {
+  // Every worker sees every generation: run() starts the next only when all have reported back.
+  std::uint32_t seen = 0;
+  for (;;) {
+    generation_.wait(seen, std::memory_order_acquire);
+    seen = generation_.load(std::memory_order_acquire);
+    if (closing_.load(std::memory_order_relaxed)) return;
+    (*body_)(Seat{index, size()});
+    if (pending_.fetch_sub(1, std::memory_order_acq_rel) == 1) pending_.notify_one();
+  }
+}
+
+}  // namespace strake::parallel

@@ -14,7 +14,7 @@ class RunReport;
 /// bytes, no progress and no report mean that nobody asked.
 struct Context {
   Team* team = nullptr;          ///< null: sequential
-  std::stop_token stop;          ///< triggered: return ErrorCode::cancelled soon
+  std::stop_token stop = {};     ///< triggered: return ErrorCode::cancelled soon
   Progress* progress = nullptr;  ///< told how far the work is
   RunReport* report = nullptr;   ///< collects time and load balance per region
 };

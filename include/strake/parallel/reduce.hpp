@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::parallel {
+
+/// Folds all items into one value, in an order that depends on (n, grain) only.
+///
+///     const Result<double> area = reduce(context, {.name = "area", .n = n, .grain = 1024}, 0.0,
+///         [&](double& partial, std::size_t i) { partial += face_area(i); },
+///         [](double& into, const double& partial) { into += partial; });
+///
+/// body(partial, i) adds item i to the partial of its block, which starts as a copy of `identity`
+/// and sees the block's items in ascending order; combine(into, partial) then folds the partials
+/// in block order on the calling thread. So sums of floating-point numbers have the same bits for
+/// any team and schedule (not for another grain). Errors as in for_each.
+///
+/// There is one partial per block: give cheap items a grain of hundreds or thousands.
+template <class T, class Body, class Combine>
+[[nodiscard]] Result<T> reduce(const Context& context, const Region& region, const T& identity,
+                               Body&& body, Combine&& combine) {
+  static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
+  Result<std::vector<T>> partials = detail::slots<T>(region.blocks(), region.name);
+  if (!partials) return partials.error();
+  const std::size_t size = region.block_size();
+  detail::RegionRun run(context, region);
+  const Status status = run.run([&](detail::Cursor& cursor) {
+    detail::Range range;
+    while (run.next(cursor, range)) {
+      std::size_t i = range.first;
+      try {
+        for (bool good = true; good && i < range.last && i < run.limit();) {
+          const std::size_t block = i / size;
+          const std::size_t last = std::min(range.last, (block + 1) * size);
+          T partial = identity;
+          for (; good && i < last && i < run.limit(); ++i)
+            good = detail::run_item(run, i, body, partial, i);
+          (*partials)[block] = std::move(partial);
+        }
+      } catch (...) {
+        run.fail_with_current_exception(i);
+      }
+    }
+  });
+  if (!status) return status.error();
+  try {
+    T total = identity;
+    for (T& partial : *partials) combine(total, std::as_const(partial));
+    return total;
+  } catch (const std::bad_alloc&) {
+    return detail::out_of_memory(region.name);
+  }
+}
+
+}  // namespace strake::parallel

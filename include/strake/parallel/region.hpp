@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+#include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake::parallel {
+
+enum class Schedule : std::uint8_t {
+  dynamic,        ///< workers take the next block from one counter: for items of unequal cost
+  static_blocks,  ///< worker w of W gets the w-th of W equal ranges: for many equal, cheap items
+};
+
+/// A parallel loop over the items [0, n), described apart from what it does.
+///
+/// Items are gathered into fixed blocks: block k holds items [k·grain, (k+1)·grain). Blocks depend
+/// on (n, grain) only, never on the number of workers, so what is combined per block comes out in
+/// the same bits for any team. A worker runs the items of a block in ascending order.
+struct Region {
+  std::string_view name = {};  ///< in reports and messages
+  std::size_t n = 0;           ///< number of items
+  Schedule schedule = Schedule::dynamic;
+  std::size_t grain = 1;  ///< items per block; 0 counts as 1
+  std::size_t chunk = 1;  ///< blocks that a worker takes at once (dynamic)
+  /// The order in which blocks are visited: empty for ascending, otherwise a permutation of
+  /// [0, blocks()). It changes who waits for whom, never a result. See longest_first.
+  std::span<const std::uint32_t> order = {};
+
+  [[nodiscard]] std::size_t block_size() const { return std::max<std::size_t>(grain, 1); }
+  [[nodiscard]] std::size_t blocks() const {
+    return n / block_size() + (n % block_size() != 0 ? 1 : 0);
+  }
+};
+
+namespace detail {
+
+/// Where one worker stands in a region; lives on that worker's stack.
+struct Cursor {
+  Seat seat;
+  std::size_t position = 0, end = 0;  ///< blocks in hand, as positions in the visiting order
+  bool started = false;
+  std::size_t range_items = 0;              ///< items of the range in hand, when observed
+  double range_start_s = 0, longest_s = 0;  ///< wall clock
+  double busy_s = 0;                        ///< CPU time, once the worker is done
+  std::uint64_t items = 0;
+};
+
+/// A contiguous ascending range of items, whole blocks of one worker.
+struct Range {
+  std::size_t first = 0, last = 0;
+};
+
+/// The one scheduler loop that every pattern runs on.
+///
+/// A pattern's worker loop takes ranges with next() and must leave a range at the first item that
+/// is not below limit(): that is how both an error and a cancellation stop it.
+class RegionRun {
+ public:
+  RegionRun(const Context& context, const Region& region) : context_(context), region_(region) {}
+  RegionRun(const RegionRun&) = delete;
+  RegionRun& operator=(const RegionRun&) = delete;
+  RegionRun(RegionRun&&) = delete;
+  RegionRun& operator=(RegionRun&&) = delete;
+  ~RegionRun() = default;
+
+  /// Calls loop once on each worker that takes part and returns the lowest item's error, if any.
+  [[nodiscard]] Status run(FunctionRef<void(Cursor&)> loop);
+
+  /// The next range of items of this worker; false when there is none left.
+  bool next(Cursor& cursor, Range& range) {
+    if (observed_) note(cursor);
+    for (;;) {
+      if (cursor.position == cursor.end && !refill(cursor)) return false;
+      const std::size_t size = region_.block_size();
+      if (ordered_ || observed_) {
+        const std::size_t at = cursor.position++;
+        range.first = (ordered_ ? std::size_t{region_.order[at]} : at) * size;
+        range.last = std::min(region_.n, range.first + size);
+      } else {
+        range.first = cursor.position * size;
+        range.last = cursor.end == blocks_ ? region_.n : cursor.end * size;
+        cursor.position = cursor.end;
+      }
+      if (range.first < limit()) break;
+      if (!ordered_ || limit() == 0) return false;  // all that follows is not below the limit
+    }
+    if (observed_) open(cursor, range);
+    return true;
+  }
+
+  /// Items at or above this index are not to be run any more.
+  [[nodiscard]] std::size_t limit() const { return limit_.load(std::memory_order_relaxed); }
+
+  /// Records that an item failed; of several, the lowest is kept.
+  void fail(std::size_t item, Error error) noexcept;
+  /// The same for the exception that is being handled.
+  void fail_with_current_exception(std::size_t item) noexcept;
+
+ private:
+  bool refill(Cursor& cursor) {
+    if (!dynamic_) {
+      if (cursor.started) return false;
+      cursor.started = true;
+      cursor.position = share(cursor.seat.index, cursor.seat.count);
+      cursor.end = share(cursor.seat.index + 1, cursor.seat.count);
+      return cursor.position < cursor.end;
+    }
+    const std::size_t taken = counter_.fetch_add(chunk_, std::memory_order_relaxed);
+    if (taken >= blocks_) return false;
+    cursor.position = taken;
+    cursor.end = taken + std::min(chunk_, blocks_ - taken);
+    return true;
+  }
+  [[nodiscard]] std::size_t share(std::size_t index, std::size_t count) const {
+    return blocks_ / count * index + std::min(index, blocks_ % count);
+  }
+  void lower_limit(std::size_t item) noexcept;
+  void open(Cursor& cursor, const Range& range) const;
+  void note(Cursor& cursor) const;
+  [[nodiscard]] Status outcome(bool cancelled);
+  void work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Cursor> seats);
+
+  // Read by every worker at every range: kept apart from what they write.
+  const Context& context_;
+  const Region& region_;
+  std::size_t blocks_ = 0, chunk_ = 1;
+  bool dynamic_ = false, ordered_ = false;
+  bool observed_ = false;  ///< somebody wants progress or times: ranges are single blocks then
+  bool counting_ = false;  ///< this region is the one whose progress is shown
+  alignas(64) std::atomic<std::size_t> limit_{std::numeric_limits<std::size_t>::max()};
+  alignas(64) std::atomic<std::size_t> counter_{0};
+  std::mutex error_mutex_;
+  std::optional<Error> error_;
+  std::size_t error_item_ = std::numeric_limits<std::size_t>::max();
+};
+
+[[nodiscard]] Error out_of_memory(std::string_view region);
+
+}  // namespace detail
+}  // namespace strake::parallel

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strake::parallel {
+
+/// What one region (all its runs together) cost, and how evenly the team shared it.
+struct RegionReport {
+  std::string name;
+  std::uint64_t runs = 0;         ///< runs by a whole team, or without one
+  std::uint64_t nested_runs = 0;  ///< runs inside another region, on the worker that met them
+  std::uint64_t items = 0;
+  double wall_s = 0;           ///< of `runs`
+  double nested_cpu_s = 0;     ///< of `nested_runs`; part of the outer region's busy time too
+  std::vector<double> busy_s;  ///< CPU seconds per worker in `runs`; index = worker
+  double longest_s = 0;        ///< the longest block (with grain 1: item), wall seconds
+
+  [[nodiscard]] double total_busy_s() const;
+  /// Mean over maximum of the workers' busy time: 1 is perfect, 1/workers is one doing it all.
+  [[nodiscard]] double load_balance() const;
+  /// The efficiency that no schedule can pass: total / (P · max(total / P, longest block)).
+  [[nodiscard]] double bound() const;
+};
+
+/// Collects the reports of the regions that run under a Context that names it. Thread-safe.
+/// Asking for it makes regions read clocks per block.
+class RunReport {
+ public:
+  /// Adds one run to the entry of its name.
+  void add(const RegionReport& run);
+  /// One entry per name, in order of first appearance.
+  [[nodiscard]] std::vector<RegionReport> regions() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<RegionReport> regions_;
+};
+
+/// CPU seconds that the calling thread has used so far.
+[[nodiscard]] double thread_cpu_s();
+
+}  // namespace strake::parallel

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/parallel/region.hpp"
+
+#include <chrono>
+#include <exception>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "strake/parallel/progress.hpp"
+#include "strake/parallel/report.hpp"
+
+namespace strake::parallel::detail {
+
+namespace {
+
+double wall_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Error cancelled_error() { return {ErrorCode::cancelled, "cancelled", {}, {}}; }
+
+Error described(const char* what, std::string_view region, std::size_t item) {
+  return {ErrorCode::internal,
+          what,
+          "region '" + std::string(region) + "', item " + std::to_string(item),
+          {}};
+}
+
+/// What one run of a region adds to the report. `alone`: the team was busy.
+RegionReport summary(const Region& region, std::span<const Cursor> seats, double wall, bool alone) {
+  RegionReport run;
+  run.name = region.name;
+  run.runs = alone ? 0 : 1;
+  run.nested_runs = alone ? 1 : 0;
+  for (const Cursor& seat : seats) {
+    run.items += seat.items;
+    run.longest_s = std::max(run.longest_s, seat.longest_s);
+    if (alone) {
+      run.nested_cpu_s += seat.busy_s;
+    } else {
+      run.busy_s.push_back(seat.busy_s);
+    }
+  }
+  if (!alone) run.wall_s = wall;
+  return run;
+}
+
+}  // namespace
+
+Error out_of_memory(std::string_view region) {
+  return {ErrorCode::internal, "out of memory", std::string(region),
+          "use a machine with more memory, or a part of the model"};
+}
+
+void RegionRun::lower_limit(std::size_t item) noexcept {
+  std::size_t now = limit_.load(std::memory_order_relaxed);
+  while (item < now && !limit_.compare_exchange_weak(now, item, std::memory_order_relaxed)) {
+  }
+}
+
+void RegionRun::fail(std::size_t item, Error error) noexcept {
+  {
+    const std::lock_guard lock(error_mutex_);
+    if (!error_ || item < error_item_) {
+      error_ = std::move(error);
+      error_item_ = item;
+    }
+  }
+  lower_limit(item);
+}
+
+void RegionRun::fail_with_current_exception(std::size_t item) noexcept {
+  Error error{ErrorCode::internal, "out of memory", {}, {}};  // short enough to need none
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& e) {
+    try {
+      error = described(e.what(), region_.name, item);
+    } catch (...) {
+    }
+  } catch (...) {
+    try {
+      error = described("an exception of unknown type", region_.name, item);
+    } catch (...) {
+    }
+  }
+  fail(item, std::move(error));
+}
+
+void RegionRun::open(Cursor& cursor, const Range& range) const {
+  cursor.range_items = range.last - range.first;
+  if (context_.report != nullptr) cursor.range_start_s = wall_s();
+}
+
+void RegionRun::note(Cursor& cursor) const {
+  if (cursor.range_items == 0) return;
+  cursor.items += cursor.range_items;
+  if (counting_) context_.progress->add(cursor.range_items);
+  if (context_.report != nullptr)
+    cursor.longest_s = std::max(cursor.longest_s, wall_s() - cursor.range_start_s);
+  cursor.range_items = 0;
+}
+
+void RegionRun::work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Cursor> seats) {
+  Cursor cursor;
+  cursor.seat = seat;
+  if (seats.empty()) {
+    loop(cursor);
+    return;
+  }
+  const double start = thread_cpu_s();
+  loop(cursor);
+  cursor.busy_s = thread_cpu_s() - start;
+  seats[seat.index] = cursor;
+}
+
+Status RegionRun::run(FunctionRef<void(Cursor&)> loop) {
+  if (context_.stop.stop_requested()) return cancelled_error();
+  blocks_ = region_.blocks();
+  chunk_ = std::max<std::size_t>(region_.chunk, 1);
+  ordered_ = !region_.order.empty();
+  if (ordered_ && region_.order.size() != blocks_)
+    return Error{ErrorCode::internal,
+                 "a visiting order of " + std::to_string(region_.order.size()) + " for " +
+                     std::to_string(blocks_) + " blocks",
+                 std::string(region_.name),
+                 {}};
+  if (blocks_ == 0) return {};
+
+  // One block needs no team; leaving it free lets the regions nested inside have it.
+  Team* const team = blocks_ > 1 ? context_.team : nullptr;
+  dynamic_ = team != nullptr && region_.schedule == Schedule::dynamic;
+  counting_ = context_.progress != nullptr && context_.progress->begin(region_.name, region_.n);
+  observed_ = counting_ || context_.report != nullptr;
+  std::vector<Cursor> seats(context_.report == nullptr ? 0 : team != nullptr ? team->size() : 1);
+  const double start = context_.report != nullptr ? wall_s() : 0;
+  bool whole = true;
+  {
+    // Cancelling is lowering the limit to nothing: items have one word to look at.
+    const std::stop_callback on_stop(context_.stop, [this] { lower_limit(0); });
+    if (team == nullptr) {
+      work(Seat{}, loop, seats);
+    } else {
+      whole = team->run([&](Seat seat) { work(seat, loop, seats); });
+    }
+  }
+  if (counting_) context_.progress->end();
+  if (context_.report != nullptr)
+    context_.report->add(summary(region_, seats, wall_s() - start, !whole));
+  return outcome(context_.stop.stop_requested());
+}
+
+Status RegionRun::outcome(bool cancelled) {
+  if (cancelled) return cancelled_error();
+  if (error_) return *std::move(error_);
+  return {};
+}
+
+}  // namespace strake::parallel::detail

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/parallel/report.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace strake::parallel {
+
+double RegionReport::total_busy_s() const {
+  return std::accumulate(busy_s.begin(), busy_s.end(), 0.0);
+}
+
+double RegionReport::load_balance() const {
+  const double most = busy_s.empty() ? 0.0 : *std::max_element(busy_s.begin(), busy_s.end());
+  return most > 0 ? total_busy_s() / (static_cast<double>(busy_s.size()) * most) : 1.0;
+}
+
+double RegionReport::bound() const {
+  const double share =
+      total_busy_s() / static_cast<double>(std::max<std::size_t>(busy_s.size(), 1));
+  return longest_s > share ? share / longest_s : 1.0;
+}
+
+void RunReport::add(const RegionReport& run) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(regions_.begin(), regions_.end(),
+                                  [&](const RegionReport& r) { return r.name == run.name; });
+  if (found == regions_.end()) {
+    regions_.push_back(run);
+    return;
+  }
+  found->runs += run.runs;
+  found->nested_runs += run.nested_runs;
+  found->items += run.items;
+  found->wall_s += run.wall_s;
+  found->nested_cpu_s += run.nested_cpu_s;
+  found->longest_s = std::max(found->longest_s, run.longest_s);
+  found->busy_s.resize(std::max(found->busy_s.size(), run.busy_s.size()));
+  for (std::size_t w = 0; w < run.busy_s.size(); ++w) found->busy_s[w] += run.busy_s[w];
+}
+
+std::vector<RegionReport> RunReport::regions() const {
+  const std::lock_guard lock(mutex_);
+  return regions_;
+}
+
+double thread_cpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+}  // namespace strake::parallel

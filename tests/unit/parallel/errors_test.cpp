@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::parallel {
+namespace {
+
+constexpr std::size_t kItems = 1000;
+
+Error failure(std::size_t i) { return {ErrorCode::input, "item " + std::to_string(i), {}, {}}; }
+
+/// Runs under every team, schedule, chunk and order.
+void everywhere(std::size_t grain, const std::function<void(const Context&, const Region&)>& test) {
+  std::vector<std::uint32_t> backwards((kItems + grain - 1) / grain);
+  std::iota(backwards.rbegin(), backwards.rend(), 0U);
+  for (const unsigned threads : {1U, 2U, 3U, 16U}) {
+    Team team(threads);
+    for (const Schedule schedule : {Schedule::dynamic, Schedule::static_blocks})
+      for (const std::size_t chunk : {1U, 9U})
+        for (const bool ordered : {false, true}) {
+          SCOPED_TRACE(::testing::Message() << "threads " << threads << ", chunk " << chunk
+                                            << ", static " << static_cast<int>(schedule)
+                                            << ", backwards " << ordered << ", grain " << grain);
+          Region region{
+              .name = "failing", .n = kItems, .schedule = schedule, .grain = grain, .chunk = chunk};
+          if (ordered) region.order = backwards;
+          test({.team = &team}, region);
+        }
+  }
+  test({}, {.name = "failing", .n = kItems, .grain = grain});
+}
+
+TEST(Errors, the_lowest_failing_item_is_reported_and_all_below_it_ran) {
+  struct Case {
+    const char* name;
+    std::size_t lowest;
+    std::function<bool(std::size_t)> fails;
+  };
+  const Case cases[] = {
+      {"first", 0, [](std::size_t i) { return i == 0; }},
+      {"last", kItems - 1, [](std::size_t i) { return i == kItems - 1; }},
+      {"every 97th", 96, [](std::size_t i) { return i % 97 == 96; }},
+      {"all", 0, [](std::size_t) { return true; }},
+      {"second half", kItems / 2, [](std::size_t i) { return i >= kItems / 2; }},
+  };
+  for (const Case& one : cases)
+    for (const std::size_t grain : {1U, 16U, 2000U})
+      everywhere(grain, [&](const Context& context, const Region& region) {
+        SCOPED_TRACE(one.name);
+        std::vector<std::uint8_t> ran(kItems, 0);
+        const Status status = for_each(context, region, [&](std::size_t i) -> Status {
+          ran[i] = 1;
+          if (one.fails(i)) return failure(i);
+          return {};
+        });
+        ASSERT_FALSE(status);
+        EXPECT_EQ(status.error().message, failure(one.lowest).message);
+        for (std::size_t i = 0; i < one.lowest; ++i) ASSERT_EQ(ran[i], 1) << i;
+        const Status thrown = for_each(context, region, [&](std::size_t i) {
+          if (one.fails(i)) throw std::runtime_error(failure(i).message);
+        });
+        ASSERT_FALSE(thrown);
+        EXPECT_EQ(thrown.error().code, ErrorCode::internal);
+        EXPECT_EQ(thrown.error().message, failure(one.lowest).message);
+        EXPECT_NE(thrown.error().where.find("'failing'"), std::string::npos);
+      });
+}
+
+TEST(Errors, every_pattern_reports_the_lowest) {
+  everywhere(8, [](const Context& context, const Region& region) {
+    const auto fails = [](std::size_t i) { return i % 97 == 96; };
+    const auto transformed = transform(context, region, [&](std::size_t i) -> Result<int> {
+      if (fails(i)) return failure(i);
+      return 1;
+    });
+    ASSERT_FALSE(transformed);
+    EXPECT_EQ(transformed.error().message, "item 96");
+    const auto collected =
+        collect<int>(context, region, [&](std::size_t i, std::vector<int>& out) -> Status {
+          out.push_back(1);
+          if (fails(i)) return failure(i);
+          return {};
+        });
+    ASSERT_FALSE(collected);
+    EXPECT_EQ(collected.error().message, "item 96");
+    const auto reduced = reduce(
+        context, region, 0,
+        [&](int&, std::size_t i) {
+          if (fails(i)) throw std::runtime_error(failure(i).message);
+        },
+        [](int& a, int b) { a += b; });
+    ASSERT_FALSE(reduced);
+    EXPECT_EQ(reduced.error().message, "item 96");
+    const auto filled = count_fill<int>(
+        context, region, [](std::size_t) { return std::size_t{1}; },
+        [&](std::size_t i, std::span<int>) -> Status {
+          if (fails(i)) return failure(i);
+          return {};
+        });
+    ASSERT_FALSE(filled);
+    EXPECT_EQ(filled.error().message, "item 96");
+  });
+}
+
+TEST(Errors, a_context_that_cannot_be_made_is_an_error) {
+  everywhere(4, [](const Context& context, const Region& region) {
+    const Status status = for_each_with(
+        context, region, []() -> int { throw std::runtime_error("no scratch"); },
+        [](int&, std::size_t) { FAIL(); });
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "no scratch");
+  });
+}
+
+TEST(Errors, whatever_is_thrown_is_caught) {
+  Team team(3);
+  const Region region{.name = "odd", .n = 10};
+  const Status odd = for_each({.team = &team}, region, [](std::size_t) { throw 42; });
+  ASSERT_FALSE(odd);
+  EXPECT_EQ(odd.error().code, ErrorCode::internal);
+  const Status memory =
+      for_each({.team = &team}, region, [](std::size_t) { throw std::bad_alloc(); });
+  ASSERT_FALSE(memory);
+  EXPECT_EQ(memory.error().message, "out of memory");
+}
+
+TEST(Errors, too_many_slots_are_an_error) {
+  const auto result =
+      transform({}, {.name = "huge", .n = std::size_t{1} << 60U}, [](std::size_t i) { return i; });
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message, "out of memory");
+}
+
+TEST(Cancel, before_the_start_nothing_runs) {
+  std::stop_source source;
+  source.request_stop();
+  everywhere(4, [&](Context context, const Region& region) {
+    context.stop = source.get_token();
+    const Status status = for_each(context, region, [](std::size_t) { FAIL(); });
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ErrorCode::cancelled);
+  });
+}
+
+TEST(Cancel, from_the_body_stops_the_rest) {
+  everywhere(1, [](Context context, const Region& region) {
+    std::stop_source source;
+    context.stop = source.get_token();
+    std::atomic<std::size_t> ran{0}, after{0};
+    const Status status = for_each(context, region, [&](std::size_t) {
+      if (source.stop_requested()) ++after;
+      if (++ran == 100) source.request_stop();
+    });
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ErrorCode::cancelled);
+    // One item per worker may have passed its check just before.
+    EXPECT_LE(after, context.team != nullptr ? context.team->size() : 0);
+    EXPECT_LT(ran, kItems);
+  });
+}
+
+TEST(Cancel, from_outside_ends_within_the_running_items) {
+  Team team(4);
+  for (const std::size_t grain : {std::size_t{1}, std::size_t{1} << 40U}) {
+    std::stop_source source;
+    std::atomic<bool> running{false};
+    std::thread outside([&] {
+      while (!running) std::this_thread::yield();
+      source.request_stop();
+    });
+    // Endless but for the cancellation: the test's time-out is the failure.
+    const Status status =
+        for_each({.team = &team, .stop = source.get_token()},
+                 {.name = "endless", .n = std::size_t{1} << 40U, .grain = grain}, [&](std::size_t) {
+                   running = true;
+                   std::this_thread::sleep_for(std::chrono::microseconds(20));
+                 });
+    outside.join();
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ErrorCode::cancelled);
+  }
+}
+
+TEST(Cancel, an_error_does_not_hide_it) {
+  std::stop_source source;
+  const Status status = for_each({.stop = source.get_token()}, {.name = "both", .n = 10},
+                                 [&](std::size_t i) -> Status {
+                                   source.request_stop();
+                                   return failure(i);
+                                 });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::cancelled);
+}
+
+}  // namespace
+}  // namespace strake::parallel

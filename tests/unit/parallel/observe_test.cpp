@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/progress.hpp"
+#include "strake/parallel/report.hpp"
+
+namespace strake::parallel {
+namespace {
+
+/// Uses CPU time until the calling thread has spent `seconds` of it.
+void burn(double seconds) {
+  const double until = thread_cpu_s() + seconds;
+  while (thread_cpu_s() < until) {
+  }
+}
+
+TEST(Progress, is_of_the_outermost_phase) {
+  Progress progress;
+  EXPECT_EQ(progress.snapshot().phase, "");
+  ASSERT_TRUE(progress.begin("load", 10));
+  EXPECT_FALSE(progress.begin("nested", 99));
+  progress.add(4);
+  const Progress::Snapshot now = progress.snapshot();
+  EXPECT_EQ(now.phase, "load");
+  EXPECT_EQ(now.done, 4U);
+  EXPECT_EQ(now.total, 10U);
+  progress.add(100);
+  EXPECT_EQ(progress.snapshot().done, 10U) << "never beyond the total";
+  progress.end();
+  EXPECT_EQ(progress.snapshot().phase, "");
+  EXPECT_EQ(progress.snapshot().phases_ended, 1U);
+}
+
+TEST(Progress, regions_tell_how_far_they_are) {
+  Team team(3);
+  for (Team* const who : {static_cast<Team*>(nullptr), &team})
+    for (const std::size_t grain : {1U, 10U}) {
+      Progress progress;
+      std::atomic<std::uint64_t> most{0};
+      const Status status =
+          for_each({.team = who, .progress = &progress}, {.name = "work", .n = 100, .grain = grain},
+                   [&](std::size_t) {
+                     const Progress::Snapshot now = progress.snapshot();
+                     EXPECT_EQ(now.phase, "work");
+                     EXPECT_EQ(now.total, 100U);
+                     std::uint64_t seen = most;
+                     while (now.done > seen && !most.compare_exchange_weak(seen, now.done)) {
+                     }
+                   });
+      ASSERT_TRUE(status);
+      EXPECT_GT(most, 0U);
+      EXPECT_LT(most, 100U) << "the running block is not done yet";
+      EXPECT_EQ(progress.snapshot().phases_ended, 1U);
+    }
+}
+
+TEST(Report, adds_up_runs_of_one_name) {
+  Team team(2);
+  RunReport report;
+  const Context context{.team = &team, .report = &report};
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_TRUE(for_each(context, {.name = "burn", .n = 8}, [](std::size_t) { burn(0.001); }));
+    ASSERT_TRUE(for_each(context, {.name = "other", .n = 5, .grain = 2}, [](std::size_t) {}));
+  }
+  const std::vector<RegionReport> regions = report.regions();
+  ASSERT_EQ(regions.size(), 2U);
+  const RegionReport& burned = regions[0];
+  EXPECT_EQ(burned.name, "burn");
+  EXPECT_EQ(burned.runs, 3U);
+  EXPECT_EQ(burned.items, 24U);
+  ASSERT_EQ(burned.busy_s.size(), 2U);
+  EXPECT_GE(burned.total_busy_s(), 0.024);
+  EXPECT_GE(burned.longest_s, 0.001);
+  EXPECT_GT(burned.wall_s, 0.0);
+  EXPECT_GT(burned.load_balance(), 0.49);
+  EXPECT_LE(burned.load_balance(), 1.0);
+  EXPECT_GT(burned.bound(), 0.0);
+  EXPECT_LE(burned.bound(), 1.0);
+  EXPECT_EQ(regions[1].items, 15U);
+}
+
+TEST(Report, keeps_nested_runs_apart) {
+  Team team(3);
+  RunReport report;
+  const Context context{.team = &team, .report = &report};
+  ASSERT_TRUE(for_each(context, {.name = "outer", .n = 6}, [&](std::size_t) {
+    EXPECT_TRUE(for_each(context, {.name = "inner", .n = 4}, [](std::size_t) { burn(0.0001); }));
+  }));
+  const std::vector<RegionReport> regions = report.regions();
+  ASSERT_EQ(regions.size(), 2U);
+  const RegionReport& inner = regions[0];
+  EXPECT_EQ(inner.name, "inner");
+  EXPECT_EQ(inner.runs, 0U);
+  EXPECT_EQ(inner.nested_runs, 6U);
+  EXPECT_EQ(inner.items, 24U);
+  EXPECT_GE(inner.nested_cpu_s, 0.0024);
+  EXPECT_TRUE(inner.busy_s.empty());
+  EXPECT_EQ(regions[1].runs, 1U);
+}
+
+TEST(Report, figures_follow_their_definitions) {
+  RegionReport region;
+  region.busy_s = {1.0, 3.0};
+  region.longest_s = 2.5;
+  EXPECT_DOUBLE_EQ(region.load_balance(), 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(region.bound(), 4.0 / (2 * 2.5));
+  region.longest_s = 0.1;
+  EXPECT_DOUBLE_EQ(region.bound(), 1.0);
+  EXPECT_DOUBLE_EQ(RegionReport().load_balance(), 1.0);
+}
+
+}  // namespace
+}  // namespace strake::parallel

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/shape2.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::parallel {
+namespace {
+
+constexpr std::size_t kItems = 1013;  // prime: no grain or team divides it
+
+/// A value per item, over forty binary orders of magnitude, so that a sum shows its order.
+double value(std::size_t i) {
+  const std::uint64_t h = (i + 1) * 0x9e3779b97f4a7c15ULL;
+  const double mantissa = static_cast<double>(h >> 12U) * 0x1p-52 - 0.5;
+  return std::ldexp(mantissa, static_cast<int>(h % 41U) - 20);
+}
+
+/// Every result that this library can build, for one region's settings.
+struct Results {
+  std::vector<double> transformed;
+  std::vector<std::uint32_t> collected;
+  std::vector<std::uint32_t> packed;
+  std::vector<std::size_t> offsets;
+  std::uint64_t sum_bits = 0;
+  std::uint64_t item_runs = 0;
+  friend bool operator==(const Results&, const Results&) = default;
+};
+
+Results results(const Context& context, const Region& region, unsigned delay_seed) {
+  Results r;
+  std::vector<std::uint8_t> runs(kItems, 0);
+  r.transformed = *transform_with(
+      context, region, [&] { return std::minstd_rand(delay_seed); },
+      [&](std::minstd_rand& random, std::size_t i) {
+        if (delay_seed != 0 && random() % 64 == 0) std::this_thread::yield();
+        ++runs[i];
+        return value(i);
+      });
+  for (const std::uint8_t count : runs) r.item_runs += count == 1 ? 1U : 1000U;
+  r.collected =
+      *collect<std::uint32_t>(context, region, [](std::size_t i, std::vector<std::uint32_t>& out) {
+        for (std::size_t k = 0; k < i % 4; ++k)
+          out.push_back(static_cast<std::uint32_t>(10 * i + k));
+      });
+  auto packed = count_fill<std::uint32_t>(
+      context, region, [](std::size_t i) { return i % 3; },
+      [](std::size_t i, std::span<std::uint32_t> out) {
+        std::fill(out.begin(), out.end(), static_cast<std::uint32_t>(i));
+      });
+  r.offsets = packed->offsets;
+  r.packed = packed->values;
+  const auto sum = reduce(
+      context, region, 0.0, [](double& partial, std::size_t i) { partial += value(i); },
+      [](double& into, const double& partial) { into += partial; });
+  r.sum_bits = std::bit_cast<std::uint64_t>(*sum);
+  return r;
+}
+
+TEST(Patterns, same_bytes_for_any_team_schedule_chunk_and_order) {
+  constexpr unsigned kSeed = 20250117;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  for (const std::size_t grain : {1U, 7U, 100U, 5000U}) {
+    Region region{.name = "test", .n = kItems, .grain = grain};
+    const Results expected = results({}, region, 0);
+    ASSERT_EQ(expected.item_runs, kItems);
+    std::vector<std::uint32_t> shuffled =
+        longest_first(region.blocks(), [](std::size_t i) { return value(i); });
+    std::shuffle(shuffled.begin(), shuffled.end(), std::minstd_rand(kSeed));
+    for (const unsigned threads : {1U, 2U, 3U, 5U, 8U, 16U, 33U, 64U}) {
+      Team team(threads);
+      for (const Schedule schedule : {Schedule::dynamic, Schedule::static_blocks})
+        for (const std::size_t chunk : {1U, 3U, 50U})
+          for (const bool ordered : {false, true}) {
+            region.schedule = schedule;
+            region.chunk = chunk;
+            region.order = ordered ? std::span<const std::uint32_t>(shuffled)
+                                   : std::span<const std::uint32_t>();
+            EXPECT_EQ(results({.team = &team}, region, kSeed + threads), expected)
+                << "threads " << threads << ", grain " << grain << ", chunk " << chunk
+                << ", static " << (schedule == Schedule::static_blocks) << ", ordered " << ordered;
+          }
+    }
+  }
+}
+
+TEST(Patterns, sum_is_that_of_blocks_folded_in_order) {
+  const Region region{.name = "sum", .n = kItems, .grain = 64};
+  double expected = 0;
+  for (std::size_t first = 0; first < kItems; first += 64) {
+    double partial = 0;
+    for (std::size_t i = first; i < std::min(kItems, first + 64); ++i) partial += value(i);
+    expected += partial;
+  }
+  const auto got = reduce(
+      {}, region, 0.0, [](double& partial, std::size_t i) { partial += value(i); },
+      [](double& into, const double& partial) { into += partial; });
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(*got), std::bit_cast<std::uint64_t>(expected));
+}
+
+TEST(Patterns, nothing_to_do_is_not_an_error) {
+  Team team(3);
+  const Context context{.team = &team};
+  EXPECT_TRUE(transform(context, {.name = "none"}, [](std::size_t i) { return i; })->empty());
+  EXPECT_TRUE(
+      collect<int>(context, {.name = "none"}, [](std::size_t, std::vector<int>&) {})->empty());
+  const auto packed = count_fill<int>(
+      context, {.name = "none"}, [](std::size_t) { return std::size_t{1}; },
+      [](std::size_t, std::span<int>) {});
+  EXPECT_EQ(packed->size(), 0U);
+  const auto total =
+      reduce(context, {.name = "none"}, 5, [](int&, std::size_t) {}, [](int& a, int b) { a += b; });
+  EXPECT_EQ(*total, 5);
+}
+
+TEST(Patterns, contexts_belong_to_one_worker_and_one_region) {
+  struct Scratch {
+    std::thread::id made_on = std::this_thread::get_id();
+    std::size_t used = 0;
+  };
+  Team team(4);
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<unsigned> made{0};
+    std::atomic<std::size_t> fresh{0};
+    const Status status = for_each_with(
+        {.team = &team}, {.name = "scratch", .n = 500},
+        [&] {
+          ++made;
+          return Scratch();
+        },
+        [&](Scratch& scratch, std::size_t) {
+          EXPECT_EQ(scratch.made_on, std::this_thread::get_id());
+          if (scratch.used++ == 0) ++fresh;
+        });
+    ASSERT_TRUE(status);
+    EXPECT_GE(made, 1U);
+    EXPECT_LE(made, 4U);
+    EXPECT_EQ(fresh, made);
+  }
+}
+
+TEST(Patterns, contexts_are_made_only_for_workers_that_get_an_item) {
+  Team team(8);
+  std::atomic<int> made{0};
+  ASSERT_TRUE(for_each_with(
+      {.team = &team}, {.name = "two items", .n = 2},
+      [&] {
+        ++made;
+        return 0;
+      },
+      [](int&, std::size_t) {}));
+  EXPECT_LE(made, 2);
+}
+
+TEST(Patterns, results_may_be_moved_only) {
+  Team team(3);
+  auto boxes = transform({.team = &team}, {.name = "boxes", .n = 20},
+                         [](std::size_t i) { return std::make_unique<std::size_t>(i); });
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(*(*boxes)[i], i);
+  auto some = collect<std::unique_ptr<std::size_t>>(
+      {.team = &team}, {.name = "some", .n = 20},
+      [](std::size_t i, std::vector<std::unique_ptr<std::size_t>>& out) {
+        if (i % 2 == 0) out.push_back(std::make_unique<std::size_t>(i));
+      });
+  ASSERT_EQ(some->size(), 10U);
+  for (std::size_t k = 0; k < 10; ++k) EXPECT_EQ(*(*some)[k], 2 * k);
+}
+
+TEST(Order, longest_first_is_a_permutation_with_ties_by_index) {
+  const std::vector<double> costs{1, 5, 5, 0, std::nan(""), 7, 1};
+  EXPECT_EQ(longest_first(costs), (std::vector<std::uint32_t>{5, 1, 2, 0, 6, 3, 4}));
+  EXPECT_TRUE(longest_first(std::span<const double>()).empty());
+}
+
+TEST(Order, of_the_wrong_length_is_refused) {
+  const std::vector<std::uint32_t> order{0, 1};
+  const Status status =
+      for_each({}, {.name = "three", .n = 3, .order = order}, [](std::size_t) { FAIL(); });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::internal);
+}
+
+TEST(Shape2, products_do_not_overflow) {
+  constexpr Shape2 kShape{50'000, 50'000};
+  static_assert(kShape.size() == 2'500'000'000ULL);
+  static_assert(kShape.index(2'499'999'999ULL) == Shape2::Index{49'999, 49'999});
+  constexpr Shape2 kHuge{0xffffffffU, 0xffffffffU};
+  static_assert(kHuge.index(kHuge.size() - 1) == Shape2::Index{0xfffffffeU, 0xfffffffeU});
+  constexpr Shape2 kNone{10, 0};
+  static_assert(kNone.size() == 0);
+  std::uint64_t flat = 0;
+  constexpr Shape2 kSmall{3, 4};
+  for (std::uint32_t row = 0; row < 3; ++row)
+    for (std::uint32_t column = 0; column < 4; ++column, ++flat) {
+      EXPECT_EQ(kSmall.index(flat), (Shape2::Index{row, column}));
+      EXPECT_EQ(kSmall.flat({row, column}), flat);
+    }
+}
+
+}  // namespace
+}  // namespace strake::parallel
