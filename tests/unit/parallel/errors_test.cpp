@@ -161,9 +161,13 @@ TEST(Cancel, from_the_body_stops_the_rest) {
     std::stop_source source;
     context.stop = source.get_token();
     std::atomic<std::size_t> ran{0}, after{0};
+    std::atomic<bool> requested{false};  // set once request_stop has returned
     const Status status = for_each(context, region, [&](std::size_t) {
-      if (source.stop_requested()) ++after;
-      if (++ran == 100) source.request_stop();
+      if (requested) ++after;
+      if (++ran == 100) {
+        source.request_stop();
+        requested = true;
+      }
     });
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().code, ErrorCode::cancelled);
