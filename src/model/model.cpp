@@ -1,1 +1,183 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "strake/model/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <string_view>
+#include <tuple>
+#include <unordered_set>
+
+namespace strake::model {
+namespace {
+
+using Order = std::vector<std::uint32_t>;
+
+Order identity(std::size_t count) {
+  Order order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  return order;
+}
+
+/// Sorts the files and gives those of equal label a suffix; returns the new index of each old one.
+Order order_files(Model& model) {
+  Order order = identity(model.files.size());
+  const auto key = [&](std::uint32_t i) {
+    const SourceFile& f = model.files[i];
+    return std::tie(f.label, f.format, f.bytes, f.unit, f.up_axis);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  std::unordered_set<std::string> taken;
+  for (const SourceFile& f : model.files) taken.insert(f.label);
+  std::vector<SourceFile> files;
+  Order renumbered(order.size());
+  std::string previous;
+  std::uint32_t repeat = 1;
+  for (const std::uint32_t old : order) {
+    renumbered[old] = static_cast<std::uint32_t>(files.size());
+    SourceFile file = std::move(model.files[old]);
+    if (!files.empty() && file.label == previous) {
+      std::string label;
+      do label = fmt::format("{}#{}", previous, ++repeat);
+      while (taken.contains(label));
+      taken.insert(label);
+      file.label = std::move(label);
+    } else {
+      previous = file.label;
+      repeat = 1;
+    }
+    files.push_back(std::move(file));
+  }
+  model.files = std::move(files);
+  return renumbered;
+}
+
+/// Gives every repetition of an id within a file a suffix, in the order of `order`, which is
+/// sorted by (file, id) with the source's order among equals. True when an id changed.
+bool separate_ids(Model& model, const Order& order) {
+  bool changed = false;
+  std::unordered_set<std::string> taken;
+  std::uint32_t taken_of = 0;
+  for (std::size_t i = 0; i < order.size();) {
+    const Object& first = model.objects[order[i]];
+    std::size_t end = i + 1;
+    while (end < order.size() && model.objects[order[end]].file == first.file &&
+           model.objects[order[end]].id == first.id)
+      ++end;
+    if (end - i > 1) {
+      if (taken.empty() || taken_of != first.file) {
+        taken.clear();
+        taken_of = first.file;
+        for (const Object& o : model.objects)
+          if (o.file == taken_of) taken.insert(o.id);
+      }
+      std::uint32_t repeat = 1;
+      for (std::size_t k = i + 1; k < end; ++k) {
+        std::string id;
+        do id = fmt::format("{}#{}", first.id, ++repeat);
+        while (!taken.insert(id).second);
+        model.objects[order[k]].id = std::move(id);
+      }
+      model.diagnostics.add(Severity::warning, "object-id-repeated",
+                            fmt::format("{} objects share one id; all but the first gained a "
+                                        "number",
+                                        end - i),
+                            fmt::format("{}: {}", model.files[first.file].label, first.id));
+      changed = true;
+    }
+    i = end;
+  }
+  return changed;
+}
+
+/// Puts the objects in the given order and their bodies behind each other in the same order.
+void reorder(Model& model, const Order& order) {
+  std::vector<Object> objects;
+  std::vector<Body> bodies;
+  objects.reserve(model.objects.size());
+  bodies.reserve(model.bodies.size());
+  for (const std::uint32_t old : order) {
+    Object object = std::move(model.objects[old]);
+    const std::size_t begin = std::min<std::size_t>(object.first_body, model.bodies.size());
+    const std::size_t count = std::min<std::size_t>(object.body_count, model.bodies.size() - begin);
+    object.first_body = static_cast<std::uint32_t>(bodies.size());
+    object.body_count = static_cast<std::uint32_t>(count);
+    const auto from = model.bodies.begin() + static_cast<std::ptrdiff_t>(begin);
+    bodies.insert(bodies.end(), from, from + static_cast<std::ptrdiff_t>(count));
+    objects.push_back(std::move(object));
+  }
+  model.objects = std::move(objects);
+  model.bodies = std::move(bodies);
+}
+
+}  // namespace
+
+std::string Model::path(const Object& object) const {
+  std::vector<std::string_view> names;
+  GroupId group = object.parent;
+  // A chain longer than the number of groups runs in a circle.
+  while (group != GroupId::none && index(group) < groups.size() && names.size() < groups.size()) {
+    names.push_back(groups[index(group)].name);
+    group = groups[index(group)].parent;
+  }
+  std::string joined;
+  for (auto name = names.rbegin(); name != names.rend(); ++name) {
+    if (name != names.rbegin()) joined += '/';
+    joined += *name;
+  }
+  return joined;
+}
+
+void finish(Model& model) {
+  const Order renumbered = order_files(model);
+  for (Object& o : model.objects)
+    if (o.file < renumbered.size()) o.file = renumbered[o.file];
+  Order order = identity(model.objects.size());
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    const Object& p = model.objects[a];
+    const Object& q = model.objects[b];
+    if (p.file != q.file) return p.file < q.file;
+    const int ids = p.id.compare(q.id);
+    return ids != 0 ? ids < 0 : a < b;
+  };
+  if (!std::is_sorted(order.begin(), order.end(), before))
+    std::sort(order.begin(), order.end(), before);
+  if (separate_ids(model, order)) std::sort(order.begin(), order.end(), before);
+  reorder(model, order);
+}
+
+void append(Model& model, Model&& other) {
+  const auto files = static_cast<std::uint32_t>(model.files.size());
+  const auto groups = static_cast<std::uint32_t>(model.groups.size());
+  const auto shapes = static_cast<std::uint32_t>(model.shapes.size());
+  const auto bodies = static_cast<std::uint32_t>(model.bodies.size());
+  const auto shifted = [groups](GroupId id) {
+    return id == GroupId::none ? id : GroupId{index(id) + groups};
+  };
+  for (Group& g : other.groups) g.parent = shifted(g.parent);
+  for (Object& o : other.objects) {
+    o.file += files;
+    o.parent = shifted(o.parent);
+    o.first_body += bodies;
+  }
+  for (Body& b : other.bodies) b.shape = ShapeId{index(b.shape) + shapes};
+  const auto move_all = [](auto& from, auto& to) {
+    if (to.empty())
+      to = std::move(from);
+    else
+      to.insert(to.end(), std::make_move_iterator(from.begin()),
+                std::make_move_iterator(from.end()));
+    from.clear();
+  };
+  move_all(other.files, model.files);
+  move_all(other.groups, model.groups);
+  move_all(other.shapes, model.shapes);
+  move_all(other.objects, model.objects);
+  move_all(other.bodies, model.bodies);
+  model.diagnostics.append(other.diagnostics);
+}
+
+}  // namespace strake::model

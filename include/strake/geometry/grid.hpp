@@ -21,7 +21,10 @@ inline constexpr double kMaxGridMm = 1125899906842624.0 / kGridPerMm;
 /// Nothing when the coordinate is not finite or lies beyond kMaxGridMm.
 [[nodiscard]] inline std::optional<std::int64_t> snap(double mm) {
   if (!(std::fabs(mm) <= kMaxGridMm)) return std::nullopt;
-  return std::llround(mm * kGridPerMm);
+  const double scaled = mm * kGridPerMm;
+  const auto whole = static_cast<std::int64_t>(scaled);
+  const double rest = scaled - static_cast<double>(whole);  // exact: |scaled| <= 2^50
+  return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
 }
 
 [[nodiscard]] inline std::optional<Vec3l> snap(const Vec3d& mm) {

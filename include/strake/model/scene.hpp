@@ -25,6 +25,9 @@ struct GridShape {
   std::vector<geometry::Part> parts;
   geometry::Box3i box = geometry::empty_box<std::int32_t>();
   ShapeId shape{};
+  /// Where the vertices' origin lies, grid units from the placed local origin: zero unless the
+  /// shape stands far from it (site coordinates baked into the vertices).
+  geometry::Vec3l base;
 };
 
 /// A body on the grid: world coordinate of a vertex = origin + vertex.
@@ -32,7 +35,7 @@ struct GridBody {
   std::uint32_t grid_shape = 0;
   std::uint32_t body = 0;  ///< index into Model::bodies
   ObjectId object{};
-  geometry::Vec3l origin;
+  geometry::Vec3l origin;  ///< snap(translation) + GridShape::base
 
   [[nodiscard]] geometry::Box3l box(const GridShape& shape) const {
     return {shape.box.lo.as<std::int64_t>() + origin, shape.box.hi.as<std::int64_t>() + origin};

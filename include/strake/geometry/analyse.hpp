@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "strake/geometry/mesh.hpp"
+#include "strake/geometry/part.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::geometry {
+
+/// A triangle mesh on the grid, as it comes: vertices may repeat, triangles may be degenerate.
+struct GridMesh {
+  std::vector<Vec3i> vertices;          ///< within ±2^30
+  std::vector<Triangle> triangles;      ///< indices below vertices.size()
+  std::vector<std::uint32_t> faces;     ///< empty, or one per triangle (TriangleMesh::faces)
+};
+
+/// What had to be left out of the parts, counted.
+struct MeshFindings {
+  std::uint64_t degenerate_triangles = 0;  ///< of exactly zero area after the snap
+  std::uint64_t duplicate_triangles = 0;   ///< same vertices, same side
+  std::uint64_t nested_shells = 0;         ///< closed shells that bound nothing: a solid in a solid
+};
+
+struct MeshAnalysis {
+  std::vector<Part> parts;
+  MeshFindings findings;
+};
+
+/// Splits a mesh into parts: a solid for every nest of closed shells, oriented outward, and one
+/// sheet for all shells whose edges do not balance.
+///
+/// 1. The result does not depend on the order of vertices or triangles, nor on which vertex a
+///    triangle starts with: vertices are sorted by coordinates, triangles by vertices.
+/// 2. Two triangles belong to one shell when they share an edge that has no other triangles, or
+///    when an edge with more of them balances only with both. Solids that merely share an edge or
+///    a face so come apart.
+/// 3. A closed shell whose outermost shell has negative exact volume is turned with all that lies
+///    inside it (PartFlags::inverted). Shells that do not bound {winding number >= 1} are left out
+///    and counted.
+/// 4. A closed shell of no volume that is covered twice, once from each side, becomes a sheet.
+///
+/// Every decision is exact. Cost: O(n log n) for one shell; nesting tests only shells whose boxes
+/// lie inside each other.
+[[nodiscard]] MeshAnalysis analyse(GridMesh mesh);
+
+}  // namespace strake::geometry

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "strake/geometry/analyse.hpp"
+#include "strake/geometry/mesh.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::geometry {
+
+/// A mesh or polylines under the linear part of a placement, on the grid: the place of a vertex
+/// is base + vertex = snap(linear · local).
+struct PlacedMesh {
+  GridMesh mesh;
+  Vec3l base;                          ///< zero unless the shape lies far from its local origin
+  std::uint64_t bad_triangles = 0;     ///< left out: an index out of range, or a vertex that has no place
+};
+
+/// Snaps every vertex that a triangle uses. A mirroring map flips the winding.
+/// Nothing when the result is wider than 2^31 grid units (2.1 km).
+[[nodiscard]] std::optional<PlacedMesh> place(const TriangleMesh& mesh, const Mat3d& linear);
+
+/// Chains on the grid as a wire part; `bad_points` counts points left out because they have no place.
+struct PlacedWire {
+  Part part;
+  Vec3l base;
+  std::uint64_t bad_points = 0;
+};
+
+/// Consecutive equal points become one; chains of fewer than two points are dropped.
+[[nodiscard]] std::optional<PlacedWire> place(const Polylines& lines, const Mat3d& linear);
+
+/// Largest factor by which a map lengthens a vector, rounded up by less than one part in 10^9 for
+/// similarities (an upper bound for others).
+[[nodiscard]] double stretch(const Mat3d& linear);
+
+}  // namespace strake::geometry

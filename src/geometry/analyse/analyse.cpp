@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/geometry/analyse.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "geometry/analyse/nest.hpp"
+#include "geometry/analyse/shell_part.hpp"
+#include "geometry/analyse/topology.hpp"
+#include "geometry/analyse/weld.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Triangles of a mesh, grouped by shell.
+struct Grouped {
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> first;
+
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t shell) const {
+    return std::span(triangles).subspan(first[shell], first[shell + 1] - first[shell]);
+  }
+};
+
+Grouped group_by_shell(const ShellLabels& labels) {
+  Grouped grouped;
+  grouped.first.assign(labels.count + 1, 0);
+  for (const std::uint32_t s : labels.shell) ++grouped.first[s + 1];
+  for (std::size_t s = 1; s < grouped.first.size(); ++s) grouped.first[s] += grouped.first[s - 1];
+  grouped.triangles.resize(labels.shell.size());
+  std::vector<std::uint32_t> next = grouped.first;
+  for (std::uint32_t t = 0; t < labels.shell.size(); ++t)
+    grouped.triangles[next[labels.shell[t]]++] = t;
+  return grouped;
+}
+
+/// A closed shell, turned so that its volume is positive.
+struct Shell {
+  std::uint32_t label = 0;
+  int sign = 1;  ///< of the volume before the turn
+};
+
+/// For each shell whether it bounds {winding number >= 1} of its nest, the nest having been turned
+/// so that its outermost shell counts +1.
+std::vector<bool> bounding(const std::vector<Shell>& shells,
+                           const std::vector<std::uint32_t>& parents,
+                           const std::vector<std::uint32_t>& roots) {
+  std::vector<bool> bounds(shells.size());
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    const int outermost = shells[roots[i]].sign;
+    int outside = 0;
+    for (std::uint32_t p = parents[i]; p != kNoShell; p = parents[p])
+      outside += shells[p].sign * outermost;
+    bounds[i] = (outside >= 1) != (outside + shells[i].sign * outermost >= 1);
+  }
+  return bounds;
+}
+
+std::vector<std::uint32_t> find_roots(const std::vector<std::uint32_t>& parents) {
+  std::vector<std::uint32_t> roots(parents.size());
+  for (std::uint32_t i = 0; i < parents.size(); ++i) {
+    roots[i] = i;
+    while (parents[roots[i]] != kNoShell) roots[i] = parents[roots[i]];
+  }
+  return roots;
+}
+
+/// The solid bounded by the chosen shells of a nest.
+Part merge_nest(const GridMesh& mesh, const Grouped& grouped, const std::vector<Shell>& shells,
+                const std::vector<std::uint32_t>& members, bool inverted) {
+  std::vector<std::uint32_t> triangles;
+  for (const std::uint32_t m : members) {
+    const auto of = grouped.of(shells[m].label);
+    triangles.insert(triangles.end(), of.begin(), of.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  GridMesh piece = extract(mesh, triangles);
+  if (inverted) turn(piece.triangles);
+  return make_part(std::move(piece), PartKind::solid);
+}
+
+/// Solids from the closed shells: one part per nest, in the order of their outermost shells.
+void add_solids(const GridMesh& mesh, const Grouped& grouped, const std::vector<Shell>& shells,
+                std::vector<Part> shell_parts, MeshAnalysis& analysis) {
+  const std::vector<std::uint32_t> parents = find_parents(shell_parts);
+  const std::vector<std::uint32_t> roots = find_roots(parents);
+  const std::vector<bool> bounds = bounding(shells, parents, roots);
+  std::vector<std::vector<std::uint32_t>> members(shells.size());
+  for (std::uint32_t i = 0; i < shells.size(); ++i) {
+    if (bounds[i])
+      members[roots[i]].push_back(i);
+    else
+      ++analysis.findings.nested_shells;
+  }
+  for (std::uint32_t i = 0; i < shells.size(); ++i) {
+    if (members[i].empty()) continue;
+    const bool inverted = shells[i].sign < 0;
+    Part part = members[i].size() == 1
+                    ? std::move(shell_parts[i])
+                    : merge_nest(mesh, grouped, shells, members[i], inverted);
+    part.flags.inverted = inverted;
+    analysis.parts.push_back(std::move(part));
+  }
+}
+
+/// The whole mesh is one shell: no splitting, no copies.
+Part whole(GridMesh mesh, Topology topology, ShellLabels labels) {
+  const bool closed = labels.closed[0] != 0;
+  const __int128 volume = closed ? signed_volume_6(mesh.vertices, mesh.triangles) : 0;
+  if (closed && volume == 0) {
+    std::vector<std::uint32_t> all(mesh.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return make_part(extract(mesh, single_layer(mesh, all)), PartKind::sheet);
+  }
+  if (volume < 0) turn(mesh.triangles);
+  Part part = make_part(std::move(mesh), closed ? PartKind::solid : PartKind::sheet,
+                        std::move(topology), std::move(labels));
+  part.flags.inverted = volume < 0;
+  return part;
+}
+
+void split(const GridMesh& mesh, const ShellLabels& labels, MeshAnalysis& analysis) {
+  const Grouped grouped = group_by_shell(labels);
+  std::vector<Shell> shells;
+  std::vector<Part> shell_parts;
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t s = 0; s < labels.count; ++s) {
+    const auto of = grouped.of(s);
+    GridMesh piece;
+    __int128 volume = 0;
+    if (labels.closed[s] != 0) {
+      piece = extract(mesh, of);
+      volume = signed_volume_6(piece.vertices, piece.triangles);
+    }
+    if (volume == 0) {
+      const std::vector<std::uint32_t> layer =
+          labels.closed[s] != 0 ? single_layer(mesh, of)
+                                : std::vector<std::uint32_t>(of.begin(), of.end());
+      open.insert(open.end(), layer.begin(), layer.end());
+      continue;
+    }
+    if (volume < 0) turn(piece.triangles);
+    shells.push_back({s, volume < 0 ? -1 : 1});
+    shell_parts.push_back(make_part(std::move(piece), PartKind::solid));
+  }
+  add_solids(mesh, grouped, shells, std::move(shell_parts), analysis);
+  if (open.empty()) return;
+  std::sort(open.begin(), open.end());
+  analysis.parts.push_back(make_part(extract(mesh, open), PartKind::sheet));
+}
+
+}  // namespace
+
+MeshAnalysis analyse(GridMesh mesh) {
+  MeshAnalysis analysis;
+  mesh = weld(mesh, analysis.findings);
+  if (mesh.triangles.empty()) return analysis;
+  Topology topology = make_topology(mesh.vertices.size(), mesh.triangles);
+  ShellLabels labels = label_shells(mesh.triangles, topology);
+  if (labels.count == 1)
+    analysis.parts.push_back(whole(std::move(mesh), std::move(topology), std::move(labels)));
+  else
+    split(mesh, labels, analysis);
+  return analysis;
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "strake/geometry/part.hpp"
+
+namespace strake::geometry {
+
+/// The edges of a mesh with their triangles, as Part stores them.
+struct Topology {
+  std::vector<PartEdge> edges;  ///< by (v0, v1), a sentinel at the end
+  std::vector<std::uint32_t> edge_triangles;
+
+  [[nodiscard]] std::span<const std::uint32_t> triangles_of(std::size_t edge) const {
+    const std::uint32_t first = edges[edge].first_triangle;
+    return std::span(edge_triangles).subspan(first, edges[edge + 1].first_triangle - first);
+  }
+  /// +1 when the triangle runs from v0 to v1 of the edge, -1 when it runs back.
+  [[nodiscard]] int sense(std::size_t edge, const Triangle& t) const {
+    const std::uint32_t v0 = edges[edge].v0, v1 = edges[edge].v1;
+    const bool along = (t[0] == v0 && t[1] == v1) || (t[1] == v0 && t[2] == v1) ||
+                       (t[2] == v0 && t[0] == v1);
+    return along ? 1 : -1;
+  }
+};
+
+/// Linear in the number of triangles (edges are bucketed by their lower vertex).
+[[nodiscard]] Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles);
+
+/// The connected shells of a mesh (see analyse()).
+struct ShellLabels {
+  std::vector<std::uint32_t> shell;  ///< of each triangle, numbered by lowest triangle
+  std::uint32_t count = 0;
+  std::vector<std::uint8_t> closed;  ///< per shell: 1 when its directed edges cancel
+};
+
+[[nodiscard]] ShellLabels label_shells(std::span<const Triangle> triangles,
+                                       const Topology& topology);
+
+}  // namespace strake::geometry

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/grid_shape.hpp"
+
+#include <utility>
+#include <variant>
+
+#include "strake/geometry/analyse.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/geometry/place.hpp"
+#include "strake/geometry/tessellate.hpp"
+
+namespace strake::model {
+namespace {
+
+using geometry::Mat3d;
+using geometry::Part;
+
+constexpr std::string_view kTooWide = "wider than 2.1 km";
+
+void add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear, GridShapeResult& result) {
+  std::optional<geometry::PlacedMesh> placed = geometry::place(mesh, linear);
+  if (!placed) {
+    result.fault = kTooWide;
+    return;
+  }
+  result.bad_triangles = placed->bad_triangles;
+  result.shape.base = placed->base;
+  geometry::MeshAnalysis analysis = geometry::analyse(std::move(placed->mesh));
+  result.findings = analysis.findings;
+  result.shape.parts = std::move(analysis.parts);
+  for (Part& part : result.shape.parts) {
+    part.flags.unknown_sag = !(mesh.sag_mm >= 0);
+    part.sag = part.flags.unknown_sag
+                   ? 0
+                   : mesh.sag_mm * geometry::kGridPerMm * geometry::stretch(linear);
+  }
+}
+
+void add_lines(const geometry::Polylines& lines, const Mat3d& linear, GridShapeResult& result) {
+  std::optional<geometry::PlacedWire> wire = geometry::place(lines, linear);
+  if (!wire) {
+    result.fault = kTooWide;
+    return;
+  }
+  result.bad_points = wire->bad_points;
+  result.shape.base = wire->base;
+  if (wire->part.vertices.empty()) return;
+  result.shape.parts.push_back(std::move(wire->part));
+}
+
+void add_primitive(const geometry::Primitive& primitive, const Mat3d& linear, double sag_mm,
+                   GridShapeResult& result) {
+  const geometry::Tessellation made = geometry::tessellate(primitive, linear, sag_mm);
+  result.fault = made.fault;
+  if (!made.fault.empty()) return;
+  if (!made.mesh.triangles.empty())
+    add_mesh(made.mesh, Mat3d{}, result);
+  else
+    add_lines(made.lines, Mat3d{}, result);
+  // A sliver of a primitive may lose triangles to the snap: that is no fault of the source.
+  result.findings.degenerate_triangles = 0;
+  for (Part& part : result.shape.parts) {
+    part.primitive = primitive;
+    part.flags.unknown_sag = false;
+  }
+}
+
+}  // namespace
+
+GridShapeResult make_grid_shape(const Shape& shape, const Mat3d& linear, double sag_mm) {
+  GridShapeResult result;
+  if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
+    add_mesh(*mesh, linear, result);
+  else if (const auto* lines = std::get_if<geometry::Polylines>(&shape))
+    add_lines(*lines, linear, result);
+  else
+    add_primitive(std::get<geometry::Primitive>(shape), linear, sag_mm, result);
+  for (const Part& part : result.shape.parts) result.shape.box.include(part.box);
+  if (result.shape.parts.empty() && result.fault.empty())
+    result.fault = "nothing is left of it on the grid";
+  return result;
+}
+
+}  // namespace strake::model

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/model/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "model/grid_shape.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::model {
+namespace {
+
+using geometry::Mat3d;
+
+/// A shape under one linear part, and the body that asked for it first.
+struct Use {
+  ShapeId shape{};
+  std::uint32_t body = 0;
+  std::uint32_t bodies = 0;
+};
+
+std::uint64_t mixed(std::uint64_t h, std::uint64_t value) {
+  h = (h ^ value) * 0x9e3779b97f4a7c15ULL;
+  return h ^ (h >> 29U);
+}
+
+/// Negative zero counts as zero: the two place alike.
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
+
+std::uint64_t hash_of(const Body& body) {
+  std::uint64_t h = mixed(0x5eed, index(body.shape));
+  for (const geometry::Vec3d& row : body.placement.linear.row)
+    for (int k = 0; k < 3; ++k) h = mixed(h, bits(row[k]));
+  return h;
+}
+
+bool same_linear(const Mat3d& a, const Mat3d& b) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      if (bits(a.row[i][k]) != bits(b.row[i][k])) return false;
+  return true;
+}
+
+/// Numbers the distinct (shape, linear part) in order of first appearance.
+class UseTable {
+ public:
+  UseTable(const Model& model, std::size_t bodies) : model_(model) {
+    slots_.assign(std::bit_ceil(bodies * 2 + 2), kEmpty);
+  }
+
+  std::uint32_t number(std::uint32_t body) {
+    const Body& b = model_.bodies[body];
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t slot = hash_of(b) & mask;; slot = (slot + 1) & mask) {
+      if (slots_[slot] == kEmpty) {
+        slots_[slot] = static_cast<std::uint32_t>(uses_.size());
+        uses_.push_back({b.shape, body, 1});
+        return slots_[slot];
+      }
+      Use& use = uses_[slots_[slot]];
+      if (use.shape == b.shape &&
+          same_linear(model_.bodies[use.body].placement.linear, b.placement.linear)) {
+        ++use.bodies;
+        return slots_[slot];
+      }
+    }
+  }
+  [[nodiscard]] std::vector<Use> take() && { return std::move(uses_); }
+
+ private:
+  static constexpr std::uint32_t kEmpty = 0xffffffffU;
+  const Model& model_;
+  std::vector<std::uint32_t> slots_;
+  std::vector<Use> uses_;
+};
+
+bool wanted(Category category, const SceneOptions& options) {
+  switch (category) {
+    case Category::physical:
+      return options.physical;
+    case Category::obstruction:
+      return options.obstruction;
+    case Category::insulation:
+      return options.insulation;
+  }
+  return false;
+}
+
+/// Adds a diagnostic whose text is only made when it will be kept.
+template <class Message>
+void report(Diagnostics& diagnostics, Severity severity, std::string_view code, const Model& model,
+            ObjectId id, Message&& message) {
+  if (diagnostics.count(code) >= Diagnostics::kMaxPerCode) {
+    diagnostics.add(severity, code, {}, {});
+    return;
+  }
+  const Object& object = model.object(id);
+  const std::string_view file =
+      object.file < model.files.size() ? std::string_view(model.files[object.file].label) : "";
+  const std::string& name = object.name.empty() ? object.id : object.name;
+  diagnostics.add(severity, code, message(),
+                  file.empty() ? name : fmt::format("{}: {}", file, name));
+}
+
+/// What is worth telling about a shape, said of the first object that uses it.
+void report_findings(const GridShapeResult& made, const Model& model, ObjectId id,
+                     Diagnostics& diagnostics) {
+  const auto counted = [&](Severity severity, std::string_view code, std::uint64_t count,
+                           std::string_view text) {
+    if (count != 0)
+      report(diagnostics, severity, code, model, id,
+             [&] { return fmt::format(fmt::runtime(text), count); });
+  };
+  counted(Severity::note, "mesh-degenerate", made.findings.degenerate_triangles,
+          "{} triangles without area were left out");
+  counted(Severity::note, "mesh-duplicate", made.findings.duplicate_triangles,
+          "{} repeated triangles were left out");
+  counted(Severity::warning, "mesh-nested", made.findings.nested_shells,
+          "{} closed shells inside solid material were left out");
+  counted(Severity::skipped, "mesh-bad-triangle", made.bad_triangles,
+          "{} triangles with a vertex that is missing or has no place were left out");
+  counted(Severity::skipped, "polyline-bad-point", made.bad_points,
+          "{} points that have no place were left out");
+  std::uint64_t inverted = 0, open = 0, non_manifold = 0;
+  for (const geometry::Part& part : made.shape.parts) {
+    inverted += part.flags.inverted ? 1U : 0U;
+    open += part.flags.open ? 1U : 0U;
+    non_manifold += part.flags.non_manifold ? 1U : 0U;
+  }
+  counted(Severity::warning, "mesh-inverted", inverted, "{} solids were inside out and are turned");
+  counted(Severity::note, "mesh-open", open, "{} surfaces do not close and count as sheets");
+  counted(Severity::note, "mesh-non-manifold", non_manifold,
+          "{} parts have edges with more than two triangles");
+}
+
+/// Everything the assembly of a scene passes along.
+struct Assembly {
+  const Model& model;
+  const SceneOptions& options;
+  Scene scene;
+};
+
+/// Lists the wanted bodies object by object, each with the number of its use.
+std::vector<Use> list_bodies(Assembly& assembly) {
+  const Model& model = assembly.model;
+  Scene& scene = assembly.scene;
+  UseTable table(model, model.bodies.size());
+  scene.bodies.reserve(model.bodies.size());
+  for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+    const Object& object = model.objects[o];
+    for (std::uint32_t b = object.first_body; b - object.first_body < object.body_count; ++b) {
+      if (b >= model.bodies.size() || index(model.bodies[b].shape) >= model.shapes.size()) {
+        report(scene.diagnostics, Severity::skipped, "body-without-shape", model, ObjectId{o},
+               [] { return std::string("a body refers to a shape that does not exist"); });
+        continue;
+      }
+      if (!wanted(model.bodies[b].category, assembly.options)) {
+        ++scene.left_out;
+        continue;
+      }
+      scene.bodies.push_back({table.number(b), b, ObjectId{o}, {}});
+    }
+  }
+  return std::move(table).take();
+}
+
+/// Places the bodies of the shapes that were made; the others and the unplaceable are reported.
+void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made) {
+  const Model& model = assembly.model;
+  Scene& scene = assembly.scene;
+  std::vector<bool> told(made.size(), false);
+  std::size_t kept = 0;
+  scene.first_body.assign(model.objects.size() + 1, 0);
+  for (const GridBody& candidate : scene.bodies) {
+    GridBody body = candidate;
+    const GridShapeResult& shape = made[body.grid_shape];
+    if (!told[body.grid_shape]) report_findings(shape, model, body.object, scene.diagnostics);
+    told[body.grid_shape] = true;
+    const auto origin = geometry::snap(model.bodies[body.body].placement.translation);
+    if (!shape.fault.empty() || !origin) {
+      report(scene.diagnostics, Severity::skipped,
+             shape.fault.empty() ? "body-unplaceable" : "shape-unplaceable", model, body.object, [&] {
+               return shape.fault.empty()
+                          ? std::string("a body has no place: its translation is not finite or "
+                                        "beyond a million kilometres")
+                          : fmt::format("a body has no place: {}", shape.fault);
+             });
+      continue;
+    }
+    body.origin = *origin + shape.shape.base;
+    scene.bodies[kept++] = body;
+    ++scene.first_body[index(body.object) + 1];
+  }
+  scene.bodies.resize(kept);
+  for (std::size_t o = 1; o < scene.first_body.size(); ++o)
+    scene.first_body[o] += scene.first_body[o - 1];
+}
+
+}  // namespace
+
+Result<Scene> make_scene(const Model& model, const SceneOptions& options,
+                         const parallel::Context& context) {
+  if (!(options.sag_mm > 0) || !std::isfinite(options.sag_mm))
+    return Error{ErrorCode::usage, "the sag must be a positive length", "", "give one like 0.5mm"};
+  Assembly assembly{model, options, {}};
+  const std::vector<Use> uses = list_bodies(assembly);
+  std::vector<GridShapeResult> made(uses.size());
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (context.stop.stop_requested()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+    made[i] = make_grid_shape(model.shapes[index(uses[i].shape)],
+                              model.bodies[uses[i].body].placement.linear, options.sag_mm);
+    made[i].shape.shape = uses[i].shape;
+  }
+  place_bodies(assembly, made);
+  Scene& scene = assembly.scene;
+  scene.model = &model;
+  scene.shapes.reserve(made.size());
+  for (GridShapeResult& m : made) scene.shapes.push_back(std::move(m.shape));
+  return std::move(assembly.scene);
+}
+
+}  // namespace strake::model

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include "strake/geometry/analyse.hpp"
+#include "strake/geometry/place.hpp"
+#include "support/meshes.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using test::add_box;
+using test::box_mesh;
+
+MeshAnalysis analysed(const TriangleMesh& mesh, const Mat3d& linear = {}) {
+  auto placed = place(mesh, linear);
+  EXPECT_TRUE(placed.has_value());
+  return analyse(std::move(placed->mesh));
+}
+
+bool same(const Part& a, const Part& b) {
+  return a.kind == b.kind && a.vertices == b.vertices && a.triangles == b.triangles &&
+         a.edge_triangles == b.edge_triangles && a.shells == b.shells && a.box == b.box &&
+         a.volume == b.volume && a.area == b.area;
+}
+
+TEST(Analyse, BoxIsOneSolid) {
+  const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {1, 2, 3}));
+  ASSERT_EQ(a.parts.size(), 1U);
+  const Part& p = a.parts[0];
+  EXPECT_EQ(p.kind, PartKind::solid);
+  EXPECT_EQ(p.vertices.size(), 8U);
+  EXPECT_EQ(p.triangles.size(), 12U);
+  EXPECT_EQ(p.edges.size(), 18U + 1U);
+  EXPECT_EQ(p.edge_triangles.size(), 36U);
+  EXPECT_EQ(p.shell_count, 1U);
+  EXPECT_DOUBLE_EQ(p.volume, 6e9);
+  EXPECT_DOUBLE_EQ(p.area, 22e6);
+  EXPECT_FALSE(p.flags.inverted || p.flags.open || p.flags.non_manifold);
+  EXPECT_EQ(p.box, (Box3i{{0, 0, 0}, {1000, 2000, 3000}}));
+}
+
+TEST(Analyse, UnweldedSoupOfABoxIsTheSameSolid) {
+  const TriangleMesh box = box_mesh({0, 0, 0}, {1, 2, 3});
+  TriangleMesh soup;
+  for (const Triangle& t : box.triangles) {
+    const auto base = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t v : t) soup.vertices.push_back(box.vertices[v]);
+    soup.triangles.push_back({base + 1, base + 2, base});
+  }
+  std::mt19937 random(7);
+  std::shuffle(soup.triangles.begin(), soup.triangles.end(), random);
+  EXPECT_TRUE(same(analysed(box).parts.at(0), analysed(soup).parts.at(0)));
+}
+
+TEST(Analyse, InsideOutBoxIsTurned) {
+  const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {1, 1, 1}, true));
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_TRUE(a.parts[0].flags.inverted);
+  EXPECT_GT(a.parts[0].volume, 0);
+  EXPECT_TRUE(same(a.parts[0], analysed(box_mesh({0, 0, 0}, {1, 1, 1})).parts.at(0)));
+}
+
+TEST(Analyse, MirroredPlacementIsNotInverted) {
+  Mat3d mirror;
+  mirror.row[0].x = -1;
+  const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {1, 1, 1}), mirror);
+  EXPECT_FALSE(a.parts.at(0).flags.inverted);
+  EXPECT_GT(a.parts.at(0).volume, 0);
+}
+
+TEST(Analyse, DisjointBoxesAreSeparateParts) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+  add_box(mesh, {3, 0, 0}, {4, 1, 1}, true);
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 2U);
+  EXPECT_FALSE(a.parts[0].flags.inverted);
+  EXPECT_TRUE(a.parts[1].flags.inverted);
+}
+
+TEST(Analyse, BoxesThatShareAFaceOrAnEdgeComeApart) {
+  for (const Vec3d& shift : {Vec3d{1, 0, 0}, Vec3d{1, 1, 0}, Vec3d{1, 1, 1}}) {
+    TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+    add_box(mesh, shift, Vec3d{1, 1, 1} + shift, true);
+    const MeshAnalysis a = analysed(mesh);
+    ASSERT_EQ(a.parts.size(), 2U) << shift.x << shift.y << shift.z;
+    for (const Part& p : a.parts) {
+      EXPECT_EQ(p.kind, PartKind::solid);
+      EXPECT_EQ(p.triangles.size(), 12U);
+      EXPECT_DOUBLE_EQ(p.volume, 1e9);
+      EXPECT_FALSE(p.flags.non_manifold);
+    }
+  }
+}
+
+TEST(Analyse, CavityBelongsToItsSolid) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
+  add_box(mesh, {1, 1, 1}, {2, 2, 2}, true);
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_EQ(a.parts[0].shell_count, 2U);
+  EXPECT_EQ(a.parts[0].triangles.size(), 24U);
+  EXPECT_DOUBLE_EQ(a.parts[0].volume, 63e9);
+  EXPECT_EQ(a.findings.nested_shells, 0U);
+}
+
+TEST(Analyse, HollowBodyInsideOutIsTurnedAsAWhole) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4}, true);
+  add_box(mesh, {1, 1, 1}, {2, 2, 2}, false);
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_TRUE(a.parts[0].flags.inverted);
+  EXPECT_DOUBLE_EQ(a.parts[0].volume, 63e9);
+}
+
+TEST(Analyse, SolidInsideASolidIsLeftOut) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
+  add_box(mesh, {1, 1, 1}, {2, 2, 2});
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_EQ(a.parts[0].triangles.size(), 12U);
+  EXPECT_DOUBLE_EQ(a.parts[0].volume, 64e9);
+  EXPECT_EQ(a.findings.nested_shells, 1U);
+}
+
+TEST(Analyse, IslandInACavityBelongsToTheNest) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {8, 8, 8});
+  add_box(mesh, {1, 1, 1}, {7, 7, 7}, true);
+  add_box(mesh, {2, 2, 2}, {6, 6, 6});
+  add_box(mesh, {3, 3, 3}, {5, 5, 5});  // solid in the island: bounds nothing
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_EQ(a.parts[0].shell_count, 3U);
+  EXPECT_DOUBLE_EQ(a.parts[0].volume, (512 - 216 + 64) * 1e9);
+  EXPECT_EQ(a.findings.nested_shells, 1U);
+}
+
+TEST(Analyse, CrossingSolidsStaySeparate) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
+  add_box(mesh, {1, 1, -1}, {2, 2, 5});
+  EXPECT_EQ(analysed(mesh).parts.size(), 2U);
+}
+
+TEST(Analyse, CavityThatTouchesTheSkinIsStillInside) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
+  add_box(mesh, {1, 1, 0}, {2, 2, 2}, true);  // a blind hole drawn as a cavity flush with the skin
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_DOUBLE_EQ(a.parts[0].volume, 62e9);
+}
+
+TEST(Analyse, OpenBoxIsASheet) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+  mesh.triangles.pop_back();
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_EQ(a.parts[0].kind, PartKind::sheet);
+  EXPECT_TRUE(a.parts[0].flags.open);
+  EXPECT_EQ(a.parts[0].volume, 0);
+  EXPECT_GT(a.parts[0].area, 0);
+}
+
+TEST(Analyse, FlippedTriangleMakesASheet) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  EXPECT_EQ(analysed(mesh).parts.at(0).kind, PartKind::sheet);
+}
+
+TEST(Analyse, FlatBoxIsASheetOfOneLayer) {
+  const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {3, 2, 0}));
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_EQ(a.parts[0].kind, PartKind::sheet);
+  EXPECT_DOUBLE_EQ(a.parts[0].area, 6e6 * static_cast<double>(a.parts[0].triangles.size()) / 2);
+  EXPECT_EQ(a.findings.degenerate_triangles, 8U);
+}
+
+TEST(Analyse, RepeatedMeshIsOneSolid) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+  add_box(mesh, {0, 0, 0}, {1, 1, 1});
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_EQ(a.parts[0].triangles.size(), 12U);
+  EXPECT_EQ(a.findings.duplicate_triangles, 12U);
+}
+
+TEST(Analyse, DegenerateTrianglesAreDroppedExactly) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+  mesh.vertices.push_back({0.5, 0, 0});
+  mesh.triangles.push_back({0, 8, 1});  // collinear
+  mesh.triangles.push_back({0, 0, 5});
+  const MeshAnalysis a = analysed(mesh);
+  EXPECT_EQ(a.findings.degenerate_triangles, 2U);
+  EXPECT_EQ(a.parts.at(0).kind, PartKind::solid);
+  EXPECT_EQ(a.parts.at(0).vertices.size(), 8U);
+}
+
+TEST(Analyse, BadIndicesAndPlacesAreLeftOutAndCounted) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+  mesh.vertices.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  mesh.vertices.push_back({1e30, 0, 0});
+  mesh.triangles.push_back({0, 1, 8});
+  mesh.triangles.push_back({0, 1, 9});
+  mesh.triangles.push_back({0, 1, 77});
+  const auto placed = place(mesh, {});
+  ASSERT_TRUE(placed.has_value());
+  EXPECT_EQ(placed->bad_triangles, 3U);
+  EXPECT_EQ(placed->mesh.triangles.size(), 12U);
+}
+
+TEST(Place, FarShapesGetABaseThatKeepsEveryVertex) {
+  const Vec3d far{4.5e8, 7.25e9, -3e6};
+  const TriangleMesh mesh = box_mesh(far, far + Vec3d{1000, 2000.5, 3000});
+  const auto placed = place(mesh, {});
+  ASSERT_TRUE(placed.has_value());
+  Box3l box = empty_box<std::int64_t>();
+  for (const Vec3i& v : placed->mesh.vertices) box.include(v.as<std::int64_t>() + placed->base);
+  EXPECT_EQ(box.lo, (Vec3l{450000000000, 7250000000000, -3000000000}));
+  EXPECT_EQ(box.hi, (Vec3l{450001000000, 7250002000500, -2997000000}));
+}
+
+TEST(Place, NearShapesKeepTheLocalOrigin) {
+  const auto placed = place(box_mesh({0, 0, 0}, {10000, 1, 1}), {});
+  ASSERT_TRUE(placed.has_value());
+  EXPECT_EQ(placed->base, Vec3l{});
+}
+
+TEST(Place, TooWideIsRefused) {
+  EXPECT_FALSE(place(box_mesh({0, 0, 0}, {2200000, 1, 1}), {}).has_value());
+  EXPECT_TRUE(place(box_mesh({0, 0, 0}, {2100000, 1, 1}), {}).has_value());
+}
+
+TEST(Place, StretchIsExactForSimilarities) {
+  Mat3d turned;
+  turned.row = {Vec3d{0.6 * 7, -0.8 * 7, 0}, Vec3d{0.8 * 7, 0.6 * 7, 0}, Vec3d{0, 0, 7}};
+  EXPECT_NEAR(stretch(turned), 7, 1e-10);
+}
+
+// Any permutation of vertices and triangles, any starting vertex: the same bytes.
+TEST(Analyse, OrderOfTheSourceDoesNotMatter) {
+  for (std::uint32_t seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    TriangleMesh mesh;
+    const auto pick = [&] { return static_cast<double>(random() % 4); };
+    for (int b = 0; b < 4; ++b) {
+      const Vec3d lo{pick(), pick(), pick()};
+      add_box(mesh, lo, lo + Vec3d{pick() + 1, pick() + 1, pick()}, random() % 2 == 0);
+    }
+    TriangleMesh shuffled;
+    std::vector<std::uint32_t> order(mesh.vertices.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::shuffle(order.begin(), order.end(), random);
+    shuffled.vertices.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) shuffled.vertices[order[i]] = mesh.vertices[i];
+    for (const Triangle& t : mesh.triangles) {
+      const std::size_t k = random() % 3;
+      shuffled.triangles.push_back({order[t[k]], order[t[(k + 1) % 3]], order[t[(k + 2) % 3]]});
+    }
+    std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), random);
+    const MeshAnalysis a = analysed(mesh), b = analysed(shuffled);
+    ASSERT_EQ(a.parts.size(), b.parts.size());
+    for (std::size_t i = 0; i < a.parts.size(); ++i) EXPECT_TRUE(same(a.parts[i], b.parts[i]));
+  }
+}
+
+}  // namespace
+}  // namespace strake::geometry

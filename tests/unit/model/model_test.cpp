@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "strake/model/model.hpp"
+
+namespace strake::model {
+namespace {
+
+Model one_file(const std::string& label, const std::vector<std::string>& ids) {
+  Model m;
+  m.files.push_back({label, "OBJ", "mm", "z", 1, 0});
+  m.groups.push_back({"root " + label, GroupId::none});
+  m.groups.push_back({"deck", GroupId{0}});
+  for (const std::string& id : ids) {
+    m.shapes.push_back(geometry::Primitive{geometry::SpherePrimitive{1.0}});
+    Object o;
+    o.id = id;
+    o.name = "name of " + id;
+    o.parent = GroupId{1};
+    o.first_body = static_cast<std::uint32_t>(m.bodies.size());
+    o.body_count = 1;
+    Body b;
+    b.shape = ShapeId{static_cast<std::uint32_t>(m.shapes.size() - 1)};
+    b.color.red = static_cast<std::uint8_t>(m.bodies.size());
+    m.bodies.push_back(b);
+    m.objects.push_back(o);
+  }
+  return m;
+}
+
+std::vector<std::string> keys(const Model& m) {
+  std::vector<std::string> keys;
+  for (const Object& o : m.objects) keys.push_back(m.files[o.file].label + ":" + o.id);
+  return keys;
+}
+
+TEST(Model, FinishOrdersByFileAndIdWhateverTheOrderOfFiles) {
+  Model ab = one_file("a.obj", {"z", "m"});
+  append(ab, one_file("b.obj", {"k", "a"}));
+  Model ba = one_file("b.obj", {"k", "a"});
+  append(ba, one_file("a.obj", {"z", "m"}));
+  finish(ab);
+  finish(ba);
+  EXPECT_EQ(keys(ab), (std::vector<std::string>{"a.obj:m", "a.obj:z", "b.obj:a", "b.obj:k"}));
+  EXPECT_EQ(keys(ab), keys(ba));
+  EXPECT_EQ(ab.path(ab.objects[0]), "root a.obj/deck");
+  EXPECT_EQ(ba.path(ba.objects[3]), "root b.obj/deck");
+}
+
+TEST(Model, FinishKeepsBodiesWithTheirObjects) {
+  Model m = one_file("a.obj", {"z", "m", "k"});
+  finish(m);
+  ASSERT_EQ(m.objects[0].id, "k");
+  EXPECT_EQ(m.bodies[m.objects[0].first_body].color.red, 2);
+  EXPECT_EQ(m.bodies[m.objects[2].first_body].color.red, 0);
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(m.objects[i].first_body, i);
+}
+
+TEST(Model, RepeatedIdsGainNumbersThatAreFree) {
+  Model m = one_file("a.obj", {"x", "x#2", "x", "x"});
+  finish(m);
+  EXPECT_EQ(keys(m), (std::vector<std::string>{"a.obj:x", "a.obj:x#2", "a.obj:x#3", "a.obj:x#4"}));
+  EXPECT_EQ(m.diagnostics.count("object-id-repeated"), 1U);
+  EXPECT_EQ(m.bodies[m.objects[2].first_body].color.red, 2);
+}
+
+TEST(Model, EqualIdsInDifferentFilesStay) {
+  Model m = one_file("a.obj", {"x"});
+  append(m, one_file("b.obj", {"x"}));
+  finish(m);
+  EXPECT_EQ(m.diagnostics.count("object-id-repeated"), 0U);
+}
+
+TEST(Model, EqualFileLabelsGainNumbers) {
+  Model m = one_file("a.obj", {"x"});
+  append(m, one_file("a.obj", {"x"}));
+  finish(m);
+  EXPECT_EQ(keys(m), (std::vector<std::string>{"a.obj:x", "a.obj#2:x"}));
+}
+
+TEST(Model, PathSurvivesACircleOfGroups) {
+  Model m = one_file("a.obj", {"x"});
+  m.groups[0].parent = GroupId{1};
+  EXPECT_FALSE(m.path(m.objects[0]).empty());
+}
+
+}  // namespace
+}  // namespace strake::model
