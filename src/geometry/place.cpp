@@ -58,7 +58,9 @@ std::optional<PlacedMesh> place(const TriangleMesh& mesh, const Mat3d& linear) {
   if (!mesh.faces.empty()) placed.mesh.faces.reserve(mesh.triangles.size());
   Box3l box{{kWidest << 20, kWidest << 20, kWidest << 20},
             {-(kWidest << 20), -(kWidest << 20), -(kWidest << 20)}};
-  const auto stands = [&](std::uint32_t v) { return v < snapped.size() && snapped[v].x != kNowhere; };
+  const auto stands = [&](std::uint32_t v) {
+    return v < snapped.size() && snapped[v].x != kNowhere;
+  };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     if (!stands(t[0]) || !stands(t[1]) || !stands(t[2])) {

@@ -7,9 +7,16 @@ namespace strake::geometry {
 
 std::string_view kind_name(const Primitive& primitive) {
   static constexpr std::array<std::string_view, std::variant_size_v<Primitive>> kNames{
-      "box",  "pyramid", "cylinder",        "snout",
-      "sphere", "elliptical_dish", "spherical_dish", "circular_torus",
-      "rectangular_torus", "line"};
+      "box",
+      "pyramid",
+      "cylinder",
+      "snout",
+      "sphere",
+      "elliptical_dish",
+      "spherical_dish",
+      "circular_torus",
+      "rectangular_torus",
+      "line"};
   return kNames[primitive.index()];
 }
 

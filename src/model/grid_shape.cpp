@@ -30,9 +30,8 @@ void add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear, GridShape
   result.shape.parts = std::move(analysis.parts);
   for (Part& part : result.shape.parts) {
     part.flags.unknown_sag = !(mesh.sag_mm >= 0);
-    part.sag = part.flags.unknown_sag
-                   ? 0
-                   : mesh.sag_mm * geometry::kGridPerMm * geometry::stretch(linear);
+    part.sag =
+        part.flags.unknown_sag ? 0 : mesh.sag_mm * geometry::kGridPerMm * geometry::stretch(linear);
   }
 }
 

@@ -184,10 +184,12 @@ void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made) 
     const auto origin = geometry::snap(model.bodies[body.body].placement.translation);
     if (!shape.fault.empty() || !origin) {
       report(scene.diagnostics, Severity::skipped,
-             shape.fault.empty() ? "body-unplaceable" : "shape-unplaceable", model, body.object, [&] {
+             shape.fault.empty() ? "body-unplaceable" : "shape-unplaceable", model, body.object,
+             [&] {
                return shape.fault.empty()
-                          ? std::string("a body has no place: its translation is not finite or "
-                                        "beyond a million kilometres")
+                          ? std::string(
+                                "a body has no place: its translation is not finite or "
+                                "beyond a million kilometres")
                           : fmt::format("a body has no place: {}", shape.fault);
              });
       continue;

@@ -12,9 +12,9 @@ namespace strake::geometry {
 
 /// A triangle mesh on the grid, as it comes: vertices may repeat, triangles may be degenerate.
 struct GridMesh {
-  std::vector<Vec3i> vertices;          ///< within ±2^30
-  std::vector<Triangle> triangles;      ///< indices below vertices.size()
-  std::vector<std::uint32_t> faces;     ///< empty, or one per triangle (TriangleMesh::faces)
+  std::vector<Vec3i> vertices;       ///< within ±2^30
+  std::vector<Triangle> triangles;   ///< indices below vertices.size()
+  std::vector<std::uint32_t> faces;  ///< empty, or one per triangle (TriangleMesh::faces)
 };
 
 /// What had to be left out of the parts, counted.
@@ -35,8 +35,8 @@ struct MeshAnalysis {
 /// 1. The result does not depend on the order of vertices or triangles, nor on which vertex a
 ///    triangle starts with: vertices are sorted by coordinates, triangles by vertices.
 /// 2. Two triangles belong to one shell when they share an edge that has no other triangles, or
-///    when an edge with more of them balances only with both. Solids that merely share an edge or
-///    a face so come apart.
+///    when an edge with more of them balances only with both. Solids that merely share an edge so
+///    come apart; solids that share a face are one.
 /// 3. A closed shell whose outermost shell has negative exact volume is turned with all that lies
 ///    inside it (PartFlags::inverted). Shells that do not bound {winding number >= 1} are left out
 ///    and counted.

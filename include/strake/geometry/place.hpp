@@ -15,15 +15,17 @@ namespace strake::geometry {
 /// is base + vertex = snap(linear · local).
 struct PlacedMesh {
   GridMesh mesh;
-  Vec3l base;                          ///< zero unless the shape lies far from its local origin
-  std::uint64_t bad_triangles = 0;     ///< left out: an index out of range, or a vertex that has no place
+  Vec3l base;  ///< zero unless the shape lies far from its local origin
+  std::uint64_t bad_triangles =
+      0;  ///< left out: an index out of range, or a vertex that has no place
 };
 
 /// Snaps every vertex that a triangle uses. A mirroring map flips the winding.
 /// Nothing when the result is wider than 2^31 grid units (2.1 km).
 [[nodiscard]] std::optional<PlacedMesh> place(const TriangleMesh& mesh, const Mat3d& linear);
 
-/// Chains on the grid as a wire part; `bad_points` counts points left out because they have no place.
+/// Chains on the grid as a wire part; `bad_points` counts points left out because they have no
+/// place.
 struct PlacedWire {
   Part part;
   Vec3l base;

@@ -12,7 +12,7 @@ namespace strake::geometry {
 
 /// A primitive as triangles (or, for a line, as a segment).
 struct Tessellation {
-  TriangleMesh mesh;       ///< millimetres under the given linear map; sag_mm is the certified bound
+  TriangleMesh mesh;  ///< millimetres under the given linear map; sag_mm is the certified bound
   Polylines lines;
   std::string_view fault;  ///< why there is nothing: "not finite", "no extent" …; empty when fine
 };

@@ -96,9 +96,8 @@ void add_solids(const GridMesh& mesh, const Grouped& grouped, const std::vector<
   for (std::uint32_t i = 0; i < shells.size(); ++i) {
     if (members[i].empty()) continue;
     const bool inverted = shells[i].sign < 0;
-    Part part = members[i].size() == 1
-                    ? std::move(shell_parts[i])
-                    : merge_nest(mesh, grouped, shells, members[i], inverted);
+    Part part = members[i].size() == 1 ? std::move(shell_parts[i])
+                                       : merge_nest(mesh, grouped, shells, members[i], inverted);
     part.flags.inverted = inverted;
     analysis.parts.push_back(std::move(part));
   }

@@ -93,8 +93,7 @@ Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles
   topology.edges.reserve(halves.size() / 2 + 2);
   topology.edge_triangles.reserve(halves.size());
   for (std::size_t v = 0; v < vertices; ++v) {
-    const std::span<HalfEdge> bucket =
-        std::span(halves).subspan(first[v], first[v + 1] - first[v]);
+    const std::span<HalfEdge> bucket = std::span(halves).subspan(first[v], first[v + 1] - first[v]);
     sort_bucket(bucket);
     for (std::size_t i = 0; i < bucket.size(); ++i) {
       if (i == 0 || bucket[i].high != bucket[i - 1].high)

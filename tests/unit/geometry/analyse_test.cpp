@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "strake/geometry/analyse.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 #include <utility>
 
-#include "strake/geometry/analyse.hpp"
 #include "strake/geometry/place.hpp"
 #include "support/meshes.hpp"
 
@@ -81,8 +82,8 @@ TEST(Analyse, DisjointBoxesAreSeparateParts) {
   EXPECT_TRUE(a.parts[1].flags.inverted);
 }
 
-TEST(Analyse, BoxesThatShareAFaceOrAnEdgeComeApart) {
-  for (const Vec3d& shift : {Vec3d{1, 0, 0}, Vec3d{1, 1, 0}, Vec3d{1, 1, 1}}) {
+TEST(Analyse, BoxesThatShareAnEdgeOrACornerComeApart) {
+  for (const Vec3d& shift : {Vec3d{1, 1, 0}, Vec3d{1, 1, 1}}) {
     TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
     add_box(mesh, shift, Vec3d{1, 1, 1} + shift, true);
     const MeshAnalysis a = analysed(mesh);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include "strake/model/model.hpp"
+
+#include <gtest/gtest.h>
 
 namespace strake::model {
 namespace {

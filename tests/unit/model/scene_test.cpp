@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "strake/model/scene.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "strake/model/scene.hpp"
 #include "support/meshes.hpp"
 
 namespace strake::model {
@@ -23,7 +24,7 @@ struct Builder {
   }
   Body& object(ShapeId shape, const Placement& placement = {}) {
     Object o;
-    o.id = "o" + std::to_string(model.objects.size());
+    o.id = std::to_string(model.objects.size());
     o.first_body = static_cast<std::uint32_t>(model.bodies.size());
     o.body_count = 1;
     model.objects.push_back(o);
@@ -115,7 +116,7 @@ TEST(Scene, WhatCannotBePlacedIsSkippedByName) {
   EXPECT_EQ(s.diagnostics.count("shape-unplaceable"), 3U);
   EXPECT_EQ(s.diagnostics.count("body-without-shape"), 1U);
   ASSERT_FALSE(s.diagnostics.kept().empty());
-  EXPECT_EQ(s.diagnostics.kept().back().where, "t.obj: o4");
+  EXPECT_EQ(s.diagnostics.kept().back().where, "t.obj: 4");
   EXPECT_EQ(s.first_body.back(), 1U);
 }
 
