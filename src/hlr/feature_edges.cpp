@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/feature_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+namespace strake::hlr {
+namespace {
+
+using geometry::Part;
+using geometry::Triangle;
+using geometry::Vec3i;
+using geometry::Vec3l;
+
+bool is_zero(const NormalVector& n) { return n[0] == 0 && n[1] == 0 && n[2] == 0; }
+
+NormalVector negated(const NormalVector& n) { return {-n[0], -n[1], -n[2]}; }
+
+// Whether the triangle runs through the edge from v0 to v1.
+bool runs_along(const Triangle& t, std::uint32_t v0, std::uint32_t v1) {
+  return (t[0] == v0 && t[1] == v1) || (t[1] == v0 && t[2] == v1) || (t[2] == v0 && t[0] == v1);
+}
+
+// A fixed expression of doubles: the normals are rounded once each, so the decision depends on
+// the shape alone and survives translation, reordering and scaling by powers of two.
+bool is_sharp(const NormalVector& m, const NormalVector& n, double cos_sharp) {
+  const double mx = static_cast<double>(m[0]), my = static_cast<double>(m[1]),
+               mz = static_cast<double>(m[2]);
+  const double nx = static_cast<double>(n[0]), ny = static_cast<double>(n[1]),
+               nz = static_cast<double>(n[2]);
+  const double dot = mx * nx + my * ny + mz * nz;
+  const double lengths =
+      std::sqrt(mx * mx + my * my + mz * mz) * std::sqrt(nx * nx + ny * ny + nz * nz);
+  return dot < cos_sharp * lengths;
+}
+
+std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge,
+                                const std::vector<NormalVector>& vectors,
+                                const FeatureOptions& options) {
+  const geometry::PartEdge& e = part.edges[edge];
+  const std::uint32_t first = e.first_triangle;
+  const std::uint32_t count = part.edges[edge + 1].first_triangle - first;
+  if (count == 0) return std::nullopt;
+  if (count == 1) return EdgeKind::boundary;
+  const auto face = [&](std::uint32_t k) {
+    const std::uint32_t t = part.edge_triangles[first + k];
+    return part.faces.empty() ? geometry::kNoFace : part.faces[t];
+  };
+  bool one_face = face(0) != geometry::kNoFace;
+  for (std::uint32_t k = 1; k < count && one_face; ++k) one_face = face(k) == face(0);
+  if (one_face) return std::nullopt;
+  if (count > 2) return EdgeKind::non_manifold;
+
+  const std::uint32_t s = part.edge_triangles[first], t = part.edge_triangles[first + 1];
+  const bool consistent =
+      runs_along(part.triangles[s], e.v0, e.v1) != runs_along(part.triangles[t], e.v0, e.v1);
+  const NormalVector& m = vectors[s];
+  const NormalVector n = consistent ? vectors[t] : negated(vectors[t]);
+  if (is_sharp(m, n, options.cos_sharp)) return EdgeKind::sharp;
+  // A face seen edge-on counts as turned away: between a front face, an edge-on strip and a back
+  // face exactly one line is the contour.
+  const bool front_m = along(m, options.direction) > 0, front_n = along(n, options.direction) > 0;
+  if (front_m != front_n) return EdgeKind::contour;
+  return std::nullopt;
+}
+
+bool is_parallel(const Vec3l& v, const Vec3l& d) { return geometry::cross(v, d) == Vec3l{0, 0, 0}; }
+
+void add_edge(std::vector<FeatureEdge>& edges, const Part& part, FeatureEdge e, std::uint32_t v0,
+              std::uint32_t v1, const Vec3l& direction) {
+  e.a = std::min(part.vertices[v0], part.vertices[v1]);
+  e.b = std::max(part.vertices[v0], part.vertices[v1]);
+  if (e.a == e.b) return;
+  e.projecting = is_parallel(e.b.as<std::int64_t>() - e.a.as<std::int64_t>(), direction);
+  edges.push_back(e);
+}
+
+void add_chains(std::vector<FeatureEdge>& edges, const Part& part, std::uint32_t part_index,
+                const Vec3l& direction) {
+  for (std::size_t c = 0; c + 1 < part.chain_first.size(); ++c)
+    for (std::uint32_t v = part.chain_first[c]; v + 1 < part.chain_first[c + 1]; ++v)
+      add_edge(edges, part,
+               {.part = part_index, .part_edge = kNoPartEdge, .kind = EdgeKind::polyline}, v, v + 1,
+               direction);
+}
+
+}  // namespace
+
+double cosine_of_degrees(double degrees) {
+  const bool obtuse = degrees > 90;
+  const double x = (obtuse ? 180 - degrees : degrees) * 0.017453292519943295;
+  const double q = x * x;
+  double sum = 1;
+  // Horner form of the Taylor series; at a quarter turn the first term left out is 1e-18.
+  for (int k = 22; k >= 2; k -= 2) sum = 1 - q / (k * (k - 1.0)) * sum;
+  return obtuse ? -sum : sum;
+}
+
+NormalVector triangle_normal(const Part& part, std::uint32_t triangle) {
+  const Triangle& t = part.triangles[triangle];
+  const Vec3l p = part.vertices[t[0]].as<std::int64_t>();
+  const Vec3l u = part.vertices[t[1]].as<std::int64_t>() - p;
+  const Vec3l v = part.vertices[t[2]].as<std::int64_t>() - p;
+  const auto minor = [](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+    return static_cast<Int128>(a) * d - static_cast<Int128>(b) * c;
+  };
+  return {minor(u.y, u.z, v.y, v.z), minor(u.z, u.x, v.z, v.x), minor(u.x, u.y, v.x, v.y)};
+}
+
+std::vector<NormalVector> face_vectors(const Part& part) {
+  const std::size_t count = part.triangles.size();
+  std::vector<NormalVector> own(count);
+  for (std::uint32_t t = 0; t < count; ++t) own[t] = triangle_normal(part, t);
+  if (part.faces.empty()) return own;
+
+  std::vector<std::uint32_t> order;
+  order.reserve(count);
+  for (std::uint32_t t = 0; t < count; ++t)
+    if (part.faces[t] != geometry::kNoFace) order.push_back(t);
+  const auto by_face = [&](std::uint32_t s, std::uint32_t t) {
+    return part.faces[s] < part.faces[t];
+  };
+  if (!std::is_sorted(order.begin(), order.end(), by_face))
+    std::sort(order.begin(), order.end(), by_face);
+  std::vector<NormalVector> result = own;
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t end = i;
+    NormalVector sum{};
+    for (; end < order.size() && part.faces[order[end]] == part.faces[order[i]]; ++end)
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += own[order[end]][k];
+    if (!is_zero(sum))
+      for (std::size_t j = i; j < end; ++j) result[order[j]] = sum;
+    i = end;
+  }
+  return result;
+}
+
+std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,
+                                       const FeatureOptions& options) {
+  std::vector<FeatureEdge> edges;
+  for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
+    const Part& part = shape.parts[p];
+    const std::size_t begin = edges.size();
+    if (part.kind == geometry::PartKind::wire) {
+      add_chains(edges, part, p, options.direction);
+    } else if (!part.edges.empty()) {
+      const std::vector<NormalVector> vectors = face_vectors(part);
+      for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e)
+        if (const auto kind = kind_of(part, e, vectors, options))
+          add_edge(edges, part, {.part = p, .part_edge = e, .kind = *kind}, part.edges[e].v0,
+                   part.edges[e].v1, options.direction);
+    }
+    std::sort(edges.begin() + static_cast<std::ptrdiff_t>(begin), edges.end(),
+              [](const FeatureEdge& x, const FeatureEdge& y) {
+                return std::tie(x.a, x.b, x.part_edge) < std::tie(y.a, y.b, y.part_edge);
+              });
+  }
+  return edges;
+}
+
+}  // namespace strake::hlr

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/job.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+
+#include "strake/geometry/grid.hpp"
+
+namespace strake::hlr {
+namespace {
+
+using geometry::Box3l;
+using geometry::Vec3l;
+
+constexpr std::int64_t kMaxDirection = std::int64_t{1} << 20;
+constexpr double kMaxContactMm = 1e6;
+// Least contact distance between different parts where the source does not say how exact it is.
+constexpr std::int64_t kLeastContact = 3;
+// Largest |coordinate| · |direction component|: with part coordinates within ±2^30 the largest
+// value formed, a hiding point against a limit, then stays below 2^124.
+constexpr double kMaxReach = 72057594037927936.0;  // 2^56
+
+Error usage(std::string message, std::string mend) {
+  return {ErrorCode::usage, std::move(message), "view", std::move(mend)};
+}
+
+Status check(const View& view, const Options& options) {
+  const Vec3l& d = view.direction;
+  if (d == Vec3l{0, 0, 0})
+    return usage("the view direction is zero", "give a direction that points to the viewer");
+  for (int k = 0; k < 3; ++k)
+    if (d[k] > kMaxDirection || d[k] < -kMaxDirection)
+      return usage("a component of the view direction exceeds 1048576",
+                   "round the direction to 20 bits");
+  if (!(options.sharp_angle_deg >= 0 && options.sharp_angle_deg <= 180))
+    return usage("the sharp angle is not between 0 and 180 degrees", "20 is the usual angle");
+  if (!(options.contact_distance_mm <= kMaxContactMm))
+    return usage("the contact distance is not a number below a kilometre",
+                 "leave it out to have it derived from the sources");
+  if (view.limits && view.limits->empty())
+    return usage("the limits are empty", "give lowest coordinates first");
+  return {};
+}
+
+Vec3l reduced(const Vec3l& d) {
+  const std::int64_t g = std::gcd(std::gcd(d.x, d.y), d.z);
+  return {d.x / g, d.y / g, d.z / g};
+}
+
+std::int64_t contact_of(const model::Model& model, const model::GridBody& body,
+                        const Options& options) {
+  if (options.contact_distance_mm >= 0)
+    return std::llround(options.contact_distance_mm * geometry::kGridPerMm);
+  const double half_ulp = model.files[model.object(body.object).file].precision_mm;
+  if (!(half_ulp > 0)) return kLeastContact;
+  const double two_ulp = std::ceil(std::min(4 * half_ulp, kMaxContactMm) * geometry::kGridPerMm);
+  return std::max(kLeastContact, static_cast<std::int64_t>(two_ulp));
+}
+
+void fill_bodies(Job& job) {
+  const model::Scene& scene = *job.scene;
+  job.opaque.resize(scene.bodies.size());
+  job.contact.resize(scene.bodies.size());
+  std::int64_t largest = 0;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const model::GridBody& body = scene.bodies[b];
+    if (!job.drawn[model::index(body.object)]) continue;
+    job.opaque[b] = scene.model->bodies[body.body].color.alpha == 255;
+    job.contact[b] = contact_of(*scene.model, body, job.options);
+    largest = std::max(largest, job.contact[b]);
+  }
+  job.contact_distance_mm = static_cast<double>(largest) * geometry::kMmPerGrid;
+}
+
+Box3l drawn_box(const Job& job) {
+  Box3l box = geometry::empty_box<std::int64_t>();
+  for (const model::GridBody& body : job.scene->bodies) {
+    const model::GridShape& shape = job.scene->shapes[body.grid_shape];
+    if (job.drawn[model::index(body.object)] && !shape.box.empty()) box.include(body.box(shape));
+  }
+  return box;
+}
+
+Status place(Job& job) {
+  const Box3l box = drawn_box(job);
+  if (box.empty()) return {};
+  double reach = 0;
+  const Vec3l& d = job.direction();
+  const auto largest = static_cast<double>(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
+  for (int k = 0; k < 3; ++k) {
+    job.origin[k] = box.lo[k] + (box.hi[k] - box.lo[k]) / 2;
+    reach = std::max(reach, static_cast<double>(box.hi[k] - box.lo[k]) * largest);
+  }
+  if (reach > kMaxReach)
+    return Error{ErrorCode::input, "the drawn objects are too far apart for this direction", "view",
+                 "draw fewer objects, or use a direction with smaller numbers"};
+  if (!job.view.limits) return {};
+  // One unit beyond what is drawn decides nothing and keeps the numbers small.
+  Box3l limits = *job.view.limits;
+  for (int k = 0; k < 3; ++k) {
+    limits.lo[k] = std::clamp(limits.lo[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
+    limits.hi[k] = std::clamp(limits.hi[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
+  }
+  job.limits = limits;
+  return {};
+}
+
+}  // namespace
+
+Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, const View& view,
+                    const Options& options) {
+  if (const Status status = check(view, options); !status) return status.error();
+  if (scene.model == nullptr)
+    return Error{ErrorCode::internal, "the scene has no model", "view", ""};
+  const std::size_t objects = scene.model->objects.size();
+  if (!drawn.empty() && drawn.size() != objects)
+    return Error{ErrorCode::internal, "the selection and the model differ in size", "view", ""};
+
+  Job job;
+  job.scene = &scene;
+  job.view = view;
+  job.options = options;
+  job.features = {reduced(view.direction), cosine_of_degrees(options.sharp_angle_deg)};
+  job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
+  fill_bodies(job);
+  if (const Status status = place(job); !status) return status.error();
+  return job;
+}
+
+}  // namespace strake::hlr

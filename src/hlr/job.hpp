@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hlr/feature_edges.hpp"
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::hlr {
+
+/// A drawing that was asked for, checked and made ready: what both solvers work on.
+///
+/// Coordinates are relative to `origin`, the middle of what is drawn, and small enough that every
+/// value a solver forms (orientation, depth, limit) stays below 2^124: see `prepare`.
+struct Job {
+  const model::Scene* scene = nullptr;
+  View view;
+  Options options;
+  FeatureOptions features;  ///< direction in lowest terms
+  geometry::Vec3l origin;
+  std::optional<geometry::Box3l> limits;  ///< relative to origin, cut down to what is drawn
+  std::vector<bool> drawn;                ///< per object
+  std::vector<bool> opaque;               ///< per body: drawn, and hides what lies behind it
+  std::vector<std::int64_t> contact;      ///< per body: contact distance in grid units
+  double contact_distance_mm = 0;         ///< the largest of them
+
+  [[nodiscard]] const geometry::Vec3l& direction() const { return features.direction; }
+  [[nodiscard]] geometry::Vec3l offset(const model::GridBody& body) const {
+    return body.origin - origin;
+  }
+};
+
+/// Checks view and options, fixes contact distances, reduces the direction and finds the origin.
+[[nodiscard]] Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn,
+                                  const View& view, const Options& options);
+
+/// The definition, taken literally: every edge against every triangle. `pieces` and the counters
+/// of a drawing whose header is filled.
+[[nodiscard]] Status solve_brute_force(const Job& job, const parallel::Context& context,
+                                       Drawing& drawing);
+
+/// The engine.
+[[nodiscard]] Status solve_gather(const Job& job, const parallel::Context& context,
+                                  Drawing& drawing);
+
+}  // namespace strake::hlr

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The brute-force solver, which judges the engine, is judged here by the midpoint oracle.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "strake/hlr/hlr.hpp"
+#include "support/hlr_oracle.hpp"
+#include "support/lattice_scene.hpp"
+
+namespace strake {
+namespace {
+
+struct Case {
+  std::uint64_t seed = 0;
+  std::int32_t unit = 1;
+  double contact_mm = 0;
+};
+
+std::string run(const Case& c) {
+  const test::LatticeOptions lattice{.objects = 2 + static_cast<std::uint32_t>(c.seed % 3),
+                                     .unit = c.unit,
+                                     .steps = 2 + static_cast<std::uint32_t>(c.seed % 2)};
+  const test::SceneBuilder scene = test::lattice_scene(c.seed, lattice);
+  test::Random random(c.seed ^ 0x5eedU);
+  const hlr::View view{.direction = test::direction_of(random.below(test::kDirections)),
+                       .limits = test::random_limits(random, lattice)};
+  hlr::Options options{.solver = hlr::Solver::brute_force, .contact_distance_mm = c.contact_mm};
+  if (random.one_in(6)) options.stage = random.one_in(2) ? hlr::Stage::local : hlr::Stage::none;
+  const auto drawing = hlr::draw(scene.scene(), {}, view, options, {});
+  if (!drawing) return drawing.error().text();
+  return test::difference(test::oracle_pieces(scene.scene(), view, options), drawing->pieces);
+}
+
+std::uint64_t count(std::uint64_t usual) {
+  const char* more = std::getenv("STRAKE_ORACLE_SCENES");
+  return more != nullptr ? std::strtoull(more, nullptr, 10) : usual;
+}
+
+TEST(BruteForceAgainstOracle, TiesDoNotHideOnTheFinestLattice) {
+  for (std::uint64_t seed = 1; seed <= count(24); ++seed)
+    ASSERT_EQ(run({.seed = seed}), "") << "seed " << seed;
+}
+
+TEST(BruteForceAgainstOracle, ContactDistanceOnACoarseLattice) {
+  for (std::uint64_t seed = 1; seed <= count(12); ++seed)
+    ASSERT_EQ(run({.seed = seed, .unit = 1000, .contact_mm = -1}), "") << "seed " << seed;
+}
+
+TEST(BruteForceAgainstOracle, ContactDistanceOfTheLatticesOwnSize) {
+  for (std::uint64_t seed = 1; seed <= count(12); ++seed)
+    ASSERT_EQ(run({.seed = seed, .unit = 6, .contact_mm = 0.003}), "") << "seed " << seed;
+}
+
+}  // namespace
+}  // namespace strake
