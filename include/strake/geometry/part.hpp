@@ -48,7 +48,7 @@ struct Part {
   std::vector<std::uint32_t> faces;  ///< source face of each triangle; empty: each its own
   std::vector<PartEdge> edges;       ///< by (v0, v1); one sentinel at the end
   std::vector<std::uint32_t> edge_triangles;
-  std::vector<std::uint32_t> shells;  ///< connected shell of each triangle, 0-based
+  std::vector<std::uint32_t> shells;  ///< shell (connected through edges) of each triangle, 0-based
   std::uint32_t shell_count = 0;
   std::vector<std::uint32_t> chain_first;  ///< wires: chain i is vertices[chain_first[i]..[i+1])
   Box3i box = empty_box<std::int32_t>();

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/sectors.hpp"
+
+#include <algorithm>
+
+#include "strake/geometry/predicates.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Whether two points of one plane through the axis lie on the same side of the axis.
+bool same_side(const Vec3l& from, const Vec3l& to, const Vec3l& p, const Vec3l& q) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int turn = orient2d(from, to, p, axis);
+    if (turn != 0) return turn == orient2d(from, to, q, axis);
+  }
+  return false;
+}
+
+}  // namespace
+
+void Sectors::sort() {
+  sorted_.clear();
+  const Vec3l& first = rays_.front().point;
+  for (const Ray& ray : rays_) {
+    const int turn = orient3d(from_, to_, first, ray.point);
+    const int half = turn > 0 ? 1 : turn < 0 ? 3 : same_side(from_, to_, first, ray.point) ? 0 : 2;
+    sorted_.push_back({ray, half, false});
+  }
+  const auto turn = [this](const Sorted& x, const Sorted& y) {
+    return orient3d(from_, to_, x.ray.point, y.ray.point);
+  };
+  // Insertion sort: nearly always four rays.
+  for (std::size_t i = 1; i < sorted_.size(); ++i)
+    for (std::size_t j = i; j > 0; --j) {
+      const Sorted &x = sorted_[j - 1], &y = sorted_[j];
+      const bool in_order =
+          x.half != y.half ? x.half < y.half : (x.half % 2 == 0 || turn(x, y) >= 0);
+      if (in_order) break;
+      std::swap(sorted_[j - 1], sorted_[j]);
+    }
+  for (std::size_t i = 0; i < sorted_.size(); ++i)
+    sorted_[i].opens = i == 0 || sorted_[i].half != sorted_[i - 1].half ||
+                       (sorted_[i].half % 2 == 1 && turn(sorted_[i - 1], sorted_[i]) != 0);
+}
+
+void Sectors::gather() {
+  directions_.clear();
+  int a = 0, b = 0;
+  for (const Sorted& s : sorted_) {
+    if (s.opens) directions_.emplace_back();
+    Direction& d = directions_.back();
+    (s.ray.of_b ? d.has_b : d.has_a) = true;
+    (s.ray.of_b ? b : a) += s.ray.step;
+    d.after_a = a;
+    d.after_b = b;
+  }
+  // Only differences are known here; somewhere round an edge of the boundary is outside.
+  int lowest_a = directions_.front().after_a, lowest_b = directions_.front().after_b;
+  for (const Direction& d : directions_) {
+    lowest_a = std::min(lowest_a, d.after_a);
+    lowest_b = std::min(lowest_b, d.after_b);
+  }
+  for (Direction& d : directions_) {
+    d.after_a -= lowest_a;
+    d.after_b -= lowest_b;
+  }
+}
+
+void Sectors::judge_sheets(Overlap& overlap) const {
+  // Along the pure directions a, b, a, b in turn: each passes through the other.
+  int changes = 0;
+  const Direction* previous = nullptr;
+  const Direction* first = nullptr;
+  for (const Direction& d : directions_) {
+    if (d.has_a && !d.has_b) overlap.a_leaves_b = true;
+    if (d.has_b && !d.has_a) overlap.b_leaves_a = true;
+    if (d.has_a == d.has_b) continue;
+    if (previous != nullptr && previous->has_a != d.has_a) ++changes;
+    if (first == nullptr) first = &d;
+    previous = &d;
+  }
+  if (previous != nullptr && previous->has_a != first->has_a) ++changes;
+  if (changes >= 4) overlap.interiors = true;
+}
+
+void Sectors::judge(bool a_solid, bool b_solid, Overlap& overlap) {
+  if (rays_.empty()) return;
+  sort();
+  gather();
+  if (!a_solid && !b_solid) {
+    judge_sheets(overlap);
+    return;
+  }
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const Direction& d = directions_[i];
+    const Direction& before = directions_[i == 0 ? directions_.size() - 1 : i - 1];
+    const bool in_a = d.after_a > 0, in_b = d.after_b > 0;
+    if (a_solid && b_solid) {
+      overlap.interiors |= in_a && in_b;
+      overlap.a_leaves_b |= in_a && !in_b;
+      overlap.b_leaves_a |= in_b && !in_a;
+    } else if (b_solid) {
+      overlap.b_leaves_a |= in_b;
+      overlap.interiors |= d.has_a && in_b && before.after_b > 0;
+      overlap.a_leaves_b |= d.has_a && !d.has_b && !in_b;
+    } else {
+      overlap.a_leaves_b |= in_a;
+      overlap.interiors |= d.has_b && in_a && before.after_a > 0;
+      overlap.b_leaves_a |= d.has_b && !d.has_a && !in_a;
+    }
+  }
+}
+
+}  // namespace strake::geometry

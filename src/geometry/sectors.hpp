@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "strake/geometry/vec.hpp"
+
+namespace strake::geometry {
+
+/// A half-plane bounded by the axis, given by a point off the axis. Going counter-clockwise round
+/// the axis (seen against its direction), the winding number of the part changes by `step`.
+struct Ray {
+  Vec3l point;
+  int step = 0;
+  bool of_b = false;
+};
+
+/// What two parts' point sets have in common, gathered from places where their surfaces meet.
+/// For a sheet "interior" is the sheet itself.
+struct Overlap {
+  bool interiors = false;   ///< int a meets int b (sheets: crosses it properly)
+  bool a_leaves_b = false;  ///< a has a point outside b
+  bool b_leaves_a = false;
+
+  [[nodiscard]] constexpr bool complete() const { return interiors && a_leaves_b && b_leaves_a; }
+};
+
+/// The half-planes of two parts round a common line, and what they say of the sets near it.
+class Sectors {
+ public:
+  void start(const Vec3l& axis_from, const Vec3l& axis_to) {
+    from_ = axis_from;
+    to_ = axis_to;
+    rays_.clear();
+  }
+  [[nodiscard]] const Vec3l& from() const { return from_; }
+  [[nodiscard]] const Vec3l& to() const { return to_; }
+  void add(const Ray& ray) { rays_.push_back(ray); }
+
+  /// Adds to `overlap` what holds in the open angles between the half-planes. Exact: half-planes
+  /// are compared by orientation signs only.
+  void judge(bool a_solid, bool b_solid, Overlap& overlap);
+
+ private:
+  struct Sorted {
+    Ray ray;
+    int half = 0;  ///< 0 the first ray's direction, 1 up to half a turn on, 2 opposite, 3 beyond
+    bool opens = false;  ///< the first of its direction
+  };
+  struct Direction {
+    bool has_a = false, has_b = false;
+    int after_a = 0, after_b = 0;  ///< winding numbers just past it
+  };
+
+  void sort();
+  void gather();
+  void judge_sheets(Overlap& overlap) const;
+
+  Vec3l from_, to_;
+  std::vector<Ray> rays_;
+  std::vector<Sorted> sorted_;
+  std::vector<Direction> directions_;
+};
+
+}  // namespace strake::geometry
