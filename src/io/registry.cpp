@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -39,7 +41,14 @@ Result<model::Model> read_one(const Readers& readers, const std::filesystem::pat
     return Error{ErrorCode::input, "is empty", path.string(), "export the model again"};
   const Reader* const reader = best_reader(readers, file);
   if (reader == nullptr) return unknown_format(readers, file);
-  return reader->read(file, options, context);
+  try {
+    return reader->read(file, options, context);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::input, "does not fit into the memory", path.string(),
+                 "give fewer or smaller files at a time"};
+  } catch (const std::length_error&) {
+    return Error{ErrorCode::input, "is too large", path.string(), "split the file"};
+  }
 }
 
 }  // namespace

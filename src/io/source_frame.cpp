@@ -10,22 +10,38 @@
 
 namespace strake::io {
 
-geometry::Placement SourceFrame::placement(const geometry::Placement& file) const {
-  using geometry::Vec3d;
-  // Turn the columns, then the rows: T·L·Tᵀ. Column k of L·Tᵀ is L applied to the file axis that
-  // becomes axis k.
-  const std::array<Vec3d, 3> axes =
-      up == UpAxis::y   ? std::array{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}
-      : up == UpAxis::x ? std::array{Vec3d{0, 1, 0}, Vec3d{0, 0, 1}, Vec3d{1, 0, 0}}
-                        : std::array{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-  geometry::Placement result;
+namespace {
+
+/// T·L·Tᵀ for a turn T given as two functions: column k of L·Tᵀ is L applied to the axis that T
+/// turns onto axis k. Only signs and places change.
+template <class Turn, class TurnBack>
+geometry::Mat3d conjugated(const geometry::Mat3d& linear, Turn turn, TurnBack turn_back) {
+  geometry::Mat3d result;
   for (int k = 0; k < 3; ++k) {
-    const Vec3d column = turn(file.linear * axes[static_cast<std::size_t>(k)]);
+    geometry::Vec3d axis;
+    axis[k] = 1;
+    const geometry::Vec3d column = turn(linear * turn_back(axis));
     for (int row = 0; row < 3; ++row)
-      result.linear.row[static_cast<std::size_t>(row)][k] = column[row] + 0.0;  // no negative zero
+      result.row[static_cast<std::size_t>(row)][k] = column[row] + 0.0;  // no negative zero
   }
-  result.translation = point(file.translation);
   return result;
+}
+
+}  // namespace
+
+geometry::Placement SourceFrame::placement(const geometry::Placement& file) const {
+  return {conjugated(
+              file.linear, [this](const geometry::Vec3d& v) { return turn(v); },
+              [this](const geometry::Vec3d& v) { return turn_back(v); }),
+          point(file.translation)};
+}
+
+geometry::Placement SourceFrame::placement_back(const geometry::Placement& model) const {
+  const geometry::Vec3d moved = turn_back(model.translation);
+  return {conjugated(
+              model.linear, [this](const geometry::Vec3d& v) { return turn_back(v); },
+              [this](const geometry::Vec3d& v) { return turn(v); }),
+          {moved.x / unit_mm + 0.0, moved.y / unit_mm + 0.0, moved.z / unit_mm + 0.0}};
 }
 
 SourceFrame choose_frame(const ReadOptions& options, const FrameDefault& fallback) {

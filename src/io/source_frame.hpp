@@ -20,11 +20,19 @@ struct SourceFrame {
     if (up == UpAxis::x) return {v.y, v.z, v.x};
     return v;
   }
+  /// The reverse of turn().
+  [[nodiscard]] constexpr geometry::Vec3d turn_back(const geometry::Vec3d& v) const {
+    if (up == UpAxis::y) return {v.x, v.z, -v.y};
+    if (up == UpAxis::x) return {v.z, v.x, v.y};
+    return v;
+  }
   [[nodiscard]] constexpr geometry::Vec3d point(const geometry::Vec3d& v) const {
     return turn(v) * unit_mm;
   }
   /// A matrix of the file's axes and unit as one of millimetres with z up.
   [[nodiscard]] geometry::Placement placement(const geometry::Placement& file) const;
+  /// The reverse of placement().
+  [[nodiscard]] geometry::Placement placement_back(const geometry::Placement& model) const;
 };
 
 /// What a format states where the user says nothing.

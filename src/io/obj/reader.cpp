@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "io/file_content.hpp"
-#include "io/loop.hpp"
 #include "io/obj/assembly.hpp"
 #include "io/obj/builder.hpp"
 #include "io/obj/chunk.hpp"
 #include "io/obj/material.hpp"
 #include "io/reading.hpp"
 #include "io/source_frame.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::io {
 namespace {
@@ -64,9 +64,9 @@ class ObjReading {
  private:
   Status parse();
   void report_problems();
-  bool gather_vertices();
+  Status gather_vertices();
   [[nodiscard]] std::vector<model::Color> material_colors();
-  bool build(std::vector<obj::BuiltObject>& built, std::span<const model::Color> colors);
+  Status build(std::vector<obj::BuiltObject>& built, std::span<const model::Color> colors);
   void add(const obj::Entry& entry, obj::BuiltObject&& built);
   model::GroupId group(const obj::Entry& entry);
 
@@ -88,9 +88,10 @@ Status ObjReading::parse() {
       return Error{ErrorCode::input, "has a line of more than 4 GiB", file_.path.string(),
                    "export the model again"};
   chunks_.resize(pieces.size());
-  if (!for_each_index(context_, pieces.size(),
-                      [&](std::size_t i) { chunks_[i] = obj::parse_chunk(pieces[i]); }))
-    return cancelled(file_);
+  const Status parsed =
+      parallel::for_each(context_, {.name = "parse OBJ", .n = pieces.size()},
+                         [&](std::size_t i) { chunks_[i] = obj::parse_chunk(pieces[i]); });
+  if (!parsed) return parsed;
   assembly_ = obj::assemble(chunks_);
   if (assembly_.vertex_base.back() > std::numeric_limits<std::uint32_t>::max())
     return Error{ErrorCode::input, "has more than 4 294 967 295 vertices", file_.path.string(),
@@ -108,13 +109,14 @@ void ObjReading::report_problems() {
     }
 }
 
-bool ObjReading::gather_vertices() {
+Status ObjReading::gather_vertices() {
   vertices_.resize(assembly_.vertex_base.back());
-  return for_each_index(context_, chunks_.size(), [&](std::size_t i) {
-    auto out = vertices_.begin() + static_cast<std::ptrdiff_t>(assembly_.vertex_base[i]);
-    for (const Vec3d& vertex : chunks_[i].vertices) *out++ = frame_.point(vertex);
-    chunks_[i].vertices = {};
-  });
+  return parallel::for_each(
+      context_, {.name = "place OBJ vertices", .n = chunks_.size()}, [&](std::size_t i) {
+        auto out = vertices_.begin() + static_cast<std::ptrdiff_t>(assembly_.vertex_base[i]);
+        for (const Vec3d& vertex : chunks_[i].vertices) *out++ = frame_.point(vertex);
+        chunks_[i].vertices = {};
+      });
 }
 
 std::vector<model::Color> ObjReading::material_colors() {
@@ -129,12 +131,13 @@ std::vector<model::Color> ObjReading::material_colors() {
   return colors;
 }
 
-bool ObjReading::build(std::vector<obj::BuiltObject>& built, std::span<const model::Color> colors) {
+Status ObjReading::build(std::vector<obj::BuiltObject>& built,
+                         std::span<const model::Color> colors) {
   const obj::BuildInput input{chunks_, &assembly_, vertices_, colors};
   built.resize(assembly_.entries.size());
-  return for_each_index(context_, built.size(), [&](std::size_t i) {
-    built[i] = obj::build_object(input, assembly_.entries[i]);
-  });
+  return parallel::for_each(
+      context_, {.name = "build OBJ objects", .n = built.size(), .grain = 4},
+      [&](std::size_t i) { built[i] = obj::build_object(input, assembly_.entries[i]); });
 }
 
 model::GroupId ObjReading::group(const obj::Entry& entry) {
@@ -182,10 +185,10 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
 Result<model::Model> ObjReading::read() {
   if (const Status parsed = parse(); !parsed) return parsed.error();
   report_problems();
-  if (!gather_vertices()) return cancelled(file_);
+  if (const Status gathered = gather_vertices(); !gathered) return gathered.error();
   const std::vector<model::Color> colors = material_colors();
   std::vector<obj::BuiltObject> built;
-  if (!build(built, colors)) return cancelled(file_);
+  if (const Status done = build(built, colors); !done) return done.error();
   for (std::size_t i = 0; i < built.size(); ++i) add(assembly_.entries[i], std::move(built[i]));
 
   DigitStatistics digits;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "strake/core/result.hpp"
+#include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::io {
+
+struct WriteOptions {
+  /// GLB: millimetres with z up instead of the standard's metres with y up; said in
+  /// asset.extras (unit_mm, up_axis), where our reader finds it. Whole millimetres are exact then.
+  bool millimetres_z_up = false;
+  /// Largest distance of the triangles written for an analytic primitive from its surface, mm.
+  double sag_mm = 0.5;
+};
+
+/// Writes a model as binary glTF 2.0: an object is a node with a mesh, a name and extras
+/// {id, path, attributes}; groups are parent nodes; bodies of equal shape and colour share a mesh;
+/// colours are materials; polylines are LINES.
+///
+/// 1. The file appears whole or not at all; the same model gives the same bytes.
+/// 2. Coordinates are float32 in the shape's own frame, node matrices are doubles.
+/// 3. Bodies of one object that stand apart are written in the frame of its first body, so that
+///    a node with a mesh is always one whole object.
+/// Not kept: source polygons of triangles, body categories, analytic primitives as such.
+///
+/// Errors: output (cannot write, more than 4 GiB, a coordinate that is not finite), cancelled.
+[[nodiscard]] Status write_glb(const model::Model& model, const std::filesystem::path& path,
+                               const WriteOptions& options, const parallel::Context& context);
+
+/// Writes a model as Wavefront OBJ in world millimetres with z up: one `o` per object, named by
+/// its id, triangles as `f`, polylines as `l`; numbers so that they read back exactly. Guarantee 1
+/// holds; hierarchy, attributes, colours and sharing are not kept.
+[[nodiscard]] Status write_obj(const model::Model& model, const std::filesystem::path& path,
+                               const WriteOptions& options, const parallel::Context& context);
+
+}  // namespace strake::io
