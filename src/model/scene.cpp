@@ -8,9 +8,12 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "model/grid_shape.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::model {
 namespace {
@@ -169,6 +172,37 @@ std::vector<Use> list_bodies(Assembly& assembly) {
   return std::move(table).take();
 }
 
+/// Triangles, roughly: what the heaviest shapes are known by.
+double estimated_cost(const Shape& shape) {
+  if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
+    return static_cast<double>(mesh->triangles.size());
+  if (const auto* lines = std::get_if<geometry::Polylines>(&shape))
+    return static_cast<double>(lines->points.size());
+  return 100;
+}
+
+Result<std::vector<GridShapeResult>> make_shapes(const Assembly& assembly,
+                                                 const std::vector<Use>& uses,
+                                                 const parallel::Context& context) {
+  const Model& model = assembly.model;
+  // Small shapes go in blocks, the heaviest block first.
+  constexpr std::size_t kGrain = 16;
+  const parallel::Region blocks{.n = uses.size(), .grain = kGrain};
+  std::vector<double> costs(blocks.blocks(), 0);
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    costs[i / kGrain] += estimated_cost(model.shapes[index(uses[i].shape)]);
+  const std::vector<std::uint32_t> order = parallel::longest_first(costs);
+  const parallel::Region region{
+      .name = "shapes on the grid", .n = uses.size(), .grain = kGrain, .order = order};
+  return parallel::transform(context, region, [&](std::size_t i) {
+    GridShapeResult made =
+        make_grid_shape(model.shapes[index(uses[i].shape)],
+                        model.bodies[uses[i].body].placement.linear, assembly.options.sag_mm);
+    made.shape.shape = uses[i].shape;
+    return made;
+  });
+}
+
 /// Places the bodies of the shapes that were made; the others and the unplaceable are reported.
 void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made) {
   const Model& model = assembly.model;
@@ -211,13 +245,9 @@ Result<Scene> make_scene(const Model& model, const SceneOptions& options,
     return Error{ErrorCode::usage, "the sag must be a positive length", "", "give one like 0.5mm"};
   Assembly assembly{model, options, {}};
   const std::vector<Use> uses = list_bodies(assembly);
-  std::vector<GridShapeResult> made(uses.size());
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    if (context.stop.stop_requested()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-    made[i] = make_grid_shape(model.shapes[index(uses[i].shape)],
-                              model.bodies[uses[i].body].placement.linear, options.sag_mm);
-    made[i].shape.shape = uses[i].shape;
-  }
+  Result<std::vector<GridShapeResult>> shapes = make_shapes(assembly, uses, context);
+  if (!shapes) return shapes.error();
+  std::vector<GridShapeResult>& made = *shapes;
   place_bodies(assembly, made);
   Scene& scene = assembly.scene;
   scene.model = &model;
