@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "strake/core/result.hpp"
+
+namespace strake {
+
+/// A file that appears whole or not at all.
+///
+///     Result<AtomicFile> file = AtomicFile::create("clashes.json");
+///     if (!file) return file.error();
+///     file->write(text);
+///     return file->commit();
+///
+/// What is written goes to a file beside the target; commit() brings it to the disk and renames it
+/// over the target. Without a commit the destructor removes it, and what was there before stays.
+/// A link is followed. A target that is no regular file (/dev/stdout, a pipe) is written directly.
+class AtomicFile {
+ public:
+  [[nodiscard]] static Result<AtomicFile> create(const std::filesystem::path& target);
+  ~AtomicFile();
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&& other) noexcept;
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Buffered; an error is remembered and returned by commit().
+  void write(std::string_view text);
+  void write(std::span<const std::byte> bytes);
+  [[nodiscard]] Status commit();
+
+ private:
+  AtomicFile() = default;
+  void flush();
+  void write_out(const char* data, std::size_t size);
+  void discard() noexcept;
+
+  int descriptor_ = -1;
+  int error_ = 0;
+  bool direct_ = false;
+  std::filesystem::path target_, temporary_;
+  std::string buffer_;
+};
+
+/// Writes a whole file as above.
+[[nodiscard]] Status write_file(const std::filesystem::path& target, std::string_view text);
+
+}  // namespace strake

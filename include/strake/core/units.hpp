@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "strake/core/result.hpp"
+
+namespace strake {
+
+// Values as a user writes them. Each function takes the whole text, blanks round it apart, and an
+// error says what would have been right.
+
+/// Length of a unit in millimetres: "um", "mm", "cm", "dm", "m", "km", "in", "ft"; nothing for
+/// others. Names in full ("millimetres", "meter", "inch") are understood too.
+[[nodiscard]] std::optional<double> unit_mm(std::string_view unit);
+
+/// The same as a Result whose error lists the units.
+[[nodiscard]] Result<double> parse_unit_mm(std::string_view text);
+
+/// "25mm", "0.5 m", "-1in" in millimetres. A number without a unit is an error, 0 apart: 25 could
+/// be millimetres to one reader and metres to the next.
+[[nodiscard]] Result<double> parse_length_mm(std::string_view text);
+
+/// "20deg" or "20°" in degrees; a bare number means degrees, "0.35rad" is converted.
+[[nodiscard]] Result<double> parse_angle_deg(std::string_view text);
+
+/// "1:50" is 50: how many millimetres of the model one millimetre of paper shows; "2:1" is 0.5.
+[[nodiscard]] Result<double> parse_scale(std::string_view text);
+
+}  // namespace strake

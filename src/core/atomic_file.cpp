@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/core/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace strake {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBuffer = std::size_t{1} << 20U;
+
+Error failure(const fs::path& target, int error) {
+  std::string mend;
+  if (error == ENOENT) mend = "make the folder first";
+  if (error == EACCES || error == EPERM || error == EROFS)
+    mend = "choose a folder you may write to";
+  if (error == ENOSPC || error == EDQUOT) mend = "make room or choose another disk";
+  return {ErrorCode::output, "cannot be written: " + std::generic_category().message(error),
+          target.string(), std::move(mend)};
+}
+
+/// Where a chain of links ends, so that the file is replaced and the links stay.
+fs::path resolved(const fs::path& target) {
+  std::error_code error;
+  fs::path path = target;
+  for (int i = 0; i < 40 && fs::is_symlink(path, error); ++i) {
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) break;
+    path = next.is_absolute() ? next : path.parent_path() / next;
+  }
+  return path;
+}
+
+/// The folder's entry of a rename reaches the disk with the folder.
+void sync_folder(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+Result<AtomicFile> AtomicFile::create(const fs::path& target) {
+  AtomicFile file;
+  file.target_ = resolved(target);
+  struct stat status{};
+  const bool exists = ::stat(file.target_.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) return failure(target, EISDIR);
+  if (exists && !S_ISREG(status.st_mode)) {
+    file.direct_ = true;
+    file.descriptor_ = ::open(file.target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file.descriptor_ < 0) return failure(target, errno);
+    return file;
+  }
+  if (exists && ::access(file.target_.c_str(), W_OK) != 0) return failure(target, errno);
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    file.temporary_ = file.target_;
+    file.temporary_ += '.';
+    file.temporary_ += std::to_string(::getpid());
+    file.temporary_ += '-';
+    file.temporary_ += std::to_string(attempt);
+    file.temporary_ += ".part";
+    const mode_t mode = exists ? status.st_mode & 0777U : 0666U;
+    file.descriptor_ =
+        ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (file.descriptor_ >= 0) return file;
+    if (errno != EEXIST) break;
+  }
+  const int error = errno;
+  file.temporary_.clear();
+  return failure(target, error);
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      error_(other.error_),
+      direct_(other.direct_),
+      target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      buffer_(std::move(other.buffer_)) {}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+  if (this == &other) return *this;
+  discard();
+  descriptor_ = std::exchange(other.descriptor_, -1);
+  error_ = other.error_;
+  direct_ = other.direct_;
+  target_ = std::move(other.target_);
+  temporary_ = std::exchange(other.temporary_, {});
+  buffer_ = std::move(other.buffer_);
+  return *this;
+}
+
+void AtomicFile::discard() noexcept {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+  write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+void AtomicFile::write(std::string_view text) {
+  if (text.size() >= kBuffer) {
+    flush();
+    write_out(text.data(), text.size());
+    return;
+  }
+  buffer_ += text;
+  if (buffer_.size() >= kBuffer) flush();
+}
+
+void AtomicFile::flush() {
+  write_out(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void AtomicFile::write_out(const char* data, std::size_t size) {
+  while (size > 0 && error_ == 0) {
+    const ssize_t written = ::write(descriptor_, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      error_ = errno;
+      return;
+    }
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+Status AtomicFile::commit() {
+  flush();
+  // A pipe or a terminal has no disk to be brought to.
+  if (error_ == 0 && !direct_ && ::fsync(descriptor_) != 0) error_ = errno;
+  if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
+  if (error_ == 0 && !direct_ && ::rename(temporary_.c_str(), target_.c_str()) != 0) error_ = errno;
+  if (error_ != 0) {
+    discard();
+    return failure(target_, error_);
+  }
+  temporary_.clear();
+  if (!direct_) sync_folder(target_);
+  return {};
+}
+
+Status write_file(const fs::path& target, std::string_view text) {
+  Result<AtomicFile> file = AtomicFile::create(target);
+  if (!file) return file.error();
+  file->write(text);
+  return file->commit();
+}
+
+}  // namespace strake

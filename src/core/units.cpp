@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/core/units.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "strake/core/number.hpp"
+
+namespace strake {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, double>, 26> kUnits{{
+    {"um", 0.001},      {"µm", 0.001},      {"micrometre", 0.001}, {"micrometer", 0.001},
+    {"mm", 1},          {"millimetre", 1},  {"millimeter", 1},     {"cm", 10},
+    {"centimetre", 10}, {"centimeter", 10}, {"dm", 100},           {"decimetre", 100},
+    {"decimeter", 100}, {"m", 1000},        {"metre", 1000},       {"meter", 1000},
+    {"km", 1e6},        {"kilometre", 1e6}, {"kilometer", 1e6},    {"in", 25.4},
+    {"inch", 25.4},     {"inches", 25.4},   {"\"", 25.4},          {"ft", 304.8},
+    {"foot", 304.8},    {"feet", 304.8},
+}};
+constexpr std::string_view kUnitNames = "um, mm, cm, dm, m, km, in or ft";
+constexpr double kDegPerRad = 57.29577951308232;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// "25 mm" in its number and what follows it.
+struct Quantity {
+  std::optional<double> number;
+  std::string_view unit;
+};
+
+Quantity quantity(std::string_view text) {
+  text = trimmed(text);
+  // The longest prefix that is a number: "1e3m" is a thousand metres, "1em" no number at all.
+  for (std::size_t length = text.size(); length > 0; --length)
+    if (const auto number = parse_number(trimmed(text.substr(0, length))))
+      return {number, trimmed(text.substr(length))};
+  return {std::nullopt, text};
+}
+
+Error usage(std::string message, std::string mend) {
+  return {ErrorCode::usage, std::move(message), {}, std::move(mend)};
+}
+
+std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+}  // namespace
+
+std::optional<double> unit_mm(std::string_view unit) {
+  for (const auto& [name, mm] : kUnits)
+    if (unit == name || (name.size() > 4 && unit.size() == name.size() + 1 && unit.back() == 's' &&
+                         unit.starts_with(name)))
+      return mm;
+  return std::nullopt;
+}
+
+Result<double> parse_unit_mm(std::string_view text) {
+  if (const auto mm = unit_mm(trimmed(text))) return *mm;
+  return usage("no length unit: " + quoted(text), "write " + std::string(kUnitNames));
+}
+
+Result<double> parse_length_mm(std::string_view text) {
+  const Quantity q = quantity(text);
+  if (!q.number) return usage("no length: " + quoted(text), "write a number and a unit, as 25mm");
+  if (q.unit.empty()) {
+    if (*q.number == 0) return 0.0;
+    return usage("the length " + quoted(text) + " has no unit",
+                 "write " + shortest(*q.number) + "mm or another of " + std::string(kUnitNames));
+  }
+  const auto mm = unit_mm(q.unit);
+  if (!mm)
+    return usage("unknown unit " + quoted(q.unit) + " in " + quoted(text),
+                 "write " + std::string(kUnitNames));
+  const double length = *q.number * *mm;
+  if (!std::isfinite(length)) return usage("too long: " + quoted(text), "write a smaller length");
+  return length;
+}
+
+Result<double> parse_angle_deg(std::string_view text) {
+  const Quantity q = quantity(text);
+  if (!q.number) return usage("no angle: " + quoted(text), "write degrees, as 20deg");
+  if (q.unit.empty() || q.unit == "deg" || q.unit == "°") return *q.number;
+  if (q.unit == "rad") return *q.number * kDegPerRad;
+  return usage("unknown unit " + quoted(q.unit) + " in " + quoted(text), "write 20deg or 0.35rad");
+}
+
+Result<double> parse_scale(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  if (colon != std::string_view::npos) {
+    const auto paper = parse_number(trimmed(text.substr(0, colon)));
+    const auto real = parse_number(trimmed(text.substr(colon + 1)));
+    if (paper && real && *paper > 0 && *real > 0) {
+      const double scale = *real / *paper;
+      if (std::isfinite(scale) && scale > 0) return scale;
+    }
+  }
+  return usage("no scale: " + quoted(text), "write paper to model, as 1:50");
+}
+
+}  // namespace strake

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/core/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFileTest : public ::testing::Test {
+ protected:
+  AtomicFileTest()
+      : folder_(fs::path(::testing::TempDir()) /
+                ("strake_atomic_" + std::to_string(::getpid()) + "_" +
+                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::create_directories(folder_);
+  }
+  ~AtomicFileTest() override { fs::remove_all(folder_); }
+  AtomicFileTest(const AtomicFileTest&) = delete;
+  AtomicFileTest& operator=(const AtomicFileTest&) = delete;
+  AtomicFileTest(AtomicFileTest&&) = delete;
+  AtomicFileTest& operator=(AtomicFileTest&&) = delete;
+
+  [[nodiscard]] fs::path path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  static std::string content(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(AtomicFileTest, appears_on_commit_only) {
+  Result<AtomicFile> file = AtomicFile::create(path("a"));
+  ASSERT_TRUE(file);
+  file->write("one ");
+  file->write("two");
+  EXPECT_FALSE(fs::exists(path("a")));
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(content(path("a")), "one two");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(AtomicFileTest, nothing_is_left_without_a_commit) {
+  ASSERT_TRUE(write_file(path("a"), "before"));
+  {
+    Result<AtomicFile> file = AtomicFile::create(path("a"));
+    ASSERT_TRUE(file);
+    file->write(std::string(3 << 20, 'x'));
+    const AtomicFile moved = std::move(*file);
+    EXPECT_EQ(files(), 2U);
+  }
+  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(content(path("a")), "before");
+}
+
+TEST_F(AtomicFileTest, takes_any_amount_in_any_pieces) {
+  std::string expected;
+  Result<AtomicFile> file = AtomicFile::create(path("big"));
+  ASSERT_TRUE(file);
+  for (std::size_t i = 0; i < 300; ++i) {
+    const std::string piece(i * i % 40000, static_cast<char>('a' + i % 26));
+    expected += piece;
+    file->write(piece);
+  }
+  ASSERT_TRUE(file->commit());
+  EXPECT_TRUE(content(path("big")) == expected);
+}
+
+TEST_F(AtomicFileTest, keeps_mode_and_links) {
+  ASSERT_TRUE(write_file(path("real"), "old"));
+  fs::permissions(path("real"), fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("real", path("link"));
+  ASSERT_TRUE(write_file(path("link"), "new"));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(content(path("real")), "new");
+  EXPECT_EQ(fs::status(path("real")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(AtomicFileTest, errors_name_the_file) {
+  const Status missing = write_file(path("no/such/folder"), "x");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, ErrorCode::output);
+  EXPECT_NE(missing.error().text().find("no/such/folder"), std::string::npos);
+  EXPECT_NE(missing.error().text().find("make the folder"), std::string::npos);
+  ASSERT_FALSE(write_file(path(""), "x")) << "a folder is no file";
+  EXPECT_EQ(files(), 0U);
+}
+
+TEST_F(AtomicFileTest, a_full_disk_is_an_error) {
+  const Status status = write_file("/dev/full", "x");
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::output);
+}
+
+TEST_F(AtomicFileTest, devices_are_written_directly) {
+  EXPECT_TRUE(write_file("/dev/null", "x"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+}  // namespace
+}  // namespace strake

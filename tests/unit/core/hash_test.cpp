@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/core/hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace strake {
+namespace {
+
+Hash128 of(std::string_view text) { return hash_bytes(std::as_bytes(std::span(text))); }
+
+TEST(Hash, is_the_published_one) {
+  // XXH3 128 bits, seed 0, from the reference program (xxhsum -H2).
+  EXPECT_EQ(of("").text(), "99aa06d3014798d86001c324468d497f");
+  EXPECT_EQ(of("a").text(), "a96faf705af16834e6c632b61e964e1f");
+}
+
+TEST(Hash, of_a_sequence_stays_the_same_for_ever) {
+  Hasher hasher;
+  hasher.add(std::uint64_t{1}).add(-2.5).add("name").add(std::int32_t{-7});
+  // Spelled out: words little-endian, the string behind its length.
+  using namespace std::string_view_literals;
+  EXPECT_EQ(hasher.value(), of("\1\0\0\0\0\0\0\0"
+                               "\0\0\0\0\0\0\x04\xc0"
+                               "\4\0\0\0\0\0\0\0"
+                               "name"
+                               "\xf9\xff\xff\xff\xff\xff\xff\xff"sv));
+  EXPECT_EQ(hasher.value().text(), "e6534c508abfc33be30b9c91a29613dd");
+}
+
+TEST(Hash, tells_sequences_apart) {
+  std::set<std::string> seen;
+  const auto insert = [&](Hasher& hasher) { return seen.insert(hasher.value().text()).second; };
+  Hasher empty, ab_c, a_bc, number, text, order;
+  EXPECT_TRUE(insert(empty));
+  EXPECT_TRUE(insert(ab_c.add("ab").add("c")));
+  EXPECT_TRUE(insert(a_bc.add("a").add("bc")));
+  EXPECT_TRUE(insert(number.add(1.0).add(2.0)));
+  EXPECT_TRUE(insert(order.add(2.0).add(1.0)));
+  EXPECT_TRUE(insert(text.add("")));
+}
+
+TEST(Hash, knows_one_zero_and_one_nan) {
+  Hasher plus, minus, nan, other_nan;
+  EXPECT_EQ(plus.add(0.0).value(), minus.add(-0.0).value());
+  EXPECT_EQ(nan.add(std::nan("")).value(), other_nan.add(-std::nan("1")).value());
+}
+
+TEST(Hash, does_not_depend_on_how_bytes_arrive) {
+  std::string text;
+  for (int i = 0; i < 5000; ++i) text += static_cast<char>(i * 37 % 251);
+  Hasher whole, again;
+  whole.add(text);
+  again.add(std::as_bytes(std::span(text)));
+  EXPECT_EQ(whole.value(), again.value());
+}
+
+TEST(Hash, text_has_leading_zeros) {
+  EXPECT_EQ((Hash128{0, 0xabc}).text(), "00000000000000000000000000000abc");
+}
+
+}  // namespace
+}  // namespace strake

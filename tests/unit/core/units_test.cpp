@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/core/units.hpp"
+
+#include <gtest/gtest.h>
+
+namespace strake {
+namespace {
+
+TEST(Units, lengths) {
+  struct Case {
+    const char* text;
+    double mm;
+  };
+  for (const Case& one :
+       {Case{"25mm", 25}, Case{"0.5m", 500}, Case{" -1.5 cm ", -15}, Case{"1in", 25.4},
+        Case{"2ft", 609.6}, Case{"3um", 0.003}, Case{"3µm", 0.003}, Case{"1e3m", 1e6}, Case{"0", 0},
+        Case{"0.0", 0}, Case{"2 metres", 2000}, Case{"+7mm", 7}, Case{"12\"", 304.8}}) {
+    const Result<double> got = parse_length_mm(one.text);
+    ASSERT_TRUE(got) << one.text << ": " << got.error().text();
+    EXPECT_DOUBLE_EQ(*got, one.mm) << one.text;
+  }
+}
+
+TEST(Units, a_bad_length_names_the_mend) {
+  struct Case {
+    const char* text;
+    const char* mend;
+  };
+  for (const Case& one :
+       {Case{"25", "write 25mm"}, Case{"", "as 25mm"}, Case{"mm", "as 25mm"},
+        Case{"25 parsec", "um, mm, cm"}, Case{"nan", "as 25mm"}, Case{"inf mm", "as 25mm"},
+        Case{"25mmm", "um, mm, cm"}, Case{"1e308km", "smaller"}, Case{"2,5mm", "um, mm"},
+        Case{"1em", "um, mm"}}) {
+    const Result<double> got = parse_length_mm(one.text);
+    ASSERT_FALSE(got) << one.text;
+    EXPECT_EQ(got.error().code, ErrorCode::usage);
+    EXPECT_NE(got.error().text().find(one.mend), std::string::npos) << got.error().text();
+  }
+}
+
+TEST(Units, unit_names) {
+  EXPECT_EQ(unit_mm("m"), 1000.0);
+  EXPECT_EQ(unit_mm("millimetres"), 1.0);
+  EXPECT_FALSE(unit_mm("ms"));
+  EXPECT_FALSE(unit_mm(""));
+  EXPECT_FALSE(unit_mm("M"));
+  ASSERT_FALSE(parse_unit_mm("furlong"));
+  EXPECT_NE(parse_unit_mm("furlong").error().text().find("um, mm"), std::string::npos);
+}
+
+TEST(Units, angles) {
+  EXPECT_DOUBLE_EQ(*parse_angle_deg("20deg"), 20);
+  EXPECT_DOUBLE_EQ(*parse_angle_deg("20"), 20);
+  EXPECT_DOUBLE_EQ(*parse_angle_deg("20°"), 20);
+  EXPECT_DOUBLE_EQ(*parse_angle_deg("3.141592653589793 rad"), 180);
+  EXPECT_FALSE(parse_angle_deg("20mm"));
+  EXPECT_FALSE(parse_angle_deg("steep"));
+}
+
+TEST(Units, scales) {
+  EXPECT_DOUBLE_EQ(*parse_scale("1:50"), 50);
+  EXPECT_DOUBLE_EQ(*parse_scale("2:1"), 0.5);
+  EXPECT_DOUBLE_EQ(*parse_scale(" 1 : 7.5 "), 7.5);
+  for (const char* const bad : {"50", "1/50", "0:1", "1:0", "1:-5", "1:", ":", "1e308:1e-308"}) {
+    const Result<double> got = parse_scale(bad);
+    ASSERT_FALSE(got) << bad;
+    EXPECT_NE(got.error().text().find("1:50"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace strake
