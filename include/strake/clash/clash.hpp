@@ -3,16 +3,24 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 
+/// Clash detection: every pair of objects that is not NO_HIT, with its signed separation.
+///
+///     const auto scene = model::make_scene(model, clash::scene_options(options), context);
+///     const auto report = clash::detect(*scene, clash::one_set(*scene), options, context);
+///
+/// What the answers mean is defined in docs/clash.md.
 namespace strake::clash {
 
-/// From the least to the most severe; what the classes mean: docs/clash.md.
+/// From the least to the most severe.
 enum class Class : std::uint8_t { no_hit, clearance_violation, contact, hit };
 
 enum class Relation : std::uint8_t {
@@ -26,13 +34,14 @@ enum class Relation : std::uint8_t {
   cross,
 };
 
-enum class BroadPhase { tree, all_pairs };
-enum class ThicknessCap { on, off };
+enum class BroadPhase : std::uint8_t { tree, all_pairs };
+enum class ThicknessCap : std::uint8_t { on, off };
 
 struct Options {
   double clearance_mm = 0;      ///< c: pairs nearer than this and farther than touch_gap violate it
   double touch_gap_mm = 1;      ///< t_g: up to this far apart is a contact
   double touch_overlap_mm = 1;  ///< t_o: up to this deep is a contact
+  /// on: t_o is at most a quarter of the smaller thickness of the two parts.
   ThicknessCap thickness_cap = ThicknessCap::on;
   BroadPhase broad_phase = BroadPhase::tree;
   /// Contact distance δ for the relation, mm; negative: derived from the sources' precision.
@@ -47,7 +56,6 @@ enum Flag : std::uint16_t {
       1U << 1U,          ///< the bracket straddles a threshold: the class of the nominal d is given
   kOpen = 1U << 2U,      ///< one of the two is an open surface
   kInverted = 1U << 3U,  ///< one of the two came inside out
-  kUnknownSag = 1U << 4U,  ///< an imported mesh whose distance from its surface is unknown
 };
 
 /// One pair of objects that is not NO_HIT; a < b in the durable order.
@@ -63,7 +71,7 @@ struct Pair {
 };
 
 struct Counters {
-  std::uint64_t candidate_pairs = 0;  ///< object pairs whose inflated boxes meet
+  std::uint64_t candidate_pairs = 0;  ///< object pairs with parts whose inflated boxes meet
   std::uint64_t part_pairs = 0;
   std::uint64_t triangle_pairs = 0;
   std::uint64_t exact_fallbacks = 0;
@@ -76,7 +84,10 @@ struct Report {
   std::uint64_t objects_a = 0, objects_b = 0;
   std::uint64_t count_hit = 0, count_contact = 0, count_clearance = 0;
   Counters counters;
-  std::string hash;  ///< of pairs, classes, d and witnesses; not of options
+  double contact_distance_mm = 0;  ///< the largest δ that was applied
+  std::string hash;  ///< of pairs, relations, classes, d and witnesses; not of options
+  /// "empty-set", "unknown-sag" (once per file), "pair-too-large" (skipped).
+  Diagnostics diagnostics;
 };
 
 /// Which of a scene's objects stand against which: each unordered pair once, no self-pair.
@@ -84,9 +95,28 @@ struct Sets {
   std::vector<bool> in_a, in_b;  ///< one entry per object
 };
 
+/// A scene against itself.
+[[nodiscard]] Sets one_set(const model::Scene& scene);
+
+/// How fine a scene must be tessellated for these options: a quarter of the smaller tolerance, so
+/// that a contact of tessellated primitives can be told from its neighbours.
+[[nodiscard]] model::SceneOptions scene_options(const Options& options);
+
 /// Every pair of objects, one of set A and one of set B, that is not NO_HIT.
-/// A tolerance that is negative, infinite or not a number is a usage error.
+///
+/// 1. A pair's result is a function of the pair alone: neither the team, nor the broad phase, nor
+///    other objects, nor the order of the sets show in it.
+/// 2. Parts of one object are no pair; wires (polylines) never clash.
+/// Errors: usage for a tolerance that is negative, infinite or not a number and for sets of the
+/// wrong size; cancelled.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const parallel::Context& context);
+
+/// "HIT", "CONTACT", "CLEARANCE_VIOLATION", "NO_HIT".
+[[nodiscard]] std::string_view name(Class cls);
+/// "SEPARATE", "ABUT_OUTSIDE", "A_IN_B" …
+[[nodiscard]] std::string_view name(Relation relation);
+/// "BORDERLINE", "UNCERTAIN", "OPEN", "INVERTED": the names of the bits set, in this order.
+[[nodiscard]] std::vector<std::string_view> flag_names(std::uint16_t flags);
 
 }  // namespace strake::clash

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::geometry {
+
+/// Bits of BoxItem::sets.
+inline constexpr std::uint8_t kSetA = 1;
+inline constexpr std::uint8_t kSetB = 2;
+
+/// A box that stands for something, on the 64-bit grid.
+struct BoxItem {
+  Box3l box;
+  std::uint32_t owner = 0;  ///< two items of one owner are never a pair
+  std::uint8_t sets = kSetA | kSetB;
+};
+
+/// Two items, by index, first < second.
+struct IndexPair {
+  std::uint32_t first = 0, second = 0;
+  friend bool operator==(const IndexPair&, const IndexPair&) = default;
+  friend auto operator<=>(const IndexPair&, const IndexPair&) = default;
+};
+
+/// A bounding-volume hierarchy over all boxes of a scene, for finding which of them meet.
+///
+///     const auto tree = BoxTree::build(items, context);
+///     const auto pairs = meeting_pairs(*tree, context);
+///
+/// Built top down by binned surface-area cost (Wald 2007). Nodes hold their boxes in 32 bits,
+/// rounded outward; what meets is decided on the items' own 64-bit boxes, so the pairs do not
+/// depend on the shape of the tree.
+class BoxTree {
+ public:
+  struct Node {
+    Box3i box;
+    std::uint32_t first = 0;  ///< inner: left child (right = first + 1); leaf: first of items()
+    std::uint16_t count = 0;  ///< 0: inner node; otherwise items in the leaf
+    std::uint8_t sets = 0;
+  };
+
+  /// Errors: cancelled. Empty boxes and items of no set belong to no pair.
+  [[nodiscard]] static Result<BoxTree> build(std::span<const BoxItem> items,
+                                             const parallel::Context& context);
+
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }     ///< root first
+  [[nodiscard]] const std::vector<BoxItem>& items() const { return items_; }  ///< in leaf order
+  /// The index that items()[k] had in the input.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<BoxItem> items_;
+  std::vector<std::uint32_t> order_;
+};
+
+/// Every pair of items of different owners, one of set A and one of set B, whose closed boxes
+/// share a point: each unordered pair once, ascending.
+[[nodiscard]] Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree,
+                                                           const parallel::Context& context);
+
+/// The same pairs by the nested loop over A x B, flattened into one 64-bit range: the oracle of
+/// the tree, and the baseline that it is measured against.
+[[nodiscard]] Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
+                                                               const parallel::Context& context);
+
+}  // namespace strake::geometry

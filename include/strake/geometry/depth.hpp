@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "strake/geometry/part_pair.hpp"
+
+namespace strake::geometry {
+
+/// Half-spaces that hold a part: for each of its distinct face normals n, the greatest n·v over
+/// all its vertices. What bounds depth from above, and what convexity means here: a part is as
+/// convex as its vertices say, whatever its tags claim.
+struct SupportPlanes {
+  struct Plane {
+    Vec3d normal;        ///< unit, outward
+    double support = 0;  ///< grid units, in the part's own coordinates, rounded outward
+  };
+  std::vector<Plane> planes;            ///< by normal; the largest faces when there are many
+  std::array<double, 4> tetrahedral{};  ///< supports in four fixed directions
+  /// Every edge is convex to within a few grid units: the part very nearly is its half-spaces.
+  bool nearly_convex = false;
+};
+
+/// The four fixed unit directions of SupportPlanes::tetrahedral; they sum to zero.
+[[nodiscard]] const std::array<Vec3d, 4>& tetrahedral_directions();
+
+[[nodiscard]] SupportPlanes make_support_planes(const Part& part);
+
+/// A part of an interpenetrating pair.
+struct DepthPart {
+  TreedPart treed;
+  const SupportPlanes* planes = nullptr;
+};
+
+/// When to stop. All lengths are grid units.
+struct DepthGoal {
+  double threshold = 0;                  ///< the depth that decides the class
+  double tolerance = 8;                  ///< a bracket this narrow is narrow enough,
+  double relative = 0.02;                ///< and so is one this narrow relative to the depth
+  std::uint32_t cells_undecided = 3000;  ///< work limit while the threshold lies in the bracket
+  std::uint32_t cells_decided = 300;     ///< work limit once it does not
+  std::uint32_t triangle_a = kNoFace;    ///< a triangle of a where the two meet, if known
+};
+
+/// Depth D of an interpenetrating pair, grid units: lower <= D <= upper is certain.
+struct Depth {
+  double lower = 0, upper = 0;
+  double value = 0;  ///< the depth at `point`, in [lower, upper]: the nominal depth
+  Vec3d point;       ///< deepest point found, relative to a's origin
+  std::uint64_t cells = 0;
+};
+
+/// Two solids: D = max over x in both of max(distance to a's surface, distance to b's).
+///
+/// Upper bound: two linear programs over the half-spaces of both (what is in a ball inside a part
+/// is inside all of the part's half-spaces), by weak duality. Lower bound: a point whose side is
+/// decided exactly, with its distances. Where the two differ by more than the goal allows, as
+/// between parts that are not convex, best-first branch and bound over their common box: within a
+/// cell the distance to one triangle is convex, so its greatest value at the corners bounds it,
+/// and distances change by no more than the way moved. Work is limited by the goal; the bracket is
+/// certain wherever it stops.
+[[nodiscard]] Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
+                                PairWork& work);
+
+/// A sheet and a solid: D = max over x of the sheet in the solid of the distance to the solid's
+/// surface. `point` is relative to the sheet's origin.
+[[nodiscard]] Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid,
+                                         const DepthGoal& goal, PairWork& work);
+
+/// Two sheets that cross: D = max over the curve that they share of the smaller distance to their
+/// boundary curves. A sheet without a boundary curve counts as far away as it is large.
+[[nodiscard]] Depth sheet_crossing_depth(const TreedPart& a, const TreedPart& b,
+                                         const DepthGoal& goal, PairWork& work);
+
+}  // namespace strake::geometry

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clash/narrow.hpp"
+#include "clash/options.hpp"
+#include "clash/parts.hpp"
+#include "clash/reduce.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::IndexPair;
+using geometry::Part;
+
+/// Items per block of the narrow phase: small enough that a heavy pair holds up few others.
+constexpr std::size_t kGrain = 8;
+
+/// One pair of parts on its way through the engine.
+struct Candidate {
+  PartAnswer answer;
+  geometry::MeetingResult meeting;
+  NarrowWork work;
+  bool needs_depth = false;
+  bool too_large = false;
+};
+
+/// Something built once for each of some unique parts, in parallel, then only read.
+template <class T, class Make>
+Result<std::vector<T>> build_for(const std::vector<bool>& wanted, const PartList& list,
+                                 std::string_view name, const parallel::Context& context,
+                                 Make&& make) {
+  std::vector<std::uint32_t> indices;
+  for (std::uint32_t u = 0; u < list.unique.size(); ++u)
+    if (wanted[u]) indices.push_back(u);
+  const auto order = parallel::longest_first(
+      indices.size(), [&](std::size_t i) { return list.unique[indices[i]]->triangles.size(); });
+  std::vector<T> all(list.unique.size());
+  const Status status =
+      parallel::for_each(context, {.name = name, .n = indices.size(), .order = order},
+                         [&](std::size_t i) { all[indices[i]] = make(*list.unique[indices[i]]); });
+  if (!status) return status.error();
+  return all;
+}
+
+class Engine {
+ public:
+  Engine(const model::Scene& scene, const Sets& sets, const Options& options,
+         const parallel::Context& context)
+      : scene_(scene),
+        sets_(sets),
+        options_(options),
+        context_(context),
+        list_(list_parts(scene, sets)) {
+    constexpr double k = geometry::kGridPerMm;
+    narrow_.touch_overlap = options.touch_overlap_mm * k;
+    narrow_.touch_gap = options.touch_gap_mm * k;
+    narrow_.clearance = options.clearance_mm * k;
+    narrow_.thickness_cap = options.thickness_cap == ThicknessCap::on;
+    for (const model::SourceFile& file : scene.model->files)
+      bands_.push_back(contact_distance(options, file.precision_mm));
+  }
+
+  Result<Report> run() {
+    Report report;
+    report.options = options_;
+    auto pairs = near_pairs(list_, sets_, std::max(narrow_.touch_gap, narrow_.clearance) + 2,
+                            options_.broad_phase, context_);
+    if (!pairs) return pairs.error();
+    pairs_ = std::move(*pairs);
+    if (Status s = plant_trees(); !s) return s.error();
+    if (Status s = first_look(); !s) return s.error();
+    if (Status s = depths(); !s) return s.error();
+    finish(report);
+    return report;
+  }
+
+ private:
+  Status plant_trees() {
+    std::vector<bool> wanted(list_.unique.size(), false);
+    for (const IndexPair& p : pairs_)
+      wanted[list_.parts[p.first].unique] = wanted[list_.parts[p.second].unique] = true;
+    auto trees = build_for<geometry::PartTree>(wanted, list_, "part trees", context_,
+                                               [](const Part& p) { return geometry::PartTree(p); });
+    if (!trees) return trees.error();
+    trees_ = std::move(*trees);
+    return {};
+  }
+
+  Status first_look() {
+    candidates_.resize(pairs_.size());
+    const std::size_t blocks = (pairs_.size() + kGrain - 1) / kGrain;
+    const auto order = parallel::longest_first(blocks, [&](std::size_t block) {
+      std::size_t cost = 0;
+      for (std::size_t i = block * kGrain; i < std::min(pairs_.size(), (block + 1) * kGrain); ++i)
+        cost += triangles(pairs_[i]);
+      return cost;
+    });
+    return parallel::for_each(
+        context_, {.name = "narrow phase", .n = pairs_.size(), .grain = kGrain, .order = order},
+        [&](std::size_t i) { look(i); });
+  }
+
+  [[nodiscard]] std::size_t triangles(const IndexPair& p) const {
+    return list_.parts[p.first].placed.part->triangles.size() +
+           list_.parts[p.second].placed.part->triangles.size();
+  }
+
+  void look(std::size_t i) {
+    const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
+    Candidate& c = candidates_[i];
+    if (!geometry::fits_pair(a.placed, b.placed)) {
+      c.too_large = true;
+      return;
+    }
+    FirstLook found = look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.work);
+    c.answer = found.answer;
+    c.needs_depth = found.needs_depth;
+    if (found.needs_depth) c.meeting = found.meeting;
+  }
+
+  Status depths() {
+    std::vector<bool> wanted(list_.unique.size(), false);
+    std::vector<std::size_t> deep;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (!candidates_[i].needs_depth) continue;
+      deep.push_back(i);
+      for (const std::uint32_t p : {pairs_[i].first, pairs_[i].second})
+        wanted[list_.parts[p].unique] = true;
+    }
+    auto planes = build_for<geometry::SupportPlanes>(wanted, list_, "support planes", context_,
+                                                     geometry::make_support_planes);
+    if (!planes) return planes.error();
+    planes_ = std::move(*planes);
+    const auto order = parallel::longest_first(
+        deep.size(), [&](std::size_t i) { return triangles(pairs_[deep[i]]); });
+    return parallel::for_each(
+        context_, {.name = "depth", .n = deep.size(), .order = order}, [&](std::size_t i) {
+          Candidate& c = candidates_[deep[i]];
+          const IndexPair& p = pairs_[deep[i]];
+          const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
+          c.answer =
+              judge_depth(narrow_part(a), narrow_part(b), c.meeting, narrow_options(a, b), c.work);
+        });
+  }
+
+  [[nodiscard]] NarrowPart narrow_part(const PartRef& p) const {
+    return {{p.placed, &trees_[p.unique]}, planes_.empty() ? nullptr : &planes_[p.unique]};
+  }
+
+  [[nodiscard]] NarrowOptions narrow_options(const PartRef& a, const PartRef& b) const {
+    NarrowOptions options = narrow_;
+    options.contact_distance = std::max(band(a), band(b));
+    return options;
+  }
+
+  [[nodiscard]] double band(const PartRef& p) const {
+    return bands_[scene_.model->objects[p.object].file];
+  }
+
+  void finish(Report& report) const {
+    std::vector<Found> found;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      const Candidate& c = candidates_[i];
+      count(c.work, report.counters);
+      if (c.too_large)
+        report_too_large(pairs_[i], report.diagnostics);
+      else if (c.answer.judgement.severest != Class::no_hit)
+        found.push_back({i, c.answer});
+    }
+    report.pairs = join_by_objects(found, pairs_, list_);
+    for (const Pair& pair : report.pairs) {
+      if (pair.cls == Class::hit) ++report.count_hit;
+      if (pair.cls == Class::contact) ++report.count_contact;
+      if (pair.cls == Class::clearance_violation) ++report.count_clearance;
+    }
+    report.hash = hash_of(report.pairs, *scene_.model);
+    report.counters.part_pairs = pairs_.size();
+    count_objects(report);
+    note_unknown_sag(report.diagnostics);
+  }
+
+  static void count(const NarrowWork& work, Counters& counters) {
+    counters.triangle_pairs += work.pair.triangle_pairs;
+    counters.exact_fallbacks += work.pair.exact_fallbacks;
+    counters.depth_cells += work.depth_cells;
+  }
+
+  void count_objects(Report& report) const {
+    const IndexPair* last = nullptr;
+    for (const IndexPair& p : pairs_) {
+      const bool same = last != nullptr &&
+                        list_.parts[last->first].object == list_.parts[p.first].object &&
+                        list_.parts[last->second].object == list_.parts[p.second].object;
+      if (!same) ++report.counters.candidate_pairs;
+      last = &p;
+    }
+    report.objects_a =
+        static_cast<std::uint64_t>(std::count(sets_.in_a.begin(), sets_.in_a.end(), true));
+    report.objects_b =
+        static_cast<std::uint64_t>(std::count(sets_.in_b.begin(), sets_.in_b.end(), true));
+    for (const double b : bands_)
+      report.contact_distance_mm = std::max(report.contact_distance_mm, b / geometry::kGridPerMm);
+    if (report.objects_a == 0 || report.objects_b == 0)
+      report.diagnostics.add(Severity::warning, "empty-set",
+                             "a set without objects clashes with nothing",
+                             report.objects_a == 0 ? "set A" : "set B");
+  }
+
+  void report_too_large(const IndexPair& p, Diagnostics& diagnostics) const {
+    const model::Model& model = *scene_.model;
+    diagnostics.add(Severity::skipped, "pair-too-large",
+                    "the pair spans more than a kilometre and was not compared",
+                    model.objects[list_.parts[p.first].object].id + " and " +
+                        model.objects[list_.parts[p.second].object].id);
+  }
+
+  void note_unknown_sag(Diagnostics& diagnostics) const {
+    std::vector<bool> unknown(scene_.model->files.size(), false);
+    for (const PartRef& p : list_.parts)
+      if (p.placed.part->flags.unknown_sag) unknown[scene_.model->objects[p.object].file] = true;
+    for (std::size_t f = 0; f < unknown.size(); ++f)
+      if (unknown[f])
+        diagnostics.add(Severity::note, "unknown-sag",
+                        "meshes are taken as the true surfaces: how far they lie from them is "
+                        "not known",
+                        scene_.model->files[f].label);
+  }
+
+  const model::Scene& scene_;
+  const Sets& sets_;
+  const Options& options_;
+  const parallel::Context& context_;
+  PartList list_;
+  NarrowOptions narrow_;
+  std::vector<double> bands_;  ///< contact distance per file
+  std::vector<IndexPair> pairs_;
+  std::vector<geometry::PartTree> trees_;        ///< by unique part, as far as wanted
+  std::vector<geometry::SupportPlanes> planes_;  ///< likewise, for the depths
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options& options,
+                      const parallel::Context& context) {
+  if (Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
+  return Engine(scene, sets, options, context).run();
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/narrow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "clash/relation.hpp"
+#include "strake/geometry/depth.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::DepthGoal;
+using geometry::DepthPart;
+using geometry::Meeting;
+using geometry::MeetingResult;
+using geometry::Part;
+using geometry::PartKind;
+using geometry::TreedPart;
+using geometry::Vec3d;
+
+/// An interior that is known to be met without a measured depth: less than any grid can resolve.
+constexpr double kLeastDepth = 1e-6;
+
+/// An order of parts by what they are and where they stand relative to each other, so that the
+/// pair is worked on the same way round whichever is called a.
+bool in_canonical_order(const TreedPart& a, const TreedPart& b) {
+  const Part &x = *a.placed.part, &y = *b.placed.part;
+  if (&x != &y) {
+    if (x.kind != y.kind) return x.kind < y.kind;
+    if (x.triangles.size() != y.triangles.size()) return x.triangles.size() > y.triangles.size();
+    if (x.vertices != y.vertices) return x.vertices < y.vertices;
+    if (x.triangles != y.triangles) return x.triangles < y.triangles;
+  }
+  return a.placed.origin <= b.placed.origin;
+}
+
+Separation separated(double distance) {
+  // The distance is the rounded root of a rounded square: off by less than two ulp.
+  constexpr double kEps = 2 * std::numeric_limits<double>::epsilon();
+  return {.d = distance, .lower = distance * (1 - kEps), .upper = distance * (1 + kEps)};
+}
+
+geometry::Depth depth_of(const NarrowPart& a, const NarrowPart& b, const DepthGoal& goal,
+                         NarrowWork& work) {
+  const bool sheet_a = a.treed.placed.part->kind == PartKind::sheet;
+  const bool sheet_b = b.treed.placed.part->kind == PartKind::sheet;
+  if (sheet_a && sheet_b) return geometry::sheet_crossing_depth(a.treed, b.treed, goal, work.pair);
+  const DepthPart x{a.treed, a.planes}, y{b.treed, b.planes};
+  if (sheet_a) return geometry::sheet_in_solid_depth(x, y, goal, work.pair);
+  if (sheet_b) {
+    geometry::Depth depth = geometry::sheet_in_solid_depth(y, x, goal, work.pair);
+    depth.point = depth.point + (b.treed.placed.origin - a.treed.placed.origin).as<double>();
+    return depth;
+  }
+  return geometry::solid_depth(x, y, goal, work.pair);
+}
+
+/// Two parts in canonical order.
+class PairOfParts {
+ public:
+  PairOfParts(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
+              NarrowWork& work)
+      : part_a_(a),
+        part_b_(b),
+        a_(a.treed),
+        b_(b.treed),
+        options_(options),
+        work_(work),
+        thresholds_(thresholds(*a.treed.placed.part, *b.treed.placed.part, options)) {}
+
+  FirstLook look() {
+    FirstLook look;
+    look.meeting = geometry::meet(a_, b_, work_.pair);
+    if (look.meeting.meeting == Meeting::apart)
+      apart(look.answer);
+    else if (look.meeting.meeting == Meeting::touching)
+      touching(look.meeting, look.answer);
+    else
+      look.needs_depth = true;
+    conclude(look.answer);
+    return look;
+  }
+
+  PartAnswer depth(const MeetingResult& meeting) {
+    PartAnswer answer;
+    interpenetrating(meeting, answer);
+    conclude(answer);
+    return answer;
+  }
+
+ private:
+  void apart(PartAnswer& answer) {
+    const double reach = std::max(thresholds_.gap, thresholds_.clearance);
+    // A unit more than the reach: what lies exactly at a threshold is for judge() to see.
+    const auto near = geometry::closest(a_, b_, reach + 1, work_.pair);
+    if (!near) {
+      answer.separation = separated(std::numeric_limits<double>::infinity());
+      return;
+    }
+    answer.separation = separated(near->distance);
+    answer.point = (near->on_a + near->on_b) * 0.5;
+    answer.relation =
+        near->distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;
+  }
+
+  void touching(const MeetingResult& meeting, PartAnswer& answer) const {
+    answer.point = meeting.point;
+    answer.relation = Relation::abut_outside;
+  }
+
+  void interpenetrating(const MeetingResult& meeting, PartAnswer& answer) {
+    DepthGoal goal;
+    goal.threshold = thresholds_.overlap;
+    goal.triangle_a = meeting.triangle_a;
+    geometry::Depth depth = depth_of(part_a_, part_b_, goal, work_);
+    work_.depth_cells += depth.cells;
+    if (!(depth.value > 0)) {
+      depth.value = kLeastDepth;
+      depth.point = meeting.point;
+    }
+    depth.upper = std::max(depth.upper, depth.value);
+    answer.separation = {
+        .d = -depth.value, .lower = -depth.upper, .upper = -depth.lower, .interiors_meet = true};
+    answer.point = depth.point;
+    answer.relation = relation_of(a_, b_, meeting, depth, options_.contact_distance, work_.pair);
+  }
+
+  void conclude(PartAnswer& answer) const {
+    answer.separation.sag = a_.placed.part->sag + b_.placed.part->sag;
+    answer.judgement = judge(answer.separation, thresholds_);
+    std::uint16_t& flags = answer.judgement.flags;
+    for (const Part* part : {a_.placed.part, b_.placed.part}) {
+      if (part->kind == PartKind::sheet) flags |= kOpen;
+      if (part->flags.inverted) flags |= kInverted;
+    }
+  }
+
+  const NarrowPart &part_a_, &part_b_;
+  const TreedPart &a_, &b_;
+  const NarrowOptions& options_;
+  NarrowWork& work_;
+  Thresholds thresholds_;
+};
+
+Relation mirrored(Relation r) {
+  if (r == Relation::a_in_b) return Relation::b_in_a;
+  if (r == Relation::b_in_a) return Relation::a_in_b;
+  return r;
+}
+
+/// An answer about (b, a) becomes one about (a, b).
+void turn(PartAnswer& answer, const NarrowPart& a, const NarrowPart& b) {
+  answer.relation = mirrored(answer.relation);
+  answer.point = answer.point + (b.treed.placed.origin - a.treed.placed.origin).as<double>();
+}
+
+}  // namespace
+
+Thresholds thresholds(const Part& a, const Part& b, const NarrowOptions& options) {
+  Thresholds t{options.touch_overlap, options.touch_gap, options.clearance};
+  if (!options.thickness_cap) return t;
+  for (const Part* part : {&a, &b})
+    if (part->kind == PartKind::solid) t.overlap = std::min(t.overlap, part->thickness() / 4);
+  return t;
+}
+
+FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
+                  NarrowWork& work) {
+  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).look();
+  FirstLook look = PairOfParts(b, a, options, work).look();
+  turn(look.answer, a, b);
+  return look;
+}
+
+PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b, const MeetingResult& meeting,
+                       const NarrowOptions& options, NarrowWork& work) {
+  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).depth(meeting);
+  PartAnswer answer = PairOfParts(b, a, options, work).depth(meeting);
+  turn(answer, a, b);
+  return answer;
+}
+
+}  // namespace strake::clash

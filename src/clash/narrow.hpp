@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "clash/classify.hpp"
+#include "strake/geometry/depth.hpp"
+
+namespace strake::clash {
+
+/// One side of a pair of parts.
+struct NarrowPart {
+  geometry::TreedPart treed;
+  const geometry::SupportPlanes* planes = nullptr;  ///< wanted by judge_depth() only
+};
+
+/// What a pair of parts is judged by, grid units.
+struct NarrowOptions {
+  double touch_overlap = 1000, touch_gap = 1000, clearance = 0;
+  double contact_distance = 3;
+  bool thickness_cap = true;
+};
+
+struct PartAnswer {
+  Judgement judgement;
+  Relation relation = Relation::separate;
+  Separation separation;
+  geometry::Vec3d point;  ///< grid units relative to a's origin
+};
+
+struct NarrowWork {
+  geometry::PairWork pair;
+  std::uint64_t depth_cells = 0;
+};
+
+/// t_o' of the pair: docs/clash.md, "Classes".
+[[nodiscard]] Thresholds thresholds(const geometry::Part& a, const geometry::Part& b,
+                                    const NarrowOptions& options);
+
+/// What one exact look at a pair decides. Most pairs are done with it; where interiors meet the
+/// answer waits for the depth.
+struct FirstLook {
+  PartAnswer answer;
+  geometry::MeetingResult meeting;  ///< in canonical order of the two
+  bool needs_depth = false;
+};
+
+/// Class, relation, separation and witness of two parts, but for the depth of those whose
+/// interiors meet. Swapping the parts mirrors the relation and moves the witness to the other
+/// origin; every other bit of an answer stays the same.
+[[nodiscard]] FirstLook look_at(const NarrowPart& a, const NarrowPart& b,
+                                const NarrowOptions& options, NarrowWork& work);
+
+/// The answer for a pair that needs its depth.
+[[nodiscard]] PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b,
+                                     const geometry::MeetingResult& meeting,
+                                     const NarrowOptions& options, NarrowWork& work);
+
+}  // namespace strake::clash

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "strake/clash/clash.hpp"
+
+namespace strake::clash {
+
+/// A usage error for a tolerance that makes no sense or sets of the wrong size.
+[[nodiscard]] Status check(const Options& options, const Sets& sets, std::size_t objects);
+
+/// The contact distance δ in grid units of geometry whose source has this precision.
+[[nodiscard]] double contact_distance(const Options& options, double precision_mm);
+
+}  // namespace strake::clash

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/reduce.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "strake/geometry/grid.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Vec3d;
+
+Pair pair_of(const PartAnswer& answer, const PartRef& a, const PartRef& b) {
+  constexpr double k = geometry::kGridPerMm;
+  const Separation& s = answer.separation;
+  const Vec3d at = a.placed.origin.as<double>() + answer.point;
+  Pair pair;
+  pair.a = model::ObjectId{a.object};
+  pair.b = model::ObjectId{b.object};
+  pair.cls = answer.judgement.cls;
+  pair.relation = answer.relation;
+  pair.flags = answer.judgement.flags;
+  pair.d_mm = s.d / k;
+  pair.d_lower_mm = (s.lower - s.sag) / k;
+  pair.d_upper_mm = (s.upper + s.sag) / k;
+  pair.point_mm = {at.x / k, at.y / k, at.z / k};
+  pair.part_a = a.number;
+  pair.part_b = b.number;
+  return pair;
+}
+
+bool more_severe(const Pair& x, const Pair& y) {
+  if (x.cls != y.cls) return x.cls > y.cls;
+  return std::tie(x.d_mm, x.point_mm, x.part_a, x.part_b) <
+         std::tie(y.d_mm, y.point_mm, y.part_a, y.part_b);
+}
+
+}  // namespace
+
+std::vector<Pair> join_by_objects(const std::vector<Found>& found,
+                                  const std::vector<geometry::IndexPair>& candidates,
+                                  const PartList& list) {
+  std::vector<Pair> pairs;
+  Class severest = Class::no_hit;
+  for (const Found& f : found) {
+    const geometry::IndexPair& c = candidates[f.candidate];
+    const Pair pair = pair_of(f.answer, list.parts[c.first], list.parts[c.second]);
+    if (pairs.empty() || pairs.back().a != pair.a || pairs.back().b != pair.b) {
+      pairs.push_back(pair);
+      severest = f.answer.judgement.severest;
+    } else if (more_severe(pair, pairs.back())) {
+      pairs.back() = pair;
+    }
+    // Other parts of the two may turn out worse than the deciding ones.
+    severest = std::max(severest, f.answer.judgement.severest);
+    if (severest > pairs.back().cls) pairs.back().flags |= kUncertain;
+  }
+  std::erase_if(pairs, [](const Pair& p) { return p.cls == Class::no_hit; });
+  return pairs;
+}
+
+}  // namespace strake::clash

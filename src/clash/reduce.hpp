@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "clash/narrow.hpp"
+#include "clash/parts.hpp"
+
+namespace strake::clash {
+
+/// The answer for one pair of parts, by its index among the candidates.
+struct Found {
+  std::size_t candidate = 0;
+  PartAnswer answer;
+};
+
+/// The pairs of objects that are not NO_HIT: the join of the answers of their parts by class, d,
+/// witness and part numbers, which is associative and commutative. `found` is by candidate.
+[[nodiscard]] std::vector<Pair> join_by_objects(const std::vector<Found>& found,
+                                                const std::vector<geometry::IndexPair>& candidates,
+                                                const PartList& list);
+
+/// Hexadecimal hash of the pairs by durable ids: classes, relations, d and witnesses.
+[[nodiscard]] std::string hash_of(const std::vector<Pair>& pairs, const model::Model& model);
+
+}  // namespace strake::clash

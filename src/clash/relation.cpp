@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/relation.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace strake::clash {
+namespace {
+
+using geometry::Box3i;
+using geometry::Meeting;
+using geometry::PartKind;
+using geometry::PointSide;
+using geometry::TreedPart;
+using geometry::Vec3d;
+using geometry::Vec3i;
+using geometry::Vec3l;
+
+/// Beyond this many vertices a body is not walked vertex by vertex for the sake of a word.
+constexpr std::size_t kMaxVertices = 20000;
+
+bool box_within(const TreedPart& a, const TreedPart& b, double band) {
+  const Vec3l shift = a.placed.origin - b.placed.origin;
+  const auto room = static_cast<std::int64_t>(std::ceil(band));
+  const Box3i &x = a.placed.part->box, &y = b.placed.part->box;
+  for (int k = 0; k < 3; ++k)
+    if (x.lo[k] + shift[k] < y.lo[k] - room || x.hi[k] + shift[k] > y.hi[k] + room) return false;
+  return true;
+}
+
+/// Every vertex of a lies in b or within the band of its surface; `on_surface` tells whether all
+/// lie within the band.
+bool within_band(const TreedPart& a, const TreedPart& b, double band, bool& on_surface,
+                 geometry::PairWork& work) {
+  on_surface = true;
+  if (!box_within(a, b, band) || a.placed.part->vertices.size() > kMaxVertices) return false;
+  const Vec3l shift = a.placed.origin - b.placed.origin;
+  for (const Vec3i& v : a.placed.part->vertices) {
+    const Vec3l at = v.as<std::int64_t>() + shift;
+    if (geometry::distance_to_surface(b, at.as<double>(), band + 1) <= band) continue;
+    on_surface = false;
+    if (side_of(b, at, 1, work) == PointSide::outside) return false;
+  }
+  return true;
+}
+
+bool skins_meet(const TreedPart& a, const TreedPart& b, double band, geometry::PairWork& work) {
+  return geometry::closest(a, b, band + 1, work).has_value();
+}
+
+}  // namespace
+
+Relation relation_of(const TreedPart& a, const TreedPart& b, const geometry::MeetingResult& meeting,
+                     const geometry::Depth& depth, double band, geometry::PairWork& work) {
+  if (a.placed.part->kind == PartKind::sheet || b.placed.part->kind == PartKind::sheet) {
+    if (meeting.meeting == Meeting::a_inside_b) return Relation::a_in_b;
+    if (meeting.meeting == Meeting::b_inside_a) return Relation::b_in_a;
+    return Relation::cross;
+  }
+  if (meeting.meeting == Meeting::a_inside_b)
+    return skins_meet(a, b, band, work) ? Relation::abut_inside : Relation::a_in_b;
+  if (meeting.meeting == Meeting::b_inside_a)
+    return skins_meet(a, b, band, work) ? Relation::abut_inside : Relation::b_in_a;
+  if (meeting.a_within_b && meeting.b_within_a) return Relation::duplicate;
+  bool a_on_b = false, b_on_a = false;
+  const bool a_in = within_band(a, b, band, a_on_b, work);
+  const bool b_in = within_band(b, a, band, b_on_a, work);
+  if (a_in && b_in && a_on_b && b_on_a) return Relation::duplicate;
+  if (depth.upper <= band) return Relation::abut_outside;
+  if (a_in || b_in || meeting.a_within_b || meeting.b_within_a) return Relation::abut_inside;
+  return Relation::interfere;
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "strake/geometry/bvh.hpp"
+#include "strake/parallel/collect.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using Node = BoxTree::Node;
+
+/// Pieces of work that the self-join is expanded into before it is shared out: enough for any
+/// team, and the same for every team.
+constexpr std::size_t kSubtasks = 1024;
+
+struct NodePair {
+  std::uint32_t a = 0, b = 0;  ///< a == b: the pairs within one node
+};
+
+bool sets_match(std::uint8_t x, std::uint8_t y) {
+  return ((x & kSetA) != 0 && (y & kSetB) != 0) || ((x & kSetB) != 0 && (y & kSetA) != 0);
+}
+
+class SelfJoin {
+ public:
+  explicit SelfJoin(const BoxTree& tree) : tree_(tree), nodes_(tree.nodes()) {}
+
+  /// The root pair, expanded breadth first.
+  [[nodiscard]] std::vector<NodePair> subtasks() const {
+    std::vector<NodePair> tasks;
+    if (nodes_.empty()) return tasks;
+    tasks.push_back({0, 0});
+    for (bool grew = true; grew && tasks.size() < kSubtasks;) {
+      grew = false;
+      std::vector<NodePair> next;
+      for (const NodePair& p : tasks) {
+        if (leaves(p)) {
+          next.push_back(p);
+        } else {
+          grew = true;
+          expand(p, next);
+        }
+      }
+      tasks.swap(next);
+    }
+    return tasks;
+  }
+
+  void run(const NodePair& task, std::vector<NodePair>& stack, std::vector<IndexPair>& out) const {
+    stack.assign(1, task);
+    while (!stack.empty()) {
+      const NodePair p = stack.back();
+      stack.pop_back();
+      if (leaves(p))
+        test_items(p, out);
+      else
+        expand(p, stack);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool leaves(const NodePair& p) const {
+    return nodes_[p.a].count > 0 && nodes_[p.b].count > 0;
+  }
+
+  void push(std::uint32_t a, std::uint32_t b, std::vector<NodePair>& out) const {
+    const Node &x = nodes_[a], &y = nodes_[b];
+    if (sets_match(x.sets, y.sets) && (a == b || x.box.meets(y.box))) out.push_back({a, b});
+  }
+
+  void expand(const NodePair& p, std::vector<NodePair>& out) const {
+    const Node &x = nodes_[p.a], &y = nodes_[p.b];
+    if (p.a == p.b) {
+      push(x.first, x.first, out);
+      push(x.first + 1, x.first + 1, out);
+      push(x.first, x.first + 1, out);
+    } else if (y.count > 0 || (x.count == 0 && size(x) >= size(y))) {
+      push(x.first, p.b, out);
+      push(x.first + 1, p.b, out);
+    } else {
+      push(p.a, y.first, out);
+      push(p.a, y.first + 1, out);
+    }
+  }
+
+  static std::int64_t size(const Node& n) {
+    return (std::int64_t{n.box.hi.x} - n.box.lo.x) + (std::int64_t{n.box.hi.y} - n.box.lo.y) +
+           (std::int64_t{n.box.hi.z} - n.box.lo.z);
+  }
+
+  void test_items(const NodePair& p, std::vector<IndexPair>& out) const {
+    const Node &x = nodes_[p.a], &y = nodes_[p.b];
+    for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
+      const BoxItem& item = tree_.items()[i];
+      for (std::uint32_t j = p.a == p.b ? i + 1 : y.first; j < y.first + y.count; ++j) {
+        const BoxItem& other = tree_.items()[j];
+        if (item.owner == other.owner || !sets_match(item.sets, other.sets) ||
+            !item.box.meets(other.box))
+          continue;
+        const std::uint32_t a = tree_.order()[i], b = tree_.order()[j];
+        out.push_back({std::min(a, b), std::max(a, b)});
+      }
+    }
+  }
+
+  const BoxTree& tree_;
+  const std::vector<Node>& nodes_;
+};
+
+}  // namespace
+
+Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree,
+                                             const parallel::Context& context) {
+  const SelfJoin join(tree);
+  const std::vector<NodePair> tasks = join.subtasks();
+  auto pairs = parallel::collect_with<IndexPair>(
+      context, {.name = "broad phase", .n = tasks.size()}, [] { return std::vector<NodePair>(); },
+      [&](std::vector<NodePair>& stack, std::size_t i, std::vector<IndexPair>& out) {
+        join.run(tasks[i], stack, out);
+      });
+  if (!pairs) return pairs.error();
+  std::sort(pairs->begin(), pairs->end());
+  return pairs;
+}
+
+Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
+                                                 const parallel::Context& context) {
+  std::vector<std::uint32_t> in_a, in_b;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].box.empty()) continue;
+    if ((items[i].sets & kSetA) != 0) in_a.push_back(static_cast<std::uint32_t>(i));
+    if ((items[i].sets & kSetB) != 0) in_b.push_back(static_cast<std::uint32_t>(i));
+  }
+  const auto both_ways = [&](std::uint32_t a, std::uint32_t b) {
+    return (items[b].sets & kSetA) != 0 && (items[a].sets & kSetB) != 0;
+  };
+  const std::size_t cells = in_a.size() * in_b.size();
+  auto pairs = parallel::collect<IndexPair>(
+      context, {.name = "broad phase, all pairs", .n = cells, .grain = std::size_t{1} << 16U},
+      [&](std::size_t cell, std::vector<IndexPair>& out) {
+        const std::uint32_t a = in_a[cell / in_b.size()], b = in_b[cell % in_b.size()];
+        if (items[a].owner == items[b].owner || !items[a].box.meets(items[b].box)) return;
+        if (a < b)
+          out.push_back({a, b});
+        else if (!both_ways(a, b))
+          out.push_back({b, a});
+      });
+  if (!pairs) return pairs.error();
+  std::sort(pairs->begin(), pairs->end());
+  return pairs;
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/geometry/depth.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry/depth/depth_field.hpp"
+#include "geometry/depth/depth_search.hpp"
+#include "geometry/depth/radius_lp.hpp"
+
+namespace strake::geometry {
+namespace {
+
+Box3d box_of(const DepthField& f) {
+  const Box3i& b = f.part().box;
+  return {f.common(b.lo.as<double>()), f.common(b.hi.as<double>())};
+}
+
+/// The half-spaces of both parts about a centre in their common box.
+class Halfspaces {
+ public:
+  Halfspaces(const DepthPart& a, const DepthField& fa, const DepthPart& b, const DepthField& fb)
+      : a_(a), b_(b), fa_(fa), fb_(fb) {
+    const Box3d x = box_of(fa), y = box_of(fb);
+    for (int k = 0; k < 3; ++k) {
+      const double lo = std::max(x.lo[k], y.lo[k]), hi = std::min(x.hi[k], y.hi[k]);
+      centre_[k] = std::nearbyint((lo + hi) / 2);
+      extent_ = std::max({extent_, x.hi[k] - x.lo[k], y.hi[k] - y.lo[k]});
+    }
+    extent_ += 1;
+  }
+
+  [[nodiscard]] const Vec3d& centre() const { return centre_; }
+  [[nodiscard]] double extent() const { return extent_; }
+
+  /// The largest ball in `ball`'s half-spaces with its centre in `room`'s. The answer's x is
+  /// relative to the common origin.
+  [[nodiscard]] RadiusSolution largest_ball(bool ball_is_a) const {
+    std::vector<RadiusConstraint> rows;
+    start(rows, ball_is_a ? a_ : b_, ball_is_a ? fa_ : fb_, 0);
+    append(rows, a_, fa_, ball_is_a ? 1 : 0, 0);
+    append(rows, b_, fb_, ball_is_a ? 0 : 1, 0);
+    // What bounds a ball in a body that is not convex are the faces of the other that it crosses.
+    if (!(ball_is_a ? a_ : b_).planes->nearly_convex)
+      append_opposite(rows, ball_is_a ? b_ : a_, ball_is_a ? fa_ : fb_);
+    return solve(rows);
+  }
+
+  /// The point farthest from both boundaries among those at least `depth` deep in one body.
+  [[nodiscard]] RadiusSolution most_central(bool deep_in_a, double depth) const {
+    std::vector<RadiusConstraint> rows;
+    start(rows, a_, fa_, 0);
+    append(rows, a_, fa_, 1, 0);
+    append(rows, b_, fb_, 1, 0);
+    append(rows, deep_in_a ? a_ : b_, deep_in_a ? fa_ : fb_, 0, depth);
+    return solve(rows);
+  }
+
+ private:
+  [[nodiscard]] RadiusSolution solve(const std::vector<RadiusConstraint>& rows) const {
+    RadiusSolution s = maximise_radius({rows, extent_});
+    s.x = s.x + centre_;
+    return s;
+  }
+
+  [[nodiscard]] double offset(const DepthField& f, const Vec3d& n, double support) const {
+    const Vec3d c = f.local(centre_);
+    const double reach = std::fabs(c.x) + std::fabs(c.y) + std::fabs(c.z);
+    return support - dot(n, c) + 8 * std::numeric_limits<double>::epsilon() * reach;
+  }
+
+  void start(std::vector<RadiusConstraint>& rows, const DepthPart& part, const DepthField& f,
+             double inset) const {
+    rows.reserve(4 + 2 * (a_.planes->planes.size() + b_.planes->planes.size()));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3d& n = tetrahedral_directions()[i];
+      rows.push_back({n, 1, offset(f, n, part.planes->tetrahedral[i]) - inset});
+    }
+  }
+
+  void append(std::vector<RadiusConstraint>& rows, const DepthPart& part, const DepthField& f,
+              double weight, double inset) const {
+    for (const SupportPlanes::Plane& p : part.planes->planes)
+      rows.push_back({p.normal, weight, offset(f, p.normal, p.support) - inset});
+  }
+
+  void append_opposite(std::vector<RadiusConstraint>& rows, const DepthPart& other,
+                       const DepthField& f) const {
+    const Part& part = f.part();
+    if (part.vertices.size() * other.planes->planes.size() > kMaxOppositeWork) return;
+    for (const SupportPlanes::Plane& p : other.planes->planes) {
+      const Vec3d n = -p.normal;
+      double best = -std::numeric_limits<double>::infinity();
+      for (const Vec3i& v : part.vertices) best = std::max(best, dot(n, v.as<double>()));
+      rows.push_back({n, 1, offset(f, n, best) + kFieldError * extent_});
+    }
+  }
+
+  static constexpr std::size_t kMaxOppositeWork = 2'000'000;
+
+  const DepthPart &a_, &b_;
+  const DepthField &fa_, &fb_;
+  Vec3d centre_;
+  double extent_ = 0;
+};
+
+/// Points tried for the lower bound, each judged exactly.
+class Candidates {
+ public:
+  Candidates(const DepthField& a, const DepthField& b, double extent, PairWork& work)
+      : a_(a), b_(b), margin_(kFieldError * extent), work_(work) {}
+
+  /// The depth at a point, or nothing when it is not in both.
+  std::optional<double> depth_at(const Vec3d& p) {
+    const Vec3d q = on_field_grid(p);
+    if (!a_.contains(q, work_) || !b_.contains(q, work_)) return std::nullopt;
+    const double depth = std::max(a_.nearest(q).distance, b_.nearest(q).distance);
+    if (depth > best_) {
+      best_ = depth;
+      point_ = q;
+    }
+    return depth;
+  }
+
+  void prefer(const Vec3d& p, double depth) {
+    if (depth >= best_ * (1 - 1e-6)) point_ = on_field_grid(p);
+  }
+
+  void store(Depth& depth) const {
+    if (best_ <= 0) return;
+    depth.value = best_;
+    depth.lower = std::max(0.0, best_ - margin_);
+    depth.point = point_;
+  }
+
+ private:
+  const DepthField &a_, &b_;
+  double margin_;
+  PairWork& work_;
+  double best_ = 0;
+  Vec3d point_;
+};
+
+/// Deepest points by the linear programs, then moved towards the middle of the common part as far
+/// as the snap makes necessary.
+void bracket_by_programs(const Halfspaces& spaces, Candidates& candidates, Depth& depth) {
+  const RadiusSolution in_a = spaces.largest_ball(true), in_b = spaces.largest_ball(false);
+  depth.upper = std::max({0.0, in_a.upper, in_b.upper});
+  const bool a_deeper = in_a.r >= in_b.r;
+  const double deepest = std::max(in_a.r, in_b.r);
+  const RadiusSolution middle = spaces.most_central(a_deeper, deepest * (1 - 1e-7) - 1e-3);
+  const auto at_middle = candidates.depth_at(middle.x);
+  const auto at_corner = candidates.depth_at((a_deeper ? in_a : in_b).x);
+  if (at_middle) candidates.prefer(middle.x, *at_middle);
+  if (at_corner && at_middle) return;
+  for (const RadiusSolution* s : {&in_a, &in_b})
+    for (const double move : {1.0, 4.0, 16.0, 64.0}) {
+      if (!(middle.r > move)) break;
+      const double t = move / middle.r;
+      if (candidates.depth_at(s->x + (middle.x - s->x) * t)) break;
+    }
+}
+
+}  // namespace
+
+Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, PairWork& work) {
+  const DepthField fa(a.treed, {}), fb(b.treed, a.treed.placed.origin - b.treed.placed.origin);
+  const Halfspaces spaces(a, fa, b, fb);
+  Candidates candidates(fa, fb, spaces.extent(), work);
+  Depth depth;
+  bracket_by_programs(spaces, candidates, depth);
+  candidates.store(depth);
+  if (!bracket_suffices(depth, goal)) search_solid_depth(fa, fb, goal, depth, work);
+  depth.upper = std::max(depth.upper, depth.value);
+  return depth;
+}
+
+}  // namespace strake::geometry

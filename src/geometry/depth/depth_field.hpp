@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "geometry/depth/nearest.hpp"
+#include "strake/geometry/depth.hpp"
+
+namespace strake::geometry {
+
+/// Points whose side is asked for lie on this fraction of the grid, so that the question is exact.
+inline constexpr std::int64_t kFieldDenominator = 4096;
+
+/// What double arithmetic may be off by in a distance of this size or between bodies this large,
+/// relative: far above the rounding of nearest_triangle, far below a grid unit for a kilometre.
+inline constexpr double kFieldError = 1e-12;
+
+[[nodiscard]] inline Vec3d on_field_grid(const Vec3d& p) {
+  constexpr double k = static_cast<double>(kFieldDenominator);
+  return {std::nearbyint(p.x * k) / k, std::nearbyint(p.y * k) / k, std::nearbyint(p.z * k) / k};
+}
+
+/// A part as a function of a point that is given relative to a common origin.
+class DepthField {
+ public:
+  /// `shift` = common origin minus the part's origin, grid units.
+  DepthField(const TreedPart& part, const Vec3l& shift) : part_(&part), shift_(shift) {}
+
+  /// Closed solid: inside or on the boundary. Exact for points of on_field_grid().
+  [[nodiscard]] bool contains(const Vec3d& p, PairWork& work) const {
+    constexpr double k = static_cast<double>(kFieldDenominator);
+    const Vec3l numerator{std::llround(p.x * k) + shift_.x * kFieldDenominator,
+                          std::llround(p.y * k) + shift_.y * kFieldDenominator,
+                          std::llround(p.z * k) + shift_.z * kFieldDenominator};
+    return side_of(*part_, numerator, kFieldDenominator, work) != PointSide::outside;
+  }
+
+  [[nodiscard]] NearestTriangle nearest(const Vec3d& p, std::uint32_t hint = kNoFace) const {
+    return nearest_triangle(part(), *part_->tree, local(p), hint);
+  }
+
+  [[nodiscard]] Vec3d local(const Vec3d& p) const { return p + shift_.as<double>(); }
+  [[nodiscard]] Vec3d common(const Vec3d& p) const { return p - shift_.as<double>(); }
+  [[nodiscard]] const Part& part() const { return *part_->placed.part; }
+
+ private:
+  const TreedPart* part_;
+  Vec3l shift_;
+};
+
+}  // namespace strake::geometry

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/depth/nearest.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace strake::geometry {
+namespace {
+
+double squared_to_box(const Vec3d& p, const Box3i& box) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double below = static_cast<double>(box.lo[k]) - p[k];
+    const double above = p[k] - static_cast<double>(box.hi[k]);
+    const double d = std::max({below, above, 0.0});
+    sum += d * d;
+  }
+  return sum;
+}
+
+double squared(const Vec3d& v) { return dot(v, v); }
+
+/// Depth-first, nearer child first; equal distances keep the lower triangle, so that neither the
+/// hint nor the tree's shape shows in the answer.
+class Search {
+ public:
+  Search(const Part& part, const PartTree& tree, const Vec3d& p)
+      : part_(part), tree_(tree), p_(p) {}
+
+  NearestTriangle run(std::uint32_t hint, double limit) {
+    best_ = limit * limit;
+    if (hint != kNoFace) test(hint);
+    if (!tree_.nodes().empty()) descend(0, squared_to_box(p_, tree_.nodes()[0].box));
+    if (triangle_ == kNoFace) return {};
+    return {std::sqrt(best_), triangle_};
+  }
+
+ private:
+  void test(std::uint32_t t) {
+    const double d = squared(nearest_on_triangle(p_, corners_of(part_, t)) - p_);
+    if (d < best_ || (d == best_ && t < triangle_)) {
+      best_ = d;
+      triangle_ = t;
+    }
+  }
+
+  void descend(std::uint32_t index, double at) {
+    if (at > best_) return;
+    const PartTree::Node& node = tree_.nodes()[index];
+    if (node.count > 0) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) test(tree_.order()[i]);
+      return;
+    }
+    const double left = squared_to_box(p_, tree_.nodes()[node.first].box);
+    const double right = squared_to_box(p_, tree_.nodes()[node.first + 1].box);
+    if (left <= right) {
+      descend(node.first, left);
+      descend(node.first + 1, right);
+    } else {
+      descend(node.first + 1, right);
+      descend(node.first, left);
+    }
+  }
+
+  const Part& part_;
+  const PartTree& tree_;
+  Vec3d p_;
+  double best_ = 0;
+  std::uint32_t triangle_ = kNoFace;
+};
+
+}  // namespace
+
+Vec3d nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const Vec3d ab = b - a;
+  const double t = dot(p - a, ab), n = dot(ab, ab);
+  if (!(t > 0)) return a;
+  if (!(t < n)) return b;
+  return a + ab * (t / n);
+}
+
+Vec3d nearest_on_triangle(const Vec3d& p, const Corners& t) {
+  const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
+  bool within = true;
+  for (std::size_t i = 0; i < 3 && within; ++i) {
+    const Vec3d& a = t[i];
+    within = dot(cross(t[(i + 1) % 3] - a, p - a), normal) >= 0;
+  }
+  if (within && dot(normal, normal) > 0)
+    return p - normal * (dot(p - t[0], normal) / dot(normal, normal));
+  Vec3d best = nearest_on_segment(p, t[0], t[1]);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const Vec3d q = nearest_on_segment(p, t[i], t[(i + 1) % 3]);
+    if (squared(q - p) < squared(best - p)) best = q;
+  }
+  return best;
+}
+
+NearestTriangle nearest_triangle(const Part& part, const PartTree& tree, const Vec3d& p,
+                                 std::uint32_t hint, double limit) {
+  return Search(part, tree, p).run(hint, limit);
+}
+
+}  // namespace strake::geometry

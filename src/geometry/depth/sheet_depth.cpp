@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <vector>
+
+#include "geometry/depth/depth_field.hpp"
+#include "geometry/depth/depth_search.hpp"
+#include "geometry/depth/radius_lp.hpp"
+#include "strake/geometry/depth.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Work limits of the searches over pieces: cheaper per piece than a cell of two solids.
+constexpr std::uint32_t kPiecesPerCell = 2;
+constexpr std::size_t kMaxSegments = 20000;
+
+/// Upper bound of a sheet in a solid: half-spaces of the solid for the ball, of both for its
+/// centre.
+double hull_bound(const DepthPart& sheet, const DepthField& fs, const DepthPart& solid,
+                  const DepthField& fb, double extent) {
+  std::vector<RadiusConstraint> rows;
+  const Box3i& box = sheet.treed.placed.part->box;
+  const Vec3d centre = (box.lo.as<double>() + box.hi.as<double>()) * 0.5;
+  const auto add = [&](const DepthField& f, const Vec3d& n, double support, double weight) {
+    rows.push_back({n, weight, support - dot(n, f.local(centre)) + kFieldError * extent});
+  };
+  for (std::size_t i = 0; i < 4; ++i)
+    add(fb, tetrahedral_directions()[i], solid.planes->tetrahedral[i], 1);
+  for (const auto& p : solid.planes->planes) add(fb, p.normal, p.support, 1);
+  for (const auto& p : sheet.planes->planes) {
+    add(fs, p.normal, p.support, 0);
+    double opposite = -std::numeric_limits<double>::infinity();
+    for (const Vec3i& v : fs.part().vertices)
+      opposite = std::max(opposite, -dot(p.normal, v.as<double>()));
+    add(fs, -p.normal, opposite, 0);
+  }
+  return std::max(0.0, maximise_radius({rows, extent}).upper);
+}
+
+struct Piece {
+  Corners corners;
+  double upper = 0;
+  std::uint32_t nearest = kNoFace;
+  std::uint32_t id = 0;
+};
+
+struct LessPromising {
+  bool operator()(const Piece& x, const Piece& y) const {
+    return x.upper != y.upper ? x.upper < y.upper : x.id > y.id;
+  }
+};
+
+/// Branch and bound over the triangles of the sheet, halved at their longest edges.
+class SheetSearch {
+ public:
+  SheetSearch(const DepthField& sheet, const DepthField& solid, const DepthGoal& goal, Depth& depth,
+              double margin, PairWork& work)
+      : sheet_(sheet), solid_(solid), goal_(goal), depth_(depth), margin_(margin), work_(work) {}
+
+  void run() {
+    const double ceiling = depth_.upper;
+    const Box3i& b = solid_.part().box;
+    const Box3d room{solid_.common(b.lo.as<double>()), solid_.common(b.hi.as<double>())};
+    for (std::uint32_t t = 0; t < sheet_.part().triangles.size(); ++t) {
+      const Corners c = corners_of(sheet_.part(), t);
+      Box3d box = empty_box<double>();
+      for (const Vec3d& v : c) box.include(v);
+      if (box.meets(room)) evaluate(c, kNoFace, ceiling);
+    }
+    while (!open_.empty()) {
+      depth_.upper = std::min(ceiling, std::max(open_.top().upper, depth_.value));
+      if (bracket_suffices(depth_, goal_) || exhausted()) return;
+      const Piece piece = open_.top();
+      open_.pop();
+      halve(piece);
+    }
+    depth_.upper = std::min(ceiling, depth_.value + margin_);
+  }
+
+ private:
+  [[nodiscard]] bool exhausted() const {
+    const bool decided = depth_.lower > goal_.threshold || depth_.upper <= goal_.threshold;
+    const std::uint32_t cells = decided ? goal_.cells_decided : goal_.cells_undecided;
+    return depth_.cells >= std::uint64_t{kPiecesPerCell} * cells + sheet_.part().triangles.size();
+  }
+
+  void halve(const Piece& piece) {
+    std::size_t longest = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double d = length(piece.corners[(i + 1) % 3] - piece.corners[i]);
+      if (d > most) {
+        most = d;
+        longest = i;
+      }
+    }
+    const std::size_t j = (longest + 1) % 3;
+    const Vec3d middle = (piece.corners[longest] + piece.corners[j]) * 0.5;
+    Corners left = piece.corners, right = piece.corners;
+    left[j] = middle;
+    right[longest] = middle;
+    evaluate(left, piece.nearest, piece.upper);
+    evaluate(right, piece.nearest, piece.upper);
+  }
+
+  void evaluate(const Corners& c, std::uint32_t hint, double ceiling) {
+    ++depth_.cells;
+    // A point of the field grid, within slack of the sheet: its side is exact, and it speaks for
+    // the point of the sheet next to it.
+    const double slack = 1.0 / 1024 + margin_;
+    const Vec3d at = on_field_grid((c[0] + c[1] + c[2]) * (1.0 / 3));
+    double radius = 0;
+    for (const Vec3d& v : c) radius = std::max(radius, length(v - at));
+    radius += slack;
+    const NearestTriangle near = solid_.nearest(at, hint);
+    const bool inside = solid_.contains(at, work_);
+    if (!inside && near.distance > radius) return;
+    if (inside && near.distance - slack > depth_.value) {
+      depth_.value = near.distance;
+      depth_.lower = near.distance - slack;
+      depth_.point = at;
+    }
+    const Corners face = corners_of(solid_.part(), near.triangle);
+    double upper = 0;
+    for (const Vec3d& v : c) {
+      const Vec3d p = solid_.local(v);
+      upper = std::max(upper, length(p - nearest_on_triangle(p, face)));
+    }
+    upper = std::min(
+        {ceiling, upper + slack, inside ? near.distance + radius : radius - near.distance});
+    if (upper > depth_.value + margin_) open_.push({c, upper, near.triangle, next_id_++});
+  }
+
+  const DepthField &sheet_, &solid_;
+  const DepthGoal& goal_;
+  Depth& depth_;
+  double margin_;
+  PairWork& work_;
+  std::priority_queue<Piece, std::vector<Piece>, LessPromising> open_;
+  std::uint32_t next_id_ = 0;
+};
+
+/// The edges of a sheet at which it ends: those whose triangles do not cancel in direction.
+std::vector<std::array<Vec3d, 2>> boundary_curve(const Part& part) {
+  std::vector<std::array<Vec3d, 2>> curve;
+  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e) {
+    int balance = 0;
+    const PartEdge& edge = part.edges[e];
+    for (std::uint32_t i = edge.first_triangle; i < part.edges[e + 1].first_triangle; ++i) {
+      const Triangle& t = part.triangles[part.edge_triangles[i]];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (t[k] == edge.v0 && t[(k + 1) % 3] == edge.v1) ++balance;
+        if (t[k] == edge.v1 && t[(k + 1) % 3] == edge.v0) --balance;
+      }
+    }
+    if (balance != 0)
+      curve.push_back({part.vertices[edge.v0].as<double>(), part.vertices[edge.v1].as<double>()});
+  }
+  return curve;
+}
+
+struct Segment {
+  std::array<Vec3d, 2> end;
+  double upper = 0;
+  std::uint32_t id = 0;
+};
+
+struct LessPromisingSegment {
+  bool operator()(const Segment& x, const Segment& y) const {
+    return x.upper != y.upper ? x.upper < y.upper : x.id > y.id;
+  }
+};
+
+/// The part of segment p-q within a triangle's plane slab is a point: where it pierces the
+/// triangle, if it does.
+std::optional<Vec3d> pierce(const Vec3d& p, const Vec3d& q, const Corners& t) {
+  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+  const double sp = dot(n, p - t[0]), sq = dot(n, q - t[0]);
+  if ((sp > 0) == (sq > 0) || sp == sq) return std::nullopt;
+  const Vec3d x = p + (q - p) * (sp / (sp - sq));
+  const double slack = -1e-9 * dot(n, n);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (dot(cross(t[(i + 1) % 3] - t[i], x - t[i]), n) < slack) return std::nullopt;
+  return x;
+}
+
+std::optional<std::array<Vec3d, 2>> common_segment(const Corners& x, const Corners& y) {
+  std::array<Vec3d, 6> points;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (const auto p = pierce(x[i], x[(i + 1) % 3], y)) points[count++] = *p;
+    if (const auto p = pierce(y[i], y[(i + 1) % 3], x)) points[count++] = *p;
+  }
+  if (count == 0) return std::nullopt;
+  std::array<Vec3d, 2> best{points[0], points[0]};
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j)
+      if (length(points[j] - points[i]) > length(best[1] - best[0])) best = {points[i], points[j]};
+  return best;
+}
+
+class CurveSearch {
+ public:
+  CurveSearch(const TreedPart& a, const TreedPart& b, const DepthGoal& goal)
+      : a_(*a.placed.part),
+        b_(*b.placed.part),
+        tree_a_(*a.tree),
+        tree_b_(*b.tree),
+        goal_(goal),
+        shift_((b.placed.origin - a.placed.origin).as<double>()),
+        curve_a_(boundary_curve(a_)),
+        curve_b_(boundary_curve(b_)) {}
+
+  Depth run() {
+    gather();
+    // Beyond the limit on segments nothing is known but the size of the smaller sheet.
+    const double ceiling = std::min(size(a_), size(b_));
+    if (truncated_) depth_.upper = ceiling;
+    while (!open_.empty()) {
+      const Segment s = open_.top();
+      depth_.upper = std::max(truncated_ ? ceiling : s.upper, depth_.value);
+      if (bracket_suffices(depth_, goal_) || depth_.cells >= limit()) return depth_;
+      open_.pop();
+      const Vec3d middle = (s.end[0] + s.end[1]) * 0.5;
+      evaluate({s.end[0], middle});
+      evaluate({middle, s.end[1]});
+    }
+    if (!truncated_) depth_.upper = depth_.value + kSlack;
+    return depth_;
+  }
+
+ private:
+  static constexpr double kSlack = 1.0 / 256;
+
+  [[nodiscard]] std::uint64_t limit() const {
+    const bool decided = depth_.lower > goal_.threshold || depth_.upper <= goal_.threshold;
+    return found_ + (decided ? goal_.cells_decided : goal_.cells_undecided);
+  }
+  static double size(const Part& p) {
+    return length(p.box.hi.as<double>() - p.box.lo.as<double>());
+  }
+
+  void gather() {
+    std::vector<std::array<std::uint32_t, 2>> stack;
+    if (!tree_a_.nodes().empty() && !tree_b_.nodes().empty()) stack.push_back({0, 0});
+    while (!stack.empty() && !truncated_) {
+      const auto [i, j] = stack.back();
+      stack.pop_back();
+      const PartTree::Node &x = tree_a_.nodes()[i], &y = tree_b_.nodes()[j];
+      const Box3d bx{x.box.lo.as<double>(), x.box.hi.as<double>()};
+      const Box3d by{y.box.lo.as<double>() + shift_, y.box.hi.as<double>() + shift_};
+      if (!bx.meets(by)) continue;
+      if (x.count > 0 && y.count > 0) {
+        leaf_pair(x, y);
+      } else if (y.count > 0 || (x.count == 0 && length(bx.hi - bx.lo) >= length(by.hi - by.lo))) {
+        stack.push_back({x.first + 1, j});
+        stack.push_back({x.first, j});
+      } else {
+        stack.push_back({i, y.first + 1});
+        stack.push_back({i, y.first});
+      }
+    }
+  }
+
+  void leaf_pair(const PartTree::Node& x, const PartTree::Node& y) {
+    for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
+      const Corners s = corners_of(a_, tree_a_.order()[i]);
+      for (std::uint32_t j = y.first; j < y.first + y.count; ++j) {
+        Corners t = corners_of(b_, tree_b_.order()[j]);
+        for (Vec3d& v : t) v = v + shift_;
+        if (const auto segment = common_segment(s, t)) {
+          if (++found_ > kMaxSegments) {
+            truncated_ = true;
+            return;
+          }
+          evaluate(*segment);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] double depth_at(const Vec3d& p) const {
+    double d = std::min(size(a_), size(b_));
+    for (const auto& e : curve_a_) d = std::min(d, length(p - nearest_on_segment(p, e[0], e[1])));
+    const Vec3d q = p - shift_;
+    for (const auto& e : curve_b_) d = std::min(d, length(q - nearest_on_segment(q, e[0], e[1])));
+    return d;
+  }
+
+  void evaluate(const std::array<Vec3d, 2>& end) {
+    ++depth_.cells;
+    const Vec3d middle = (end[0] + end[1]) * 0.5;
+    const double d = depth_at(middle), radius = length(end[1] - end[0]) / 2;
+    if (d > depth_.value) {
+      depth_.value = d;
+      depth_.lower = std::max(0.0, d - kSlack);
+      depth_.point = middle;
+    }
+    const double upper = d + radius + kSlack;
+    if (upper > depth_.value + 2 * kSlack) open_.push({end, upper, next_id_++});
+  }
+
+  const Part &a_, &b_;
+  const PartTree &tree_a_, &tree_b_;
+  const DepthGoal& goal_;
+  Vec3d shift_;
+  std::vector<std::array<Vec3d, 2>> curve_a_, curve_b_;
+  std::priority_queue<Segment, std::vector<Segment>, LessPromisingSegment> open_;
+  Depth depth_;
+  std::uint64_t found_ = 0;
+  std::uint32_t next_id_ = 0;
+  bool truncated_ = false;
+};
+
+}  // namespace
+
+Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid, const DepthGoal& goal,
+                           PairWork& work) {
+  const DepthField fs(sheet.treed, {});
+  const DepthField fb(solid.treed, sheet.treed.placed.origin - solid.treed.placed.origin);
+  double extent = 1;
+  for (const Part* part : {&fs.part(), &fb.part()})
+    for (int k = 0; k < 3; ++k)
+      extent = std::max(extent, 2.0 * (static_cast<double>(part->box.hi[k]) -
+                                       static_cast<double>(part->box.lo[k])));
+  Depth depth;
+  depth.upper = hull_bound(sheet, fs, solid, fb, extent);
+  SheetSearch(fs, fb, goal, depth, kFieldError * extent, work).run();
+  depth.upper = std::max(depth.upper, depth.value);
+  return depth;
+}
+
+Depth sheet_crossing_depth(const TreedPart& a, const TreedPart& b, const DepthGoal& goal,
+                           PairWork& work) {
+  Depth depth = CurveSearch(a, b, goal).run();
+  work.triangle_pairs += depth.cells;
+  depth.upper = std::max(depth.upper, depth.value);
+  return depth;
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/depth/radius_lp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "strake/geometry/depth.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Half-spaces of an axis-aligned box; weight 1 bounds the ball, weight 0 its centre.
+void add_box(std::vector<RadiusConstraint>& rows, const Box3d& box, double weight) {
+  for (int k = 0; k < 3; ++k) {
+    Vec3d n;
+    n[k] = 1;
+    rows.push_back({n, weight, box.hi[k]});
+    n[k] = -1;
+    rows.push_back({n, weight, -box.lo[k]});
+  }
+}
+
+std::vector<RadiusConstraint> ball_in_box(const Box3d& box) {
+  std::vector<RadiusConstraint> rows;
+  for (const Vec3d& n : tetrahedral_directions()) {
+    double support = -1e300;
+    for (unsigned i = 0; i < 8; ++i)
+      support = std::max(support, dot(n, Vec3d{(i & 1U) != 0 ? box.lo.x : box.hi.x,
+                                               (i & 2U) != 0 ? box.lo.y : box.hi.y,
+                                               (i & 4U) != 0 ? box.lo.z : box.hi.z}));
+    rows.push_back({n, 1, support});
+  }
+  add_box(rows, box, 1);
+  return rows;
+}
+
+TEST(RadiusLp, TetrahedralDirectionsAreDualFeasible) {
+  Vec3d sum;
+  for (const Vec3d& n : tetrahedral_directions()) {
+    EXPECT_NEAR(dot(n, n), 1, 1e-15);
+    sum = sum + n;
+  }
+  EXPECT_NEAR(dot(sum, sum), 0, 1e-30);
+}
+
+TEST(RadiusLp, BallInABoxIsHalfItsShortestSide) {
+  const RadiusSolution s = maximise_radius({ball_in_box({{-300, -20, -7}, {100, 30, 11}}), 1000});
+  EXPECT_TRUE(s.optimal);
+  EXPECT_NEAR(s.r, 9, 1e-9);
+  EXPECT_NEAR(s.x.z, 2, 1e-9);
+  EXPECT_GE(s.upper, 9);
+  EXPECT_NEAR(s.upper, 9, 1e-6);
+}
+
+TEST(RadiusLp, CentreHeldInAnotherBox) {
+  // Walls 200 thick that overlap by 50 at their ends: the centre may go 50 deep.
+  auto rows = ball_in_box({{0, -100, 0}, {3000, 100, 2500}});
+  add_box(rows, {{2950, -100, 0}, {5950, 100, 2500}}, 0);
+  const RadiusSolution s = maximise_radius({rows, 6000});
+  EXPECT_TRUE(s.optimal);
+  EXPECT_NEAR(s.r, 50, 1e-9);
+  EXPECT_NEAR(s.x.x, 2950, 1e-9);
+}
+
+TEST(RadiusLp, BodiesApartHaveANegativeRadius) {
+  auto rows = ball_in_box({{0, 0, 0}, {10, 10, 10}});
+  add_box(rows, {{20, 20, 20}, {30, 30, 30}}, 0);
+  const RadiusSolution s = maximise_radius({rows, 100});
+  EXPECT_TRUE(s.optimal);
+  EXPECT_LT(s.upper, -9.9);
+}
+
+TEST(RadiusLp, ContradictionEndsWithoutAnOptimum) {
+  auto rows = ball_in_box({{0, 0, 0}, {10, 10, 10}});
+  add_box(rows, {{6, 0, 0}, {4, 10, 10}}, 0);
+  const RadiusSolution s = maximise_radius({rows, 100});
+  EXPECT_FALSE(s.optimal);
+}
+
+/// Random bounded problems against a search over all bases of four rows.
+TEST(RadiusLp, EqualsTheBestVertexOfSmallProblems) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](int n) {
+      return static_cast<double>(random() % static_cast<std::uint64_t>(2 * n + 1)) - n;
+    };
+    auto rows = ball_in_box({{-50 + draw(20), -50 + draw(20), -50 + draw(20)},
+                             {50 + draw(20), 50 + draw(20), 50 + draw(20)}});
+    for (int i = 0; i < 6; ++i) {
+      const Vec3d n{draw(4), draw(4), draw(4)};
+      if (n == Vec3d{}) continue;
+      rows.push_back({n, i % 2 == 0 ? std::sqrt(dot(n, n)) : 0, 60 + draw(60)});
+    }
+    const RadiusSolution s = maximise_radius({rows, 1000});
+    if (!s.optimal) continue;
+    for (const RadiusConstraint& c : rows)
+      EXPECT_LE(dot(c.normal, s.x) + c.weight * s.r, c.offset + 1e-6) << "seed " << seed;
+    EXPECT_NEAR(s.upper, s.r, 1e-6) << "seed " << seed;
+    EXPECT_GE(s.upper, s.r - 1e-9) << "seed " << seed;
+    // Nothing sampled at random beats the certified bound.
+    for (int i = 0; i < 200; ++i) {
+      const Vec3d x{draw(70), draw(70), draw(70)};
+      double r = 1e300;
+      for (const RadiusConstraint& c : rows) {
+        const double room = c.offset - dot(c.normal, x);
+        r = c.weight > 0 ? std::min(r, room / c.weight) : room < 0 ? -1e300 : r;
+        if (r == -1e300) break;
+      }
+      EXPECT_LE(r, s.upper) << "seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strake::geometry
