@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "io/rvm/big_endian.hpp"
+#include "io/rvm/builder.hpp"
+#include "io/rvm/encoding.hpp"
+#include "io/rvm/log.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::io::rvm {
+
+/// What the head of a file says.
+struct FileHead {
+  std::uint32_t version = 0;  ///< of HEAD; 0 when there is none
+  std::string info, note, date, user, encoding;
+  std::string project, name;
+};
+
+/// Byte offset of the HEAD chunk within the first 64 KiB; nothing when there is none.
+[[nodiscard]] std::optional<std::size_t> find_head(Bytes bytes);
+
+/// True when the file holds chunk ids with their low byte first: written by a program that got
+/// the byte order of the format wrong.
+[[nodiscard]] bool is_byte_swapped(Bytes bytes);
+
+/// Reads the chunks of a binary file into the builder.
+///
+/// A damaged chunk is skipped with a diagnostic and reading goes on at the next place where a
+/// chunk id stands; nesting is kept on a stack of our own. False when the run was cancelled.
+[[nodiscard]] bool read_binary(Bytes bytes, const std::optional<TextDecoder>& stated_encoding,
+                               Builder& builder, Log& log, FileHead& head,
+                               const parallel::Context& context);
+
+}  // namespace strake::io::rvm

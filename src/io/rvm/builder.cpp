@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/rvm/builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/rvm/facets.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::io::rvm {
+
+namespace {
+
+std::string_view as_key(Bytes bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string facet_problem(const FacetMesh& facets) {
+  std::string text = fmt::format("of {} polygons", facets.polygons);
+  if (facets.nonfinite > 0)
+    text += fmt::format(", {} left out with a vertex that is not a number", facets.nonfinite);
+  if (facets.degenerate > 0)
+    text += fmt::format(", {} left out without three distinct vertices", facets.degenerate);
+  if (facets.untriangulated > 0)
+    text += fmt::format(", {} left out with contours that cross", facets.untriangulated);
+  if (facets.short_contours > 0)
+    text +=
+        fmt::format(", {} holes left out without three distinct vertices", facets.short_contours);
+  return text;
+}
+
+}  // namespace
+
+void Builder::begin_group(std::string name, std::uint32_t material, std::uint8_t transparency,
+                          std::uint64_t offset) {
+  const std::uint32_t parent = open_.empty() ? kNoGroup : open_.back();
+  if (transparency == 0 && parent != kNoGroup) transparency = groups_[parent].transparency;
+  open_.push_back(static_cast<std::uint32_t>(groups_.size()));
+  groups_.push_back({parent, material, transparency, offset});
+  names_.push_back({std::move(name), static_cast<model::GroupId>(parent)});
+}
+
+bool Builder::end_group() {
+  if (open_.empty()) return false;
+  open_.pop_back();
+  return true;
+}
+
+void Builder::add(const PrimitiveChunk& chunk) {
+  ++chunks_;
+  BodyRecord& record = bodies_.emplace_back();
+  record.group = open_.empty() ? kNoGroup : open_.back();
+  record.transparency = chunk.transparency;
+  record.offset = chunk.offset;
+  record.body.category = chunk.category;
+  const auto placement = placement_of(chunk.matrix, frame_);
+  if (!placement)
+    log_->skip("rvm-nonfinite-matrix",
+               fmt::format("a primitive of kind {} has a matrix with an entry that is not a finite "
+                           "number",
+                           chunk.kind),
+               chunk.offset);
+  const auto shape = placement ? shape_of(chunk) : std::nullopt;
+  record.dropped = !shape;
+  if (!shape) return;
+  record.body.shape = *shape;
+  record.body.placement = *placement;
+  measure(chunk);
+}
+
+void Builder::measure(const PrimitiveChunk& chunk) {
+  for (std::size_t k = 9; k < 12; ++k) {
+    const float coordinate = std::fabs(chunk.matrix[k]);
+    // What cannot be placed at all must not spoil the precision of what can.
+    if (static_cast<double>(coordinate) * frame_.unit_mm <= geometry::kMaxGridMm)
+      largest_origin_ = std::max(largest_origin_, coordinate);
+  }
+  if (chunk.kind == kFacetKind) return;
+  Cursor in(chunk.parameters);
+  for (std::size_t k = 0; k < parameter_count(chunk.kind); ++k)
+    largest_local_ = std::max(largest_local_, std::fabs(in.f32()));
+}
+
+std::optional<model::ShapeId> Builder::shape_of(const PrimitiveChunk& chunk) {
+  if (chunk.kind == kFacetKind) return facet_shape(chunk);
+  auto& known = known_[chunk.kind];
+  // The length of a line may stand in its box, which is no part of the key: lines are not shared.
+  if (chunk.kind != kLineKind) {
+    const auto found = known.find(as_key(chunk.parameters));
+    if (found != known.end()) return found->second;
+  }
+  const DecodedPrimitive decoded = decode_primitive(chunk);
+  if (!decoded.primitive) {
+    log_->skip(
+        "rvm-bad-primitive",
+        fmt::format("a primitive of kind {} cannot be used: {}", chunk.kind, decoded.problem),
+        chunk.offset);
+    return std::nullopt;
+  }
+  check_stored_box(chunk, *decoded.primitive);
+  const auto id = static_cast<model::ShapeId>(shapes_.size());
+  shapes_.emplace_back(*decoded.primitive);
+  if (chunk.kind != kLineKind) known.emplace(as_key(chunk.parameters), id);
+  return id;
+}
+
+void Builder::check_stored_box(const PrimitiveChunk& chunk, const geometry::Primitive& primitive) {
+  const auto* dish = std::get_if<geometry::SphericalDishPrimitive>(&primitive);
+  if (dish == nullptr || dish->height > dish->radius) return;
+  const double stored = static_cast<double>(chunk.box[3]);
+  if (std::fabs(stored - dish->radius) <= 1e-3 * dish->radius + 1e-3) return;
+  log_->warn("rvm-dish-radius",
+             fmt::format("a spherical dish has radius {} mm, but its stored box reaches {} mm: "
+                         "some exporters write the diameter",
+                         dish->radius, stored),
+             chunk.offset);
+}
+
+model::ShapeId Builder::facet_shape(const PrimitiveChunk& chunk) {
+  const auto id = static_cast<model::ShapeId>(shapes_.size());
+  const auto [at, added] = known_[kFacetKind].emplace(as_key(chunk.parameters), id);
+  if (added) {
+    shapes_.emplace_back(geometry::TriangleMesh{});
+    facets_.push_back({model::index(id), chunk.parameters, chunk.offset});
+  }
+  return at->second;
+}
+
+Result<std::vector<bool>> Builder::triangulate(const parallel::Context& context) {
+  std::vector<bool> usable(shapes_.size(), true);
+  auto meshes = parallel::transform(
+      context, {.name = "triangulate RVM facet groups", .n = facets_.size(), .grain = 8},
+      [&](std::size_t i) { return build_facets(facets_[i].payload); });
+  if (!meshes) return meshes.error();
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    FacetMesh& built = (*meshes)[i];
+    const FacetJob& job = facets_[i];
+    if (built.nonfinite + built.degenerate + built.untriangulated + built.short_contours > 0)
+      log_->warn("rvm-facet-polygon", "a facet group is incomplete: " + facet_problem(built),
+                 job.offset);
+    usable[job.shape] = !built.mesh.triangles.empty();
+    largest_local_ = std::max(largest_local_, built.largest);
+    shapes_[job.shape] = std::move(built.mesh);
+  }
+  return usable;
+}
+
+void Builder::drop_empty(const std::vector<bool>& usable) {
+  for (BodyRecord& record : bodies_) {
+    if (record.dropped || usable[model::index(record.body.shape)]) continue;
+    record.dropped = true;
+    log_->skip("rvm-empty-facets", "a facet group holds no usable polygon", record.offset);
+  }
+}
+
+model::Color Builder::color_of(const BodyRecord& record) {
+  const bool grouped = record.group != kNoGroup;
+  const std::uint32_t material = grouped ? groups_[record.group].material : 0;
+  auto color = palette_.find(material);
+  if (!color) {
+    color = default_color(0);
+    if (reported_materials_.emplace(material, true).second)
+      log_->warn(
+          "rvm-material",
+          fmt::format("material {} has no colour in the palette; grey stands for it", material),
+          grouped ? groups_[record.group].offset : record.offset);
+  }
+  const unsigned percent = record.transparency > 0
+                               ? record.transparency
+                               : (grouped ? groups_[record.group].transparency : 0U);
+  color->alpha = static_cast<std::uint8_t>((100U - std::min(percent, 100U)) * 255U / 100U);
+  return *color;
+}
+
+void Builder::emit_objects(Built& built) {
+  // Stable: the bodies of a group keep the order of the file, before and after child groups alike.
+  std::stable_sort(bodies_.begin(), bodies_.end(), [](const BodyRecord& a, const BodyRecord& b) {
+    return a.group + 1 < b.group + 1;
+  });
+  built.model.bodies.reserve(bodies_.size());
+  for (const BodyRecord& record : bodies_) {
+    if (built.group_of.empty() || built.group_of.back() != record.group) {
+      model::Object object;
+      const bool grouped = record.group != kNoGroup;
+      object.name = grouped ? names_[record.group].name : root_name_;
+      object.parent = grouped ? names_[record.group].parent : model::GroupId::none;
+      object.first_body = static_cast<std::uint32_t>(built.model.bodies.size());
+      built.model.objects.push_back(std::move(object));
+      built.group_of.push_back(record.group);
+    }
+    if (record.dropped) continue;
+    ++built.model.objects.back().body_count;
+    built.model.bodies.push_back(record.body);
+    built.model.bodies.back().color = color_of(record);
+  }
+}
+
+Result<Built> Builder::build(const parallel::Context& context) {
+  auto usable = triangulate(context);
+  if (!usable) return usable.error();
+  drop_empty(*usable);
+  Built built;
+  emit_objects(built);
+  built.model.groups = std::move(names_);
+  built.model.shapes = std::move(shapes_);
+  built.groups = std::move(groups_);
+  model::SourceFile file;
+  file.precision_mm =
+      std::max(float32_half_spacing(static_cast<double>(largest_origin_)) * frame_.unit_mm,
+               float32_half_spacing(static_cast<double>(largest_local_)) * frame_.unit_mm / 1000);
+  built.model.files.push_back(std::move(file));
+  return built;
+}
+
+}  // namespace strake::io::rvm

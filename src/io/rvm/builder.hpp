@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "io/rvm/log.hpp"
+#include "io/rvm/palette.hpp"
+#include "io/rvm/primitive.hpp"
+#include "strake/core/result.hpp"
+#include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::io::rvm {
+
+inline constexpr std::uint32_t kNoGroup = 0xffffffffU;
+
+/// A CNTB: the hierarchy as the file has it.
+struct GroupRecord {
+  std::uint32_t parent = kNoGroup;
+  std::uint32_t material = 0;
+  std::uint8_t transparency = 0;  ///< percent, own or inherited
+  std::uint64_t offset = 0;
+};
+
+/// A model under construction with what only this format's later steps need.
+struct Built {
+  model::Model model;  ///< model.groups[i] is group i of the file
+  std::vector<GroupRecord> groups;
+  std::vector<std::uint32_t> group_of;  ///< per object; kNoGroup: primitives outside any group
+};
+
+/// Collects groups and primitives in file order and makes a model of them.
+class Builder {
+ public:
+  Builder(Log& log, SourceFrame frame) : log_(&log), frame_(frame) {}
+
+  void begin_group(std::string name, std::uint32_t material, std::uint8_t transparency,
+                   std::uint64_t offset);
+  /// False when no group is open.
+  [[nodiscard]] bool end_group();
+  void add(const PrimitiveChunk& chunk);
+  void redefine_color(std::uint32_t index, model::Color color) { palette_.redefine(index, color); }
+  void set_root_name(std::string name) { root_name_ = std::move(name); }
+
+  [[nodiscard]] std::size_t depth() const { return open_.size(); }
+  [[nodiscard]] std::size_t group_count() const { return groups_.size(); }
+  [[nodiscard]] std::size_t primitive_count() const { return chunks_; }
+
+  /// Triangulates the facet groups and orders bodies by group. Ids are not yet given.
+  [[nodiscard]] Result<Built> build(const parallel::Context& context);
+
+ private:
+  struct BodyRecord {
+    std::uint32_t group = kNoGroup;
+    std::uint8_t transparency = 0;
+    model::Body body;
+    std::uint64_t offset = 0;
+    bool dropped = false;  ///< unusable: its object stays, so that it can be listed, without a body
+  };
+  struct FacetJob {
+    std::uint32_t shape = 0;
+    Bytes payload;
+    std::uint64_t offset = 0;
+  };
+
+  [[nodiscard]] std::optional<model::ShapeId> shape_of(const PrimitiveChunk& chunk);
+  [[nodiscard]] model::ShapeId facet_shape(const PrimitiveChunk& chunk);
+  [[nodiscard]] Result<std::vector<bool>> triangulate(const parallel::Context& context);
+  void drop_empty(const std::vector<bool>& usable);
+  void check_stored_box(const PrimitiveChunk& chunk, const geometry::Primitive& primitive);
+  void emit_objects(Built& built);
+  [[nodiscard]] model::Color color_of(const BodyRecord& record);
+  void measure(const PrimitiveChunk& chunk);
+
+  Log* log_;
+  SourceFrame frame_;
+  Palette palette_;
+  std::string root_name_;
+  std::vector<GroupRecord> groups_;
+  std::vector<model::Group> names_;
+  std::vector<std::uint32_t> open_;
+  std::vector<BodyRecord> bodies_;
+  std::vector<model::Shape> shapes_;
+  std::vector<FacetJob> facets_;
+  /// Equal parameters of a kind are one shape; keys are views of the file.
+  std::array<std::unordered_map<std::string_view, model::ShapeId>, kFacetKind + 1> known_;
+  std::unordered_map<std::uint32_t, bool> reported_materials_;
+  std::size_t chunks_ = 0;
+  float largest_origin_ = 0;  ///< world units of the file
+  float largest_local_ = 0;   ///< local units
+};
+
+}  // namespace strake::io::rvm
