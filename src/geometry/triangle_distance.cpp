@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/triangle_distance.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "strake/geometry/predicates.hpp"
+#include "strake/geometry/triangle_contact.hpp"
+
+namespace strake::geometry {
+namespace {
+
+constexpr std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
+
+using Points = std::array<Vec3d, 3>;
+
+double square(double x) { return x * x; }
+double squared_length(const Vec3d& v) { return dot(v, v); }
+double largest(const Vec3d& v) {
+  return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+}
+
+Points relative(const TriangleCorners& t, const Vec3l& base) {
+  return {(t[0] - base).as<double>(), (t[1] - base).as<double>(), (t[2] - base).as<double>()};
+}
+
+/// Two triangles in doubles, relative to the first corner of a: every coordinate is exact.
+struct Scene {
+  Points a, b;
+  double size = 0;  ///< largest absolute coordinate
+
+  Scene(const TriangleCorners& ca, const TriangleCorners& cb)
+      : a(relative(ca, ca[0])), b(relative(cb, ca[0])) {
+    for (std::size_t i = 0; i < 3; ++i) size = std::max({size, largest(a[i]), largest(b[i])});
+  }
+
+  /// Lower bound of the squared distance from the slab across direction w; any w will do. The six
+  /// products are each off by less than 2^-50·|w|·size.
+  [[nodiscard]] double slab(const Vec3d& w) const {
+    const double a0 = dot(w, a[0]), a1 = dot(w, a[1]), a2 = dot(w, a[2]);
+    const double b0 = dot(w, b[0]), b1 = dot(w, b[1]), b2 = dot(w, b[2]);
+    const double gap = std::max(std::min({b0, b1, b2}) - std::max({a0, a1, a2}),
+                                std::min({a0, a1, a2}) - std::max({b0, b1, b2}));
+    const double sure = gap - 0x1p-48 * largest(w) * size;
+    if (!(sure > 0)) return 0;
+    return square(sure) / squared_length(w) * (1 - 0x1p-48);
+  }
+};
+
+/// The best pair of points so far.
+struct Near {
+  double squared = std::numeric_limits<double>::infinity();
+  Vec3d on_a, on_b;
+
+  void offer(const Vec3d& p, const Vec3d& q) {
+    const double s = squared_length(q - p);
+    if (s < squared) *this = {s, p, q};
+  }
+};
+
+double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
+
+/// Near points of two segments p + s·d, q + t·e by clamped minimisation; any points of the segments
+/// are an upper bound, so rounding does no harm.
+void offer_segments(const Vec3d& p, const Vec3d& d, const Vec3d& q, const Vec3d& e, Near& near) {
+  const Vec3d r = p - q;
+  const double dd = dot(d, d), ee = dot(e, e), de = dot(d, e), dr = dot(d, r), er = dot(e, r);
+  const double denominator = dd * ee - de * de;
+  double s = denominator > 0 ? clamp01((de * er - dr * ee) / denominator) : 0;
+  double t = (de * s + er) / ee;
+  if (t < 0) {
+    t = 0;
+    s = clamp01(-dr / dd);
+  } else if (t > 1) {
+    t = 1;
+    s = clamp01((de - dr) / dd);
+  }
+  near.offer(p + d * s, q + e * t);
+}
+
+/// The foot of a corner on a triangle, where it falls inside: a convex combination of the corners,
+/// so that it lies in the triangle even where a sliver's normal is mostly rounding.
+template <class Offer>
+void offer_foot(const Vec3d& corner, const Points& t, const Vec3d& n, const Offer& offer) {
+  const double w2 = dot(cross(t[1] - t[0], corner - t[0]), n);
+  const double w0 = dot(cross(t[2] - t[1], corner - t[1]), n);
+  const double w1 = dot(cross(t[0] - t[2], corner - t[2]), n);
+  const double sum = w0 + w1 + w2;
+  if (!(w0 >= 0 && w1 >= 0 && w2 >= 0 && sum > 0)) return;
+  offer(t[0] * (w0 / sum) + t[1] * (w1 / sum) + t[2] * (w2 / sum));
+}
+
+/// Exact test and value of one pair of features; each returns false when the nearest points of the
+/// features' lines or planes do not lie inside the features.
+class ExactFeatures {
+ public:
+  static SquaredDistance corner_corner(const Vec3l& p, const Vec3l& q) {
+    const Vec3<Int128> d = (q - p).as<Int128>();
+    return {Int256(dot(d, d)), Int192(Int128{1})};
+  }
+
+  static bool corner_edge(const Vec3l& p, const Vec3l& from, const Vec3l& to, SquaredDistance& r) {
+    const Vec3l e = to - from, d = p - from;
+    const Int128 along = dot(e.as<Int128>(), d.as<Int128>());
+    const Int128 length = dot(e.as<Int128>(), e.as<Int128>());
+    if (along <= 0 || along >= length) return false;
+    r = {norm(cross_exact(d, e)), Int192(length)};
+    return true;
+  }
+
+  static bool corner_face(const Vec3l& p, const TriangleCorners& t, SquaredDistance& r) {
+    const Vec3<Int128> n = cross_exact(t[1] - t[0], t[2] - t[0]);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (product(cross_exact(t[next(i)] - t[i], p - t[i]), n).sign() <= 0) return false;
+    const Int128 height = dot(n, (p - t[0]).as<Int128>());
+    r = {mul(height, height), narrow<3>(norm(n))};
+    return true;
+  }
+
+  static bool edge_edge(const Vec3l& p, const Vec3l& to_p, const Vec3l& q, const Vec3l& to_q,
+                        SquaredDistance& r) {
+    const Vec3l e = to_p - p, f = to_q - q, d = q - p;
+    const Vec3<Int128> c = cross_exact(e, f);
+    const Int256 length = norm(c);
+    if (length.sign() == 0) return false;
+    const Int256 s = product(cross_exact(d, f), c), t = product(cross_exact(d, e), c);
+    if (s.sign() <= 0 || t.sign() <= 0 || s >= length || t >= length) return false;
+    const Int128 height = dot(c, d.as<Int128>());
+    r = {mul(height, height), narrow<3>(length)};
+    return true;
+  }
+
+ private:
+  static Int256 product(const Vec3<Int128>& u, const Vec3<Int128>& v) {
+    return mul(u.x, v.x) + mul(u.y, v.y) + mul(u.z, v.z);
+  }
+  static Int256 norm(const Vec3<Int128>& v) { return product(v, v); }
+};
+
+/// Collects the least exact distance over the pairs of features whose value, as far as doubles can
+/// tell, may be as small as the upper bound.
+class ExactSearch {
+ public:
+  ExactSearch(const TriangleCorners& a, const TriangleCorners& b, double upper)
+      : a_(a), b_(b), scene_(a, b), reach_(std::sqrt(upper) * (1 + 0x1p-40)) {}
+
+  NearestPoints run();
+
+ private:
+  void corners();
+  void corners_edges();
+  void corners_faces();
+  void edges();
+  void offer(const SquaredDistance& s, const Vec3d& p, const Vec3d& q);
+
+  /// Whether |height|/|n| <= reach cannot be excluded, for n = u x v and height = n·d in doubles,
+  /// each component of n off by 2^-51·|u||v| at most.
+  [[nodiscard]] bool within_reach(const Vec3d& u, const Vec3d& v, const Vec3d& n,
+                                  const Vec3d& d) const {
+    const double error = 0x1p-46 * largest(u) * largest(v);
+    const double height = std::fabs(dot(n, d)) - error * largest(d);
+    return height <= reach_ * (std::sqrt(squared_length(n)) * (1 + 0x1p-40) + error);
+  }
+
+  [[nodiscard]] Vec3d absolute(const Vec3d& p) const { return p + a_[0].as<double>(); }
+
+  const TriangleCorners& a_;
+  const TriangleCorners& b_;
+  Scene scene_;
+  double reach_;
+  bool any_ = false;
+  NearestPoints best_;
+};
+
+void ExactSearch::offer(const SquaredDistance& s, const Vec3d& p, const Vec3d& q) {
+  if (any_ && s >= best_.squared) return;
+  any_ = true;
+  best_ = {s, absolute(p), absolute(q)};
+}
+
+void ExactSearch::corners() {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3d &p = scene_.a[i], &q = scene_.b[j];
+      if (std::sqrt(squared_length(q - p)) * (1 - 0x1p-40) > reach_) continue;
+      offer(ExactFeatures::corner_corner(a_[i], b_[j]), p, q);
+    }
+}
+
+/// Foot of a point on the line of an edge.
+Vec3d foot_on_edge(const Vec3d& p, const Vec3d& from, const Vec3d& to) {
+  const Vec3d e = to - from;
+  return from + e * (dot(e, p - from) / dot(e, e));
+}
+
+void ExactSearch::corners_edges() {
+  SquaredDistance s;
+  const auto near = [this](const Vec3d& p, const Vec3d& from, const Vec3d& to) {
+    // |d x e| / |e|, off by less than 2^-48 of |d|.
+    const Vec3d e = to - from, d = p - from;
+    const double length = std::sqrt(squared_length(e));
+    return std::sqrt(squared_length(cross(d, e))) <= length * (reach_ + 0x1p-46 * largest(d));
+  };
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3d &p = scene_.a[i], &q = scene_.b[j], &r = scene_.b[next(j)];
+      if (near(p, q, r) && ExactFeatures::corner_edge(a_[i], b_[j], b_[next(j)], s))
+        offer(s, p, foot_on_edge(p, q, r));
+    }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3d &p = scene_.a[i], &q = scene_.a[next(i)], &r = scene_.b[j];
+      if (near(r, p, q) && ExactFeatures::corner_edge(b_[j], a_[i], a_[next(i)], s))
+        offer(s, foot_on_edge(r, p, q), r);
+    }
+}
+
+void ExactSearch::corners_faces() {
+  SquaredDistance s;
+  const auto foot = [](const Vec3d& p, const Points& t) {
+    const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+    return p - n * (dot(n, p - t[0]) / squared_length(n));
+  };
+  const auto near = [this](const Vec3d& p, const Points& t) {
+    const Vec3d u = t[1] - t[0], v = t[2] - t[0];
+    return within_reach(u, v, cross(u, v), p - t[0]);
+  };
+  for (std::size_t i = 0; i < 3; ++i)
+    if (near(scene_.a[i], scene_.b) && ExactFeatures::corner_face(a_[i], b_, s))
+      offer(s, scene_.a[i], foot(scene_.a[i], scene_.b));
+  for (std::size_t j = 0; j < 3; ++j)
+    if (near(scene_.b[j], scene_.a) && ExactFeatures::corner_face(b_[j], a_, s))
+      offer(s, foot(scene_.b[j], scene_.a), scene_.b[j]);
+}
+
+void ExactSearch::edges() {
+  SquaredDistance s;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3d &p = scene_.a[i], &q = scene_.b[j];
+      const Vec3d e = scene_.a[next(i)] - p, f = scene_.b[next(j)] - q;
+      if (!within_reach(e, f, cross(e, f), q - p)) continue;
+      if (!ExactFeatures::edge_edge(a_[i], a_[next(i)], b_[j], b_[next(j)], s)) continue;
+      Near near;
+      offer_segments(p, e, q, f, near);
+      offer(s, near.on_a, near.on_b);
+    }
+}
+
+NearestPoints ExactSearch::run() {
+  const ExactTriangle a(a_), b(b_);
+  const TriangleContact c = contact(a, b);
+  if (c.touch != Touch::none) {
+    const Vec3d p = common_point(a, b, c);
+    return {{}, p, p};
+  }
+  corners();
+  corners_edges();
+  corners_faces();
+  edges();
+  assert(any_);
+  return best_;
+}
+
+}  // namespace
+
+DistanceBounds distance_bounds(const TriangleCorners& a, const TriangleCorners& b, double enough) {
+  const Scene scene(a, b);
+  const Vec3d na = cross(scene.a[1], scene.a[2]);
+  const Vec3d nb = cross(scene.b[1] - scene.b[0], scene.b[2] - scene.b[0]);
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  double lower = scene.slab(na);
+  if (lower > enough) return {lower, kUnknown};
+  lower = std::max(lower, scene.slab(nb));
+  if (lower > enough) return {lower, kUnknown};
+  Near near;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      offer_segments(scene.a[i], scene.a[next(i)] - scene.a[i], scene.b[j],
+                     scene.b[next(j)] - scene.b[j], near);
+  for (std::size_t i = 0; i < 3; ++i) {
+    offer_foot(scene.b[i], scene.a, na, [&](const Vec3d& foot) { near.offer(foot, scene.b[i]); });
+    offer_foot(scene.a[i], scene.b, nb, [&](const Vec3d& foot) { near.offer(scene.a[i], foot); });
+  }
+  lower = std::max(lower, scene.slab(near.on_b - near.on_a));
+  // The points are off the triangles by a few roundings of the coordinates.
+  const double upper = square(std::sqrt(near.squared) + 0x1p-46 * scene.size);
+  return {lower, upper};
+}
+
+NearestPoints exact_distance(const TriangleCorners& a, const TriangleCorners& b, double upper) {
+  return ExactSearch(a, b, upper).run();
+}
+
+}  // namespace strake::geometry
