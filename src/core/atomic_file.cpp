@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kAttempts = 100;
 constexpr std::size_t kBuffer = std::size_t{1} << 20U;
 
 Error failure(const fs::path& target, int error) {
@@ -48,6 +49,16 @@ void sync_folder(const fs::path& file) {
   ::close(descriptor);
 }
 
+/// Named by process, so that programs writing the same target do not meet, and so that
+/// remove_partials knows its own.
+fs::path partial_name(const fs::path& target, int attempt) {
+  fs::path name = target;
+  name += "." + std::to_string(::getpid());
+  name += "-" + std::to_string(attempt);
+  name += ".part";
+  return name;
+}
+
 }  // namespace
 
 Result<AtomicFile> AtomicFile::create(const fs::path& target) {
@@ -63,13 +74,8 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     return file;
   }
   if (exists && ::access(file.target_.c_str(), W_OK) != 0) return failure(target, errno);
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    file.temporary_ = file.target_;
-    file.temporary_ += '.';
-    file.temporary_ += std::to_string(::getpid());
-    file.temporary_ += '-';
-    file.temporary_ += std::to_string(attempt);
-    file.temporary_ += ".part";
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    file.temporary_ = partial_name(file.target_, attempt);
     const mode_t mode = exists ? status.st_mode & 0777U : 0666U;
     file.descriptor_ =
         ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
@@ -154,6 +160,15 @@ Status AtomicFile::commit() {
   temporary_.clear();
   if (!direct_) sync_folder(target_);
   return {};
+}
+
+void remove_partials(const fs::path& target) noexcept {
+  try {
+    const fs::path real = resolved(target);
+    for (int attempt = 0; attempt < kAttempts; ++attempt)
+      ::unlink(partial_name(real, attempt).c_str());
+  } catch (...) {  // no memory for a name: there is nothing more to be done
+  }
 }
 
 Status write_file(const fs::path& target, std::string_view text) {

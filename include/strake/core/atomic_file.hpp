@@ -50,4 +50,8 @@ class AtomicFile {
 /// Writes a whole file as above.
 [[nodiscard]] Status write_file(const std::filesystem::path& target, std::string_view text);
 
+/// Removes what this process has begun to write for a target and not committed: for a program that
+/// must end at once and cannot unwind.
+void remove_partials(const std::filesystem::path& target) noexcept;
+
 }  // namespace strake

@@ -13,7 +13,7 @@
 #include "io/gltf/glb_plan.hpp"
 #include "io/gltf/json_text.hpp"
 #include "io/gltf/srgb.hpp"
-#include "strake/io/output_file.hpp"
+#include "strake/core/atomic_file.hpp"
 #include "strake/io/writer.hpp"
 
 namespace strake::io::gltf {
@@ -221,12 +221,12 @@ std::string JsonChunk::text() {
 }
 
 template <class T>
-void put(OutputFile& file, const T* numbers, std::size_t count) {
+void put(AtomicFile& file, const T* numbers, std::size_t count) {
   file.write({reinterpret_cast<const char*>(numbers), count * sizeof(T)});
 }
 
 template <class Index>
-void put_indices(OutputFile& file, const Piece& piece) {
+void put_indices(AtomicFile& file, const Piece& piece) {
   if (piece.mesh != nullptr) {
     const bool mirrored = piece.relative.linear.determinant() < 0;
     for (const geometry::Triangle& t : piece.mesh->triangles) {
@@ -245,7 +245,7 @@ void put_indices(OutputFile& file, const Piece& piece) {
     }
 }
 
-bool put_binary(OutputFile& file, const GlbPlan& plan, const std::stop_token& stop) {
+bool put_binary(AtomicFile& file, const GlbPlan& plan, const std::stop_token& stop) {
   for (const Piece& piece : plan.pieces) {
     if (stop.stop_requested()) return false;
     for (const geometry::Vec3d& vertex : piece.vertices()) {
@@ -265,7 +265,7 @@ bool put_binary(OutputFile& file, const GlbPlan& plan, const std::stop_token& st
   return true;
 }
 
-void put_chunk_header(OutputFile& file, std::uint64_t length, std::uint32_t type) {
+void put_chunk_header(AtomicFile& file, std::uint64_t length, std::uint32_t type) {
   const std::array<std::uint32_t, 2> header{static_cast<std::uint32_t>(length), type};
   put(file, header.data(), header.size());
 }
@@ -281,7 +281,7 @@ Status write_planned(const model::Model& model, const GlbPlan& plan,
   if (total > std::numeric_limits<std::uint32_t>::max())
     return Error{ErrorCode::output, "would be larger than the 4 GiB that a GLB may have",
                  path.string(), "write the model in parts"};
-  Result<OutputFile> file = OutputFile::create(path);
+  Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
   const std::array<std::uint32_t, 3> header{kMagic, 2, static_cast<std::uint32_t>(total)};
   put(*file, header.data(), header.size());

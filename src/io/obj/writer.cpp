@@ -8,7 +8,7 @@
 #include <string>
 
 #include "io/placed_shape.hpp"
-#include "strake/io/output_file.hpp"
+#include "strake/core/atomic_file.hpp"
 
 namespace strake::io {
 namespace {
@@ -88,7 +88,7 @@ bool ObjText::object(const model::Object& object, std::string& out) {
 
 Status write_obj(const model::Model& model, const std::filesystem::path& path,
                  const WriteOptions& options, const parallel::Context& context) {
-  Result<OutputFile> file = OutputFile::create(path);
+  Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
   file->write("# Strake: millimetres, z up\n");
   ObjText text(model, options.sag_mm);

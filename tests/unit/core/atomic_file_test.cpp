@@ -90,6 +90,17 @@ TEST_F(AtomicFileTest, keeps_mode_and_links) {
   EXPECT_EQ(fs::status(path("real")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
+TEST_F(AtomicFileTest, partial_files_can_be_removed_from_outside) {
+  ASSERT_TRUE(write_file(path("a"), "before"));
+  const Result<AtomicFile> first = AtomicFile::create(path("a"));
+  const Result<AtomicFile> second = AtomicFile::create(path("a"));
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(files(), 3U);
+  remove_partials(path("a"));
+  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(content(path("a")), "before");
+}
+
 TEST_F(AtomicFileTest, errors_name_the_file) {
   const Status missing = write_file(path("no/such/folder"), "x");
   ASSERT_FALSE(missing);
