@@ -61,6 +61,7 @@ void add_primitive(const geometry::Primitive& primitive, const Mat3d& linear, do
   for (Part& part : result.shape.parts) {
     part.primitive = primitive;
     part.flags.unknown_sag = false;
+    part.flags.convex_source = made.convex;
   }
 }
 

@@ -4,54 +4,39 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/tessellate/build.hpp"
+#include "strake/geometry/place.hpp"
+
 namespace strake::geometry {
 namespace {
 
-Tessellation fault(std::string_view why) {
-  Tessellation t;
-  t.fault = why;
-  return t;
-}
+/// What int32 can span on the grid, with room for the bound's own slack.
+constexpr double kWidestMm = 4e6;
 
-/// Eight corners, x fastest, then y, then z; outward quads.
-Tessellation hexahedron(const std::array<Vec3d, 8>& corners) {
-  static constexpr std::array<std::array<std::uint32_t, 4>, 6> kQuads{
-      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-  Tessellation t;
-  t.mesh.sag_mm = 0;
-  t.mesh.vertices.assign(corners.begin(), corners.end());
-  for (std::uint32_t f = 0; f < kQuads.size(); ++f) {
-    const auto& q = kQuads[f];
-    t.mesh.triangles.push_back({q[0], q[1], q[2]});
-    t.mesh.triangles.push_back({q[0], q[2], q[3]});
-    t.mesh.faces.insert(t.mesh.faces.end(), {f, f});
-  }
-  return t;
-}
-
-Tessellation make(const BoxPrimitive& b) {
-  if (!std::isfinite(b.length_x) || !std::isfinite(b.length_y) || !std::isfinite(b.length_z))
-    return fault("a length is not finite");
-  std::array<Vec3d, 8> corners;
-  for (std::size_t i = 0; i < 8; ++i)
-    corners[i] = {(i & 1U) != 0 ? b.length_x / 2 : -b.length_x / 2,
-                  (i & 2U) != 0 ? b.length_y / 2 : -b.length_y / 2,
-                  (i & 4U) != 0 ? b.length_z / 2 : -b.length_z / 2};
-  return hexahedron(corners);
-}
-
-template <class P>
-Tessellation make(const P&) {
-  return fault("kind not supported");
+/// False when a length of the primitive is so large that tessellating it is a waste.
+bool fits(const Tessellation& t) {
+  for (const Vec3d& v : t.mesh.vertices)
+    if (!(std::fabs(v.x) < kWidestMm) || !(std::fabs(v.y) < kWidestMm) ||
+        !(std::fabs(v.z) < kWidestMm))
+      return false;
+  return true;
 }
 
 }  // namespace
 
-Tessellation tessellate(const Primitive& primitive, const Mat3d& linear, double) {
-  Tessellation t = std::visit([](const auto& p) { return make(p); }, primitive);
+Tessellation tessellate(const Primitive& primitive, const Mat3d& linear, double sag_mm) {
+  const double scale = stretch(linear);
+  if (!(scale > 0) || !std::isfinite(scale))
+    return tessellation::fault("the placement is not finite or flattens everything");
+  const tessellation::Target target{linear, sag_mm / scale};
+  Tessellation t =
+      std::visit([&](const auto& p) { return tessellation::make(p, target); }, primitive);
+  t.mesh.sag_mm *= scale;
   for (Vec3d& v : t.mesh.vertices) v = linear * v;
+  for (Vec3d& v : t.lines.points) v = linear * v;
+  if (!fits(t)) return tessellation::fault("larger than 4 km");
   if (linear.determinant() < 0)
-    for (Triangle& tri : t.mesh.triangles) std::swap(tri[1], tri[2]);
+    for (Triangle& triangle : t.mesh.triangles) std::swap(triangle[1], triangle[2]);
   return t;
 }
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "strake/geometry/tessellate.hpp"
+#include "strake/geometry/trig.hpp"
+
+namespace strake::geometry::tessellation {
+
+/// What every kind is tessellated for: the map to the placed frame, and the sag in local length.
+struct Target {
+  Mat3d linear;
+  double sag = 0;
+};
+
+/// The share of the sag that the chords of a rim may take. The rest is for the other direction of
+/// doubly curved faces, so that an elbow has the same rim as the pipe that it continues.
+inline constexpr double kRimShare = 0.75;
+
+[[nodiscard]] Tessellation fault(std::string_view why);
+
+/// Where a rim starts in its own plane: the direction (cos, sin) between the two plane axes whose
+/// images are given, chosen from the image's normal (up to sign) alone: the projection of Z on the
+/// plane, or of X when the normal is within 26 degrees of Z.
+[[nodiscard]] SinCos canonical_phase(const Vec3d& image_x, const Vec3d& image_y);
+
+/// The images of the local axes.
+[[nodiscard]] Vec3d column(const Mat3d& m, int axis);
+
+/// Points of a unit circle with a vertex at `phase`.
+[[nodiscard]] std::vector<SinCos> rim(int segments, const SinCos& phase);
+
+/// Triangles in local coordinates, gathered face by face.
+class Builder {
+ public:
+  std::uint32_t vertex(const Vec3d& v);
+  /// A planar convex polygon, counter-clockwise seen from outside; `reversed` turns it.
+  void polygon(std::span<const std::uint32_t> ring, bool reversed = false);
+  /// A planar quad as a face of its own.
+  void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
+  /// The same as one more piece of the face that `face()` returned.
+  void quad_of(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+               std::uint32_t d);
+  [[nodiscard]] std::uint32_t face() { return faces_++; }
+  [[nodiscard]] Tessellation take(double sag, bool convex) &&;
+
+ private:
+  void triangle(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  TriangleMesh mesh_;
+  std::uint32_t faces_ = 0;
+};
+
+/// True when every length is finite and not negative.
+[[nodiscard]] bool are_lengths(std::initializer_list<double> lengths);
+
+[[nodiscard]] Tessellation make(const BoxPrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const PyramidPrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const CylinderPrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const SnoutPrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const SpherePrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const EllipticalDishPrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const SphericalDishPrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const CircularTorusPrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const RectangularTorusPrimitive& p, const Target& target);
+[[nodiscard]] Tessellation make(const LinePrimitive& p, const Target& target);
+
+}  // namespace strake::geometry::tessellation

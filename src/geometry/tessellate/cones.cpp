@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "geometry/tessellate/build.hpp"
+
+namespace strake::geometry::tessellation {
+namespace {
+
+using Ring = std::vector<std::uint32_t>;
+
+/// Two rings, the lower first, both counter-clockwise seen from the upper, with caps.
+Tessellation frustum(const std::vector<Vec3d>& lower, const std::vector<Vec3d>& upper, double sag) {
+  Builder builder;
+  Ring low, high;
+  for (const Vec3d& v : lower) low.push_back(builder.vertex(v));
+  for (const Vec3d& v : upper) high.push_back(builder.vertex(v));
+  builder.polygon(low, true);
+  builder.polygon(high);
+  for (std::size_t k = 0; k < low.size(); ++k) {
+    const std::size_t next = k + 1 == low.size() ? 0 : k + 1;
+    builder.quad(low[k], low[next], high[next], high[k]);
+  }
+  return std::move(builder).take(sag, true);
+}
+
+/// z = slope_x·dx + slope_y·dy above the centre of an end circle.
+struct EndPlane {
+  double slope_x = 0, slope_y = 0;
+
+  [[nodiscard]] double steepness() const {
+    return std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
+  }
+};
+
+EndPlane end_plane(double shear_x, double shear_y) {
+  const SinCos x = sin_cos(shear_x), y = sin_cos(shear_y);
+  return {x.sin / x.cos, y.sin / y.cos};
+}
+
+/// A cone between two circles, each generator cut by the end planes.
+struct Snout {
+  SnoutPrimitive p;
+  EndPlane bottom, top;
+
+  /// Part of the generator, from the bottom circle (0) to the top circle (1), at which the bottom
+  /// plane cuts it: the true outline is where cone and plane meet.
+  [[nodiscard]] double bottom_cut(const SinCos& a) const {
+    const double grow = p.top_radius - p.bottom_radius;
+    const double rise = p.height - bottom.slope_x * (p.offset_x + grow * a.cos) -
+                        bottom.slope_y * (p.offset_y + grow * a.sin);
+    const double wanted = p.bottom_radius * (bottom.slope_x * a.cos + bottom.slope_y * a.sin);
+    return wanted == 0 ? 0 : rise > 0 ? wanted / rise : kNever;
+  }
+  [[nodiscard]] double top_cut(const SinCos& a) const {
+    const double grow = p.top_radius - p.bottom_radius;
+    const double rise = p.height - top.slope_x * (p.offset_x + grow * a.cos) -
+                        top.slope_y * (p.offset_y + grow * a.sin);
+    const double wanted = p.top_radius * (top.slope_x * a.cos + top.slope_y * a.sin);
+    return 1 + (wanted == 0 ? 0 : rise > 0 ? wanted / rise : kNever);
+  }
+  [[nodiscard]] double radius(double cut) const {
+    return p.bottom_radius + cut * (p.top_radius - p.bottom_radius);
+  }
+  [[nodiscard]] Vec3d point(const SinCos& a, double cut) const {
+    const double r = radius(cut);
+    return {p.offset_x * (cut - 0.5) + r * a.cos, p.offset_y * (cut - 0.5) + r * a.sin,
+            p.height * (cut - 0.5)};
+  }
+  static constexpr double kNever = 1e300;
+};
+
+/// The largest radius on the cuts; negative when a plane misses a generator, passes the apex, or
+/// the planes cross inside.
+double widest(const Snout& snout, const std::vector<SinCos>& angles) {
+  double largest = 0;
+  for (const SinCos& a : angles) {
+    const double from = snout.bottom_cut(a), to = snout.top_cut(a);
+    const double low = snout.radius(from), high = snout.radius(to);
+    const double slack = -1e-9 * std::max(snout.p.bottom_radius, snout.p.top_radius);
+    if (!(from <= to) || !(std::fabs(from) < 1e6) || !(std::fabs(to) < 1e6)) return -1;
+    if (!(low >= slack) || !(high >= slack)) return -1;
+    largest = std::max({largest, low, high});
+  }
+  return largest;
+}
+
+}  // namespace
+
+Tessellation make(const CylinderPrimitive& p, const Target& target) {
+  if (!are_lengths({p.radius, p.height})) return fault("a length is negative or not finite");
+  if (p.radius == 0) return fault("a cylinder of no radius");
+  const int n = circle_segments(p.radius, kRimShare * target.sag);
+  const auto angles = rim(n, canonical_phase(column(target.linear, 0), column(target.linear, 1)));
+  std::vector<Vec3d> lower, upper;
+  for (const SinCos& a : angles) {
+    lower.push_back({p.radius * a.cos, p.radius * a.sin, -p.height / 2});
+    upper.push_back({p.radius * a.cos, p.radius * a.sin, p.height / 2});
+  }
+  return frustum(lower, upper, sagitta(p.radius, 2 * kPi / n));
+}
+
+Tessellation make(const SnoutPrimitive& p, const Target& target) {
+  if (!are_lengths({p.bottom_radius, p.top_radius, p.height}) || !std::isfinite(p.offset_x) ||
+      !std::isfinite(p.offset_y))
+    return fault("a length is negative or not finite");
+  if (p.bottom_radius == 0 && p.top_radius == 0) return fault("a snout of no radius");
+  const Snout snout{p, end_plane(p.bottom_shear_x, p.bottom_shear_y),
+                    end_plane(p.top_shear_x, p.top_shear_y)};
+  const double steepness = std::max(snout.bottom.steepness(), snout.top.steepness());
+  if (!(steepness < 100)) return fault("an end plane of a snout is too steep");
+  const SinCos phase = canonical_phase(column(target.linear, 0), column(target.linear, 1));
+  // The cuts decide the widest radius, which decides the number of segments: look first.
+  double radius = widest(snout, rim(256, phase));
+  if (radius < 0) return fault("the end planes of a snout cross or pass its apex");
+  // Between the looks the radius grows by less than this.
+  radius = std::max({radius * (1 + 1e-3 * (steepness - 1)), p.bottom_radius, p.top_radius});
+  const int n = circle_segments(radius, kRimShare * target.sag / steepness);
+  const auto angles = rim(n, phase);
+  if (widest(snout, angles) < 0) return fault("the end planes of a snout cross or pass its apex");
+  std::vector<Vec3d> lower, upper;
+  for (const SinCos& a : angles) {
+    lower.push_back(snout.point(a, snout.bottom_cut(a)));
+    upper.push_back(snout.point(a, snout.top_cut(a)));
+  }
+  return frustum(lower, upper, sagitta(radius, 2 * kPi / n) * steepness);
+}
+
+}  // namespace strake::geometry::tessellation
