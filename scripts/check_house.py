@@ -16,7 +16,7 @@ MAY_USE = {
     'hlr': ['core', 'parallel', 'geometry', 'model'],
     'drawing': ['core', 'parallel', 'geometry', 'model', 'hlr'],
     'report': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing'],
-    'generate': ['core', 'parallel', 'geometry', 'model'],
+    'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
 }
 LINES = {'.hpp': 300, '.cpp': 600}
 NEEDS_SPDX = {'.cpp', '.hpp', '.py', '.sh', '.cmake'}

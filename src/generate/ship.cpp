@@ -1,1 +1,261 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "strake/generate/ship.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "generate/plan.hpp"
+
+namespace strake::generate {
+namespace {
+
+using geometry::Placement;
+using geometry::Vec3d;
+
+/// A general rotation with rational entries (quaternion 9, 2, -3, 5 over 119).
+constexpr geometry::Mat3d general_rotation() {
+  constexpr double w = 9, x = 2, y = -3, z = 5, n = w * w + x * x + y * y + z * z;
+  return {
+      {Vec3d{(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n},
+       Vec3d{2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n},
+       Vec3d{2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n,
+             (w * w - x * x - y * y + z * z) / n}}};
+}
+
+/// Lanes and levels that suit a number of objects: about 75 objects in a room of three dimensions
+/// that grow alike, the length fastest.
+Plan shape_plan(const ShipOptions& options) {
+  Plan plan;
+  plan.seed = options.seed;
+  const double rooms = static_cast<double>(options.objects) / 75;
+  int size = 1;
+  while ((size + 1.0) * (size + 1.0) * (size + 1.0) * 3 <= rooms) ++size;
+  plan.lanes = std::max(2, size);
+  plan.levels = std::max(1, size);
+  return plan;
+}
+
+Yard build(const Plan& plan) {
+  Yard yard;
+  const Steel steel = build_steel(plan, yard);
+  build_runs(plan, steel, yard);
+  build_ballast(plan, yard);
+  return yard;
+}
+
+/// The shortest ship of the plan's lanes and levels that has enough objects.
+Result<Yard> build_enough(Plan& plan, std::uint64_t objects, const parallel::Context& context) {
+  Yard best;
+  bool found = false;
+  int bays = 1;
+  while (true) {
+    if (context.stop.stop_requested())
+      return Error{ErrorCode::cancelled, "stopped while generating", "", ""};
+    plan.bays = bays;
+    Yard yard = build(plan);
+    const std::uint64_t count = yard.objects().size();
+    const int missing =
+        count >= objects ? 0
+                         : static_cast<int>((objects - count) * static_cast<std::uint64_t>(bays) /
+                                            (count * 21 / 20 + 1));
+    if (count >= objects) {
+      best = std::move(yard);
+      found = true;
+    }
+    if (found) break;
+    bays += std::max(1, missing);
+  }
+  return best;
+}
+
+/// Which objects stay: spare ones go first, evenly spread over the ship; if they are too few, the
+/// last built go too.
+std::vector<bool> choose_kept(const Yard& yard, std::uint64_t wanted) {
+  const std::vector<Built>& objects = yard.objects();
+  std::vector<bool> kept(objects.size(), true);
+  std::uint64_t excess = objects.size() - wanted;
+  const auto spare = static_cast<std::uint64_t>(std::count_if(
+      objects.begin(), objects.end(), [](const Built& b) { return info(b.kind).optional; }));
+  const std::uint64_t drop = std::min(excess, spare);
+  std::uint64_t seen = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (!info(objects[i].kind).optional) continue;
+    // Bresenham: exactly `drop` of the `spare` fall, at even distances.
+    kept[i] = (seen + 1) * drop / spare == seen * drop / spare;
+    ++seen;
+  }
+  excess -= drop;
+  for (std::size_t i = objects.size(); excess > 0 && i-- > 0;)
+    if (kept[i]) kept[i] = false, --excess;
+  return kept;
+}
+
+/// Sorts as the ids do: code, bay, lane, level, number, all of fixed width.
+std::uint64_t id_key(const Built& built, const std::vector<std::uint8_t>& rank) {
+  return (static_cast<std::uint64_t>(rank[static_cast<std::size_t>(built.kind)]) << 56U) |
+         (static_cast<std::uint64_t>(built.cell.bay) << 40U) |
+         (static_cast<std::uint64_t>(built.cell.lane) << 32U) |
+         (static_cast<std::uint64_t>(built.cell.level) << 24U) | built.number;
+}
+
+std::vector<std::uint8_t> code_ranks() {
+  std::vector<std::uint8_t> order(kKinds.size()), rank(kKinds.size());
+  std::iota(order.begin(), order.end(), std::uint8_t{0});
+  std::sort(order.begin(), order.end(),
+            [](std::uint8_t a, std::uint8_t b) { return kKinds[a].code < kKinds[b].code; });
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<std::uint8_t>(i);
+  return rank;
+}
+
+/// The kept objects in the order of their ids.
+std::vector<Handle> id_order(const Yard& yard, const std::vector<bool>& kept) {
+  const std::vector<std::uint8_t> rank = code_ranks();
+  std::vector<std::pair<std::uint64_t, Handle>> keyed;
+  for (Handle h = 0; h < yard.objects().size(); ++h)
+    if (kept[h]) keyed.emplace_back(id_key(yard.objects()[h], rank), h);
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<Handle> order;
+  order.reserve(keyed.size());
+  for (const auto& [key, handle] : keyed) order.push_back(handle);
+  return order;
+}
+
+std::string id_of(const Built& built) {
+  return fmt::format("{}-B{:04}-L{:02}-D{:02}-{:04}", info(built.kind).code, built.cell.bay,
+                     built.cell.lane, built.cell.level, built.number);
+}
+
+/// Zone, deck and discipline groups, made as objects ask for them.
+class GroupTree {
+ public:
+  explicit GroupTree(model::Model& model) : model_(model) {
+    model_.groups.push_back({"SHIP-SECTION", model::GroupId::none});
+  }
+  model::GroupId of(const Built& built) {
+    const std::uint32_t zone = built.cell.bay / 4U;
+    const auto z = group({zone, kAny, kAny}, model::GroupId{0}, [&] {
+      return fmt::format("ZONE-{:02} FR {}-{}", zone + 1, zone * 16, zone * 16 + 15);
+    });
+    const std::uint32_t level = built.cell.level;
+    const auto d = group({zone, level, kAny}, z, [&] {
+      return level == 0 ? std::string("DOUBLE-BOTTOM") : fmt::format("DECK-{:02}", level);
+    });
+    const auto discipline = static_cast<std::uint32_t>(info(built.kind).discipline);
+    return group({zone, level, discipline}, d,
+                 [&] { return std::string(kDisciplines[discipline].name); });
+  }
+
+ private:
+  static constexpr std::uint32_t kAny = 0xffffffffU;
+  template <class Name>
+  model::GroupId group(const std::array<std::uint32_t, 3>& key, model::GroupId parent, Name name) {
+    const auto [place, fresh] =
+        known_.try_emplace(key, static_cast<std::uint32_t>(model_.groups.size()));
+    if (fresh) model_.groups.push_back({name(), parent});
+    return model::GroupId{place->second};
+  }
+  model::Model& model_;
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> known_;
+};
+
+Placement placement_of(const Frame& frame, bool turned) {
+  Placement placement;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      placement.linear.row[i][static_cast<int>(j)] = frame.m[3 * i + j];
+  placement.translation = {static_cast<double>(frame.t.x) / 1000,
+                           static_cast<double>(frame.t.y) / 1000,
+                           static_cast<double>(frame.t.z) / 1000};
+  return turned ? Placement{general_rotation(), {}} * placement : placement;
+}
+
+model::Model assemble(Yard& yard, const std::vector<Handle>& order, const ShipOptions& options) {
+  model::Model model;
+  model.files.push_back({"ship", "generated", "mm", "z", 0, 0});
+  GroupTree groups(model);
+  model.objects.reserve(order.size());
+  model.bodies.reserve(order.size());
+  for (const Handle handle : order) {
+    const Built& built = yard.objects()[handle];
+    const KindInfo& kind = info(built.kind);
+    const DisciplineInfo& discipline = kDisciplines[static_cast<std::size_t>(kind.discipline)];
+    model::Object object;
+    object.id = id_of(built);
+    object.name = object.id;
+    object.parent = groups.of(built);
+    object.first_body = static_cast<std::uint32_t>(model.bodies.size());
+    object.body_count = 1;
+    object.attributes = {{"discipline", std::string(discipline.name)},
+                         {"system", std::string(kind.system)},
+                         {"weight_kg", fmt::format("{:.2f}", yard.volumes_mm3()[built.shape] *
+                                                                 discipline.kg_per_mm3)}};
+    model.objects.push_back(std::move(object));
+    model.bodies.push_back({model::ShapeId{built.shape}, placement_of(built.frame, options.turned),
+                            kind.color, model::Category::physical});
+  }
+  model.shapes = yard.take_shapes();
+  return model;
+}
+
+Truth assemble_truth(const Yard& yard, const std::vector<Handle>& order) {
+  std::vector<std::uint32_t> place(yard.objects().size(), kNothing);
+  for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  Truth truth;
+  truth.reasons.assign(why_texts().begin(), why_texts().end());
+  for (const Declared& pair : yard.pairs()) {
+    const auto [a, b] = std::minmax(place[pair.a], place[pair.b]);
+    if (b == kNothing) continue;
+    truth.pairs.push_back({model::ObjectId{a}, model::ObjectId{b}, pair.cls,
+                           static_cast<std::uint8_t>(pair.why), pair.d_mm});
+  }
+  std::sort(truth.pairs.begin(), truth.pairs.end(), [](const TruthPair& p, const TruthPair& q) {
+    return std::pair(p.a, p.b) < std::pair(q.a, q.b);
+  });
+  for (std::uint32_t i = 0; i < order.size(); ++i)
+    if (yard.objects()[order[i]].inside_out) truth.inside_out.push_back(model::ObjectId{i});
+  return truth;
+}
+
+/// Leaves out shapes that no body uses any more.
+void drop_unused_shapes(model::Model& model) {
+  std::vector<std::uint32_t> place(model.shapes.size(), kNothing);
+  std::vector<model::Shape> used;
+  for (model::Body& body : model.bodies) {
+    std::uint32_t& to = place[model::index(body.shape)];
+    if (to == kNothing) {
+      to = static_cast<std::uint32_t>(used.size());
+      used.push_back(std::move(model.shapes[model::index(body.shape)]));
+    }
+    body.shape = model::ShapeId{to};
+  }
+  model.shapes = std::move(used);
+}
+
+}  // namespace
+
+Result<Ship> generate_ship(const ShipOptions& options, const parallel::Context& context) {
+  if (options.objects < ShipOptions::kMinObjects || options.objects > ShipOptions::kMaxObjects)
+    return Error{ErrorCode::usage,
+                 fmt::format("a ship of {} objects cannot be built", options.objects), "--objects",
+                 fmt::format("give a number from {} to {}", ShipOptions::kMinObjects,
+                             ShipOptions::kMaxObjects)};
+  Plan plan = shape_plan(options);
+  Result<Yard> yard = build_enough(plan, options.objects, context);
+  if (!yard) return yard.error();
+  const std::vector<bool> kept = choose_kept(*yard, options.objects);
+  const std::vector<Handle> order = id_order(*yard, kept);
+  Ship ship;
+  ship.options = options;
+  ship.model = assemble(*yard, order, options);
+  ship.truth = assemble_truth(*yard, order);
+  drop_unused_shapes(ship.model);
+  return ship;
+}
+
+}  // namespace strake::generate
