@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <string_view>
+
+#include "report/text.hpp"
+#include "strake/report/clash.hpp"
+
+namespace strake::report {
+namespace {
+
+void field(std::string& out, std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    out += text;
+    return;
+  }
+  out += '"';
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  out += '"';
+}
+
+void object(std::string& out, const model::Model& model, model::ObjectId id) {
+  const model::Object& o = model.object(id);
+  for (const std::string_view text : {std::string_view(o.id), std::string_view(o.name),
+                                      std::string_view(model.files[o.file].label)}) {
+    field(out, text);
+    out += ',';
+  }
+}
+
+void line(std::string& out, const model::Model& model, const clash::Pair& p) {
+  object(out, model, p.a);
+  object(out, model, p.b);
+  out += name(p.cls);
+  out += ',';
+  out += name(p.relation);
+  out += ',';
+  append_mm(out, p.d_mm);
+  out += ',';
+  append_mm_down(out, p.d_lower_mm);
+  out += ',';
+  append_mm_up(out, p.d_upper_mm);
+  for (int k = 0; k < 3; ++k) {
+    out += ',';
+    append_mm(out, p.point_mm[k]);
+  }
+  out += ',';
+  bool first = true;
+  for (const std::string_view flag : clash::flag_names(p.flags)) {
+    if (!first) out += ' ';
+    first = false;
+    out += flag;
+  }
+  out += "\r\n";
+}
+
+}  // namespace
+
+void write_clash_csv(const clash::Report& report, const model::Model& model, Sink sink) {
+  Buffered buffer(sink);
+  buffer.text() =
+      "a_id,a_name,a_file,b_id,b_name,b_file,class,relation,d_mm,d_lower_mm,d_upper_mm,x_mm,y_mm,"
+      "z_mm,flags\r\n";
+  for (const clash::Pair& pair : report.pairs) {
+    line(buffer.text(), model, pair);
+    buffer.done();
+  }
+}
+
+}  // namespace strake::report

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <string_view>
+
+#include "report/text.hpp"
+#include "strake/core/number.hpp"
+#include "strake/report/clash.hpp"
+
+namespace strake::report {
+namespace {
+
+using clash::Pair;
+using clash::Report;
+
+constexpr std::string_view kSchemaVersion = "1";
+
+void key(std::string& out, std::string_view name) {
+  append_json(out, name);
+  out += ": ";
+}
+
+void settings(std::string& out, const Report& report) {
+  const clash::Options& o = report.options;
+  out += "\"settings\": {\"clearance_mm\": ";
+  append_mm(out, o.clearance_mm);
+  out += ", \"touch_gap_mm\": ";
+  append_mm(out, o.touch_gap_mm);
+  out += ", \"touch_overlap_mm\": ";
+  append_mm(out, o.touch_overlap_mm);
+  out += ", \"thickness_cap\": ";
+  out += o.thickness_cap == clash::ThicknessCap::on ? "true" : "false";
+  out += ", \"contact_distance_mm\": ";
+  append_mm(out, report.contact_distance_mm);
+  out += "}";
+}
+
+void files(std::string& out, const model::Model& model) {
+  out += "\"files\": [";
+  for (std::size_t i = 0; i < model.files.size(); ++i) {
+    const model::SourceFile& file = model.files[i];
+    out += i == 0 ? "{" : ", {";
+    key(out, "label");
+    append_json(out, file.label);
+    out += ", ";
+    key(out, "format");
+    append_json(out, file.format);
+    out += ", ";
+    key(out, "unit");
+    append_json(out, file.unit);
+    out += "}";
+  }
+  out += "]";
+}
+
+void counts(std::string& out, const Report& report) {
+  out += "\"objects\": {\"a\": " + std::to_string(report.objects_a) +
+         ", \"b\": " + std::to_string(report.objects_b) +
+         "},\n\"counts\": {\"HIT\": " + std::to_string(report.count_hit) +
+         ", \"CONTACT\": " + std::to_string(report.count_contact) +
+         ", \"CLEARANCE_VIOLATION\": " + std::to_string(report.count_clearance) + "}";
+}
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::skipped:
+      return "skipped";
+  }
+  return "";
+}
+
+void diagnostics(std::string& out, const Diagnostics& all) {
+  out += "\"diagnostics\": [";
+  bool first = true;
+  for (const Diagnostics::Count& c : all.counts()) {
+    out += first ? "\n  {" : ",\n  {";
+    first = false;
+    key(out, "code");
+    append_json(out, c.code);
+    out += ", ";
+    key(out, "severity");
+    append_json(out, severity_name(c.severity));
+    out += ", \"count\": " + std::to_string(c.count) + "}";
+  }
+  out += "]";
+}
+
+void object(std::string& out, const model::Model& model, model::ObjectId id) {
+  const model::Object& o = model.object(id);
+  out += "{\"id\": ";
+  append_json(out, o.id);
+  out += ", \"name\": ";
+  append_json(out, o.name);
+  out += ", \"file\": ";
+  append_json(out, model.files[o.file].label);
+}
+
+void result(std::string& out, const model::Model& model, const Pair& p) {
+  out += "{\"a\": ";
+  object(out, model, p.a);
+  out += ", \"part\": " + std::to_string(p.part_a) + "}, \"b\": ";
+  object(out, model, p.b);
+  out += ", \"part\": " + std::to_string(p.part_b) + "}, \"class\": \"";
+  out += name(p.cls);
+  out += "\", \"relation\": \"";
+  out += name(p.relation);
+  out += "\", \"d_mm\": ";
+  append_mm(out, p.d_mm);
+  out += ", \"d_range_mm\": [";
+  append_mm_down(out, p.d_lower_mm);
+  out += ", ";
+  append_mm_up(out, p.d_upper_mm);
+  out += "], \"point_mm\": [";
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) out += ", ";
+    append_mm(out, p.point_mm[k]);
+  }
+  out += "], \"flags\": [";
+  bool first = true;
+  for (const std::string_view flag : clash::flag_names(p.flags)) {
+    if (!first) out += ", ";
+    first = false;
+    append_json(out, flag);
+  }
+  out += "]}";
+}
+
+}  // namespace
+
+void write_clash_json(const Report& report, const model::Model& model, Sink sink) {
+  Buffered buffer(sink);
+  std::string& out = buffer.text();
+  out += "{\n\"schema_version\": ";
+  out += kSchemaVersion;
+  out += ",\n";
+  settings(out, report);
+  out += ",\n";
+  files(out, model);
+  out += ",\n";
+  counts(out, report);
+  out += ",\n\"hash\": ";
+  append_json(out, report.hash);
+  out += ",\n";
+  diagnostics(out, report.diagnostics);
+  out += ",\n\"results\": [";
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
+    out += i == 0 ? "\n" : ",\n";
+    result(out, model, report.pairs[i]);
+    buffer.done();
+  }
+  out += "\n]\n}\n";
+}
+
+}  // namespace strake::report

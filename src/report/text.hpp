@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "strake/report/clash.hpp"
+
+namespace strake::report {
+
+/// Gathers text and hands it on in large pieces.
+class Buffered {
+ public:
+  explicit Buffered(Sink sink) : sink_(sink) {}
+  ~Buffered() { flush(); }
+  Buffered(const Buffered&) = delete;
+  Buffered& operator=(const Buffered&) = delete;
+  Buffered(Buffered&&) = delete;
+  Buffered& operator=(Buffered&&) = delete;
+
+  /// What to append to; call done() after each record.
+  std::string& text() { return text_; }
+  void done() {
+    if (text_.size() >= kFull) flush();
+  }
+
+ private:
+  void flush() {
+    if (!text_.empty()) sink_(text_);
+    text_.clear();
+  }
+  static constexpr std::size_t kFull = std::size_t{1} << 16U;
+  Sink sink_;
+  std::string text_;
+};
+
+/// A JSON string with its quotes.
+void append_json(std::string& out, std::string_view text);
+
+/// Millimetres to a nanometre, without trailing zeros.
+void append_mm(std::string& out, double mm);
+
+/// The same, rounded down or up, so that a bracket stays certain.
+void append_mm_down(std::string& out, double mm);
+void append_mm_up(std::string& out, double mm);
+
+/// Length in bytes of the UTF-8 character that starts at `at`; 0 when none does.
+[[nodiscard]] std::size_t utf8_length(std::string_view text, std::size_t at);
+
+/// At most `columns` characters of the text, the middle left out where it is longer; padded to the
+/// left-aligned width. Control characters and bytes that are not UTF-8 become '?'.
+[[nodiscard]] std::string fitted(std::string_view text, std::size_t columns);
+
+}  // namespace strake::report

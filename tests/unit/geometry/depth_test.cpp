@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/geometry/depth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "../../support/part_builder.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using testing::box_mesh;
+using testing::IndexedMesh;
+using testing::prism_mesh;
+using testing::Subject;
+
+Depth depth_of(const Subject& a, const Subject& b, const DepthGoal& goal = {}) {
+  const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
+  PairWork work;
+  return solid_depth({a.treed(), &pa}, {b.treed(), &pb}, goal, work);
+}
+
+void expect_depth(const Subject& a, const Subject& b, double expected, double width = 1e-3) {
+  const Depth d = depth_of(a, b), e = depth_of(b, a);
+  EXPECT_NEAR(d.value, expected, width);
+  EXPECT_NEAR(e.value, expected, width);
+  EXPECT_LE(d.lower, expected);
+  EXPECT_GE(d.upper, expected);
+  EXPECT_LE(d.upper - d.lower, width);
+}
+
+/// A regular prism along z with `sides` corners on radius r, snapped to the grid.
+IndexedMesh cylinder(int sides, double r, std::int32_t z0, std::int32_t z1) {
+  std::vector<Vec3i> ring;
+  for (int i = 0; i < sides; ++i) {
+    const double t = 2 * std::numbers::pi * i / sides;
+    ring.push_back({static_cast<std::int32_t>(std::lround(r * std::cos(t))),
+                    static_cast<std::int32_t>(std::lround(r * std::sin(t))), 0});
+  }
+  return prism_mesh(ring, z0, z1);
+}
+
+/// A channel: an open-topped U along x made of a single non-convex solid.
+IndexedMesh channel(std::int32_t length, std::int32_t width, std::int32_t height,
+                    std::int32_t wall) {
+  const std::array<std::array<std::int32_t, 2>, 8> outline{{{0, 0},
+                                                            {width, 0},
+                                                            {width, height},
+                                                            {width - wall, height},
+                                                            {width - wall, wall},
+                                                            {wall, wall},
+                                                            {wall, height},
+                                                            {0, height}}};
+  IndexedMesh mesh;
+  for (const std::int32_t x : {0, length})
+    for (const auto& p : outline) mesh.vertices.push_back({x, p[0], p[1]});
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const std::uint32_t j = (i + 1) % 8;
+    quad(i, i + 8, j + 8, j);
+  }
+  for (const auto& q :
+       std::array<std::array<std::uint32_t, 4>, 3>{{{0, 1, 4, 5}, {1, 2, 3, 4}, {0, 5, 6, 7}}}) {
+    quad(q[0], q[1], q[2], q[3]);
+    quad(q[3] + 8, q[2] + 8, q[1] + 8, q[0] + 8);
+  }
+  return mesh;
+}
+
+/// Turned by a rational rotation (quaternion 1, 2, 3, 4 over 30) and snapped.
+IndexedMesh turned(IndexedMesh mesh) {
+  const std::array<std::array<double, 3>, 3> m{{{-20, 4, 22}, {20, -10, 20}, {10, 28, 4}}};
+  for (Vec3i& v : mesh.vertices) {
+    std::array<double, 3> p{};
+    for (std::size_t k = 0; k < 3; ++k) p[k] = (m[k][0] * v.x + m[k][1] * v.y + m[k][2] * v.z) / 30;
+    v = {static_cast<std::int32_t>(std::lround(p[0])), static_cast<std::int32_t>(std::lround(p[1])),
+         static_cast<std::int32_t>(std::lround(p[2]))};
+  }
+  return mesh;
+}
+
+TEST(Depth, AlignedWallsOverlapAtTheirEnds) {
+  const Subject a(box_mesh({0, 0, 0}, {3'000'000, 200'000, 2'500'000}));
+  const Subject b(box_mesh({0, 0, 0}, {3'000'000, 200'000, 2'500'000}), {2'950'000, 0, 0});
+  expect_depth(a, b, 50'000);
+  const Subject c(box_mesh({0, 0, 0}, {3'000'000, 200'000, 2'500'000}), {2'950'000, 2'000, 0});
+  expect_depth(a, c, 50'000);
+}
+
+TEST(Depth, CrossingPlatesAreHalfAPlateDeep) {
+  const Subject a(box_mesh({0, 0, 0}, {1'000'000, 2'000, 500'000}));
+  const Subject b(box_mesh({0, 0, 0}, {2'000, 1'000'000, 500'000}), {499'000, -499'000, 0});
+  expect_depth(a, b, 1'000);
+}
+
+TEST(Depth, PipeThroughAWallIsAsDeepAsThePipe) {
+  const Subject wall(box_mesh({0, 0, 0}, {3'000'000, 3'000'000, 12'000}));
+  const Subject pipe(box_mesh({0, 0, 0}, {100'000, 100'000, 900'000}),
+                     {1'000'000, 1'000'000, -400'000});
+  expect_depth(wall, pipe, 50'000);
+}
+
+TEST(Depth, NestedAndDuplicateBodies) {
+  const Subject tank(box_mesh({0, 0, 0}, {1'000'000, 1'000'000, 1'000'000}));
+  const Subject inside(box_mesh({0, 0, 0}, {10'000, 10'000, 10'000}), {300'000, 400'000, 500'000});
+  // Deepest point of the small box: its far corner side, 310 mm from the tank's nearest wall.
+  expect_depth(tank, inside, 310'000);
+  expect_depth(tank, tank, 500'000);
+}
+
+TEST(Depth, TheSameWhereverAndHoweverTurned) {
+  const IndexedMesh wall =
+      box_mesh({-1'500'000, -100'000, -1'000'000}, {1'500'000, 100'000, 1'000'000});
+  IndexedMesh other = wall;
+  for (Vec3i& v : other.vertices) v = v + Vec3i{2'950'000, 2'000, 0};
+  const Subject a(turned(wall), {900'000'000'000, 5, -7}),
+      b(turned(other), {900'000'000'000, 5, -7});
+  expect_depth(a, b, 50'000, 8);
+}
+
+TEST(Depth, CylinderPushedIntoABox) {
+  // One corner of the prism points down: it is 7 mm in the floor.
+  const Subject pipe(cylinder(24, 100'000, -500'000, 500'000), {0, 0, 93'000 - 100'000});
+  const Subject floor(box_mesh({-200'000, -200'000, -600'000}, {200'000, 200'000, -500'000}));
+  expect_depth(floor, pipe, 7'000, 1);
+}
+
+TEST(Depth, OneGridUnitDeep) {
+  const Subject a(box_mesh({0, 0, 0}, {1000, 1000, 1000}));
+  const Subject b(box_mesh({0, 0, 0}, {1000, 1000, 1000}), {999, 0, 0});
+  expect_depth(a, b, 1);
+}
+
+TEST(Depth, BodyInTheHollowOfAChannel) {
+  // A bar that lies in the channel and sinks 3 mm into its floor; its hull is deep in the hull of
+  // the channel, so only the search can tell.
+  const Subject a(channel(1'000'000, 100'000, 80'000, 10'000));
+  const Subject bar(box_mesh({0, 0, 0}, {200'000, 40'000, 40'000}), {400'000, 30'000, 7'000});
+  DepthGoal goal;
+  goal.threshold = 1000;
+  const Depth d = depth_of(a, bar, goal);
+  EXPECT_LE(d.lower, 3000);
+  EXPECT_GE(d.upper, 3000);
+  EXPECT_GT(d.lower, 1000) << "the class is decided";
+  EXPECT_LE(d.upper - d.lower, 100) << d.cells << " cells";
+}
+
+TEST(Depth, ShallowContactInTheHollowOfATurnedChannel) {
+  // 20 µm deep in the floor of a channel that stands askew: CONTACT must be certain.
+  const Subject a(turned(channel(1'000'000, 100'000, 80'000, 10'000)));
+  IndexedMesh bar = box_mesh({400'000, 30'000, 9'980}, {600'000, 70'000, 50'000});
+  const Subject b(turned(bar));
+  DepthGoal goal;
+  goal.threshold = 1000;
+  goal.triangle_a = kNoFace;
+  for (std::uint32_t t = 0; t < a.part.triangles.size(); ++t) {
+    goal.triangle_a = t;
+    const Depth d = depth_of(a, b, goal);
+    EXPECT_LE(d.lower, 22);
+    EXPECT_GE(d.upper, 18);
+    EXPECT_LE(d.upper, 1000) << "with the frame of triangle " << t << ", " << d.cells << " cells";
+  }
+}
+
+/// The bracket holds against a dense sampling of the definition.
+TEST(Depth, NoSampleIsDeeperThanTheBracket) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](int lo, int hi) {
+      return lo + static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(hi - lo));
+    };
+    const Subject a(seed % 2 == 0
+                        ? channel(draw(40, 90) * 1000, 60'000, 40'000, draw(4, 12) * 1000)
+                        : turned(box_mesh({0, 0, 0}, {draw(20, 90) * 1000, 30'000, 20'000})));
+    const Subject b(turned(cylinder(draw(3, 12), draw(5'000, 20'000), -20'000, 20'000)),
+                    {draw(0, 40'000), draw(0, 40'000), draw(0, 20'000)});
+    PairWork work;
+    if (meet(a.treed(), b.treed(), work).meeting == Meeting::apart) continue;
+    const Depth d = depth_of(a, b);
+    EXPECT_LE(d.lower, d.value);
+    EXPECT_LE(d.value, d.upper);
+    for (int i = 0; i < 400; ++i) {
+      const Vec3l p{draw(a.part.box.lo.x, a.part.box.hi.x + 1),
+                    draw(a.part.box.lo.y, a.part.box.hi.y + 1),
+                    draw(a.part.box.lo.z, a.part.box.hi.z + 1)};
+      if (side_of(a.treed(), p, 1, work) != PointSide::inside) continue;
+      if (side_of(b.treed(), p - b.origin, 1, work) != PointSide::inside) continue;
+      const double deep = std::max(distance_to_surface(a.treed(), p.as<double>()),
+                                   distance_to_surface(b.treed(), (p - b.origin).as<double>()));
+      EXPECT_LE(deep, d.upper + 1e-3) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Depth, ChangesByNoMoreThanTheMove) {
+  const Subject a(channel(90'000, 60'000, 40'000, 8'000));
+  double before = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Subject b(cylinder(9, 15'000, 0, 30'000), {20'000, 20'000 + i * 700, 1'000});
+    const Depth d = depth_of(a, b,
+                             {.threshold = 0,
+                              .tolerance = 1,
+                              .relative = 0.001,
+                              .cells_undecided = 20'000,
+                              .cells_decided = 20'000});
+    if (i > 0) {
+      EXPECT_LE(std::fabs(d.value - before), 700 + d.upper - d.lower + 20);
+    }
+    before = d.value;
+  }
+}
+
+TEST(SheetDepth, PlateSheetIntoABox) {
+  const Subject sheet(testing::quad_mesh({-100'000, 0, 0}, {200'000, 0, 0}, {0, 300'000, 0}));
+  const Subject box(box_mesh({-50'000, 250'000, -40'000}, {50'000, 900'000, 60'000}));
+  const SupportPlanes ps = make_support_planes(sheet.part), pb = make_support_planes(box.part);
+  PairWork work;
+  const Depth d = sheet_in_solid_depth({sheet.treed(), &ps}, {box.treed(), &pb}, {}, work);
+  // The sheet's edge lies 50 mm in, midway between walls 100 mm apart, 40 mm above the bottom.
+  EXPECT_LE(d.lower, 40'000);
+  EXPECT_GE(d.upper, 40'000);
+  EXPECT_LE(d.upper - d.lower, 1000);
+}
+
+TEST(SheetDepth, SheetsThatCross) {
+  const Subject a(testing::quad_mesh({0, 0, 0}, {100'000, 0, 0}, {0, 100'000, 0}));
+  const Subject b(testing::quad_mesh({50'000, 20'000, -30'000}, {0, 500'000, 0}, {0, 0, 60'000}));
+  PairWork work;
+  const Depth d = sheet_crossing_depth(a.treed(), b.treed(), {}, work);
+  // Along x = 50 mm: 30 mm from b's edges above and below, up to 40 mm from a's far edge.
+  EXPECT_LE(d.lower, 30'000);
+  EXPECT_GE(d.upper, 30'000);
+  EXPECT_LE(d.upper - d.lower, 700);
+}
+
+}  // namespace
+}  // namespace strake::geometry
