@@ -7,6 +7,7 @@ std::vector<std::unique_ptr<Reader>> all_readers() {
   std::vector<std::unique_ptr<Reader>> readers;
   readers.push_back(make_rvm_reader());
   readers.push_back(make_obj_reader());
+  readers.push_back(make_stl_reader());
   return readers;
 }
 

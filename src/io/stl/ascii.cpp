@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stl/ascii.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace strake::io::stl {
+namespace {
+
+constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Keywords are written in any case.
+bool is_word(std::string_view text, std::string_view word) {
+  return text.size() == word.size() && std::equal(text.begin(), text.end(), word.begin(),
+                                                  [](char a, char b) { return lower(a) == b; });
+}
+
+std::string_view take_word(std::string_view& line) {
+  line = trimmed(line);
+  const std::size_t length = std::min(line.find_first_of(" \t"), line.size());
+  const std::string_view word = line.substr(0, length);
+  line = trimmed(line.substr(length));
+  return word;
+}
+
+class AsciiParser {
+ public:
+  void line(std::string_view line);
+  AsciiFile take();
+  void next_line() { ++line_; }
+
+ private:
+  Solid& solid() {
+    if (!open_) begin("");
+    return file_.solids.back();
+  }
+  void begin(std::string_view name);
+  void vertex(std::string_view rest);
+  void end_loop();
+  void end_solid();
+  void damaged(const char* message) {
+    if (!solid().damage) solid().damage = Damage{message, line_};
+  }
+
+  AsciiFile file_;
+  std::uint64_t line_ = 1;
+  bool open_ = false;
+  std::size_t loop_corners_ = 0;  ///< of the loop that is being read
+};
+
+void AsciiParser::begin(std::string_view name) {
+  end_solid();
+  file_.solids.push_back({std::string(name), {}, {}});
+  open_ = true;
+}
+
+void AsciiParser::vertex(std::string_view rest) {
+  Solid& owner = solid();
+  const char* at = rest.data();
+  const char* const end = at + rest.size();
+  geometry::Vec3d point;
+  for (int axis = 0; axis < 3; ++axis) {
+    skip_blanks(at, end);
+    if (!read_number(at, end, point[axis], file_.digits) || (at != end && !is_blank(*at)) ||
+        !std::isfinite(point[axis]))
+      return damaged("a vertex needs three finite numbers");
+  }
+  owner.corners.push_back(point);
+  ++loop_corners_;
+}
+
+void AsciiParser::end_loop() {
+  if (loop_corners_ != 3 && !solid().damage) damaged("a facet needs three corners");
+  loop_corners_ = 0;
+}
+
+void AsciiParser::end_solid() {
+  if (open_ && loop_corners_ != 0) damaged("it ends within a facet");
+  loop_corners_ = 0;
+  open_ = false;
+}
+
+void AsciiParser::line(std::string_view line) {
+  const std::string_view word = take_word(line);
+  if (word.empty()) return;
+  if (is_word(word, "vertex")) return vertex(line);
+  if (is_word(word, "endloop")) return end_loop();
+  if (is_word(word, "facet") || is_word(word, "outer") || is_word(word, "endfacet")) {
+    if (loop_corners_ != 0) end_loop();
+    return;
+  }
+  if (is_word(word, "solid")) return begin(line);
+  if (is_word(word, "endsolid")) return end_solid();
+  // Some exporters add comment or colour lines; a line in the middle of a loop is damage.
+  if (loop_corners_ != 0) damaged("a line within a facet is not understood");
+}
+
+AsciiFile AsciiParser::take() {
+  end_solid();
+  return std::move(file_);
+}
+
+}  // namespace
+
+bool looks_like_ascii(std::string_view text) {
+  std::string_view start = text.substr(0, 1024);
+  if (start.find('\0') != std::string_view::npos) return false;
+  const std::size_t begin = start.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return false;
+  start.remove_prefix(begin);
+  const std::size_t word_end = std::min(start.find_first_of(" \t\r\n"), start.size());
+  return is_word(start.substr(0, word_end), "solid");
+}
+
+std::optional<AsciiFile> parse_ascii(std::string_view text, const std::stop_token& stop) {
+  constexpr std::uint64_t kLinesBetweenLooks = 4096;
+  AsciiParser parser;
+  for (std::uint64_t count = 0; !text.empty(); ++count) {
+    if (count % kLinesBetweenLooks == 0 && stop.stop_requested()) return std::nullopt;
+    const std::size_t length = std::min(text.find('\n'), text.size());
+    parser.line(text.substr(0, length));
+    parser.next_line();
+    text.remove_prefix(std::min(length + 1, text.size()));
+  }
+  return parser.take();
+}
+
+}  // namespace strake::io::stl

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/text_number.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::io::stl {
+
+struct Damage {
+  std::string message;
+  std::uint64_t line = 0;  ///< 1-based
+};
+
+/// One "solid … endsolid"; corners stand three by three.
+struct Solid {
+  std::string name;
+  std::vector<geometry::Vec3d> corners;
+  std::optional<Damage> damage;  ///< set: not to be used
+};
+
+struct AsciiFile {
+  std::vector<Solid> solids;
+  DigitStatistics digits;
+};
+
+/// Text that starts with "solid" and goes on with facets or ends.
+[[nodiscard]] bool looks_like_ascii(std::string_view text);
+
+/// Nothing when stopped.
+[[nodiscard]] std::optional<AsciiFile> parse_ascii(std::string_view text,
+                                                   const std::stop_token& stop);
+
+}  // namespace strake::io::stl

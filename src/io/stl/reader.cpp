@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/io/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "io/file_content.hpp"
+#include "io/reading.hpp"
+#include "io/stl/ascii.hpp"
+#include "strake/parallel/for_each.hpp"
+
+namespace strake::io {
+namespace {
+
+using geometry::Vec3d;
+
+static_assert(std::endian::native == std::endian::little, "numbers are read as they lie");
+
+constexpr FrameDefault kStlFrame{1.0, UpAxis::z, false};
+constexpr std::uint64_t kHeaderBytes = 84, kFacetBytes = 50;
+
+std::uint64_t stated_facets(std::span<const std::byte> bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return count;
+}
+
+enum class Kind { none, binary, binary_longer, binary_truncated, ascii };
+
+/// Binary files are known by their size, because many begin with "solid" like the text variant.
+Kind kind_of(std::span<const std::byte> bytes) {
+  const bool text = stl::looks_like_ascii(as_text(bytes));
+  if (bytes.size() < kHeaderBytes) return text ? Kind::ascii : Kind::none;
+  const std::uint64_t facets = stated_facets(bytes);
+  const std::uint64_t expected = kHeaderBytes + kFacetBytes * facets;
+  if (bytes.size() == expected) return Kind::binary;
+  if (text) return Kind::ascii;
+  return bytes.size() > expected ? Kind::binary_longer : Kind::binary_truncated;
+}
+
+void grow(double& largest, const Vec3d& p) {
+  largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+}
+
+void add_object(model::Model& model, std::string name, geometry::TriangleMesh mesh) {
+  model::Object object;
+  object.id = name;
+  object.name = std::move(name);
+  object.first_body = static_cast<std::uint32_t>(model.bodies.size());
+  add_body(model, object, std::move(mesh), {});
+  model.objects.push_back(std::move(object));
+}
+
+/// The three corners of facet i, as float32 in the file's frame.
+std::array<std::array<float, 3>, 3> facet_corners(std::span<const std::byte> bytes,
+                                                  std::uint64_t facet) {
+  std::array<std::array<float, 3>, 3> corners{};
+  constexpr std::size_t kNormalBytes = 12;
+  std::memcpy(&corners, bytes.data() + kHeaderBytes + kFacetBytes * facet + kNormalBytes,
+              sizeof corners);
+  return corners;
+}
+
+Result<model::Model> read_binary(const FileBytes& file, const ReadOptions& options,
+                                 const parallel::Context& context) {
+  model::Model model = start_model(file, "STL binary", options, kStlFrame);
+  const SourceFrame frame = choose_frame(options, kStlFrame);
+  const std::uint64_t facets = stated_facets(file.bytes);
+  constexpr std::uint64_t kMostFacets = 0xffffffffU / 3;
+  if (facets > kMostFacets)
+    return Error{ErrorCode::input, "has more than 1 431 655 765 facets", file.path.string(),
+                 "split the file"};
+  geometry::TriangleMesh mesh;
+  mesh.vertices.resize(3 * facets);
+  mesh.triangles.resize(facets);
+  const Status read = parallel::for_each(
+      context, {.name = "read STL", .n = facets, .grain = 1U << 14U}, [&](std::size_t i) -> Status {
+        const auto corners = facet_corners(file.bytes, i);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto [x, y, z] = corners[k];
+          if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+            return Error{ErrorCode::input,
+                         fmt::format("corner {} of facet {} is not finite", k + 1, i + 1),
+                         fmt::format("{}, byte {}", file.path.string(),
+                                     kHeaderBytes + kFacetBytes * i + 12 + 12 * k),
+                         "mend the model and export it again"};
+          mesh.vertices[3 * i + k] = frame.point({x, y, z});
+        }
+        const auto first = static_cast<std::uint32_t>(3 * i);
+        mesh.triangles[i] = {first, first + 1, first + 2};
+        return {};
+      });
+  if (!read) return read.error();
+  double largest = 0;
+  for (const Vec3d& vertex : mesh.vertices) grow(largest, vertex);
+  model.files[0].precision_mm = frame.unit_mm * float32_half_spacing(largest / frame.unit_mm);
+  if (facets != 0) add_object(model, file.path.stem().string(), std::move(mesh));
+  return end_model(file, std::move(model));
+}
+
+Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& options,
+                                const parallel::Context& context) {
+  model::Model model = start_model(file, "STL text", options, kStlFrame);
+  const SourceFrame frame = choose_frame(options, kStlFrame);
+  const std::optional<stl::AsciiFile> text = stl::parse_ascii(as_text(file.bytes), context.stop);
+  if (!text) return Error{ErrorCode::cancelled, "reading was stopped", file.path.string(), ""};
+  double largest = 0;
+  for (const stl::Solid& solid : text->solids) {
+    std::string name = solid.name.empty() ? file.path.stem().string() : solid.name;
+    if (solid.damage) {
+      model.diagnostics.add(Severity::skipped, "stl-damaged-solid",
+                            fmt::format("solid '{}' is skipped: {}", name, solid.damage->message),
+                            fmt::format("{}:{}", file.path.string(), solid.damage->line));
+      continue;
+    }
+    if (solid.corners.empty()) continue;
+    geometry::TriangleMesh mesh;
+    mesh.vertices.reserve(solid.corners.size());
+    for (const Vec3d& corner : solid.corners) {
+      mesh.vertices.push_back(frame.point(corner));
+      grow(largest, mesh.vertices.back());
+    }
+    for (std::uint32_t i = 0; i + 2 < solid.corners.size(); i += 3)
+      mesh.triangles.push_back({i, i + 1, i + 2});
+    add_object(model, std::move(name), std::move(mesh));
+  }
+  model.files[0].precision_mm =
+      frame.unit_mm * text_half_spacing(text->digits, largest / frame.unit_mm);
+  return end_model(file, std::move(model));
+}
+
+Error truncated(const FileBytes& file) {
+  const std::uint64_t facets = stated_facets(file.bytes);
+  return {ErrorCode::input,
+          fmt::format("ends after {} of the {} facets that it announces at byte 80, or is no STL",
+                      (file.bytes.size() - kHeaderBytes) / kFacetBytes, facets),
+          fmt::format("{}, byte {}", file.path.string(), file.bytes.size()),
+          "copy or export the file again"};
+}
+
+class StlReader final : public Reader {
+ public:
+  [[nodiscard]] std::string_view format() const override { return "STL"; }
+
+  [[nodiscard]] int recognise(const FileBytes& file) const override {
+    const bool named = lower_extension(file.path) == ".stl";
+    switch (kind_of(file.bytes)) {
+      case Kind::binary:
+        return named ? 100 : 70;
+      case Kind::ascii:
+        return named ? 95 : 90;
+      case Kind::binary_longer:
+      case Kind::binary_truncated:
+        return named ? 40 : 0;
+      case Kind::none:
+        return named ? 10 : 0;
+    }
+    return 0;
+  }
+
+  [[nodiscard]] Result<model::Model> read(const FileBytes& file, const ReadOptions& options,
+                                          const parallel::Context& context) const override {
+    switch (kind_of(file.bytes)) {
+      case Kind::ascii:
+        return read_ascii(file, options, context);
+      case Kind::binary_truncated:
+        return truncated(file);
+      case Kind::none:
+        return Error{ErrorCode::input, "is shorter than the 84 bytes that every binary STL has",
+                     file.path.string(), "copy or export the file again"};
+      case Kind::binary:
+      case Kind::binary_longer:
+        break;
+    }
+    Result<model::Model> model = read_binary(file, options, context);
+    if (model && kind_of(file.bytes) == Kind::binary_longer)
+      model->diagnostics.add(Severity::warning, "stl-trailing-bytes",
+                             "bytes behind the last facet are ignored",
+                             fmt::format("{}, byte {}", file.path.string(),
+                                         kHeaderBytes + kFacetBytes * stated_facets(file.bytes)));
+    return model;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Reader> make_stl_reader() { return std::make_unique<StlReader>(); }
+
+}  // namespace strake::io
