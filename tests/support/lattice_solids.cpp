@@ -150,7 +150,7 @@ LatticeMap random_map(std::mt19937_64& rng) {
   if (below(rng, 3) == 0) m.row[static_cast<std::size_t>(below(rng, 3))] = {1, -1, 1};
   if (below(rng, 3) == 0) m.row[0] = m.row[0] * 2;
   if (m.determinant() == 0) m = {};
-  for (int k = 0; k < 3; ++k) m.offset[k] = below(rng, 7) - 3;
+  for (int k = 0; k < 3; ++k) m.offset[k] = below(rng, 5) - 1;
   return m;
 }
 
@@ -256,8 +256,22 @@ LatticePair random_pair(std::mt19937_64& rng) {
       }
       break;
     }
-    default:
-      pair = {random_solid(rng), mapped(random_solid(rng), random_map(rng)), "free"};
+    case 3: {
+      // The one often whole inside the other, or in its cavity, touching here and there.
+      LatticeMap triple, shift;
+      for (Vec3i& row : triple.row) row = row * 3;
+      for (int k = 0; k < 3; ++k) shift.offset[k] = below(rng, 8);
+      pair = {mapped(random_solid(rng), triple), mapped(random_solid(rng), shift),
+              "small in large"};
+      break;
+    }
+    default: {
+      LatticeMap coarse;
+      const int factor = 1 + below(rng, 3);
+      for (Vec3i& row : coarse.row) row = row * factor;
+      pair = {mapped(random_solid(rng), coarse), mapped(random_solid(rng), random_map(rng)),
+              "free"};
+    }
   }
   if (below(rng, 2) == 0) std::swap(pair.a, pair.b);
   return pair;
