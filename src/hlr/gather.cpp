@@ -1,10 +1,405 @@
 // SPDX-License-Identifier: Apache-2.0
+// The engine: every edge gathers what hides it, front to back, and stops when nothing of it is
+// left to be seen. No edge writes to another, so there are no locks and no order to wait for.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
 #include "hlr/job.hpp"
+#include "hlr/occlusion.hpp"
+#include "hlr/shape_view.hpp"
+#include "hlr/stretches.hpp"
+#include "hlr/view_tree.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/order.hpp"
 
 namespace strake::hlr {
+namespace {
+
+using geometry::Box3l;
+using geometry::Vec3l;
+
+constexpr std::uint32_t kEdgesPerItem = 32;
+constexpr std::uint32_t kFewBodies = 16;
+// Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
+constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
+
+/// A body as the gathering sees it.
+struct Placed {
+  const ShapeView* view = nullptr;  ///< null: not drawn
+  Vec3l offset;
+  ViewPoint at;
+  std::uint32_t object = 0;
+  std::int64_t contact = 0;
+  bool opaque = false;  ///< and, where there are limits, not wholly outside them
+  bool cut = false;     ///< by the limits
+};
+
+/// A run of edges of one body: the item of work.
+struct Item {
+  std::uint32_t body = 0, first = 0, last = 0;
+  std::uint32_t number = 0;  ///< of its first edge within the object
+};
+
+struct Work {
+  std::uint64_t edges = 0, tests = 0, wide_tests = 0;
+};
+
+struct World {
+  explicit World(const Job& j) : job(j), frame(j.direction()) {}
+
+  const Job& job;
+  Frame frame;
+  std::vector<ShapeView> views;  ///< per grid shape; empty where not drawn
+  std::vector<Placed> placed;    ///< per body
+  ViewTree tree;                 ///< over the bodies that may hide
+  std::vector<Item> items;
+};
+
+class Gatherer {
+ public:
+  explicit Gatherer(const World& world) : world_(world), job_(world.job) {}
+
+  void run(const Item& item, std::vector<Piece>& out, Work& work) {
+    body_ = item.body;
+    own_ = &world_.placed[body_];
+    for (std::uint32_t i = item.first; i < item.last; ++i)
+      draw_edge(own_->view->edges[i], item.number + (i - item.first), out);
+    work = work_;
+    work_ = {};
+  }
+
+ private:
+  void draw_edge(const EdgeView& e, std::uint32_t number, std::vector<Piece>& out) {
+    ++work_.edges;
+    edge_ = &e;
+    a_ = e.edge.a.as<std::int64_t>() + own_->offset;
+    b_ = e.edge.b.as<std::int64_t>() + own_->offset;
+    stretches_.clear();
+    Param lo = Param::zero(), hi = Param::one();
+    const bool kept = !own_->cut || clip(lo, hi);
+    if (!kept)
+      stretches_.push_back({Param::zero(), Param::one(), State::clipped});
+    else if (e.edge.projecting)
+      stretches_.push_back({Param::zero(), Param::one(), State::projecting});
+    else
+      decide(lo, hi);
+    for (const Stretch& s : stretches_)
+      out.push_back(
+          {model::ObjectId{own_->object}, number, e.edge.kind, s.state, at(s.lo), at(s.hi)});
+  }
+
+  [[nodiscard]] Vec3l at(const Param& t) const {
+    if (t.num == 0) return a_ + job_.origin;
+    if (t.num == t.den) return b_ + job_.origin;
+    Vec3l p = a_ + job_.origin;
+    for (int k = 0; k < 3; ++k)
+      if (a_[k] != b_[k]) p[k] += rounded_share(b_[k] - a_[k], t);
+    return p;
+  }
+
+  // The part of the edge within the limits; false when there is none of any length.
+  bool clip(Param& lo, Param& hi) const {
+    for (int k = 0; k < 3; ++k)
+      for (const int sign : {1, -1}) {
+        const std::int64_t limit = sign > 0 ? job_.limits->lo[k] : job_.limits->hi[k];
+        const std::int64_t at_a = sign * (a_[k] - limit), at_b = sign * (b_[k] - limit);
+        if (at_a >= 0 && at_b >= 0) continue;
+        if (at_a <= 0 && at_b <= 0) return false;
+        if (at_a < at_b) {
+          const Param root = Param::of(-at_a, at_b - at_a);
+          if (less(lo, root)) lo = root;
+        } else {
+          const Param root = Param::of(at_a, at_a - at_b);
+          if (less(root, hi)) hi = root;
+        }
+        if (!less(lo, hi)) return false;
+      }
+    return true;
+  }
+
+  void decide(const Param& lo, const Param& hi) {
+    hits_.clear();
+    if (job_.options.stage != Stage::none) {
+      va_ = edge_->a + own_->at;
+      vb_ = edge_->b + own_->at;
+      open_ = OpenRange(lo, hi);
+      const bool centre_line = edge_->edge.kind == EdgeKind::polyline;
+      if (!centre_line) gather_own_object();
+      if (!open_.empty() && job_.options.stage == Stage::global) gather_others();
+    }
+    if (lo.num > 0) stretches_.push_back({Param::zero(), lo, State::clipped});
+    if (hits_.empty())
+      stretches_.push_back({lo, hi, State::visible});
+    else
+      maker_.run(hits_, lo, hi, stretches_);
+    if (hi.num < hi.den) stretches_.push_back({hi, Param::one(), State::clipped});
+  }
+
+  // Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
+  // edge wholly, completely.
+  void gather_own_object() {
+    if (own_->opaque) gather_own_body();
+    const auto& first_body = job_.scene->first_body;
+    const std::uint32_t first = first_body[own_->object], last = first_body[own_->object + 1];
+    if (last - first == 1 || (job_.options.culling && open_.empty())) return;
+    const auto consider = [&](std::uint32_t b) {
+      if (b == body_ || world_.placed[b].object != own_->object) return true;
+      return gather_body(b, true);
+    };
+    if (last - first <= kFewBodies || !job_.options.culling) {
+      for (std::uint32_t b = first; b < last; ++b)
+        if (!consider(b)) return;
+    } else {
+      refresh_segment();
+      world_.tree.walk(segment_, consider);
+    }
+  }
+
+  void gather_others() {
+    const auto consider = [&](std::uint32_t b) {
+      return world_.placed[b].object == own_->object || gather_body(b, false);
+    };
+    if (job_.options.culling) {
+      refresh_segment();
+      world_.tree.walk(segment_, consider);
+    } else {
+      for (std::uint32_t b = 0; b < world_.placed.size(); ++b) consider(b);
+    }
+  }
+
+  void gather_own_body() {
+    // Limits may cut away what hides: then the convex part's short cut does not hold.
+    const bool judged = !own_->cut && (edge_->surely_behind_part || edge_->surely_clear_of_part);
+    if (judged && edge_->surely_behind_part) {
+      add({Param::zero(), Param::one(), kBothSides, true});
+      if (job_.options.culling) return;
+    }
+    const LocalEdge local = localized(*own_);
+    const auto test = [&](const Polygon& p) {
+      const bool same = p.part == edge_->edge.part;
+      if (same && judged) return true;
+      return test_polygon(local, *own_->view, p, same ? 0 : own_->contact, true);
+    };
+    for_polygons(*own_, test);
+  }
+
+  // False when nothing of the edge is left.
+  bool gather_body(std::uint32_t b, bool self) {
+    const Placed& other = world_.placed[b];
+    if (!other.opaque || !near(other)) return true;
+    const LocalEdge local = localized(other);
+    const std::int64_t contact = std::max(own_->contact, other.contact);
+    bool more = true;
+    for_polygons(other, [&](const Polygon& p) {
+      more = test_polygon(local, *other.view, p, contact, self);
+      return more;
+    });
+    return more;
+  }
+
+  [[nodiscard]] bool near(const Placed& other) const {
+    const ViewBox box = other.view->box.moved(other.at);
+    return std::max(va_.u, vb_.u) >= box.lo.u && std::min(va_.u, vb_.u) <= box.hi.u &&
+           std::max(va_.v, vb_.v) >= box.lo.v && std::min(va_.v, vb_.v) <= box.hi.v &&
+           std::min(va_.w, vb_.w) < box.hi.w;
+  }
+
+  template <class Test>
+  void for_polygons(const Placed& other, Test&& test) {
+    const std::vector<Polygon>& polygons = other.view->polygons;
+    if (other.view->tree.empty()) {
+      for (const Polygon& p : polygons)
+        if (!test(p)) return;
+      return;
+    }
+    const LooseSegment segment = loose(va_ - other.at, vb_ - other.at);
+    other.view->tree.walk(segment, [&](std::uint32_t i) { return test(polygons[i]); });
+  }
+
+  bool test_polygon(const LocalEdge& local, const ShapeView& view, const Polygon& p,
+                    std::int64_t contact, bool self) {
+    if (p.far_side && is_spared(local, p, contact)) return true;
+    ++work_.tests;
+    work_.wide_tests += local.narrow ? 0 : 1;
+    auto hit = hidden_stretch(local, view, p, contact);
+    if (!hit) return true;
+    hit->self = self;
+    return add(*hit);
+  }
+
+  [[nodiscard]] bool is_spared(const LocalEdge& local, const Polygon& p,
+                               std::int64_t contact) const {
+    if (!job_.options.culling || local.limits != nullptr) return false;
+    const std::int64_t w = std::max(local.va.w, local.vb.w);
+    if (contact == 0) return w < p.spare_w;
+    const double margin = static_cast<double>(contact) * p.spare_per_contact + 1;
+    // The difference is formed in integers; rounding it to double is far below the margin's own.
+    return static_cast<double>(p.spare_w - w) > margin * (1 + 1e-9);
+  }
+
+  bool add(const Hit& hit) {
+    hits_.push_back(hit);
+    if (!job_.options.culling) return true;
+    if (!open_.shrink_all(hits_)) return true;
+    if (open_.empty()) return false;
+    refresh_segment();
+    return true;
+  }
+
+  [[nodiscard]] LocalEdge localized(const Placed& other) {
+    LocalEdge local{a_ - other.offset, b_ - other.offset, va_ - other.at, vb_ - other.at};
+    const std::int64_t reach =
+        std::max({std::abs(local.va.u), std::abs(local.va.v), std::abs(local.vb.u),
+                  std::abs(local.vb.v), other.view->reach});
+    local.narrow = fits_narrow(reach);
+    if (other.cut) {
+      limits_ = {job_.limits->lo - other.offset, job_.limits->hi - other.offset};
+      local.limits = &limits_;
+    }
+    return local;
+  }
+
+  // The part of the edge that is still open, for a query.
+  [[nodiscard]] LooseSegment loose(const ViewPoint& a, const ViewPoint& b) const {
+    LooseSegment s;
+    const bool exact =
+        std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kExactInDouble;
+    const double du = static_cast<double>(b.u) - static_cast<double>(a.u);
+    const double dv = static_cast<double>(b.v) - static_cast<double>(a.v);
+    const double dw = static_cast<double>(b.w) - static_cast<double>(a.w);
+    s.au = static_cast<double>(a.u);
+    s.av = static_cast<double>(a.v);
+    s.du = exact ? du : 0;
+    s.dv = exact ? dv : 0;
+    const auto range = [&](double from, double step, double& least, double& most) {
+      const double p = from + step * open_.lo().value, q = from + step * open_.hi().value;
+      const double slack = 1e-12 * (std::abs(from) + std::abs(step));
+      least = std::min(p, q) - slack;
+      most = std::max(p, q) + slack;
+    };
+    double w1 = 0;
+    range(s.au, du, s.u0, s.u1);
+    range(s.av, dv, s.v0, s.v1);
+    range(static_cast<double>(a.w), dw, s.w0, w1);
+    return s;
+  }
+  void refresh_segment() { segment_ = loose(va_, vb_); }
+
+  const World& world_;
+  const Job& job_;
+  Work work_;
+  // The edge in hand.
+  std::uint32_t body_ = 0;
+  const Placed* own_ = nullptr;
+  const EdgeView* edge_ = nullptr;
+  Vec3l a_, b_;
+  ViewPoint va_, vb_;
+  OpenRange open_;
+  LooseSegment segment_;
+  Box3l limits_;  ///< in the coordinates of the body that is asked
+  // Scratch that keeps its memory from edge to edge.
+  std::vector<Hit> hits_;
+  std::vector<Stretch> stretches_;
+  StretchMaker maker_;
+};
+
+bool within(const Box3l& inner, const Box3l& outer) {
+  for (int k = 0; k < 3; ++k)
+    if (inner.lo[k] < outer.lo[k] || inner.hi[k] > outer.hi[k]) return false;
+  return true;
+}
+
+Status make_views(World& world, const parallel::Context& context) {
+  const model::Scene& scene = *world.job.scene;
+  std::vector<std::uint32_t> used;
+  std::vector<bool> seen(scene.shapes.size());
+  for (const model::GridBody& body : scene.bodies) {
+    if (seen[body.grid_shape] || !world.job.drawn[model::index(body.object)]) continue;
+    seen[body.grid_shape] = true;
+    used.push_back(body.grid_shape);
+  }
+  const auto order = parallel::longest_first(used.size(), [&](std::size_t i) {
+    std::size_t triangles = 0;
+    for (const geometry::Part& part : scene.shapes[used[i]].parts) triangles += part.edges.size();
+    return triangles;
+  });
+  world.views.resize(scene.shapes.size());
+  return parallel::for_each(
+      context, {.name = "hidden lines: shapes", .n = used.size(), .order = order},
+      [&](std::size_t i) {
+        world.views[used[i]] = view_of(scene.shapes[used[i]], world.frame, world.job.features);
+      });
+}
+
+void place_bodies(World& world) {
+  const Job& job = world.job;
+  const model::Scene& scene = *job.scene;
+  world.placed.resize(scene.bodies.size());
+  std::vector<ViewBox> boxes(scene.bodies.size());
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    const model::GridBody& body = scene.bodies[b];
+    const std::uint32_t object = model::index(body.object);
+    if (!job.drawn[object]) continue;
+    const model::GridShape& shape = scene.shapes[body.grid_shape];
+    Placed& placed = world.placed[b];
+    placed = {&world.views[body.grid_shape],
+              job.offset(body),
+              world.frame(job.offset(body)),
+              object,
+              job.contact[b],
+              job.opaque[b],
+              false};
+    if (job.limits && !shape.box.empty()) {
+      Box3l box = body.box(shape);
+      box = {box.lo - job.origin, box.hi - job.origin};
+      placed.cut = !within(box, *job.limits);
+      placed.opaque = placed.opaque && box.meets(*job.limits);
+    }
+    if (placed.opaque && !placed.view->box.empty()) boxes[b] = placed.view->box.moved(placed.at);
+  }
+  world.tree = ViewTree(boxes);
+}
+
+void make_items(World& world) {
+  const model::Scene& scene = *world.job.scene;
+  std::uint32_t number = 0;
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    if (world.placed[b].view == nullptr) continue;
+    const std::uint32_t object = world.placed[b].object;
+    if (b == scene.first_body[object]) number = 0;
+    const auto edges = static_cast<std::uint32_t>(world.placed[b].view->edges.size());
+    for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
+      world.items.push_back({b, first, std::min(edges, first + kEdgesPerItem), number + first});
+    number += edges;
+  }
+}
+
+}  // namespace
 
 Status solve_gather(const Job& job, const parallel::Context& context, Drawing& drawing) {
-  return solve_brute_force(job, context, drawing);
+  World world(job);
+  if (const Status status = make_views(world, context); !status) return status;
+  place_bodies(world);
+  make_items(world);
+  std::vector<Work> work(world.items.size());
+  Result<std::vector<Piece>> pieces = parallel::collect_with<Piece>(
+      context, {.name = "hidden lines: edges", .n = world.items.size()},
+      [&] { return Gatherer(world); },
+      [&](Gatherer& gatherer, std::size_t i, std::vector<Piece>& out) {
+        gatherer.run(world.items[i], out, work[i]);
+      });
+  if (!pieces) return pieces.error();
+  drawing.pieces = std::move(pieces).value();
+  for (const Work& w : work) {
+    drawing.counters.feature_edges += w.edges;
+    drawing.counters.face_tests += w.tests;
+    drawing.counters.exact_fallbacks += w.wide_tests;
+  }
+  return {};
 }
 
 }  // namespace strake::hlr

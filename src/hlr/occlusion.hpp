@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hlr/param.hpp"
+#include "hlr/shape_view.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::hlr {
+
+enum Side : std::uint8_t { kLeft = 1, kRight = 2, kBothSides = 3 };
+
+/// A stretch of an edge that something hides, on one side of the edge or on both.
+struct Hit {
+  Param lo, hi;
+  std::uint8_t sides = 0;
+  bool self = false;
+};
+
+/// An edge in the coordinates of the shape that may hide it.
+struct LocalEdge {
+  geometry::Vec3l a, b;
+  ViewPoint va, vb;
+  const geometry::Box3l* limits = nullptr;  ///< in the same coordinates; null where none cut
+  bool narrow = false;  ///< 64-bit integers suffice for orientations of this edge and shape
+};
+
+/// True when orientations of points within ±reach can be formed in 64 bits.
+[[nodiscard]] constexpr bool fits_narrow(std::int64_t reach) {
+  return reach < (std::int64_t{1} << 29);
+}
+
+/// The closed stretch of the edge that a polygon hides, by the two-sided rule: what lies strictly
+/// under its open inside for points a hair left or right of the edge, deeper than `contact` in
+/// the sense of docs/hlr.md. Exact.
+[[nodiscard]] std::optional<Hit> hidden_stretch(const LocalEdge& edge, const ShapeView& shape,
+                                                const Polygon& polygon, std::int64_t contact);
+
+}  // namespace strake::hlr

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+// Merges exactly coplanar triangles into convex polygons, and certifies convex solids.
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "hlr/shape_view.hpp"
+
+namespace strake::hlr {
+namespace {
+
+using geometry::Part;
+using geometry::Triangle;
+using geometry::Vec3i;
+using geometry::Vec3l;
+
+// Parts up to this size have normals of 62 bits.
+constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
+
+struct Plane {
+  std::array<std::int64_t, 3> n{};
+  Int128 facing = 0;
+};
+
+// The sign and value of n · (p - q).
+Int128 height(const std::array<std::int64_t, 3>& n, const Vec3i& p, const Vec3i& q) {
+  return static_cast<Int128>(n[0]) * (std::int64_t{p.x} - q.x) +
+         static_cast<Int128>(n[1]) * (std::int64_t{p.y} - q.y) +
+         static_cast<Int128>(n[2]) * (std::int64_t{p.z} - q.z);
+}
+
+class PartMerger {
+ public:
+  PartMerger(const Part& part, std::uint32_t part_index, const Frame& frame, ShapeView& view)
+      : part_(part), part_index_(part_index), frame_(frame), view_(view) {}
+
+  bool run() {
+    project();
+    if (!narrow()) {
+      for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) add_wide(t);
+      return false;
+    }
+    find_planes();
+    const bool convex = walk_edges() && is_star_shaped();
+    const std::size_t first = view_.polygons.size();
+    add_groups();
+    const auto added = std::span(view_.polygons).subspan(first);
+    if (convex) mark_far_side(added);
+    for (Polygon& p : added) p.far_side = p.far_side && convex;
+    return convex;
+  }
+
+ private:
+  [[nodiscard]] bool narrow() const {
+    const auto lo = part_.box.lo.as<std::int64_t>(), hi = part_.box.hi.as<std::int64_t>();
+    return hi.x - lo.x <= kNarrow && hi.y - lo.y <= kNarrow && hi.z - lo.z <= kNarrow;
+  }
+
+  void project() {
+    points_.reserve(part_.vertices.size());
+    for (const Vec3i& v : part_.vertices) points_.push_back(frame_(v.as<std::int64_t>()));
+  }
+
+  void find_planes() {
+    const Vec3l& d = frame_.direction();
+    planes_.resize(part_.triangles.size());
+    for (std::size_t t = 0; t < planes_.size(); ++t) {
+      const Triangle& i = part_.triangles[t];
+      const Vec3l p = part_.vertices[i[0]].as<std::int64_t>();
+      const Vec3l n = cross(part_.vertices[i[1]].as<std::int64_t>() - p,
+                            part_.vertices[i[2]].as<std::int64_t>() - p);
+      planes_[t].n = {n.x, n.y, n.z};
+      planes_[t].facing = static_cast<Int128>(n.x) * d.x + static_cast<Int128>(n.y) * d.y +
+                          static_cast<Int128>(n.z) * d.z;
+    }
+  }
+
+  [[nodiscard]] bool runs(std::uint32_t t, std::uint32_t v0, std::uint32_t v1) const {
+    const Triangle& i = part_.triangles[t];
+    return (i[0] == v0 && i[1] == v1) || (i[1] == v0 && i[2] == v1) || (i[2] == v0 && i[0] == v1);
+  }
+
+  [[nodiscard]] std::uint32_t opposite(std::uint32_t t, const geometry::PartEdge& e) const {
+    for (const std::uint32_t v : part_.triangles[t])
+      if (v != e.v0 && v != e.v1) return v;
+    return e.v0;
+  }
+
+  // Groups coplanar neighbours; true when every edge is manifold, consistent and not concave.
+  bool walk_edges() {
+    group_.resize(part_.triangles.size());
+    std::iota(group_.begin(), group_.end(), 0U);
+    bool convex = part_.kind == geometry::PartKind::solid && part_.shell_count == 1;
+    for (std::size_t k = 0; k + 1 < part_.edges.size(); ++k) {
+      const geometry::PartEdge& e = part_.edges[k];
+      if (part_.edges[k + 1].first_triangle - e.first_triangle != 2) {
+        convex = false;
+        continue;
+      }
+      const std::uint32_t s = part_.edge_triangles[e.first_triangle];
+      const std::uint32_t t = part_.edge_triangles[e.first_triangle + 1];
+      if (runs(s, e.v0, e.v1) == runs(t, e.v0, e.v1)) {
+        convex = false;
+        continue;
+      }
+      const Int128 bend =
+          height(planes_[s].n, part_.vertices[opposite(t, e)], part_.vertices[e.v0]);
+      if (bend > 0) convex = false;
+      if (bend != 0) continue;
+      if (is_folded(s, t)) {
+        convex = false;
+      } else {
+        unite(s, t);
+      }
+    }
+    return convex;
+  }
+
+  // Of two coplanar triangles: whether they lie upon each other.
+  [[nodiscard]] bool is_folded(std::uint32_t s, std::uint32_t t) const {
+    const auto &m = planes_[s].n, &n = planes_[t].n;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (m[k] != 0) return (m[k] > 0) != (n[k] > 0);
+    return true;
+  }
+
+  std::uint32_t root(std::uint32_t t) {
+    while (group_[t] != t) t = group_[t] = group_[group_[t]];
+    return t;
+  }
+  void unite(std::uint32_t s, std::uint32_t t) {
+    s = root(s);
+    t = root(t);
+    group_[std::max(s, t)] = std::min(s, t);
+  }
+
+  // A locally convex closed surface of one shell is the boundary of a convex body when some point
+  // lies strictly inside all its planes and a ray from there meets it once (Mehlhorn et al.,
+  // Checking geometric programs, 1996).
+  [[nodiscard]] bool is_star_shaped() const {
+    Vec3l sum{0, 0, 0};
+    for (const Vec3i& v : part_.vertices) sum = sum + v.as<std::int64_t>();
+    const auto count = static_cast<std::int64_t>(part_.vertices.size());
+    if (count < 4 || count > (1 << 20)) return false;
+    // All heights are taken times the number of vertices, so that the middle is integer.
+    const auto inside = [&](const std::array<std::int64_t, 3>& n, const Vec3i& v) {
+      const Vec3l q = v.as<std::int64_t>() * count - sum;
+      return static_cast<Int128>(n[0]) * q.x + static_cast<Int128>(n[1]) * q.y +
+                 static_cast<Int128>(n[2]) * q.z >
+             0;
+    };
+    for (std::size_t t = 0; t < planes_.size(); ++t)
+      if (!inside(planes_[t].n, part_.vertices[part_.triangles[t][0]])) return false;
+    return ray_meets_once(sum, count);
+  }
+
+  // The ray from the middle m through the centre of triangle 0: the triangle that it leaves by
+  // has the ray's direction inside the cone of its corners.
+  [[nodiscard]] bool ray_meets_once(const Vec3l& sum, std::int64_t count) const {
+    const Triangle& first = part_.triangles[0];
+    const auto from_middle = [&](std::uint32_t v) {
+      const Vec3l q = part_.vertices[v].as<std::int64_t>() * count - sum;
+      return q.as<double>();
+    };
+    const geometry::Vec3d ray =
+        from_middle(first[0]) + from_middle(first[1]) + from_middle(first[2]);
+    std::size_t hits = 0;
+    for (const Triangle& t : part_.triangles) {
+      const geometry::Vec3d a = from_middle(t[0]), b = from_middle(t[1]), c = from_middle(t[2]);
+      // Doubt counts as a hit: the certificate is refused, never forged.
+      const double size = (std::abs(ray.x) + std::abs(ray.y) + std::abs(ray.z)) * 1e-9;
+      const auto within = [&](const geometry::Vec3d& p, const geometry::Vec3d& q) {
+        const geometry::Vec3d n = cross(p, q);
+        return dot(n, ray) >= -size * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+      };
+      if (within(a, b) && within(b, c) && within(c, a)) ++hits;
+    }
+    return hits == 1;
+  }
+
+  void add_wide(std::uint32_t t) {
+    NormalVector n = triangle_normal(part_, t);
+    const Int128 facing = along(n, frame_.direction());
+    if (facing == 0) return;
+    Triangle i = part_.triangles[t];
+    if (facing < 0) {
+      for (Int128& x : n) x = -x;
+      std::swap(i[1], i[2]);
+    }
+    Polygon& p = start(i[0]);
+    p.wide = static_cast<std::int32_t>(view_.wide_normals.size());
+    view_.wide_normals.push_back(n);
+    for (const std::uint32_t v : i) add_corner(p, v);
+  }
+
+  Polygon& start(std::uint32_t vertex) {
+    Polygon& p = view_.polygons.emplace_back();
+    p.at = part_.vertices[vertex];
+    p.part = part_index_;
+    p.first_corner = static_cast<std::uint32_t>(view_.corners.size());
+    return p;
+  }
+
+  void add_corner(Polygon& p, std::uint32_t vertex) {
+    const ViewPoint& q = points_[vertex];
+    p.box.include(q);
+    ++p.corners;
+    view_.corners.push_back({q.u, q.v});
+  }
+
+  void mark_far_side(std::span<Polygon> polygons) {
+    const auto d = frame_.direction().as<double>();
+    ViewBox box;
+    double steepest = 0;
+    for (const Polygon& p : polygons) {
+      const geometry::Vec3d n = geometry::Vec3l{p.normal[0], p.normal[1], p.normal[2]}.as<double>();
+      box.include(p.box);
+      const auto facing = static_cast<double>(along(view_.normal(p), frame_.direction()));
+      steepest = std::max(steepest, (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) / facing);
+    }
+    for (Polygon& p : polygons) {
+      if (!p.far_side) continue;
+      p.spare_w = box.lo.w;
+      // Rounding of the few operations above is far below the share added.
+      p.spare_per_contact = steepest * dot(d, d) * (1 + 1e-9);
+    }
+  }
+
+  void add_polygon(std::uint32_t t, const std::vector<std::uint32_t>& loop) {
+    Polygon& p = start(loop[0]);
+    p.normal = planes_[t].n;
+    p.far_side = planes_[t].facing < 0;
+    if (p.far_side)
+      for (std::int64_t& x : p.normal) x = -x;
+    for (const std::uint32_t v : loop) add_corner(p, v);
+  }
+
+  void add_groups() {
+    std::vector<std::uint32_t> order;
+    order.reserve(planes_.size());
+    for (std::uint32_t t = 0; t < planes_.size(); ++t) {
+      group_[t] = root(t);
+      if (planes_[t].facing != 0) order.push_back(t);
+    }
+    const auto by_group = [&](std::uint32_t s, std::uint32_t t) {
+      return group_[s] < group_[t] || (group_[s] == group_[t] && s < t);
+    };
+    if (!std::is_sorted(order.begin(), order.end(), by_group))
+      std::sort(order.begin(), order.end(), by_group);
+    next_.assign(part_.vertices.size(), geometry::kNoFace);
+    for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
+      while (end < order.size() && group_[order[end]] == group_[order[i]]) ++end;
+      add_group(std::span(order).subspan(i, end - i));
+    }
+  }
+
+  void add_group(std::span<const std::uint32_t> triangles) {
+    if (triangles.size() > 1 && outline(triangles) && is_convex_loop()) {
+      add_polygon(triangles[0], loop_);
+      return;
+    }
+    for (const std::uint32_t t : triangles) {
+      const Triangle& i = part_.triangles[t];
+      loop_.assign(i.begin(), i.end());
+      if (planes_[t].facing < 0) std::swap(loop_[1], loop_[2]);
+      add_polygon(t, loop_);
+    }
+  }
+
+  // The single closed outline of a group, counter-clockwise to the viewer; false if there are
+  // more loops or one that touches itself.
+  bool outline(std::span<const std::uint32_t> triangles) {
+    directed_.clear();
+    const bool front = planes_[triangles[0]].facing > 0;
+    for (const std::uint32_t t : triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = part_.triangles[t][k], b = part_.triangles[t][(k + 1) % 3];
+        directed_.push_back(front ? std::array{a, b} : std::array{b, a});
+      }
+    std::sort(directed_.begin(), directed_.end());
+    std::size_t kept = 0;
+    std::uint32_t from = geometry::kNoFace;
+    bool simple = true;
+    touched_.clear();
+    for (const auto& e : directed_) {
+      if (std::binary_search(directed_.begin(), directed_.end(), std::array{e[1], e[0]})) continue;
+      simple = simple && next_[e[0]] == geometry::kNoFace;
+      next_[e[0]] = e[1];
+      touched_.push_back(e[0]);
+      from = e[0];
+      ++kept;
+    }
+    loop_.clear();
+    if (simple && kept >= 3)
+      for (std::uint32_t v = from; loop_.size() < kept && v != geometry::kNoFace;) {
+        loop_.push_back(v);
+        v = next_[v];
+        if (v == from) break;
+      }
+    for (const std::uint32_t v : touched_) next_[v] = geometry::kNoFace;
+    return simple && kept >= 3 && loop_.size() == kept;
+  }
+
+  // Drops corners on straight runs; true when the rest turns left everywhere, and once round.
+  bool is_convex_loop() {
+    corners_.clear();
+    const std::size_t n = loop_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const ViewPoint &p = points_[loop_[(i + n - 1) % n]], &q = points_[loop_[i]],
+                      &r = points_[loop_[(i + 1) % n]];
+      const Int128 turn = static_cast<Int128>(q.u - p.u) * (r.v - q.v) -
+                          static_cast<Int128>(q.v - p.v) * (r.u - q.u);
+      if (turn < 0) return false;
+      if (turn > 0) corners_.push_back(loop_[i]);
+    }
+    if (corners_.size() < 3) return false;
+    const std::size_t m = corners_.size();
+    std::size_t ascents = 0;
+    bool rising = is_rising(corners_[m - 1], corners_[0]);
+    for (std::size_t i = 0; i < m; ++i) {
+      const bool now = is_rising(corners_[i], corners_[(i + 1) % m]);
+      if (now && !rising) ++ascents;
+      rising = now;
+    }
+    loop_.swap(corners_);
+    return ascents == 1;
+  }
+  [[nodiscard]] bool is_rising(std::uint32_t from, std::uint32_t to) const {
+    const ViewPoint s = points_[to] - points_[from];
+    return s.v > 0 || (s.v == 0 && s.u > 0);
+  }
+
+  const Part& part_;
+  std::uint32_t part_index_;
+  const Frame& frame_;
+  ShapeView& view_;
+  std::vector<ViewPoint> points_;
+  std::vector<Plane> planes_;
+  std::vector<std::uint32_t> group_, next_, loop_, corners_, touched_;
+  std::vector<std::array<std::uint32_t, 2>> directed_;
+};
+
+}  // namespace
+
+bool add_polygons(const Part& part, std::uint32_t part_index, const Frame& frame, ShapeView& view) {
+  return PartMerger(part, part_index, frame, view).run();
+}
+
+}  // namespace strake::hlr

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/shape_view.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace strake::hlr {
+namespace {
+
+constexpr std::size_t kTreeFrom = 12;
+
+// On the boundary of a convex body an edge of a face towards the viewer lies on the body's upper
+// side, where nothing of the body is nearer; an edge between two faces turned away is behind the
+// body all along. One with a face edge-on lies on the outline and may be behind on one side.
+void judge_edges(const geometry::Part& part, const geometry::Vec3l& direction,
+                 std::span<EdgeView> edges) {
+  for (EdgeView& e : edges) {
+    bool away = true, towards = false;
+    for (std::uint32_t i = part.edges[e.edge.part_edge].first_triangle;
+         i < part.edges[e.edge.part_edge + 1].first_triangle; ++i) {
+      const Int128 facing = along(triangle_normal(part, part.edge_triangles[i]), direction);
+      away = away && facing < 0;
+      towards = towards || facing > 0;
+    }
+    e.surely_behind_part = away;
+    e.surely_clear_of_part = towards;
+  }
+}
+
+}  // namespace
+
+ShapeView view_of(const model::GridShape& shape, const Frame& frame,
+                  const FeatureOptions& options) {
+  ShapeView view;
+  view.direction = options.direction;
+  const std::vector<FeatureEdge> edges = feature_edges(shape, options);
+  view.edges.reserve(edges.size());
+  for (const FeatureEdge& e : edges)
+    view.edges.push_back({e, frame(e.a.as<std::int64_t>()), frame(e.b.as<std::int64_t>())});
+
+  std::size_t begin = 0;
+  for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
+    std::size_t end = begin;
+    while (end < edges.size() && edges[end].part == p) ++end;
+    const geometry::Part& part = shape.parts[p];
+    if (part.kind != geometry::PartKind::wire && add_polygons(part, p, frame, view))
+      judge_edges(part, options.direction, std::span(view.edges).subspan(begin, end - begin));
+    begin = end;
+  }
+  std::vector<ViewBox> boxes;
+  for (const Polygon& polygon : view.polygons) {
+    view.box.include(polygon.box);
+    if (view.polygons.size() >= kTreeFrom) boxes.push_back(polygon.box);
+  }
+  if (!boxes.empty()) view.tree = ViewTree(boxes);
+  for (const Corner& c : view.corners)
+    view.reach = std::max({view.reach, std::abs(c.u), std::abs(c.v)});
+  return view;
+}
+
+}  // namespace strake::hlr

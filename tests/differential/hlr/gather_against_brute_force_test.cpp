@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine gives, piece by piece and bit by bit, what the definition gives.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "strake/hlr/hlr.hpp"
+#include "support/hlr_oracle.hpp"
+#include "support/lattice_scene.hpp"
+
+namespace strake {
+namespace {
+
+struct Settings {
+  std::int32_t unit = 1;
+  double contact_mm = 0;
+  std::uint32_t most_objects = 6;
+};
+
+std::string run(std::uint64_t seed, const Settings& settings) {
+  test::Random random(seed ^ 0x9a74e5U);
+  const test::LatticeOptions lattice{.objects = 1 + random.below(settings.most_objects),
+                                     .unit = settings.unit,
+                                     .steps = 1 + random.below(3)};
+  const test::SceneBuilder scene = test::lattice_scene(seed, lattice);
+  const hlr::View view{.direction = test::direction_of(random.below(test::kDirections)),
+                       .limits = test::random_limits(random, lattice)};
+  hlr::Options options{.contact_distance_mm = settings.contact_mm};
+  if (random.one_in(8)) options.stage = random.one_in(2) ? hlr::Stage::local : hlr::Stage::none;
+  if (random.one_in(4)) options.sharp_angle_deg = random.one_in(2) ? 0 : 180;
+  options.solver = hlr::Solver::brute_force;
+  const auto expected = hlr::draw(scene.scene(), {}, view, options, {});
+  options.solver = hlr::Solver::gather;
+  const auto got = hlr::draw(scene.scene(), {}, view, options, {});
+  options.culling = false;
+  const auto unculled = hlr::draw(scene.scene(), {}, view, options, {});
+  if (!expected || !got || !unculled) return "no drawing";
+  const std::string culled = test::difference(expected->pieces, got->pieces);
+  if (!culled.empty()) return culled;
+  const std::string plain = test::difference(expected->pieces, unculled->pieces);
+  return plain.empty() ? plain : "without culling: " + plain;
+}
+
+std::uint64_t count(std::uint64_t usual) {
+  const char* more = std::getenv("STRAKE_ORACLE_SCENES");
+  return more != nullptr ? std::strtoull(more, nullptr, 10) : usual;
+}
+
+TEST(GatherAgainstBruteForce, FinestLattice) {
+  for (std::uint64_t seed = 1; seed <= count(900); ++seed)
+    ASSERT_EQ(run(seed, {}), "") << "seed " << seed;
+}
+
+TEST(GatherAgainstBruteForce, ContactDistanceOnACoarseLattice) {
+  for (std::uint64_t seed = 1; seed <= count(450); ++seed)
+    ASSERT_EQ(run(seed, {.unit = 1000, .contact_mm = -1}), "") << "seed " << seed;
+}
+
+TEST(GatherAgainstBruteForce, ContactDistanceOfTheLatticesOwnSize) {
+  for (std::uint64_t seed = 1; seed <= count(450); ++seed)
+    ASSERT_EQ(run(seed, {.unit = 6, .contact_mm = 0.003}), "") << "seed " << seed;
+}
+
+TEST(GatherAgainstBruteForce, HugeLattice) {
+  for (std::uint64_t seed = 1; seed <= count(300); ++seed)
+    ASSERT_EQ(run(seed, {.unit = 357913941, .contact_mm = -1}), "") << "seed " << seed;
+}
+
+TEST(GatherAgainstBruteForce, Crowd) {
+  for (std::uint64_t seed = 1; seed <= count(12); ++seed)
+    ASSERT_EQ(run(seed, {.most_objects = 40}), "") << "seed " << seed;
+}
+
+}  // namespace
+}  // namespace strake
