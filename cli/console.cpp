@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/console.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+
+namespace strake::cli {
+
+namespace {
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+constexpr std::string_view kEraseLine = "\r\x1b[K";
+
+}  // namespace
+
+Console::Console() : terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+void Console::set_quiet(bool quiet) {
+  const std::lock_guard lock(mutex_);
+  quiet_ = quiet;
+}
+
+void Console::put(std::string_view line) {
+  std::string text;
+  if (!status_.empty()) text += kEraseLine;
+  text += line;
+  text += '\n';
+  text += status_;
+  (void)write_all(STDERR_FILENO, text);  // there is nowhere to report that errors cannot be shown
+}
+
+void Console::say(std::string_view line) {
+  const std::lock_guard lock(mutex_);
+  if (!quiet_) put(line);
+}
+
+void Console::print(std::string_view line) {
+  const std::lock_guard lock(mutex_);
+  put(line);
+}
+
+void Console::error(std::string_view line) {
+  const std::lock_guard lock(mutex_);
+  put("strake: error: " + std::string(line));
+}
+
+void Console::show_status(std::string_view line) {
+  const std::lock_guard lock(mutex_);
+  if (!terminal_ || quiet_ || line == status_) return;
+  std::string text(kEraseLine);
+  text += line;
+  status_ = line;
+  (void)write_all(STDERR_FILENO, text);
+}
+
+bool write_stdout(std::string_view text) { return write_all(STDOUT_FILENO, text); }
+
+}  // namespace strake::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace strake::cli {
+
+/// Standard error, shared by narration, errors and the progress line. Thread-safe.
+class Console {
+ public:
+  Console();
+
+  void set_quiet(bool quiet);
+  /// Whether standard error is a terminal, where a line may be drawn over.
+  [[nodiscard]] bool is_terminal() const { return terminal_; }
+
+  /// A line of narration; silent under --quiet.
+  void say(std::string_view line);
+  /// "strake: error: ..."; never silent.
+  void error(std::string_view line);
+  /// A line that the user asked for (--stats); never silent.
+  void print(std::string_view line);
+  /// Draws the progress line over the last one (terminals only); empty removes it.
+  void show_status(std::string_view line);
+
+ private:
+  void put(std::string_view line);
+
+  std::mutex mutex_;
+  bool terminal_ = false, quiet_ = false;
+  std::string status_;
+};
+
+/// Writes data to standard output; false when it cannot be written (a full disk).
+[[nodiscard]] bool write_stdout(std::string_view text);
+
+}  // namespace strake::cli

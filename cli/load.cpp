@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/load.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "strake/core/units.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+std::string_view label(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::skipped:
+      break;
+  }
+  return "skipped";
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneInput& options, const std::string& default_sag) {
+  command
+      .add_option(
+          "--sag", options.sag,
+          "Largest distance of a tessellated curve from the true one (default " + default_sag + ")")
+      ->type_name("LENGTH")
+      ->group("Input");
+  command
+      .add_flag("--obstructions", options.obstructions,
+                "Take obstruction volumes (space kept free) in as well")
+      ->group("Input");
+  command.add_flag("--insulation", options.insulation, "Take insulation in as well")
+      ->group("Input");
+}
+
+Result<model::SceneOptions> scene_options(const SceneInput& input, double default_sag_mm) {
+  model::SceneOptions options;
+  options.sag_mm = default_sag_mm;
+  options.obstruction = input.obstructions;
+  options.insulation = input.insulation;
+  if (input.sag.empty()) return options;
+  const Result<double> sag = quantity(input.sag, "--sag", parse_length_mm);
+  if (!sag) return sag.error();
+  if (*sag <= 0)
+    return Error{ErrorCode::usage, "the sag must be positive", "--sag", "write a length, as 0.5mm"};
+  options.sag_mm = *sag;
+  return options;
+}
+
+void tell(Console& console, const Diagnostics& diagnostics) {
+  for (const Diagnostics::Count& count : diagnostics.counts()) {
+    std::string line = fmt::format("{} {} ({})", label(count.severity), count.code, count.count);
+    const auto& kept = diagnostics.kept();
+    const auto first = std::find_if(kept.begin(), kept.end(),
+                                    [&](const Diagnostic& d) { return d.code == count.code; });
+    if (first != kept.end())
+      line += fmt::format(": {}{}{}{}", first->where, first->where.empty() ? "" : ": ",
+                          first->message, count.count > 1 ? " ..." : "");
+    console.say(line);
+  }
+}
+
+Result<model::Model> read_model(Session& session, const InputOptions& input) {
+  const Result<io::ReadOptions> options = read_options(input);
+  if (!options) return options.error();
+  const auto timer = session.stats().time("load");
+  Result<model::Model> model = io::read_models(input.paths(), *options, session.context());
+  if (!model) return model;
+  std::vector<std::uint64_t> objects(model->files.size());
+  for (const model::Object& object : model->objects) ++objects[object.file];
+  for (std::size_t f = 0; f < model->files.size(); ++f) {
+    const model::SourceFile& file = model->files[f];
+    session.console().say(fmt::format("{}: {}, {} objects, unit {}, {} up", file.label, file.format,
+                                      objects[f], file.unit, file.up_axis));
+  }
+  tell(session.console(), model->diagnostics);
+  return model;
+}
+
+Result<model::Scene> place_model(Session& session, const model::Model& model,
+                                 const model::SceneOptions& options) {
+  const auto timer = session.stats().time("place");
+  Result<model::Scene> scene = model::make_scene(model, options, session.context());
+  if (!scene) return scene;
+  tell(session.console(), scene->diagnostics);
+  if (scene->left_out > 0)
+    session.console().say(fmt::format(
+        "left out {} bodies of obstructions and insulation (--obstructions, --insulation)",
+        scene->left_out));
+  return scene;
+}
+
+ExitCode outcome(const InputOptions& input, const model::Model& model, const model::Scene& scene) {
+  const bool partial = model.diagnostics.skipped() + scene.diagnostics.skipped() > 0;
+  return input.strict && partial ? ExitCode::partial : ExitCode::done;
+}
+
+}  // namespace strake::cli

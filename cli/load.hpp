@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/exit_code.hpp"
+#include "cli/options.hpp"
+#include "cli/session.hpp"
+#include "strake/core/diagnostics.hpp"
+#include "strake/core/result.hpp"
+#include "strake/model/model.hpp"
+#include "strake/model/scene.hpp"
+
+namespace strake::cli {
+
+/// Which bodies take part and how finely curved ones are tessellated, as written.
+struct SceneInput {
+  std::string sag;
+  bool obstructions = false, insulation = false;
+};
+
+void add_scene_options(CLI::App& command, SceneInput& options, const std::string& default_sag);
+/// `default_sag_mm` where --sag was not given.
+[[nodiscard]] Result<model::SceneOptions> scene_options(const SceneInput& input,
+                                                        double default_sag_mm);
+
+/// Reads the files of the command line as one model and tells what was read.
+[[nodiscard]] Result<model::Model> read_model(Session& session, const InputOptions& input);
+
+/// Puts a model on the grid and tells what was noticed there.
+[[nodiscard]] Result<model::Scene> place_model(Session& session, const model::Model& model,
+                                               const model::SceneOptions& options);
+
+/// `done`, or `partial` where --strict was given and something was skipped.
+[[nodiscard]] ExitCode outcome(const InputOptions& input, const model::Model& model,
+                               const model::Scene& scene);
+
+/// One line per kind of diagnostic: how often, and the first in its own words.
+void tell(Console& console, const Diagnostics& diagnostics);
+
+}  // namespace strake::cli

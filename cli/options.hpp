@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/io/reader.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace strake::cli {
+
+/// Options that every verb has, as written.
+struct CommonOptions {
+  std::string threads;
+  bool quiet = false, stats = false, json = false;
+};
+
+/// Options of the verbs that read models, as written.
+struct InputOptions {
+  std::vector<std::string> files;
+  std::string unit, up_axis;
+  bool strict = false;
+
+  [[nodiscard]] std::vector<std::filesystem::path> paths() const {
+    return {files.begin(), files.end()};
+  }
+};
+
+void add_common_options(CLI::App& command, CommonOptions& options);
+void add_input_options(CLI::App& command, InputOptions& options);
+/// -o FILE, may be given several times; `what` names the suffixes and what they mean.
+void add_output_option(CLI::App& command, std::vector<std::string>& files, const std::string& what);
+/// An option whose value is one of a few words.
+CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
+                        const std::vector<std::string>& words, const std::string& help);
+
+/// The number of workers asked for, or the machine's own.
+[[nodiscard]] Result<unsigned> worker_count(const CommonOptions& options);
+[[nodiscard]] Result<io::ReadOptions> read_options(const InputOptions& options);
+
+/// "x,y,z" as three numbers, and so on; an error names the option.
+[[nodiscard]] Result<std::vector<double>> number_list(const std::string& text, std::size_t count,
+                                                      const std::string& option,
+                                                      const std::string& example);
+/// A length, angle or scale by its own parser, with the option named in the error.
+[[nodiscard]] Result<double> quantity(const std::string& text, const std::string& option,
+                                      Result<double> (*parse)(std::string_view));
+
+}  // namespace strake::cli

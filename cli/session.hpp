@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "cli/console.hpp"
+#include "cli/interrupts.hpp"
+#include "cli/options.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/stats.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+#include "strake/parallel/progress.hpp"
+#include "strake/parallel/report.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake::cli {
+
+/// One run of a verb: its workers, its stop token, its progress and its figures.
+class Session {
+ public:
+  Session(const CommonOptions& options, unsigned workers, Console& console, Interrupts& interrupts);
+
+  [[nodiscard]] parallel::Context context();
+  [[nodiscard]] Console& console() { return console_; }
+  [[nodiscard]] Stats& stats() { return stats_; }
+  [[nodiscard]] bool json() const { return options_.json; }
+
+  /// Names a file that the run will write, so that a cancellation cleans up after it.
+  void will_write(const std::filesystem::path& target) { interrupts_.guard(target); }
+  /// Writes a whole file and says so.
+  [[nodiscard]] Status write(const std::filesystem::path& target, std::string_view text);
+  /// Data for standard output.
+  [[nodiscard]] Status write_stdout(std::string_view text);
+  /// Removes the progress line and prints what --stats asks for.
+  void finish();
+
+ private:
+  CommonOptions options_;
+  Console& console_;
+  Interrupts& interrupts_;
+  std::unique_ptr<parallel::Team> team_;  ///< none for one worker: the sequential twin
+  parallel::Progress progress_;
+  parallel::RunReport report_;
+  Stats stats_;
+  std::optional<ProgressLine> line_;
+};
+
+}  // namespace strake::cli

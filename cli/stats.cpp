@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/stats.hpp"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <nlohmann/json.hpp>
+
+namespace strake::cli {
+
+namespace {
+
+double process_cpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+}  // namespace
+
+Stats::Timer::Timer(Stats& stats, std::string_view phase)
+    : stats_(stats),
+      phase_(phase),
+      start_(std::chrono::steady_clock::now()),
+      start_cpu_s_(process_cpu_s()) {}
+
+Stats::Timer::~Timer() {
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  stats_.phases_.push_back({phase_, wall, process_cpu_s() - start_cpu_s_});
+}
+
+void Stats::count(std::string_view name, std::uint64_t value) {
+  counters_.emplace_back(name, value);
+}
+
+std::string Stats::text(const std::vector<parallel::RegionReport>& regions) const {
+  std::string out = fmt::format("{:<28}{:>10}{:>10}\n", "phase", "wall s", "cpu s");
+  for (const Phase& phase : phases_)
+    out += fmt::format("{:<28}{:>10.3f}{:>10.3f}\n", phase.name, phase.wall_s, phase.cpu_s);
+  if (!regions.empty())
+    out += fmt::format("{:<28}{:>10}{:>10}{:>12}{:>9}{:>7}{:>11}\n", "parallel region", "wall s",
+                       "busy s", "items", "balance", "bound", "longest s");
+  for (const parallel::RegionReport& region : regions) {
+    if (region.runs == 0) {
+      out += fmt::format("{:<28}{:>10}{:>10.3f}{:>12}   within others, {} times\n", region.name, "",
+                         region.nested_cpu_s, region.items, region.nested_runs);
+      continue;
+    }
+    out += fmt::format("{:<28}{:>10.3f}{:>10.3f}{:>12}{:>9.2f}{:>7.2f}{:>11.4f}\n", region.name,
+                       region.wall_s, region.total_busy_s(), region.items, region.load_balance(),
+                       region.bound(), region.longest_s);
+  }
+  for (const auto& [name, value] : counters_) out += fmt::format("{:<28}{:>10}\n", name, value);
+  out += fmt::format("{:<28}{:>10.1f} MiB", "peak memory",
+                     static_cast<double>(peak_memory_bytes()) / (1024.0 * 1024.0));
+  return out;
+}
+
+std::string Stats::json(const std::vector<parallel::RegionReport>& regions) const {
+  using Json = nlohmann::ordered_json;
+  Json phases = Json::array(), parts = Json::array(), counters = Json::object();
+  for (const Phase& phase : phases_)
+    phases.push_back({{"name", phase.name}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}});
+  for (const parallel::RegionReport& region : regions)
+    parts.push_back({{"name", region.name},
+                     {"runs", region.runs},
+                     {"nested_runs", region.nested_runs},
+                     {"items", region.items},
+                     {"wall_s", region.wall_s},
+                     {"busy_s", region.busy_s},
+                     {"nested_cpu_s", region.nested_cpu_s},
+                     {"longest_s", region.longest_s},
+                     {"load_balance", region.load_balance()},
+                     {"bound", region.bound()}});
+  for (const auto& [name, value] : counters_) counters[name] = value;
+  return Json{{"phases", std::move(phases)},
+              {"regions", std::move(parts)},
+              {"counters", std::move(counters)},
+              {"peak_memory_bytes", peak_memory_bytes()}}
+      .dump();
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
+}
+
+}  // namespace strake::cli

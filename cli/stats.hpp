@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "strake/parallel/report.hpp"
+
+namespace strake::cli {
+
+/// What --stats tells: seconds per phase, work counters, parallel regions, peak memory.
+class Stats {
+ public:
+  /// Measures one phase from construction to destruction.
+  class Timer {
+   public:
+    Timer(Stats& stats, std::string_view phase);
+    ~Timer();
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+    Timer(Timer&&) = delete;
+    Timer& operator=(Timer&&) = delete;
+
+   private:
+    Stats& stats_;
+    std::string phase_;
+    std::chrono::steady_clock::time_point start_;
+    double start_cpu_s_ = 0;
+  };
+
+  [[nodiscard]] Timer time(std::string_view phase) { return Timer(*this, phase); }
+  void count(std::string_view name, std::uint64_t value);
+
+  /// Lines for a person.
+  [[nodiscard]] std::string text(const std::vector<parallel::RegionReport>& regions) const;
+  /// The same as one JSON object.
+  [[nodiscard]] std::string json(const std::vector<parallel::RegionReport>& regions) const;
+
+ private:
+  struct Phase {
+    std::string name;
+    double wall_s = 0, cpu_s = 0;
+  };
+  std::vector<Phase> phases_;
+  std::vector<std::pair<std::string, std::uint64_t>> counters_;
+};
+
+/// The most memory that this process has held at a time.
+[[nodiscard]] std::uint64_t peak_memory_bytes();
+
+}  // namespace strake::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "cli/exit_code.hpp"
+#include "cli/options.hpp"
+#include "cli/session.hpp"
+
+namespace strake::cli {
+
+/// A command of the program: its options are bound on the CLI::App, and `run` does the work.
+struct Verb {
+  CLI::App* command = nullptr;
+  std::function<Result<ExitCode>(Session&)> run;
+};
+
+// Each adds its command to the program. What the options are bound to lives as long as `run`.
+[[nodiscard]] Verb add_info(CLI::App& program, CommonOptions& common);
+[[nodiscard]] Verb add_clash(CLI::App& program, CommonOptions& common);
+[[nodiscard]] Verb add_draw(CLI::App& program, CommonOptions& common);
+[[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
+
+}  // namespace strake::cli

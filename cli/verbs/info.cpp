@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cli/load.hpp"
+#include "cli/verb.hpp"
+#include "strake/core/number.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kSagMm = 0.5;
+constexpr int kSchemaVersion = 1;
+
+/// What one file, or all of them, hold.
+struct Content {
+  std::uint64_t objects = 0, bodies = 0, shapes = 0;
+  std::map<std::string, std::uint64_t> primitives;  ///< bodies by the kind of their shape
+  std::uint64_t triangles = 0, solids = 0, sheets = 0, wires = 0, inverted = 0;
+  geometry::Box3l extents = geometry::empty_box<std::int64_t>();
+};
+
+std::string kind_of(const model::Shape& shape) {
+  if (const auto* const primitive = std::get_if<geometry::Primitive>(&shape))
+    return std::string(geometry::kind_name(*primitive));
+  return std::holds_alternative<geometry::TriangleMesh>(shape) ? "mesh" : "polylines";
+}
+
+void count_placed(Content& content, const model::Scene& scene, model::ObjectId id) {
+  for (const model::GridBody& body : scene.bodies_of(id)) {
+    const model::GridShape& shape = scene.shapes[body.grid_shape];
+    if (!shape.box.empty()) content.extents.include(body.box(shape));
+    for (const geometry::Part& part : shape.parts) {
+      content.triangles += part.triangles.size();
+      content.inverted += part.flags.inverted ? 1U : 0U;
+      switch (part.kind) {
+        case geometry::PartKind::solid:
+          ++content.solids;
+          break;
+        case geometry::PartKind::sheet:
+          ++content.sheets;
+          break;
+        case geometry::PartKind::wire:
+          ++content.wires;
+          break;
+      }
+    }
+  }
+}
+
+/// The content of the files with `from` <= number < `to`.
+Content content_of(const model::Model& model, const model::Scene& scene, std::size_t from,
+                   std::size_t to) {
+  Content content;
+  std::vector<bool> used(model.shapes.size());
+  for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+    const model::Object& object = model.objects[o];
+    if (object.file < from || object.file >= to) continue;
+    ++content.objects;
+    content.bodies += object.body_count;
+    for (std::uint32_t b = 0; b < object.body_count; ++b) {
+      const std::uint32_t shape = model::index(model.bodies[object.first_body + b].shape);
+      ++content.primitives[kind_of(model.shapes[shape])];
+      content.shapes += used[shape] ? 0U : 1U;
+      used[shape] = true;
+    }
+    count_placed(content, scene, model::ObjectId{o});
+  }
+  return content;
+}
+
+Json vector_json(const geometry::Vec3l& grid) {
+  const geometry::Vec3d mm = geometry::to_mm(grid);
+  return Json::array({mm.x, mm.y, mm.z});
+}
+
+Json content_json(const Content& content) {
+  Json extents;  // null where nothing was placed
+  if (!content.extents.empty())
+    extents = {{"lo", vector_json(content.extents.lo)}, {"hi", vector_json(content.extents.hi)}};
+  return {{"objects", content.objects},     {"bodies", content.bodies},
+          {"shapes", content.shapes},       {"primitives", content.primitives},
+          {"triangles", content.triangles}, {"solids", content.solids},
+          {"sheets", content.sheets},       {"wires", content.wires},
+          {"inverted", content.inverted},   {"extents_mm", extents}};
+}
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::skipped:
+      break;
+  }
+  return "skipped";
+}
+
+void add_diagnostics(Json& counts, Json& messages, const Diagnostics& diagnostics) {
+  for (const Diagnostics::Count& count : diagnostics.counts())
+    counts.push_back({{"code", count.code},
+                      {"severity", severity_name(count.severity)},
+                      {"count", count.count}});
+  for (const Diagnostic& d : diagnostics.kept())
+    messages.push_back({{"code", d.code},
+                        {"severity", severity_name(d.severity)},
+                        {"where", d.where},
+                        {"message", d.message}});
+}
+
+std::string info_json(const model::Model& model, const model::Scene& scene) {
+  Json files = Json::array();
+  for (std::size_t f = 0; f < model.files.size(); ++f) {
+    const model::SourceFile& file = model.files[f];
+    Json entry{{"file", file.label},
+               {"format", file.format},
+               {"unit", file.unit},
+               {"up_axis", file.up_axis},
+               {"bytes", file.bytes}};
+    entry.update(content_json(content_of(model, scene, f, f + 1)));
+    files.push_back(std::move(entry));
+  }
+  Json counts = Json::array(), messages = Json::array();
+  add_diagnostics(counts, messages, model.diagnostics);
+  add_diagnostics(counts, messages, scene.diagnostics);
+  const Json all{{"schema_version", kSchemaVersion},
+                 {"files", std::move(files)},
+                 {"total", content_json(content_of(model, scene, 0, model.files.size()))},
+                 {"left_out", scene.left_out},
+                 {"skipped", model.diagnostics.skipped() + scene.diagnostics.skipped()},
+                 {"diagnostics", std::move(counts)},
+                 {"messages", std::move(messages)}};
+  // Names come from files and may be no UTF-8: a replacement character is better than no answer.
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string extents_text(const geometry::Box3l& box) {
+  if (box.empty()) return "nothing placed";
+  const geometry::Vec3d lo = geometry::to_mm(box.lo), hi = geometry::to_mm(box.hi);
+  const auto range = [](double from, double to) { return fixed(from, 1) + " .. " + fixed(to, 1); };
+  return fmt::format("x {}, y {}, z {} mm", range(lo.x, hi.x), range(lo.y, hi.y),
+                     range(lo.z, hi.z));
+}
+
+std::string content_text(const Content& content) {
+  std::string kinds;
+  for (const auto& [kind, count] : content.primitives)
+    kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, kind);
+  return fmt::format(
+      "  objects     {}\n  bodies      {} of {} shapes: {}\n"
+      "  parts       {} solids, {} sheets, {} wires; {} inside out\n"
+      "  triangles   {}\n  extents     {}\n",
+      content.objects, content.bodies, content.shapes, kinds.empty() ? "none" : kinds,
+      content.solids, content.sheets, content.wires, content.inverted, content.triangles,
+      extents_text(content.extents));
+}
+
+std::string info_text(const model::Model& model, const model::Scene& scene) {
+  std::string out;
+  for (std::size_t f = 0; f < model.files.size(); ++f) {
+    const model::SourceFile& file = model.files[f];
+    out += fmt::format("{}\n  format      {}, {} bytes, unit {}, {} up\n", file.label, file.format,
+                       file.bytes, file.unit, file.up_axis);
+    out += content_text(content_of(model, scene, f, f + 1));
+  }
+  if (model.files.size() > 1)
+    out += "all files\n" + content_text(content_of(model, scene, 0, model.files.size()));
+  out +=
+      fmt::format("skipped       {}\n", model.diagnostics.skipped() + scene.diagnostics.skipped());
+  for (const Diagnostics* const diagnostics : {&model.diagnostics, &scene.diagnostics})
+    for (const Diagnostics::Count& count : diagnostics->counts())
+      out +=
+          fmt::format("  {:<8} {:>8} {}\n", severity_name(count.severity), count.count, count.code);
+  return out;
+}
+
+struct InfoOptions {
+  InputOptions input;
+  SceneInput scene;
+};
+
+Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
+  const Result<model::SceneOptions> scene_settings = scene_options(options.scene, kSagMm);
+  if (!scene_settings) return scene_settings.error();
+  const Result<model::Model> model = read_model(session, options.input);
+  if (!model) return model.error();
+  const Result<model::Scene> scene = place_model(session, *model, *scene_settings);
+  if (!scene) return scene.error();
+  const Status written =
+      session.write_stdout(session.json() ? info_json(*model, *scene) : info_text(*model, *scene));
+  if (!written) return written.error();
+  return outcome(options.input, *model, *scene);
+}
+
+}  // namespace
+
+Verb add_info(CLI::App& program, CommonOptions& common) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* const command =
+      program.add_subcommand("info", "What model files hold, and what was skipped and why");
+  add_input_options(*command, options->input);
+  add_scene_options(*command, options->scene, "0.5mm");
+  add_common_options(*command, common);
+  command->footer(R"(
+Examples:
+  strake info platform.rvm
+  strake info hvac.rvm steel.glb --json)");
+  return {command, [options](Session& session) { return run_info(session, *options); }};
+}
+
+}  // namespace strake::cli
