@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "strake/geometry/mesh.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::geometry {
+
+enum class FaceFault : std::uint8_t {
+  none,
+  not_finite,  ///< a coordinate is not a finite number
+  no_area,     ///< the first contour encloses nothing
+  crossing,    ///< contours cross themselves or each other: new vertices would be needed
+};
+
+/// In the words of a diagnostic: "contours cross".
+[[nodiscard]] std::string_view describe(FaceFault fault);
+
+struct FaceTriangles {
+  std::vector<Triangle> triangles;  ///< indices into the points given; empty on a fault
+  FaceFault fault = FaceFault::none;
+};
+
+/// Triangles over the vertices of a planar, or nearly planar, face with holes.
+///
+///     const std::vector<std::uint32_t> first{0, 4, 8};  // a square and a square hole
+///     const FaceTriangles t = triangulate_face(points, first);
+///
+/// Contour i is points[first[i] .. first[i + 1]), closed without repeating its first point. The
+/// inside is what an odd number of contours surround, so the sense of holes does not matter; the
+/// triangles have the sense of the first contour.
+///
+/// 1. Every edge of a contour is an edge of the triangles, in pieces where other vertices lie on
+///    it: neighbouring faces that share an edge stay joined. No vertex is added, none with an edge
+///    is lost, collinear ones included.
+/// 2. Repeated points, repeated and opposite edges, contours that touch themselves or each other
+///    are fine. Contours that cross are a fault.
+/// 3. Decisions are exact, on the points moved to the middle of their box, scaled to 29 bits and
+///    projected along the largest component of the first contour's normal.
+/// 4. The result does not depend on where a contour starts, but for the choice among diagonals of
+///    points on one circle.
+///
+/// A constrained Delaunay triangulation: sweep insertion with Lawson's flips (C. L. Lawson, 1977),
+/// edges forced by flips (S. W. Sloan, 1993). About O(n log n) in practice.
+[[nodiscard]] FaceTriangles triangulate_face(std::span<const Vec3d> points,
+                                             std::span<const std::uint32_t> first);
+
+/// The same for a face of one contour.
+[[nodiscard]] FaceTriangles triangulate_face(std::span<const Vec3d> contour);
+
+}  // namespace strake::geometry
