@@ -29,6 +29,8 @@ struct Candidate {
   PartAnswer answer;
   geometry::MeetingResult meeting;
   NarrowWork work;
+  bool separated = false;  ///< a coordinate plane lies between the two
+  bool done = false;
   bool needs_depth = false;
   bool too_large = false;
 };
@@ -76,6 +78,7 @@ class Engine {
                             options_.broad_phase, context_);
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
+    if (Status s = flush_contacts(); !s) return s.error();
     if (Status s = plant_trees(); !s) return s.error();
     if (Status s = first_look(); !s) return s.error();
     if (Status s = depths(); !s) return s.error();
@@ -84,10 +87,32 @@ class Engine {
   }
 
  private:
+  /// Contacts in coordinate planes, which are most of them, need no trees.
+  Status flush_contacts() {
+    candidates_.resize(pairs_.size());
+    return parallel::for_each(
+        context_, {.name = "flush contacts", .n = pairs_.size(), .grain = kGrain},
+        [&](std::size_t i) {
+          const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
+          Candidate& c = candidates_[i];
+          c.too_large = !geometry::fits_pair(a.placed, b.placed);
+          if (c.too_large) return;
+          const auto answer =
+              judge_flush({{a.placed, nullptr}, nullptr}, {{b.placed, nullptr}, nullptr},
+                          narrow_options(a, b), c.separated);
+          c.done = answer.has_value();
+          if (c.done) c.answer = *answer;
+        });
+  }
+
   Status plant_trees() {
     std::vector<bool> wanted(list_.unique.size(), false);
-    for (const IndexPair& p : pairs_)
-      wanted[list_.parts[p.first].unique] = wanted[list_.parts[p.second].unique] = true;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (candidates_[i].done || candidates_[i].too_large) continue;
+      open_.push_back(i);
+      for (const std::uint32_t p : {pairs_[i].first, pairs_[i].second})
+        wanted[list_.parts[p].unique] = true;
+    }
     auto trees = build_for<geometry::PartTree>(wanted, list_, "part trees", context_,
                                                [](const Part& p) { return geometry::PartTree(p); });
     if (!trees) return trees.error();
@@ -96,17 +121,16 @@ class Engine {
   }
 
   Status first_look() {
-    candidates_.resize(pairs_.size());
-    const std::size_t blocks = (pairs_.size() + kGrain - 1) / kGrain;
+    const std::size_t blocks = (open_.size() + kGrain - 1) / kGrain;
     const auto order = parallel::longest_first(blocks, [&](std::size_t block) {
       std::size_t cost = 0;
-      for (std::size_t i = block * kGrain; i < std::min(pairs_.size(), (block + 1) * kGrain); ++i)
-        cost += triangles(pairs_[i]);
+      for (std::size_t i = block * kGrain; i < std::min(open_.size(), (block + 1) * kGrain); ++i)
+        cost += triangles(pairs_[open_[i]]);
       return cost;
     });
     return parallel::for_each(
-        context_, {.name = "narrow phase", .n = pairs_.size(), .grain = kGrain, .order = order},
-        [&](std::size_t i) { look(i); });
+        context_, {.name = "narrow phase", .n = open_.size(), .grain = kGrain, .order = order},
+        [&](std::size_t i) { look(open_[i]); });
   }
 
   [[nodiscard]] std::size_t triangles(const IndexPair& p) const {
@@ -117,11 +141,8 @@ class Engine {
   void look(std::size_t i) {
     const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
     Candidate& c = candidates_[i];
-    if (!geometry::fits_pair(a.placed, b.placed)) {
-      c.too_large = true;
-      return;
-    }
-    FirstLook found = look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.work);
+    FirstLook found =
+        look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.separated, c.work);
     c.answer = found.answer;
     c.needs_depth = found.needs_depth;
     if (found.needs_depth) c.meeting = found.meeting;
@@ -245,7 +266,8 @@ class Engine {
   std::vector<IndexPair> pairs_;
   std::vector<geometry::PartTree> trees_;        ///< by unique part, as far as wanted
   std::vector<geometry::SupportPlanes> planes_;  ///< likewise, for the depths
-  std::vector<Candidate> candidates_;
+  std::vector<Candidate> candidates_;            ///< one per pair
+  std::vector<std::size_t> open_;                ///< pairs that want trees
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "clash/relation.hpp"
 #include "strake/geometry/depth.hpp"
+#include "strake/geometry/flush_contact.hpp"
 
 namespace strake::clash {
 namespace {
@@ -74,9 +75,18 @@ class PairOfParts {
         work_(work),
         thresholds_(thresholds(*a.treed.placed.part, *b.treed.placed.part, options)) {}
 
-  FirstLook look() {
+  PartAnswer flush(const Vec3d& point) const {
+    PartAnswer answer;
+    MeetingResult meeting;
+    meeting.point = point;
+    touching(meeting, answer);
+    conclude(answer);
+    return answer;
+  }
+
+  FirstLook look(bool separated) {
     FirstLook look;
-    look.meeting = geometry::meet(a_, b_, work_.pair);
+    if (!separated) look.meeting = geometry::meet(a_, b_, work_.pair);
     if (look.meeting.meeting == Meeting::apart)
       apart(look.answer);
     else if (look.meeting.meeting == Meeting::touching)
@@ -170,10 +180,23 @@ Thresholds thresholds(const Part& a, const Part& b, const NarrowOptions& options
   return t;
 }
 
+std::optional<PartAnswer> judge_flush(const NarrowPart& a, const NarrowPart& b,
+                                      const NarrowOptions& options, bool& separated) {
+  const bool ordered = in_canonical_order(a.treed, b.treed);
+  const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
+  const geometry::FlushContact contact = geometry::flush_contact(x.treed.placed, y.treed.placed);
+  separated = contact.separated;
+  if (!contact.touching) return std::nullopt;
+  NarrowWork work;
+  PartAnswer answer = PairOfParts(x, y, options, work).flush(contact.point);
+  if (!ordered) turn(answer, a, b);
+  return answer;
+}
+
 FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
-                  NarrowWork& work) {
-  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).look();
-  FirstLook look = PairOfParts(b, a, options, work).look();
+                  bool separated, NarrowWork& work) {
+  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).look(separated);
+  FirstLook look = PairOfParts(b, a, options, work).look(separated);
   turn(look.answer, a, b);
   return look;
 }

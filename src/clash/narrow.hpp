@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "clash/classify.hpp"
 #include "strake/geometry/depth.hpp"
@@ -37,6 +38,12 @@ struct NarrowWork {
 [[nodiscard]] Thresholds thresholds(const geometry::Part& a, const geometry::Part& b,
                                     const NarrowOptions& options);
 
+/// The answer for a pair that touches in a coordinate plane between its boxes, if it does: wants no
+/// trees. `separated` tells whether there is such a plane, then look_at() need not ask whether
+/// interiors meet.
+[[nodiscard]] std::optional<PartAnswer> judge_flush(const NarrowPart& a, const NarrowPart& b,
+                                                    const NarrowOptions& options, bool& separated);
+
 /// What one exact look at a pair decides. Most pairs are done with it; where interiors meet the
 /// answer waits for the depth.
 struct FirstLook {
@@ -49,7 +56,7 @@ struct FirstLook {
 /// interiors meet. Swapping the parts mirrors the relation and moves the witness to the other
 /// origin; every other bit of an answer stays the same.
 [[nodiscard]] FirstLook look_at(const NarrowPart& a, const NarrowPart& b,
-                                const NarrowOptions& options, NarrowWork& work);
+                                const NarrowOptions& options, bool separated, NarrowWork& work);
 
 /// The answer for a pair that needs its depth.
 [[nodiscard]] PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b,
