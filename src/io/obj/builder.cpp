@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "io/compact.hpp"
 #include "io/face_triangles.hpp"
 
 namespace strake::io::obj {
@@ -99,35 +100,12 @@ bool Builder::flatten(const Segment& segment, bool faces, Flat& flat) {
   return true;
 }
 
-/// Renumbers the corners from 0 in the order of the file's vertices and returns the vertices that
-/// they use.
+/// The vertices that the corners use; the corners become indices into them.
 std::vector<Vec3d> Builder::compact(std::vector<std::uint32_t>& corners) const {
-  if (corners.empty()) return {};
-  const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
-  const std::uint32_t low = *least;
-  const std::size_t range = std::size_t{*most} - low + 1;
-  std::vector<Vec3d> used;
-  if (range / 4 <= corners.size()) {
-    // The usual case: an object's vertices stand together, a table over their range is small.
-    constexpr std::uint32_t kUnused = 0xffffffffU;
-    std::vector<std::uint32_t> number(range, kUnused);
-    for (const std::uint32_t c : corners) number[c - low] = 0;
-    for (std::size_t i = 0; i < range; ++i)
-      if (number[i] != kUnused) {
-        number[i] = static_cast<std::uint32_t>(used.size());
-        used.push_back(input_.vertices[low + i]);
-      }
-    for (std::uint32_t& c : corners) c = number[c - low];
-    return used;
-  }
-  std::vector<std::uint32_t> sorted = corners;
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  for (const std::uint32_t vertex : sorted) used.push_back(input_.vertices[vertex]);
-  for (std::uint32_t& c : corners)
-    c = static_cast<std::uint32_t>(std::lower_bound(sorted.begin(), sorted.end(), c) -
-                                   sorted.begin());
-  return used;
+  std::vector<Vec3d> vertices;
+  for (const std::uint32_t vertex : compact_indices(corners))
+    vertices.push_back(input_.vertices[vertex]);
+  return vertices;
 }
 
 geometry::TriangleMesh Builder::mesh(Flat flat) const {

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/gltf/accessor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+namespace strake::io::gltf {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are read as they lie");
+
+std::size_t component_bytes(Component component) {
+  switch (component) {
+    case Component::int8:
+    case Component::uint8:
+      return 1;
+    case Component::int16:
+    case Component::uint16:
+      return 2;
+    case Component::uint32:
+    case Component::float32:
+      return 4;
+  }
+  return 0;
+}
+
+std::size_t type_width(std::string_view type) {
+  constexpr std::array<std::pair<std::string_view, std::size_t>, 4> kTypes{
+      {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}}};
+  for (const auto& [name, width] : kTypes)
+    if (name == type) return width;
+  return 0;
+}
+
+template <class T>
+double load(const std::byte* at) {
+  T value{};
+  std::memcpy(&value, at, sizeof value);
+  return static_cast<double>(value);
+}
+
+double largest_of(Component component) {
+  switch (component) {
+    case Component::int8:
+      return 127;
+    case Component::uint8:
+      return 255;
+    case Component::int16:
+      return 32767;
+    case Component::uint16:
+      return 65535;
+    case Component::uint32:
+    case Component::float32:
+      break;
+  }
+  return 1;
+}
+
+double component_value(Component component, const std::byte* at) {
+  switch (component) {
+    case Component::int8:
+      return load<std::int8_t>(at);
+    case Component::uint8:
+      return load<std::uint8_t>(at);
+    case Component::int16:
+      return load<std::int16_t>(at);
+    case Component::uint16:
+      return load<std::uint16_t>(at);
+    case Component::uint32:
+      return load<std::uint32_t>(at);
+    case Component::float32:
+      return load<float>(at);
+  }
+  return 0;
+}
+
+/// The widest stride of the specification is 252; a wider one is taken as written.
+std::optional<Fault> check_extent(const Accessor& accessor, std::size_t offset,
+                                  std::size_t view_bytes) {
+  const std::size_t size = component_bytes(accessor.component) * accessor.width;
+  if (accessor.stride < size)
+    return Fault{accessor.pointer,
+                 fmt::format("has a stride of {} bytes for elements of {}", accessor.stride, size)};
+  if (accessor.count == 0) return std::nullopt;
+  const bool fits = offset <= view_bytes && size <= view_bytes - offset &&
+                    (accessor.count - 1) <= (view_bytes - offset - size) / accessor.stride;
+  if (fits) return std::nullopt;
+  return Fault{accessor.pointer,
+               fmt::format("its {} elements of {} bytes do not fit into the {} bytes of its view",
+                           accessor.count, size, view_bytes)};
+}
+
+}  // namespace
+
+double Accessor::step() const {
+  if (component == Component::float32) return 0;
+  return normalized ? 1 / largest_of(component) : 1;
+}
+
+void Accessor::element(std::size_t index, double* out) const {
+  const std::byte* at = bytes.data() + index * stride;
+  if (component == Component::float32) {
+    for (std::size_t k = 0; k < width; ++k) out[k] = load<float>(at + 4 * k);
+    return;
+  }
+  const std::size_t size = component_bytes(component);
+  for (std::size_t k = 0; k < width; ++k) {
+    out[k] = component_value(component, at + size * k);
+    if (normalized) out[k] = std::max(out[k] / largest_of(component), -1.0);
+  }
+}
+
+std::uint32_t Accessor::integer(std::size_t index) const {
+  const std::byte* at = bytes.data() + index * stride;
+  std::uint32_t value = 0;
+  std::memcpy(&value, at, component_bytes(component));
+  return value;
+}
+
+std::uint64_t Accessors::stated_count(std::uint64_t index) const {
+  if (index >= accessors_.size()) return 0;
+  return accessors_[index]["count"].index().value_or(0);
+}
+
+bool Accessors::has_data(std::uint64_t index) const {
+  return index < accessors_.size() &&
+         (accessors_[index]["bufferView"].exists() || accessors_[index]["sparse"].exists());
+}
+
+Checked<Accessor> Accessors::open_dense(std::uint64_t index, const Json& json) const {
+  Accessor accessor;
+  accessor.pointer = fmt::format("/accessors/{}", index);
+  const std::optional<std::uint64_t> count = json["count"].index();
+  const std::optional<std::uint64_t> component = json["componentType"].index();
+  accessor.width = type_width(json["type"].text_value());
+  const bool known = component && ((*component >= 5120 && *component <= 5123) ||
+                                   *component == 5125 || *component == 5126);
+  if (!count || !known || accessor.width == 0)
+    return Fault{accessor.pointer, "has no valid count, componentType or type"};
+  accessor.count = *count;
+  accessor.component = static_cast<Component>(*component);
+  accessor.normalized = json["normalized"].boolean().value_or(false);
+  const std::size_t size = component_bytes(accessor.component) * accessor.width;
+
+  const Json view_json = json["bufferView"], offset_json = json["byteOffset"];
+  if (!view_json.exists()) {
+    // Zeros, of which a file may ask for any number: no more than its data could hold.
+    const std::size_t most = std::max<std::size_t>(buffers_->total_bytes(), 4096);
+    if (accessor.count > most / size)
+      return Fault{accessor.pointer, fmt::format("asks for {} elements without any data", *count)};
+    accessor.stride = size;
+    accessor.dense.resize(size * accessor.count);
+    accessor.bytes = accessor.dense;
+    return {std::move(accessor)};
+  }
+  const Checked<Buffers::View> view = buffers_->view(view_json.index().value_or(UINT64_MAX));
+  if (const Fault* fault = fault_of(view)) return *fault;
+  const auto& found = std::get<Buffers::View>(view);
+  const std::optional<std::uint64_t> offset =
+      offset_json.exists() ? offset_json.index() : std::optional<std::uint64_t>(0);
+  if (!offset) return Fault{accessor.pointer, "has a byteOffset that is no whole number"};
+  accessor.stride = found.stride == 0 ? size : found.stride;
+  if (std::optional<Fault> fault = check_extent(accessor, *offset, found.bytes.size()))
+    return std::move(*fault);
+  accessor.bytes = accessor.count == 0 ? found.bytes.first(0) : found.bytes.subspan(*offset);
+  return {std::move(accessor)};
+}
+
+bool Accessors::apply_sparse(Accessor& accessor, const Json& sparse, Fault& fault) const {
+  const auto fail = [&](std::string message) {
+    fault = {accessor.pointer + "/sparse", std::move(message)};
+    return false;
+  };
+  const std::size_t size = component_bytes(accessor.component) * accessor.width;
+  Accessor indices, values;
+  indices.pointer = values.pointer = accessor.pointer + "/sparse";
+  const std::optional<std::uint64_t> count = sparse["count"].index();
+  const std::uint64_t component = sparse["indices"]["componentType"].index().value_or(0);
+  if (!count || *count > accessor.count) return fail("has no valid count");
+  if (component != 5121 && component != 5123 && component != 5125)
+    return fail("has indices of no valid componentType");
+  indices.component = static_cast<Component>(component);
+  indices.width = 1;
+  values.component = accessor.component;
+  values.width = accessor.width;
+  for (Accessor* part : {&indices, &values}) {
+    const Json json = sparse[part == &indices ? "indices" : "values"];
+    const Checked<Buffers::View> view =
+        buffers_->view(json["bufferView"].index().value_or(UINT64_MAX));
+    if (const Fault* broken = fault_of(view)) {
+      fault = *broken;
+      return false;
+    }
+    const auto& found = std::get<Buffers::View>(view);
+    const std::uint64_t offset = json["byteOffset"].index().value_or(0);
+    part->count = *count;
+    part->stride = component_bytes(part->component) * part->width;
+    if (std::optional<Fault> broken = check_extent(*part, offset, found.bytes.size())) {
+      fault = std::move(*broken);
+      return false;
+    }
+    if (*count != 0) part->bytes = found.bytes.subspan(offset);
+  }
+  // A copy with the replaced elements; the accessor's own data may be interleaved with others'.
+  std::vector<std::byte> dense(size * accessor.count);
+  for (std::size_t i = 0; i < accessor.count; ++i)
+    std::memcpy(dense.data() + size * i, accessor.bytes.data() + accessor.stride * i, size);
+  for (std::size_t i = 0; i < *count; ++i) {
+    const std::uint32_t target = indices.integer(i);
+    if (target >= accessor.count)
+      return fail(fmt::format("replaces element {} of {}", target, accessor.count));
+    std::memcpy(dense.data() + size * target, values.bytes.data() + size * i, size);
+  }
+  accessor.dense = std::move(dense);
+  accessor.bytes = accessor.dense;
+  accessor.stride = size;
+  return true;
+}
+
+Checked<Accessor> Accessors::open(std::uint64_t index) const {
+  if (index >= accessors_.size())
+    return Fault{fmt::format("/accessors/{}", index),
+                 fmt::format("does not exist; there are {}", accessors_.size())};
+  const Json& json = accessors_[index];
+  Checked<Accessor> opened = open_dense(index, json);
+  const Json sparse = json["sparse"];
+  if (fault_of(opened) != nullptr || !sparse.is_object()) return opened;
+  Fault fault;
+  if (!apply_sparse(std::get<Accessor>(opened), sparse, fault)) return fault;
+  return opened;
+}
+
+}  // namespace strake::io::gltf

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/gltf/import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/gltf/accessor.hpp"
+#include "io/gltf/buffers.hpp"
+#include "io/gltf/mesh.hpp"
+#include "io/gltf/node.hpp"
+#include "io/gltf/scene.hpp"
+#include "io/reading.hpp"
+#include "io/source_frame.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/parallel/for_each.hpp"
+
+namespace strake::io::gltf {
+namespace {
+
+using geometry::Placement;
+using geometry::Vec3d;
+
+/// The standard's metres with y up, unless the file says otherwise as our own writer does.
+FrameDefault stated_frame(const Json& root) {
+  FrameDefault frame{1000.0, UpAxis::y, true};
+  const Json extras = root["asset"]["extras"];
+  if (const auto unit = extras["unit_mm"].number(); unit && *unit > 0 && *unit < 1e12)
+    frame.unit_mm = *unit;
+  const std::string up = extras["up_axis"].text_value();
+  if (up == "z") frame.up = UpAxis::z;
+  if (up == "x") frame.up = UpAxis::x;
+  return frame;
+}
+
+/// What placing a mesh needs to know of it once its shapes belong to the model.
+struct MeshShapes {
+  struct Part {
+    model::ShapeId shape{};
+    model::Color color;
+  };
+  std::vector<Part> parts;
+  geometry::Box3d box = geometry::empty_box<double>();
+  double step_mm = 0;
+};
+
+class Importer {
+ public:
+  Importer(const ImportInput& input, const Container& container, const Json& root)
+      : input_(input),
+        root_(root),
+        default_(stated_frame(root)),
+        frame_(choose_frame(input.options, default_)),
+        buffers_(root, container, input.file.path),
+        accessors_(root, buffers_),
+        meshes_(root["meshes"].items()),
+        materials_(material_colors(root)),
+        model_(start_model(input.file, container.binary_file ? "GLB" : "glTF", input.options,
+                           default_)) {}
+  Result<model::Model> run();
+
+ private:
+  Status parse_nodes();
+  Status check_amount() const;
+  Status load_meshes();
+  void note_meshes();
+  void adopt_meshes();
+  void place_all();
+  void place(const Visit& visit, std::size_t self);
+  void place_instances(const Node& node, model::GroupId parent, const Placement& world);
+  void add_object(const Node& node, const std::string& name, const std::string& id,
+                  model::GroupId parent, std::span<const Placement> placements);
+  bool add_bodies(const MeshShapes& mesh, const Placement& world);
+  [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name) const;
+  void skip(const Node& node, const Fault& fault);
+  [[nodiscard]] std::string place_text(const std::string& pointer) const {
+    return fmt::format("{}, {}", input_.file.path.string(), pointer);
+  }
+
+  struct Placed {
+    Placement world;                              ///< file frame
+    model::GroupId group = model::GroupId::none;  ///< that its children stand in
+    const Fault* fault = nullptr;                 ///< its own or an ancestor's
+  };
+
+  ImportInput input_;
+  const Json& root_;
+  FrameDefault default_;
+  SourceFrame frame_;
+  Buffers buffers_;
+  Accessors accessors_;
+  std::vector<Json> meshes_;
+  std::vector<model::Color> materials_;
+  std::vector<Node> nodes_;
+  std::vector<Visit> visits_;
+  std::vector<std::uint32_t> used_;  ///< meshes that a visited node has, ascending
+  std::vector<LoadedMesh> loaded_;   ///< one per used mesh
+  std::vector<MeshShapes> shapes_;   ///< per mesh of the document
+  std::vector<std::optional<Fault>> mesh_faults_;
+  std::vector<Placed> placed_;  ///< per visit
+  model::Model model_;
+  double largest_mm_ = 0, step_mm_ = 0;
+};
+
+Status Importer::parse_nodes() {
+  const std::vector<Json> items = root_["nodes"].items();
+  nodes_.resize(items.size());
+  const Status parsed = parallel::for_each(
+      input_.context, {.name = "read glTF nodes", .n = items.size(), .grain = 256},
+      [&](std::size_t i) { nodes_[i] = parse_node(items[i], i, meshes_); });
+  if (!parsed) return parsed;
+  Result<std::vector<Visit>> order = visit_order(root_, nodes_);
+  if (!order) {
+    Error error = order.error();
+    error.where = place_text(error.where);
+    return error;
+  }
+  visits_ = std::move(*order);
+  std::vector<bool> used(meshes_.size());
+  for (const Visit& visit : visits_) {
+    const Node& node = nodes_[visit.node];
+    if (node.mesh && *node.mesh < meshes_.size()) used[*node.mesh] = true;
+  }
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) used_.push_back(static_cast<std::uint32_t>(i));
+  return {};
+}
+
+/// A few bytes of JSON can refer to the same data again and again: what that would become in
+/// memory is bounded by the file's size before anything is loaded.
+Status Importer::check_amount() const {
+  const std::uint64_t bytes = input_.file.bytes.size() + buffers_.total_bytes();
+  const std::uint64_t most_corners = 64 * bytes + (1U << 20U);
+  std::uint64_t corners = 0, instances = 0;
+  const auto refuse = [&](const char* what) {
+    return Error{ErrorCode::input,
+                 fmt::format("refers to the same {} so often that they would not "
+                             "fit into the memory",
+                             what),
+                 input_.file.path.string(), "export the model again"};
+  };
+  for (const std::uint32_t mesh : used_) {
+    corners += stated_corners(accessors_, meshes_[mesh]);
+    if (corners > most_corners) return refuse("vertices");
+  }
+  for (const Visit& visit : visits_) {
+    const Node& node = nodes_[visit.node];
+    if (node.mesh && node.instancing.exists()) instances += stated_instances(node, accessors_);
+    if (instances > bytes + (1U << 10U)) return refuse("instances");
+  }
+  return {};
+}
+
+Status Importer::load_meshes() {
+  const MeshInput input{&accessors_, &materials_, frame_};
+  loaded_.resize(used_.size());
+  return parallel::for_each(
+      input_.context, {.name = "load glTF meshes", .n = used_.size()},
+      [&](std::size_t i) { loaded_[i] = load_mesh(input, meshes_[used_[i]], used_[i]); });
+}
+
+void Importer::note_meshes() {
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    const std::string pointer = fmt::format("/meshes/{}", used_[i]);
+    if (loaded_[i].points != 0)
+      model_.diagnostics.add(Severity::skipped, "gltf-points", "points are not read",
+                             place_text(pointer));
+    if (loaded_[i].odd != 0)
+      model_.diagnostics.add(Severity::warning, "gltf-odd-indices",
+                             "indices are left over behind the last triangle or line",
+                             place_text(pointer));
+  }
+  const auto skinned = std::count_if(visits_.begin(), visits_.end(), [&](const Visit& visit) {
+    return nodes_[visit.node].skinned;
+  });
+  if (skinned != 0)
+    model_.diagnostics.add(Severity::warning, "gltf-skin",
+                           "skinned meshes are read as they stand, without their bones",
+                           place_text("/skins"));
+}
+
+void Importer::adopt_meshes() {
+  shapes_.resize(meshes_.size());
+  mesh_faults_.resize(meshes_.size());
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    LoadedMesh& loaded = loaded_[i];
+    MeshShapes& shapes = shapes_[used_[i]];
+    mesh_faults_[used_[i]] = std::move(loaded.fault);
+    shapes.step_mm = loaded.step * frame_.unit_mm;
+    const auto adopt = [&](auto&& geometry, const std::vector<Vec3d>& points,
+                           const model::Color& color) {
+      for (const Vec3d& point : points) shapes.box.include(point);
+      shapes.parts.push_back({static_cast<model::ShapeId>(model_.shapes.size()), color});
+      model_.shapes.emplace_back(std::forward<decltype(geometry)>(geometry));
+    };
+    if (!loaded.opaque.triangles.empty())
+      adopt(std::move(loaded.opaque), loaded.opaque.vertices, loaded.opaque_color);
+    if (!loaded.transparent.triangles.empty())
+      adopt(std::move(loaded.transparent), loaded.transparent.vertices, loaded.transparent_color);
+    if (!loaded.lines.points.empty())
+      adopt(std::move(loaded.lines), loaded.lines.points, loaded.line_color);
+  }
+  loaded_.clear();
+}
+
+/// Names from the root, joined by '/'; one that is too long for the many objects of a deep tree
+/// keeps its end behind a hash of the whole.
+std::string Importer::path_id(model::GroupId parent, const std::string& name) const {
+  constexpr std::size_t kMost = 1024;
+  std::vector<std::string_view> names{name};
+  for (model::GroupId g = parent; g != model::GroupId::none;
+       g = model_.groups[model::index(g)].parent)
+    names.push_back(model_.groups[model::index(g)].name);
+  std::size_t length = names.size() - 1;
+  for (const std::string_view one : names) length += one.size();
+  std::string path;
+  if (length <= kMost) {
+    for (auto one = names.rbegin(); one != names.rend(); ++one)
+      path.append(path.empty() && one == names.rbegin() ? "" : "/").append(*one);
+    return path;
+  }
+  Hasher hasher;
+  for (const std::string_view one : names) hasher.add(one);
+  std::string_view end = names.front();
+  if (end.size() > kMost) end = end.substr(end.size() - kMost);
+  return fmt::format("{}/{}", hasher.value().text(), end);
+}
+
+void Importer::skip(const Node& node, const Fault& fault) {
+  model_.diagnostics.add(Severity::skipped, "gltf-damaged-object",
+                         fmt::format("object '{}' is skipped: {}", node.name, fault.message),
+                         place_text(fault.pointer));
+}
+
+bool Importer::add_bodies(const MeshShapes& mesh, const Placement& world) {
+  const Placement placement = frame_.placement(world);
+  double largest = 0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3d p = placement * Vec3d{(corner & 1U) != 0 ? mesh.box.hi.x : mesh.box.lo.x,
+                                      (corner & 2U) != 0 ? mesh.box.hi.y : mesh.box.lo.y,
+                                      (corner & 4U) != 0 ? mesh.box.hi.z : mesh.box.lo.z};
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+    largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  }
+  largest_mm_ = std::max(largest_mm_, largest);
+  if (mesh.step_mm > 0)
+    for (const Vec3d& row : placement.linear.row)
+      step_mm_ = std::max(step_mm_, mesh.step_mm * std::sqrt(dot(row, row)));
+  for (const MeshShapes::Part& part : mesh.parts)
+    model_.bodies.push_back({part.shape, placement, part.color, model::Category::physical});
+  return true;
+}
+
+void Importer::add_object(const Node& node, const std::string& name, const std::string& id,
+                          model::GroupId parent, std::span<const Placement> placements) {
+  const MeshShapes& mesh = shapes_[*node.mesh];
+  const std::size_t first = model_.bodies.size();
+  for (const Placement& placement : placements)
+    if (!add_bodies(mesh, placement)) {
+      model_.bodies.resize(first);
+      return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it is placed beyond all bounds"});
+    }
+  model::Object object;
+  object.name = name;
+  object.id = id.empty() ? path_id(parent, name) : id;
+  object.parent = parent;
+  object.first_body = static_cast<std::uint32_t>(first);
+  object.body_count = static_cast<std::uint32_t>(model_.bodies.size() - first);
+  object.attributes = node.attributes;
+  model_.objects.push_back(std::move(object));
+}
+
+void Importer::place_instances(const Node& node, model::GroupId parent, const Placement& world) {
+  Instances instances = read_instances(node, accessors_);
+  if (instances.fault) return skip(node, *instances.fault);
+  for (Placement& placement : instances.placements) placement = world * placement;
+  if (instances.placements.empty())
+    return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it has no instances"});
+  if (instances.names.empty())
+    return add_object(node, node.name, node.id, parent, instances.placements);
+  // Named instances are elements of their own below the node.
+  const auto group = static_cast<model::GroupId>(model_.groups.size());
+  model_.groups.push_back({node.name, parent});
+  for (std::size_t i = 0; i < instances.placements.size(); ++i)
+    add_object(node, instances.names[i], instances.ids[i], group,
+               std::span(instances.placements).subspan(i, 1));
+}
+
+void Importer::place(const Visit& visit, std::size_t self) {
+  const Node& node = nodes_[visit.node];
+  const Placed above = visit.parent == kNoVisit ? Placed{} : placed_[visit.parent];
+  Placed& here = placed_[self];
+  here.world = visit.parent == kNoVisit ? node.local : above.world * node.local;
+  here.group = above.group;
+  here.fault = above.fault != nullptr ? above.fault : node.fault ? &*node.fault : nullptr;
+  if (!node.children.empty()) {
+    here.group = static_cast<model::GroupId>(model_.groups.size());
+    model_.groups.push_back({node.name, above.group});
+  }
+  if (!node.mesh) return;
+  if (here.fault != nullptr) return skip(node, *here.fault);
+  if (const auto& fault = mesh_faults_[*node.mesh]) return skip(node, *fault);
+  if (shapes_[*node.mesh].parts.empty())
+    return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it has no triangles and no lines"});
+  if (node.instancing.exists()) return place_instances(node, above.group, here.world);
+  add_object(node, node.name, node.id, above.group, std::span(&here.world, 1));
+}
+
+void Importer::place_all() {
+  placed_.resize(visits_.size());
+  for (std::size_t i = 0; i < visits_.size(); ++i) place(visits_[i], i);
+}
+
+Result<model::Model> Importer::run() {
+  if (const Status parsed = parse_nodes(); !parsed) return parsed.error();
+  if (const Status bounded = check_amount(); !bounded) return bounded.error();
+  if (const Status loaded = load_meshes(); !loaded) return loaded.error();
+  note_meshes();
+  adopt_meshes();
+  place_all();
+  const double rounding = frame_.unit_mm * float32_half_spacing(largest_mm_ / frame_.unit_mm);
+  model_.files[0].precision_mm = std::max(rounding, step_mm_ / 2);
+  return end_model(input_.file, std::move(model_));
+}
+
+}  // namespace
+
+Result<model::Model> import_document(const ImportInput& input, const Container& container,
+                                     const Json& root) {
+  return Importer(input, container, root).run();
+}
+
+}  // namespace strake::io::gltf

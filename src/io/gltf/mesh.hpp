@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "io/gltf/accessor.hpp"
+#include "io/gltf/fault.hpp"
+#include "io/gltf/json.hpp"
+#include "io/source_frame.hpp"
+#include "strake/geometry/mesh.hpp"
+#include "strake/model/model.hpp"
+
+namespace strake::io::gltf {
+
+/// A mesh of the document as shapes: its opaque primitives are one, whatever their materials,
+/// because a solid cut along its colours would be no solid; so are its transparent ones.
+struct LoadedMesh {
+  geometry::TriangleMesh opaque, transparent;  ///< mm, z up
+  geometry::Polylines lines;
+  model::Color opaque_color, transparent_color, line_color;  ///< of most triangles or segments
+  double step = 0;           ///< spacing of quantised coordinates in file units; 0: float32
+  std::uint32_t points = 0;  ///< primitives that are point clouds
+  std::uint32_t odd = 0;     ///< primitives with indices left over behind the last triangle or line
+  std::optional<Fault> fault;  ///< set: not to be used
+};
+
+struct MeshInput {
+  const Accessors* accessors = nullptr;
+  const std::vector<model::Color>* materials = nullptr;
+  SourceFrame frame;
+};
+
+[[nodiscard]] LoadedMesh load_mesh(const MeshInput& input, const Json& mesh, std::size_t index);
+
+/// Corners that loading the mesh would put into memory, as the file states them.
+[[nodiscard]] std::uint64_t stated_corners(const Accessors& accessors, const Json& mesh);
+
+/// The colours of all materials of a document.
+[[nodiscard]] std::vector<model::Color> material_colors(const Json& root);
+
+}  // namespace strake::io::gltf

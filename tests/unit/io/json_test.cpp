@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/gltf/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+
+namespace strake::io::gltf {
+namespace {
+
+JsonDocument parse(const std::string& text) {
+  Result<JsonDocument> document = JsonDocument::parse(text);
+  EXPECT_TRUE(document) << text << ": " << (document ? "" : document.error().text());
+  return document ? std::move(*document) : JsonDocument{};
+}
+
+TEST(Json, FindsValuesByKeyAndPlace) {
+  const std::string text =
+      R"( {"a": [1, -2.5e1, true, null, "x"], "b": {"c": {"d": 7}}, "e": "", "a": 9} )";
+  const JsonDocument document = parse(text);
+  const Json root = document.root();
+  const std::vector<Json> items = root["a"].items();
+  ASSERT_EQ(items.size(), 5U);
+  EXPECT_EQ(items[0].index(), 1U);
+  EXPECT_EQ(items[1].number(), -25.0);
+  EXPECT_EQ(items[1].index(), std::nullopt);
+  EXPECT_EQ(items[2].boolean(), true);
+  EXPECT_EQ(items[3].type(), JsonType::null);
+  EXPECT_EQ(items[4].text_value(), "x");
+  EXPECT_EQ(root["b"]["c"]["d"].index(), 7U);
+  EXPECT_FALSE(root["b"]["x"]["d"].exists());
+  EXPECT_TRUE(root["e"].is_string());
+  EXPECT_EQ(root["b"].items().size(), 1U);
+  EXPECT_EQ(root["b"].raw(), R"({"c": {"d": 7}})");
+}
+
+TEST(Json, DecodesStrings) {
+  const std::string text = R"(["\"\\\/\b\f\n\r\t", "\u00e4\u20AC", "\ud83d\ude00", "\ud83d", "ä",)"
+                           "\"\xC4\"]";
+  const JsonDocument document = parse(text);
+  std::vector<std::string> decoded;
+  document.root().elements([&](const Json& item) { decoded.push_back(item.text_value()); });
+  EXPECT_EQ(decoded, (std::vector<std::string>{"\"\\/\b\f\n\r\t", "ä€", "😀", "\xEF\xBF\xBD", "ä",
+                                               "\xEF\xBF\xBD"}));
+}
+
+TEST(Json, FindsKeysThatAreEscaped) {
+  const std::string text = R"({"\u0061\n": 5})";
+  const JsonDocument document = parse(text);
+  EXPECT_EQ(document.root()["a\n"].index(), 5U);
+}
+
+TEST(Json, RefusesWhatIsNotJson) {
+  for (const char* text :
+       {"",       "  ",        "{",       "[",        "]",          "[1",          "[1,",
+        "[1,]",   "{,}",       "{\"a\"}", "{\"a\":}", "{\"a\":1,}", "{a:1}",       "[1 2]",
+        "[1}",    "{\"a\":1]", "01",      "-",        "1.",         ".5",          "1e",
+        "+1",     "tru",       "nul",     "\"",       "\"\\x\"",    "\"\\u12g4\"", "\"\\u12",
+        "\"\n\"", "1 2",       "[1]]",    "NaN",      "Infinity",   "'a'"})
+    EXPECT_FALSE(JsonDocument::parse(text)) << text;
+  const Result<JsonDocument> bad = JsonDocument::parse("{\"a\": [1, x]}");
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().where, "byte 10");
+}
+
+TEST(Json, BoundsTheNesting) {
+  EXPECT_TRUE(JsonDocument::parse(std::string(512, '[') + std::string(512, ']')));
+  EXPECT_FALSE(JsonDocument::parse(std::string(513, '[') + std::string(513, ']')));
+  EXPECT_FALSE(JsonDocument::parse(std::string(1'000'000, '[')));
+}
+
+TEST(Json, AgreesWithAnotherParserOnMutatedText) {
+  // Whether a text is JSON at all: both must say the same of thousands of damaged documents.
+  const std::string good =
+      R"({"nodes":[{"name":"a\u00e4\n","matrix":[1,0.5,-2e-3,0]},{"x":true,"y":null}],"z":{}})";
+  const unsigned seed = 7;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const std::string pool = "{}[]\",:0123456789.eE+-truefalsn \\u/\t";
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = good;
+    for (unsigned k = 0; k <= random() % 3; ++k) {
+      const std::size_t at = random() % text.size();
+      const char c = pool[random() % pool.size()];
+      if (random() % 3 == 0)
+        text.erase(at, 1);
+      else if (random() % 2 == 0)
+        text.insert(at, 1, c);
+      else
+        text[at] = c;
+    }
+    ASSERT_EQ(static_cast<bool>(JsonDocument::parse(text)), nlohmann::json::accept(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace strake::io::gltf
