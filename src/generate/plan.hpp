@@ -104,8 +104,35 @@ struct Steel {
   Handles beam;  ///< (level below the deck, bay, lane)
 };
 
+/// A pipe and the flanges that fit it.
+struct PipeSize {
+  double r = 0, flange = 0;
+};
+/// A valve with bonnet and hand wheel: flow along the frame's x from its origin, wheel towards z.
+Handle build_valve(const Site& site, const PipeSize& size, double length, const Frame& where);
+
+/// A room of 2800 x 3300 x 2000 mm clear of all steel but the deck below.
+struct Room {
+  Site site;
+  Handle deck = kNothing;
+  Random random;
+};
+void build_genset(Room& room);
+void build_pumps(Room& room);
+void build_tank(Room& room);
+void build_pipe_chest(Room& room);
+void build_control_room(Room& room);
+void build_fan_room(Room& room);
+void build_cabin(Room& room);
+void build_store(Room& room);
+void build_stairs(Room& room);
+/// Something wrong (or nearly), in a free space of 640 x 640 x 2000 mm.
+void plant(Room& corner);
+
 [[nodiscard]] Steel build_steel(const Plan& plan, Yard& yard);
 void build_runs(const Plan& plan, const Steel& steel, Yard& yard);
 void build_ballast(const Plan& plan, Yard& yard);
+void build_rooms(const Plan& plan, const Steel& steel, Yard& yard);
+void build_weather_deck(const Plan& plan, const Steel& steel, Yard& yard);
 
 }  // namespace strake::generate

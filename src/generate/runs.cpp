@@ -17,9 +17,6 @@ constexpr double kDuctJoint = 1000;
 constexpr double kFlangeLength = 30;
 constexpr double kRunEnd = 100;  ///< runs stop this far before the end of the last deck above
 
-struct PipeSize {
-  double r, flange;
-};
 constexpr std::array<PipeSize, 4> kPipeSizes{{{30, 60}, {45, 80}, {57, 95}, {84, 125}}};
 
 /// What one run of a lane looks like, the same in all bays.
@@ -137,7 +134,7 @@ class LaneBuilder {
     constexpr double kValveAt = 2000, kValve = 300;
     const Handle first = plain_pipe(line, size, {span.start, span.bar, span.from, kValveAt});
     const Handle in = flange(line, size, kValveAt);
-    const Handle valve = build_valve(line, size, kValveAt + kFlangeLength, kValve);
+    const Handle valve = build_valve(line, size, kValve, at({kValveAt + kFlangeLength, 0, 0}));
     const Handle out = flange(line, size, kValveAt + kFlangeLength + kValve);
     const double rest = kValveAt + 2 * kFlangeLength + kValve;
     const Handle second =
@@ -147,28 +144,6 @@ class LaneBuilder {
     yard_.bolt(valve, out);
     yard_.weld(out, second);
     return second;
-  }
-
-  static Handle build_valve(const Site& line, const PipeSize& size, double x, double length) {
-    const std::int64_t r = um(size.r), big = um(size.flange - 10), l = um(length);
-    const std::uint32_t shape = line.yard->shape({2001, r, l}, [&] {
-      const std::array<Turned, 6> body{
-          {{r, 0}, {r, l / 6}, {big, l * 3 / 8}, {big, l * 5 / 8}, {r, l * 5 / 6}, {r, l}}};
-      GridMesh mesh = cycled(turn(body, 24), 1);
-      // The bonnet stands on the body's upper flat; the stem carries a hand wheel.
-      const std::int64_t stem = um(12), wheel = um(size.flange - 20);
-      const std::array<Turned, 8> bonnet{{{um(20), 0},
-                                          {um(20), um(20)},
-                                          {stem, um(30)},
-                                          {stem, um(50)},
-                                          {wheel, um(50)},
-                                          {wheel, um(62)},
-                                          {stem, um(62)},
-                                          {stem, um(75)}}};
-      append(mesh, turn(bonnet, 24), {l / 2, 0, big});
-      return mesh;
-    });
-    return line.yard->add(Kind::valve, line.cell, shape, line.frame * at({x, 0, 0}));
   }
 
   /// Ladder tray: two rails, rungs between; cables lie on the rungs.
@@ -240,6 +215,28 @@ class LaneBuilder {
 };
 
 }  // namespace
+
+Handle build_valve(const Site& site, const PipeSize& size, double length, const Frame& where) {
+  const std::int64_t r = um(size.r), big = um(size.flange - 10), l = um(length);
+  const std::uint32_t shape = site.yard->shape({2001, r, big, l}, [&] {
+    const std::array<Turned, 6> body{
+        {{r, 0}, {r, l / 6}, {big, l * 3 / 8}, {big, l * 5 / 8}, {r, l * 5 / 6}, {r, l}}};
+    GridMesh mesh = cycled(turn(body, 24), 1);
+    // The bonnet stands on the body's upper flat; the stem carries a hand wheel.
+    const std::int64_t stem = um(12), wheel = um(size.flange - 20);
+    const std::array<Turned, 8> bonnet{{{um(20), 0},
+                                        {um(20), um(20)},
+                                        {stem, um(30)},
+                                        {stem, um(50)},
+                                        {wheel, um(50)},
+                                        {wheel, um(62)},
+                                        {stem, um(62)},
+                                        {stem, um(75)}}};
+    append(mesh, turn(bonnet, 24), {l / 2, 0, big});
+    return mesh;
+  });
+  return site.yard->add(Kind::valve, site.cell, shape, site.frame * where);
+}
 
 void build_runs(const Plan& plan, const Steel& steel, Yard& yard) {
   for (int level = 0; level < plan.levels; ++level)

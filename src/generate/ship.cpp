@@ -46,6 +46,8 @@ Yard build(const Plan& plan) {
   const Steel steel = build_steel(plan, yard);
   build_runs(plan, steel, yard);
   build_ballast(plan, yard);
+  build_rooms(plan, steel, yard);
+  build_weather_deck(plan, steel, yard);
   return yard;
 }
 

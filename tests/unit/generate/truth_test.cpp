@@ -82,10 +82,39 @@ TEST_P(TruthAgainstBruteForce, every_near_pair_is_declared) {
   EXPECT_EQ(found, declared.size());
 }
 
+TEST_P(TruthAgainstBruteForce, depth_is_what_the_construction_says) {
+  const Ship ship = ship_of(GetParam());
+  if (ship.options.objects > 2000) GTEST_SKIP() << "sampling is for the small ships";
+  const std::vector<WorldObject> world = world_of(ship);
+  std::size_t hits = 0;
+  for (const TruthPair& pair : ship.truth.pairs) {
+    if (pair.cls == Class::clearance_violation) continue;
+    const WorldObject &a = world[model::index(pair.a)], &b = world[model::index(pair.b)];
+    const std::string names = ship.model.object(pair.a).id + " " + ship.model.object(pair.b).id;
+    if (pair.cls == Class::hit) {
+      ++hits;
+      const double depth = test::sampled_depth(a, b, 9);
+      EXPECT_LE(depth, -pair.d_mm + 2e-3) << names;
+      EXPECT_GE(depth, -pair.d_mm * 0.97) << names << " " << ship.truth.reasons[pair.why];
+    } else {
+      EXPECT_LE(test::sampled_depth(a, b, 4), std::max(0.0, -pair.d_mm) + 2e-3) << names;
+    }
+  }
+  if (ship.options.objects >= 1000) {
+    EXPECT_GT(hits, 2U);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(ships, TruthAgainstBruteForce,
                          testing::Values(Case{100, 1, false}, Case{1000, 1, false},
-                                         Case{1000, 2, false}, Case{200, 3, true},
-                                         Case{20000, 1, false}));
+                                         Case{1000, 2, false}, Case{2000, 5, false},
+                                         Case{200, 3, true}, Case{20000, 1, false},
+                                         Case{20000, 8, false}),
+                         [](const auto& test_case) {
+                           return "of_" + std::to_string(test_case.param.objects) + "_seed_" +
+                                  std::to_string(test_case.param.seed) +
+                                  (test_case.param.turned ? "_turned" : "");
+                         });
 
 }  // namespace
 }  // namespace strake::generate

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "generate/plan.hpp"
+
+namespace strake::generate {
+namespace {
+
+using Builder = void (*)(Room&);
+
+/// The clear space of a room within its lane and bay.
+constexpr double kClearU = 360, kClearV = 350, kClearLength = 2800, kClearWidth = 3300;
+
+Builder choose_contents(int level, const Plan& plan, Random& random) {
+  constexpr std::array<Builder, 6> kEngineRoom{build_genset,     build_pumps,  build_tank,
+                                               build_pipe_chest, build_genset, build_pumps};
+  constexpr std::array<Builder, 7> kBetween{build_store,  build_fan_room,     build_pipe_chest,
+                                            build_stairs, build_control_room, build_tank,
+                                            build_store};
+  constexpr std::array<Builder, 5> kUpper{build_cabin, build_cabin, build_cabin, build_control_room,
+                                          build_store};
+  if (level == 0) return kEngineRoom[random.below(kEngineRoom.size())];
+  if (level + 1 == plan.levels && plan.levels > 1) return kUpper[random.below(kUpper.size())];
+  return level % 2 == 1 ? kBetween[random.below(kBetween.size())]
+                        : kUpper[random.below(kUpper.size())];
+}
+
+/// One of the four ways in which the contents can face.
+Frame choose_facing(Random& random) {
+  Frame frame = at({kClearU, kClearV, 0});
+  if (random.chance(50)) {
+    frame.m[0] = -1;
+    frame.t.x = um(kClearU + kClearLength);
+  }
+  if (random.chance(50)) {
+    frame.m[4] = -1;
+    frame.t.y = um(kClearV + kClearWidth);
+  }
+  return frame;
+}
+
+void plant_in_steel(const Plan& plan, const Steel& steel, const Site& site) {
+  const int bay = site.cell.bay, lane = site.cell.lane, level = site.cell.level - 1;
+  Random random = plan.random(32, bay, lane, level);
+  const Handle beam = steel.beam(level, bay, lane);
+  if (beam == kNothing || !random.chance(10)) return;
+  // Its axis pierces the beam's web between two slots: the depth is the pipe's radius.
+  const double r = random.chance(50) ? 45 : 57;
+  const double v = 800.0 * random.between(1, 4);
+  const Handle pipe = site.bar(Kind::pipe, r, 400, facing(Axis::along, {1400, v, 2540}));
+  site.yard->declare({pipe, beam, clash::Class::hit, Why::through_plate, -r});
+}
+
+}  // namespace
+
+void build_rooms(const Plan& plan, const Steel& steel, Yard& yard) {
+  for (int level = 0; level < plan.levels; ++level)
+    for (int bay = 0; bay < plan.deck_bays(level); ++bay)
+      for (int lane = 0; lane < plan.lanes; ++lane) {
+        const Site cell = plan.site(yard, bay, lane, level);
+        Random random = plan.random(31, bay, lane, level);
+        const Builder build = choose_contents(level, plan, random);
+        const Site site = cell.in(choose_facing(random));
+        Room room{site, steel.deck(level, bay, lane), random.at(1)};
+        build(room);
+        Room corner{site.moved({2130, 2630, 0}), room.deck, random.at(2)};
+        plant(corner);
+        plant_in_steel(plan, steel, cell);
+      }
+}
+
+}  // namespace strake::generate

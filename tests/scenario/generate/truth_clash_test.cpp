@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "strake/clash/clash.hpp"
+#include "strake/generate/ship.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake::generate {
+namespace {
+
+using PairKey = std::pair<std::uint32_t, std::uint32_t>;
+
+constexpr const char* kClassNames[] = {"NO_HIT", "CLEARANCE_VIOLATION", "CONTACT", "HIT"};
+
+const char* name_of(clash::Class cls) { return kClassNames[static_cast<std::size_t>(cls)]; }
+
+struct Case {
+  std::uint64_t objects, seed;
+  bool turned;
+};
+
+class TruthAgainstEngine : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    const Case& c = GetParam();
+    Result<Ship> made = generate_ship({c.objects, c.seed, c.turned}, {});
+    ASSERT_TRUE(made.has_value()) << made.error().text();
+    ship_ = std::move(made.value());
+  }
+
+  [[nodiscard]] clash::Report detect() const {
+    parallel::Team team(2);
+    parallel::Context context;
+    context.team = &team;
+    const Result<model::Scene> scene = model::make_scene(ship_.model, {}, context);
+    EXPECT_TRUE(scene.has_value());
+    clash::Sets sets;
+    sets.in_a.assign(ship_.model.objects.size(), true);
+    sets.in_b = sets.in_a;
+    clash::Options options;
+    options.clearance_mm = Truth::kClearanceMm;
+    Result<clash::Report> report = clash::detect(*scene, sets, options, context);
+    EXPECT_TRUE(report.has_value()) << report.error().text();
+    return std::move(report.value());
+  }
+
+  [[nodiscard]] std::string names(const PairKey& key) const {
+    return ship_.model.objects[key.first].id + " " + ship_.model.objects[key.second].id;
+  }
+
+  Ship ship_;
+};
+
+TEST_P(TruthAgainstEngine, every_pair_is_found_in_its_class_and_no_other) {
+  const clash::Report report = detect();
+  std::map<PairKey, const clash::Pair*> found;
+  for (const clash::Pair& pair : report.pairs)
+    found[{model::index(pair.a), model::index(pair.b)}] = &pair;
+  std::map<std::string, std::size_t> faults;
+  std::size_t shown = 0;
+  const auto fault = [&](const std::string& kind, const PairKey& key, const std::string& more) {
+    ++faults[kind];
+    if (++shown <= 30) ADD_FAILURE() << kind << ": " << names(key) << more;
+  };
+  for (const TruthPair& truth : ship_.truth.pairs) {
+    const PairKey key{model::index(truth.a), model::index(truth.b)};
+    const std::string why(ship_.truth.reasons[truth.why]);
+    const auto place = found.find(key);
+    if (place == found.end()) {
+      fault("missed: " + why, key, " d " + std::to_string(truth.d_mm));
+      continue;
+    }
+    const clash::Pair& pair = *place->second;
+    if (pair.cls != truth.cls)
+      fault(std::string(name_of(truth.cls)) + " called " + name_of(pair.cls) + ": " + why, key,
+            " truth d " + std::to_string(truth.d_mm) + " found " + std::to_string(pair.d_mm) +
+                " in [" + std::to_string(pair.d_lower_mm) + ", " + std::to_string(pair.d_upper_mm) +
+                "]");
+    // A bracket must hold the truth; where nothing is pressed in, it is a point.
+    else if (truth.d_mm < pair.d_lower_mm - 5e-3 || truth.d_mm > pair.d_upper_mm + 5e-3)
+      fault("d outside its bracket: " + why, key,
+            " truth d " + std::to_string(truth.d_mm) + " found " + std::to_string(pair.d_mm) +
+                " in [" + std::to_string(pair.d_lower_mm) + ", " + std::to_string(pair.d_upper_mm) +
+                "]");
+    found.erase(place);
+  }
+  for (const auto& [key, pair] : found)
+    fault(std::string("not in the truth: ") + name_of(pair->cls), key,
+          " d " + std::to_string(pair->d_mm));
+  for (const auto& [kind, count] : faults) ADD_FAILURE() << count << " x " << kind;
+}
+
+INSTANTIATE_TEST_SUITE_P(ships, TruthAgainstEngine,
+                         testing::Values(Case{1000, 1, false}, Case{1000, 1, true},
+                                         Case{1000, 2, false}, Case{20000, 1, false},
+                                         Case{20000, 1, true}),
+                         [](const auto& test_case) {
+                           return "of_" + std::to_string(test_case.param.objects) + "_seed_" +
+                                  std::to_string(test_case.param.seed) +
+                                  (test_case.param.turned ? "_turned" : "");
+                         });
+
+}  // namespace
+}  // namespace strake::generate
