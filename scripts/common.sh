@@ -2,6 +2,8 @@
 # Sourced by the other scripts: packages, presets, the list of sources.
 
 jobs=$(nproc)
+# One cache for every checkout of the sources, wherever it lies.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 
 say() { printf '== %s\n' "$*" >&2; }
 
