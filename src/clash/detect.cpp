@@ -117,6 +117,10 @@ class Engine {
                                                [](const Part& p) { return geometry::PartTree(p); });
     if (!trees) return trees.error();
     trees_ = std::move(*trees);
+    auto planes = build_for<geometry::SupportPlanes>(wanted, list_, "support planes", context_,
+                                                     geometry::make_support_planes);
+    if (!planes) return planes.error();
+    planes_ = std::move(*planes);
     return {};
   }
 
@@ -149,18 +153,9 @@ class Engine {
   }
 
   Status depths() {
-    std::vector<bool> wanted(list_.unique.size(), false);
     std::vector<std::size_t> deep;
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (!candidates_[i].needs_depth) continue;
-      deep.push_back(i);
-      for (const std::uint32_t p : {pairs_[i].first, pairs_[i].second})
-        wanted[list_.parts[p].unique] = true;
-    }
-    auto planes = build_for<geometry::SupportPlanes>(wanted, list_, "support planes", context_,
-                                                     geometry::make_support_planes);
-    if (!planes) return planes.error();
-    planes_ = std::move(*planes);
+    for (const std::size_t i : open_)
+      if (candidates_[i].needs_depth) deep.push_back(i);
     const auto order = parallel::longest_first(
         deep.size(), [&](std::size_t i) { return triangles(pairs_[deep[i]]); });
     return parallel::for_each(
@@ -174,7 +169,7 @@ class Engine {
   }
 
   [[nodiscard]] NarrowPart narrow_part(const PartRef& p) const {
-    return {{p.placed, &trees_[p.unique]}, planes_.empty() ? nullptr : &planes_[p.unique]};
+    return {{p.placed, &trees_[p.unique]}, &planes_[p.unique]};
   }
 
   [[nodiscard]] NarrowOptions narrow_options(const PartRef& a, const PartRef& b) const {
@@ -265,7 +260,7 @@ class Engine {
   std::vector<double> bands_;  ///< contact distance per file
   std::vector<IndexPair> pairs_;
   std::vector<geometry::PartTree> trees_;        ///< by unique part, as far as wanted
-  std::vector<geometry::SupportPlanes> planes_;  ///< likewise, for the depths
+  std::vector<geometry::SupportPlanes> planes_;  ///< likewise
   std::vector<Candidate> candidates_;            ///< one per pair
   std::vector<std::size_t> open_;                ///< pairs that want trees
 };

@@ -41,7 +41,7 @@ bool in_canonical_order(const TreedPart& a, const TreedPart& b) {
   return a.placed.origin <= b.placed.origin;
 }
 
-Separation separated(double distance) {
+Separation separated_by(double distance) {
   // The distance is the rounded root of a rounded square: off by less than two ulp.
   constexpr double kEps = 2 * std::numeric_limits<double>::epsilon();
   return {.d = distance, .lower = distance * (1 - kEps), .upper = distance * (1 + kEps)};
@@ -86,7 +86,14 @@ class PairOfParts {
 
   FirstLook look(bool separated) {
     FirstLook look;
-    if (!separated) look.meeting = geometry::meet(a_, b_, work_.pair);
+    const double reach = std::max(thresholds_.gap, thresholds_.clearance) + 1;
+    const double gap = geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, reach);
+    if (gap >= reach) {
+      look.answer.separation = separated_by(std::numeric_limits<double>::infinity());
+      conclude(look.answer);
+      return look;
+    }
+    if (!separated && !(gap > 0)) look.meeting = geometry::meet(a_, b_, work_.pair);
     if (look.meeting.meeting == Meeting::apart)
       apart(look.answer);
     else if (look.meeting.meeting == Meeting::touching)
@@ -110,10 +117,10 @@ class PairOfParts {
     // A unit more than the reach: what lies exactly at a threshold is for judge() to see.
     const auto near = geometry::closest(a_, b_, reach + 1, work_.pair);
     if (!near) {
-      answer.separation = separated(std::numeric_limits<double>::infinity());
+      answer.separation = separated_by(std::numeric_limits<double>::infinity());
       return;
     }
-    answer.separation = separated(near->distance);
+    answer.separation = separated_by(near->distance);
     answer.point = (near->on_a + near->on_b) * 0.5;
     answer.relation =
         near->distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;

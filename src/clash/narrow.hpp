@@ -12,7 +12,7 @@ namespace strake::clash {
 /// One side of a pair of parts.
 struct NarrowPart {
   geometry::TreedPart treed;
-  const geometry::SupportPlanes* planes = nullptr;  ///< wanted by judge_depth() only
+  const geometry::SupportPlanes* planes = nullptr;
 };
 
 /// What a pair of parts is judged by, grid units.

@@ -34,6 +34,11 @@ struct DepthPart {
   const SupportPlanes* planes = nullptr;
 };
 
+/// A certain lower bound on the distance of two parts: the widest gap between their supports along
+/// the face normals of either. Negative when no such direction keeps them apart. Stops at the
+/// first gap of at least `enough` grid units.
+[[nodiscard]] double gap_bound(const DepthPart& a, const DepthPart& b, double enough);
+
 /// When to stop. All lengths are grid units.
 struct DepthGoal {
   double threshold = 0;                  ///< the depth that decides the class

@@ -17,6 +17,8 @@
 namespace strake::geometry {
 namespace {
 
+constexpr std::size_t kMaxVerticesTried = 128;
+
 Box3d box_of(const DepthField& f) {
   const Box3i& b = f.part().box;
   return {f.common(b.lo.as<double>()), f.common(b.hi.as<double>())};
@@ -167,6 +169,18 @@ void bracket_by_programs(const Halfspaces& spaces, Candidates& candidates, Depth
     }
 }
 
+/// The corners of one body in the other: where shallow and broken overlaps are deepest.
+void try_vertices(const DepthField& of, const DepthField& in, Candidates& candidates) {
+  const Box3d room = box_of(in);
+  std::size_t tried = 0;
+  for (const Vec3i& v : of.part().vertices) {
+    const Vec3d p = of.common(v.as<double>());
+    if (!Box3d{p, p}.meets(room)) continue;
+    candidates.depth_at(p);
+    if (++tried == kMaxVerticesTried) return;
+  }
+}
+
 }  // namespace
 
 Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, PairWork& work) {
@@ -176,6 +190,11 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
   Depth depth;
   bracket_by_programs(spaces, candidates, depth);
   candidates.store(depth);
+  if (!bracket_suffices(depth, goal)) {
+    try_vertices(fa, fb, candidates);
+    try_vertices(fb, fa, candidates);
+    candidates.store(depth);
+  }
   if (!bracket_suffices(depth, goal)) search_solid_depth(fa, fb, goal, depth, work);
   depth.upper = std::max(depth.upper, depth.value);
   return depth;
