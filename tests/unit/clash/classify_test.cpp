@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/classify.hpp"
+
+#include <gtest/gtest.h>
+
+namespace strake::clash {
+namespace {
+
+constexpr Thresholds kDefault{.overlap = 1000, .gap = 1000, .clearance = 25000};
+
+Judgement at(double lower, double d, double upper, double sag = 0, bool meet = false) {
+  return judge({.d = d, .lower = lower, .upper = upper, .sag = sag, .interiors_meet = meet},
+               kDefault);
+}
+
+TEST(Classify, Thresholds) {
+  EXPECT_EQ(at(-1001, -1001, -1001).cls, Class::hit);
+  EXPECT_EQ(at(-1000, -1000, -1000).cls, Class::contact);
+  EXPECT_EQ(at(0, 0, 0).cls, Class::contact);
+  EXPECT_EQ(at(1000, 1000, 1000).cls, Class::contact);
+  EXPECT_EQ(at(1001, 1001, 1001).cls, Class::clearance_violation);
+  EXPECT_EQ(at(25000, 25000, 25000).cls, Class::no_hit);
+  EXPECT_EQ(at(0, 0, 0).flags, 0);
+}
+
+TEST(Classify, NarrowBracketAboutAThresholdIsBorderlineAndSevere) {
+  const Judgement j = at(-1000.4, -1000, -999.9);
+  EXPECT_EQ(j.cls, Class::hit);
+  EXPECT_EQ(j.flags, kBorderline);
+}
+
+TEST(Classify, WideBracketKeepsTheClassOfD) {
+  const Judgement j = at(-5000, -400, -400);
+  EXPECT_EQ(j.cls, Class::contact);
+  EXPECT_EQ(j.flags, kUncertain);
+  EXPECT_EQ(j.severest, Class::hit);
+}
+
+TEST(Classify, SagMakesUncertain) {
+  EXPECT_EQ(at(0, 0, 0, 500).flags, 0);
+  EXPECT_EQ(at(800, 800, 800, 500).flags, kUncertain);
+  EXPECT_EQ(at(800, 800, 800, 500).cls, Class::contact);
+  EXPECT_EQ(at(-800, -800, -800, 500, true).flags, kUncertain);
+}
+
+TEST(Classify, AnyDepthIsAHitWhenNoOverlapIsAllowed) {
+  const Thresholds strict{.overlap = 0, .gap = 0, .clearance = 0};
+  const Separation s{.d = -1e-6, .lower = -2, .upper = 0, .sag = 0, .interiors_meet = true};
+  EXPECT_EQ(judge(s, strict).cls, Class::hit);
+  EXPECT_EQ(judge(s, strict).flags, 0);
+  EXPECT_EQ(judge({}, strict).cls, Class::contact);
+}
+
+}  // namespace
+}  // namespace strake::clash

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "strake/clash/clash.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/clash_model.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Mat3d;
+using geometry::Placement;
+using geometry::Vec3d;
+using test::ClashModel;
+
+/// The only pair of a scene, or NO_HIT.
+Pair only(const ClashModel& m, const Options& options = {}) {
+  const Report report = m.detect(options);
+  EXPECT_LE(report.pairs.size(), 1U);
+  return report.pairs.empty() ? Pair{} : report.pairs.front();
+}
+
+ClashModel two(const Vec3d& lo_a, const Vec3d& hi_a, const Vec3d& lo_b, const Vec3d& hi_b) {
+  ClashModel m;
+  m.box("a", lo_a, hi_a).box("b", lo_b, hi_b);
+  return m;
+}
+
+/// Two walls 3000 x 200, the second `dx` along and `dy` beside the end of the first.
+ClashModel walls(double dx, double dy) {
+  return two({0, 0, 0}, {3000, 200, 2500}, {3000 + dx, dy, 0}, {6000 + dx, 200 + dy, 2500});
+}
+
+void expect(const Pair& p, Class cls, Relation relation, double d_mm) {
+  EXPECT_EQ(name(p.cls), name(cls));
+  EXPECT_EQ(name(p.relation), name(relation));
+  EXPECT_NEAR(p.d_mm, d_mm, 1e-6);
+  EXPECT_LE(p.d_lower_mm, p.d_mm);
+  EXPECT_GE(p.d_upper_mm, p.d_mm);
+}
+
+TEST(Detect, WallsThatOverlapAreAHitAlsoWhenAligned) {
+  expect(only(walls(-50, 0)), Class::hit, Relation::interfere, -50);
+  expect(only(walls(-50, 2)), Class::hit, Relation::interfere, -50);
+}
+
+TEST(Detect, WallsEndToEnd) {
+  const Pair touch = only(walls(0, 0));
+  expect(touch, Class::contact, Relation::abut_outside, 0);
+  EXPECT_EQ(touch.d_lower_mm, 0);
+  EXPECT_EQ(touch.flags, 0);
+  EXPECT_EQ(touch.point_mm.x, 3000);
+  EXPECT_EQ(only(walls(50, 0)).cls, Class::no_hit);
+  expect(only(walls(0.5, 0)), Class::contact, Relation::separate, 0.5);
+  expect(only(walls(-0.5, 0)), Class::contact, Relation::interfere, -0.5);
+  expect(only(walls(0.003, 0)), Class::contact, Relation::abut_outside, 0.003);
+  expect(only(walls(-0.002, 0)), Class::contact, Relation::abut_outside, -0.002);
+}
+
+TEST(Detect, Clearance) {
+  const Options options{.clearance_mm = 25};
+  expect(only(walls(24.9, 0), options), Class::clearance_violation, Relation::separate, 24.9);
+  EXPECT_EQ(only(walls(25.1, 0), options).cls, Class::no_hit);
+  EXPECT_EQ(only(walls(25.1, 0), options).d_mm, 0) << "NO_HIT pairs are not kept";
+  const Pair p = only(walls(10, 0), options);
+  EXPECT_EQ(p.point_mm.x, 3005) << "midpoint of the closest pair";
+}
+
+TEST(Detect, ThinCrossingPlatesAreAHit) {
+  const auto plates = two({0, 0, 0}, {1000, 2, 500}, {499, -500, 0}, {501, 500, 500});
+  expect(only(plates), Class::hit, Relation::interfere, -1);
+  Options plain;
+  plain.thickness_cap = ThicknessCap::off;
+  // Exactly at the threshold of the plain rule: the severer class, and said so.
+  const Pair p = only(plates, plain);
+  EXPECT_EQ(p.cls, Class::hit);
+  EXPECT_TRUE(p.flags & kBorderline);
+  const auto foil = two({0, 0, 0}, {1000, 0.8, 500}, {499, -500, 0}, {500, 500, 500});
+  EXPECT_EQ(only(foil).cls, Class::hit);
+  EXPECT_EQ(only(foil, plain).cls, Class::contact);
+}
+
+TEST(Detect, NestedAndDuplicate) {
+  const auto nested = two({0, 0, 0}, {1000, 1000, 1000}, {400, 400, 300}, {500, 500, 400});
+  expect(only(nested), Class::hit, Relation::b_in_a, -400);
+  const auto same = two({0, 0, 0}, {100, 100, 100}, {0, 0, 0}, {100, 100, 100});
+  expect(only(same), Class::hit, Relation::duplicate, -50);
+  const auto inside = two({0, 0, 0}, {100, 100, 100}, {0, 20, 20}, {10, 30, 30});
+  EXPECT_EQ(only(inside).relation, Relation::abut_inside);
+  EXPECT_EQ(only(inside).cls, Class::hit);
+}
+
+TEST(Detect, AToleranceOfZeroIsTheStrictDefinition) {
+  const Options strict{.touch_gap_mm = 0, .touch_overlap_mm = 0};
+  EXPECT_EQ(only(walls(0, 0), strict).cls, Class::contact);
+  EXPECT_EQ(only(walls(-0.001, 0), strict).cls, Class::hit);
+  EXPECT_EQ(only(walls(0.001, 0), strict).cls, Class::no_hit);
+}
+
+TEST(Detect, InsideOutSolidIsFoundAndFlagged) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {100, 100, 100}, true).box("b", {20, 20, 20}, {30, 30, 30});
+  const Pair p = only(m);
+  EXPECT_EQ(p.cls, Class::hit);
+  EXPECT_EQ(p.relation, Relation::b_in_a);
+  EXPECT_TRUE(p.flags & kInverted);
+}
+
+geometry::TriangleMesh sheet(const Vec3d& p, const Vec3d& u, const Vec3d& v) {
+  geometry::TriangleMesh mesh;
+  mesh.vertices = {p, p + u, p + u + v, p + v};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+TEST(Detect, Sheets) {
+  ClashModel m;
+  m.object("a").body(sheet({0, 0, 0}, {100, 0, 0}, {0, 100, 0}));
+  m.object("b").body(sheet({50, 20, -30}, {0, 60, 0}, {0, 0, 60}));
+  Pair p = only(m);
+  EXPECT_EQ(p.cls, Class::hit);
+  EXPECT_EQ(p.relation, Relation::cross);
+  EXPECT_TRUE(p.flags & kOpen);
+  EXPECT_LE(p.d_lower_mm, -30);
+  EXPECT_GE(p.d_upper_mm, -30);
+
+  ClashModel solid;
+  solid.object("a").body(sheet({0, 0, 0}, {100, 0, 0}, {0, 100, 0}));
+  solid.box("b", {40, 40, -20}, {60, 60, 20});
+  p = only(solid);
+  EXPECT_EQ(p.cls, Class::hit);
+  EXPECT_TRUE(p.flags & kOpen);
+  EXPECT_LE(p.d_lower_mm, -10);
+  EXPECT_GE(p.d_upper_mm, -10);
+
+  ClashModel laid;
+  laid.object("a").body(sheet({0, 0, 20}, {100, 0, 0}, {0, 100, 0}));
+  laid.box("b", {40, 40, -20}, {60, 60, 20});
+  EXPECT_EQ(only(laid).cls, Class::contact);
+}
+
+TEST(Detect, WiresAndPartsOfOneObjectNeverClash) {
+  ClashModel m;
+  geometry::Polylines line;
+  line.points = {{-50, 50, 50}, {150, 50, 50}};
+  line.first = {0, 2};
+  m.box("a", {0, 0, 0}, {100, 100, 100});
+  m.body(test::box_mesh({50, 0, 0}, {150, 100, 100}));
+  m.object("b").body(line);
+  EXPECT_TRUE(m.detect().pairs.empty());
+}
+
+TEST(Detect, AnObjectIsAsBadAsItsWorstPart) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {100, 100, 100});
+  m.object("b").body(test::box_mesh({100, 0, 0}, {200, 100, 100}));
+  m.body(test::box_mesh({90, 300, 0}, {200, 400, 100}));
+  m.body(test::box_mesh({80, 50, 50}, {300, 60, 60}));
+  const Pair p = only(m);
+  EXPECT_EQ(p.cls, Class::hit);
+  EXPECT_EQ(p.part_b, 2U);
+  EXPECT_NEAR(p.d_mm, -20, 1e-6);
+}
+
+TEST(Detect, TolerancesThatMakeNoSenseAreErrors) {
+  const ClashModel m = walls(0, 0);
+  const model::Scene scene = make_scene(m.model, {}, {}).value();
+  const double bad[] = {-1, std::numeric_limits<double>::quiet_NaN(),
+                        std::numeric_limits<double>::infinity()};
+  for (const double v : bad)
+    for (double Options::* field :
+         {&Options::clearance_mm, &Options::touch_gap_mm, &Options::touch_overlap_mm}) {
+      Options options;
+      options.*field = v;
+      const auto report = detect(scene, one_set(scene), options, {});
+      ASSERT_FALSE(report);
+      EXPECT_EQ(report.error().code, ErrorCode::usage);
+    }
+  EXPECT_FALSE(detect(scene, {}, {}, {})) << "sets of the wrong size";
+}
+
+TEST(Detect, AnEmptySetIsAWarning) {
+  const ClashModel m = walls(-50, 0);
+  const model::Scene scene = make_scene(m.model, {}, {}).value();
+  Sets sets = one_set(scene);
+  sets.in_b.assign(2, false);
+  const auto report = detect(scene, sets, {}, {});
+  ASSERT_TRUE(report);
+  EXPECT_TRUE(report->pairs.empty());
+  EXPECT_EQ(report->diagnostics.count("empty-set"), 1U);
+}
+
+TEST(Detect, SetsAndTheirOrder) {
+  ClashModel m;
+  for (int i = 0; i < 4; ++i)
+    m.box(std::to_string(i), {i * 90.0, 0, 0}, {i * 90.0 + 100, 100, 100});
+  const model::Scene scene = make_scene(m.model, {}, {}).value();
+  const Sets ab{{true, true, false, false}, {false, true, true, true}};
+  const Sets ba{ab.in_b, ab.in_a};
+  const Report x = detect(scene, ab, {}, {}).value(), y = detect(scene, ba, {}, {}).value();
+  EXPECT_EQ(x.hash, y.hash);
+  // 0-1 and 1-2 stand in different sets, 2-3 does not; 0-1 is named once.
+  ASSERT_EQ(x.pairs.size(), 2U);
+  EXPECT_EQ(model::index(x.pairs[1].b), 2U);
+}
+
+TEST(Detect, UnknownSagIsSaidOncePerFile) {
+  EXPECT_EQ(walls(0, 0).detect().diagnostics.count("unknown-sag"), 1U);
+}
+
+TEST(Detect, StopsWhenAskedTo) {
+  std::stop_source source;
+  source.request_stop();
+  const ClashModel m = walls(0, 0);
+  const model::Scene scene = make_scene(m.model, {}, {}).value();
+  const auto report =
+      detect(scene, one_set(scene), {}, {.team = nullptr, .stop = source.get_token()});
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().code, ErrorCode::cancelled);
+}
+
+/// Boxes, turned boxes and primitives on a coarse lattice: touching, crossing, nested, duplicate.
+ClashModel crowd(std::uint64_t seed, int count, const Vec3d& offset = {}) {
+  std::mt19937_64 random(seed);
+  const auto draw = [&](int n) {
+    return static_cast<double>(random() % static_cast<std::uint64_t>(n));
+  };
+  ClashModel m;
+  for (int i = 0; i < count; ++i) {
+    Placement at;
+    at.translation = offset + Vec3d{draw(8) * 25, draw(8) * 25, draw(4) * 25};
+    if (i % 3 == 1) at.linear.row = {Vec3d{0.6, -0.8, 0}, Vec3d{0.8, 0.6, 0}, Vec3d{0, 0, 1}};
+    m.object(std::to_string(100 + i));
+    if (i % 5 == 4)
+      m.body(geometry::CylinderPrimitive{10 + draw(3) * 5, 50}, at);
+    else
+      m.body(test::box_mesh({0, 0, 0}, {25 + draw(3) * 25, 25, 25 + draw(2) * 25}, i % 7 == 0), at);
+  }
+  return m;
+}
+
+TEST(Detect, SameBytesForAnyTeamAndEitherBroadPhase) {
+  const ClashModel m = crowd(3, 200);
+  Options options{.clearance_mm = 5};
+  const Report base = m.detect(options);
+  EXPECT_GT(base.count_hit, 50U);
+  EXPECT_GT(base.count_contact, 50U);
+  for (const unsigned threads : {1U, 2U, 3U, 8U, 64U}) {
+    parallel::Team team(threads);
+    EXPECT_EQ(m.detect(options, {.team = &team, .stop = {}}).hash, base.hash);
+  }
+  options.broad_phase = BroadPhase::all_pairs;
+  const Report all = m.detect(options);
+  EXPECT_EQ(all.hash, base.hash);
+  EXPECT_EQ(all.counters.part_pairs, base.counters.part_pairs);
+}
+
+TEST(Detect, OtherObjectsAndTheirOrderDoNotShow) {
+  const Report all = crowd(5, 60).detect();
+  // Objects in reverse: a and b of each pair change places, and nothing else does.
+  ClashModel m = crowd(5, 60);
+  std::reverse(m.model.objects.begin(), m.model.objects.end());
+  const Report turned = m.detect();
+  ASSERT_EQ(turned.pairs.size(), all.pairs.size());
+  for (const Pair& p : all.pairs) {
+    const auto mirror = std::find_if(turned.pairs.begin(), turned.pairs.end(), [&](const Pair& q) {
+      return model::index(q.a) == 59 - model::index(p.b) &&
+             model::index(q.b) == 59 - model::index(p.a);
+    });
+    ASSERT_NE(mirror, turned.pairs.end());
+    EXPECT_EQ(mirror->cls, p.cls);
+    EXPECT_EQ(mirror->d_mm, p.d_mm);
+    EXPECT_EQ(mirror->d_lower_mm, p.d_lower_mm);
+    EXPECT_EQ(mirror->d_upper_mm, p.d_upper_mm);
+    EXPECT_NEAR(mirror->point_mm.x, p.point_mm.x, 1e-9);
+  }
+  // Any two alone say what they said in the crowd.
+  for (std::size_t i = 0; i < all.pairs.size(); i += 7) {
+    ClashModel pair = crowd(5, 60);
+    const model::Scene scene = make_scene(pair.model, scene_options({}), {}).value();
+    Sets sets{std::vector<bool>(60, false), std::vector<bool>(60, false)};
+    sets.in_a[model::index(all.pairs[i].a)] = sets.in_b[model::index(all.pairs[i].b)] = true;
+    const Report alone = detect(scene, sets, {}, {}).value();
+    ASSERT_EQ(alone.pairs.size(), 1U);
+    EXPECT_EQ(alone.pairs[0].d_mm, all.pairs[i].d_mm);
+    EXPECT_EQ(alone.pairs[0].point_mm, all.pairs[i].point_mm);
+  }
+}
+
+TEST(Detect, MovedByGridStepsNothingChanges) {
+  const Report here = crowd(9, 80).detect();
+  const Report there = crowd(9, 80, {123456789, -98765432, 5000}).detect();
+  ASSERT_EQ(here.pairs.size(), there.pairs.size());
+  for (std::size_t i = 0; i < here.pairs.size(); ++i) {
+    EXPECT_EQ(here.pairs[i].cls, there.pairs[i].cls);
+    EXPECT_EQ(here.pairs[i].relation, there.pairs[i].relation);
+    EXPECT_EQ(here.pairs[i].d_mm, there.pairs[i].d_mm);
+    EXPECT_EQ(here.pairs[i].flags, there.pairs[i].flags);
+  }
+}
+
+TEST(Detect, SeparationChangesByNoMoreThanTheMove) {
+  const Options options{.clearance_mm = 1000};
+  double before = 0;
+  for (int i = 0; i <= 60; ++i) {
+    ClashModel m;
+    m.box("a", {0, 0, 0}, {100, 80, 60});
+    Placement at;
+    at.linear.row = {Vec3d{0.6, -0.8, 0}, Vec3d{0.8, 0.6, 0}, Vec3d{0, 0, 1}};
+    at.translation = {-40 + i * 3.0, 20, 30};
+    m.object("b").body(test::box_mesh({0, 0, 0}, {50, 40, 70}), at);
+    const double d = only(m, options).d_mm;
+    if (i > 0) {
+      EXPECT_LE(std::fabs(d - before), 3 + 0.02) << "step " << i;
+    }
+    before = d;
+  }
+  EXPECT_GT(before, 0);
+}
+
+}  // namespace
+}  // namespace strake::clash
