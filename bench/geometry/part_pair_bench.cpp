@@ -163,21 +163,26 @@ void fine_pair(const std::string& name, const IndexedMesh& inner, const IndexedM
       near->distance);
 }
 
+void fine_pairs() {
+  fine_pair("spheres 0.5 mm apart", sphere(999500, 158), sphere(1000000, 158));
+  const auto around = [](const IndexedMesh& m) {
+    IndexedMesh r = m;
+    for (Vec3i& v : r.vertices) v.z -= 500;
+    return r;
+  };
+  fine_pair("cylinders 0.5 mm apart, square triangles", cylinder(499500, 1999000, 250, 200),
+            around(cylinder(500000, 2000000, 250, 200)));
+  fine_pair("cylinders 0.5 mm apart, long triangles", cylinder(499500, 1999000, 25000, 1),
+            around(cylinder(500000, 2000000, 25000, 1)));
+}
+
 }  // namespace
 
-int main() {
-  small_pairs();
-  rotated_plates();
-  fine_pair("spheres 0.5 mm apart", sphere(999500, 158), sphere(1000000, 158));
-  fine_pair("cylinders 0.5 mm apart, square triangles", cylinder(499500, 1999000, 250, 200), [] {
-    IndexedMesh m = cylinder(500000, 2000000, 250, 200);
-    for (Vec3i& v : m.vertices) v.z -= 500;
-    return m;
-  }());
-  fine_pair("cylinders 0.5 mm apart, long triangles", cylinder(499500, 1999000, 25000, 1), [] {
-    IndexedMesh m = cylinder(500000, 2000000, 25000, 1);
-    for (Vec3i& v : m.vertices) v.z -= 500;
-    return m;
-  }());
+/// bench_part_pair [small|plates|fine]: one group of cases, or all.
+int main(int argc, char** argv) {
+  const std::string group = argc > 1 ? argv[1] : "";
+  if (group.empty() || group == "small") small_pairs();
+  if (group.empty() || group == "plates") rotated_plates();
+  if (group.empty() || group == "fine") fine_pairs();
   return 0;
 }

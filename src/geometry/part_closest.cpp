@@ -28,20 +28,39 @@ struct Candidate {
   std::uint32_t a = 0, b = 0;
 };
 
-double squared_gap(const Box3l& x, const Box3l& y) {
+double squared_gap(const Box3d& x, const Box3d& y) {
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
-    const std::int64_t gap = std::max(x.lo[k] - y.hi[k], y.lo[k] - x.hi[k]);
-    if (gap > 0) sum += static_cast<double>(gap) * static_cast<double>(gap);
+    const double gap = std::max(std::max(x.lo[k] - y.hi[k], y.lo[k] - x.hi[k]), 0.0);
+    sum += gap * gap;
   }
   return sum;
 }
 
-Box3l box_of(const TriangleCorners& t) {
-  Box3l box{t[0], t[0]};
-  box.include(t[1]);
-  box.include(t[2]);
-  return box;
+/// The triangles of a leaf, prepared; kept until another leaf is loaded.
+struct LoadedLeaf {
+  std::uint32_t node = 0xffffffffU;
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, PartTree::kLeafSize> id{};
+  std::array<DoubleTriangle, PartTree::kLeafSize> triangle;
+
+  void load(const PartView& view, std::uint32_t index) {
+    if (node == index) return;
+    node = index;
+    const PartTree::Node& leaf = view.tree().nodes()[index];
+    count = leaf.count;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      id[i] = view.tree().order()[leaf.first + i];
+      triangle[i] = DoubleTriangle(view.corners(id[i]));
+    }
+  }
+};
+
+/// A node's box in the pair's coordinates; exact.
+Box3d box_of(const PartView& view, std::uint32_t node) {
+  const Box3i& box = view.tree().nodes()[node].box;
+  const Vec3d shift = view.shift().as<double>();
+  return {box.lo.as<double>() + shift, box.hi.as<double>() + shift};
 }
 
 class ClosestSearch {
@@ -59,7 +78,7 @@ class ClosestSearch {
   void walk();
   void open(const Entry& entry);
   void push(std::uint32_t a, std::uint32_t b);
-  void leaves(const PartTree::Node& na, const PartTree::Node& nb);
+  void leaves(const NodePair& pair);
   std::optional<Closest> decide();
 
   PartView a_, b_;
@@ -68,12 +87,12 @@ class ClosestSearch {
   PairWork& work_;
   std::array<Entry, 2 * kMaxTreeDepth + 2> stack_;
   std::size_t size_ = 0;
+  LoadedLeaf leaf_a_, leaf_b_;
   std::vector<Candidate> candidates_;
 };
 
 void ClosestSearch::push(std::uint32_t a, std::uint32_t b) {
-  const double squared =
-      squared_gap(a_.box(a_.tree().nodes()[a].box), b_.box(b_.tree().nodes()[b].box));
+  const double squared = squared_gap(box_of(a_, a), box_of(b_, b));
   if (squared <= reach_) stack_[size_++] = {{a, b}, squared};
 }
 
@@ -93,20 +112,20 @@ void ClosestSearch::open(const Entry& entry) {
     std::swap(stack_[size_ - 1], stack_[size_ - 2]);
 }
 
-void ClosestSearch::leaves(const PartTree::Node& na, const PartTree::Node& nb) {
-  for (std::uint32_t j = 0; j < nb.count; ++j) {
-    const std::uint32_t tb = b_.tree().order()[nb.first + j];
-    const TriangleCorners b = b_.corners(tb);
-    const Box3l box_b = box_of(b);
-    if (squared_gap(a_.box(na.box), box_b) > reach_) continue;
-    for (std::uint32_t i = 0; i < na.count; ++i) {
-      const std::uint32_t ta = a_.tree().order()[na.first + i];
-      const TriangleCorners a = a_.corners(ta);
-      if (squared_gap(box_of(a), box_b) > reach_) continue;
+void ClosestSearch::leaves(const NodePair& pair) {
+  leaf_a_.load(a_, pair.a);
+  leaf_b_.load(b_, pair.b);
+  const Box3d box_a = box_of(a_, pair.a);
+  for (std::uint32_t j = 0; j < leaf_b_.count; ++j) {
+    const DoubleTriangle& b = leaf_b_.triangle[j];
+    if (squared_gap(box_a, b.box) > reach_) continue;
+    for (std::uint32_t i = 0; i < leaf_a_.count; ++i) {
+      const DoubleTriangle& a = leaf_a_.triangle[i];
+      if (squared_gap(a.box, b.box) > reach_) continue;
       ++work_.triangle_pairs;
       const DistanceBounds bounds = distance_bounds(a, b, reach_);
       if (bounds.lower > reach_) continue;
-      candidates_.push_back({bounds, ta, tb});
+      candidates_.push_back({bounds, leaf_a_.id[i], leaf_b_.id[j]});
       reach_ = std::min(reach_, bounds.upper * kOutward);
     }
   }
@@ -121,7 +140,7 @@ void ClosestSearch::walk() {
     const PartTree::Node& na = a_.tree().nodes()[entry.pair.a];
     const PartTree::Node& nb = b_.tree().nodes()[entry.pair.b];
     if (na.count != 0 && nb.count != 0)
-      leaves(na, nb);
+      leaves(entry.pair);
     else
       open(entry);
   }
@@ -137,8 +156,10 @@ std::optional<Closest> ClosestSearch::decide() {
   NearestPoints nearest;
   for (const Candidate& c : candidates_) {
     if (best && c.squared.lower > best->squared * kOutward) continue;
+    const TriangleCorners a = a_.corners(c.a), b = b_.corners(c.b);
+    if (best && not_nearer(a, b, nearest)) continue;
     ++work_.exact_fallbacks;
-    const NearestPoints p = exact_distance(a_.corners(c.a), b_.corners(c.b), c.squared.upper);
+    const NearestPoints p = exact_distance(a, b, c.squared.upper);
     if (best && p.squared >= nearest.squared) continue;
     nearest = p;
     best.emplace();

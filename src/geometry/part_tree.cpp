@@ -9,8 +9,9 @@
 namespace strake::geometry {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 4;
-constexpr std::size_t kBins = 12;
+constexpr std::size_t kBins = 8;
+/// Ranges up to this size are halved by sorting: binning them costs more than it gains.
+constexpr std::size_t kFew = 12;
 /// Beyond this depth ranges are halved, so that traversal stacks can have a fixed size.
 constexpr std::uint32_t kMaxSplitDepth = 40;
 
@@ -24,24 +25,14 @@ std::int64_t twice_centre(const Box3i& box, int axis) {
   return std::int64_t{box.lo[axis]} + box.hi[axis];
 }
 
-struct CentreRange {
-  Vec3l lo, hi;
-};
-
-CentreRange centre_range(std::span<const Reference> refs) {
-  constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max() / 4;
-  CentreRange r{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  for (const Reference& ref : refs)
-    for (int k = 0; k < 3; ++k) {
-      const std::int64_t c = twice_centre(ref.box, k);
-      r.lo[k] = std::min(r.lo[k], c);
-      r.hi[k] = std::max(r.hi[k], c);
-    }
-  return r;
+void grow(Box3i& box, const Box3i& by) {
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = std::min(box.lo[k], by.lo[k]);
+    box.hi[k] = std::max(box.hi[k], by.hi[k]);
+  }
 }
 
 double half_area(const Box3i& box) {
-  if (box.empty()) return 0;
   const Vec3d d = box.hi.as<double>() - box.lo.as<double>();
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
@@ -51,11 +42,20 @@ struct Bin {
   std::uint32_t count = 0;
 };
 
+using Bins = std::array<Bin, kBins>;
+
+/// Slices of the node's box along its longest axis.
 struct Binning {
   int axis = 0;
   std::int64_t low = 0;
   double scale = 0;
 
+  explicit Binning(const Box3i& box) {
+    const Vec3l d = box.hi.as<std::int64_t>() - box.lo.as<std::int64_t>();
+    axis = d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
+    low = 2 * std::int64_t{box.lo[axis]};
+    if (d[axis] > 0) scale = kBins / (2 * static_cast<double>(d[axis]));
+  }
   [[nodiscard]] std::size_t bin(const Box3i& box) const {
     const double offset = static_cast<double>(twice_centre(box, axis) - low) * scale;
     return std::min(kBins - 1, static_cast<std::size_t>(offset));
@@ -63,14 +63,14 @@ struct Binning {
 };
 
 /// The bin boundary with the least surface-area cost; 0 when all falls into one bin.
-std::size_t best_boundary(const std::array<Bin, kBins>& bins) {
+std::size_t best_boundary(const Bins& bins) {
   std::array<double, kBins> right_cost{};
   Box3i box = empty_box<std::int32_t>();
   std::uint32_t count = 0;
   for (std::size_t i = kBins; i-- > 1;) {
-    box.include(bins[i].box);
+    grow(box, bins[i].box);
     count += bins[i].count;
-    right_cost[i] = half_area(box) * count;
+    right_cost[i] = count == 0 ? 0 : half_area(box) * count;
   }
   box = empty_box<std::int32_t>();
   const std::uint32_t all = count + bins[0].count;
@@ -78,7 +78,7 @@ std::size_t best_boundary(const std::array<Bin, kBins>& bins) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < kBins; ++i) {
-    box.include(bins[i - 1].box);
+    grow(box, bins[i - 1].box);
     count += bins[i - 1].count;
     if (count == 0 || count == all) continue;
     const double cost = half_area(box) * count + right_cost[i];
@@ -90,32 +90,19 @@ std::size_t best_boundary(const std::array<Bin, kBins>& bins) {
   return best;
 }
 
-int longest_axis(const CentreRange& range) {
-  const Vec3l d = range.hi - range.lo;
-  return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
+Box3i box_of(std::span<const Reference> refs) {
+  Box3i box = empty_box<std::int32_t>();
+  for (const Reference& ref : refs) grow(box, ref.box);
+  return box;
 }
 
-/// Orders the references into two non-empty groups; the size of the first.
-std::size_t split(std::span<Reference> refs, std::uint32_t depth) {
-  const CentreRange range = centre_range(refs);
-  const int axis = longest_axis(range);
-  const std::int64_t extent = range.hi[axis] - range.lo[axis];
-  if (extent > 0 && depth < kMaxSplitDepth) {
-    const Binning binning{axis, range.lo[axis], kBins / static_cast<double>(extent)};
-    std::array<Bin, kBins> bins;
-    for (const Reference& ref : refs) {
-      Bin& bin = bins[binning.bin(ref.box)];
-      bin.box.include(ref.box);
-      ++bin.count;
-    }
-    const std::size_t boundary = best_boundary(bins);
-    if (boundary != 0) {
-      const auto middle = std::partition(refs.begin(), refs.end(), [&](const Reference& ref) {
-        return binning.bin(ref.box) < boundary;
-      });
-      return static_cast<std::size_t>(middle - refs.begin());
-    }
-  }
+/// Two non-empty groups: the size of the first, and their boxes.
+struct Split {
+  std::size_t first = 0;
+  Box3i left = empty_box<std::int32_t>(), right = empty_box<std::int32_t>();
+};
+
+Split halve(std::span<Reference> refs, int axis) {
   const std::size_t half = refs.size() / 2;
   std::nth_element(refs.begin(), refs.begin() + static_cast<std::ptrdiff_t>(half), refs.end(),
                    [axis](const Reference& x, const Reference& y) {
@@ -123,7 +110,27 @@ std::size_t split(std::span<Reference> refs, std::uint32_t depth) {
                      const std::int64_t cy = twice_centre(y.box, axis);
                      return cx != cy ? cx < cy : x.triangle < y.triangle;
                    });
-  return half;
+  return {half, box_of(refs.first(half)), box_of(refs.subspan(half))};
+}
+
+Split split(std::span<Reference> refs, const Box3i& box, std::uint32_t depth) {
+  const Binning binning(box);
+  if (refs.size() <= kFew || depth >= kMaxSplitDepth) return halve(refs, binning.axis);
+  Bins bins;
+  for (const Reference& ref : refs) {
+    Bin& bin = bins[binning.bin(ref.box)];
+    grow(bin.box, ref.box);
+    ++bin.count;
+  }
+  const std::size_t boundary = best_boundary(bins);
+  if (boundary == 0) return halve(refs, binning.axis);
+  const auto middle = std::partition(refs.begin(), refs.end(), [&](const Reference& ref) {
+    return binning.bin(ref.box) < boundary;
+  });
+  Split r;
+  r.first = static_cast<std::size_t>(middle - refs.begin());
+  for (std::size_t i = 0; i < kBins; ++i) grow(i < boundary ? r.left : r.right, bins[i].box);
+  return r;
 }
 
 std::vector<Reference> references(const Part& part) {
@@ -149,38 +156,30 @@ PartTree::PartTree(const Part& part) {
   std::vector<Reference> refs = references(part);
   if (refs.empty()) return;
   nodes_.reserve(refs.size());
-  nodes_.emplace_back();
+  nodes_.push_back({box_of(refs), 0, 0});
   std::vector<Range> todo{{0, 0, static_cast<std::uint32_t>(refs.size()), 0}};
   while (!todo.empty()) {
     const Range range = todo.back();
     todo.pop_back();
     const std::span<Reference> mine =
         std::span(refs).subspan(range.first, range.last - range.first);
+    Node& node = nodes_[range.node];
     if (mine.size() <= kLeafSize) {
-      Node& leaf = nodes_[range.node];
-      leaf.first = range.first;
-      leaf.count = static_cast<std::uint32_t>(mine.size());
+      node.first = range.first;
+      node.count = static_cast<std::uint32_t>(mine.size());
       continue;
     }
-    const auto middle = range.first + static_cast<std::uint32_t>(split(mine, range.depth));
+    const Split halves = split(mine, node.box, range.depth);
+    const auto middle = range.first + static_cast<std::uint32_t>(halves.first);
     const auto left = static_cast<std::uint32_t>(nodes_.size());
-    nodes_[range.node].first = left;
-    nodes_.resize(nodes_.size() + 2);
+    node.first = left;
+    nodes_.push_back({halves.left, 0, 0});
+    nodes_.push_back({halves.right, 0, 0});
     todo.push_back({left + 1, middle, range.last, range.depth + 1});
     todo.push_back({left, range.first, middle, range.depth + 1});
   }
   order_.reserve(refs.size());
   for (const Reference& ref : refs) order_.push_back(ref.triangle);
-  // Children stand behind their parents.
-  for (std::size_t i = nodes_.size(); i-- > 0;) {
-    Node& node = nodes_[i];
-    node.box = empty_box<std::int32_t>();
-    if (node.count == 0) {
-      node.box.include(nodes_[node.first].box);
-      node.box.include(nodes_[node.first + 1].box);
-    }
-    for (std::uint32_t k = 0; k < node.count; ++k) node.box.include(refs[node.first + k].box);
-  }
 }
 
 }  // namespace strake::geometry

@@ -26,28 +26,37 @@ Points relative(const TriangleCorners& t, const Vec3l& base) {
   return {(t[0] - base).as<double>(), (t[1] - base).as<double>(), (t[2] - base).as<double>()};
 }
 
-/// Two triangles in doubles, relative to the first corner of a: every coordinate is exact.
-struct Scene {
-  Points a, b;
-  double size = 0;  ///< largest absolute coordinate
+/// Squared distance across a slab of direction w and width `gap`, rounded down. The products with
+/// corners no larger than `size` are each off by less than 2^-50·|w|·size.
+double slab_distance(double gap, const Vec3d& w, double w_squared, double size) {
+  const double sure = gap - 0x1p-47 * largest(w) * size;
+  return sure > 0 ? square(sure) / w_squared * (1 - 0x1p-48) : 0;
+}
 
-  Scene(const TriangleCorners& ca, const TriangleCorners& cb)
-      : a(relative(ca, ca[0])), b(relative(cb, ca[0])) {
-    for (std::size_t i = 0; i < 3; ++i) size = std::max({size, largest(a[i]), largest(b[i])});
-  }
-
-  /// Lower bound of the squared distance from the slab across direction w; any w will do. The six
-  /// products are each off by less than 2^-50·|w|·size.
-  [[nodiscard]] double slab(const Vec3d& w) const {
-    const double a0 = dot(w, a[0]), a1 = dot(w, a[1]), a2 = dot(w, a[2]);
-    const double b0 = dot(w, b[0]), b1 = dot(w, b[1]), b2 = dot(w, b[2]);
-    const double gap = std::max(std::min({b0, b1, b2}) - std::max({a0, a1, a2}),
-                                std::min({a0, a1, a2}) - std::max({b0, b1, b2}));
-    const double sure = gap - 0x1p-48 * largest(w) * size;
-    if (!(sure > 0)) return 0;
-    return square(sure) / squared_length(w) * (1 - 0x1p-48);
-  }
+struct Extent {
+  double low, high;
 };
+
+Extent extent(const Vec3d& w, const Points& t) {
+  const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]);
+  return {std::min(std::min(x, y), z), std::max(std::max(x, y), z)};
+}
+
+double gap_between(const Extent& x, const Extent& y) {
+  return std::max(x.low - y.high, y.low - x.high);
+}
+
+/// Lower bound of the squared distance from the slab across direction w; any w will do.
+double slab(const Vec3d& w, const DoubleTriangle& a, const DoubleTriangle& b) {
+  return slab_distance(gap_between(extent(w, a.corner), extent(w, b.corner)), w, squared_length(w),
+                       std::max(a.size, b.size));
+}
+
+/// The same across the first triangle's normal.
+double normal_slab(const DoubleTriangle& a, const DoubleTriangle& b) {
+  return slab_distance(gap_between({a.low, a.high}, extent(a.normal, b.corner)), a.normal,
+                       a.normal_squared, std::max(a.size, b.size));
+}
 
 /// The best pair of points so far.
 struct Near {
@@ -92,35 +101,44 @@ void offer_foot(const Vec3d& corner, const Points& t, const Vec3d& n, const Offe
   offer(t[0] * (w0 / sum) + t[1] * (w1 / sum) + t[2] * (w2 / sum));
 }
 
+Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
+
+/// An exact distance, with the direction across which it stands where that is short enough.
+struct Value {
+  SquaredDistance squared;
+  Vec3<Int128> direction{};
+  Int128 width = 0;
+};
+
 /// Exact test and value of one pair of features; each returns false when the nearest points of the
 /// features' lines or planes do not lie inside the features.
 class ExactFeatures {
  public:
-  static SquaredDistance corner_corner(const Vec3l& p, const Vec3l& q) {
+  static Value corner_corner(const Vec3l& p, const Vec3l& q) {
     const Vec3<Int128> d = (q - p).as<Int128>();
-    return {Int256(dot(d, d)), Int192(Int128{1})};
+    return {{Int256(dot(d, d)), Int192(Int128{1})}, d, dot(d, d)};
   }
 
-  static bool corner_edge(const Vec3l& p, const Vec3l& from, const Vec3l& to, SquaredDistance& r) {
+  static bool corner_edge(const Vec3l& p, const Vec3l& from, const Vec3l& to, Value& r) {
     const Vec3l e = to - from, d = p - from;
     const Int128 along = dot(e.as<Int128>(), d.as<Int128>());
     const Int128 length = dot(e.as<Int128>(), e.as<Int128>());
     if (along <= 0 || along >= length) return false;
-    r = {norm(cross_exact(d, e)), Int192(length)};
+    r = {{norm(cross_exact(d, e)), Int192(length)}};
     return true;
   }
 
-  static bool corner_face(const Vec3l& p, const TriangleCorners& t, SquaredDistance& r) {
+  static bool corner_face(const Vec3l& p, const TriangleCorners& t, Value& r) {
     const Vec3<Int128> n = cross_exact(t[1] - t[0], t[2] - t[0]);
     for (std::size_t i = 0; i < 3; ++i)
       if (product(cross_exact(t[next(i)] - t[i], p - t[i]), n).sign() <= 0) return false;
     const Int128 height = dot(n, (p - t[0]).as<Int128>());
-    r = {mul(height, height), narrow<3>(norm(n))};
+    r = {{mul(height, height), narrow<3>(norm(n))}, n, magnitude(height)};
     return true;
   }
 
   static bool edge_edge(const Vec3l& p, const Vec3l& to_p, const Vec3l& q, const Vec3l& to_q,
-                        SquaredDistance& r) {
+                        Value& r) {
     const Vec3l e = to_p - p, f = to_q - q, d = q - p;
     const Vec3<Int128> c = cross_exact(e, f);
     const Int256 length = norm(c);
@@ -128,7 +146,7 @@ class ExactFeatures {
     const Int256 s = product(cross_exact(d, f), c), t = product(cross_exact(d, e), c);
     if (s.sign() <= 0 || t.sign() <= 0 || s >= length || t >= length) return false;
     const Int128 height = dot(c, d.as<Int128>());
-    r = {mul(height, height), narrow<3>(length)};
+    r = {{mul(height, height), narrow<3>(length)}, c, magnitude(height)};
     return true;
   }
 
@@ -144,7 +162,11 @@ class ExactFeatures {
 class ExactSearch {
  public:
   ExactSearch(const TriangleCorners& a, const TriangleCorners& b, double upper)
-      : a_(a), b_(b), scene_(a, b), reach_(std::sqrt(upper) * (1 + 0x1p-40)) {}
+      : a_(a),
+        b_(b),
+        near_a_(relative(a, a[0])),
+        near_b_(relative(b, a[0])),
+        reach_(std::sqrt(upper) * (1 + 0x1p-40)) {}
 
   NearestPoints run();
 
@@ -153,7 +175,7 @@ class ExactSearch {
   void corners_edges();
   void corners_faces();
   void edges();
-  void offer(const SquaredDistance& s, const Vec3d& p, const Vec3d& q);
+  void offer(const Value& value, const Vec3d& p, const Vec3d& q);
 
   /// Whether |height|/|n| <= reach cannot be excluded, for n = u x v and height = n·d in doubles,
   /// each component of n off by 2^-51·|u||v| at most.
@@ -168,22 +190,22 @@ class ExactSearch {
 
   const TriangleCorners& a_;
   const TriangleCorners& b_;
-  Scene scene_;
+  Points near_a_, near_b_;  ///< in doubles, relative to the first corner of a: exact
   double reach_;
   bool any_ = false;
   NearestPoints best_;
 };
 
-void ExactSearch::offer(const SquaredDistance& s, const Vec3d& p, const Vec3d& q) {
-  if (any_ && s >= best_.squared) return;
+void ExactSearch::offer(const Value& value, const Vec3d& p, const Vec3d& q) {
+  if (any_ && value.squared >= best_.squared) return;
   any_ = true;
-  best_ = {s, absolute(p), absolute(q)};
+  best_ = {value.squared, absolute(p), absolute(q), value.direction, value.width};
 }
 
 void ExactSearch::corners() {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      const Vec3d &p = scene_.a[i], &q = scene_.b[j];
+      const Vec3d &p = near_a_[i], &q = near_b_[j];
       if (std::sqrt(squared_length(q - p)) * (1 - 0x1p-40) > reach_) continue;
       offer(ExactFeatures::corner_corner(a_[i], b_[j]), p, q);
     }
@@ -196,7 +218,7 @@ Vec3d foot_on_edge(const Vec3d& p, const Vec3d& from, const Vec3d& to) {
 }
 
 void ExactSearch::corners_edges() {
-  SquaredDistance s;
+  Value s;
   const auto near = [this](const Vec3d& p, const Vec3d& from, const Vec3d& to) {
     // |d x e| / |e|, off by less than 2^-48 of |d|.
     const Vec3d e = to - from, d = p - from;
@@ -205,20 +227,20 @@ void ExactSearch::corners_edges() {
   };
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      const Vec3d &p = scene_.a[i], &q = scene_.b[j], &r = scene_.b[next(j)];
+      const Vec3d &p = near_a_[i], &q = near_b_[j], &r = near_b_[next(j)];
       if (near(p, q, r) && ExactFeatures::corner_edge(a_[i], b_[j], b_[next(j)], s))
         offer(s, p, foot_on_edge(p, q, r));
     }
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      const Vec3d &p = scene_.a[i], &q = scene_.a[next(i)], &r = scene_.b[j];
+      const Vec3d &p = near_a_[i], &q = near_a_[next(i)], &r = near_b_[j];
       if (near(r, p, q) && ExactFeatures::corner_edge(b_[j], a_[i], a_[next(i)], s))
         offer(s, foot_on_edge(r, p, q), r);
     }
 }
 
 void ExactSearch::corners_faces() {
-  SquaredDistance s;
+  Value s;
   const auto foot = [](const Vec3d& p, const Points& t) {
     const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
     return p - n * (dot(n, p - t[0]) / squared_length(n));
@@ -228,19 +250,19 @@ void ExactSearch::corners_faces() {
     return within_reach(u, v, cross(u, v), p - t[0]);
   };
   for (std::size_t i = 0; i < 3; ++i)
-    if (near(scene_.a[i], scene_.b) && ExactFeatures::corner_face(a_[i], b_, s))
-      offer(s, scene_.a[i], foot(scene_.a[i], scene_.b));
+    if (near(near_a_[i], near_b_) && ExactFeatures::corner_face(a_[i], b_, s))
+      offer(s, near_a_[i], foot(near_a_[i], near_b_));
   for (std::size_t j = 0; j < 3; ++j)
-    if (near(scene_.b[j], scene_.a) && ExactFeatures::corner_face(b_[j], a_, s))
-      offer(s, foot(scene_.b[j], scene_.a), scene_.b[j]);
+    if (near(near_b_[j], near_a_) && ExactFeatures::corner_face(b_[j], a_, s))
+      offer(s, foot(near_b_[j], near_a_), near_b_[j]);
 }
 
 void ExactSearch::edges() {
-  SquaredDistance s;
+  Value s;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      const Vec3d &p = scene_.a[i], &q = scene_.b[j];
-      const Vec3d e = scene_.a[next(i)] - p, f = scene_.b[next(j)] - q;
+      const Vec3d &p = near_a_[i], &q = near_b_[j];
+      const Vec3d e = near_a_[next(i)] - p, f = near_b_[next(j)] - q;
       if (!within_reach(e, f, cross(e, f), q - p)) continue;
       if (!ExactFeatures::edge_edge(a_[i], a_[next(i)], b_[j], b_[next(j)], s)) continue;
       Near near;
@@ -254,7 +276,7 @@ NearestPoints ExactSearch::run() {
   const TriangleContact c = contact(a, b);
   if (c.touch != Touch::none) {
     const Vec3d p = common_point(a, b, c);
-    return {{}, p, p};
+    return {{}, p, p, {}, 0};
   }
   corners();
   corners_edges();
@@ -266,28 +288,53 @@ NearestPoints ExactSearch::run() {
 
 }  // namespace
 
-DistanceBounds distance_bounds(const TriangleCorners& a, const TriangleCorners& b, double enough) {
-  const Scene scene(a, b);
-  const Vec3d na = cross(scene.a[1], scene.a[2]);
-  const Vec3d nb = cross(scene.b[1] - scene.b[0], scene.b[2] - scene.b[0]);
+DoubleTriangle::DoubleTriangle(const TriangleCorners& t)
+    : corner{t[0].as<double>(), t[1].as<double>(), t[2].as<double>()},
+      box{corner[0], corner[0]},
+      normal(cross(corner[1] - corner[0], corner[2] - corner[0])),
+      normal_squared(squared_length(normal)) {
+  box.include(corner[1]);
+  box.include(corner[2]);
+  size = std::max(largest(box.lo), largest(box.hi));
+  const Extent own = extent(normal, corner);
+  low = own.low;
+  high = own.high;
+}
+
+DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b, double enough) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  double lower = scene.slab(na);
+  double lower = normal_slab(a, b);
   if (lower > enough) return {lower, kUnknown};
-  lower = std::max(lower, scene.slab(nb));
+  lower = std::max(lower, normal_slab(b, a));
   if (lower > enough) return {lower, kUnknown};
+  const Points &p = a.corner, &q = b.corner;
   Near near;
+  for (std::size_t i = 0; i < 3; ++i) {
+    near.offer(p[i], q[i]);
+    offer_foot(q[i], p, a.normal, [&](const Vec3d& foot) { near.offer(foot, q[i]); });
+    offer_foot(p[i], q, b.normal, [&](const Vec3d& foot) { near.offer(p[i], foot); });
+  }
+  lower = std::max(lower, slab(near.on_b - near.on_a, a, b));
+  if (lower > enough) return {lower, kUnknown};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
-      offer_segments(scene.a[i], scene.a[next(i)] - scene.a[i], scene.b[j],
-                     scene.b[next(j)] - scene.b[j], near);
-  for (std::size_t i = 0; i < 3; ++i) {
-    offer_foot(scene.b[i], scene.a, na, [&](const Vec3d& foot) { near.offer(foot, scene.b[i]); });
-    offer_foot(scene.a[i], scene.b, nb, [&](const Vec3d& foot) { near.offer(scene.a[i], foot); });
-  }
-  lower = std::max(lower, scene.slab(near.on_b - near.on_a));
+      offer_segments(p[i], p[next(i)] - p[i], q[j], q[next(j)] - q[j], near);
+  lower = std::max(lower, slab(near.on_b - near.on_a, a, b));
   // The points are off the triangles by a few roundings of the coordinates.
-  const double upper = square(std::sqrt(near.squared) + 0x1p-46 * scene.size);
+  const double upper = square(std::sqrt(near.squared) + 0x1p-46 * std::max(a.size, b.size));
   return {lower, upper};
+}
+
+bool not_nearer(const TriangleCorners& a, const TriangleCorners& b, const NearestPoints& than) {
+  if (than.width == 0) return false;
+  const auto reach = [&than](const TriangleCorners& t, const Vec3l& base) {
+    std::array<Int128, 3> r;
+    for (std::size_t i = 0; i < 3; ++i) r[i] = dot(than.direction, (t[i] - base).as<Int128>());
+    return std::minmax({r[0], r[1], r[2]});
+  };
+  const auto [low_a, high_a] = reach(a, a[0]);
+  const auto [low_b, high_b] = reach(b, a[0]);
+  return std::max(low_b - high_a, low_a - high_b) >= than.width;
 }
 
 NearestPoints exact_distance(const TriangleCorners& a, const TriangleCorners& b, double upper) {

@@ -17,10 +17,23 @@ struct DistanceBounds {
   double lower = 0, upper = 0;
 };
 
+/// A triangle in doubles (exact: grid coordinates of a pair fit 33 bits), prepared for many tests.
+struct DoubleTriangle {
+  std::array<Vec3d, 3> corner;
+  Box3d box;
+  Vec3d normal;
+  double normal_squared = 0;
+  double low = 0, high = 0;  ///< range of normal · corner
+  double size = 0;           ///< largest absolute coordinate
+
+  DoubleTriangle() = default;
+  explicit DoubleTriangle(const TriangleCorners& t);
+};
+
 /// Bounds in double arithmetic. The lower one comes from a slab between the triangles, so it holds
 /// however wrongly the nearest features were guessed. Once the lower bound is above `enough` the
 /// upper one is not worked out and is infinite.
-[[nodiscard]] DistanceBounds distance_bounds(const TriangleCorners& a, const TriangleCorners& b,
+[[nodiscard]] DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
                                              double enough);
 
 /// A squared distance: an exact rational, numerator below 2^200 and denominator below 2^136.
@@ -41,7 +54,16 @@ struct SquaredDistance {
 struct NearestPoints {
   SquaredDistance squared;
   Vec3d on_a, on_b;
+  /// A direction w across which the triangles lie `width` apart, width²/w² being the squared
+  /// distance; zero where it would not fit (a corner nearest to the inside of an edge).
+  Vec3<Int128> direction;
+  Int128 width = 0;
 };
+
+/// True when the triangles are certainly not nearer than a pair with this direction and width:
+/// cheap and exact, and all that is needed for the many equal distances of parallel faces.
+[[nodiscard]] bool not_nearer(const TriangleCorners& a, const TriangleCorners& b,
+                              const NearestPoints& than);
 
 /// Exact for coordinates whose differences are at most 2^31; zero when the triangles meet.
 /// `upper` bounds the squared distance from above, as distance_bounds() gives it.

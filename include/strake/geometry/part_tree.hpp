@@ -12,6 +12,9 @@ namespace strake::geometry {
 /// that every body that places the part shares it.
 class PartTree {
  public:
+  /// Most triangles in a leaf.
+  static constexpr std::uint32_t kLeafSize = 4;
+
   struct Node {
     Box3i box;
     std::uint32_t first =
