@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "strake/geometry/place.hpp"
+#include "strake/geometry/triangulate.hpp"
 #include "support/meshes.hpp"
 
 namespace strake::geometry {
@@ -143,6 +144,46 @@ TEST(Analyse, CrossingSolidsStaySeparate) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
   add_box(mesh, {1, 1, -1}, {2, 2, 5});
   EXPECT_EQ(analysed(mesh).parts.size(), 2U);
+}
+
+TEST(Analyse, SolidThatPiercesADentIsNotNested) {
+  // Every corner of the small box lies in the large one, which has a notch that it crosses.
+  TriangleMesh mesh;
+  const std::vector<Vec3d> outline{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {6, 9, 0},
+                                   {6, 3, 0}, {3, 3, 0}, {3, 9, 0}, {0, 9, 0}};
+  const FaceTriangles cap = triangulate_face(outline);
+  ASSERT_EQ(cap.fault, FaceFault::none);
+  const auto count = static_cast<std::uint32_t>(outline.size());
+  for (const double z : {0.0, 9.0})
+    for (const Vec3d& v : outline) mesh.vertices.push_back(v + Vec3d{0, 0, z});
+  for (const Triangle& t : cap.triangles) {
+    mesh.triangles.push_back({t[0], t[2], t[1]});
+    mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t k = (i + 1) % count;
+    mesh.triangles.push_back({i, k, k + count});
+    mesh.triangles.push_back({i, k + count, i + count});
+  }
+  EXPECT_EQ(analysed(mesh).parts.size(), 1U);
+  add_box(mesh, {1, 5, 2}, {8, 7, 5});
+  const MeshAnalysis a = analysed(mesh);
+  EXPECT_EQ(a.parts.size(), 2U);
+  EXPECT_EQ(a.findings.nested_shells, 0U);
+}
+
+TEST(Analyse, ManyShellsInOneHullNestQuickly) {
+  TriangleMesh mesh = box_mesh({-1, -1, -1}, {61, 61, 61});
+  for (int x = 0; x < 20; ++x)
+    for (int y = 0; y < 20; ++y)
+      for (int z = 0; z < 20; ++z) {
+        const Vec3d lo{3.0 * x, 3.0 * y, 3.0 * z};
+        add_box(mesh, lo, lo + Vec3d{2, 2, 2}, true);
+      }
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_EQ(a.parts[0].shell_count, 8001U);
+  EXPECT_DOUBLE_EQ(a.parts[0].volume, (62.0 * 62 * 62 - 8000 * 8) * 1e9);
 }
 
 TEST(Analyse, CavityThatTouchesTheSkinIsStillInside) {
