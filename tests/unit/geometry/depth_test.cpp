@@ -174,9 +174,9 @@ TEST(Depth, NoSampleIsDeeperThanTheBracket) {
     };
     const Subject a(seed % 2 == 0
                         ? channel(draw(40, 90) * 1000, 60'000, 40'000, draw(4, 12) * 1000)
-                        : turned(box_mesh({0, 0, 0}, {draw(20, 90) * 1000, 30'000, 1'000})));
-    const Subject b(turned(cylinder(draw(3, 12), draw(5'000, 1'000), -20'000, 20'000)),
-                    {draw(0, 40'000), draw(0, 40'000), draw(0, 1'000)});
+                        : turned(box_mesh({0, 0, 0}, {draw(20, 90) * 1000, 30'000, 20'000})));
+    const Subject b(turned(cylinder(draw(3, 12), draw(5'000, 20'000), -20'000, 20'000)),
+                    {draw(0, 40'000), draw(0, 40'000), draw(0, 20'000)});
     PairWork work;
     if (meet(a.treed(), b.treed(), work).meeting == Meeting::apart) continue;
     const Depth d = depth_of(a, b);
@@ -199,7 +199,7 @@ TEST(Depth, ChangesByNoMoreThanTheMove) {
   const Subject a(channel(90'000, 60'000, 40'000, 8'000));
   double before = 0;
   for (int i = 0; i < 15; ++i) {
-    const Subject b(cylinder(9, 15'000, 0, 30'000), {1'000, 20'000 + i * 700, 1'000});
+    const Subject b(cylinder(9, 15'000, 0, 30'000), {20'000, 20'000 + i * 700, 1'000});
     const Depth d = depth_of(a, b,
                              {.threshold = 0,
                               .tolerance = 1,
@@ -227,7 +227,7 @@ TEST(SheetDepth, PlateSheetIntoABox) {
 
 TEST(SheetDepth, SheetsThatCross) {
   const Subject a(testing::quad_mesh({0, 0, 0}, {100'000, 0, 0}, {0, 100'000, 0}));
-  const Subject b(testing::quad_mesh({50'000, 1'000, -30'000}, {0, 500'000, 0}, {0, 0, 60'000}));
+  const Subject b(testing::quad_mesh({50'000, 20'000, -30'000}, {0, 500'000, 0}, {0, 0, 60'000}));
   PairWork work;
   const Depth d = sheet_crossing_depth(a.treed(), b.treed(), {}, work);
   // Along x = 50 mm: 30 mm from b's edges above and below, up to 40 mm from a's far edge.

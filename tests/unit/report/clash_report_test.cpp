@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "strake/core/atomic_file.hpp"
+#include "strake/report/clash.hpp"
+#include "support/clash_model.hpp"
+
+namespace strake::report {
+namespace {
+
+using nlohmann::json;
+using test::ClashModel;
+
+std::string as_json(const clash::Report& report, const model::Model& model) {
+  std::string text;
+  write_clash_json(report, model, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
+std::string as_csv(const clash::Report& report, const model::Model& model) {
+  std::string text;
+  write_clash_csv(report, model, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
+ClashModel row_of_boxes() {
+  ClashModel m;
+  m.box("deck \"1\", port\n", {0, 0, 0}, {100, 100, 100});
+  m.box("Büro \xF0\x9F\x9A\xA2 \xFF", {100, 0, 0}, {200, 100, 100});
+  m.box("c", {180, 10, 10}, {300, 90, 90}, true);
+  m.box("d", {310, 0, 0}, {400, 100, 100});
+  return m;
+}
+
+TEST(ClashJson, HasTheKeysThatScriptsRelyOn) {
+  const ClashModel m = row_of_boxes();
+  const clash::Report report = m.detect({.clearance_mm = 25});
+  const json doc = json::parse(as_json(report, m.model));
+  EXPECT_EQ(doc["schema_version"], 1);
+  EXPECT_EQ(doc["settings"]["clearance_mm"], 25);
+  EXPECT_EQ(doc["counts"]["HIT"], 1);
+  EXPECT_EQ(doc["counts"]["CONTACT"], 1);
+  EXPECT_EQ(doc["counts"]["CLEARANCE_VIOLATION"], 1);
+  EXPECT_EQ(doc["hash"], report.hash);
+  EXPECT_EQ(doc["files"][0]["label"], "t.obj");
+  ASSERT_EQ(doc["results"].size(), 3U);
+  const json& touch = doc["results"][0];
+  EXPECT_EQ(touch["a"]["id"], "deck \"1\", port\n");
+  EXPECT_EQ(touch["b"]["name"], "Büro 🚢 \xEF\xBF\xBD");
+  EXPECT_EQ(touch["a"]["file"], "t.obj");
+  EXPECT_EQ(touch["class"], "CONTACT");
+  EXPECT_EQ(touch["relation"], "ABUT_OUTSIDE");
+  EXPECT_EQ(touch["d_mm"], 0);
+  const json& hit = doc["results"][1];
+  EXPECT_EQ(hit["class"], "HIT");
+  EXPECT_EQ(hit["d_mm"], -20);
+  EXPECT_LE(hit["d_range_mm"][0], -20.0);
+  EXPECT_GE(hit["d_range_mm"][1], -20.0);
+  EXPECT_EQ(hit["point_mm"].size(), 3U);
+  EXPECT_EQ(hit["flags"], json::array({"INVERTED"}));
+  EXPECT_EQ(doc["results"][2]["class"], "CLEARANCE_VIOLATION");
+  EXPECT_EQ(doc["results"][2]["d_mm"], 10);
+}
+
+TEST(ClashJson, SettingsSayNothingOfTheRun) {
+  const ClashModel m = row_of_boxes();
+  const json doc = json::parse(as_json(m.detect(), m.model));
+  for (const auto& [key, value] : doc["settings"].items())
+    EXPECT_TRUE(key == "clearance_mm" || key == "touch_gap_mm" || key == "touch_overlap_mm" ||
+                key == "thickness_cap" || key == "contact_distance_mm")
+        << key;
+}
+
+TEST(ClashJson, NothingFoundIsAValidDocument) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {1, 1, 1});
+  EXPECT_TRUE(json::parse(as_json(m.detect(), m.model))["results"].empty());
+}
+
+/// Written for the next test of the suite, which holds it against schemas/clash.schema.json.
+TEST(ClashJson, LeavesADocumentForTheSchemaTest) {
+  const ClashModel m = row_of_boxes();
+  ASSERT_TRUE(write_file(STRAKE_CLASH_DOCUMENT, as_json(m.detect({.clearance_mm = 25}), m.model)));
+}
+
+TEST(ClashJson, StreamsInPieces) {
+  ClashModel m;
+  for (int i = 0; i < 900; ++i)
+    m.box("box number " + std::to_string(i), {i * 10.0, 0, 0}, {i * 10.0 + 10, 10, 10});
+  const clash::Report report = m.detect();
+  std::size_t pieces = 0, largest = 0;
+  write_clash_json(report, m.model, [&](std::string_view piece) {
+    ++pieces;
+    largest = std::max(largest, piece.size());
+  });
+  EXPECT_GT(pieces, 1U);
+  EXPECT_LT(largest, 100'000U);
+}
+
+TEST(ClashCsv, OneLineAPairQuotedWhereNeeded) {
+  const ClashModel m = row_of_boxes();
+  const std::string text = as_csv(m.detect({.clearance_mm = 25}), m.model);
+  EXPECT_TRUE(text.starts_with("a_id,a_name,a_file,b_id"));
+  EXPECT_NE(text.find("\"deck \"\"1\"\", port\n\""), std::string::npos);
+  EXPECT_NE(text.find(",CLEARANCE_VIOLATION,SEPARATE,10,"), std::string::npos);
+  EXPECT_NE(text.find(",INVERTED\r\n"), std::string::npos);
+}
+
+TEST(ClashTable, WorstFirstClippedAndCounted) {
+  const ClashModel m = row_of_boxes();
+  const clash::Report report = m.detect({.clearance_mm = 25});
+  const std::string text = clash_table(report, m.model, {.width = 72, .rows = 2});
+  EXPECT_LT(text.find("HIT"), text.find("CONTACT"));
+  EXPECT_NE(text.find("… and 1 more"), std::string::npos);
+  EXPECT_NE(text.find("1 hits, 1 contacts, 1 clearance violations"), std::string::npos);
+  EXPECT_EQ(text.find('\xFF'), std::string::npos);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    const std::string line = text.substr(at, end - at);
+    const auto columns = std::count_if(line.begin(), line.end(), [](char c) {
+      return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    });
+    EXPECT_LE(columns, 72) << line;
+    at = end + 1;
+  }
+}
+
+TEST(ClashTable, NothingFoundIsSaid) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(clash_table(m.detect(), m.model, {}), "0 hits, 0 contacts, 0 clearance violations\n");
+}
+
+}  // namespace
+}  // namespace strake::report
