@@ -17,11 +17,11 @@
 #include <string>
 #include <vector>
 
-#include "support/ray_check.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/io/reader.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/team.hpp"
+#include "support/ray_check.hpp"
 
 namespace {
 

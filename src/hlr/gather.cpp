@@ -175,16 +175,15 @@ class Gatherer {
     // Limits may cut away what hides: then the convex part's short cut does not hold.
     const bool judged = !own_->cut && (edge_->surely_behind_part || edge_->surely_clear_of_part);
     if (judged && edge_->surely_behind_part) {
-      add({Param::zero(), Param::one(), kBothSides, true});
+      add(Hit{Param::zero(), Param::one(), kBothSides, true});
       if (job_.options.culling) return;
     }
     const LocalEdge local = localized(*own_);
-    const auto test = [&](const Polygon& p) {
-      const bool same = p.part == edge_->edge.part;
-      if (same && judged) return true;
-      return test_polygon(local, *own_->view, p, same ? 0 : own_->contact, true);
-    };
-    for_polygons(*own_, test);
+    for (const PartView& part : own_->view->parts) {
+      const bool same = own_->view->polygons[part.first].part == edge_->edge.part;
+      if (same && judged) continue;
+      if (!test_part(local, *own_->view, part, same ? 0 : own_->contact, true)) return;
+    }
   }
 
   // False when nothing of the edge is left.
@@ -193,12 +192,9 @@ class Gatherer {
     if (!other.opaque || !near(other)) return true;
     const LocalEdge local = localized(other);
     const std::int64_t contact = std::max(own_->contact, other.contact);
-    bool more = true;
-    for_polygons(other, [&](const Polygon& p) {
-      more = test_polygon(local, *other.view, p, contact, self);
-      return more;
-    });
-    return more;
+    for (const PartView& part : other.view->parts)
+      if (!test_part(local, *other.view, part, contact, self)) return false;
+    return true;
   }
 
   [[nodiscard]] bool near(const Placed& other) const {
@@ -208,37 +204,47 @@ class Gatherer {
            std::min(va_.w, vb_.w) < box.hi.w;
   }
 
-  template <class Test>
-  void for_polygons(const Placed& other, Test&& test) {
-    const std::vector<Polygon>& polygons = other.view->polygons;
-    if (other.view->tree.empty()) {
-      for (const Polygon& p : polygons)
-        if (!test(p)) return;
-      return;
+  bool test_part(const LocalEdge& local, const ShapeView& view, const PartView& part,
+                 std::int64_t contact, bool self) {
+    if (!may_hide(local, part.box)) return true;
+    if (is_deep_under(local, part, contact)) {
+      ++work_.tests;
+      work_.wide_tests += local.narrow ? 0 : 1;
+      return add(outlined_stretch(local, view, part.outline), self);
     }
-    const LooseSegment segment = loose(va_ - other.at, vb_ - other.at);
-    other.view->tree.walk(segment, [&](std::uint32_t i) { return test(polygons[i]); });
+    if (part.tree.empty()) {
+      for (std::uint32_t i = part.first; i < part.last; ++i)
+        if (!test_polygon(local, view, view.polygons[i], contact, self)) return false;
+      return true;
+    }
+    bool more = true;
+    part.tree.walk(loose(local.va, local.vb), [&](std::uint32_t i) {
+      return more = test_polygon(local, view, view.polygons[part.first + i], contact, self);
+    });
+    return more;
   }
 
   bool test_polygon(const LocalEdge& local, const ShapeView& view, const Polygon& p,
                     std::int64_t contact, bool self) {
-    if (p.far_side && is_spared(local, p, contact)) return true;
+    if (!may_hide(local, p.box)) return true;
     ++work_.tests;
     work_.wide_tests += local.narrow ? 0 : 1;
-    auto hit = hidden_stretch(local, view, p, contact);
+    return add(hidden_stretch(local, view, p, contact), self);
+  }
+
+  [[nodiscard]] bool is_deep_under(const LocalEdge& local, const PartView& part,
+                                   std::int64_t contact) const {
+    if (!part.has_outline || !job_.options.culling || local.limits != nullptr) return false;
+    const std::int64_t depth = part.box.lo.w - std::max(local.va.w, local.vb.w);
+    if (contact == 0) return depth > 0;
+    const double least = static_cast<double>(contact) * part.deep_per_contact + 1;
+    return static_cast<double>(depth) > least * (1 + 1e-9);
+  }
+
+  bool add(std::optional<Hit> hit, bool self) {
     if (!hit) return true;
     hit->self = self;
     return add(*hit);
-  }
-
-  [[nodiscard]] bool is_spared(const LocalEdge& local, const Polygon& p,
-                               std::int64_t contact) const {
-    if (!job_.options.culling || local.limits != nullptr) return false;
-    const std::int64_t w = std::max(local.va.w, local.vb.w);
-    if (contact == 0) return w < p.spare_w;
-    const double margin = static_cast<double>(contact) * p.spare_per_contact + 1;
-    // The difference is formed in integers; rounding it to double is far below the margin's own.
-    return static_cast<double>(p.spare_w - w) > margin * (1 + 1e-9);
   }
 
   bool add(const Hit& hit) {

@@ -108,19 +108,21 @@ bool clip_limits(const LocalEdge& e, const Depth& depth, Int128 facing, const Ve
 
 }  // namespace
 
+std::optional<Hit> outlined_stretch(const LocalEdge& edge, const ShapeView& shape,
+                                    const Polygon& outline) {
+  Hit hit{.lo = Param::zero(), .hi = Param::one(), .sides = kBothSides};
+  const Corner* corners = shape.corners.data() + outline.first_corner;
+  if (!(edge.narrow ? clip_outline<std::int64_t>(edge, corners, outline.corners, hit)
+                    : clip_outline<Int128>(edge, corners, outline.corners, hit)))
+    return std::nullopt;
+  return hit;
+}
+
 std::optional<Hit> hidden_stretch(const LocalEdge& edge, const ShapeView& shape,
                                   const Polygon& polygon, std::int64_t contact) {
-  const ViewBox& box = polygon.box;
-  const ViewPoint &a = edge.va, &b = edge.vb;
-  if (std::max(a.u, b.u) < box.lo.u || std::min(a.u, b.u) > box.hi.u ||
-      std::max(a.v, b.v) < box.lo.v || std::min(a.v, b.v) > box.hi.v ||
-      std::min(a.w, b.w) >= box.hi.w)
-    return std::nullopt;
-  Hit hit{.lo = Param::zero(), .hi = Param::one(), .sides = kBothSides};
-  const Corner* corners = shape.corners.data() + polygon.first_corner;
-  if (!(edge.narrow ? clip_outline<std::int64_t>(edge, corners, polygon.corners, hit)
-                    : clip_outline<Int128>(edge, corners, polygon.corners, hit)))
-    return std::nullopt;
+  std::optional<Hit> found = outlined_stretch(edge, shape, polygon);
+  if (!found) return found;
+  Hit& hit = *found;
   const Depth depth = depth_of(edge, shape, polygon);
   const Int128 least = contact * depth.size;
   if (!clip_affine(depth.at_a - least, depth.at_b - least, false, hit)) return std::nullopt;
@@ -129,7 +131,7 @@ std::optional<Hit> hidden_stretch(const LocalEdge& edge, const ShapeView& shape,
     if (!clip_limits(edge, depth, along(n, shape.direction), shape.direction, hit))
       return std::nullopt;
   }
-  return hit;
+  return found;
 }
 
 }  // namespace strake::hlr

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -34,8 +35,19 @@ struct LocalEdge {
 
 /// The closed stretch of the edge that a polygon hides, by the two-sided rule: what lies strictly
 /// under its open inside for points a hair left or right of the edge, deeper than `contact` in
-/// the sense of docs/hlr.md. Exact.
+/// the sense of docs/hlr.md. Exact. The caller has found that may_hide(edge, polygon.box).
 [[nodiscard]] std::optional<Hit> hidden_stretch(const LocalEdge& edge, const ShapeView& shape,
                                                 const Polygon& polygon, std::int64_t contact);
+
+/// The same for what lies deep under an outline (PartView::outline), planes apart.
+[[nodiscard]] std::optional<Hit> outlined_stretch(const LocalEdge& edge, const ShapeView& shape,
+                                                  const Polygon& outline);
+
+/// False when the boxes alone show that nothing in `box` hides any of the edge.
+[[nodiscard]] inline bool may_hide(const LocalEdge& e, const ViewBox& box) {
+  return std::max(e.va.u, e.vb.u) >= box.lo.u && std::min(e.va.u, e.vb.u) <= box.hi.u &&
+         std::max(e.va.v, e.vb.v) >= box.lo.v && std::min(e.va.v, e.vb.v) <= box.hi.v &&
+         std::min(e.va.w, e.vb.w) < box.hi.w;
+}
 
 }  // namespace strake::hlr

@@ -14,6 +14,8 @@ using geometry::Triangle;
 using geometry::Vec3i;
 using geometry::Vec3l;
 
+// A tree pays from this many polygons on.
+constexpr std::uint32_t kTreeFrom = 12;
 // Parts up to this size have normals of 62 bits.
 constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
 
@@ -35,22 +37,37 @@ class PartMerger {
       : part_(part), part_index_(part_index), frame_(frame), view_(view) {}
 
   bool run() {
+    first_ = static_cast<std::uint32_t>(view_.polygons.size());
     project();
     if (!narrow()) {
       for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) add_wide(t);
+      if (PartView part = finished(); part.first < part.last)
+        view_.parts.push_back(std::move(part));
       return false;
     }
     find_planes();
     const bool convex = walk_edges() && is_star_shaped();
-    const std::size_t first = view_.polygons.size();
     add_groups();
-    const auto added = std::span(view_.polygons).subspan(first);
-    if (convex) mark_far_side(added);
-    for (Polygon& p : added) p.far_side = p.far_side && convex;
+    PartView part = finished();
+    if (convex) add_outline(part);
+    if (part.first < part.last) view_.parts.push_back(std::move(part));
     return convex;
   }
 
  private:
+  [[nodiscard]] PartView finished() const {
+    PartView part;
+    part.first = first_;
+    part.last = static_cast<std::uint32_t>(view_.polygons.size());
+    std::vector<ViewBox> boxes;
+    for (const Polygon& p : std::span(view_.polygons).subspan(first_)) {
+      part.box.include(p.box);
+      if (part.last - part.first >= kTreeFrom) boxes.push_back(p.box);
+    }
+    if (!boxes.empty()) part.tree = ViewTree(boxes);
+    return part;
+  }
+
   [[nodiscard]] bool narrow() const {
     const auto lo = part_.box.lo.as<std::int64_t>(), hi = part_.box.hi.as<std::int64_t>();
     return hi.x - lo.x <= kNarrow && hi.y - lo.y <= kNarrow && hi.z - lo.z <= kNarrow;
@@ -208,29 +225,33 @@ class PartMerger {
     view_.corners.push_back({q.u, q.v});
   }
 
-  void mark_far_side(std::span<Polygon> polygons) {
+  // The outline of a certified convex part, as one polygon.
+  void add_outline(PartView& view) {
+    std::vector<std::uint32_t> front;
+    for (std::uint32_t t = 0; t < planes_.size(); ++t)
+      if (planes_[t].facing > 0) front.push_back(t);
+    if (front.empty() || !outline(front) || !is_convex_loop()) return;
+    view.outline.part = part_index_;
+    view.outline.first_corner = static_cast<std::uint32_t>(view_.corners.size());
+    for (const std::uint32_t v : loop_) add_corner(view.outline, v);
+    view.outline.box = view.box;
     const auto d = frame_.direction().as<double>();
-    ViewBox box;
     double steepest = 0;
-    for (const Polygon& p : polygons) {
+    for (std::uint32_t i = view.first; i < view.last; ++i) {
+      const Polygon& p = view_.polygons[i];
       const geometry::Vec3d n = geometry::Vec3l{p.normal[0], p.normal[1], p.normal[2]}.as<double>();
-      box.include(p.box);
       const auto facing = static_cast<double>(along(view_.normal(p), frame_.direction()));
       steepest = std::max(steepest, (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) / facing);
     }
-    for (Polygon& p : polygons) {
-      if (!p.far_side) continue;
-      p.spare_w = box.lo.w;
-      // Rounding of the few operations above is far below the share added.
-      p.spare_per_contact = steepest * dot(d, d) * (1 + 1e-9);
-    }
+    // Rounding of the few operations above is far below the share added.
+    view.deep_per_contact = steepest * dot(d, d) * (1 + 1e-9);
+    view.has_outline = true;
   }
 
   void add_polygon(std::uint32_t t, const std::vector<std::uint32_t>& loop) {
     Polygon& p = start(loop[0]);
     p.normal = planes_[t].n;
-    p.far_side = planes_[t].facing < 0;
-    if (p.far_side)
+    if (planes_[t].facing < 0)
       for (std::int64_t& x : p.normal) x = -x;
     for (const std::uint32_t v : loop) add_corner(p, v);
   }
@@ -332,6 +353,7 @@ class PartMerger {
 
   const Part& part_;
   std::uint32_t part_index_;
+  std::uint32_t first_ = 0;
   const Frame& frame_;
   ShapeView& view_;
   std::vector<ViewPoint> points_;

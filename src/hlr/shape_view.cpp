@@ -7,8 +7,6 @@
 namespace strake::hlr {
 namespace {
 
-constexpr std::size_t kTreeFrom = 12;
-
 // On the boundary of a convex body an edge of a face towards the viewer lies on the body's upper
 // side, where nothing of the body is nearer; an edge between two faces turned away is behind the
 // body all along. One with a face edge-on lies on the outline and may be behind on one side.
@@ -47,12 +45,7 @@ ShapeView view_of(const model::GridShape& shape, const Frame& frame,
       judge_edges(part, options.direction, std::span(view.edges).subspan(begin, end - begin));
     begin = end;
   }
-  std::vector<ViewBox> boxes;
-  for (const Polygon& polygon : view.polygons) {
-    view.box.include(polygon.box);
-    if (view.polygons.size() >= kTreeFrom) boxes.push_back(polygon.box);
-  }
-  if (!boxes.empty()) view.tree = ViewTree(boxes);
+  for (const PartView& part : view.parts) view.box.include(part.box);
   for (const Corner& c : view.corners)
     view.reach = std::max({view.reach, std::abs(c.u), std::abs(c.v)});
   return view;

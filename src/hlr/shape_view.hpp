@@ -26,12 +26,19 @@ struct Polygon {
   std::int32_t wide = -1;                ///< index into ShapeView::wide_normals
   std::uint32_t first_corner = 0, corners = 0;
   std::uint32_t part = 0;
-  /// On the far side of an exactly convex part: an edge below `spare_w` by more than
-  /// `spare_per_contact` times the contact distance lies deep enough under every face of the part
-  /// for the near side alone to decide (where no limits cut).
-  bool far_side = false;
-  std::int64_t spare_w = 0;
-  double spare_per_contact = 0;
+};
+
+/// A part of a shape as something that hides.
+struct PartView {
+  ViewBox box;                        ///< of its polygons
+  std::uint32_t first = 0, last = 0;  ///< its polygons
+  ViewTree tree;                      ///< over them, where there are many
+  /// Exactly convex: the outline, a polygon without a plane. It hides all that lies under it and
+  /// below `box.lo.w` by more than `deep_per_contact` times the contact distance, because that
+  /// lies deep enough under whichever face is above.
+  bool has_outline = false;
+  Polygon outline;
+  double deep_per_contact = 0;
 };
 
 /// A feature edge with what the view needs of it.
@@ -46,11 +53,11 @@ struct EdgeView {
 struct ShapeView {
   geometry::Vec3l direction;
   std::vector<Corner> corners;
-  std::vector<Polygon> polygons;
+  std::vector<Polygon> polygons;  ///< by part
   std::vector<NormalVector> wide_normals;
-  ViewTree tree;           ///< over the polygons, where there are many
-  ViewBox box;             ///< of the polygons
-  std::int64_t reach = 0;  ///< largest |u| or |v| of a corner
+  std::vector<PartView> parts;  ///< those that can hide
+  ViewBox box;                  ///< of the polygons
+  std::int64_t reach = 0;       ///< largest |u| or |v| of a corner
   std::vector<EdgeView> edges;
 
   [[nodiscard]] NormalVector normal(const Polygon& p) const {

@@ -117,8 +117,8 @@ class Checker {
     const double slack = 2 * kRounding;
     for (std::size_t j = column(v0 - slack, v0_, dv_, n_); j <= column(v1 + slack, v0_, dv_, n_);
          ++j)
-      for (std::size_t i = column(u0 - slack, u0_, du_, n_);
-           i <= column(u1 + slack, u0_, du_, n_); ++i)
+      for (std::size_t i = column(u0 - slack, u0_, du_, n_); i <= column(u1 + slack, u0_, du_, n_);
+           ++i)
         visit(j * n_ + i);
   }
 
@@ -193,18 +193,16 @@ RayCheck check_by_rays(const model::Scene& scene, const hlr::Drawing& drawing, s
   const Checker checker(scene, drawing);
   Random random(seed);
   for (; result.rays < rays; ++result.rays) {
-    const hlr::Piece& piece =
-        drawing.pieces[candidates[random.next() % candidates.size()]];
+    const hlr::Piece& piece = drawing.pieces[candidates[random.next() % candidates.size()]];
     const double s = static_cast<double>(1 + random.below(9999)) / 10000;
     if (checker.right(piece, s)) continue;
     if (result.wrong++ == 0)
       result.first_wrong =
-          "object " + scene.model->object(piece.object).id + " edge " +
-          std::to_string(piece.edge) + " state " + std::to_string(static_cast<int>(piece.state)) +
-          " from (" + std::to_string(piece.a.x) + " " + std::to_string(piece.a.y) + " " +
+          "object " + scene.model->object(piece.object).id + " edge " + std::to_string(piece.edge) +
+          " state " + std::to_string(static_cast<int>(piece.state)) + " from (" +
+          std::to_string(piece.a.x) + " " + std::to_string(piece.a.y) + " " +
           std::to_string(piece.a.z) + ") to (" + std::to_string(piece.b.x) + " " +
-          std::to_string(piece.b.y) + " " + std::to_string(piece.b.z) + ") at " +
-          std::to_string(s);
+          std::to_string(piece.b.y) + " " + std::to_string(piece.b.z) + ") at " + std::to_string(s);
   }
   return result;
 }
