@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,9 @@ namespace {
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Planes of triangles in contact that are tried for separating the parts.
+/// Planes of triangles in contact, and of triangles apart, that are tried for separating the parts.
 constexpr int kSeparationTries = 4;
+constexpr int kPartingTries = 16;
 /// Corners tried on a shell that already has contact along a segment: only meshes that overlap
 /// themselves can still surprise there.
 constexpr int kExtraProbes = 3;
@@ -90,11 +92,20 @@ class Meeter {
  private:
   enum class State : std::uint8_t { go_on, decided };
 
+  /// The triangles of a leaf of a, prepared; kept until another leaf is loaded.
+  struct LoadedLeaf {
+    const PartTree::Node* node = nullptr;
+    std::array<Box3l, PartTree::kLeafSize> box;
+    std::array<std::optional<ExactTriangle>, PartTree::kLeafSize> triangle;
+  };
+
   State walk();
   State leaves(const PartTree::Node& na, const PartTree::Node& nb);
   State found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a, const ExactTriangle& b,
               const TriangleContact& c);
   bool separated(const ExactTriangle& a, const ExactTriangle& b);
+  bool parted(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c);
+  void load(const PartTree::Node& leaf);
   void judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
   void judge_crossing(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
   void judge_coplanar(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
@@ -115,8 +126,9 @@ class Meeter {
   PairWork& work_;
   Overlap overlap_;
   MeetingResult result_;
-  int separation_tries_ = 0;
-  bool separated_ = false;
+  LoadedLeaf leaf_;
+  int separation_tries_ = 0, parting_tries_ = 0;
+  bool separated_ = false;        ///< a plane decided: neither part has a point inside the other
   ShellSet linear_a_, linear_b_;  ///< shells with contact along a segment or an area
   Sectors sectors_;
 };
@@ -155,25 +167,47 @@ Box3l box_of(const std::array<Vec3l, 3>& t) {
   return box;
 }
 
+void Meeter::load(const PartTree::Node& leaf) {
+  if (leaf_.node == &leaf) return;
+  leaf_.node = &leaf;
+  for (std::uint32_t i = 0; i < leaf.count; ++i) {
+    const ExactTriangle t = a_.triangle(a_.tree().order()[leaf.first + i]);
+    leaf_.box[i] = box_of(t.corner);
+    leaf_.triangle[i] = t;
+  }
+}
+
 Meeter::State Meeter::leaves(const PartTree::Node& na, const PartTree::Node& nb) {
   const Box3l box_a = a_.box(na.box);
   for (std::uint32_t j = 0; j < nb.count; ++j) {
     const std::uint32_t tb = b_.tree().order()[nb.first + j];
-    const std::array<Vec3l, 3> cb = b_.corners(tb);
-    const Box3l box_b = box_of(cb);
+    const std::array<Vec3l, 3> corners = b_.corners(tb);
+    const Box3l box_b = box_of(corners);
     if (!box_b.meets(box_a)) continue;
-    const ExactTriangle b(cb);
+    load(na);
+    const ExactTriangle b(corners);
     for (std::uint32_t i = 0; i < na.count; ++i) {
-      const std::uint32_t ta = a_.tree().order()[na.first + i];
-      const std::array<Vec3l, 3> ca = a_.corners(ta);
-      if (!box_of(ca).meets(box_b)) continue;
+      if (!leaf_.box[i].meets(box_b)) continue;
       ++work_.triangle_pairs;
-      const ExactTriangle a(ca);
+      const ExactTriangle& a = *leaf_.triangle[i];
+      const std::uint32_t ta = a_.tree().order()[na.first + i];
       const TriangleContact c = contact(a, b);
-      if (c.touch != Touch::none && found(ta, tb, a, b, c) == State::decided) return State::decided;
+      if (c.touch == Touch::none ? parted(a, b, c) : found(ta, tb, a, b, c) == State::decided)
+        return State::decided;
     }
   }
   return State::go_on;
+}
+
+/// Two triangles apart often lie on a flat side of one part with all of the other beyond it.
+bool Meeter::parted(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c) {
+  const auto positive = [](const CornerSides& s) { return s[0] > 0 && s[1] > 0 && s[2] > 0; };
+  if (result_.boundaries_meet || parting_tries_ >= kPartingTries) return false;
+  const bool a_beyond_b = positive(c.side_a), b_beyond_a = positive(c.side_b);
+  if (!a_beyond_b && !b_beyond_a) return false;
+  ++parting_tries_;
+  separated_ = a_beyond_b ? parts_strictly(b, b_, a_) : parts_strictly(a, a_, b_);
+  return separated_;
 }
 
 Meeter::State Meeter::found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a,

@@ -16,14 +16,16 @@ double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 
 class SideWalk {
  public:
-  SideWalk(const ExactTriangle& t, int side) : plane_(t.plane), side_(side) {
+  /// side: -1 or 1; strict: points of the plane count as on the wrong side.
+  SideWalk(const ExactTriangle& t, int side, bool strict)
+      : plane_(t.plane), side_(side), least_(strict ? 1 : 0) {
     anchor_ = t.corner[0].as<double>();
     // Rounding of the normal and of a product with it: below 64 roundings of |u||v| a component.
     slack_ = 0x1p-47 * largest(absolute((t.corner[1] - t.corner[0]).as<double>())) *
              largest(absolute((t.corner[2] - t.corner[0]).as<double>()));
   }
 
-  /// False at the first vertex strictly on the other side.
+  /// False at the first vertex on the wrong side.
   [[nodiscard]] bool all_on_side(const PartView& view);
   [[nodiscard]] bool leaves_plane() const { return leaves_plane_; }
 
@@ -31,7 +33,7 @@ class SideWalk {
   [[nodiscard]] bool accept(const Vec3l& p) {
     const int side = plane_.side(p) * side_;
     leaves_plane_ |= side > 0;
-    return side >= 0;
+    return side >= least_;
   }
   /// Certain that all of the box lies strictly on the wanted side.
   [[nodiscard]] bool clear(const Box3l& box) const {
@@ -46,7 +48,7 @@ class SideWalk {
   const ExactPlane& plane_;
   Vec3d anchor_;
   double slack_ = 0;
-  int side_;
+  int side_, least_;
   bool leaves_plane_ = false;
 };
 
@@ -79,7 +81,7 @@ bool SideWalk::walk(const PartView& view) {
 }
 
 bool keeps_to(const ExactTriangle& triangle, int side, const PartView& view) {
-  SideWalk walk(triangle, side);
+  SideWalk walk(triangle, side, false);
   return walk.all_on_side(view) && (view.solid() || walk.leaves_plane());
 }
 
@@ -87,6 +89,11 @@ bool keeps_to(const ExactTriangle& triangle, int side, const PartView& view) {
 
 bool separates(const ExactTriangle& triangle, const PartView& below, const PartView& above) {
   return keeps_to(triangle, -1, below) && keeps_to(triangle, 1, above);
+}
+
+bool parts_strictly(const ExactTriangle& triangle, const PartView& below, const PartView& above) {
+  return SideWalk(triangle, 1, true).all_on_side(above) &&
+         SideWalk(triangle, -1, false).all_on_side(below);
 }
 
 }  // namespace strake::geometry

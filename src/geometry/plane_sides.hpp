@@ -12,4 +12,9 @@ namespace strake::geometry {
 [[nodiscard]] bool separates(const ExactTriangle& triangle, const PartView& below,
                              const PartView& above);
 
+/// Whether the plane keeps the parts apart: `above` strictly on its positive side, `below` on the
+/// closed negative one.
+[[nodiscard]] bool parts_strictly(const ExactTriangle& triangle, const PartView& below,
+                                  const PartView& above);
+
 }  // namespace strake::geometry

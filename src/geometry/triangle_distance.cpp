@@ -150,12 +150,26 @@ class ExactFeatures {
     return true;
   }
 
+  static Int256 norm(const Vec3<Int128>& v) { return product(v, v); }
+
  private:
   static Int256 product(const Vec3<Int128>& u, const Vec3<Int128>& v) {
     return mul(u.x, v.x) + mul(u.y, v.y) + mul(u.z, v.z);
   }
-  static Int256 norm(const Vec3<Int128>& v) { return product(v, v); }
 };
+
+/// How far the triangles lie apart across a direction, exactly (times its length).
+Int128 width_across(const Vec3<Int128>& direction, const TriangleCorners& a,
+                    const TriangleCorners& b) {
+  const auto reach = [&](const TriangleCorners& t) {
+    std::array<Int128, 3> r;
+    for (std::size_t i = 0; i < 3; ++i) r[i] = dot(direction, (t[i] - a[0]).as<Int128>());
+    return std::minmax({r[0], r[1], r[2]});
+  };
+  const auto [low_a, high_a] = reach(a);
+  const auto [low_b, high_b] = reach(b);
+  return std::max(low_b - high_a, low_a - high_b);
+}
 
 /// Collects the least exact distance over the pairs of features whose value, as far as doubles can
 /// tell, may be as small as the upper bound.
@@ -175,6 +189,7 @@ class ExactSearch {
   void corners_edges();
   void corners_faces();
   void edges();
+  void find_direction();
   void offer(const Value& value, const Vec3d& p, const Vec3d& q);
 
   /// Whether |height|/|n| <= reach cannot be excluded, for n = u x v and height = n·d in doubles,
@@ -271,6 +286,20 @@ void ExactSearch::edges() {
     }
 }
 
+/// Between parallel faces a corner may happen to stand over an edge: a normal serves as well.
+void ExactSearch::find_direction() {
+  for (const TriangleCorners* t : {&a_, &b_}) {
+    const Vec3<Int128> n = cross_exact((*t)[1] - (*t)[0], (*t)[2] - (*t)[0]);
+    const Int128 width = width_across(n, a_, b_);
+    if (width <= 0) continue;
+    const SquaredDistance across{mul(width, width), narrow<3>(ExactFeatures::norm(n))};
+    if (across != best_.squared) continue;
+    best_.direction = n;
+    best_.width = width;
+    return;
+  }
+}
+
 NearestPoints ExactSearch::run() {
   const ExactTriangle a(a_), b(b_);
   const TriangleContact c = contact(a, b);
@@ -283,6 +312,7 @@ NearestPoints ExactSearch::run() {
   corners_faces();
   edges();
   assert(any_);
+  if (best_.width == 0) find_direction();
   return best_;
 }
 
@@ -326,15 +356,7 @@ DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
 }
 
 bool not_nearer(const TriangleCorners& a, const TriangleCorners& b, const NearestPoints& than) {
-  if (than.width == 0) return false;
-  const auto reach = [&than](const TriangleCorners& t, const Vec3l& base) {
-    std::array<Int128, 3> r;
-    for (std::size_t i = 0; i < 3; ++i) r[i] = dot(than.direction, (t[i] - base).as<Int128>());
-    return std::minmax({r[0], r[1], r[2]});
-  };
-  const auto [low_a, high_a] = reach(a, a[0]);
-  const auto [low_b, high_b] = reach(b, a[0]);
-  return std::max(low_b - high_a, low_a - high_b) >= than.width;
+  return than.width > 0 && width_across(than.direction, a, b) >= than.width;
 }
 
 NearestPoints exact_distance(const TriangleCorners& a, const TriangleCorners& b, double upper) {
