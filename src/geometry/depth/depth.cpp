@@ -48,9 +48,10 @@ class Halfspaces {
     start(rows, ball_is_a ? a_ : b_, ball_is_a ? fa_ : fb_, 0);
     append(rows, a_, fa_, ball_is_a ? 1 : 0, 0);
     append(rows, b_, fb_, ball_is_a ? 0 : 1, 0);
-    // What bounds a ball in a body that is not convex are the faces of the other that it crosses.
-    if (!(ball_is_a ? a_ : b_).planes->nearly_convex)
-      append_opposite(rows, ball_is_a ? b_ : a_, ball_is_a ? fa_ : fb_);
+    // A body that is not convex may face the other with none of its own planes: the other's planes,
+    // turned round, stand for what of it lies against them, be it the ball's body or the room.
+    if (!a_.planes->nearly_convex) append_opposite(rows, b_, fa_, ball_is_a ? 1 : 0);
+    if (!b_.planes->nearly_convex) append_opposite(rows, a_, fb_, ball_is_a ? 0 : 1);
     return solve(rows);
   }
 
@@ -93,14 +94,14 @@ class Halfspaces {
   }
 
   void append_opposite(std::vector<RadiusConstraint>& rows, const DepthPart& other,
-                       const DepthField& f) const {
+                       const DepthField& f, double weight) const {
     const Part& part = f.part();
     if (part.vertices.size() * other.planes->planes.size() > kMaxOppositeWork) return;
     for (const SupportPlanes::Plane& p : other.planes->planes) {
       const Vec3d n = -p.normal;
       double best = -std::numeric_limits<double>::infinity();
       for (const Vec3i& v : part.vertices) best = std::max(best, dot(n, v.as<double>()));
-      rows.push_back({n, 1, offset(f, n, best) + kFieldError * extent_});
+      rows.push_back({n, weight, offset(f, n, best) + kFieldError * extent_});
     }
   }
 
@@ -161,11 +162,15 @@ void bracket_by_programs(const Halfspaces& spaces, Candidates& candidates, Depth
   const auto at_corner = candidates.depth_at((a_deeper ? in_a : in_b).x);
   if (at_middle) candidates.prefer(middle.x, *at_middle);
   if (at_corner && at_middle) return;
+  // Where the deepest points lie on the skin of the other body, as on the flat of a pipe that
+  // stands into a box, their middle does too: then aim for the middle of the whole common part.
+  constexpr std::array<double, 4> kMoves{1, 4, 16, 64};
+  const RadiusSolution aim = middle.r > kMoves.back() ? middle : spaces.most_central(a_deeper, 0);
   for (const RadiusSolution* s : {&in_a, &in_b})
-    for (const double move : {1.0, 4.0, 16.0, 64.0}) {
-      if (!(middle.r > move)) break;
-      const double t = move / middle.r;
-      if (candidates.depth_at(s->x + (middle.x - s->x) * t)) break;
+    for (const double move : kMoves) {
+      if (!(aim.r > move)) break;
+      const double t = move / aim.r;
+      if (candidates.depth_at(s->x + (aim.x - s->x) * t)) break;
     }
 }
 
