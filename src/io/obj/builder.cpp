@@ -34,7 +34,7 @@ class Builder {
   [[nodiscard]] model::Color color(std::uint32_t material) const;
   [[nodiscard]] model::Color main_color(const Flat& flat) const;
   std::vector<Vec3d> compact(std::vector<std::uint32_t>& corners) const;
-  geometry::TriangleMesh mesh(Flat flat) const;
+  geometry::TriangleMesh mesh(Flat flat);
   geometry::Polylines polylines(Flat flat) const;
 
   const BuildInput& input_;
@@ -108,7 +108,7 @@ std::vector<Vec3d> Builder::compact(std::vector<std::uint32_t>& corners) const {
   return vertices;
 }
 
-geometry::TriangleMesh Builder::mesh(Flat flat) const {
+geometry::TriangleMesh Builder::mesh(Flat flat) {
   geometry::TriangleMesh mesh;
   mesh.vertices = compact(flat.corners);
   mesh.triangles.reserve(flat.corners.size() - 2 * flat.end.size());
@@ -116,7 +116,7 @@ geometry::TriangleMesh Builder::mesh(Flat flat) const {
   std::size_t begin = 0;
   for (std::size_t face = 0; face < flat.end.size(); ++face) {
     const std::span corners = std::span(flat.corners).subspan(begin, flat.end[face] - begin);
-    append_face(mesh, corners);
+    if (!append_face(mesh, corners)) ++result_.crossing_faces;
     if (polygons) mesh.faces.resize(mesh.triangles.size(), static_cast<std::uint32_t>(face));
     begin = flat.end[face];
   }

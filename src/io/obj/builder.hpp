@@ -27,6 +27,7 @@ struct BuiltObject {
   geometry::TriangleMesh opaque, transparent;
   geometry::Polylines lines;
   model::Color opaque_color, transparent_color, line_color;  ///< of most of the faces or lines
+  std::uint32_t crossing_faces = 0;                          ///< cut as fans
   struct Damage {
     std::string message;
     std::uint64_t line = 0;  ///< 1-based

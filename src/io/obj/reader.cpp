@@ -162,6 +162,13 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
                            fmt::format("{}:{}", file_.path.string(), built.damage->line));
     return;
   }
+  if (built.crossing_faces != 0)
+    model_.diagnostics.add(
+        Severity::warning, "obj-crossing-face",
+        fmt::format(
+            "{} faces of object '{}' cross themselves or have no area; they are cut as fans",
+            built.crossing_faces, object.name),
+        file_.path.string());
   object.parent = group(entry);
   object.id =
       object.parent == model::GroupId::none ? object.name : entry.object_name + "/" + object.name;

@@ -76,6 +76,29 @@ TEST(ObjReader, NamesGroupsUnderObjects) {
   EXPECT_EQ(mesh_of(model, 2).triangles.size(), 2U) << "a group named again goes on";
 }
 
+TEST(ObjReader, TriangulatesPolygonsAndKeepsTheirFaces) {
+  const model::Model model =
+      read_ok("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 2 0\nf 1 2 3 4 5\nf 1 2 3\n");
+  const TriangleMesh& mesh = mesh_of(model, 0);
+  ASSERT_EQ(mesh.triangles.size(), 4U);
+  EXPECT_EQ(mesh.faces, (std::vector<std::uint32_t>{0, 0, 0, 1}));
+  double area = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& t = mesh.triangles[i];
+    const Vec3d n =
+        cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    EXPECT_GT(n.z, 0) << "no triangle may turn over";
+    area += n.z / 2;
+  }
+  EXPECT_EQ(area, 3.0);
+}
+
+TEST(ObjReader, KeepsTheEdgesOfPolygonsThatCrossThemselves) {
+  const model::Model model = read_ok("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n");
+  EXPECT_EQ(mesh_of(model, 0).triangles, (std::vector<geometry::Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(model.diagnostics.count("obj-crossing-face"), 1U);
+}
+
 TEST(ObjReader, ReadsPolylines) {
   const model::Model model = read_ok("v 0 0 0\nv 1 0 0\nv 1 1 0\no axis\nl 1 2 3\nl -1 -3\n");
   ASSERT_EQ(model.objects.size(), 1U);

@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Counts objects and triangles of OBJ, STL and glTF files, for comparison with the readers.
+
+A second opinion: it shares no code with the product, reads whole files with the plainest means,
+and takes its rules from the formats' specifications. Prints one JSON object per file: objects,
+triangles, segments of polylines, and "refused" with a reason where nothing can be read.
+"""
+import base64
+import json
+import math
+import struct
+import sys
+from pathlib import Path
+from urllib.parse import unquote
+
+
+class Refused(Exception):
+    pass
+
+
+# ---------------------------------------------------------------- OBJ
+def obj_lines(data):
+    text = data.decode('utf-8', 'replace').replace('\r\n', '\n').replace('\\\n', ' ')
+    for line in text.split('\n'):
+        words = line.split()
+        if words:
+            yield words[0], words[1:], line
+
+
+def count_obj(path):
+    vertices = [0]
+    o, g, number = None, None, 0
+    found = {}
+    for word, rest, line in obj_lines(path.read_bytes()):
+        if word == 'v':
+            vertices.append(tuple(float(x) for x in rest[:3]))
+        elif word == 'o':
+            o, g, number = ' '.join(rest), None, number + 1
+        elif word == 'g':
+            g = ' '.join(rest)
+        elif word in ('f', 'l'):
+            corners = [int(w.split('/')[0]) for w in rest]
+            corners = [c if c > 0 else len(vertices) + c for c in corners]
+            if len(corners) < (3 if word == 'f' else 2):
+                continue
+            entry = found.setdefault((number, g), [0, 0, []])
+            entry[0 if word == 'f' else 1] += len(corners) - (2 if word == 'f' else 1)
+            entry[2] += corners
+    good = [e for e in found.values() if all(
+        0 < c < len(vertices) and all(map(math.isfinite, vertices[c])) for c in e[2])]
+    if not good:
+        raise Refused('no usable object')
+    return len(good), sum(e[0] for e in good), sum(e[1] for e in good)
+
+
+# ---------------------------------------------------------------- STL
+def count_stl(path):
+    data = path.read_bytes()
+    if len(data) >= 84:
+        n = struct.unpack_from('<I', data, 80)[0]
+        if len(data) == 84 + 50 * n:
+            if n == 0:
+                raise Refused('no facets')
+            return 1, n, 0
+    words = data.decode('latin-1').lower().split('\n')
+    objects = triangles = here = 0
+    for line in words + ['endsolid']:
+        word = line.split()[:1]
+        if word == ['endfacet']:
+            here += 1
+        if word in (['endsolid'], ['solid']):
+            objects += here > 0
+            triangles += here
+            here = 0
+    if not triangles:
+        raise Refused('no facets')
+    return objects, triangles, 0
+
+
+# ---------------------------------------------------------------- glTF
+FORMATS = {5120: 'b', 5121: 'B', 5122: 'h', 5123: 'H', 5125: 'I', 5126: 'f'}
+WIDTHS = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3, 'VEC4': 4}
+UNREAD = {'KHR_draco_mesh_compression', 'EXT_meshopt_compression'}
+
+
+class Gltf:
+    def __init__(self, path):
+        data = path.read_bytes()
+        self.binary = None
+        if data[:4] == b'glTF':
+            size = struct.unpack_from('<I', data, 12)[0]
+            self.json = json.loads(data[20:20 + size])
+            if len(data) > 20 + size:
+                self.binary = data[28 + size:]
+        else:
+            self.json = json.loads(data)
+        self.path = path
+
+    def buffer(self, i):
+        uri = self.json['buffers'][i].get('uri')
+        if uri is None:
+            return self.binary
+        if uri.startswith('data:'):
+            return base64.b64decode(uri.split(',', 1)[1])
+        return (self.path.parent / unquote(uri)).read_bytes()
+
+    def read(self, i):
+        a = self.json['accessors'][i]
+        width, code = WIDTHS[a['type']], FORMATS[a['componentType']]
+        size = struct.calcsize(code) * width
+        if 'bufferView' not in a:
+            values = [(0,) * width] * a['count']
+        else:
+            view = self.json['bufferViews'][a['bufferView']]
+            data, stride = self.buffer(view['buffer']), view.get('byteStride', size)
+            start = view.get('byteOffset', 0) + a.get('byteOffset', 0)
+            values = [struct.unpack_from('<%d%s' % (width, code), data, start + stride * k)
+                      for k in range(a['count'])]
+        if 'sparse' in a:
+            raise NotImplementedError('sparse')
+        return values
+
+    def primitive(self, p):
+        """Triangles and segments, or None when something is out of bounds."""
+        mode = p.get('mode', 4)
+        if mode == 0:
+            return 0, 0
+        points = self.read(p['attributes']['POSITION'])
+        indices = [i[0] for i in self.read(p['indices'])] if 'indices' in p else range(len(points))
+        for i in indices:
+            if i >= len(points) or not all(map(math.isfinite, points[i])):
+                return None
+        n = len(indices)
+        return {1: (0, n // 2), 2: (0, n), 3: (0, max(n - 1, 0)), 4: (n // 3, 0),
+                5: (max(n - 2, 0), 0), 6: (max(n - 2, 0), 0)}[mode]
+
+    def mesh(self, i):
+        total = [0, 0]
+        for p in self.json['meshes'][i]['primitives']:
+            one = self.primitive(p)
+            if one is None:
+                return None
+            total = [total[0] + one[0], total[1] + one[1]]
+        return total if any(total) else None
+
+    def roots(self):
+        nodes, scenes = self.json.get('nodes', []), self.json.get('scenes', [])
+        if scenes:
+            return scenes[self.json.get('scene', 0)].get('nodes', [])
+        children = {c for n in nodes for c in n.get('children', [])}
+        return [i for i in range(len(nodes)) if i not in children]
+
+    def count(self):
+        unread = UNREAD & set(self.json.get('extensionsRequired', []))
+        if unread:
+            raise Refused('requires ' + ', '.join(sorted(unread)))
+        objects = triangles = segments = 0
+        known, open_nodes = {}, list(self.roots())
+        while open_nodes:
+            node = self.json['nodes'][open_nodes.pop()]
+            open_nodes += node.get('children', [])
+            if 'mesh' not in node:
+                continue
+            if node['mesh'] not in known:
+                known[node['mesh']] = self.mesh(node['mesh'])
+            if known[node['mesh']] is not None:
+                objects += 1
+                triangles += known[node['mesh']][0]
+                segments += known[node['mesh']][1]
+        if not objects:
+            raise Refused('no usable object')
+        return objects, triangles, segments
+
+
+COUNTERS = {'.obj': count_obj, '.stl': count_stl, '.glb': lambda p: Gltf(p).count(),
+            '.gltf': lambda p: Gltf(p).count()}
+
+
+def main():
+    for name in sys.argv[1:]:
+        path = Path(name)
+        try:
+            objects, triangles, segments = COUNTERS[path.suffix.lower()](path)
+            result = {'objects': objects, 'triangles': triangles, 'segments': segments}
+        except Refused as reason:
+            result = {'refused': str(reason)}
+        print(json.dumps({'file': name, **result}))
+
+
+if __name__ == '__main__':
+    main()

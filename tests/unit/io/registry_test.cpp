@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "strake/io/reader.hpp"
+#include "support/gltf_files.hpp"
+#include "support/io_files.hpp"
+
+namespace strake::io {
+namespace {
+
+constexpr const char* kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+Result<model::Model> read(const std::vector<std::filesystem::path>& paths,
+                          const ReadOptions& options = {}) {
+  return read_models(paths, options, {});
+}
+
+TEST(Registry, KnowsAFileByItsContent) {
+  const test::TemporaryFolder folder;
+  const auto format = [&](const char* name, std::string_view content) {
+    const Result<model::Model> model = read({folder.write(name, content)});
+    return model ? model->files.at(0).format : model.error().text();
+  };
+  EXPECT_EQ(format("a.stl", kObj), "OBJ");
+  EXPECT_EQ(format("b.obj",
+                   "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                   "vertex 0 1 0\nendloop\nendfacet\nendsolid\n"),
+            "STL text");
+  EXPECT_EQ(format("c", test::triangle_glb(R"("nodes":[{"mesh":0}])")), "GLB");
+}
+
+TEST(Registry, ReadsSeveralFilesInAnyOrderAlike) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path a = folder.write("a.obj", kObj);
+  const std::filesystem::path b =
+      folder.write("b.glb", test::triangle_glb(R"("nodes":[{"mesh":0}])"));
+  const Result<model::Model> one = read({a, b}), other = read({b, a});
+  ASSERT_TRUE(one);
+  ASSERT_TRUE(other);
+  ASSERT_EQ(one->objects.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(one->objects[i].id, other->objects[i].id);
+    EXPECT_EQ(one->files[one->objects[i].file].label, other->files[other->objects[i].file].label);
+  }
+  EXPECT_EQ(one->objects[0].name, "a");
+}
+
+TEST(Registry, NamesTheFileAndTheMend) {
+  const test::TemporaryFolder folder;
+  const auto check = [](const Result<model::Model>& result, const std::string& where) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::input);
+    EXPECT_EQ(result.error().where, where);
+    EXPECT_FALSE(result.error().mend.empty());
+  };
+  check(read({folder.path() / "missing.obj"}), (folder.path() / "missing.obj").string());
+  check(read({folder.path()}), folder.path().string());
+  check(read({"/dev/null"}), "/dev/null");
+  const std::filesystem::path empty = folder.write("empty.glb", "");
+  check(read({empty}), empty.string());
+  const std::filesystem::path text = folder.write("letter.txt", "Dear reader,\nno model.\n");
+  check(read({text}), text.string());
+  const std::filesystem::path good = folder.write("good.obj", kObj);
+  check(read({good, text}), text.string());
+}
+
+TEST(Registry, RefusesImpossibleQuestions) {
+  EXPECT_EQ(read({}).error().code, ErrorCode::usage);
+  const test::TemporaryFolder folder;
+  ReadOptions options;
+  for (const double unit : {0.0, -1.0, 1e300}) {
+    options.unit_mm = unit;
+    EXPECT_EQ(read({folder.write("a.obj", kObj)}, options).error().code, ErrorCode::usage);
+  }
+}
+
+}  // namespace
+}  // namespace strake::io
