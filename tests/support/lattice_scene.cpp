@@ -18,6 +18,13 @@ class Maker {
   Maker(Random& random, const LatticeOptions& options) : random_(random), options_(options) {}
 
   HandPart part() {
+    HandPart made = any_part();
+    if (options_.edit) options_.edit(made);
+    return made;
+  }
+
+ private:
+  HandPart any_part() {
     switch (random_.below(10)) {
       case 0:
       case 1:
@@ -40,7 +47,6 @@ class Maker {
     }
   }
 
- private:
   std::int32_t coordinate() {
     return static_cast<std::int32_t>(random_.below(options_.steps + 1)) * options_.unit;
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct LatticeOptions {
   std::uint32_t objects = 4;
   std::int32_t unit = 1;    ///< grid units per lattice step
   std::uint32_t steps = 3;  ///< coordinates are 0 .. steps lattice steps
+  /// Applied to every part when it is made; what is random does not depend on it.
+  std::function<void(HandPart&)> edit{};
 };
 
 [[nodiscard]] SceneBuilder lattice_scene(std::uint64_t seed, const LatticeOptions& options);
