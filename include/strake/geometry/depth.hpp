@@ -46,7 +46,7 @@ struct DepthGoal {
   double relative = 0.02;                ///< and so is one this narrow relative to the depth
   std::uint32_t cells_undecided = 3000;  ///< work limit while the threshold lies in the bracket
   std::uint32_t cells_decided = 300;     ///< work limit once it does not
-  std::uint32_t triangle_a = kNoFace;    ///< a triangle of a where the two meet, if known
+  std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known
 };
 
 /// Depth D of an interpenetrating pair, grid units: lower <= D <= upper is certain.
@@ -60,7 +60,8 @@ struct Depth {
 /// Two solids: D = max over x in both of max(distance to a's surface, distance to b's).
 ///
 /// Upper bound: two linear programs over the half-spaces of both (what is in a ball inside a part
-/// is inside all of the part's half-spaces), by weak duality. Lower bound: a point whose side is
+/// is inside all of the part's half-spaces), by weak duality; and since a translation changes D by
+/// no more than its length, any short one that exactly parts the interiors. Lower bound: a point whose side is
 /// decided exactly, with its distances. Where the two differ by more than the goal allows, as
 /// between parts that are not convex, best-first branch and bound over their common box: within a
 /// cell the distance to one triangle is convex, so its greatest value at the corners bounds it,

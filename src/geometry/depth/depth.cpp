@@ -186,6 +186,39 @@ void try_vertices(const DepthField& of, const DepthField& in, Candidates& candid
   }
 }
 
+std::optional<Vec3d> outward(const Part& part, std::uint32_t triangle) {
+  if (triangle >= part.triangles.size()) return std::nullopt;
+  const Corners c = corners_of(part, triangle);
+  const Vec3d n = cross(c[1] - c[0], c[2] - c[0]);
+  const double size = length(n);
+  if (!(size > 0)) return std::nullopt;
+  return n * (1 / size);
+}
+
+/// Moves b a little way out of a, along the normals where they meet: once no interior point is
+/// shared, the depth was at most the way moved. Ties of a model that stands askew end here.
+void bound_by_parting(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, Depth& depth,
+                      PairWork& work) {
+  std::vector<Vec3d> ways;
+  if (const auto n = outward(*a.treed.placed.part, goal.triangle_a)) ways.push_back(*n);
+  if (const auto n = outward(*b.treed.placed.part, goal.triangle_b)) ways.push_back(-*n);
+  for (const double distance : {4.0, 32.0, 256.0, goal.threshold}) {
+    if (distance > goal.threshold || distance >= depth.upper || distance < depth.lower) continue;
+    for (const Vec3d& way : ways) {
+      const double stretch = distance - 1;  // the snap adds less than one
+      const Vec3l move{std::llround(way.x * stretch), std::llround(way.y * stretch),
+                       std::llround(way.z * stretch)};
+      TreedPart moved = b.treed;
+      moved.placed.origin = moved.placed.origin + move;
+      if (!fits_pair(a.treed.placed, moved.placed)) return;
+      const Meeting meeting = meet(a.treed, moved, work).meeting;
+      if (meeting != Meeting::apart && meeting != Meeting::touching) continue;
+      depth.upper = length(move.as<double>()) * (1 + kFieldError);
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, PairWork& work) {
@@ -200,6 +233,8 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
     try_vertices(fb, fa, candidates);
     candidates.store(depth);
   }
+  if (depth.lower <= goal.threshold && depth.upper > goal.threshold)
+    bound_by_parting(a, b, goal, depth, work);
   if (!bracket_suffices(depth, goal)) search_solid_depth(fa, fb, goal, depth, work);
   depth.upper = std::max(depth.upper, depth.value);
   return depth;

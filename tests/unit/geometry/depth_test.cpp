@@ -155,14 +155,21 @@ TEST(Depth, BodyInTheHollowOfAChannel) {
 }
 
 TEST(Depth, ShallowContactInTheHollowOfATurnedChannel) {
-  // 20 µm deep in the floor of a channel that stands askew: the bracket may stay wide, but it must
-  // hold the truth, and the depth found is the true one.
+  // 20 µm deep in the floor of a channel that stands askew: that it is no more than a contact must
+  // be certain, and cheap.
   const Subject a(turned(channel(1'000'000, 100'000, 80'000, 10'000)));
   const Subject b(turned(box_mesh({400'000, 30'000, 9'980}, {600'000, 70'000, 50'000})));
-  const Depth d = depth_of(a, b, {.threshold = 1000});
+  PairWork work;
+  const MeetingResult meeting = meet(a.treed(), b.treed(), work);
+  ASSERT_EQ(meeting.meeting, Meeting::crossing);
+  const Depth d = depth_of(
+      a, b,
+      {.threshold = 1000, .triangle_a = meeting.triangle_a, .triangle_b = meeting.triangle_b});
   EXPECT_NEAR(d.value, 20, 3);
   EXPECT_LE(d.lower, 22);
   EXPECT_GE(d.upper, 18);
+  EXPECT_LE(d.upper, 1000);
+  EXPECT_LT(d.cells, 1000U);
 }
 
 /// The bracket holds against a dense sampling of the definition.
