@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "strake/geometry/triangulate.hpp"
+
 namespace strake::io::rvm {
 
 namespace {
@@ -186,7 +188,18 @@ void FacetBuilder::add_quad() {
     add_triangle(q[0], q[2], q[3]);
 }
 
-void FacetBuilder::add_general() { ++out_.untriangulated; }
+void FacetBuilder::add_general() {
+  std::vector<Vec3d> points;
+  points.reserve(polygon_.indices.size());
+  for (const std::uint32_t index : polygon_.indices) points.push_back(at(index));
+  const geometry::FaceTriangles made = geometry::triangulate_face(points, polygon_.first);
+  if (made.fault != geometry::FaceFault::none) {
+    ++(made.fault == geometry::FaceFault::crossing ? out_.untriangulated : out_.degenerate);
+    return;
+  }
+  for (const geometry::Triangle& t : made.triangles)
+    add_triangle(polygon_.indices[t[0]], polygon_.indices[t[1]], polygon_.indices[t[2]]);
+}
 
 }  // namespace
 
