@@ -189,19 +189,12 @@ class Gatherer {
   // False when nothing of the edge is left.
   bool gather_body(std::uint32_t b, bool self) {
     const Placed& other = world_.placed[b];
-    if (!other.opaque || !near(other)) return true;
+    if (!other.opaque) return true;
     const LocalEdge local = localized(other);
     const std::int64_t contact = std::max(own_->contact, other.contact);
     for (const PartView& part : other.view->parts)
       if (!test_part(local, *other.view, part, contact, self)) return false;
     return true;
-  }
-
-  [[nodiscard]] bool near(const Placed& other) const {
-    const ViewBox box = other.view->box.moved(other.at);
-    return std::max(va_.u, vb_.u) >= box.lo.u && std::min(va_.u, vb_.u) <= box.hi.u &&
-           std::max(va_.v, vb_.v) >= box.lo.v && std::min(va_.v, vb_.v) <= box.hi.v &&
-           std::min(va_.w, vb_.w) < box.hi.w;
   }
 
   bool test_part(const LocalEdge& local, const ShapeView& view, const PartView& part,

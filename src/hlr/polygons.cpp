@@ -16,6 +16,8 @@ using geometry::Vec3l;
 
 // A tree pays from this many polygons on.
 constexpr std::uint32_t kTreeFrom = 12;
+// The faces of convex parts are seldom asked: their outline is.
+constexpr std::uint32_t kTreeFromIfConvex = 64;
 // Parts up to this size have normals of 62 bits.
 constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
 
@@ -41,28 +43,28 @@ class PartMerger {
     project();
     if (!narrow()) {
       for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) add_wide(t);
-      if (PartView part = finished(); part.first < part.last)
+      if (PartView part = finished(kTreeFrom); part.first < part.last)
         view_.parts.push_back(std::move(part));
       return false;
     }
     find_planes();
     const bool convex = walk_edges() && is_star_shaped();
     add_groups();
-    PartView part = finished();
+    PartView part = finished(convex ? kTreeFromIfConvex : kTreeFrom);
     if (convex) add_outline(part);
     if (part.first < part.last) view_.parts.push_back(std::move(part));
     return convex;
   }
 
  private:
-  [[nodiscard]] PartView finished() const {
+  [[nodiscard]] PartView finished(std::uint32_t tree_from) const {
     PartView part;
     part.first = first_;
     part.last = static_cast<std::uint32_t>(view_.polygons.size());
     std::vector<ViewBox> boxes;
     for (const Polygon& p : std::span(view_.polygons).subspan(first_)) {
       part.box.include(p.box);
-      if (part.last - part.first >= kTreeFrom) boxes.push_back(p.box);
+      if (part.last - part.first >= tree_from) boxes.push_back(p.box);
     }
     if (!boxes.empty()) part.tree = ViewTree(boxes);
     return part;
@@ -225,12 +227,33 @@ class PartMerger {
     view_.corners.push_back({q.u, q.v});
   }
 
+  // The edges between faces towards the viewer and the others, as one loop (certified convex
+  // parts: every edge has two triangles).
+  bool contour() {
+    next_.assign(part_.vertices.size(), geometry::kNoFace);
+    std::size_t count = 0;
+    std::uint32_t from = geometry::kNoFace;
+    for (std::size_t k = 0; k + 1 < part_.edges.size(); ++k) {
+      const geometry::PartEdge& e = part_.edges[k];
+      std::uint32_t s = part_.edge_triangles[e.first_triangle];
+      const std::uint32_t t = part_.edge_triangles[e.first_triangle + 1];
+      if ((planes_[s].facing > 0) == (planes_[t].facing > 0)) continue;
+      if (planes_[t].facing > 0) s = t;
+      const bool along_edge = runs(s, e.v0, e.v1);
+      from = along_edge ? e.v0 : e.v1;
+      if (next_[from] != geometry::kNoFace) return false;
+      next_[from] = along_edge ? e.v1 : e.v0;
+      ++count;
+    }
+    loop_.clear();
+    for (std::uint32_t v = from; v != geometry::kNoFace && loop_.size() < count; v = next_[v])
+      loop_.push_back(v);
+    return count >= 3 && loop_.size() == count && next_[loop_.back()] == from;
+  }
+
   // The outline of a certified convex part, as one polygon.
   void add_outline(PartView& view) {
-    std::vector<std::uint32_t> front;
-    for (std::uint32_t t = 0; t < planes_.size(); ++t)
-      if (planes_[t].facing > 0) front.push_back(t);
-    if (front.empty() || !outline(front) || !is_convex_loop()) return;
+    if (!contour() || !is_convex_loop()) return;
     view.outline.part = part_index_;
     view.outline.first_corner = static_cast<std::uint32_t>(view_.corners.size());
     for (const std::uint32_t v : loop_) add_corner(view.outline, v);
@@ -276,7 +299,9 @@ class PartMerger {
   }
 
   void add_group(std::span<const std::uint32_t> triangles) {
-    if (triangles.size() > 1 && outline(triangles) && is_convex_loop()) {
+    const bool found = triangles.size() == 2 ? outline_of_pair(triangles[0], triangles[1])
+                                             : triangles.size() > 2 && outline(triangles);
+    if (found && is_convex_loop()) {
       add_polygon(triangles[0], loop_);
       return;
     }
@@ -286,6 +311,21 @@ class PartMerger {
       if (planes_[t].facing < 0) std::swap(loop_[1], loop_[2]);
       add_polygon(t, loop_);
     }
+  }
+
+  // The same for two triangles that share an edge, without sorting.
+  bool outline_of_pair(std::uint32_t s, std::uint32_t t) {
+    const Triangle &i = part_.triangles[s], &j = part_.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = i[k], b = i[(k + 1) % 3], c = i[(k + 2) % 3];
+      for (std::size_t m = 0; m < 3; ++m) {
+        if (j[m] != b || j[(m + 1) % 3] != a) continue;
+        loop_ = {a, j[(m + 2) % 3], b, c};
+        if (planes_[s].facing < 0) std::reverse(loop_.begin(), loop_.end());
+        return loop_[0] != loop_[2] && loop_[1] != loop_[3];
+      }
+    }
+    return false;
   }
 
   // The single closed outline of a group, counter-clockwise to the viewer; false if there are

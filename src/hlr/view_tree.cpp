@@ -78,6 +78,8 @@ ViewTree::ViewTree(std::span<const ViewBox> boxes, std::uint32_t leaf_size) {
     tasks.push_back({child, task.first, middle});
     tasks.push_back({child + 1, middle, task.last});
   }
+  boxes_.reserve(order_.size());
+  for (const std::uint32_t i : order_) boxes_.push_back(loose[i]);
 }
 
 }  // namespace strake::hlr

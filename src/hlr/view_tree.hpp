@@ -51,7 +51,7 @@ class ViewTree {
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// Calls visit(index) -> bool for every item whose node may hide the segment, nearer nodes
+  /// Calls visit(index) -> bool for every item whose box may hide the segment, nearer nodes
   /// first; visit may shrink the segment, and ends the walk by returning false.
   template <class Visit>
   void walk(const LooseSegment& segment, Visit&& visit) const {
@@ -64,7 +64,7 @@ class ViewTree {
       if (!segment.may_hide(node.box)) continue;
       if (node.count > 0) {
         for (std::uint32_t i = 0; i < node.count; ++i)
-          if (!visit(order_[node.first + i])) return;
+          if (segment.may_hide(boxes_[node.first + i]) && !visit(order_[node.first + i])) return;
         continue;
       }
       const bool left_nearer = nodes_[node.first].box.w1 >= nodes_[node.first + 1].box.w1;
@@ -76,6 +76,7 @@ class ViewTree {
  private:
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
+  std::vector<LooseBox> boxes_;  ///< in that order, so that what is rejected is not fetched
 };
 
 }  // namespace strake::hlr
