@@ -1,1 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "drawing/paper.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "strake/core/number.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+using geometry::Vec3d;
+
+struct Size {
+  double width, height;
+};
+constexpr std::array<Size, 4> kSheets = {{{420, 297}, {594, 420}, {841, 594}, {1189, 841}}};
+
+std::optional<Vec3d> unit(const Vec3d& v) {
+  const double length = std::sqrt(dot(v, v));
+  if (!(length > 0)) return std::nullopt;
+  return Vec3d{v.x / length, v.y / length, v.z / length};
+}
+
+Size room(const Size& sheet, double margin) {
+  return {sheet.width - 2 * margin, sheet.height - 2 * margin - kTitleStrip};
+}
+
+bool fits(const PlaneBox& box, double scale, const Size& space) {
+  return box.width() <= space.width * scale && box.height() <= space.height * scale;
+}
+
+/// The first of 1, 2, 5, 10, 20, 50 … at which the box fits.
+double usual_scale(const PlaneBox& box, const Size& space) {
+  double decade = 1;
+  for (;;) {
+    for (const double step : {1.0, 2.0, 5.0})
+      if (fits(box, decade * step, space)) return decade * step;
+    decade *= 10;
+  }
+}
+
+double next_ten(double mm) { return std::ceil(mm / 10) * 10; }
+
+}  // namespace
+
+std::optional<PaperAxes> paper_axes(const hlr::View& view) {
+  // Exact while components stay within 2^20: the first product within 2^41, the second 2^62.
+  const geometry::Vec3l right = cross(view.up, view.direction);
+  const geometry::Vec3l up = cross(view.direction, right);
+  const auto r = unit(right.as<double>()), u = unit(up.as<double>()),
+             d = unit(view.direction.as<double>());
+  if (!r || !u || !d) return std::nullopt;
+  return PaperAxes{*r, *u, *d};
+}
+
+double rounded_paper(double mm) { return std::nearbyint(mm * 1000) / 1000 + 0.0; }
+
+Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options) {
+  Sheet sheet;
+  sheet.scale = options.scale.value_or(usual_scale(box, room(kSheets[0], options.margin_mm)));
+  sheet.scale_text =
+      sheet.scale >= 1 ? "1:" + shortest(sheet.scale) : shortest(1 / sheet.scale) + ":1";
+  for (const Size& size : kSheets) {
+    sheet.width_mm = size.width;
+    sheet.height_mm = size.height;
+    if (fits(box, sheet.scale, room(size, options.margin_mm))) return sheet;
+  }
+  sheet.width_mm =
+      std::max(sheet.width_mm, next_ten(box.width() / sheet.scale + 2 * options.margin_mm));
+  sheet.height_mm = std::max(
+      sheet.height_mm, next_ten(box.height() / sheet.scale + 2 * options.margin_mm + kTitleStrip));
+  return sheet;
+}
+
+}  // namespace strake::drawing

@@ -177,9 +177,10 @@ model::Color Builder::color_of(const BodyRecord& record) {
 }
 
 void Builder::emit_objects(Built& built) {
-  // Stable: the bodies of a group keep the order of the file, before and after child groups alike.
-  std::stable_sort(bodies_.begin(), bodies_.end(), [](const BodyRecord& a, const BodyRecord& b) {
-    return a.group + 1 < b.group + 1;
+  // The bodies of a group keep the order of the file, before and after child groups alike; those
+  // outside any group come first.
+  std::sort(bodies_.begin(), bodies_.end(), [](const BodyRecord& a, const BodyRecord& b) {
+    return std::pair(a.group + 1, a.offset) < std::pair(b.group + 1, b.offset);
   });
   built.model.bodies.reserve(bodies_.size());
   for (const BodyRecord& record : bodies_) {

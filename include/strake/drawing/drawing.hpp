@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/model/model.hpp"
+
+namespace strake::drawing {
+
+/// What a piece is on paper: hlr::State and one more that only paper knows.
+enum class LineState : std::uint8_t {
+  visible,
+  hidden_by_self,
+  hidden_by_other,
+  projecting,
+  clipped,
+  duplicate,  ///< drawn already by a piece that lies on it: visible first, then nearest, lowest id
+};
+inline constexpr std::size_t kLineStates = 6;
+
+/// Names as files spell them: "hidden_by_self", "non_manifold", "global".
+[[nodiscard]] std::string_view state_name(LineState state);
+[[nodiscard]] std::string_view kind_name(hlr::EdgeKind kind);
+[[nodiscard]] std::string_view stage_name(hlr::Stage stage);
+
+/// Millimetres on the sheet: x to the right, y down, from the upper left corner.
+struct PaperPoint {
+  double x = 0, y = 0;
+  friend bool operator==(const PaperPoint&, const PaperPoint&) = default;
+};
+
+/// A straight piece of an edge, in the model and on the sheet.
+struct Line {
+  model::ObjectId object{};
+  std::uint32_t edge = 0;
+  hlr::EdgeKind kind = hlr::EdgeKind::sharp;
+  LineState state = LineState::visible;
+  geometry::Vec3d a_mm, b_mm;
+  PaperPoint a_paper, b_paper;  ///< multiples of a micrometre of paper
+};
+
+struct LayoutOptions {
+  std::string view_name = "view";
+  std::string title;            ///< of the sheet; empty: from the view's name
+  std::optional<double> scale;  ///< model mm per paper mm; none: chosen to fit A3
+  double margin_mm = 10;
+  /// Find pieces that lie on each other within two micrometres of paper and draw one of them.
+  bool remove_duplicates = true;
+};
+
+struct Sheet {
+  double width_mm = 420, height_mm = 297;
+  double scale = 1;        ///< model mm per paper mm
+  std::string scale_text;  ///< "1:50", "2:1"
+};
+
+/// A drawing without a format: what SVG and JSON are both written from.
+///
+/// Lines keep the order (object, edge, parameter) and so the same bytes for any number of threads.
+struct NeutralDrawing {
+  std::string view_name, title;
+  hlr::View view;
+  hlr::Stage stage = hlr::Stage::global;
+  double sharp_angle_deg = 20;
+  double contact_distance_mm = 0;
+  Sheet sheet;
+  std::vector<Line> lines;
+  std::array<std::uint64_t, kLineStates> count{};  ///< of lines, by state
+  hlr::Counters counters;
+  Hash128 hash;  ///< of the view and of every line in the model; not of the sheet or of settings
+};
+
+/// Puts a finished hidden-line run on paper: axes from direction and up, the scale, the sheet.
+/// Deterministic: + - * / and sqrt only.
+[[nodiscard]] Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
+                                             const LayoutOptions& options);
+
+}  // namespace strake::drawing

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::drawing {
+
+/// A view direction in integers, with how far it is from what was asked for.
+struct Direction {
+  geometry::Vec3l vector;     ///< points to the viewer (or up); no common factor
+  bool rounded = false;       ///< the text's decimals needed more than 20 bits
+  double rounding_error = 0;  ///< sine of the angle between what was asked for and `vector`
+};
+
+/// "top", "bottom", "front", "back", "left", "right" or "iso": the direction to the viewer.
+[[nodiscard]] Result<geometry::Vec3l> direction_by_name(std::string_view name);
+
+/// "1,-2,1" as a direction. Whole numbers up to 2^20 are taken as they are; decimals are scaled
+/// exactly where they can be, otherwise rounded to 20 bits of the largest component and reported.
+[[nodiscard]] Result<Direction> parse_direction(std::string_view text);
+
+/// The upward direction that people expect of a view: z, or for plans (viewed along z) y.
+[[nodiscard]] geometry::Vec3l default_up(const geometry::Vec3l& direction);
+
+}  // namespace strake::drawing

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "strake/drawing/drawing.hpp"
+#include "strake/model/model.hpp"
+#include "strake/parallel/function_ref.hpp"
+
+namespace strake::drawing {
+
+/// Takes text in pieces of some kilobytes, in order: AtomicFile::write, a string's append.
+using Sink = parallel::FunctionRef<void(std::string_view)>;
+
+struct SvgOptions {
+  bool hidden = false;  ///< draw hidden lines, dashed; otherwise leave them out
+};
+
+/// SVG in millimetres of paper: one Inkscape layer per class of line, in each one group per object
+/// (data-id, data-name) with one path, styles once. Neither time nor path of this run is written.
+void write_svg(const NeutralDrawing& drawing, const model::Model& model, const SvgOptions& options,
+               Sink sink);
+
+/// The neutral drawing as JSON, documented in schemas/view.schema.json.
+void write_view_json(const NeutralDrawing& drawing, const model::Model& model, Sink sink);
+
+/// Text made safe for XML content and quoted attributes: markup escaped, characters that XML
+/// forbids and bytes that are no UTF-8 replaced by U+FFFD, and so are the controls that turn the
+/// direction of writing, so that a name cannot pass itself off as another.
+[[nodiscard]] std::string xml_escaped(std::string_view text);
+
+/// Text as a JSON string, quotes included; bytes that are no UTF-8 become U+FFFD.
+[[nodiscard]] std::string json_quoted(std::string_view text);
+
+}  // namespace strake::drawing

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "strake/drawing/drawing.hpp"
+
+namespace strake::drawing {
+
+/// Points to be joined by straight lines; closed when the last is the first.
+using Chain = std::vector<PaperPoint>;
+
+/// Joins lines that meet end to end on paper into chains, each line once.
+///
+/// A chain begins with the first line not yet drawn that has a free end, or failing that with the
+/// first not yet drawn, and at a fork goes on with the first: the order of the lines alone decides.
+/// Lines without length are left out.
+[[nodiscard]] std::vector<Chain> join_lines(std::span<const Line* const> lines);
+
+}  // namespace strake::drawing

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "drawing/duplicates.hpp"
+#include "drawing/paper.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+using geometry::Vec3d;
+using geometry::Vec3l;
+
+LineState line_state(hlr::State state) {
+  switch (state) {
+    case hlr::State::visible:
+      return LineState::visible;
+    case hlr::State::hidden_by_self:
+      return LineState::hidden_by_self;
+    case hlr::State::hidden_by_other:
+      return LineState::hidden_by_other;
+    case hlr::State::projecting:
+      return LineState::projecting;
+    case hlr::State::clipped:
+      return LineState::clipped;
+  }
+  return LineState::clipped;
+}
+
+/// Places points of the model on a sheet. Points are taken relative to the first one before they
+/// become doubles, so that a model in map coordinates loses nothing.
+class Projector {
+ public:
+  Projector(const PaperAxes& axes, const Vec3l& origin) : axes_(axes), origin_(origin) {}
+
+  [[nodiscard]] PaperPoint on_plane(const Vec3l& grid) const {
+    const Vec3d p = geometry::to_mm(grid - origin_);
+    return {dot(axes_.right, p), dot(axes_.up, p)};
+  }
+  void place(const PlaneBox& box, const Sheet& sheet) {
+    scale_ = sheet.scale;
+    left_ = sheet.width_mm / 2 - (box.left + box.width() / 2) / scale_;
+    top_ = (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / scale_;
+  }
+  [[nodiscard]] PaperPoint on_paper(const Vec3l& grid) const {
+    const PaperPoint plane = on_plane(grid);
+    return {rounded_paper(left_ + plane.x / scale_), rounded_paper(top_ - plane.y / scale_)};
+  }
+
+ private:
+  PaperAxes axes_;
+  Vec3l origin_;
+  double scale_ = 1, left_ = 0, top_ = 0;
+};
+
+PlaneBox extent(const std::vector<hlr::Piece>& pieces, const Projector& projector) {
+  constexpr double kBig = std::numeric_limits<double>::max();
+  PlaneBox box{kBig, -kBig, kBig, -kBig};
+  for (const hlr::Piece& piece : pieces) {
+    if (piece.state == hlr::State::clipped) continue;
+    for (const Vec3l& end : {piece.a, piece.b}) {
+      const PaperPoint p = projector.on_plane(end);
+      box.left = std::min(box.left, p.x);
+      box.right = std::max(box.right, p.x);
+      box.bottom = std::min(box.bottom, p.y);
+      box.top = std::max(box.top, p.y);
+    }
+  }
+  return box.left <= box.right ? box : PlaneBox{};
+}
+
+void add_vector(Hasher& hasher, const Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
+
+Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
+  Hasher hasher;
+  add_vector(hasher, drawing.view.direction);
+  add_vector(hasher, drawing.view.up);
+  if (drawing.view.limits) {
+    add_vector(hasher, drawing.view.limits->lo);
+    add_vector(hasher, drawing.view.limits->hi);
+  }
+  hasher.add(static_cast<std::uint64_t>(drawing.pieces.size()));
+  const hlr::Piece* last = nullptr;
+  for (const hlr::Piece& piece : drawing.pieces) {
+    if (last == nullptr || last->object != piece.object) {
+      const model::Object& object = model.object(piece.object);
+      hasher.add(std::string_view(model.files[object.file].label)).add(std::string_view(object.id));
+    }
+    hasher.add(static_cast<std::uint32_t>(piece.kind)).add(static_cast<std::uint32_t>(piece.state));
+    add_vector(hasher, piece.a);
+    add_vector(hasher, piece.b);
+    last = &piece;
+  }
+  return hasher.value();
+}
+
+}  // namespace
+
+Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
+                               const LayoutOptions& options) {
+  const auto axes = paper_axes(drawing.view);
+  if (!axes)
+    return Error{ErrorCode::usage, "the upward direction is parallel to the view direction", "",
+                 "give another --up"};
+  if (options.scale && !(*options.scale > 0 && std::isfinite(*options.scale)))
+    return Error{ErrorCode::usage, "the scale is not a positive number", "", "use 1:50, say"};
+  Projector projector(*axes, drawing.pieces.empty() ? Vec3l{} : drawing.pieces.front().a);
+  const PlaneBox box = extent(drawing.pieces, projector);
+  NeutralDrawing out;
+  out.sheet = choose_sheet(box, options);
+  projector.place(box, out.sheet);
+  out.view_name = options.view_name;
+  out.title = options.title.empty() ? options.view_name : options.title;
+  out.view = drawing.view;
+  out.stage = drawing.options.stage;
+  out.sharp_angle_deg = drawing.options.sharp_angle_deg;
+  out.contact_distance_mm = drawing.contact_distance_mm;
+  out.counters = drawing.counters;
+  out.hash = hash_of(drawing, model);
+  out.lines.reserve(drawing.pieces.size());
+  for (const hlr::Piece& piece : drawing.pieces)
+    out.lines.push_back({piece.object, piece.edge, piece.kind, line_state(piece.state),
+                         geometry::to_mm(piece.a), geometry::to_mm(piece.b),
+                         projector.on_paper(piece.a), projector.on_paper(piece.b)});
+  if (options.remove_duplicates) out.lines = mark_duplicates(std::move(out.lines), axes->toward);
+  for (const Line& line : out.lines) ++out.count[static_cast<std::size_t>(line.state)];
+  return out;
+}
+
+}  // namespace strake::drawing

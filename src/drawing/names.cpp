@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/drawing/drawing.hpp"
+
+namespace strake::drawing {
+
+std::string_view state_name(LineState state) {
+  switch (state) {
+    case LineState::visible:
+      return "visible";
+    case LineState::hidden_by_self:
+      return "hidden_by_self";
+    case LineState::hidden_by_other:
+      return "hidden_by_other";
+    case LineState::projecting:
+      return "projecting";
+    case LineState::clipped:
+      return "clipped";
+    case LineState::duplicate:
+      return "duplicate";
+  }
+  return "";
+}
+
+std::string_view kind_name(hlr::EdgeKind kind) {
+  switch (kind) {
+    case hlr::EdgeKind::sharp:
+      return "sharp";
+    case hlr::EdgeKind::contour:
+      return "contour";
+    case hlr::EdgeKind::boundary:
+      return "boundary";
+    case hlr::EdgeKind::non_manifold:
+      return "non_manifold";
+    case hlr::EdgeKind::polyline:
+      return "polyline";
+  }
+  return "";
+}
+
+std::string_view stage_name(hlr::Stage stage) {
+  switch (stage) {
+    case hlr::Stage::none:
+      return "none";
+    case hlr::Stage::local:
+      return "local";
+    case hlr::Stage::global:
+      return "global";
+  }
+  return "";
+}
+
+}  // namespace strake::drawing

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drawing/chains.hpp"
+#include "drawing/chunked.hpp"
+#include "strake/core/number.hpp"
+#include "strake/drawing/write.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+/// A layer of the sheet: the lines of one kind, seen or hidden.
+struct Layer {
+  bool hidden;
+  hlr::EdgeKind kind;
+  std::string_view label;
+};
+
+// Later layers are drawn over earlier ones: outlines last.
+constexpr std::array<Layer, 10> kLayers = {{
+    {true, hlr::EdgeKind::polyline, "Hidden polylines"},
+    {true, hlr::EdgeKind::boundary, "Hidden boundary"},
+    {true, hlr::EdgeKind::non_manifold, "Hidden non-manifold"},
+    {true, hlr::EdgeKind::sharp, "Hidden sharp"},
+    {true, hlr::EdgeKind::contour, "Hidden outline"},
+    {false, hlr::EdgeKind::polyline, "Visible polylines"},
+    {false, hlr::EdgeKind::boundary, "Visible boundary"},
+    {false, hlr::EdgeKind::non_manifold, "Visible non-manifold"},
+    {false, hlr::EdgeKind::sharp, "Visible sharp"},
+    {false, hlr::EdgeKind::contour, "Visible outline"},
+}};
+
+bool is_hidden(LineState state) {
+  return state == LineState::hidden_by_self || state == LineState::hidden_by_other;
+}
+
+bool belongs(const Line& line, const Layer& layer) {
+  if (line.kind != layer.kind) return false;
+  return layer.hidden ? is_hidden(line.state) : line.state == LineState::visible;
+}
+
+/// Line widths of ISO 128-20, wide and narrow one to two, with a middle one for edges.
+struct Weights {
+  double wide, middle, narrow;
+};
+
+/// The line group by how much of the drawn area ink of middle width would cover: a dense drawing
+/// in wide lines is a black patch.
+Weights choose_weights(const NeutralDrawing& drawing) {
+  double length = 0, left = 1e300, right = -1e300, top = 1e300, bottom = -1e300;
+  for (const Line& line : drawing.lines) {
+    if (line.state != LineState::visible) continue;
+    const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
+    length += std::sqrt(dx * dx + dy * dy);
+    for (const PaperPoint& p : {line.a_paper, line.b_paper}) {
+      left = std::min(left, p.x);
+      right = std::max(right, p.x);
+      top = std::min(top, p.y);
+      bottom = std::max(bottom, p.y);
+    }
+  }
+  const double area = length > 0 ? std::max(right - left, 1.0) * std::max(bottom - top, 1.0) : 1;
+  const double ink = length * 0.35 / area;
+  if (ink > 0.25) return {0.18, 0.13, 0.09};
+  if (ink > 0.12) return {0.25, 0.18, 0.13};
+  if (ink > 0.05) return {0.35, 0.25, 0.18};
+  return {0.5, 0.35, 0.25};
+}
+
+void write_style(Chunked& out, const Weights& w) {
+  // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
+  out << fmt::format(
+      "<style>\n"
+      "path {{ fill: none; stroke: #000; stroke-linecap: round; stroke-linejoin: round; }}\n"
+      ".visible.contour path {{ stroke-width: {0}; }}\n"
+      ".visible.sharp path, .visible.boundary path, .visible.non_manifold path "
+      "{{ stroke-width: {1}; }}\n"
+      ".visible.polyline path {{ stroke-width: {2}; stroke: #246; }}\n"
+      ".hidden path {{ stroke-width: {2}; stroke: #444; stroke-linecap: butt; "
+      "stroke-dasharray: {3} {4}; }}\n"
+      ".hidden.polyline path {{ stroke: #68a; }}\n"
+      "text {{ font-family: sans-serif; font-size: 3.5px; }}\n"
+      ".frame path {{ stroke-width: {2}; }}\n"
+      "</style>\n",
+      w.wide, w.middle, w.narrow, shortest(std::round(w.narrow * 1200) / 100),
+      shortest(std::round(w.narrow * 300) / 100));
+}
+
+std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+void write_head(Chunked& out, const NeutralDrawing& drawing) {
+  const Sheet& sheet = drawing.sheet;
+  const std::string width = shortest(sheet.width_mm), height = shortest(sheet.height_mm);
+  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      << "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+         "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
+      << fmt::format("width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n", width, height)
+      << "<title>" << xml_escaped(drawing.title) << " \xC2\xB7 " << sheet.scale_text
+      << "</title>\n<metadata>\n"
+      << "<drawing xmlns=\"urn:strake:drawing:1\" view=\"" << xml_escaped(drawing.view_name)
+      << "\" direction=\"" << vector_text(drawing.view.direction) << "\" up=\""
+      << vector_text(drawing.view.up) << "\" stage=\"" << stage_name(drawing.stage) << "\" scale=\""
+      << sheet.scale_text << "\" contact-distance-mm=\"" << shortest(drawing.contact_distance_mm)
+      << "\" hash=\"" << drawing.hash.text() << "\">\n"
+      << fmt::format("<counts objects=\"{}\" objects-drawn=\"{}\" feature-edges=\"{}\"",
+                     drawing.counters.objects, drawing.counters.objects_drawn,
+                     drawing.counters.feature_edges);
+  for (std::size_t s = 0; s < kLineStates; ++s) {
+    std::string name(state_name(static_cast<LineState>(s)));
+    std::replace(name.begin(), name.end(), '_', '-');
+    out << fmt::format(" {}=\"{}\"", name, drawing.count[s]);
+  }
+  out << "/>\n</drawing>\n</metadata>\n";
+}
+
+void append_point(std::string& out, const PaperPoint& p) {
+  out += shortest(p.x);
+  out += ' ';
+  out += shortest(p.y);
+}
+
+void write_object(Chunked& out, const model::Model& model, std::span<const Line* const> lines) {
+  const std::vector<Chain> chains = join_lines(lines);
+  if (chains.empty()) return;
+  const model::Object& object = model.object(lines.front()->object);
+  out << "<g data-id=\"" << xml_escaped(object.id) << "\" data-name=\"" << xml_escaped(object.name)
+      << "\" data-file=\"" << xml_escaped(model.files[object.file].label) << "\"><path d=\"";
+  for (const Chain& chain : chains) {
+    std::string& text = out.buffer();
+    const bool closed = chain.size() > 3 && chain.front() == chain.back();
+    text += 'M';
+    append_point(text, chain.front());
+    for (std::size_t i = 1; i + (closed ? 1 : 0) < chain.size(); ++i) {
+      text += i == 1 ? 'L' : ' ';
+      append_point(text, chain[i]);
+    }
+    if (closed) text += 'Z';
+    out << "";
+  }
+  out << "\"/></g>\n";
+}
+
+void write_layer(Chunked& out, const NeutralDrawing& drawing, const model::Model& model,
+                 const Layer& layer) {
+  std::vector<const Line*> lines;
+  for (const Line& line : drawing.lines)
+    if (belongs(line, layer)) lines.push_back(&line);
+  if (lines.empty()) return;
+  const std::string_view state = layer.hidden ? "hidden" : "visible";
+  const std::string_view kind = kind_name(layer.kind);
+  out << fmt::format(
+      "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" id=\"{}-{}\" class=\"{} {}\">\n",
+      layer.label, state, kind, state, kind);
+  for (std::size_t i = 0; i < lines.size();) {
+    std::size_t end = i + 1;
+    while (end < lines.size() && lines[end]->object == lines[i]->object) ++end;
+    write_object(out, model, std::span(lines).subspan(i, end - i));
+    i = end;
+  }
+  out << "</g>\n";
+}
+
+void write_title(Chunked& out, const NeutralDrawing& drawing) {
+  const Sheet& sheet = drawing.sheet;
+  const double x = sheet.width_mm - 10, y = sheet.height_mm - 6;
+  out << "<g inkscape:groupmode=\"layer\" inkscape:label=\"Title\" id=\"title\" class=\"frame\">\n"
+      << fmt::format("<path d=\"M10 {0}L{1} {0}\"/>\n", shortest(sheet.height_mm - 11), shortest(x))
+      << fmt::format("<text x=\"10\" y=\"{}\">", shortest(y)) << xml_escaped(drawing.title)
+      << "</text>\n"
+      << fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">", shortest(x), shortest(y))
+      << "scale " << sheet.scale_text << "</text>\n</g>\n";
+}
+
+}  // namespace
+
+void write_svg(const NeutralDrawing& drawing, const model::Model& model, const SvgOptions& options,
+               Sink sink) {
+  Chunked out(sink);
+  write_head(out, drawing);
+  write_style(out, choose_weights(drawing));
+  out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
+      << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
+  for (const Layer& layer : kLayers)
+    if (options.hidden || !layer.hidden) write_layer(out, drawing, model, layer);
+  out << "</g>\n";
+  write_title(out, drawing);
+  out << "</svg>\n";
+}
+
+}  // namespace strake::drawing

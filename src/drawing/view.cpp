@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/drawing/view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+
+#include "strake/core/number.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+using geometry::Vec3d;
+using geometry::Vec3l;
+
+constexpr std::int64_t kLargest = std::int64_t{1} << 20;
+
+struct Named {
+  std::string_view name;
+  Vec3l direction;
+};
+constexpr std::array<Named, 7> kNamed = {{{"top", {0, 0, 1}},
+                                          {"bottom", {0, 0, -1}},
+                                          {"front", {0, -1, 0}},
+                                          {"back", {0, 1, 0}},
+                                          {"left", {-1, 0, 0}},
+                                          {"right", {1, 0, 0}},
+                                          {"iso", {1, -1, 1}}}};
+
+Vec3l reduced(const Vec3l& v) {
+  const std::int64_t common = std::gcd(std::gcd(v.x, v.y), v.z);
+  return common > 1 ? Vec3l{v.x / common, v.y / common, v.z / common} : v;
+}
+
+std::int64_t largest_of(const Vec3l& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// Three decimals as whole numbers of the finest digit among them, when they fit.
+bool scale_exactly(const std::array<std::string_view, 3>& texts, Vec3l& out) {
+  std::size_t places = 0;
+  for (const std::string_view text : texts) {
+    if (text.find_first_of("eE") != std::string_view::npos) return false;
+    const std::size_t point = text.find('.');
+    if (point != std::string_view::npos) places = std::max(places, text.size() - point - 1);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::string digits(texts[k]);
+    const std::size_t point = digits.find('.');
+    std::size_t missing = places;
+    if (point != std::string::npos) {
+      missing -= digits.size() - point - 1;
+      digits.erase(point, 1);
+    }
+    digits.append(missing, '0');
+    const auto value = parse_integer(digits);
+    if (!value) return false;
+    out[static_cast<int>(k)] = *value;
+  }
+  // std::abs of the smallest integer does not exist.
+  for (int k = 0; k < 3; ++k)
+    if (out[k] == INT64_MIN) return false;
+  out = reduced(out);
+  return largest_of(out) <= kLargest;
+}
+
+double sine_between(const Vec3d& a, const Vec3d& b) {
+  const Vec3d normal = cross(a, b);
+  return std::sqrt(dot(normal, normal) / (dot(a, a) * dot(b, b)));
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+Result<Vec3l> direction_by_name(std::string_view name) {
+  for (const Named& named : kNamed)
+    if (named.name == name) return named.direction;
+  return Error{ErrorCode::usage, fmt::format("no view is called \"{}\"", name), "",
+               "use top, bottom, front, back, left, right or iso, or give a direction"};
+}
+
+Result<Direction> parse_direction(std::string_view text) {
+  const Error malformed{ErrorCode::usage, fmt::format("\"{}\" is not a direction", text), "",
+                        "give three numbers as x,y,z that are not all zero"};
+  std::array<std::string_view, 3> parts;
+  std::array<double, 3> values{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t comma = text.find(',');
+    if ((comma == std::string_view::npos) != (k == 2)) return malformed;
+    parts[k] = trimmed(text.substr(0, comma));
+    text.remove_prefix(k == 2 ? text.size() : comma + 1);
+    const auto value = parse_number(parts[k]);
+    if (!value) return malformed;
+    values[k] = *value;
+    if (parts[k].starts_with('+')) parts[k].remove_prefix(1);
+  }
+  const double largest =
+      std::max({std::fabs(values[0]), std::fabs(values[1]), std::fabs(values[2])});
+  if (!(largest > 0)) return malformed;
+  Direction direction;
+  if (scale_exactly(parts, direction.vector)) return direction;
+  // Divided first, so that neither huge nor tiny components overflow on the way.
+  const Vec3d wanted{values[0] / largest, values[1] / largest, values[2] / largest};
+  for (int k = 0; k < 3; ++k)
+    direction.vector[k] = std::llround(wanted[k] * static_cast<double>(kLargest));
+  direction.vector = reduced(direction.vector);
+  direction.rounded = true;
+  direction.rounding_error = sine_between(wanted, direction.vector.as<double>());
+  return direction;
+}
+
+Vec3l default_up(const Vec3l& direction) {
+  if (direction.x == 0 && direction.y == 0) return {0, 1, 0};
+  return {0, 0, 1};
+}
+
+}  // namespace strake::drawing

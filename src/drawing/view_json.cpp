@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "drawing/chunked.hpp"
+#include "strake/core/number.hpp"
+#include "strake/core/version.hpp"
+#include "strake/drawing/write.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+void append_numbers(std::string& out, std::initializer_list<double> values) {
+  const char* separator = "[";
+  for (const double value : values) {
+    out += separator;
+    append_shortest(out, value);
+    separator = ",";
+  }
+  out += ']';
+}
+
+std::string whole_numbers(const geometry::Vec3l& v) {
+  return fmt::format("[{},{},{}]", v.x, v.y, v.z);
+}
+
+void write_view(Chunked& out, const NeutralDrawing& drawing) {
+  out << "\"view\":{\"name\":" << json_quoted(drawing.view_name)
+      << ",\"projection\":\"orthographic\",\"direction\":" << whole_numbers(drawing.view.direction)
+      << ",\"up\":" << whole_numbers(drawing.view.up) << ",\"limits_mm\":";
+  if (drawing.view.limits) {
+    const geometry::Vec3d lo = geometry::to_mm(drawing.view.limits->lo);
+    const geometry::Vec3d hi = geometry::to_mm(drawing.view.limits->hi);
+    append_numbers(out.buffer(), {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z});
+  } else {
+    out << "null";
+  }
+  out << "},\n\"settings\":{\"stage\":\"" << stage_name(drawing.stage)
+      << "\",\"sharp_angle_deg\":" << shortest(drawing.sharp_angle_deg)
+      << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm)
+      << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)
+      << ",\"height_mm\":" << shortest(drawing.sheet.height_mm)
+      << ",\"scale\":" << shortest(drawing.sheet.scale) << ",\"scale_text\":\""
+      << drawing.sheet.scale_text << "\"},\n";
+}
+
+void write_counts(Chunked& out, const NeutralDrawing& drawing) {
+  const hlr::Counters& c = drawing.counters;
+  out << fmt::format(
+      "\"counts\":{{\"objects\":{},\"objects_drawn\":{},\"objects_hidden\":{},"
+      "\"objects_clipped\":{},\"feature_edges\":{},\"pieces\":{}",
+      c.objects, c.objects_drawn, c.objects_hidden, c.objects_clipped, c.feature_edges,
+      drawing.lines.size());
+  for (std::size_t s = 0; s < kLineStates; ++s)
+    out << fmt::format(",\"{}\":{}", state_name(static_cast<LineState>(s)), drawing.count[s]);
+  out << "},\n";
+}
+
+void append_line(std::string& out, const Line& line, std::string_view object, std::size_t index) {
+  out += "{\"object\":";
+  out += object;
+  out += fmt::format(",\"object_index\":{},\"edge\":{},\"kind\":\"{}\",\"state\":\"{}\",\"a_mm\":",
+                     index, line.edge, kind_name(line.kind), state_name(line.state));
+  append_numbers(out, {line.a_mm.x, line.a_mm.y, line.a_mm.z});
+  out += ",\"b_mm\":";
+  append_numbers(out, {line.b_mm.x, line.b_mm.y, line.b_mm.z});
+  out += ",\"a_paper_mm\":";
+  append_numbers(out, {line.a_paper.x, line.a_paper.y});
+  out += ",\"b_paper_mm\":";
+  append_numbers(out, {line.b_paper.x, line.b_paper.y});
+  out += '}';
+}
+
+}  // namespace
+
+void write_view_json(const NeutralDrawing& drawing, const model::Model& model, Sink sink) {
+  Chunked out(sink);
+  out << "{\"schema_version\":1,\n\"generator\":{\"name\":\"strake\",\"version\":"
+      << json_quoted(version()) << "},\n";
+  write_view(out, drawing);
+  write_counts(out, drawing);
+  out << "\"hash\":\"" << drawing.hash.text() << "\",\n\"objects\":[";
+  // Lines come by object: each object that has any is listed once, in that order.
+  const Line* last = nullptr;
+  for (const Line& line : drawing.lines) {
+    if (last == nullptr || last->object != line.object) {
+      const model::Object& object = model.object(line.object);
+      out << (last == nullptr ? "\n" : ",\n") << "{\"id\":" << json_quoted(object.id)
+          << ",\"name\":" << json_quoted(object.name)
+          << ",\"file\":" << json_quoted(model.files[object.file].label) << "}";
+    }
+    last = &line;
+  }
+  out << "],\n\"pieces\":[";
+  last = nullptr;
+  std::string id;
+  std::size_t index = 0;
+  for (const Line& line : drawing.lines) {
+    if (last == nullptr || last->object != line.object) {
+      id = json_quoted(model.object(line.object).id);
+      if (last != nullptr) ++index;
+    }
+    out << (last == nullptr ? "\n" : ",\n");
+    append_line(out.buffer(), line, id, index);
+    last = &line;
+  }
+  out << "]}\n";
+}
+
+}  // namespace strake::drawing
