@@ -106,6 +106,7 @@ class FacetBuilder {
   FacetMesh out_;
   Welder welder_;
   Polygon polygon_;
+  std::vector<Vec3d> points_;
   std::uint32_t face_ = 0;
 };
 

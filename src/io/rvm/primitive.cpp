@@ -36,7 +36,9 @@ Vec3d clean_column(Vec3d column) {
     // Single-precision cos(90°) leaves 4.4e-8 where zero was meant.
     if (std::fabs(column[k]) < 0x1p-23) column[k] = 0;
   }
-  return column * (1 / std::sqrt(dot(column, column)));
+  // Divided, not multiplied by an inverse: a column along an axis becomes exactly one.
+  const double clean = std::sqrt(dot(column, column));
+  return {column.x / clean, column.y / clean, column.z / clean};
 }
 
 /// Reads the parameters of one primitive in file order.

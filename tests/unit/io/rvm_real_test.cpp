@@ -70,6 +70,14 @@ TEST_P(RvmRealFile, CountsEqualAnIndependentCount) {
   for (const auto& [kind, count] : expected["kinds"].items())
     missing += count.get<std::uint64_t>() - (kinds.contains(kind) ? kinds.at(kind) : 0);
   EXPECT_EQ(missing, skipped);
+  std::uint64_t triangles = 0;
+  for (const model::Body& body : model->bodies) {
+    const auto* mesh =
+        std::get_if<geometry::TriangleMesh>(&model->shapes[model::index(body.shape)]);
+    if (mesh != nullptr) triangles += mesh->triangles.size();
+  }
+  EXPECT_EQ(triangles, expected["facet_triangles"]);
+  EXPECT_EQ(model->diagnostics.count("rvm-facet-polygon"), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(

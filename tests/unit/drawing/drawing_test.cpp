@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/drawing/drawing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "drawing/chains.hpp"
+#include "strake/drawing/view.hpp"
+#include "strake/drawing/write.hpp"
+
+namespace strake::drawing {
+namespace {
+
+using geometry::Vec3d;
+using geometry::Vec3l;
+using hlr::EdgeKind;
+using hlr::State;
+
+constexpr std::int64_t kMm = 1000;  // grid units
+
+/// Two objects in one file; the name of the second is hostile.
+model::Model two_objects() {
+  model::Model model;
+  model.files.push_back({.label = "a.obj", .format = "OBJ"});
+  for (const char* id : {"one", "two"}) {
+    model::Object object;
+    object.id = object.name = id;
+    model.objects.push_back(object);
+  }
+  model.objects[1].name = "<\"&'>\x01\xE2\x80\xAE\xFF end";
+  return model;
+}
+
+hlr::Piece piece(std::uint32_t object, Vec3l a, Vec3l b, State state = State::visible,
+                 EdgeKind kind = EdgeKind::sharp, std::uint32_t edge = 0) {
+  return {static_cast<model::ObjectId>(object), edge, kind, state, a, b};
+}
+
+hlr::Drawing from_top(std::vector<hlr::Piece> pieces) {
+  hlr::Drawing drawing;
+  drawing.view.direction = {0, 0, 1};
+  drawing.view.up = {0, 1, 0};
+  drawing.pieces = std::move(pieces);
+  return drawing;
+}
+
+NeutralDrawing laid_out(const hlr::Drawing& drawing, const LayoutOptions& options = {}) {
+  auto result = lay_out(drawing, two_objects(), options);
+  EXPECT_TRUE(result) << result.error().text();
+  return std::move(result).value();
+}
+
+std::string svg_of(const NeutralDrawing& drawing, bool hidden = true) {
+  std::string text;
+  write_svg(drawing, two_objects(), {.hidden = hidden},
+            [&](std::string_view part) { text += part; });
+  return text;
+}
+
+std::string json_of(const NeutralDrawing& drawing) {
+  std::string text;
+  write_view_json(drawing, two_objects(), [&](std::string_view part) { text += part; });
+  return text;
+}
+
+/// Exit status of a shell command fed with a text; -1 when the program is absent.
+int run_on(const std::string& program, const std::string& command, const std::string& text) {
+  if (std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) != 0) return -1;
+  FILE* const pipe = popen(command.c_str(), "w");
+  if (pipe == nullptr) return -1;
+  std::fwrite(text.data(), 1, text.size(), pipe);
+  return pclose(pipe);
+}
+
+std::size_t count_of(const std::string& text, std::string_view what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    ++count;
+  return count;
+}
+
+/// A 100 x 50 mm rectangle seen from above and a hidden diagonal of another object.
+hlr::Drawing rectangle() {
+  const Vec3l a{0, 0, 0}, b{100 * kMm, 0, 0}, c{100 * kMm, 50 * kMm, 0}, d{0, 50 * kMm, 0};
+  return from_top({piece(0, a, b, State::visible, EdgeKind::contour, 0),
+                   piece(0, b, c, State::visible, EdgeKind::contour, 1),
+                   piece(0, c, d, State::visible, EdgeKind::contour, 2),
+                   piece(0, d, a, State::visible, EdgeKind::contour, 3),
+                   piece(1, a, c, State::hidden_by_other, EdgeKind::sharp, 4),
+                   piece(1, a, {0, 0, 5 * kMm}, State::projecting, EdgeKind::sharp, 5)});
+}
+
+TEST(View, NamesAndDirections) {
+  EXPECT_EQ(*direction_by_name("front"), Vec3l(0, -1, 0));
+  EXPECT_EQ(*direction_by_name("iso"), Vec3l(1, -1, 1));
+  EXPECT_EQ(direction_by_name("sideways").error().code, ErrorCode::usage);
+  EXPECT_EQ(default_up({0, 0, -5}), Vec3l(0, 1, 0));
+  EXPECT_EQ(default_up({1, -1, 1}), Vec3l(0, 0, 1));
+  const auto whole = parse_direction(" 2, -4,+6");
+  ASSERT_TRUE(whole) << whole.error().text();
+  EXPECT_EQ(whole->vector, Vec3l(1, -2, 3));
+  EXPECT_FALSE(whole->rounded);
+  const auto decimal = parse_direction("0.5,-.25,1");
+  ASSERT_TRUE(decimal) << decimal.error().text();
+  EXPECT_EQ(decimal->vector, Vec3l(2, -1, 4));
+  EXPECT_FALSE(decimal->rounded);
+  const auto rounded = parse_direction("0.1234567891,1,1e300");
+  ASSERT_TRUE(rounded) << rounded.error().text();
+  EXPECT_EQ(rounded->vector, Vec3l(0, 0, 1));
+  EXPECT_TRUE(rounded->rounded);
+  const auto third = parse_direction("0.33333333333,1,1");
+  ASSERT_TRUE(third) << third.error().text();
+  EXPECT_TRUE(third->rounded);
+  EXPECT_LT(third->rounding_error, 1e-6);
+  for (const char* bad : {"", "1,2", "1,2,3,4", "0,0,0", "1,nan,2", "a,b,c", "1,,2"})
+    EXPECT_FALSE(parse_direction(bad)) << bad;
+}
+
+TEST(Layout, ScalesAndSheets) {
+  const NeutralDrawing small = laid_out(rectangle());
+  EXPECT_EQ(small.sheet.scale_text, "1:1");
+  EXPECT_EQ(small.sheet.width_mm, 420);
+  // Centred: 100 wide on 420, 50 high on the 289 above the title.
+  EXPECT_EQ(small.lines[0].a_paper, (PaperPoint{160, 169.5}));
+  EXPECT_EQ(small.lines[1].b_paper, (PaperPoint{260, 119.5}));
+  EXPECT_EQ(small.lines[0].b_mm, Vec3d(100, 0, 0));
+  hlr::Drawing ship = rectangle();
+  for (hlr::Piece& p : ship.pieces) {
+    p.a = p.a * 300;
+    p.b = p.b * 300;
+  }
+  EXPECT_EQ(laid_out(ship).sheet.scale_text, "1:100");
+  LayoutOptions stated;
+  stated.scale = 50;
+  const NeutralDrawing grown = laid_out(ship, stated);
+  EXPECT_EQ(grown.sheet.scale_text, "1:50");
+  EXPECT_EQ(grown.sheet.width_mm, 841);
+  stated.scale = 2;
+  EXPECT_EQ(laid_out(ship, stated).sheet.width_mm, 15020);
+  stated.scale = 0.5;
+  EXPECT_EQ(laid_out(rectangle(), stated).sheet.scale_text, "2:1");
+  stated.scale = 0;
+  EXPECT_FALSE(lay_out(ship, two_objects(), stated));
+  EXPECT_EQ(laid_out(from_top({})).sheet.scale_text, "1:1");
+}
+
+TEST(Layout, AMoveOfTheModelDoesNotMoveTheDrawing) {
+  hlr::Drawing moved = rectangle();
+  const Vec3l far{90'000'000'123, -290'000'000'456, 7};
+  for (hlr::Piece& p : moved.pieces) {
+    p.a = p.a + far;
+    p.b = p.b + far;
+  }
+  const NeutralDrawing here = laid_out(rectangle()), there = laid_out(moved);
+  ASSERT_EQ(here.lines.size(), there.lines.size());
+  for (std::size_t i = 0; i < here.lines.size(); ++i)
+    EXPECT_EQ(here.lines[i].a_paper, there.lines[i].a_paper);
+  EXPECT_NE(here.hash, there.hash);
+}
+
+TEST(Layout, UpParallelToTheDirectionIsAnError) {
+  hlr::Drawing drawing = rectangle();
+  drawing.view.up = {0, 0, 2};
+  EXPECT_EQ(lay_out(drawing, two_objects(), {}).error().code, ErrorCode::usage);
+}
+
+TEST(Duplicates, TheVisibleThenTheNearestStays) {
+  const auto line = [](std::uint32_t object, std::int64_t x0, std::int64_t x1, std::int64_t z,
+                       State state) {
+    return piece(object, {x0 * kMm, 0, z * kMm}, {x1 * kMm, 0, z * kMm}, state);
+  };
+  // Far and long, near and short over its middle, hidden over its end.
+  const NeutralDrawing out =
+      laid_out(from_top({line(0, 0, 100, 0, State::visible), line(1, 40, 60, 5, State::visible),
+                         line(1, 90, 120, 9, State::hidden_by_other)}));
+  std::vector<std::pair<double, LineState>> got;
+  for (const Line& l : out.lines) got.emplace_back(l.a_mm.x, l.state);
+  const std::vector<std::pair<double, LineState>> expected = {
+      {0, LineState::visible},  {40, LineState::duplicate}, {60, LineState::visible},
+      {40, LineState::visible}, {90, LineState::duplicate}, {100, LineState::hidden_by_other}};
+  EXPECT_EQ(got, expected);
+  EXPECT_EQ(out.count[static_cast<std::size_t>(LineState::duplicate)], 2U);
+}
+
+TEST(Duplicates, LinesThatOnlyCrossTouchOrRunBesideEachOtherStay) {
+  const NeutralDrawing out = laid_out(from_top(
+      {piece(0, {0, 0, 0}, {100 * kMm, 0, 0}), piece(0, {100 * kMm, 0, 0}, {200 * kMm, 0, 0}),
+       piece(1, {50 * kMm, -50 * kMm, 0}, {50 * kMm, 50 * kMm, 0}),
+       piece(1, {0, 10, 0}, {100 * kMm, 10, 0}), piece(1, {0, 0, 0}, {100 * kMm, 100, 0})}));
+  EXPECT_EQ(out.count[static_cast<std::size_t>(LineState::duplicate)], 0U);
+  EXPECT_EQ(out.lines.size(), 5U);
+}
+
+TEST(Chains, JoinEndToEnd) {
+  std::vector<Line> lines(4);
+  const std::vector<PaperPoint> corners = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    lines[i].a_paper = corners[i];
+    lines[i].b_paper = corners[(i + 1) % 4];
+  }
+  std::swap(lines[2].a_paper, lines[2].b_paper);
+  std::vector<const Line*> all;
+  for (const Line& line : lines) all.push_back(&line);
+  const auto closed = join_lines(all);
+  ASSERT_EQ(closed.size(), 1U);
+  EXPECT_EQ(closed[0].size(), 5U);
+  EXPECT_EQ(closed[0].front(), closed[0].back());
+  all.pop_back();
+  std::swap(all[0], all[1]);
+  const auto open = join_lines(all);
+  ASSERT_EQ(open.size(), 1U);
+  EXPECT_EQ(open[0].size(), 4U);
+}
+
+TEST(Svg, HoldsLayersGroupsAndPathsInMillimetres) {
+  const std::string svg = svg_of(laid_out(rectangle()));
+  EXPECT_NE(svg.find("width=\"420mm\" height=\"297mm\" viewBox=\"0 0 420 297\""),
+            std::string::npos);
+  EXPECT_NE(svg.find("id=\"visible-contour\" class=\"visible contour\""), std::string::npos);
+  EXPECT_NE(svg.find("<g data-id=\"one\" data-name=\"one\" data-file=\"a.obj\">"
+                     "<path d=\"M160 169.5L260 169.5 260 119.5 160 119.5Z\"/></g>"),
+            std::string::npos)
+      << svg;
+  EXPECT_NE(svg.find("M160 169.5L260 119.5\""), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  const std::string visible_only = svg_of(laid_out(rectangle()), false);
+  EXPECT_EQ(visible_only.find("class=\"hidden"), std::string::npos);
+  EXPECT_EQ(count_of(visible_only, "<path"), 2U) << "the outline and the title's line";
+}
+
+TEST(Svg, NamesCannotEscape) {
+  EXPECT_EQ(xml_escaped("<\"&'>\x01\xE2\x80\xAE\xFF end"),
+            "&lt;&quot;&amp;&#39;&gt;\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD end");
+  EXPECT_EQ(xml_escaped("R\xC3\xB8r \xE6\xBC\xA2 \xF0\x9F\x9A\xA2"),
+            "R\xC3\xB8r \xE6\xBC\xA2 \xF0\x9F\x9A\xA2");
+  EXPECT_EQ(xml_escaped("\xED\xA0\x80"), "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
+  EXPECT_EQ(json_quoted("a\"\\\n\xFF"), "\"a\\\"\\\\\\u000a\xEF\xBF\xBD\"");
+}
+
+TEST(Svg, IsWellFormedAndRenders) {
+  const std::string svg = svg_of(laid_out(rectangle()));
+  const int xml = run_on("xmllint", "xmllint --noout - 2>/dev/null", svg);
+  const int picture = run_on("rsvg-convert", "rsvg-convert -f png -o /dev/null 2>/dev/null", svg);
+  if (xml == -1 && picture == -1) GTEST_SKIP() << "neither xmllint nor rsvg-convert is here";
+  EXPECT_LE(xml, 0);
+  EXPECT_LE(picture, 0);
+}
+
+TEST(ViewJson, SaysWhatTheDrawingHolds) {
+  LayoutOptions options;
+  options.view_name = "top";
+  const NeutralDrawing drawing = laid_out(rectangle(), options);
+  const auto json = nlohmann::json::parse(json_of(drawing));
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["view"]["name"], "top");
+  EXPECT_EQ(json["view"]["direction"], nlohmann::json({0, 0, 1}));
+  EXPECT_TRUE(json["view"]["limits_mm"].is_null());
+  EXPECT_EQ(json["counts"]["pieces"], 6);
+  EXPECT_EQ(json["counts"]["visible"], 4);
+  EXPECT_EQ(json["counts"]["hidden_by_other"], 1);
+  EXPECT_EQ(json["counts"]["projecting"], 1);
+  EXPECT_EQ(json["hash"], drawing.hash.text());
+  ASSERT_EQ(json["objects"].size(), 2U);
+  const auto& first = json["pieces"][0];
+  EXPECT_EQ(first["object"], "one");
+  EXPECT_EQ(first["kind"], "contour");
+  EXPECT_EQ(first["state"], "visible");
+  EXPECT_EQ(first["b_mm"], nlohmann::json({100.0, 0.0, 0.0}));
+  EXPECT_EQ(first["a_paper_mm"], nlohmann::json({160.0, 169.5}));
+  EXPECT_EQ(json["pieces"][4]["object_index"], 1);
+}
+
+TEST(ViewJson, FollowsItsSchema) {
+  hlr::Drawing limited = rectangle();
+  limited.view.limits = geometry::Box3l{{0, 0, 0}, {1, 2, 3}};
+  const std::string schema = STRAKE_SOURCE_DIR "/schemas/view.schema.json";
+  const std::string check =
+      "python3 -c \"import json,sys,jsonschema;"
+      "jsonschema.validate(json.load(sys.stdin),json.load(open('" +
+      schema + "')))\" 2>/dev/null";
+  if (std::system("python3 -c 'import jsonschema' 2>/dev/null") != 0)
+    GTEST_SKIP() << "python3-jsonschema is not here";
+  EXPECT_EQ(run_on("python3", check, json_of(laid_out(rectangle()))), 0);
+  EXPECT_EQ(run_on("python3", check, json_of(laid_out(limited))), 0);
+  EXPECT_EQ(run_on("python3", check, json_of(laid_out(from_top({})))), 0);
+  EXPECT_NE(run_on("python3", check, "{}"), 0) << "the schema accepts anything";
+}
+
+}  // namespace
+}  // namespace strake::drawing
