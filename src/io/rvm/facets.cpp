@@ -189,16 +189,38 @@ void FacetBuilder::add_quad() {
     add_triangle(q[0], q[2], q[3]);
 }
 
+/// True when every corner of the only ring turns the same way and the fan from its first vertex
+/// covers the polygon once.
+bool FacetBuilder::is_convex() const {
+  const std::vector<std::uint32_t>& ring = polygon_.indices;
+  const std::size_t n = ring.size();
+  Vec3d normal;
+  for (std::size_t i = 2; i < n; ++i)
+    normal = normal + cross(at(ring[i - 1]) - at(ring[0]), at(ring[i]) - at(ring[0]));
+  const auto turns = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return dot(cross(at(ring[b]) - at(ring[a]), at(ring[c]) - at(ring[a])), normal) > 0;
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    if (!turns(i, (i + 1) % n, (i + 2) % n)) return false;
+  for (std::size_t i = 2; i < n; ++i)
+    if (!turns(0, i - 1, i)) return false;
+  return true;
+}
+
 void FacetBuilder::add_general() {
-  std::vector<Vec3d> points;
-  points.reserve(polygon_.indices.size());
-  for (const std::uint32_t index : polygon_.indices) points.push_back(at(index));
-  const geometry::FaceTriangles made = geometry::triangulate_face(points, polygon_.first);
-  if (made.fault != geometry::FaceFault::none) {
-    ++(made.fault == geometry::FaceFault::crossing ? out_.untriangulated : out_.degenerate);
+  if (polygon_.rings() == 1 && is_convex()) {
+    for (std::size_t i = 2; i < polygon_.indices.size(); ++i)
+      add_triangle(polygon_.indices[0], polygon_.indices[i - 1], polygon_.indices[i]);
     return;
   }
-  for (const geometry::Triangle& t : made.triangles)
+  points_.clear();
+  for (const std::uint32_t index : polygon_.indices) points_.push_back(at(index));
+  const geometry::FaceTriangles face = geometry::triangulate_face(points_, polygon_.first);
+  if (face.fault != geometry::FaceFault::none) {
+    ++(face.fault == geometry::FaceFault::crossing ? out_.untriangulated : out_.degenerate);
+    return;
+  }
+  for (const geometry::Triangle& t : face.triangles)
     add_triangle(polygon_.indices[t[0]], polygon_.indices[t[1]], polygon_.indices[t[2]]);
 }
 
