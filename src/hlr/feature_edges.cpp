@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <variant>
 
 namespace strake::hlr {
 namespace {
@@ -36,8 +37,40 @@ bool is_sharp(const NormalVector& m, const NormalVector& n, double cos_sharp) {
   return dot < cos_sharp * lengths;
 }
 
-std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge,
-                                const std::vector<NormalVector>& vectors,
+// Round primitives: all but boxes, pyramids and rectangular tori, whose quads meet at real edges.
+bool is_round(const Part& part) {
+  return part.primitive &&
+         (std::holds_alternative<geometry::CylinderPrimitive>(*part.primitive) ||
+          std::holds_alternative<geometry::SnoutPrimitive>(*part.primitive) ||
+          std::holds_alternative<geometry::SpherePrimitive>(*part.primitive) ||
+          std::holds_alternative<geometry::EllipticalDishPrimitive>(*part.primitive) ||
+          std::holds_alternative<geometry::SphericalDishPrimitive>(*part.primitive) ||
+          std::holds_alternative<geometry::CircularTorusPrimitive>(*part.primitive));
+}
+
+// What a part's edges are judged by, per triangle.
+struct Faces {
+  std::vector<NormalVector> vectors;
+  /// A quad or triangle of a curved side, told from the flat ends by its few triangles: between
+  /// two of them there is no edge however coarse the tessellation of a thin pipe is. Empty where
+  /// the part has no curved side.
+  std::vector<bool> facet;
+};
+
+Faces faces_of(const Part& part) {
+  Faces result{face_vectors(part), {}};
+  if (!is_round(part) || part.faces.empty()) return result;
+  std::vector<std::uint32_t> sorted = part.faces;
+  std::sort(sorted.begin(), sorted.end());
+  result.facet.reserve(part.faces.size());
+  for (const std::uint32_t face : part.faces) {
+    const auto range = std::equal_range(sorted.begin(), sorted.end(), face);
+    result.facet.push_back(face == geometry::kNoFace || range.second - range.first <= 2);
+  }
+  return result;
+}
+
+std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Faces& faces,
                                 const FeatureOptions& options) {
   const geometry::PartEdge& e = part.edges[edge];
   const std::uint32_t first = e.first_triangle;
@@ -56,9 +89,10 @@ std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge,
   const std::uint32_t s = part.edge_triangles[first], t = part.edge_triangles[first + 1];
   const bool consistent =
       runs_along(part.triangles[s], e.v0, e.v1) != runs_along(part.triangles[t], e.v0, e.v1);
-  const NormalVector& m = vectors[s];
-  const NormalVector n = consistent ? vectors[t] : negated(vectors[t]);
-  if (is_sharp(m, n, options.cos_sharp)) return EdgeKind::sharp;
+  const NormalVector& m = faces.vectors[s];
+  const NormalVector n = consistent ? faces.vectors[t] : negated(faces.vectors[t]);
+  const bool smooth = !faces.facet.empty() && faces.facet[s] && faces.facet[t];
+  if (!smooth && is_sharp(m, n, options.cos_sharp)) return EdgeKind::sharp;
   // A face seen edge-on counts as turned away: between a front face, an edge-on strip and a back
   // face exactly one line is the contour.
   const bool front_m = along(m, options.direction) > 0, front_n = along(n, options.direction) > 0;
@@ -146,9 +180,9 @@ std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,
     if (part.kind == geometry::PartKind::wire) {
       add_chains(edges, part, p, options.direction);
     } else if (!part.edges.empty()) {
-      const std::vector<NormalVector> vectors = face_vectors(part);
+      const Faces faces = faces_of(part);
       for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e)
-        if (const auto kind = kind_of(part, e, vectors, options))
+        if (const auto kind = kind_of(part, e, faces, options))
           add_edge(edges, part, {.part = p, .part_edge = e, .kind = *kind}, part.edges[e].v0,
                    part.edges[e].v1, options.direction);
     }
