@@ -62,10 +62,9 @@ class Engine {
         options_(options),
         context_(context),
         list_(list_parts(scene, sets)) {
-    constexpr double k = geometry::kGridPerMm;
-    narrow_.touch_overlap = options.touch_overlap_mm * k;
-    narrow_.touch_gap = options.touch_gap_mm * k;
-    narrow_.clearance = options.clearance_mm * k;
+    narrow_.touch_overlap = options.touch_overlap_mm * geometry::kGridPerMm;
+    narrow_.touch_gap = options.touch_gap_mm * geometry::kGridPerMm;
+    narrow_.clearance = options.clearance_mm * geometry::kGridPerMm;
     narrow_.thickness_cap = options.thickness_cap == ThicknessCap::on;
     for (const model::SourceFile& file : scene.model->files)
       bands_.push_back(contact_distance(options, file.precision_mm));

@@ -13,7 +13,6 @@ namespace {
 using geometry::Vec3d;
 
 Pair pair_of(const PartAnswer& answer, const PartRef& a, const PartRef& b) {
-  constexpr double k = geometry::kGridPerMm;
   const Separation& s = answer.separation;
   const Vec3d at = a.placed.origin.as<double>() + answer.point;
   Pair pair;
@@ -22,10 +21,11 @@ Pair pair_of(const PartAnswer& answer, const PartRef& a, const PartRef& b) {
   pair.cls = answer.judgement.cls;
   pair.relation = answer.relation;
   pair.flags = answer.judgement.flags;
-  pair.d_mm = s.d / k;
-  pair.d_lower_mm = (s.lower - s.sag) / k;
-  pair.d_upper_mm = (s.upper + s.sag) / k;
-  pair.point_mm = {at.x / k, at.y / k, at.z / k};
+  pair.d_mm = s.d / geometry::kGridPerMm;
+  pair.d_lower_mm = (s.lower - s.sag) / geometry::kGridPerMm;
+  pair.d_upper_mm = (s.upper + s.sag) / geometry::kGridPerMm;
+  pair.point_mm = {at.x / geometry::kGridPerMm, at.y / geometry::kGridPerMm,
+                   at.z / geometry::kGridPerMm};
   pair.part_a = a.number;
   pair.part_b = b.number;
   return pair;

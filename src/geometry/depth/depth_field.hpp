@@ -18,8 +18,9 @@ inline constexpr std::int64_t kFieldDenominator = 4096;
 inline constexpr double kFieldError = 1e-12;
 
 [[nodiscard]] inline Vec3d on_field_grid(const Vec3d& p) {
-  constexpr double k = static_cast<double>(kFieldDenominator);
-  return {std::nearbyint(p.x * k) / k, std::nearbyint(p.y * k) / k, std::nearbyint(p.z * k) / k};
+  constexpr double kSteps = static_cast<double>(kFieldDenominator);
+  return {std::nearbyint(p.x * kSteps) / kSteps, std::nearbyint(p.y * kSteps) / kSteps,
+          std::nearbyint(p.z * kSteps) / kSteps};
 }
 
 /// A part as a function of a point that is given relative to a common origin.
@@ -30,10 +31,10 @@ class DepthField {
 
   /// Closed solid: inside or on the boundary. Exact for points of on_field_grid().
   [[nodiscard]] bool contains(const Vec3d& p, PairWork& work) const {
-    constexpr double k = static_cast<double>(kFieldDenominator);
-    const Vec3l numerator{std::llround(p.x * k) + shift_.x * kFieldDenominator,
-                          std::llround(p.y * k) + shift_.y * kFieldDenominator,
-                          std::llround(p.z * k) + shift_.z * kFieldDenominator};
+    constexpr double kSteps = static_cast<double>(kFieldDenominator);
+    const Vec3l numerator{std::llround(p.x * kSteps) + shift_.x * kFieldDenominator,
+                          std::llround(p.y * kSteps) + shift_.y * kFieldDenominator,
+                          std::llround(p.z * kSteps) + shift_.z * kFieldDenominator};
     return side_of(*part_, numerator, kFieldDenominator, work) != PointSide::outside;
   }
 

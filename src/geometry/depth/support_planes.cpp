@@ -107,9 +107,10 @@ double support(const Part& part, const Vec3d& n) {
 
 const std::array<Vec3d, 4>& tetrahedral_directions() {
   // (±1, ±1, ±1)/√3 with an even number of minus signs.
-  static constexpr double k = 0.57735026918962576;
-  static constexpr std::array<Vec3d, 4> kDirections{Vec3d{k, k, k}, Vec3d{k, -k, -k},
-                                                    Vec3d{-k, k, -k}, Vec3d{-k, -k, k}};
+  static constexpr double kPart = 0.57735026918962576;
+  static constexpr std::array<Vec3d, 4> kDirections{
+      Vec3d{kPart, kPart, kPart}, Vec3d{kPart, -kPart, -kPart}, Vec3d{-kPart, kPart, -kPart},
+      Vec3d{-kPart, -kPart, kPart}};
   return kDirections;
 }
 
