@@ -161,7 +161,9 @@ std::vector<Simplex> simplices(const IndexedMesh& m) {
       all.insert(s);
     }
   std::vector<Simplex> r(all.begin(), all.end());
-  std::ranges::stable_sort(r, {}, [](const Simplex& s) { return s.size(); });
+  std::ranges::sort(r, [](const Simplex& s, const Simplex& u) {
+    return s.size() != u.size() ? s.size() < u.size() : s < u;
+  });
   return r;
 }
 

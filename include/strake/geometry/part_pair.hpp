@@ -19,34 +19,42 @@ struct TreedPart {
 
 /// How the point sets of two parts meet, decided exactly on the grid. For a solid the set is its
 /// closed volume, for a sheet its surface.
+///
+/// Exact for solids whose triangles are the boundary of the body: inside on one side of each,
+/// outside on the other (edges and vertices may be shared by any number of them). A mesh that
+/// overlaps itself is still never missed when it crosses another part in plain sight or holds one,
+/// but may be called `touching` where only its inner faces are met.
 enum class Meeting : std::uint8_t {
   apart,       ///< no common point
   touching,    ///< common points, but no interior point of a solid in the other part's interior
                ///< (two sheets: they meet without crossing properly)
-  crossing,    ///< interiors meet and the boundaries do too
-  a_inside_b,  ///< interiors meet, boundaries share no point, a lies in b
+  crossing,    ///< interiors meet and neither part lies inside the other without contact. (The
+               ///< boundaries meet too, unless a cavity of one lies inside the other.)
+  a_inside_b,  ///< a lies in b, boundaries share no point
   b_inside_a,
 };
 
-/// Refinement of `crossing` and `touching` where the boundaries meet.
+/// Refinement of a Meeting.
 struct MeetingResult {
   Meeting meeting = Meeting::apart;
   bool boundaries_meet = false;
   bool a_within_b = false;  ///< closed: no point of a lies outside b (abutting inside, or equal)
   bool b_within_a = false;
   Vec3d point;  ///< a common point, grid units relative to a's origin, if any
-  std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where it was found
+  std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where it was found, if on both
 };
 
 struct PairWork {
   std::uint64_t triangle_pairs = 0, exact_fallbacks = 0, node_pairs = 0;
 };
 
-/// Exact: see Meeting. Offsets between the two origins must keep the pair within ±2^30 units of
-/// a's origin (the caller checks with fits_pair()).
+/// Exact: see Meeting. The caller checks with fits_pair() first. Most pairs are decided by one
+/// plane or one crossing and touch no heap; otherwise the cost is that of the contacts, plus one
+/// ray a shell. Swapping a and b swaps the answer, whatever way the triangles are written down.
 [[nodiscard]] MeetingResult meet(const TreedPart& a, const TreedPart& b, PairWork& work);
 
-/// True when the offset between the parts, and their extents, fit the exact arithmetic of a pair.
+/// True when the box of the two parts together measures at most 2^31 units (2.1 km) along each
+/// axis, as the exact arithmetic of a pair needs.
 [[nodiscard]] bool fits_pair(const PlacedPart& a, const PlacedPart& b);
 
 /// The closest pair of points of two surfaces.
