@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -63,11 +64,13 @@ std::string up_axis_text(UpAxis axis) {
 }
 
 double float32_half_spacing(double magnitude) {
+  constexpr int kDigits = std::numeric_limits<float>::digits;
+  constexpr int kLeast = std::numeric_limits<float>::min_exponent - kDigits;  // of subnormals
   const double size = std::fabs(magnitude);
-  if (!(size <= static_cast<double>(std::numeric_limits<float>::max()))) return 0;
-  const auto here = static_cast<float>(size);
-  const float next = std::nextafter(here, std::numeric_limits<float>::infinity());
-  return (static_cast<double>(next) - static_cast<double>(here)) / 2;
+  if (!std::isfinite(size)) return 0;
+  int exponent = kLeast;
+  if (size > 0) std::frexp(size, &exponent);
+  return std::ldexp(0.5, std::max(exponent - kDigits, kLeast));
 }
 
 }  // namespace strake::io

@@ -25,6 +25,12 @@ struct DigitStatistics {
 /// five digits are taken as exact design values that went through float32.
 [[nodiscard]] double text_half_spacing(const DigitStatistics& digits, double magnitude);
 
+/// A number that may be a coordinate: finite, with room for any unit to scale it.
+[[nodiscard]] constexpr bool is_coordinate(double value) {
+  constexpr double kMost = 1e200;
+  return value >= -kMost && value <= kMost;
+}
+
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 inline void skip_blanks(const char*& at, const char* end) {

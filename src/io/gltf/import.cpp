@@ -250,8 +250,10 @@ bool Importer::add_bodies(const MeshShapes& mesh, const Placement& world) {
   }
   largest_mm_ = std::max(largest_mm_, largest);
   if (mesh.step_mm > 0)
-    for (const Vec3d& row : placement.linear.row)
-      step_mm_ = std::max(step_mm_, mesh.step_mm * std::sqrt(dot(row, row)));
+    for (const Vec3d& row : placement.linear.row) {
+      const double step_mm = mesh.step_mm * std::sqrt(dot(row, row));
+      if (std::isfinite(step_mm)) step_mm_ = std::max(step_mm_, step_mm);
+    }
   for (const MeshShapes::Part& part : mesh.parts)
     model_.bodies.push_back({part.shape, placement, part.color, model::Category::physical});
   return true;

@@ -2,7 +2,6 @@
 #include "io/obj/chunk.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -93,7 +92,7 @@ void ChunkParser::vertex(const char* at, const char* end) {
   for (int axis = 0; axis < 3 && good; ++axis) {
     skip_blanks(at, end);
     good = read_number(at, end, point[axis], chunk_.digits) && (at == end || is_blank(*at)) &&
-           std::isfinite(point[axis]);
+           is_coordinate(point[axis]);
   }
   if (!good) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

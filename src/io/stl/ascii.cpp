@@ -2,7 +2,6 @@
 #include "io/stl/ascii.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace strake::io::stl {
@@ -63,7 +62,7 @@ void AsciiParser::vertex(std::string_view rest) {
   for (int axis = 0; axis < 3; ++axis) {
     skip_blanks(at, end);
     if (!read_number(at, end, point[axis], file_.digits) || (at != end && !is_blank(*at)) ||
-        !std::isfinite(point[axis]))
+        !is_coordinate(point[axis]))
       return damaged("a vertex needs three finite numbers");
   }
   owner.corners.push_back(point);
