@@ -34,9 +34,9 @@ struct MeshAnalysis {
 ///
 /// 1. The result does not depend on the order of vertices or triangles, nor on which vertex a
 ///    triangle starts with: vertices are sorted by coordinates, triangles by vertices.
-/// 2. Two triangles belong to one shell when they share an edge that has no other triangles, or
-///    when an edge with more of them balances only with both. Solids that merely share an edge so
-///    come apart; solids that share a face are one.
+/// 2. Two triangles belong to one shell when they share an edge that has no other triangles. At an
+///    edge with more, those that do not balance without it are joined across wedges of material.
+///    Solids that share an edge or a face so come apart.
 /// 3. A closed shell whose outermost shell has negative exact volume is turned with all that lies
 ///    inside it (PartFlags::inverted). Shells that do not bound {winding number >= 1} are left out
 ///    and counted.

@@ -156,7 +156,7 @@ MeshAnalysis analyse(GridMesh mesh) {
   mesh = weld(mesh, analysis.findings);
   if (mesh.triangles.empty()) return analysis;
   Topology topology = make_topology(mesh.vertices.size(), mesh.triangles);
-  ShellLabels labels = label_shells(mesh.triangles, topology);
+  ShellLabels labels = label_shells(mesh.vertices, mesh.triangles, topology);
   if (labels.count == 1)
     analysis.parts.push_back(whole(std::move(mesh), std::move(topology), std::move(labels)));
   else

@@ -82,7 +82,7 @@ Part make_part(GridMesh mesh, PartKind kind, Topology topology, ShellLabels labe
 
 Part make_part(GridMesh mesh, PartKind kind) {
   Topology topology = make_topology(mesh.vertices.size(), mesh.triangles);
-  ShellLabels labels = label_shells(mesh.triangles, topology);
+  ShellLabels labels = label_shells(mesh.vertices, mesh.triangles, topology);
   return make_part(std::move(mesh), kind, std::move(topology), std::move(labels));
 }
 

@@ -51,24 +51,106 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-using Nets = std::vector<std::pair<std::uint32_t, int>>;  // set, its net sense on one edge
+/// A triangle round an edge.
+struct Spoke {
+  std::uint32_t triangle = 0;
+  int sense = 0;
+  Vec3l arm;     ///< from the edge's first vertex to the corner off the edge
+  int half = 0;  ///< angle from the first spoke: 0 in [0, pi), 1 in [pi, 2 pi)
+};
 
-/// The sum of senses of each set round one edge, only those that are not zero.
-void net_senses(std::span<const Triangle> triangles, const Topology& topology, std::size_t edge,
-                Sets& sets, Nets& nets) {
-  nets.clear();
-  for (const std::uint32_t t : topology.triangles_of(edge))
-    nets.emplace_back(sets.find(t), topology.sense(edge, triangles[t]));
-  std::sort(nets.begin(), nets.end());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < nets.size();) {
-    int sum = 0;
-    const std::uint32_t set = nets[i].first;
-    for (; i < nets.size() && nets[i].first == set; ++i) sum += nets[i].second;
-    if (sum != 0) nets[kept++] = {set, sum};
+/// The triangles round an edge whose shells, as known so far, do not balance there.
+class Fan {
+ public:
+  Fan(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
+      const Topology& topology)
+      : vertices_(vertices), triangles_(triangles), topology_(topology) {}
+
+  void gather(std::size_t edge, Sets& sets) {
+    nets_.clear();
+    for (const std::uint32_t t : topology_.triangles_of(edge))
+      nets_.push_back({sets.find(t), topology_.sense(edge, triangles_[t]), t});
+    std::sort(nets_.begin(), nets_.end());
+    spokes_.clear();
+    for (std::size_t i = 0; i < nets_.size();) {
+      std::size_t end = i;
+      int sum = 0;
+      for (; end < nets_.size() && nets_[end].set == nets_[i].set; ++end) sum += nets_[end].sense;
+      for (; i < end; ++i)
+        if (sum != 0) spokes_.push_back({nets_[i].triangle, nets_[i].sense, {}, 0});
+    }
   }
-  nets.resize(kept);
-}
+  [[nodiscard]] const std::vector<Spoke>& spokes() const { return spokes_; }
+
+  /// Joins the two triangles on either side of each wedge of material. A triangle that runs along
+  /// the edge has its material at smaller angles, seen along the edge.
+  void join_wedges(std::size_t edge, Sets& sets) {
+    sort_by_angle(edge);
+    std::vector<std::uint32_t> opened, unmatched;
+    for (const Spoke& s : spokes_) {
+      if (s.sense < 0) {
+        opened.push_back(s.triangle);
+      } else if (opened.empty()) {
+        unmatched.push_back(s.triangle);
+      } else {
+        sets.join(opened.back(), s.triangle);
+        opened.pop_back();
+      }
+    }
+    // Wedges across the start of the round.
+    for (const std::uint32_t t : unmatched) {
+      if (opened.empty()) break;
+      sets.join(opened.back(), t);
+      opened.pop_back();
+    }
+  }
+
+ private:
+  struct Net {
+    std::uint32_t set = 0;
+    int sense = 0;
+    std::uint32_t triangle = 0;
+    friend auto operator<=>(const Net&, const Net&) = default;
+  };
+
+  /// Sign of axis x a · b: positive when b lies less than half a turn after a.
+  [[nodiscard]] static int turn(const Vec3l& axis, const Vec3l& a, const Vec3l& b) {
+    using Wide = __int128;
+    const Wide value = b.x * (Wide{axis.y} * a.z - Wide{axis.z} * a.y) +
+                       b.y * (Wide{axis.z} * a.x - Wide{axis.x} * a.z) +
+                       b.z * (Wide{axis.x} * a.y - Wide{axis.y} * a.x);
+    return value > 0 ? 1 : value < 0 ? -1 : 0;
+  }
+
+  void sort_by_angle(std::size_t edge) {
+    const PartEdge& e = topology_.edges[edge];
+    const Vec3l from = vertices_[e.v0].as<std::int64_t>();
+    const Vec3l axis = vertices_[e.v1].as<std::int64_t>() - from;
+    for (Spoke& s : spokes_)
+      for (const std::uint32_t v : triangles_[s.triangle])
+        if (v != e.v0 && v != e.v1) s.arm = vertices_[v].as<std::int64_t>() - from;
+    const Vec3d first = cross(axis.as<double>(), spokes_[0].arm.as<double>());
+    for (Spoke& s : spokes_) {
+      const int side = turn(axis, spokes_[0].arm, s.arm);
+      // In the plane of the first spoke the normals are parallel: the sign of their product is
+      // safe in doubles.
+      const bool behind = dot(first, cross(axis.as<double>(), s.arm.as<double>())) < 0;
+      s.half = side < 0 || (side == 0 && behind) ? 1 : 0;
+    }
+    std::stable_sort(spokes_.begin(), spokes_.end(), [&](const Spoke& a, const Spoke& b) {
+      if (a.half != b.half) return a.half < b.half;
+      const int order = turn(axis, a.arm, b.arm);
+      // At one angle material ends before other material begins: solids back to back stay apart.
+      return order != 0 ? order > 0 : a.sense > b.sense;
+    });
+  }
+
+  std::span<const Vec3i> vertices_;
+  std::span<const Triangle> triangles_;
+  const Topology& topology_;
+  std::vector<Net> nets_;
+  std::vector<Spoke> spokes_;
+};
 
 }  // namespace
 
@@ -106,7 +188,8 @@ Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles
   return topology;
 }
 
-ShellLabels label_shells(std::span<const Triangle> triangles, const Topology& topology) {
+ShellLabels label_shells(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
+                         const Topology& topology) {
   Sets sets(triangles.size());
   const std::size_t edge_count = topology.edges.size() - 1;
   std::vector<std::uint32_t> open_at;  // a triangle of each edge that does not balance
@@ -123,15 +206,14 @@ ShellLabels label_shells(std::span<const Triangle> triangles, const Topology& to
       crowded.push_back(e);
     }
   }
-  // What stays out of balance at a crowded edge belongs together.
-  Nets nets;
+  Fan fan(vertices, triangles, topology);
   for (const std::size_t e : crowded) {
-    net_senses(triangles, topology, e, sets, nets);
-    for (std::size_t i = 1; i < nets.size(); ++i) sets.join(nets[0].first, nets[i].first);
+    fan.gather(e, sets);
+    if (!fan.spokes().empty()) fan.join_wedges(e, sets);
   }
   for (const std::size_t e : crowded) {
-    net_senses(triangles, topology, e, sets, nets);
-    for (const auto& [set, net] : nets) open_at.push_back(set);
+    fan.gather(e, sets);
+    for (const Spoke& s : fan.spokes()) open_at.push_back(s.triangle);
   }
 
   ShellLabels labels;

@@ -37,7 +37,8 @@ struct ShellLabels {
   std::vector<std::uint8_t> closed;  ///< per shell: 1 when its directed edges cancel
 };
 
-[[nodiscard]] ShellLabels label_shells(std::span<const Triangle> triangles,
+[[nodiscard]] ShellLabels label_shells(std::span<const Vec3i> vertices,
+                                       std::span<const Triangle> triangles,
                                        const Topology& topology);
 
 }  // namespace strake::geometry

@@ -98,6 +98,46 @@ TEST(Analyse, BoxesThatShareAnEdgeOrACornerComeApart) {
   }
 }
 
+TEST(Analyse, BoxesThatShareAFaceComeApart) {
+  for (int axis = 0; axis < 3; ++axis) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 4; ++i) {  // a row, then one across it: edges with four and six triangles
+      Vec3d lo{0, 0, 0};
+      lo[i < 3 ? axis : (axis + 1) % 3] = i < 3 ? i : 1;
+      add_box(mesh, lo, lo + Vec3d{1, 1, 1});
+    }
+    const MeshAnalysis a = analysed(mesh);
+    ASSERT_EQ(a.parts.size(), 4U);
+    for (const Part& p : a.parts) {
+      EXPECT_EQ(p.kind, PartKind::solid);
+      EXPECT_DOUBLE_EQ(p.volume, 1e9);
+      EXPECT_FALSE(p.flags.non_manifold);
+    }
+  }
+}
+
+TEST(Analyse, BlockOfCubesComesApartIntoCubes) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 27; ++i) {
+    const Vec3d lo{static_cast<double>(i % 3), static_cast<double>(i / 3 % 3),
+                   static_cast<double>(i / 9)};
+    add_box(mesh, lo, lo + Vec3d{1, 1, 1});
+  }
+  const MeshAnalysis a = analysed(mesh);
+  EXPECT_EQ(a.parts.size(), 27U);
+  for (const Part& p : a.parts) EXPECT_DOUBLE_EQ(p.volume, 1e9);
+}
+
+TEST(Analyse, FinOfNoThicknessIsASheetBesideItsSolid) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+  add_box(mesh, {1, 0, 1}, {2, 1, 1});
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 2U);
+  EXPECT_EQ(a.parts[0].kind, PartKind::solid);
+  EXPECT_EQ(a.parts[1].kind, PartKind::sheet);
+  EXPECT_EQ(a.parts[1].triangles.size(), 2U);
+}
+
 TEST(Analyse, CavityBelongsToItsSolid) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
   add_box(mesh, {1, 1, 1}, {2, 2, 2}, true);
