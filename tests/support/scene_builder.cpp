@@ -108,6 +108,11 @@ SceneBuilder& SceneBuilder::precision_mm(double value) {
   return *this;
 }
 
+SceneBuilder& SceneBuilder::primitive(std::uint32_t shape, const geometry::Primitive& value) {
+  scene_->shapes[shape].parts[0].primitive = value;
+  return *this;
+}
+
 void SceneBuilder::begin_object() {
   model::Object object;
   object.id = object.name = std::to_string(model_->objects.size());

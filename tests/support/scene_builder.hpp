@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "strake/geometry/part.hpp"
+#include "strake/geometry/primitive.hpp"
 #include "strake/model/model.hpp"
 #include "strake/model/scene.hpp"
 
@@ -44,6 +45,9 @@ class SceneBuilder {
   SceneBuilder& object(const std::vector<HandBody>& bodies);
   /// One more object that places the shapes of an earlier one, moved by `offset`.
   SceneBuilder& instance(std::uint32_t of_object, const geometry::Vec3l& offset);
+
+  /// Says of which primitive the first part of a shape is the tessellation.
+  SceneBuilder& primitive(std::uint32_t shape, const geometry::Primitive& value);
 
   [[nodiscard]] const model::Scene& scene() const { return *scene_; }
   [[nodiscard]] model::Model& model() { return *model_; }
