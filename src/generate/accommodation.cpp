@@ -128,10 +128,10 @@ void build_rack(Room& room, double b, double a_end) {
     for (const Handle post : posts) yard.bolt(shelf, post);
     double a = a0 + 100;
     while (true) {
-      const int width = room.random.between(22, 50) * 10;
+      const int width = room.random.between(4, 8) * 60;
       if (a + width > a_end - 100) break;
       const bool round = width < 420 && room.random.chance(25);
-      const int depth = room.random.between(40, 70) * 10, height = room.random.between(15, 46) * 10;
+      const int depth = room.random.between(8, 14) * 50, height = room.random.between(2, 6) * 75;
       Handle thing = kNothing;
       if (round) {
         const double r = width / 2.0;

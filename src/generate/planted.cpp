@@ -199,7 +199,7 @@ void fitted_block(Room& room) {
 }  // namespace
 
 void plant(Room& room) {
-  switch (room.random.below(18)) {
+  switch (room.random.below(16)) {
     case 0:
       return cabinet_in_pipe(room);
     case 1:

@@ -39,16 +39,33 @@ Frame choose_facing(Random& random) {
   return frame;
 }
 
+/// A pipe whose axis pierces the beam's web between two slots: the depth is the pipe's radius.
+void plant_stray_pipe(const Site& site, Handle beam, Random& random, double v) {
+  const double r = random.chance(50) ? 45 : 57;
+  const Handle pipe = site.bar(Kind::pipe, r, 400, facing(Axis::along, {1400, v, 2540}));
+  site.yard->declare({pipe, beam, clash::Class::hit, Why::through_plate, -r});
+}
+
+/// A junction box beside the beam's web, clear of its flange: too near, near enough or touching.
+void plant_junction_box(const Site& site, Handle beam, Random& random, double v) {
+  constexpr std::array<double, 6> kGaps{0, 2.5, 8, 14.5, 22, 31};
+  const double gap = kGaps[random.below(kGaps.size())], u = kBeamAt + 5 + gap;
+  const Handle box = site.box(Kind::cabinet, {u, v - 80, 2480}, {u + 150, v + 80, 2590});
+  if (gap == 0)
+    site.yard->fit(box, beam);
+  else if (gap < 25)
+    site.yard->declare({box, beam, clash::Class::clearance_violation, Why::gap_clear, gap});
+}
+
 void plant_in_steel(const Plan& plan, const Steel& steel, const Site& site) {
   const int bay = site.cell.bay, lane = site.cell.lane, level = site.cell.level - 1;
   Random random = plan.random(32, bay, lane, level);
   const Handle beam = steel.beam(level, bay, lane);
-  if (beam == kNothing || !random.chance(10)) return;
-  // Its axis pierces the beam's web between two slots: the depth is the pipe's radius.
-  const double r = random.chance(50) ? 45 : 57;
-  const double v = 800.0 * random.between(1, 4);
-  const Handle pipe = site.bar(Kind::pipe, r, 400, facing(Axis::along, {1400, v, 2540}));
-  site.yard->declare({pipe, beam, clash::Class::hit, Why::through_plate, -r});
+  if (beam == kNothing) return;
+  const int first = random.between(1, 4);
+  const int second = 1 + (first + random.between(0, 2)) % 4;
+  if (random.chance(25)) plant_stray_pipe(site, beam, random, 800.0 * first);
+  if (random.chance(60)) plant_junction_box(site, beam, random, 800.0 * second);
 }
 
 }  // namespace
