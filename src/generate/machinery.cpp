@@ -174,7 +174,7 @@ void build_genset(Room& room) {
   for (int i = 0; i < 3; ++i) {
     const Handle flask = site.turned(Kind::tank, bottle, at({300 + 320.0 * i, 350, 0}));
     site.yard->rest(flask, room.deck);
-    if (room.random.chance(8)) site.yard->turn_inside_out(flask);
+    if (room.random.chance(25)) site.yard->turn_inside_out(flask);
   }
 }
 
@@ -207,7 +207,7 @@ void build_tank(Room& room) {
     const Handle nozzle = site.turned(Kind::nozzle, neck, at({a, 1650, 1600}));
     yard.weld(nozzle, tank);
   }
-  if (room.random.chance(60)) {
+  if (room.random.chance(75)) {
     // Solid through and through: the part reaches the axis, so the depth is the tank's radius.
     const std::array<Vec3d, 5> stirrer{
         {{40, 0, 0}, {90, 60, 0}, {90, 180, 0}, {40, 240, 0}, {40, 300, 0}}};
@@ -215,7 +215,7 @@ void build_tank(Room& room) {
         site.turned(Kind::tank_internal, stirrer, facing(Axis::along, {1300, 1650, 900}));
     yard.declare({inner, tank, clash::Class::hit, Why::buried, -700});
   }
-  if (room.random.chance(10)) yard.turn_inside_out(tank);
+  if (room.random.chance(30)) yard.turn_inside_out(tank);
   const std::array<Vec3d, 4> filter{{{140, 0, 0}, {140, 700, 0}, {80, 780, 0}, {80, 900, 0}}};
   for (int i = 0; i < 3; ++i) {
     const Handle unit = site.turned(Kind::machine_part, filter, at({400 + 500.0 * i, 400, 0}));

@@ -110,7 +110,7 @@ void buried_box(Room& room) {
   const Handle a = standing(room, Kind::tank, outer);
   const Handle b = room.site.box(Kind::tank_internal, inner.lo, inner.hi);
   room.site.yard->declare({a, b, Class::hit, Why::buried, -depth_of_boxes(outer, inner)});
-  if (room.random.chance(20)) room.site.yard->turn_inside_out(a);
+  if (room.random.chance(50)) room.site.yard->turn_inside_out(a);
 }
 
 void modelled_twice(Room& room) {
@@ -133,7 +133,7 @@ void in_cavity(Room& room) {
   room.site.yard->rest(tank, room.deck);
   const Handle inner = room.site.box(Kind::tank_internal, {60 + gap.mm, 150, 100}, {400, 450, 500});
   declare_gap(room, tank, inner, gap, Why::gap_inside);
-  if (room.random.chance(30)) room.site.yard->turn_inside_out(tank);
+  if (room.random.chance(50)) room.site.yard->turn_inside_out(tank);
 }
 
 void in_channel(Room& room) {

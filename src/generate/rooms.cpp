@@ -19,6 +19,10 @@ Builder choose_contents(int level, const Plan& plan, Random& random) {
                                             build_store};
   constexpr std::array<Builder, 5> kUpper{build_cabin, build_cabin, build_cabin, build_control_room,
                                           build_store};
+  constexpr std::array<Builder, 9> kOnlyLevel{build_genset, build_cabin,        build_pumps,
+                                              build_store,  build_pipe_chest,   build_tank,
+                                              build_cabin,  build_control_room, build_genset};
+  if (plan.levels == 1) return kOnlyLevel[random.below(kOnlyLevel.size())];
   if (level == 0) return kEngineRoom[random.below(kEngineRoom.size())];
   if (level + 1 == plan.levels && plan.levels > 1) return kUpper[random.below(kUpper.size())];
   return level % 2 == 1 ? kBetween[random.below(kBetween.size())]

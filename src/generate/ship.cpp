@@ -28,17 +28,24 @@ constexpr geometry::Mat3d general_rotation() {
              (w * w - x * x - y * y + z * z) / n}}};
 }
 
-/// Lanes and levels that suit a number of objects: about 75 objects in a room of three dimensions
-/// that grow alike, the length fastest.
-Plan shape_plan(const ShipOptions& options) {
-  Plan plan;
-  plan.seed = options.seed;
+/// Lanes and levels that suit a number of objects, about 75 objects to a room, the length growing
+/// fastest. Small ships have several candidates: the one that needs the least thinning out wins.
+std::vector<Plan> candidate_plans(const ShipOptions& options) {
+  constexpr std::uint64_t kSmall = 6000;
   const double rooms = static_cast<double>(options.objects) / 75;
   int size = 1;
   while ((size + 1.0) * (size + 1.0) * (size + 1.0) * 3 <= rooms) ++size;
-  plan.lanes = std::max(2, size);
-  plan.levels = std::max(1, size);
-  return plan;
+  const int more = options.objects < kSmall ? 1 : 0;
+  std::vector<Plan> plans;
+  for (int levels = size; levels <= size + more; ++levels)
+    for (int lanes = std::max(2, size); lanes <= std::max(2, size) + more; ++lanes) {
+      Plan plan;
+      plan.seed = options.seed;
+      plan.lanes = lanes;
+      plan.levels = levels;
+      plans.push_back(plan);
+    }
+  return plans;
 }
 
 Yard build(const Plan& plan) {
@@ -51,27 +58,28 @@ Yard build(const Plan& plan) {
   return yard;
 }
 
-/// The shortest ship of the plan's lanes and levels that has enough objects.
-Result<Yard> build_enough(Plan& plan, std::uint64_t objects, const parallel::Context& context) {
-  Yard best;
-  bool found = false;
-  int bays = 1;
+/// The shortest ship of a plan's lanes and levels that has enough objects.
+Yard build_enough(Plan plan, std::uint64_t objects, const std::stop_token& stop) {
+  plan.bays = 1;
   while (true) {
-    if (context.stop.stop_requested())
-      return Error{ErrorCode::cancelled, "stopped while generating", "", ""};
-    plan.bays = bays;
     Yard yard = build(plan);
     const std::uint64_t count = yard.objects().size();
-    const int missing =
-        count >= objects ? 0
-                         : static_cast<int>((objects - count) * static_cast<std::uint64_t>(bays) /
-                                            (count * 21 / 20 + 1));
-    if (count >= objects) {
+    if (count >= objects || stop.stop_requested()) return yard;
+    // Aims a little short, so that it arrives from below.
+    const std::uint64_t missing =
+        (objects - count) * static_cast<std::uint64_t>(plan.bays) * 20 / (count * 21 + 1);
+    plan.bays += std::max(1, static_cast<int>(missing));
+  }
+}
+
+Result<Yard> build_best(const ShipOptions& options, const std::stop_token& stop) {
+  Yard best;
+  for (const Plan& plan : candidate_plans(options)) {
+    Yard yard = build_enough(plan, options.objects, stop);
+    if (stop.stop_requested())
+      return Error{ErrorCode::cancelled, "stopped while generating", "", ""};
+    if (best.objects().empty() || yard.objects().size() < best.objects().size())
       best = std::move(yard);
-      found = true;
-    }
-    if (found) break;
-    bays += std::max(1, missing);
   }
   return best;
 }
@@ -247,8 +255,7 @@ Result<Ship> generate_ship(const ShipOptions& options, const parallel::Context& 
                  fmt::format("a ship of {} objects cannot be built", options.objects), "--objects",
                  fmt::format("give a number from {} to {}", ShipOptions::kMinObjects,
                              ShipOptions::kMaxObjects)};
-  Plan plan = shape_plan(options);
-  Result<Yard> yard = build_enough(plan, options.objects, context);
+  Result<Yard> yard = build_best(options, context.stop);
   if (!yard) return yard.error();
   const std::vector<bool> kept = choose_kept(*yard, options.objects);
   const std::vector<Handle> order = id_order(*yard, kept);

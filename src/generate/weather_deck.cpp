@@ -151,7 +151,7 @@ void build_funnel(Room& room) {
                                      {100, 1000, 0}}};
   Handle below = room.deck;
   for (int tier = 0; tier < 3; ++tier) {
-    const Kind kind = tier == 1 ? Kind::vent_head : Kind::funnel;
+    const Kind kind = tier == 1 ? Kind::mast : Kind::funnel;
     const Handle ring = site.extruded(kind, casing, tier == 1 ? 500 : 1500,
                                       at({0, 0,
                                           tier == 0   ? 0.0
@@ -174,7 +174,7 @@ void build_mast(Room& room) {
   yard.weld(house, room.deck);
   const std::array<Vec3d, 5> pole{
       {{260, 0, 0}, {240, 60, 0}, {160, 3200, 0}, {160, 3500, 0}, {90, 5200, 0}}};
-  const Handle mast = site.turned(Kind::mast, pole, at({1400, 1650, 1700}), 16);
+  const Handle mast = site.turned(Kind::mast, pole, at({1400, 1650, 1700}));
   yard.weld(mast, house);
   for (const double side : {-1.0, 1.0}) {
     const double b = side < 0 ? 1650 - 160 - 1400 : 1650 + 160;
