@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,6 +14,8 @@
 
 #include "strake/clash/clash.hpp"
 #include "strake/generate/ship.hpp"
+#include "strake/io/reader.hpp"
+#include "strake/io/writer.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/team.hpp"
 
@@ -26,6 +31,7 @@ const char* name_of(clash::Class cls) { return kClassNames[static_cast<std::size
 struct Case {
   std::uint64_t objects, seed;
   bool turned;
+  bool through_file = false;  ///< written as GLB and read again
 };
 
 class TruthAgainstEngine : public testing::TestWithParam<Case> {
@@ -35,6 +41,23 @@ class TruthAgainstEngine : public testing::TestWithParam<Case> {
     Result<Ship> made = generate_ship({c.objects, c.seed, c.turned}, {});
     ASSERT_TRUE(made.has_value()) << made.error().text();
     ship_ = std::move(made.value());
+    if (c.through_file) read_back();
+  }
+
+  /// Replaces the model by what a reader makes of its GLB file.
+  void read_back() {
+    const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) /
+                                       (std::string("strake_") + std::to_string(getpid()) + ".glb");
+    const Status written = io::write_glb(ship_.model, path, {}, {});
+    ASSERT_TRUE(written.has_value()) << written.error().text();
+    const std::array<std::filesystem::path, 1> paths{path};
+    Result<model::Model> model = io::read_models(paths, {}, {});
+    std::filesystem::remove(path);
+    ASSERT_TRUE(model.has_value()) << model.error().text();
+    ASSERT_EQ(model->objects.size(), ship_.model.objects.size());
+    for (std::size_t i = 0; i < model->objects.size(); ++i)
+      ASSERT_EQ(model->objects[i].id, ship_.model.objects[i].id);
+    ship_.model = std::move(model.value());
   }
 
   [[nodiscard]] clash::Report detect() const {
@@ -101,12 +124,14 @@ TEST_P(TruthAgainstEngine, every_pair_is_found_in_its_class_and_no_other) {
 
 INSTANTIATE_TEST_SUITE_P(ships, TruthAgainstEngine,
                          testing::Values(Case{1000, 1, false}, Case{1000, 1, true},
-                                         Case{1000, 2, false}, Case{20000, 1, false},
+                                         Case{1000, 2, false}, Case{1000, 3, false, true},
+                                         Case{1000, 3, true, true}, Case{20000, 1, false, true},
                                          Case{20000, 1, true}),
                          [](const auto& test_case) {
                            return "of_" + std::to_string(test_case.param.objects) + "_seed_" +
                                   std::to_string(test_case.param.seed) +
-                                  (test_case.param.turned ? "_turned" : "");
+                                  (test_case.param.turned ? "_turned" : "") +
+                                  (test_case.param.through_file ? "_through_glb" : "");
                          });
 
 }  // namespace
