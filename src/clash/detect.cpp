@@ -77,7 +77,7 @@ class Engine {
                             options_.broad_phase, context_);
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
-    if (Status s = flush_contacts(); !s) return s.error();
+    if (Status s = settle_simple_pairs(); !s) return s.error();
     if (Status s = plant_trees(); !s) return s.error();
     if (Status s = first_look(); !s) return s.error();
     if (Status s = depths(); !s) return s.error();
@@ -86,19 +86,20 @@ class Engine {
   }
 
  private:
-  /// Contacts in coordinate planes, which are most of them, need no trees.
-  Status flush_contacts() {
+  /// Closed forms, and contacts in coordinate planes, which are most of them, need no trees.
+  Status settle_simple_pairs() {
     candidates_.resize(pairs_.size());
     return parallel::for_each(
-        context_, {.name = "flush contacts", .n = pairs_.size(), .grain = kGrain},
+        context_, {.name = "simple pairs", .n = pairs_.size(), .grain = kGrain},
         [&](std::size_t i) {
           const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
           Candidate& c = candidates_[i];
           c.too_large = !geometry::fits_pair(a.placed, b.placed);
           if (c.too_large) return;
-          const auto answer =
-              judge_flush({{a.placed, nullptr}, nullptr}, {{b.placed, nullptr}, nullptr},
-                          narrow_options(a, b), c.separated);
+          const NarrowPart x = bare_part(a), y = bare_part(b);
+          const NarrowOptions options = narrow_options(a, b);
+          auto answer = judge_analytic(x, y, options);
+          if (!answer) answer = judge_flush(x, y, options, c.separated);
           c.done = answer.has_value();
           if (c.done) c.answer = *answer;
         });
@@ -167,8 +168,12 @@ class Engine {
         });
   }
 
+  [[nodiscard]] NarrowPart bare_part(const PartRef& p) const {
+    return {{p.placed, nullptr}, nullptr, &scene_.model->bodies[p.body].placement};
+  }
+
   [[nodiscard]] NarrowPart narrow_part(const PartRef& p) const {
-    return {{p.placed, &trees_[p.unique]}, &planes_[p.unique]};
+    return {{p.placed, &trees_[p.unique]}, &planes_[p.unique], nullptr};
   }
 
   [[nodiscard]] NarrowOptions narrow_options(const PartRef& a, const PartRef& b) const {

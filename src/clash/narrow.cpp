@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "clash/relation.hpp"
+#include "strake/geometry/analytic_pair.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/flush_contact.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::clash {
 namespace {
@@ -62,6 +64,16 @@ geometry::Depth depth_of(const NarrowPart& a, const NarrowPart& b, const DepthGo
   return geometry::solid_depth(x, y, goal, work.pair);
 }
 
+Relation analytic_relation(const geometry::AnalyticSeparation& s, double band) {
+  if (s.difference <= band) return Relation::duplicate;
+  if (std::fabs(s.d) <= band) return Relation::abut_outside;
+  if (s.d > 0) return Relation::separate;
+  if (s.a_inside_b > band) return Relation::a_in_b;
+  if (s.b_inside_a > band) return Relation::b_in_a;
+  return std::max(s.a_inside_b, s.b_inside_a) >= -band ? Relation::abut_inside
+                                                       : Relation::interfere;
+}
+
 /// Two parts in canonical order.
 class PairOfParts {
  public:
@@ -74,6 +86,19 @@ class PairOfParts {
         options_(options),
         work_(work),
         thresholds_(thresholds(*a.treed.placed.part, *b.treed.placed.part, options)) {}
+
+  PartAnswer analytic(const geometry::AnalyticSeparation& s, const Vec3d& point) const {
+    PartAnswer answer;
+    answer.separation = {.d = s.d,
+                         .lower = s.d - s.error,
+                         .upper = s.d + s.error,
+                         .sag = 0,
+                         .interiors_meet = s.d < -s.error};
+    answer.point = point;
+    answer.relation = analytic_relation(s, options_.contact_distance);
+    conclude(answer, 0);
+    return answer;
+  }
 
   PartAnswer flush(const Vec3d& point) const {
     PartAnswer answer;
@@ -150,7 +175,11 @@ class PairOfParts {
   }
 
   void conclude(PartAnswer& answer) const {
-    answer.separation.sag = a_.placed.part->sag + b_.placed.part->sag;
+    conclude(answer, a_.placed.part->sag + b_.placed.part->sag);
+  }
+
+  void conclude(PartAnswer& answer, double sag) const {
+    answer.separation.sag = sag;
     answer.judgement = judge(answer.separation, thresholds_);
     std::uint16_t& flags = answer.judgement.flags;
     for (const Part* part : {a_.placed.part, b_.placed.part}) {
@@ -186,6 +215,22 @@ Thresholds thresholds(const Part& a, const Part& b, const NarrowOptions& options
   for (const Part* part : {&a, &b})
     if (part->kind == PartKind::solid) t.overlap = std::min(t.overlap, part->thickness() / 4);
   return t;
+}
+
+std::optional<PartAnswer> judge_analytic(const NarrowPart& a, const NarrowPart& b,
+                                         const NarrowOptions& options) {
+  const bool ordered = in_canonical_order(a.treed, b.treed);
+  const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
+  const auto &p = x.treed.placed.part->primitive, &q = y.treed.placed.part->primitive;
+  if (!p || !q || x.placement == nullptr || y.placement == nullptr) return std::nullopt;
+  const auto s = geometry::analytic_separation({&*p, x.placement}, {&*q, y.placement});
+  const auto centre = geometry::snap(x.placement->translation);
+  if (!s || !centre || !(std::fabs(s->d) > 1 + s->error)) return std::nullopt;
+  NarrowWork work;
+  PartAnswer answer = PairOfParts(x, y, options, work)
+                          .analytic(*s, s->point + (*centre - x.treed.placed.origin).as<double>());
+  if (!ordered) turn(answer, a, b);
+  return answer;
 }
 
 std::optional<PartAnswer> judge_flush(const NarrowPart& a, const NarrowPart& b,

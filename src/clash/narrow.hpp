@@ -13,6 +13,8 @@ namespace strake::clash {
 struct NarrowPart {
   geometry::TreedPart treed;
   const geometry::SupportPlanes* planes = nullptr;
+  /// What the part's primitive is placed by; null: its triangles speak for it.
+  const geometry::Placement* placement = nullptr;
 };
 
 /// What a pair of parts is judged by, grid units.
@@ -37,6 +39,11 @@ struct NarrowWork {
 /// t_o' of the pair: docs/clash.md, "Classes".
 [[nodiscard]] Thresholds thresholds(const geometry::Part& a, const geometry::Part& b,
                                     const NarrowOptions& options);
+
+/// The answer for two primitives that have a closed form: about their true surfaces, so without
+/// sag. None where they are within a micrometre of a tie, which triangles decide exactly.
+[[nodiscard]] std::optional<PartAnswer> judge_analytic(const NarrowPart& a, const NarrowPart& b,
+                                                       const NarrowOptions& options);
 
 /// The answer for a pair that touches in a coordinate plane between its boxes, if it does: wants no
 /// trees. `separated` tells whether there is such a plane, then look_at() need not ask whether

@@ -148,6 +148,25 @@ TEST(Detect, Sheets) {
   EXPECT_EQ(only(laid).cls, Class::contact);
 }
 
+TEST(Detect, PrimitivesWithAClosedFormHaveNoSag) {
+  ClashModel m;
+  m.object("a").body(geometry::CylinderPrimitive{100, 3000}, {{}, {0, 0, 0}});
+  m.object("b").body(geometry::CylinderPrimitive{80, 2000}, {{}, {178.5, 0, 50}});
+  m.object("c").body(geometry::SpherePrimitive{300}, {{}, {5000, 0, 0}});
+  m.object("d").body(geometry::SpherePrimitive{100}, {{}, {5030, 0, 0}});
+  m.object("e").body(geometry::SpherePrimitive{100}, {{}, {5208, 0, 0}});
+  const Report report = m.detect({.clearance_mm = 20});
+  ASSERT_EQ(report.pairs.size(), 3U);
+  expect(report.pairs[0], Class::hit, Relation::interfere, -1.5);
+  expect(report.pairs[1], Class::hit, Relation::b_in_a, -150);
+  expect(report.pairs[2], Class::clearance_violation, Relation::separate, 8);
+  for (const Pair& p : report.pairs) {
+    EXPECT_EQ(p.flags, 0);
+    EXPECT_LT(p.d_upper_mm - p.d_lower_mm, 1e-3);
+  }
+  EXPECT_NEAR(report.pairs[2].point_mm.x, 5154, 1e-6);
+}
+
 TEST(Detect, WiresAndPartsOfOneObjectNeverClash) {
   ClashModel m;
   geometry::Polylines line;
