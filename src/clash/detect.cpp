@@ -77,10 +77,10 @@ class Engine {
                             options_.broad_phase, context_);
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
-    if (Status s = settle_simple_pairs(); !s) return s.error();
-    if (Status s = plant_trees(); !s) return s.error();
-    if (Status s = first_look(); !s) return s.error();
-    if (Status s = depths(); !s) return s.error();
+    if (const Status s = settle_simple_pairs(); !s) return s.error();
+    if (const Status s = plant_trees(); !s) return s.error();
+    if (const Status s = first_look(); !s) return s.error();
+    if (const Status s = depths(); !s) return s.error();
     finish(report);
     return report;
   }
@@ -273,7 +273,7 @@ class Engine {
 
 Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options& options,
                       const parallel::Context& context) {
-  if (Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
+  if (const Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
   return Engine(scene, sets, options, context).run();
 }
 

@@ -185,7 +185,7 @@ std::vector<Node> subtree(std::span<Ref> refs, const Task& range) {
 }
 
 /// Nodes above the subtrees; their tasks in the order in which they were found.
-std::vector<Task> top(std::vector<Node>& nodes, std::span<Ref> refs, std::stop_token stop) {
+std::vector<Task> top(std::vector<Node>& nodes, std::span<Ref> refs, const std::stop_token& stop) {
   std::vector<Task> done, level{{0, 0, refs.size()}};
   while (!level.empty() && !stop.stop_requested()) {
     std::vector<Task> next;
