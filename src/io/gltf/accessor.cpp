@@ -37,11 +37,11 @@ std::size_t type_width(std::string_view type) {
   return 0;
 }
 
-template <class T>
-double load(const std::byte* at) {
+template <class T, class As = double>
+As load(const std::byte* at) {
   T value{};
   std::memcpy(&value, at, sizeof value);
-  return static_cast<double>(value);
+  return static_cast<As>(value);
 }
 
 double largest_of(Component component) {
@@ -117,9 +117,9 @@ void Accessor::element(std::size_t index, double* out) const {
 
 std::uint32_t Accessor::integer(std::size_t index) const {
   const std::byte* at = bytes.data() + index * stride;
-  std::uint32_t value = 0;
-  std::memcpy(&value, at, component_bytes(component));
-  return value;
+  if (component == Component::uint16) return load<std::uint16_t, std::uint32_t>(at);
+  if (component == Component::uint8) return load<std::uint8_t, std::uint32_t>(at);
+  return load<std::uint32_t, std::uint32_t>(at);
 }
 
 std::uint64_t Accessors::stated_count(std::uint64_t index) const {

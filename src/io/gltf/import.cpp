@@ -74,8 +74,12 @@ class Importer {
   void place_all();
   void place(const Visit& visit, std::size_t self);
   void place_instances(const Node& node, model::GroupId parent, const Placement& world);
-  void add_object(const Node& node, const std::string& name, const std::string& id,
-                  model::GroupId parent, std::span<const Placement> placements);
+  struct Element {
+    std::string name, id;
+    model::Attributes attributes;
+  };
+  void add_object(const Node& node, Element element, model::GroupId parent,
+                  std::span<const Placement> placements);
   bool add_bodies(const MeshShapes& mesh, const Placement& world);
   [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name) const;
   void skip(const Node& node, const Fault& fault);
@@ -259,8 +263,8 @@ bool Importer::add_bodies(const MeshShapes& mesh, const Placement& world) {
   return true;
 }
 
-void Importer::add_object(const Node& node, const std::string& name, const std::string& id,
-                          model::GroupId parent, std::span<const Placement> placements) {
+void Importer::add_object(const Node& node, Element element, model::GroupId parent,
+                          std::span<const Placement> placements) {
   const MeshShapes& mesh = shapes_[*node.mesh];
   const std::size_t first = model_.bodies.size();
   for (const Placement& placement : placements)
@@ -269,12 +273,12 @@ void Importer::add_object(const Node& node, const std::string& name, const std::
       return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it is placed beyond all bounds"});
     }
   model::Object object;
-  object.name = name;
-  object.id = id.empty() ? path_id(parent, name) : id;
+  object.id = element.id.empty() ? path_id(parent, element.name) : std::move(element.id);
+  object.name = std::move(element.name);
   object.parent = parent;
   object.first_body = static_cast<std::uint32_t>(first);
   object.body_count = static_cast<std::uint32_t>(model_.bodies.size() - first);
-  object.attributes = node.attributes;
+  object.attributes = std::move(element.attributes);
   model_.objects.push_back(std::move(object));
 }
 
@@ -285,17 +289,17 @@ void Importer::place_instances(const Node& node, model::GroupId parent, const Pl
   if (instances.placements.empty())
     return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it has no instances"});
   if (instances.names.empty())
-    return add_object(node, node.name, node.id, parent, instances.placements);
+    return add_object(node, {node.name, node.id, node.attributes}, parent, instances.placements);
   // Named instances are elements of their own below the node.
   const auto group = static_cast<model::GroupId>(model_.groups.size());
   model_.groups.push_back({node.name, parent});
   for (std::size_t i = 0; i < instances.placements.size(); ++i)
-    add_object(node, instances.names[i], instances.ids[i], group,
-               std::span(instances.placements).subspan(i, 1));
+    add_object(node, {std::move(instances.names[i]), std::move(instances.ids[i]), node.attributes},
+               group, std::span(instances.placements).subspan(i, 1));
 }
 
 void Importer::place(const Visit& visit, std::size_t self) {
-  const Node& node = nodes_[visit.node];
+  Node& node = nodes_[visit.node];
   const Placed above = visit.parent == kNoVisit ? Placed{} : placed_[visit.parent];
   Placed& here = placed_[self];
   here.world = visit.parent == kNoVisit ? node.local : above.world * node.local;
@@ -311,11 +315,15 @@ void Importer::place(const Visit& visit, std::size_t self) {
   if (shapes_[*node.mesh].parts.empty())
     return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it has no triangles and no lines"});
   if (node.instancing.exists()) return place_instances(node, above.group, here.world);
-  add_object(node, node.name, node.id, above.group, std::span(&here.world, 1));
+  // Nobody asks for these again: a node is visited once.
+  Element element{node.name, std::move(node.id), std::move(node.attributes)};
+  add_object(node, std::move(element), above.group, std::span(&here.world, 1));
 }
 
 void Importer::place_all() {
   placed_.resize(visits_.size());
+  model_.objects.reserve(visits_.size());
+  model_.bodies.reserve(visits_.size());
   for (std::size_t i = 0; i < visits_.size(); ++i) place(visits_[i], i);
 }
 

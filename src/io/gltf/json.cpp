@@ -295,6 +295,9 @@ bool Json::numbers(double* out, std::size_t count) const {
 
 namespace {
 
+/// ASCII that stands for itself.
+constexpr bool is_plain(char c) { return static_cast<signed char>(c) >= 0 && c != '\\'; }
+
 unsigned hex_value(std::string_view digits) {
   unsigned value = 0;
   for (const char c : digits.substr(0, 4))
@@ -343,7 +346,12 @@ std::string Json::text_value() const {
   if (!is_string()) return out;
   std::string_view text = raw();
   out.reserve(text.size());
-  while (!text.empty()) {
+  while (true) {
+    std::size_t plain = 0;
+    while (plain < text.size() && is_plain(text[plain])) ++plain;
+    out.append(text.substr(0, plain));
+    text.remove_prefix(plain);
+    if (text.empty()) return out;
     std::size_t length = utf8_length(text);
     if (length == 0) {
       append_utf8(out, 0xFFFD);
@@ -360,7 +368,6 @@ std::string Json::text_value() const {
     }
     text.remove_prefix(length);
   }
-  return out;
 }
 
 }  // namespace strake::io::gltf
