@@ -28,8 +28,10 @@ Order order_files(Model& model) {
     const SourceFile& f = model.files[i];
     return std::tie(f.label, f.format, f.bytes, f.unit, f.up_axis);
   };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const auto p = key(a), q = key(b);
+    return p != q ? p < q : a < b;
+  });
   std::unordered_set<std::string> taken;
   for (const SourceFile& f : model.files) taken.insert(f.label);
   std::vector<SourceFile> files;

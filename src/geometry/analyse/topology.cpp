@@ -16,8 +16,9 @@ struct HalfEdge {
 /// Stable by higher vertex: entries arrive by triangle.
 void sort_bucket(std::span<HalfEdge> bucket) {
   if (bucket.size() > 32) {
-    std::stable_sort(bucket.begin(), bucket.end(),
-                     [](const HalfEdge& a, const HalfEdge& b) { return a.high < b.high; });
+    std::sort(bucket.begin(), bucket.end(), [](const HalfEdge& a, const HalfEdge& b) {
+      return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+    });
     return;
   }
   for (std::size_t i = 1; i < bucket.size(); ++i) {
@@ -137,11 +138,12 @@ class Fan {
       const bool behind = dot(first, cross(axis.as<double>(), s.arm.as<double>())) < 0;
       s.half = side < 0 || (side == 0 && behind) ? 1 : 0;
     }
-    std::stable_sort(spokes_.begin(), spokes_.end(), [&](const Spoke& a, const Spoke& b) {
+    std::sort(spokes_.begin(), spokes_.end(), [&](const Spoke& a, const Spoke& b) {
       if (a.half != b.half) return a.half < b.half;
       const int order = turn(axis, a.arm, b.arm);
       // At one angle material ends before other material begins: solids back to back stay apart.
-      return order != 0 ? order > 0 : a.sense > b.sense;
+      if (order != 0) return order > 0;
+      return a.sense != b.sense ? a.sense > b.sense : a.triangle < b.triangle;
     });
   }
 
