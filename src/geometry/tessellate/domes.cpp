@@ -89,8 +89,8 @@ Tessellation make(const EllipticalDishPrimitive& p, const Target& target) {
   // A chord over the parameter step t strays by at most |second derivative|·t²/8.
   const double axis = std::max(p.radius, p.height), rest = target.sag - rim_sag;
   const double wanted = kPi / 2 * std::sqrt(axis / (8 * rest));
-  const int rows =
-      wanted < kMostSegments / 4 ? std::max(2, static_cast<int>(wanted) + 1) : kMostSegments / 4;
+  constexpr int kMostRows = kMostSegments / 4;
+  const int rows = wanted < kMostRows ? std::max(2, static_cast<int>(wanted) + 1) : kMostRows;
   std::vector<ProfilePoint> profile;
   for (int k = 0; k < rows; ++k) {
     const SinCos a = sin_cos(kPi / 2 * k / rows);
