@@ -92,7 +92,7 @@ class Meeter {
  private:
   enum class State : std::uint8_t { go_on, decided };
 
-  /// The triangles of a leaf of a, prepared; kept until another leaf is loaded.
+  /// The triangles of a leaf of a, prepared as they are needed; kept until another leaf is loaded.
   struct LoadedLeaf {
     const PartTree::Node* node = nullptr;
     std::array<Box3l, PartTree::kLeafSize> box;
@@ -161,9 +161,11 @@ Meeter::State Meeter::walk() {
 }
 
 Box3l box_of(const std::array<Vec3l, 3>& t) {
-  Box3l box{t[0], t[0]};
-  box.include(t[1]);
-  box.include(t[2]);
+  Box3l box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = std::min(std::min(t[0][k], t[1][k]), t[2][k]);
+    box.hi[k] = std::max(std::max(t[0][k], t[1][k]), t[2][k]);
+  }
   return box;
 }
 
@@ -171,9 +173,8 @@ void Meeter::load(const PartTree::Node& leaf) {
   if (leaf_.node == &leaf) return;
   leaf_.node = &leaf;
   for (std::uint32_t i = 0; i < leaf.count; ++i) {
-    const ExactTriangle t = a_.triangle(a_.tree().order()[leaf.first + i]);
-    leaf_.box[i] = box_of(t.corner);
-    leaf_.triangle[i] = t;
+    leaf_.box[i] = box_of(a_.corners(a_.tree().order()[leaf.first + i]));
+    leaf_.triangle[i].reset();
   }
 }
 
@@ -185,14 +186,16 @@ Meeter::State Meeter::leaves(const PartTree::Node& na, const PartTree::Node& nb)
     const Box3l box_b = box_of(corners);
     if (!box_b.meets(box_a)) continue;
     load(na);
-    const ExactTriangle b(corners);
+    std::optional<ExactTriangle> b;
     for (std::uint32_t i = 0; i < na.count; ++i) {
       if (!leaf_.box[i].meets(box_b)) continue;
       ++work_.triangle_pairs;
-      const ExactTriangle& a = *leaf_.triangle[i];
       const std::uint32_t ta = a_.tree().order()[na.first + i];
-      const TriangleContact c = contact(a, b);
-      if (c.touch == Touch::none ? parted(a, b, c) : found(ta, tb, a, b, c) == State::decided)
+      if (!leaf_.triangle[i]) leaf_.triangle[i].emplace(a_.corners(ta));
+      if (!b) b.emplace(corners);
+      const ExactTriangle& a = *leaf_.triangle[i];
+      const TriangleContact c = contact(a, *b);
+      if (c.touch == Touch::none ? parted(a, *b, c) : found(ta, tb, a, *b, c) == State::decided)
         return State::decided;
     }
   }

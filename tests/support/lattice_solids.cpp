@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "strake/geometry/predicates.hpp"
+
 namespace strake::testing {
 
 using geometry::Triangle;
@@ -149,7 +151,7 @@ LatticeMap random_map(std::mt19937_64& rng) {
   if (below(rng, 2) == 0) m = axis_symmetry(below(rng, 48));
   if (below(rng, 3) == 0) m.row[static_cast<std::size_t>(below(rng, 3))] = {1, -1, 1};
   if (below(rng, 3) == 0) m.row[0] = m.row[0] * 2;
-  if (m.determinant() == 0) m = {};
+  if (m.orientation() == 0) m = {};
   for (int k = 0; k < 3; ++k) m.offset[k] = below(rng, 5) - 1;
   return m;
 }
@@ -185,15 +187,16 @@ Vec3i LatticeMap::operator()(const Vec3i& p) const {
   return Vec3i{dot(row[0], p), dot(row[1], p), dot(row[2], p)} + offset;
 }
 
-std::int64_t LatticeMap::determinant() const {
-  return dot(row[0].as<std::int64_t>(),
-             cross(row[1].as<std::int64_t>(), row[2].as<std::int64_t>()));
+int LatticeMap::orientation() const {
+  const geometry::Int128 d = geometry::det_exact(
+      row[0].as<std::int64_t>(), row[1].as<std::int64_t>(), row[2].as<std::int64_t>());
+  return (d > 0) - (d < 0);
 }
 
 IndexedMesh mapped(const IndexedMesh& mesh, const LatticeMap& map) {
   IndexedMesh r = mesh;
   for (Vec3i& v : r.vertices) v = map(v);
-  return map.determinant() < 0 ? r.flipped() : r;
+  return map.orientation() < 0 ? r.flipped() : r;
 }
 
 LatticeSolid mapped(const LatticeSolid& solid, const LatticeMap& map) {

@@ -30,7 +30,8 @@ struct LatticeMap {
   geometry::Vec3i offset;
 
   [[nodiscard]] geometry::Vec3i operator()(const geometry::Vec3i& p) const;
-  [[nodiscard]] std::int64_t determinant() const;
+  /// Sign of the determinant: -1 mirrors, 0 flattens.
+  [[nodiscard]] int orientation() const;
 };
 
 /// The image of a body; a mirroring map keeps it outward.

@@ -44,7 +44,15 @@ class ExactPlane {
     const Vec3l d = p - a_;
     return SignedDet(dot(approximate_, d.as<double>()), dot(wrapped_, d.as<std::uint64_t>()));
   }
-  [[nodiscard]] constexpr int side(const Vec3l& p) const { return det(p).sign(); }
+  [[nodiscard]] constexpr int side(const Vec3l& p) const {
+    constexpr double kCertain = 70368744177664.0;  // 2^46: twice the largest error
+    const Vec3l d = p - a_;
+    const double approximate = dot(approximate_, d.as<double>());
+    if (approximate > kCertain) return 1;
+    if (approximate < -kCertain) return -1;
+    const auto exact = static_cast<std::int64_t>(dot(wrapped_, d.as<std::uint64_t>()));
+    return (exact > 0) - (exact < 0);
+  }
   /// The normal, rounded; components are off by at most 2^-51 of the largest edge product.
   [[nodiscard]] constexpr const Vec3d& normal() const { return approximate_; }
 
