@@ -217,7 +217,7 @@ void build_railings(const Plan& plan, const Steel& steel, Yard& yard) {
   for (int k = 0; k <= plan.levels; ++k) {
     const int bay = plan.deck_bays(k) - 1;
     for (int lane = 0; lane < plan.lanes; ++lane) {
-      Site site = plan.site(yard, bay, lane, k);
+      const Site site = plan.site(yard, bay, lane, k);
       Frame across = at({kBay - 12, lane == 0 ? 230.0 : 30.0, 0});
       across.m = {0, 1, 0, 1, 0, 0, 0, 0, 1};  // x runs across the ship, y forward: mirrored
       build_railing(site.in(across), steel.deck(k, bay, lane),
