@@ -28,7 +28,7 @@ using strake::testing::Tetrahedron;
 #ifdef STRAKE_LONG_RUN
 constexpr int kRounds = 6000;
 #else
-constexpr int kRounds = 120;
+constexpr int kRounds = 80;
 #endif
 
 /// What must come out, from the oracle.
