@@ -73,7 +73,7 @@ void tell(Console& console, const Diagnostics& diagnostics) {
 Result<model::Model> read_model(Session& session, const InputOptions& input) {
   const Result<io::ReadOptions> options = read_options(input);
   if (!options) return options.error();
-  const auto timer = session.stats().time("load");
+  const auto timer = session.step("load");
   Result<model::Model> model = io::read_models(input.paths(), *options, session.context());
   if (!model) return model;
   std::vector<std::uint64_t> objects(model->files.size());
@@ -89,7 +89,7 @@ Result<model::Model> read_model(Session& session, const InputOptions& input) {
 
 Result<model::Scene> place_model(Session& session, const model::Model& model,
                                  const model::SceneOptions& options) {
-  const auto timer = session.stats().time("place");
+  const auto timer = session.step("place");
   Result<model::Scene> scene = model::make_scene(model, options, session.context());
   if (!scene) return scene;
   tell(session.console(), scene->diagnostics);

@@ -49,7 +49,8 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kFooter);
   CommonOptions common;
-  const std::vector<Verb> verbs{add_info(program, common)};
+  const std::vector<Verb> verbs{add_info(program, common), add_clash(program, common),
+                                add_generate(program, common)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version

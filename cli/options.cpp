@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "strake/core/number.hpp"
@@ -110,6 +112,30 @@ Result<std::vector<double>> number_list(const std::string& text, std::size_t cou
   if (at != text.size() + 1 || numbers.size() != count)
     return usage(fmt::format("'{}' is not {} numbers", text, count), option, "write " + example);
   return numbers;
+}
+
+std::string suffix_of(const std::string& file) {
+  std::string suffix = std::filesystem::path(file).extension().string();
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return suffix;
+}
+
+Status check_outputs(const std::vector<std::string>& files,
+                     const std::vector<std::string>& suffixes) {
+  std::string list;
+  for (const std::string& suffix : suffixes) list += (list.empty() ? "" : " or ") + suffix;
+  for (const std::string& file : files) {
+    const std::string suffix = suffix_of(file);
+    if (std::find(suffixes.begin(), suffixes.end(), suffix) == suffixes.end())
+      return usage("the format of '" + file + "' is not known", "-o", "end its name in " + list);
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    std::error_code error;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+      return Error{ErrorCode::output, "cannot be written: there is no such folder", file,
+                   "make the folder first"};
+  }
+  return {};
 }
 
 Result<double> quantity(const std::string& text, const std::string& option,

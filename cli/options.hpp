@@ -8,7 +8,7 @@
 #include "strake/core/result.hpp"
 #include "strake/io/reader.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
 class App;
 class Option;
 }  // namespace CLI
@@ -48,6 +48,12 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
 [[nodiscard]] Result<std::vector<double>> number_list(const std::string& text, std::size_t count,
                                                       const std::string& option,
                                                       const std::string& example);
+/// The suffix of a file name in lower case, ".svg".
+[[nodiscard]] std::string suffix_of(const std::string& file);
+/// Whether every file ends in one of the suffixes and can be written where it is to stand.
+[[nodiscard]] Status check_outputs(const std::vector<std::string>& files,
+                                   const std::vector<std::string>& suffixes);
+
 /// A length, angle or scale by its own parser, with the option named in the error.
 [[nodiscard]] Result<double> quantity(const std::string& text, const std::string& option,
                                       Result<double> (*parse)(std::string_view));

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <utility>
 
 namespace strake::cli {
 
@@ -24,8 +25,12 @@ std::string progress_text(const parallel::Progress::Snapshot& now, double elapse
                      std::string(kBarWidth - filled, '.'), share * 100, elapsed_s);
 }
 
-ProgressLine::ProgressLine(Console& console, const parallel::Progress& progress)
-    : console_(console), progress_(progress), thread_([this] { watch(); }) {}
+ProgressLine::ProgressLine(Console& console, const parallel::Progress& progress,
+                           std::function<std::string()> step)
+    : console_(console),
+      progress_(progress),
+      step_(std::move(step)),
+      thread_([this] { watch(); }) {}
 
 ProgressLine::~ProgressLine() {
   {
@@ -46,8 +51,8 @@ void ProgressLine::watch() {
     const double elapsed =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (elapsed < kSilentS) continue;
-    const parallel::Progress::Snapshot now = progress_.snapshot();
-    if (now.phase.empty()) continue;
+    parallel::Progress::Snapshot now = progress_.snapshot();
+    if (now.phase.empty()) now.phase = step_();
     if (console_.is_terminal()) {
       console_.show_status(progress_text(now, elapsed));
     } else if (elapsed >= next_plain_s) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -18,7 +19,9 @@ namespace strake::cli {
 /// terminal, a plain line every ten seconds elsewhere. Looks from a thread of its own.
 class ProgressLine {
  public:
-  ProgressLine(Console& console, const parallel::Progress& progress);
+  /// `step` names what is done while no region runs.
+  ProgressLine(Console& console, const parallel::Progress& progress,
+               std::function<std::string()> step);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -30,6 +33,7 @@ class ProgressLine {
 
   Console& console_;
   const parallel::Progress& progress_;
+  std::function<std::string()> step_;
   std::mutex mutex_;
   std::condition_variable wake_;
   bool done_ = false;

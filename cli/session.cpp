@@ -10,7 +10,19 @@ Session::Session(const CommonOptions& options, unsigned workers, Console& consol
     : options_(options), console_(console), interrupts_(interrupts) {
   console_.set_quiet(options.quiet);
   if (workers > 1) team_ = std::make_unique<parallel::Team>(workers);
-  if (!options.quiet) line_.emplace(console_, progress_);
+  if (options.quiet) return;
+  line_.emplace(console_, progress_, [this] {
+    const std::lock_guard lock(step_mutex_);
+    return step_;
+  });
+}
+
+Stats::Timer Session::step(std::string_view name) {
+  {
+    const std::lock_guard lock(step_mutex_);
+    step_ = name;
+  }
+  return stats_.time(name);
 }
 
 parallel::Context Session::context() {
@@ -20,18 +32,29 @@ parallel::Context Session::context() {
           .report = options_.stats ? &report_ : nullptr};
 }
 
-Status Session::write(const std::filesystem::path& target, std::string_view text) {
+Status Session::write(const std::filesystem::path& target,
+                      parallel::FunctionRef<void(Sink)> producer) {
   // Between computing and writing a run may have been cancelled: then there is no output at all.
   if (interrupts_.token().stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
-  const auto timer = stats_.time("write " + target.filename().string());
-  if (Status status = write_file(target, text); !status) return status;
+  const auto timer = step("write " + target.filename().string());
+  will_write(target);
+  Result<AtomicFile> file = AtomicFile::create(target);
+  if (!file) return file.error();
+  producer([&](std::string_view text) { file->write(text); });
+  if (Status status = file->commit(); !status) return status;
   console_.say("wrote " + target.string());
   return {};
 }
 
-Status Session::write_stdout(std::string_view text) {
-  if (cli::write_stdout(text)) return {};
+Status Session::write_stdout(parallel::FunctionRef<void(Sink)> producer) {
+  bool good = true;
+  producer([&](std::string_view text) { good = good && cli::write_stdout(text); });
+  if (good) return {};
   return Error{ErrorCode::output, "cannot be written", "standard output", {}};
+}
+
+Status Session::write_stdout(std::string_view text) {
+  return write_stdout([&](Sink sink) { sink(text); });
 }
 
 void Session::finish() {

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "cli/console.hpp"
@@ -13,6 +15,7 @@
 #include "cli/stats.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/function_ref.hpp"
 #include "strake/parallel/progress.hpp"
 #include "strake/parallel/report.hpp"
 #include "strake/parallel/team.hpp"
@@ -27,13 +30,20 @@ class Session {
   [[nodiscard]] parallel::Context context();
   [[nodiscard]] Console& console() { return console_; }
   [[nodiscard]] Stats& stats() { return stats_; }
+  /// Begins a step of the run: timed for --stats until the value dies, and shown as progress while
+  /// nothing more precise is known.
+  [[nodiscard]] Stats::Timer step(std::string_view name);
   [[nodiscard]] bool json() const { return options_.json; }
 
   /// Names a file that the run will write, so that a cancellation cleans up after it.
   void will_write(const std::filesystem::path& target) { interrupts_.guard(target); }
-  /// Writes a whole file and says so.
-  [[nodiscard]] Status write(const std::filesystem::path& target, std::string_view text);
+  /// Takes text piece by piece.
+  using Sink = parallel::FunctionRef<void(std::string_view)>;
+  /// Writes a file, whole or not at all, and says so.
+  [[nodiscard]] Status write(const std::filesystem::path& target,
+                             parallel::FunctionRef<void(Sink)> producer);
   /// Data for standard output.
+  [[nodiscard]] Status write_stdout(parallel::FunctionRef<void(Sink)> producer);
   [[nodiscard]] Status write_stdout(std::string_view text);
   /// Removes the progress line and prints what --stats asks for.
   void finish();
@@ -46,6 +56,8 @@ class Session {
   parallel::Progress progress_;
   parallel::RunReport report_;
   Stats stats_;
+  std::mutex step_mutex_;
+  std::string step_;
   std::optional<ProgressLine> line_;
 };
 

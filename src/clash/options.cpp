@@ -36,7 +36,8 @@ Status check(const Options& o, const Sets& sets, std::size_t objects) {
   }
   if (std::isnan(o.contact_distance_mm) || o.contact_distance_mm > kMaxToleranceMm)
     return bad("contact distance", "is not a length");
-  if (sets.in_a.size() != objects || sets.in_b.size() != objects)
+  if (sets.in_a.size() != objects || sets.in_b.size() != objects ||
+      (!sets.group.empty() && sets.group.size() != objects))
     return Error{ErrorCode::usage, "the sets do not have one entry per object of the scene", "sets",
                  "build them from the same scene"};
   return {};

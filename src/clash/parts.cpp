@@ -66,6 +66,10 @@ Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list, const 
   auto pairs = broad_phase == BroadPhase::all_pairs ? geometry::meeting_pairs_all(items, context)
                                                     : tree_pairs(items, context);
   if (!pairs) return pairs.error();
+  if (!sets.group.empty())
+    std::erase_if(*pairs, [&](const geometry::IndexPair& p) {
+      return sets.group[list.parts[p.first].object] == sets.group[list.parts[p.second].object];
+    });
   // The second part's object goes before the first part: all parts of two objects side by side.
   const auto key = [&](const geometry::IndexPair& p) {
     return std::tuple{list.parts[p.first].object, list.parts[p.second].object, p.first, p.second};

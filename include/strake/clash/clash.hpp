@@ -93,6 +93,9 @@ struct Report {
 /// Which of a scene's objects stand against which: each unordered pair once, no self-pair.
 struct Sets {
   std::vector<bool> in_a, in_b;  ///< one entry per object
+  /// Two objects of one group are no pair (files against each other, say). Empty, or one entry per
+  /// object.
+  std::vector<std::uint32_t> group = {};
 };
 
 /// A scene against itself.

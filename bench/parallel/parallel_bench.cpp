@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scheduler loop against its targets (docs/patterns/README.md) and beside oneTBB, OpenMP and
+// std::execution::par in the same run. Every result is compared with the sequential one: a wrong
+// one is reported instead of a time and makes the program fail.
+#include <fmt/core.h>
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <execution>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/report.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake::bench {
+namespace {
+
+using parallel::Context;
+using parallel::for_each;
+using parallel::Region;
+using parallel::Schedule;
+using parallel::Team;
+
+constexpr int kRepeats = 7;
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The least of several runs: other work on the machine only ever adds.
+double best_s(const std::function<void()>& run) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kRepeats; ++i) {
+    const double start = now_s();
+    run();
+    best = std::min(best, now_s() - start);
+  }
+  return best;
+}
+
+/// An item: `rounds` of an integer mixer, about a nanosecond each.
+std::uint64_t work(std::uint64_t seed, std::uint32_t rounds) {
+  std::uint64_t x = seed + 0x9e3779b97f4a7c15ULL;
+  for (std::uint32_t r = 0; r < rounds; ++r) {
+    x ^= x >> 27U;
+    x *= 0x94d049bb133111ebULL;
+  }
+  return x;
+}
+
+struct Case {
+  std::vector<std::uint32_t> rounds;
+  std::vector<std::uint64_t> expected;
+};
+
+Case make_case(std::vector<std::uint32_t> rounds) {
+  Case one{std::move(rounds), {}};
+  for (std::size_t i = 0; i < one.rounds.size(); ++i)
+    one.expected.push_back(work(i, one.rounds[i]));
+  return one;
+}
+
+/// Heavy-tailed costs (Pareto, exponent 1.1), as objects of plant models have them.
+std::vector<std::uint32_t> heavy_tailed(std::size_t n, unsigned seed, bool heavy_first) {
+  std::mt19937 random(seed);
+  std::vector<std::uint32_t> rounds(n);
+  for (std::uint32_t& r : rounds) {
+    const double u = (static_cast<double>(random()) + 1) / 4294967297.0;
+    r = static_cast<std::uint32_t>(std::min(500.0 / std::pow(u, 1 / 1.1), 4e6));
+  }
+  if (heavy_first) std::sort(rounds.rbegin(), rounds.rend());
+  return rounds;
+}
+
+class Bench {
+ public:
+  explicit Bench(unsigned workers)
+      : team_(workers), limit_(tbb::global_control::max_allowed_parallelism, workers) {}
+
+  bool run() {
+    fmt::print("{} workers, best of {} runs\n", team_.size(), kRepeats);
+    dispatch();
+    empty_region();
+    heavy("heavy items anywhere", false);
+    heavy("heavy items first", true);
+    cancel();
+    return good_;
+  }
+
+ private:
+  void line(const std::string& name, double value, const std::string& unit,
+            const std::string& target = "") {
+    fmt::print("  {:<44}{:>10.2f} {:<8}{}\n", name, value, unit, target);
+  }
+
+  /// Runs a filled-in loop and checks what it wrote.
+  template <class Loop>
+  double checked(const std::string& name, const Case& one, Loop&& loop) {
+    std::vector<std::uint64_t> out(one.expected.size());
+    const double seconds = best_s([&] {
+      std::fill(out.begin(), out.end(), 0);
+      loop([&](std::size_t i) { out[i] = work(i, one.rounds[i]); });
+    });
+    if (out == one.expected) return seconds;
+    fmt::print("  {:<44}     WRONG RESULT\n", name);
+    good_ = false;
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  template <class Body>
+  void ours(const Region& region, Body&& body, bool sequential = false) {
+    if (!for_each({.team = sequential ? nullptr : &team_}, region, body)) good_ = false;
+  }
+
+  /// Items that cost next to nothing: what remains is the loop.
+  void dispatch() {
+    constexpr std::size_t kItems = 2'000'000;
+    const Case one = make_case(std::vector<std::uint32_t>(kItems, 0));
+    fmt::print("cost per trivial item, wall time\n");
+    const auto row = [&](const std::string& name, const std::string& target, auto&& loop) {
+      line(name, checked(name, one, loop) / kItems * 1e9, "ns", target);
+    };
+    row("plain loop", "", [&](auto body) {
+      for (std::size_t i = 0; i < kItems; ++i) body(i);
+    });
+    row("strake sequential", "target: plain + 2",
+        [&](auto body) { ours({.name = "d", .n = kItems}, body, true); });
+    row("strake static", "", [&](auto body) {
+      ours({.name = "d", .n = kItems, .schedule = Schedule::static_blocks}, body);
+    });
+    row("strake dynamic, one by one", "target: 15",
+        [&](auto body) { ours({.name = "d", .n = kItems}, body); });
+    row("strake dynamic, blocks of 64", "",
+        [&](auto body) { ours({.name = "d", .n = kItems, .grain = 64}, body); });
+    others(row, kItems);
+  }
+
+  template <class Row>
+  void others(Row&& row, std::size_t n) {
+    row("oneTBB auto", "", [&](auto body) { tbb::parallel_for(std::size_t{0}, n, body); });
+    row("oneTBB grain 1", "", [&](auto body) {
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(0, n, 1),
+          [&](const tbb::blocked_range<std::size_t>& r) {
+            for (std::size_t i = r.begin(); i < r.end(); ++i) body(i);
+          },
+          tbb::simple_partitioner());
+    });
+    const auto threads = static_cast<int>(team_.size());
+    row("OpenMP dynamic", "", [&](auto body) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+      for (std::size_t i = 0; i < n; ++i) body(i);
+    });
+    row("OpenMP guided", "", [&](auto body) {
+#pragma omp parallel for schedule(guided) num_threads(threads)
+      for (std::size_t i = 0; i < n; ++i) body(i);
+    });
+    std::vector<std::size_t> indices(n);
+    std::iota(indices.begin(), indices.end(), std::size_t{0});
+    row("std::execution::par", "", [&](auto body) {
+      std::for_each(std::execution::par, indices.begin(), indices.end(), body);
+    });
+  }
+
+  void empty_region() {
+    constexpr int kRegions = 2000;
+    fmt::print("a region with nothing in it\n");
+    const double seconds = best_s([&] {
+      for (int i = 0; i < kRegions; ++i) team_.run([](parallel::Seat) {});
+    });
+    line("strake team", seconds / kRegions * 1e6, "us", "target: 10");
+  }
+
+  void heavy(const std::string& title, bool heavy_first) {
+    constexpr std::size_t kItems = 20'000;
+    constexpr unsigned kSeed = 11;
+    const Case one = make_case(heavy_tailed(kItems, kSeed, heavy_first));
+    const double total = std::accumulate(one.rounds.begin(), one.rounds.end(), 0.0);
+    const double longest = *std::max_element(one.rounds.begin(), one.rounds.end());
+    const double bound = total / std::max(total / team_.size(), longest);
+    fmt::print("{}: {} items, seed {}; no schedule can gain more than {:.2f}\n", title, kItems,
+               kSeed, bound);
+    const double alone = checked("sequential", one,
+                                 [&](auto body) { ours({.name = "h", .n = kItems}, body, true); });
+    const auto row = [&](const std::string& name, const std::string& target, auto&& loop) {
+      line(name, alone / checked(name, one, loop), "times", target);
+    };
+    row("strake static", "", [&](auto body) {
+      ours({.name = "h", .n = kItems, .schedule = Schedule::static_blocks}, body);
+    });
+    row("strake dynamic", "", [&](auto body) { ours({.name = "h", .n = kItems}, body); });
+    const auto exact =
+        parallel::longest_first(kItems, [&](std::size_t i) { return one.rounds[i]; });
+    std::mt19937 random(kSeed);
+    const auto rough = parallel::longest_first(
+        kItems, [&](std::size_t i) { return one.rounds[i] * (random() % 2 == 0 ? 0.5 : 2.0); });
+    row("strake dynamic, longest first", fmt::format("target: {:.2f}", 0.9 * bound),
+        [&](auto body) { ours({.name = "h", .n = kItems, .order = exact}, body); });
+    row("the same, estimates off by two", "",
+        [&](auto body) { ours({.name = "h", .n = kItems, .order = rough}, body); });
+    balance(one, exact);
+    others(row, kItems);
+  }
+
+  void balance(const Case& one, std::span<const std::uint32_t> order) {
+    parallel::RunReport report;
+    std::vector<std::uint64_t> out(one.expected.size());
+    const auto status = for_each({.team = &team_, .report = &report},
+                                 {.name = "balance", .n = out.size(), .order = order},
+                                 [&](std::size_t i) { out[i] = work(i, one.rounds[i]); });
+    if (!status || out != one.expected) good_ = false;
+    line("load balance of the latter, CPU time", report.regions().front().load_balance(), "",
+         "target: 0.95");
+  }
+
+  /// From the stop request to the end of the region, items of 20 microseconds.
+  void cancel() {
+    constexpr std::uint32_t kRounds = 20'000;
+    fmt::print("from a stop request to the end of the region, items of about 20 us\n");
+    std::vector<double> latencies;
+    for (int i = 0; i < 21; ++i) {
+      std::stop_source source;
+      std::atomic<double> requested{0};
+      std::atomic<std::uint64_t> sink{0};
+      std::thread outside([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        requested = now_s();
+        source.request_stop();
+      });
+      const Status status = for_each({.team = &team_, .stop = source.get_token()},
+                                     {.name = "cancel", .n = 100'000'000},
+                                     [&](std::size_t k) { sink += work(k, kRounds) & 1U; });
+      latencies.push_back(now_s() - requested);
+      outside.join();
+      if (status || status.error().code != ErrorCode::cancelled) good_ = false;
+    }
+    std::sort(latencies.begin(), latencies.end());
+    line("strake, median", latencies[latencies.size() / 2] * 1e6, "us", "target: item + 50");
+    line("strake, worst of 21", latencies.back() * 1e6, "us");
+  }
+
+  Team team_;
+  tbb::global_control limit_;
+  bool good_ = true;
+};
+
+}  // namespace
+}  // namespace strake::bench
+
+int main() { return strake::bench::Bench(strake::parallel::default_workers()).run() ? 0 : 1; }

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <ostream>
+#include <streambuf>
+#include <string>
+
+#include "cli/verb.hpp"
+#include "strake/core/number.hpp"
+#include "strake/generate/ship.hpp"
+#include "strake/io/writer.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+struct GenerateOptions {
+  std::string objects, seed, output, truth;
+  bool turned = false;
+};
+
+/// An std::ostream's end that hands its text on.
+class SinkBuffer : public std::streambuf {
+ public:
+  explicit SinkBuffer(Session::Sink sink) : sink_(sink) {}
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    const char one = traits_type::to_char_type(c);
+    sink_(std::string_view(&one, 1));
+    return c;
+  }
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    sink_(std::string_view(text, static_cast<std::size_t>(size)));
+    return size;
+  }
+
+ private:
+  Session::Sink sink_;
+};
+
+Status whole_number(std::uint64_t& value, const std::string& text, const std::string& option) {
+  if (text.empty()) return {};
+  const auto number = parse_integer(text);
+  if (!number || *number < 0)
+    return Error{ErrorCode::usage, "'" + text + "' is no whole number", option,
+                 "write digits only, as 20000"};
+  value = static_cast<std::uint64_t>(*number);
+  return {};
+}
+
+Status write_model(Session& session, const model::Model& model, const std::string& file) {
+  session.will_write(file);
+  const auto timer = session.step("write " + file);
+  const Status status = suffix_of(file) == ".obj"
+                            ? io::write_obj(model, file, {}, session.context())
+                            : io::write_glb(model, file, {}, session.context());
+  if (status) session.console().say("wrote " + file);
+  return status;
+}
+
+Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
+  generate::ShipOptions options;
+  options.turned = given.turned;
+  if (const Status s = whole_number(options.objects, given.objects, "--objects"); !s)
+    return s.error();
+  if (const Status s = whole_number(options.seed, given.seed, "--seed"); !s) return s.error();
+  if (const Status s = check_outputs({given.output}, {".glb", ".obj"}); !s) return s.error();
+  if (!given.truth.empty())
+    if (const Status s = check_outputs({given.truth}, {".json"}); !s) return s.error();
+  const Result<generate::Ship> ship = [&] {
+    const auto timer = session.step("generate");
+    return generate::generate_ship(options, session.context());
+  }();
+  if (!ship) return ship.error();
+  session.console().say(
+      fmt::format("a ship section of {} objects, seed {}; {} pairs touch or clash",
+                  ship->model.objects.size(), ship->options.seed, ship->truth.pairs.size()));
+  if (const Status s = write_model(session, ship->model, given.output); !s) return s.error();
+  if (given.truth.empty()) return ExitCode::done;
+  const Status written = session.write(given.truth, [&](Session::Sink sink) {
+    SinkBuffer buffer(sink);
+    std::ostream out(&buffer);
+    generate::write_truth(*ship, out);
+  });
+  if (!written) return written.error();
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_generate(CLI::App& program, CommonOptions& common) {
+  const auto options = std::make_shared<GenerateOptions>();
+  CLI::App* const group = program.add_subcommand("generate", "Models made from parameters");
+  group->require_subcommand(1);
+  CLI::App* const command = group->add_subcommand(
+      "ship", "A ship section of any size with planted clashes, and the truth about every pair");
+  const generate::ShipOptions defaults;
+  command
+      ->add_option("--objects", options->objects,
+                   fmt::format("How many objects it has (default {})", defaults.objects))
+      ->type_name("N");
+  command
+      ->add_option("--seed", options->seed,
+                   fmt::format("Equal seeds give equal ships (default {})", defaults.seed))
+      ->type_name("N");
+  command->add_flag("--turned", options->turned,
+                    "Turn the whole ship so that no face lies along an axis");
+  command->add_option("-o,--output", options->output, "The model, as .glb or .obj")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--truth", options->truth,
+                   "Every pair that is not NO_HIT at 25mm clearance, known from the construction "
+                   "(.json)")
+      ->type_name("FILE");
+  add_common_options(*command, common);
+  command->footer(R"(
+Example:
+  strake generate ship --objects 20000 --seed 1 -o ship.glb --truth ship.truth.json)");
+  return {command, [options](Session& session) { return run_generate(session, *options); }};
+}
+
+}  // namespace strake::cli

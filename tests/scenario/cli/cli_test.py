@@ -1,0 +1,322 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the program as a user does: exit codes, what goes where, what is left behind."""
+import json
+import os
+import pty
+import select
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+STRAKE = None  # the program, first argument of this script
+
+CUBE_FACES = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
+
+
+def cube(name, number, at, size):
+    """An OBJ object: a cube with its lower corner at `at`."""
+    x, y, z = at
+    lines = [f'o {name}']
+    lines += [f'v {x + dx * size} {y + dy * size} {z + dz * size}'
+              for dz in (0, 1) for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    lines += ['f ' + ' '.join(str(corner + 8 * number) for corner in face) for face in CUBE_FACES]
+    return '\n'.join(lines) + '\n'
+
+
+class Scenario(unittest.TestCase):
+    def setUp(self):
+        self.keep = tempfile.TemporaryDirectory(prefix='strake-cli-')
+        self.folder = Path(self.keep.name)
+
+    def tearDown(self):
+        self.keep.cleanup()
+
+    def run_strake(self, *arguments, **more):
+        return subprocess.run([STRAKE, *map(str, arguments)], capture_output=True, text=True, timeout=100,
+                              cwd=self.folder, check=False, **more)
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding='utf-8')
+        return name
+
+    def two_files(self):
+        """a.obj: cubes at 0 and 50 (millimetres, side 100: they clash); b.obj: one 10 from the first."""
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (50, 50, 50), 100))
+        self.write('b.obj', cube('b0', 0, (-110, 0, 0), 100))
+
+
+class Usage(Scenario):
+    def test_version_and_help_go_to_stdout(self):
+        version = self.run_strake('--version')
+        self.assertEqual(version.returncode, 0)
+        self.assertRegex(version.stdout, r'^strake \d+\.\d+\.\d+\n$')
+        for arguments in (['--help'], ['info', '--help'], ['clash', '--help'], ['draw', '--help'],
+                          ['generate', '--help'], ['generate', 'ship', '--help']):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual(done.returncode, 0)
+                self.assertIn('Usage: strake', done.stdout)
+                self.assertEqual(done.stderr, '')
+
+    def test_wrong_command_lines_are_usage_errors_that_say_what(self):
+        self.two_files()
+        for arguments, said in (
+                ([], 'subcommand'),
+                (['frobnicate'], 'frobnicate'),
+                (['info'], 'files'),
+                (['info', 'a.obj', '--colour'], '--colour'),
+                (['clash', 'a.obj', '--clearence', '25mm'], '--clearence'),
+                (['info', 'a.obj', '--threads', '0'], '1 to'),
+                (['info', 'a.obj', '--threads', 'many'], 'many'),
+                (['info', 'a.obj', '--unit', 'cubit'], 'um, mm'),
+                (['info', 'a.obj', '--up-axis', 'q'], 'x|y|z'),
+                (['info', 'a.obj', '--sag', '0'], 'positive'),
+                (['clash', 'a.obj', '--clearance', '25'], '25mm'),
+                (['clash', 'a.obj', '--clearance', '-1mm'], 'negative'),
+                (['clash', 'a.obj', '--touch-gap', 'nan'], 'nan'),
+                (['clash', 'a.obj', '--fail-on', 'sometimes'], 'hit|contact'),
+                (['clash', 'a.obj', '-o', 'report.doc'], '.json or .csv'),
+                (['draw', 'a.obj'], '-o FILE.svg'),
+                (['draw', 'a.obj', '-o', 'a.dwg'], '.svg or .json'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--view', 'askew'], 'top|bottom'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--view', 'top', '--direction', '1,1,1'], 'exclude'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--direction', '0,0,0'], '--direction'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--direction', '1,1'], '--direction'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--limits', '1,2,3'], '--limits'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--limits', '1,1,1,0,0,0'], 'empty'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--scale', '50'], '1:50'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--select', 'nobody*'], 'nobody*'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--sharp-angle', '20mm'], '20deg'),
+                (['generate', 'ship'], '--output'),
+                (['generate', 'ship', '-o', 'x.glb', '--objects', '3'], 'objects'),
+                (['generate', 'ship', '-o', 'x.glb', '--objects', '1e3'], 'digits'),
+                (['generate', 'ship', '-o', 'x.step'], '.glb or .obj')):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(said, done.stderr)
+                self.assertIn('strake: error: ', done.stderr)
+                self.assertEqual(done.stdout, '')
+        self.assertEqual(self.files(), ['a.obj', 'b.obj'])
+
+
+class Files(Scenario):
+    def test_input_that_cannot_be_read_names_the_file(self):
+        self.write('empty.obj', '')
+        self.write('noise.xyz', 'neither fish nor fowl\n')
+        for verb in (['info'], ['clash', '-o', 'x.json'], ['draw', '-o', 'x.svg']):
+            for name in ('missing.rvm', 'empty.obj', 'noise.xyz'):
+                with self.subTest(verb=verb, name=name):
+                    done = self.run_strake(*verb, name)
+                    self.assertEqual(done.returncode, 3, done.stderr)
+                    self.assertIn(name, done.stderr)
+        self.assertEqual(self.files(), ['empty.obj', 'noise.xyz'])
+
+    def test_output_that_cannot_be_written_leaves_nothing(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', '-o', 'no/such/folder/x.json')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('no/such/folder', done.stderr)
+        done = self.run_strake('info', 'a.obj', stdin=None)
+        self.assertEqual(done.returncode, 0)
+        with open('/dev/full', 'w', encoding='utf-8') as full:
+            done = subprocess.run([STRAKE, 'info', 'a.obj'], stdout=full, stderr=subprocess.PIPE,
+                                  text=True, cwd=self.folder, timeout=100, check=False)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('standard output', done.stderr)
+        self.assertEqual(self.files(), ['a.obj', 'b.obj'])
+
+    def test_an_old_result_survives_a_failed_run(self):
+        self.write('x.json', 'old')
+        self.assertEqual(self.run_strake('clash', 'missing.obj', '-o', 'x.json').returncode, 3)
+        self.assertEqual((self.folder / 'x.json').read_text(), 'old')
+
+
+class Info(Scenario):
+    def test_data_on_stdout_narration_on_stderr(self):
+        self.two_files()
+        done = self.run_strake('info', 'a.obj', 'b.obj', '--unit', 'mm', '--up-axis', 'z', '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        self.assertEqual([file['objects'] for file in told['files']], [2, 1])
+        self.assertEqual(told['total']['objects'], 3)
+        self.assertEqual(told['total']['triangles'], 36)
+        self.assertEqual(told['total']['solids'], 3)
+        self.assertEqual(told['total']['extents_mm'], {'lo': [-110, 0, 0], 'hi': [150, 150, 150]})
+        self.assertEqual(told['skipped'], 0)
+        self.assertIn('a.obj: OBJ', done.stderr)
+        quiet = self.run_strake('info', 'a.obj', '--quiet')
+        self.assertEqual((quiet.returncode, quiet.stderr), (0, ''))
+        self.assertIn('objects', quiet.stdout)
+
+    def test_the_unit_and_the_axis_are_obeyed(self):
+        self.two_files()
+        done = self.run_strake('info', 'b.obj', '--unit', 'm', '--up-axis', 'z', '--json')
+        self.assertEqual(json.loads(done.stdout)['total']['extents_mm'],
+                         {'lo': [-110000, 0, 0], 'hi': [-10000, 100000, 100000]})
+        done = self.run_strake('info', 'b.obj', '--unit', 'mm', '--up-axis', 'y', '--json')
+        self.assertEqual(json.loads(done.stdout)['total']['extents_mm'],
+                         {'lo': [-110, -100, 0], 'hi': [-10, 0, 100]})
+
+    def test_stats_say_where_the_time_went(self):
+        self.two_files()
+        done = self.run_strake('info', 'a.obj', '--stats', '--quiet', '--json')
+        self.assertEqual(done.returncode, 0)
+        stats = json.loads(done.stderr)
+        self.assertEqual(stats['phases'][0]['name'], 'load')
+        self.assertGreater(stats['peak_memory_bytes'], 1 << 20)
+        plain = self.run_strake('info', 'a.obj', '--stats')
+        self.assertIn('peak memory', plain.stderr)
+
+    def test_strict_tells_a_partial_result_by_its_exit_code(self):
+        self.write('bad.obj', cube('good', 0, (0, 0, 0), 1) + 'o bad\nv nan 0 0\nf 9 9 9\n')
+        self.assertEqual(self.run_strake('info', 'bad.obj').returncode, 0)
+        strict = self.run_strake('info', 'bad.obj', '--strict', '--json')
+        self.assertEqual(strict.returncode, 4, strict.stderr)
+        self.assertGreater(json.loads(strict.stdout)['skipped'], 0)
+
+
+class Clash(Scenario):
+    SETTINGS = ['--unit', 'mm', '--up-axis', 'z']
+
+    def pairs(self, *arguments):
+        done = self.run_strake('clash', *arguments, *self.SETTINGS, '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [(r['a']['name'], r['b']['name'], r['class']) for r in json.loads(done.stdout)['results']]
+
+    def test_one_file_against_itself_several_against_each_other(self):
+        self.two_files()
+        self.write('c.obj', cube('c0', 0, (140, 140, 140), 100))
+        self.assertEqual(self.pairs('a.obj'), [('a0', 'a1', 'HIT')])
+        self.assertEqual(self.pairs('a.obj', 'b.obj'), [])
+        near = ('a0', 'b0', 'CLEARANCE_VIOLATION')
+        self.assertEqual(self.pairs('a.obj', 'b.obj', '--clearance', '0.99cm'), [])
+        self.assertEqual(self.pairs('a.obj', 'b.obj', '--clearance', '10.1mm'), [near])
+        self.assertEqual(self.pairs('a.obj', 'b.obj', 'c.obj', '--clearance', '10.1mm'),
+                         [near, ('a1', 'c0', 'HIT')])
+        self.assertEqual(self.pairs('a.obj', 'b.obj', 'c.obj', '--clearance', '10.1mm', '--self'),
+                         [('a0', 'a1', 'HIT'), near, ('a1', 'c0', 'HIT')])
+
+    def test_files_and_twins_give_the_same_bytes(self):
+        self.two_files()
+        arguments = ['clash', 'a.obj', 'b.obj', '--self', '--clearance', '25mm', *self.SETTINGS]
+        self.assertEqual(self.run_strake(*arguments, '-o', 'x.json', '-o', 'x.csv').returncode, 0)
+        expected = (self.folder / 'x.json').read_bytes()
+        for more in (['--threads', 1], ['--threads', 3], ['--threads', 64], ['--broad-phase', 'all-pairs']):
+            with self.subTest(more):
+                self.assertEqual(self.run_strake(*arguments, *more, '-o', 'y.json').returncode, 0)
+                self.assertEqual((self.folder / 'y.json').read_bytes(), expected)
+        self.assertEqual(self.run_strake('clash', 'b.obj', 'a.obj', *arguments[3:], '-o', 'y.json').returncode, 0)
+        self.assertEqual((self.folder / 'y.json').read_bytes(), expected, 'the order of files shows')
+        self.assertEqual(len((self.folder / 'x.csv').read_text().splitlines()), 3)
+
+    def test_fail_on_is_an_exit_code(self):
+        self.two_files()
+        self.assertEqual(self.run_strake('clash', 'a.obj', *self.SETTINGS).returncode, 0)
+        self.assertEqual(self.run_strake('clash', 'a.obj', *self.SETTINGS, '--fail-on', 'hit').returncode, 1)
+        far = ['clash', 'a.obj', 'b.obj', *self.SETTINGS, '--clearance', '25mm', '--fail-on']
+        self.assertEqual(self.run_strake(*far, 'hit').returncode, 0)
+        self.assertEqual(self.run_strake(*far, 'contact').returncode, 0)
+        self.assertEqual(self.run_strake(*far, 'clearance_violation').returncode, 1)
+
+
+class Draw(Scenario):
+    def test_svg_and_json_are_the_same_for_any_number_of_threads(self):
+        self.two_files()
+        expected = None
+        for threads in (1, 2, 3, 8, 64):
+            done = self.run_strake('draw', 'a.obj', 'b.obj', '--view', 'iso', '--hidden', 'dashed', '--threads',
+                                   threads, '-o', 'x.svg', '-o', 'x.json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            got = [(self.folder / name).read_bytes() for name in ('x.svg', 'x.json')]
+            expected = expected or got
+            self.assertEqual(got, expected, threads)
+        self.assertIn(b'<svg', expected[0])
+        self.assertEqual(set(piece['object'] for piece in json.loads(expected[1])['pieces']).__len__(), 3)
+
+    def test_selection_limits_and_solver(self):
+        self.two_files()
+
+        def pieces(*more):
+            done = self.run_strake('draw', 'a.obj', '--unit', 'mm', '--up-axis', 'z', *more, '--json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads(done.stdout)['pieces']
+
+        whole = pieces()
+        self.assertEqual(whole, pieces('--solver', 'brute-force'))
+        self.assertEqual(pieces('--view', 'front'), pieces('--direction', '0,-7,0'))
+        self.assertLess(len(pieces('--select', 'a0')), len(whole))
+        wire = pieces('--stage', 'none')
+        self.assertEqual({piece['state'] for piece in wire} - {'visible', 'projecting', 'duplicate'}, set())
+        cut = pieces('--limits', '0,0,0,40,40,40')
+        self.assertTrue(any(piece['state'] == 'clipped' for piece in cut))
+
+
+class Interrupt(Scenario):
+    """Ctrl-C: exit code 130, soon, and nothing left behind."""
+
+    ARGUMENTS = ['generate', 'ship', '--objects', '3000000', '-o', 'big.glb', '--truth', 'big.json']
+
+    def start(self, **more):
+        return subprocess.Popen([STRAKE, *self.ARGUMENTS], cwd=self.folder, text=True, **more)
+
+    def test_ctrl_c_ends_at_once_and_leaves_nothing(self):
+        for name in ('SIGINT', 'SIGTERM'):
+            for delay in (0.2, 1.0):
+                with self.subTest(signal=name, delay=delay):
+                    process = self.start(stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                    time.sleep(delay)
+                    self.assertIsNone(process.poll(), 'the run is too short to be interrupted')
+                    before = time.monotonic()
+                    process.send_signal(getattr(signal, name))
+                    _, told = process.communicate(timeout=60)
+                    took = time.monotonic() - before
+                    self.assertEqual(process.returncode, 130, told)
+                    self.assertIn('cancelled', told)
+                    self.assertEqual(self.files(), [])
+                    # The promise is 100 ms; a machine with other work on it gets some grace.
+                    self.assertLess(took, 2.0)
+                    print(f'{name} after {delay} s: ended in {1000 * took:.0f} ms', file=sys.stderr)
+
+    def test_progress_is_drawn_on_a_terminal_only(self):
+        master, slave = pty.openpty()
+        process = self.start(stdout=subprocess.DEVNULL, stderr=slave)
+        os.close(slave)
+        shown, until = b'', time.monotonic() + 30
+        while time.monotonic() < until and b' s' not in shown:
+            if select.select([master], [], [], 0.2)[0]:
+                try:
+                    shown += os.read(master, 4096)
+                except OSError:
+                    break
+        process.send_signal(signal.SIGINT)
+        while process.poll() is None:
+            if select.select([master], [], [], 0.05)[0]:
+                try:
+                    os.read(master, 4096)
+                except OSError:
+                    break
+        self.assertEqual(process.wait(60), 130)
+        os.close(master)
+        self.assertIn(b'\r', shown)
+        self.assertRegex(shown.decode(), r'\d+ s')
+
+        process = self.start(stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(1.6)
+        process.send_signal(signal.SIGINT)
+        out, told = process.communicate(timeout=60)
+        self.assertEqual(out, '')
+        self.assertNotIn('\r', told)
+
+
+if __name__ == '__main__':
+    STRAKE = str(Path(sys.argv.pop(1)).resolve())
+    unittest.main(verbosity=1)
