@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -21,24 +22,49 @@ struct Interval {
   double from, to;  ///< parameter along a line, 0 at a, 1 at b
 };
 
-double length_of(const Line& line) {
-  const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
-  return std::sqrt(dx * dx + dy * dy);
+/// A line in the plane of the view, model millimetres.
+struct Flat {
+  double ax = 0, ay = 0, bx = 0, by = 0;
+  double dx = 0, dy = 0, length = 0;  ///< unit direction from a to b
+  double depth = 0;                   ///< of the two ends together; larger is nearer
+  int state = 0;                      ///< 0 visible, 1 hidden, 2 takes no part
+};
+
+int state_rank(LineState state) {
+  if (state == LineState::visible) return 0;
+  return state == LineState::hidden_by_self || state == LineState::hidden_by_other ? 1 : 2;
 }
 
-bool is_drawn(const Line& line) {
-  return line.state == LineState::visible || line.state == LineState::hidden_by_self ||
-         line.state == LineState::hidden_by_other;
+std::vector<Flat> flatten(const std::vector<Line>& lines, const PaperAxes& axes) {
+  std::vector<Flat> flat(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    // Relative to the first line: far from the origin differences keep their digits.
+    const Vec3d a = lines[i].a_mm - lines[0].a_mm, b = lines[i].b_mm - lines[0].a_mm;
+    Flat& f = flat[i];
+    f.ax = dot(axes.right, a);
+    f.ay = dot(axes.up, a);
+    f.bx = dot(axes.right, b);
+    f.by = dot(axes.up, b);
+    const double dx = f.bx - f.ax, dy = f.by - f.ay;
+    f.length = std::sqrt(dx * dx + dy * dy);
+    f.depth = dot(axes.toward, a) + dot(axes.toward, b);
+    f.state = f.length > 0 ? state_rank(lines[i].state) : 2;
+    if (f.length > 0) {
+      f.dx = dx / f.length;
+      f.dy = dy / f.length;
+    }
+  }
+  return flat;
 }
 
-/// A grid over the sheet; each cell lists the lines that pass through or near it.
+/// A grid over the view; each cell lists the lines that pass through or near it.
 class CellGrid {
  public:
-  explicit CellGrid(const std::vector<Line>& lines);
+  CellGrid(const std::vector<Flat>& lines, double slack);
 
   /// Calls visit(other) for every line that shares a cell with `line`; some more than once.
   template <class Visit>
-  void neighbours(const Line& line, Visit&& visit) const {
+  void neighbours(const Flat& line, Visit&& visit) const {
     walk(line, [&](std::size_t cell) {
       for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k) visit(items_[k]);
     });
@@ -46,111 +72,103 @@ class CellGrid {
 
  private:
   template <class Visit>
-  void walk(const Line& line, Visit&& visit) const;
+  void walk(const Flat& line, Visit&& visit) const;
+  void measure(const std::vector<Flat>& lines);
   [[nodiscard]] std::size_t cell_of(double at, double low, std::size_t count) const {
     const double cell = std::floor((at - low) / size_);
     return cell <= 0 ? 0 : std::min(static_cast<std::size_t>(cell), count - 1);
   }
 
-  double left_ = 0, top_ = 0, size_ = 1;
+  double slack_, left_ = 0, top_ = 0, size_ = 1;
   std::size_t columns_ = 1, rows_ = 1;
   std::vector<std::size_t> first_;
   std::vector<std::uint32_t> items_;
 };
 
-CellGrid::CellGrid(const std::vector<Line>& lines) {
+/// Cells of about half the mean length, so that a line is in few cells and a cell has few lines;
+/// at most 2048 of them along a side.
+void CellGrid::measure(const std::vector<Flat>& lines) {
   constexpr double kBig = std::numeric_limits<double>::max();
-  double right = -kBig, bottom = -kBig, total = 0;
-  left_ = top_ = kBig;
+  double left = kBig, right = -kBig, top = kBig, bottom = -kBig, total = 0;
   std::size_t drawn = 0;
-  for (const Line& line : lines) {
-    if (!is_drawn(line)) continue;
+  for (const Flat& line : lines) {
+    if (line.state == 2) continue;
     ++drawn;
-    total += length_of(line);
-    for (const PaperPoint& p : {line.a_paper, line.b_paper}) {
-      left_ = std::min(left_, p.x);
-      right = std::max(right, p.x);
-      top_ = std::min(top_, p.y);
-      bottom = std::max(bottom, p.y);
-    }
+    total += line.length;
+    left = std::min({left, line.ax, line.bx});
+    right = std::max({right, line.ax, line.bx});
+    top = std::min({top, line.ay, line.by});
+    bottom = std::max({bottom, line.ay, line.by});
   }
-  if (drawn == 0) {
-    left_ = top_ = right = bottom = 0;
-  }
-  // About the mean length: a line is then in few cells, and a cell has few lines.
-  const double mean = drawn > 0 ? total / static_cast<double>(drawn) : 1;
-  const double widest = std::max({right - left_, bottom - top_, 1.0});
-  size_ = std::max({mean, widest / 2048, 0.1});
-  columns_ = static_cast<std::size_t>((right - left_) / size_) + 1;
-  rows_ = static_cast<std::size_t>((bottom - top_) / size_) + 1;
+  if (drawn == 0) return;
+  left_ = left;
+  top_ = top;
+  const double widest = std::max(right - left, bottom - top);
+  size_ = std::max({total / static_cast<double>(drawn) / 2, widest / 2048, 4 * slack_, 1e-3});
+  columns_ = static_cast<std::size_t>((right - left) / size_) + 1;
+  rows_ = static_cast<std::size_t>((bottom - top) / size_) + 1;
+}
+
+CellGrid::CellGrid(const std::vector<Flat>& lines, double slack) : slack_(slack) {
+  measure(lines);
   first_.assign(columns_ * rows_ + 1, 0);
-  for (const Line& line : lines)
-    if (is_drawn(line)) walk(line, [&](std::size_t cell) { ++first_[cell + 1]; });
+  for (const Flat& line : lines)
+    if (line.state < 2) walk(line, [&](std::size_t cell) { ++first_[cell + 1]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   items_.resize(first_.back());
   std::vector<std::size_t> at(first_.begin(), first_.end() - 1);
   for (std::uint32_t i = 0; i < lines.size(); ++i)
-    if (is_drawn(lines[i])) walk(lines[i], [&](std::size_t cell) { items_[at[cell]++] = i; });
+    if (lines[i].state < 2) walk(lines[i], [&](std::size_t cell) { items_[at[cell]++] = i; });
 }
 
 /// Visits, column by column, the cells of the rows that the line spans in that column, widened by
-/// the duplicate distance so that two lines that lie on each other always share a cell.
+/// the slack so that two lines that lie on each other always share a cell.
 template <class Visit>
-void CellGrid::walk(const Line& line, Visit&& visit) const {
-  const PaperPoint& a = line.a_paper.x <= line.b_paper.x ? line.a_paper : line.b_paper;
-  const PaperPoint& b = line.a_paper.x <= line.b_paper.x ? line.b_paper : line.a_paper;
-  const double slack = 2 * kDuplicateDistance;
-  const std::size_t from = cell_of(a.x - slack, left_, columns_);
-  const std::size_t to = cell_of(b.x + slack, left_, columns_);
-  const double dx = b.x - a.x, dy = b.y - a.y;
-  const auto y_at = [&](double x) {
-    return dx > 0 ? a.y + dy * std::clamp((x - a.x) / dx, 0.0, 1.0) : a.y;
-  };
+void CellGrid::walk(const Flat& line, Visit&& visit) const {
+  const bool forward = line.ax <= line.bx;
+  const double ax = forward ? line.ax : line.bx, ay = forward ? line.ay : line.by;
+  const double bx = forward ? line.bx : line.ax, by = forward ? line.by : line.ay;
+  const std::size_t from = cell_of(ax - slack_, left_, columns_);
+  const std::size_t to = cell_of(bx + slack_, left_, columns_);
   for (std::size_t column = from; column <= to; ++column) {
-    const double x0 = left_ + static_cast<double>(column) * size_ - slack;
-    const double y0 = dx > 0 ? y_at(x0) : a.y, y1 = dx > 0 ? y_at(x0 + size_ + 2 * slack) : b.y;
-    const std::size_t low = cell_of(std::min(y0, y1) - slack, top_, rows_);
-    const std::size_t high = cell_of(std::max(y0, y1) + slack, top_, rows_);
+    double y0 = ay, y1 = by;
+    if (from != to && bx > ax) {
+      const double x0 = left_ + static_cast<double>(column) * size_;
+      y0 = ay + (by - ay) * std::clamp((x0 - slack_ - ax) / (bx - ax), 0.0, 1.0);
+      y1 = ay + (by - ay) * std::clamp((x0 + size_ + slack_ - ax) / (bx - ax), 0.0, 1.0);
+    }
+    const std::size_t low = cell_of(std::min(y0, y1) - slack_, top_, rows_);
+    const std::size_t high = cell_of(std::max(y0, y1) + slack_, top_, rows_);
     for (std::size_t row = low; row <= high; ++row) visit(row * columns_ + column);
   }
 }
 
 /// The stretch of `line` that `other` lies on, when the two coincide there within the distance.
-std::optional<Interval> covered(const Line& line, const Line& other) {
-  const double length = length_of(line);
-  const double dx = (line.b_paper.x - line.a_paper.x) / length;
-  const double dy = (line.b_paper.y - line.a_paper.y) / length;
-  const auto along = [&](const PaperPoint& p) {
-    return (p.x - line.a_paper.x) * dx + (p.y - line.a_paper.y) * dy;
-  };
-  const auto aside = [&](const PaperPoint& p) {
-    return (p.y - line.a_paper.y) * dx - (p.x - line.a_paper.x) * dy;
-  };
-  double s0 = along(other.a_paper), s1 = along(other.b_paper);
-  double d0 = aside(other.a_paper), d1 = aside(other.b_paper);
+std::optional<Interval> covered(const Flat& line, const Flat& other, double distance) {
+  double d0 = (other.ay - line.ay) * line.dx - (other.ax - line.ax) * line.dy;
+  double d1 = (other.by - line.ay) * line.dx - (other.bx - line.ax) * line.dy;
+  if (std::min(d0, d1) > distance || std::max(d0, d1) < -distance) return std::nullopt;
+  double s0 = (other.ax - line.ax) * line.dx + (other.ay - line.ay) * line.dy;
+  double s1 = (other.bx - line.ax) * line.dx + (other.by - line.ay) * line.dy;
   if (s0 > s1) {
     std::swap(s0, s1);
     std::swap(d0, d1);
   }
-  const double from = std::max(0.0, s0), to = std::min(length, s1);
-  if (to - from <= kDuplicateDistance) return std::nullopt;
+  const double from = std::max(0.0, s0), to = std::min(line.length, s1);
+  if (to - from <= distance) return std::nullopt;
   // The other line's distance at both ends of the common stretch.
   const double slope = (d1 - d0) / (s1 - s0);
-  if (std::fabs(d0 + slope * (from - s0)) > kDuplicateDistance ||
-      std::fabs(d0 + slope * (to - s0)) > kDuplicateDistance)
+  if (std::fabs(d0 + slope * (from - s0)) > distance ||
+      std::fabs(d0 + slope * (to - s0)) > distance)
     return std::nullopt;
-  return Interval{from / length, to / length};
+  return Interval{from / line.length, to / line.length};
 }
 
-/// Who stays when two lines coincide: smaller first.
-struct Rank {
-  int state;
-  double depth;  ///< smaller is nearer
-  std::uint32_t index;
-  friend bool operator<(const Rank& a, const Rank& b) {
-    return std::tie(a.state, a.depth, a.index) < std::tie(b.state, b.depth, b.index);
-  }
-};
+/// Whether line i stays where both i and j are: a total order.
+bool stays(const std::vector<Flat>& flat, std::uint32_t i, std::uint32_t j) {
+  return std::tuple(flat[i].state, -flat[i].depth, i) <
+         std::tuple(flat[j].state, -flat[j].depth, j);
+}
 
 PaperPoint between(const PaperPoint& a, const PaperPoint& b, double t) {
   return {rounded_paper(a.x + (b.x - a.x) * t), rounded_paper(a.y + (b.y - a.y) * t)};
@@ -175,12 +193,13 @@ Line part_of(const Line& line, double from, double to, bool duplicate) {
   return part;
 }
 
-/// Cuts a line at its covered intervals. Stretches too short to be seen go with their neighbour.
-void append_parts(std::vector<Line>& out, const Line& line, std::vector<Interval>& covers) {
+/// Cuts a line at its covered intervals. Stretches no longer than `shortest` (a parameter) go with
+/// their neighbour.
+void append_parts(std::vector<Line>& out, const Line& line, std::vector<Interval>& covers,
+                  double shortest) {
   std::sort(covers.begin(), covers.end(), [](const Interval& a, const Interval& b) {
     return std::tie(a.from, a.to) < std::tie(b.from, b.to);
   });
-  const double shortest = kDuplicateDistance / length_of(line);
   double done = 0;
   for (std::size_t i = 0; i < covers.size();) {
     double from = covers[i].from, to = covers[i].to;
@@ -197,29 +216,25 @@ void append_parts(std::vector<Line>& out, const Line& line, std::vector<Interval
 
 }  // namespace
 
-std::vector<Line> mark_duplicates(std::vector<Line> lines, const Vec3d& toward) {
-  const CellGrid grid(lines);
-  std::vector<Rank> ranks;
-  ranks.reserve(lines.size());
-  for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    const Line& line = lines[i];
-    const double depth = -(dot(toward, line.a_mm) + dot(toward, line.b_mm));
-    ranks.push_back({line.state == LineState::visible ? 0 : 1, depth, i});
-  }
+std::vector<Line> mark_duplicates(std::vector<Line> lines, const PaperAxes& axes,
+                                  double distance_mm) {
+  const std::vector<Flat> flat = flatten(lines, axes);
+  const CellGrid grid(flat, 2 * distance_mm);
   std::vector<Line> out;
   out.reserve(lines.size() + lines.size() / 8);
   std::vector<Interval> covers;
   for (std::uint32_t i = 0; i < lines.size(); ++i) {
     covers.clear();
-    if (is_drawn(lines[i]) && length_of(lines[i]) > kDuplicateDistance)
-      grid.neighbours(lines[i], [&](std::uint32_t other) {
-        if (other == i || !(ranks[other] < ranks[i])) return;
-        if (const auto interval = covered(lines[i], lines[other])) covers.push_back(*interval);
+    if (flat[i].state < 2 && flat[i].length > distance_mm)
+      grid.neighbours(flat[i], [&](std::uint32_t other) {
+        if (other == i || !stays(flat, other, i)) return;
+        if (const auto interval = covered(flat[i], flat[other], distance_mm))
+          covers.push_back(*interval);
       });
     if (covers.empty())
       out.push_back(lines[i]);
     else
-      append_parts(out, lines[i], covers);
+      append_parts(out, lines[i], covers, distance_mm / flat[i].length);
   }
   return out;
 }

@@ -127,7 +127,10 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
     out.lines.push_back({piece.object, piece.edge, piece.kind, line_state(piece.state),
                          geometry::to_mm(piece.a), geometry::to_mm(piece.b),
                          projector.on_paper(piece.a), projector.on_paper(piece.b)});
-  if (options.remove_duplicates) out.lines = mark_duplicates(std::move(out.lines), axes->toward);
+  // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
+  if (options.remove_duplicates)
+    out.lines = mark_duplicates(std::move(out.lines), *axes,
+                                std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid));
   for (const Line& line : out.lines) ++out.count[static_cast<std::size_t>(line.state)];
   return out;
 }

@@ -87,6 +87,7 @@ void write_style(Chunked& out, const Weights& w) {
       ".hidden path {{ stroke-width: {2}; stroke: #444; stroke-linecap: butt; "
       "stroke-dasharray: {3} {4}; }}\n"
       ".hidden.polyline path {{ stroke: #68a; }}\n"
+      ".sheet {{ fill: #fff; stroke: none; }}\n"
       "text {{ font-family: sans-serif; font-size: 3.5px; }}\n"
       ".frame path {{ stroke-width: {2}; }}\n"
       "</style>\n",
@@ -186,6 +187,8 @@ void write_svg(const NeutralDrawing& drawing, const model::Model& model, const S
   Chunked out(sink);
   write_head(out, drawing);
   write_style(out, choose_weights(drawing));
+  out << fmt::format("<rect class=\"sheet\" width=\"{}\" height=\"{}\"/>\n",
+                     shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
   for (const Layer& layer : kLayers)

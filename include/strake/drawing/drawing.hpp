@@ -53,7 +53,8 @@ struct LayoutOptions {
   std::string title;            ///< of the sheet; empty: from the view's name
   std::optional<double> scale;  ///< model mm per paper mm; none: chosen to fit A3
   double margin_mm = 10;
-  /// Find pieces that lie on each other within two micrometres of paper and draw one of them.
+  /// Find pieces that lie on each other within the contact distance (3 µm at least) in the plane of
+  /// the view, and draw one of them.
   bool remove_duplicates = true;
 };
 
