@@ -161,6 +161,7 @@ class PairOfParts {
     goal.threshold = thresholds_.overlap;
     goal.triangle_a = meeting.triangle_a;
     goal.triangle_b = meeting.triangle_b;
+    goal.meeting_point = meeting.point;
     geometry::Depth depth = depth_of(part_a_, part_b_, goal, work_);
     work_.depth_cells += depth.cells;
     if (!(depth.value > 0)) {

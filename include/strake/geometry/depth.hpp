@@ -46,7 +46,8 @@ struct DepthGoal {
   double relative = 0.02;                ///< and so is one this narrow relative to the depth
   std::uint32_t cells_undecided = 3000;  ///< work limit while the threshold lies in the bracket
   std::uint32_t cells_decided = 300;     ///< work limit once it does not
-  std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known
+  std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known,
+  Vec3d meeting_point{};  ///< and a point there, relative to a's origin
 };
 
 /// Depth D of an interpenetrating pair, grid units: lower <= D <= upper is certain.

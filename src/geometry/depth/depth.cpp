@@ -195,6 +195,17 @@ std::optional<Vec3d> outward(const Part& part, std::uint32_t triangle) {
   return n * (1 / size);
 }
 
+/// From a point of both skins into both bodies, farther and farther.
+void try_inwards(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
+                 Candidates& candidates) {
+  const auto na = outward(*a.treed.placed.part, goal.triangle_a);
+  const auto nb = outward(*b.treed.placed.part, goal.triangle_b);
+  if (!na || !nb) return;
+  for (const Vec3d& way : {*na + *nb, *na, *nb})
+    for (double step = 1; step < 1e6; step *= 3)
+      candidates.depth_at(goal.meeting_point - way * step);
+}
+
 /// Moves b a little way out of a, along the normals where they meet: once no interior point is
 /// shared, the depth was at most the way moved. Ties of a model that stands askew end here.
 void bound_by_parting(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, Depth& depth,
@@ -231,6 +242,7 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
   if (!bracket_suffices(depth, goal)) {
     try_vertices(fa, fb, candidates);
     try_vertices(fb, fa, candidates);
+    try_inwards(a, b, goal, candidates);
     candidates.store(depth);
   }
   if (depth.lower <= goal.threshold && depth.upper > goal.threshold)

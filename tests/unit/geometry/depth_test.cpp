@@ -162,9 +162,11 @@ TEST(Depth, ShallowContactInTheHollowOfATurnedChannel) {
   PairWork work;
   const MeetingResult meeting = meet(a.treed(), b.treed(), work);
   ASSERT_EQ(meeting.meeting, Meeting::crossing);
-  const Depth d = depth_of(
-      a, b,
-      {.threshold = 1000, .triangle_a = meeting.triangle_a, .triangle_b = meeting.triangle_b});
+  const Depth d = depth_of(a, b,
+                           {.threshold = 1000,
+                            .triangle_a = meeting.triangle_a,
+                            .triangle_b = meeting.triangle_b,
+                            .meeting_point = meeting.point});
   EXPECT_NEAR(d.value, 20, 3);
   EXPECT_LE(d.lower, 22);
   EXPECT_GE(d.upper, 18);
