@@ -145,7 +145,7 @@ class Engine {
   void look(std::size_t i) {
     const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
     Candidate& c = candidates_[i];
-    FirstLook found =
+    const FirstLook found =
         look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.separated, c.work);
     c.answer = found.answer;
     c.needs_depth = found.needs_depth;
