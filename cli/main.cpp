@@ -50,7 +50,7 @@ int run(int argc, char** argv) {
   program.footer(kFooter);
   CommonOptions common;
   const std::vector<Verb> verbs{add_info(program, common), add_clash(program, common),
-                                add_generate(program, common)};
+                                add_draw(program, common), add_generate(program, common)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version
@@ -58,7 +58,11 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const auto used = program.get_subcommands();
     const std::string verb = used.empty() ? "" : " " + used.front()->get_name();
-    console.error(std::string(error.what()) + " ('strake" + verb + " --help' tells what there is)");
+    const std::vector<std::string> strange = program.remaining();
+    const std::string what = used.empty() && !strange.empty()
+                                 ? "there is no verb '" + strange.front() + "'"
+                                 : std::string(error.what());
+    console.error(what + " ('strake" + verb + " --help' tells what there is)");
     return static_cast<int>(ExitCode::usage);
   }
   for (const Verb& verb : verbs)

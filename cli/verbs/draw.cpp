@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/load.hpp"
+#include "cli/verb.hpp"
+#include "strake/core/glob.hpp"
+#include "strake/core/units.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/drawing/view.hpp"
+#include "strake/drawing/write.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/hlr/hlr.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+constexpr double kSagMm = 0.5;
+
+struct DrawOptions {
+  InputOptions input;
+  SceneInput scene;
+  std::string view, direction, up, limits, scale, title;
+  std::string stage, solver, hidden, sharp_angle, contact_distance;
+  std::vector<std::string> select, outputs;
+};
+
+Result<geometry::Vec3l> direction_of(const std::string& text, const std::string& option,
+                                     Console& console) {
+  const Result<drawing::Direction> parsed = drawing::parse_direction(text);
+  if (!parsed) {
+    Error error = parsed.error();
+    if (error.where.empty()) error.where = option;
+    return error;
+  }
+  const geometry::Vec3l& v = parsed->vector;
+  if (parsed->rounded)
+    console.say(fmt::format("{} {} is taken as {},{},{}, off by {:.1e} rad", option, text, v.x, v.y,
+                            v.z, parsed->rounding_error));
+  return v;
+}
+
+Result<geometry::Box3l> limits_of(const std::string& text) {
+  const auto n = number_list(text, 6, "--limits", "xmin,ymin,zmin,xmax,ymax,zmax in millimetres");
+  if (!n) return n.error();
+  const auto lo = geometry::snap(geometry::Vec3d{(*n)[0], (*n)[1], (*n)[2]});
+  const auto hi = geometry::snap(geometry::Vec3d{(*n)[3], (*n)[4], (*n)[5]});
+  if (!lo || !hi)
+    return Error{ErrorCode::usage, "'" + text + "' lies outside what can be placed", "--limits",
+                 "write millimetres of the model"};
+  if (geometry::Box3l{*lo, *hi}.empty())
+    return Error{ErrorCode::usage, "'" + text + "' is empty", "--limits",
+                 "write the three least coordinates before the three greatest"};
+  return geometry::Box3l{*lo, *hi};
+}
+
+Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
+  hlr::View view;
+  const Result<geometry::Vec3l> direction =
+      !given.direction.empty()
+          ? direction_of(given.direction, "--direction", console)
+          : drawing::direction_by_name(given.view.empty() ? "iso" : given.view);
+  if (!direction) return direction.error();
+  view.direction = *direction;
+  view.up = drawing::default_up(view.direction);
+  if (!given.up.empty()) {
+    const Result<geometry::Vec3l> up = direction_of(given.up, "--up", console);
+    if (!up) return up.error();
+    view.up = *up;
+  }
+  if (!given.limits.empty()) {
+    const Result<geometry::Box3l> limits = limits_of(given.limits);
+    if (!limits) return limits.error();
+    view.limits = *limits;
+  }
+  return view;
+}
+
+Result<hlr::Options> engine_options(const DrawOptions& given) {
+  hlr::Options options;
+  if (given.stage == "none") options.stage = hlr::Stage::none;
+  if (given.stage == "local") options.stage = hlr::Stage::local;
+  if (given.solver == "brute-force") options.solver = hlr::Solver::brute_force;
+  if (!given.sharp_angle.empty()) {
+    const Result<double> angle = quantity(given.sharp_angle, "--sharp-angle", parse_angle_deg);
+    if (!angle) return angle.error();
+    if (!(*angle >= 0 && *angle <= 180))
+      return Error{ErrorCode::usage, "'" + given.sharp_angle + "' is no angle between two faces",
+                   "--sharp-angle", "write 0deg to 180deg"};
+    options.sharp_angle_deg = *angle;
+  }
+  if (!given.contact_distance.empty()) {
+    const auto length = quantity(given.contact_distance, "--contact-distance", parse_length_mm);
+    if (!length) return length.error();
+    if (*length < 0)
+      return Error{ErrorCode::usage, "'" + given.contact_distance + "' is negative",
+                   "--contact-distance", "write 0 or more"};
+    options.contact_distance_mm = *length;
+  }
+  return options;
+}
+
+Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
+  drawing::LayoutOptions options;
+  options.view_name = !given.direction.empty() ? given.direction
+                      : given.view.empty()     ? "iso"
+                                               : given.view;
+  options.title = given.title;
+  if (!given.scale.empty()) {
+    const Result<double> scale = quantity(given.scale, "--scale", parse_scale);
+    if (!scale) return scale.error();
+    options.scale = *scale;
+  }
+  return options;
+}
+
+/// Which objects have a name, an id or a whole path that one of the patterns matches.
+Result<std::vector<bool>> selected(const model::Model& model,
+                                   const std::vector<std::string>& patterns) {
+  std::vector<bool> drawn;
+  if (patterns.empty()) return drawn;
+  drawn.resize(model.objects.size());
+  std::vector<bool> used(patterns.size());
+  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+    const model::Object& object = model.objects[o];
+    const std::string whole = model.path(object) + "/" + object.name;
+    for (std::size_t p = 0; p < patterns.size(); ++p) {
+      if (!glob_match(patterns[p], object.name) && !glob_match(patterns[p], object.id) &&
+          !glob_match(patterns[p], whole))
+        continue;
+      drawn[o] = true;
+      used[p] = true;
+    }
+  }
+  for (std::size_t p = 0; p < patterns.size(); ++p)
+    if (!used[p])
+      return Error{ErrorCode::usage, "'" + patterns[p] + "' matches no object", "--select",
+                   "names, ids and group/.../name paths are compared; * stands for any text"};
+  return drawn;
+}
+
+void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
+  const hlr::Counters& work = drawing.counters;
+  stats.count("objects drawn", work.objects_drawn);
+  stats.count("objects hidden", work.objects_hidden);
+  stats.count("objects clipped", work.objects_clipped);
+  stats.count("feature edges", work.feature_edges);
+  stats.count("face tests", work.face_tests);
+  stats.count("exact fall-backs", work.exact_fallbacks);
+  for (std::size_t s = 0; s < drawing::kLineStates; ++s)
+    stats.count(fmt::format("lines {}", drawing::state_name(static_cast<drawing::LineState>(s))),
+                drawing.count[s]);
+}
+
+Status write_drawing(Session& session, const DrawOptions& given,
+                     const drawing::NeutralDrawing& drawing, const model::Model& model) {
+  const drawing::SvgOptions svg{.hidden = given.hidden == "dashed"};
+  for (const std::string& file : given.outputs) {
+    const Status status = session.write(file, [&](Session::Sink sink) {
+      if (suffix_of(file) == ".json") {
+        drawing::write_view_json(drawing, model, sink);
+      } else {
+        drawing::write_svg(drawing, model, svg, sink);
+      }
+    });
+    if (!status) return status;
+  }
+  if (!session.json()) return {};
+  return session.write_stdout(
+      [&](Session::Sink sink) { drawing::write_view_json(drawing, model, sink); });
+}
+
+Result<drawing::NeutralDrawing> compute(Session& session, const DrawOptions& given,
+                                        const model::Scene& scene, const hlr::View& view,
+                                        const hlr::Options& options,
+                                        const drawing::LayoutOptions& layout) {
+  const Result<std::vector<bool>> drawn = selected(*scene.model, given.select);
+  if (!drawn) return drawn.error();
+  const Result<hlr::Drawing> lines = [&] {
+    const auto timer = session.step("hidden lines");
+    return hlr::draw(scene, *drawn, view, options, session.context());
+  }();
+  if (!lines) return lines.error();
+  const auto timer = session.step("layout");
+  return drawing::lay_out(*lines, *scene.model, layout);
+}
+
+Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
+  const Result<model::SceneOptions> scene_settings = scene_options(given.scene, kSagMm);
+  if (!scene_settings) return scene_settings.error();
+  const Result<hlr::View> view = view_of(given, session.console());
+  if (!view) return view.error();
+  const Result<hlr::Options> options = engine_options(given);
+  if (!options) return options.error();
+  const Result<drawing::LayoutOptions> layout = layout_options(given);
+  if (!layout) return layout.error();
+  if (given.outputs.empty() && !session.json())
+    return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
+  if (const Status status = check_outputs(given.outputs, {".svg", ".json"}); !status)
+    return status.error();
+  const Result<model::Model> model = read_model(session, given.input);
+  if (!model) return model.error();
+  const Result<model::Scene> scene = place_model(session, *model, *scene_settings);
+  if (!scene) return scene.error();
+  const Result<drawing::NeutralDrawing> drawing =
+      compute(session, given, *scene, *view, *options, *layout);
+  if (!drawing) return drawing.error();
+  count_work(session.stats(), *drawing);
+  session.console().say(fmt::format("{} lines at {} on {} x {} mm", drawing->lines.size(),
+                                    drawing->sheet.scale_text, drawing->sheet.width_mm,
+                                    drawing->sheet.height_mm));
+  if (const Status status = write_drawing(session, given, *drawing, *model); !status)
+    return status.error();
+  return outcome(given.input, *model, *scene);
+}
+
+void add_view(CLI::App& command, DrawOptions& options) {
+  CLI::Option* const view = add_choice(command, "--view", options.view,
+                                       {"top", "bottom", "front", "back", "left", "right", "iso"},
+                                       "A view by name (default iso)")
+                                ->group("View");
+  command
+      .add_option("--direction", options.direction,
+                  "A view by the direction that points to the viewer, in whole numbers")
+      ->type_name("X,Y,Z")
+      ->excludes(view)
+      ->group("View");
+  command.add_option("--up", options.up, "The direction that is up on paper (default z, plans y)")
+      ->type_name("X,Y,Z")
+      ->group("View");
+  command
+      .add_option("--limits", options.limits,
+                  "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm")
+      ->type_name("BOX")
+      ->group("View");
+  command
+      .add_option("--select", options.select,
+                  "Draw only objects whose name, id or path the pattern matches; may be repeated")
+      ->type_name("GLOB")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("View");
+}
+
+void add_lines(CLI::App& command, DrawOptions& options) {
+  add_choice(command, "--hidden", options.hidden, {"off", "dashed"},
+             "Hidden lines in the SVG (default off)")
+      ->group("Lines");
+  add_choice(command, "--stage", options.stage, {"none", "local", "global"},
+             "Hide nothing, within each object, or among all (default global)")
+      ->group("Lines");
+  command
+      .add_option("--sharp-angle", options.sharp_angle,
+                  "An edge is drawn where its faces turn by more than this (default 20deg)")
+      ->type_name("ANGLE")
+      ->group("Lines");
+  command
+      .add_option("--contact-distance", options.contact_distance,
+                  "What is nearer by no more than this hides nothing (default: from the precision "
+                  "of the files)")
+      ->type_name("LENGTH")
+      ->group("Lines");
+}
+
+}  // namespace
+
+Verb add_draw(CLI::App& program, CommonOptions& common) {
+  const auto options = std::make_shared<DrawOptions>();
+  CLI::App* const command =
+      program.add_subcommand("draw", "Line drawings of models, hidden lines removed exactly");
+  add_input_options(*command, options->input);
+  add_scene_options(*command, options->scene, "0.5mm");
+  add_view(*command, *options);
+  add_lines(*command, *options);
+  add_choice(*command, "--solver", options->solver, {"gather", "brute-force"},
+             "How lines are hidden; the result is the same (default gather)")
+      ->group("Running");
+  command->add_option("--scale", options->scale, "Paper to model (default: what fits A3)")
+      ->type_name("1:N")
+      ->group("Output");
+  command->add_option("--title", options->title, "Title of the sheet")->group("Output");
+  add_output_option(*command, options->outputs,
+                    "Drawing as .svg, or its neutral form as .json; may be repeated");
+  add_common_options(*command, common);
+  command->footer(R"(
+Examples:
+  strake draw platform.rvm --view iso --hidden dashed -o platform.svg
+  strake draw ship.glb --direction 1,-2,1 --up 0,0,1 --scale 1:100 -o cut.svg
+      --limits 0,-5000,0,20000,5000,8000
+  strake draw ship.glb --select 'PIPE*' --view top -o pipes.svg -o pipes.json)");
+  return {command, [options](Session& session) { return run_draw(session, *options); }};
+}
+
+}  // namespace strake::cli
