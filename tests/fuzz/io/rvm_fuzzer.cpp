@@ -7,7 +7,8 @@
 
 #include "strake/io/reader.hpp"
 
-/// Any bytes as an RVM file, binary or text: a model whose indices hold, or an error.
+/// Any bytes as an RVM file, binary or text: a model whose indices hold, or an error. Unlike in
+/// other formats an object may be left without bodies: its unusable primitives are diagnostics.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace strake;
   const auto reader = io::make_rvm_reader();
