@@ -113,6 +113,9 @@ void RegionRun::work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Curso
   const double start = thread_cpu_s();
   loop(cursor);
   cursor.busy_s = thread_cpu_s() - start;
+  // A block's wall time may hold another program's turn on the core; its CPU time cannot be more
+  // than the worker's.
+  cursor.longest_s = std::min(cursor.longest_s, cursor.busy_s);
   seats[seat.index] = cursor;
 }
 

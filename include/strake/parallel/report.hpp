@@ -18,7 +18,7 @@ struct RegionReport {
   double wall_s = 0;           ///< of `runs`
   double nested_cpu_s = 0;     ///< of `nested_runs`; part of the outer region's busy time too
   std::vector<double> busy_s;  ///< CPU seconds per worker in `runs`; index = worker
-  double longest_s = 0;        ///< the longest block (with grain 1: item), wall seconds
+  double longest_s = 0;  ///< the longest block (with grain 1: item), wall seconds, at most busy
 
   [[nodiscard]] double total_busy_s() const;
   /// Mean over maximum of the workers' busy time: 1 is perfect, 1/workers is one doing it all.
