@@ -58,7 +58,7 @@ struct Seed {
          R"({"primitives":[{"attributes":{"POSITION":0},"indices":2,"mode":6}]}],)"
          R"("nodes":[{"name":"a\u00e4","children":[1,2],"translation":[1,2,3]},)"
          R"({"mesh":0,"rotation":[0,0,0,1],"scale":[1,2,3],"extras":{"id":"x","k":{"v":[1]}}},)"
-         R"({"mesh":1,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1]},)"
+         R"({"mesh":1,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1],"extras":[1,[2],{}]},)"
          R"({"mesh":1,"extras":{"instances":["p",{"id":"q"},"r"]},"extensions":)"
          R"({"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0,"SCALE":0}}}}]})";
 }

@@ -61,9 +61,10 @@ class Json {
 
   /// Elements of an array, values of an object.
   [[nodiscard]] std::vector<Json> items() const;
-  /// Calls visit(key, value) for each member of an object; the key is decoded.
+  /// Calls visit(key, value) for each member of an object, if it is one; the key is decoded.
   template <class Visit>
   void members(Visit&& visit) const {
+    if (!is_object()) return;
     for (Json key = first_child(); key.exists(); key = key.after()) {
       const Json value = key.after();
       visit(key.text_value(), value);

@@ -98,6 +98,15 @@ TEST(GltfReader, FollowsTheHierarchy) {
   EXPECT_EQ(model.shapes.size(), 1U) << "one shape for one mesh";
 }
 
+TEST(GltfReader, TakesExtrasOfAnyType) {
+  for (const char* extras : {"[1]", "[1,2,3]", "[]", "{}", "7", "null", R"("text")",
+                             R"({"id":[1]})", R"({"instances":{"a":1},"attributes":[1]})"}) {
+    const model::Model model =
+        read_ok(triangle_glb(fmt::format(R"("nodes":[{{"mesh":0,"extras":{}}}])", extras)));
+    EXPECT_EQ(model.objects.size(), 1U) << extras;
+  }
+}
+
 TEST(GltfReader, ChoosesTheScene) {
   const std::string nodes = R"("nodes":[{"name":"a","mesh":0},{"name":"b","mesh":0}])";
   EXPECT_EQ(read_ok(triangle_glb(nodes)).objects.size(), 2U);
