@@ -13,5 +13,9 @@ need build test
 [ "$preset" = nightly ] && scripts/sanitize.sh
 configure_and_build "$preset"
 scripts/format.sh --check
-scripts/lint.sh "build/$preset"
+if [ "$preset" = nightly ]; then
+  scripts/lint.sh --all "build/$preset"
+else
+  scripts/lint.sh "build/$preset"
+fi
 ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error
