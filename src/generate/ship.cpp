@@ -77,7 +77,7 @@ Result<Yard> build_best(const ShipOptions& options, const std::stop_token& stop)
   for (const Plan& plan : candidate_plans(options)) {
     Yard yard = build_enough(plan, options.objects, stop);
     if (stop.stop_requested())
-      return Error{ErrorCode::cancelled, "stopped while generating", "", ""};
+      return Error{ErrorCode::cancelled, "cancelled while generating", "", ""};
     if (best.objects().empty() || yard.objects().size() < best.objects().size())
       best = std::move(yard);
   }

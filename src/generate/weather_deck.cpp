@@ -103,10 +103,12 @@ void build_vents(Room& room) {
                                        {0, 970, 0}}};
   const std::array<Vec3d, 6> goose{
       {{60, 0, 0}, {60, 500, 0}, {110, 520, 0}, {110, 720, 0}, {80, 760, 0}, {0, 780, 0}}};
-  for (int i = 0; i < 4; ++i)
-    yard.weld(site.turned(Kind::vent_head, mushroom,
-                          at({500 + 1200.0 * (i % 2), 600 + 1100.0 * (i / 2), 0})),
-              room.deck);
+  for (int i = 0; i < 4; ++i) {
+    const int column = i % 2, row = i / 2;
+    yard.weld(
+        site.turned(Kind::vent_head, mushroom, at({500 + 1200.0 * column, 600 + 1100.0 * row, 0})),
+        room.deck);
+  }
   for (int i = 0; i < 5; ++i)
     yard.weld(site.turned(Kind::vent_head, goose, at({250 + 350.0 * i, 2800, 0})), room.deck);
   yard.weld(site.tube(Kind::foundation, {700, 700, 350}, 12, at({2000, 2300, 0})), room.deck);

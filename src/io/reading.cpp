@@ -33,7 +33,7 @@ Result<model::Model> end_model(const FileBytes& file, model::Model&& model) {
 }
 
 Error cancelled(const FileBytes& file) {
-  return {ErrorCode::cancelled, "reading was stopped", file.path.string(), ""};
+  return {ErrorCode::cancelled, "reading was cancelled", file.path.string(), ""};
 }
 
 std::string lower_extension(const std::filesystem::path& path) {

@@ -64,7 +64,7 @@ Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
   model::Model all;
   for (const std::filesystem::path& path : paths) {
     if (context.stop.stop_requested())
-      return Error{ErrorCode::cancelled, "reading was stopped", path.string(), ""};
+      return Error{ErrorCode::cancelled, "reading was cancelled", path.string(), ""};
     Result<model::Model> one = read_one(readers, path, options, context);
     if (!one) return one.error();
     model::append(all, std::move(*one));

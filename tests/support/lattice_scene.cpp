@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "strake/geometry/wide_int.hpp"
+
 namespace strake::test {
 
 using geometry::Triangle;
@@ -67,15 +69,18 @@ class Maker {
     return part;
   }
 
-  static std::int64_t volume(const Vec3i& a, const Vec3i& b, const Vec3i& c, const Vec3i& d) {
-    const Vec3l o = a.as<std::int64_t>();
-    return dot(b.as<std::int64_t>() - o, cross(c.as<std::int64_t>() - o, d.as<std::int64_t>() - o));
+  /// Six times the volume of a tetrahedron; on the huge lattice it needs more than 64 bits.
+  static geometry::Int128 volume(const Vec3i& a, const Vec3i& b, const Vec3i& c, const Vec3i& d) {
+    const Vec3l o = a.as<std::int64_t>(), p = b.as<std::int64_t>() - o;
+    const Vec3l n = cross(c.as<std::int64_t>() - o, d.as<std::int64_t>() - o);
+    return static_cast<geometry::Int128>(n.x) * p.x + static_cast<geometry::Int128>(n.y) * p.y +
+           static_cast<geometry::Int128>(n.z) * p.z;
   }
 
   HandPart tetrahedron() {
     for (;;) {
       std::array<Vec3i, 4> v{point(), point(), point(), point()};
-      const std::int64_t six = volume(v[0], v[1], v[2], v[3]);
+      const geometry::Int128 six = volume(v[0], v[1], v[2], v[3]);
       if (six == 0) continue;
       if (six < 0) std::swap(v[2], v[3]);
       return {{v.begin(), v.end()},

@@ -290,7 +290,7 @@ Status write_planned(const model::Model& model, const GlbPlan& plan,
   if (binary != 0) {
     put_chunk_header(*file, binary, kBinary);
     if (!put_binary(*file, plan, stop))
-      return Error{ErrorCode::cancelled, "writing was stopped", path.string(), ""};
+      return Error{ErrorCode::cancelled, "writing was cancelled", path.string(), ""};
     constexpr std::array<char, 4> kZeros{};
     put(*file, kZeros.data(), static_cast<std::size_t>(binary - content));
   }

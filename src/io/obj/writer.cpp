@@ -95,7 +95,7 @@ Status write_obj(const model::Model& model, const std::filesystem::path& path,
   std::string out;
   for (const model::Object& object : model.objects) {
     if (context.stop.stop_requested())
-      return Error{ErrorCode::cancelled, "writing was stopped", path.string(), ""};
+      return Error{ErrorCode::cancelled, "writing was cancelled", path.string(), ""};
     out.clear();
     if (!text.object(object, out))
       return Error{ErrorCode::output, "a coordinate is not finite", object.id, "mend the model"};

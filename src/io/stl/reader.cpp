@@ -110,7 +110,7 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
   model::Model model = start_model(file, "STL text", options, kStlFrame);
   const SourceFrame frame = choose_frame(options, kStlFrame);
   const std::optional<stl::AsciiFile> text = stl::parse_ascii(as_text(file.bytes), context.stop);
-  if (!text) return Error{ErrorCode::cancelled, "reading was stopped", file.path.string(), ""};
+  if (!text) return Error{ErrorCode::cancelled, "reading was cancelled", file.path.string(), ""};
   double largest = 0;
   for (const stl::Solid& solid : text->solids) {
     std::string name = solid.name.empty() ? file.path.stem().string() : solid.name;
