@@ -62,12 +62,12 @@ struct Depth {
 ///
 /// Upper bound: two linear programs over the half-spaces of both (what is in a ball inside a part
 /// is inside all of the part's half-spaces), by weak duality; and since a translation changes D by
-/// no more than its length, any short one that exactly parts the interiors. Lower bound: a point whose side is
-/// decided exactly, with its distances. Where the two differ by more than the goal allows, as
-/// between parts that are not convex, best-first branch and bound over their common box: within a
-/// cell the distance to one triangle is convex, so its greatest value at the corners bounds it,
-/// and distances change by no more than the way moved. Work is limited by the goal; the bracket is
-/// certain wherever it stops.
+/// no more than its length, any short one that exactly parts the interiors. Lower bound: a point
+/// whose side is decided exactly, with its distances. Where the two differ by more than the goal
+/// allows, as between parts that are not convex, best-first branch and bound over their common box:
+/// within a cell the distance to one triangle is convex, so its greatest value at the corners
+/// bounds it, and distances change by no more than the way moved. Work is limited by the goal; the
+/// bracket is certain wherever it stops.
 [[nodiscard]] Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
                                 PairWork& work);
 

@@ -196,7 +196,7 @@ TEST(Detect, TolerancesThatMakeNoSenseAreErrors) {
   const double bad[] = {-1, std::numeric_limits<double>::quiet_NaN(),
                         std::numeric_limits<double>::infinity()};
   for (const double v : bad)
-    for (double Options::* field :
+    for (double Options::* const field :
          {&Options::clearance_mm, &Options::touch_gap_mm, &Options::touch_overlap_mm}) {
       Options options;
       options.*field = v;
@@ -237,7 +237,7 @@ TEST(Detect, UnknownSagIsSaidOncePerFile) {
 }
 
 TEST(Detect, StopsWhenAskedTo) {
-  std::stop_source source;
+  const std::stop_source source;
   source.request_stop();
   const ClashModel m = walls(0, 0);
   const model::Scene scene = make_scene(m.model, {}, {}).value();
@@ -304,7 +304,7 @@ TEST(Detect, OtherObjectsAndTheirOrderDoNotShow) {
   }
   // Any two alone say what they said in the crowd.
   for (std::size_t i = 0; i < all.pairs.size(); i += 7) {
-    ClashModel pair = crowd(5, 60);
+    const ClashModel pair = crowd(5, 60);
     const model::Scene scene = make_scene(pair.model, scene_options({}), {}).value();
     Sets sets{std::vector<bool>(60, false), std::vector<bool>(60, false)};
     sets.in_a[model::index(all.pairs[i].a)] = sets.in_b[model::index(all.pairs[i].b)] = true;
