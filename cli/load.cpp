@@ -8,25 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "strake/core/severity.hpp"
 #include "strake/core/units.hpp"
 
 namespace strake::cli {
-
-namespace {
-
-std::string_view label(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::skipped:
-      break;
-  }
-  return "skipped";
-}
-
-}  // namespace
 
 void add_scene_options(CLI::App& command, SceneInput& options, const std::string& default_sag) {
   command
@@ -59,7 +44,8 @@ Result<model::SceneOptions> scene_options(const SceneInput& input, double defaul
 
 void tell(Console& console, const Diagnostics& diagnostics) {
   for (const Diagnostics::Count& count : diagnostics.counts()) {
-    std::string line = fmt::format("{} {} ({})", label(count.severity), count.code, count.count);
+    std::string line =
+        fmt::format("{} {} ({})", severity_name(count.severity), count.code, count.count);
     const auto& kept = diagnostics.kept();
     const auto first = std::find_if(kept.begin(), kept.end(),
                                     [&](const Diagnostic& d) { return d.code == count.code; });

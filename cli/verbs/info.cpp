@@ -14,6 +14,7 @@
 #include "cli/load.hpp"
 #include "cli/verb.hpp"
 #include "strake/core/number.hpp"
+#include "strake/core/severity.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::cli {
@@ -96,18 +97,6 @@ Json content_json(const Content& content) {
           {"triangles", content.triangles}, {"solids", content.solids},
           {"sheets", content.sheets},       {"wires", content.wires},
           {"inverted", content.inverted},   {"extents_mm", extents}};
-}
-
-std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::skipped:
-      break;
-  }
-  return "skipped";
 }
 
 void add_diagnostics(Json& counts, Json& messages, const Diagnostics& diagnostics) {

@@ -136,8 +136,8 @@ void in_cavity(Room& room) {
   if (room.random.chance(50)) room.site.yard->turn_inside_out(tank);
 }
 
-void in_channel(Room& room) {
-  const Gap gap = choose_gap(room.random);
+/// An upright channel section that opens to +x, welded to the deck.
+Handle open_channel(Room& room) {
   const std::array<Vec3d, 8> profile{{{40, 60, 0},
                                       {480, 60, 0},
                                       {480, 80, 0},
@@ -148,6 +148,12 @@ void in_channel(Room& room) {
                                       {40, 420, 0}}};
   const Handle channel = room.site.extruded(Kind::support, profile, 1200, at({0, 0, 0}));
   room.site.yard->weld(channel, room.deck);
+  return channel;
+}
+
+void in_channel(Room& room) {
+  const Gap gap = choose_gap(room.random);
+  const Handle channel = open_channel(room);
   const Handle post = standing(room, Kind::support, {{60 + gap.mm, 120, 0}, {400, 350, 1000}});
   declare_gap(room, channel, post, gap, Why::gap_inside);
 }
@@ -182,16 +188,7 @@ void slanted_blocks(Room& room) {
 
 /// A block that fills the bay of a channel: three faces touch, no plane parts the two.
 void fitted_block(Room& room) {
-  const std::array<Vec3d, 8> profile{{{40, 60, 0},
-                                      {480, 60, 0},
-                                      {480, 80, 0},
-                                      {60, 80, 0},
-                                      {60, 400, 0},
-                                      {480, 400, 0},
-                                      {480, 420, 0},
-                                      {40, 420, 0}}};
-  const Handle channel = room.site.extruded(Kind::support, profile, 1200, at({0, 0, 0}));
-  room.site.yard->weld(channel, room.deck);
+  const Handle channel = open_channel(room);
   const Handle block = standing(room, Kind::support, {{60, 80, 0}, {400, 400, 1000}});
   room.site.yard->fit(channel, block);
 }

@@ -4,6 +4,7 @@
 
 #include "report/text.hpp"
 #include "strake/core/number.hpp"
+#include "strake/core/severity.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::report {
@@ -58,18 +59,6 @@ void counts(std::string& out, const Report& report) {
          "},\n\"counts\": {\"HIT\": " + std::to_string(report.count_hit) +
          ", \"CONTACT\": " + std::to_string(report.count_contact) +
          ", \"CLEARANCE_VIOLATION\": " + std::to_string(report.count_clearance) + "}";
-}
-
-std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::skipped:
-      return "skipped";
-  }
-  return "";
 }
 
 void diagnostics(std::string& out, const Diagnostics& all) {
