@@ -31,7 +31,14 @@ Judgement judge(const Separation& s, const Thresholds& t) {
   // With sag the true bodies may be apart even where the meshes' interiors meet.
   j.severest = class_of(s.lower - s.sag, s.interiors_meet, t);
   const Class mildest = class_of(s.upper + s.sag, s.interiors_meet && s.sag == 0, t);
-  if (s.sag > 0 && (j.severest != j.cls || mildest != j.cls)) j.flags |= kUncertain;
+  if (s.sag > 0 && (j.severest != j.cls || mildest != j.cls)) {
+    if (s.upper - s.lower + 2 * s.sag <= 1) {
+      j.cls = j.severest;
+      j.flags |= kBorderline;
+    } else {
+      j.flags |= kUncertain;
+    }
+  }
   j.severest = std::max(j.severest, j.cls);
   return j;
 }

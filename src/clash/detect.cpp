@@ -173,7 +173,10 @@ class Engine {
   }
 
   [[nodiscard]] NarrowPart narrow_part(const PartRef& p) const {
-    return {{p.placed, &trees_[p.unique]}, &planes_[p.unique], nullptr};
+    NarrowPart part = bare_part(p);
+    part.treed.tree = &trees_[p.unique];
+    part.planes = &planes_[p.unique];
+    return part;
   }
 
   [[nodiscard]] NarrowOptions narrow_options(const PartRef& a, const PartRef& b) const {

@@ -74,6 +74,24 @@ Relation analytic_relation(const geometry::AnalyticSeparation& s, double band) {
                                                        : Relation::interfere;
 }
 
+/// A closed form, its point relative to the origin of the part that was called a.
+struct ClosedForm {
+  geometry::AnalyticSeparation separation;
+  Vec3d point;
+  /// Nearer to a touch than the form can tell: which side of it is for the triangles to say.
+  bool tie = false;
+};
+
+std::optional<ClosedForm> closed_form(const NarrowPart& a, const NarrowPart& b) {
+  const auto &p = a.treed.placed.part->primitive, &q = b.treed.placed.part->primitive;
+  if (!p || !q || a.placement == nullptr || b.placement == nullptr) return std::nullopt;
+  const auto s = geometry::analytic_separation({&*p, a.placement}, {&*q, b.placement});
+  const auto centre = geometry::snap(a.placement->translation);
+  if (!s || !centre) return std::nullopt;
+  return ClosedForm{*s, s->point + (*centre - a.treed.placed.origin).as<double>(),
+                    !(std::fabs(s->d) > 1 + s->error)};
+}
+
 /// Two parts in canonical order.
 class PairOfParts {
  public:
@@ -87,14 +105,15 @@ class PairOfParts {
         work_(work),
         thresholds_(thresholds(*a.treed.placed.part, *b.treed.placed.part, options)) {}
 
-  PartAnswer analytic(const geometry::AnalyticSeparation& s, const Vec3d& point) const {
+  PartAnswer analytic(const ClosedForm& form) const {
+    const geometry::AnalyticSeparation& s = form.separation;
     PartAnswer answer;
     answer.separation = {.d = s.d,
                          .lower = s.d - s.error,
                          .upper = s.d + s.error,
                          .sag = 0,
                          .interiors_meet = s.d < -s.error};
-    answer.point = point;
+    answer.point = form.point;
     answer.relation = analytic_relation(s, options_.contact_distance);
     conclude(answer, 0);
     return answer;
@@ -105,7 +124,7 @@ class PairOfParts {
     MeetingResult meeting;
     meeting.point = point;
     touching(meeting, answer);
-    conclude(answer);
+    conclude(answer, sag_beside(closed_form(part_a_, part_b_)));
     return answer;
   }
 
@@ -119,10 +138,18 @@ class PairOfParts {
       return look;
     }
     if (!separated && !(gap > 0)) look.meeting = geometry::meet(a_, b_, work_.pair);
+    const auto form = closed_form(part_a_, part_b_);
+    if (look.meeting.meeting == Meeting::touching) {
+      touching(look.meeting, look.answer);
+      conclude(look.answer, sag_beside(form));
+      return look;
+    }
+    if (form) {
+      look.answer = analytic(*form);
+      return look;
+    }
     if (look.meeting.meeting == Meeting::apart)
       apart(look.answer);
-    else if (look.meeting.meeting == Meeting::touching)
-      touching(look.meeting, look.answer);
     else
       look.needs_depth = true;
     conclude(look.answer);
@@ -175,9 +202,15 @@ class PairOfParts {
     answer.relation = relation_of(a_, b_, meeting, depth, options_.contact_distance, work_.pair);
   }
 
-  void conclude(PartAnswer& answer) const {
-    conclude(answer, a_.placed.part->sag + b_.placed.part->sag);
+  [[nodiscard]] double sag() const { return a_.placed.part->sag + b_.placed.part->sag; }
+
+  /// How far the true separation of two that touch as tessellated may be from 0.
+  [[nodiscard]] double sag_beside(const std::optional<ClosedForm>& form) const {
+    if (!form) return sag();
+    return std::min(sag(), std::fabs(form->separation.d) + form->separation.error);
   }
+
+  void conclude(PartAnswer& answer) const { conclude(answer, sag()); }
 
   void conclude(PartAnswer& answer, double sag) const {
     answer.separation.sag = sag;
@@ -222,14 +255,10 @@ std::optional<PartAnswer> judge_analytic(const NarrowPart& a, const NarrowPart& 
                                          const NarrowOptions& options) {
   const bool ordered = in_canonical_order(a.treed, b.treed);
   const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
-  const auto &p = x.treed.placed.part->primitive, &q = y.treed.placed.part->primitive;
-  if (!p || !q || x.placement == nullptr || y.placement == nullptr) return std::nullopt;
-  const auto s = geometry::analytic_separation({&*p, x.placement}, {&*q, y.placement});
-  const auto centre = geometry::snap(x.placement->translation);
-  if (!s || !centre || !(std::fabs(s->d) > 1 + s->error)) return std::nullopt;
+  const auto form = closed_form(x, y);
+  if (!form || form->tie) return std::nullopt;
   NarrowWork work;
-  PartAnswer answer = PairOfParts(x, y, options, work)
-                          .analytic(*s, s->point + (*centre - x.treed.placed.origin).as<double>());
+  PartAnswer answer = PairOfParts(x, y, options, work).analytic(*form);
   if (!ordered) turn(answer, a, b);
   return answer;
 }

@@ -41,7 +41,8 @@ struct NarrowWork {
                                     const NarrowOptions& options);
 
 /// The answer for two primitives that have a closed form: about their true surfaces, so without
-/// sag. None where they are within a micrometre of a tie, which triangles decide exactly.
+/// sag. None where they are within a micrometre of a touch: whether the triangles touch is decided
+/// exactly, by judge_flush() and look_at(), before the closed form is asked again.
 [[nodiscard]] std::optional<PartAnswer> judge_analytic(const NarrowPart& a, const NarrowPart& b,
                                                        const NarrowOptions& options);
 

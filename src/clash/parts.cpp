@@ -9,7 +9,9 @@
 namespace strake::clash {
 namespace {
 
-geometry::BoxItem item_of(const PartRef& ref, const Sets& sets, std::int64_t inflation) {
+/// The true surface may stand out of its tessellation by the sag.
+geometry::BoxItem item_of(const PartRef& ref, const Sets& sets, double reach) {
+  const auto inflation = static_cast<std::int64_t>(std::ceil(reach / 2 + ref.placed.part->sag));
   const geometry::Vec3l more{inflation, inflation, inflation};
   const geometry::Box3i& box = ref.placed.part->box;
   geometry::BoxItem item;
@@ -59,10 +61,9 @@ PartList list_parts(const model::Scene& scene, const Sets& sets) {
 Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list, const Sets& sets,
                                                     double reach, BroadPhase broad_phase,
                                                     const parallel::Context& context) {
-  const auto inflation = static_cast<std::int64_t>(std::ceil(reach / 2));
   std::vector<geometry::BoxItem> items;
   items.reserve(list.parts.size());
-  for (const PartRef& ref : list.parts) items.push_back(item_of(ref, sets, inflation));
+  for (const PartRef& ref : list.parts) items.push_back(item_of(ref, sets, reach));
   auto pairs = broad_phase == BroadPhase::all_pairs ? geometry::meeting_pairs_all(items, context)
                                                     : tree_pairs(items, context);
   if (!pairs) return pairs.error();

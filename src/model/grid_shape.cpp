@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/grid_shape.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -47,6 +49,19 @@ void add_lines(const geometry::Polylines& lines, const Mat3d& linear, GridShapeR
   result.shape.parts.push_back(std::move(wire->part));
 }
 
+/// The farthest that the snap moves a vertex, grid units: by so much the body on the grid may lie
+/// from the one that its primitive states.
+double moved_by_snap(const geometry::TriangleMesh& mesh) {
+  double most = 0;
+  for (const geometry::Vec3d& v : mesh.vertices) {
+    const auto at = geometry::snap(v);
+    if (!at) continue;
+    const geometry::Vec3d off = v * geometry::kGridPerMm - at->as<double>();
+    most = std::max(most, geometry::dot(off, off));
+  }
+  return std::sqrt(most);
+}
+
 void add_primitive(const geometry::Primitive& primitive, const Mat3d& linear, double sag_mm,
                    GridShapeResult& result) {
   const geometry::Tessellation made = geometry::tessellate(primitive, linear, sag_mm);
@@ -58,7 +73,9 @@ void add_primitive(const geometry::Primitive& primitive, const Mat3d& linear, do
     add_lines(made.lines, Mat3d{}, result);
   // A sliver of a primitive may lose triangles to the snap: that is no fault of the source.
   result.findings.degenerate_triangles = 0;
+  const double moved = moved_by_snap(made.mesh);
   for (Part& part : result.shape.parts) {
+    part.sag += moved;
     part.primitive = primitive;
     part.flags.unknown_sag = false;
     part.flags.convex_source = made.convex;

@@ -24,8 +24,10 @@ struct AnalyticSeparation {
   double difference = 0;  ///< bound on how far the two surfaces lie apart: 0 for duplicates
 };
 
-/// Closed forms for sphere and sphere, and for cylinders with parallel axes; placements must be
-/// rotations with a uniform scale, mirrored or not. Nothing for any other pair.
+/// Closed forms for a sphere and a sphere, cylinder or box, and for cylinders with parallel axes;
+/// placements must be rotations, mirrored or not, with scales that leave the kind as it is. What
+/// the rounding of a source's matrices makes of right angles and parallel axes is part of `error`.
+/// Nothing for any other pair.
 [[nodiscard]] std::optional<AnalyticSeparation> analytic_separation(const PlacedPrimitive& a,
                                                                     const PlacedPrimitive& b);
 

@@ -2,64 +2,17 @@
 #include "strake/geometry/analytic_pair.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <variant>
+#include <span>
+#include <utility>
 
-#include "strake/geometry/grid.hpp"
+#include "geometry/analytic/placed_solid.hpp"
 
 namespace strake::geometry {
 namespace {
-
-/// A matrix counts as a scaled rotation, and axes as parallel, when they are off by less than this:
-/// what that moves of a surface goes into the error.
-constexpr double kSkew = 1e-9;
-
-double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
-
-Vec3d column(const Mat3d& m, int k) { return {m.row[0][k], m.row[1][k], m.row[2][k]}; }
-
-/// The scale of a scaled rotation.
-std::optional<double> uniform_scale(const Mat3d& m) {
-  const Vec3d x = column(m, 0), y = column(m, 1), z = column(m, 2);
-  const double sx = norm(x), sy = norm(y), sz = norm(z);
-  if (!(sx > 0) || !(sy > 0) || !(sz > 0)) return std::nullopt;
-  const double off = std::max({std::fabs(dot(x, y)) / (sx * sy), std::fabs(dot(y, z)) / (sy * sz),
-                               std::fabs(dot(z, x)) / (sz * sx), std::fabs(sx - sz) / sz,
-                               std::fabs(sy - sz) / sz});
-  if (!(off < kSkew)) return std::nullopt;
-  return sz;
-}
-
-/// A sphere, or a cylinder along `axis` with half its height; about its own centre.
-struct Round {
-  bool cylinder = false;
-  double radius = 0, half = 0;
-  Vec3d axis;
-  Vec3l centre;
-};
-
-std::optional<Round> round_of(const PlacedPrimitive& p) {
-  const auto scale = uniform_scale(p.placement->linear);
-  const auto centre = snap(p.placement->translation);
-  if (!scale || !centre) return std::nullopt;
-  const double grid = *scale * kGridPerMm;
-  Round r;
-  r.centre = *centre;
-  if (const auto* sphere = std::get_if<SpherePrimitive>(p.primitive)) {
-    r.radius = sphere->diameter / 2 * grid;
-  } else if (const auto* cylinder = std::get_if<CylinderPrimitive>(p.primitive)) {
-    r.cylinder = true;
-    r.radius = cylinder->radius * grid;
-    r.half = cylinder->height / 2 * grid;
-    r.axis = column(p.placement->linear, 2) * (1 / *scale);
-    if (!(r.half > 0)) return std::nullopt;
-  } else {
-    return std::nullopt;
-  }
-  if (!(r.radius > 0)) return std::nullopt;
-  return r;
-}
 
 /// Two intervals or discs along one direction: a about 0, b about `at` >= 0.
 struct Overlap {
@@ -80,9 +33,9 @@ struct Overlap {
 
 Vec3d unit_or_zero(const Vec3d& v, double size) { return size > 0 ? v * (1 / size) : Vec3d{}; }
 
-AnalyticSeparation spheres(const Round& a, const Round& b, const Vec3d& offset) {
+AnalyticSeparation spheres(const PlacedSolid& a, const PlacedSolid& b, const Vec3d& offset) {
   const double distance = norm(offset);
-  const Overlap o{a.radius, b.radius, distance};
+  const Overlap o{a.half[0], b.half[0], distance};
   const Vec3d way = unit_or_zero(offset, distance);
   AnalyticSeparation s;
   if (o.gap() >= 0) {
@@ -95,16 +48,17 @@ AnalyticSeparation spheres(const Round& a, const Round& b, const Vec3d& offset) 
   }
   s.a_inside_b = o.a_inside_b();
   s.b_inside_a = o.b_inside_a();
-  s.difference = distance + std::fabs(a.radius - b.radius);
+  s.difference = distance + std::fabs(a.half[0] - b.half[0]);
   return s;
 }
 
-AnalyticSeparation cylinders(const Round& a, const Round& b, const Vec3d& offset) {
-  const double along = dot(offset, a.axis);
-  const Vec3d beside = offset - a.axis * along;
+AnalyticSeparation cylinders(const PlacedSolid& a, const PlacedSolid& b, const Vec3d& offset) {
+  const Vec3d& axis = a.axes[2];
+  const double along = dot(offset, axis);
+  const Vec3d beside = offset - axis * along;
   const double distance = norm(beside);
-  const Overlap disc{a.radius, b.radius, distance}, bar{a.half, b.half, std::fabs(along)};
-  const Vec3d out = unit_or_zero(beside, distance), up = along < 0 ? -a.axis : a.axis;
+  const Overlap disc{a.half[0], b.half[0], distance}, bar{a.half[2], b.half[2], std::fabs(along)};
+  const Vec3d out = unit_or_zero(beside, distance), up = along < 0 ? -axis : axis;
   AnalyticSeparation s;
   if (disc.gap() >= 0 || bar.gap() >= 0) {
     const double x = std::max(0.0, disc.gap()), z = std::max(0.0, bar.gap());
@@ -119,7 +73,132 @@ AnalyticSeparation cylinders(const Round& a, const Round& b, const Vec3d& offset
   }
   s.a_inside_b = std::min(disc.a_inside_b(), bar.a_inside_b());
   s.b_inside_a = std::min(disc.b_inside_a(), bar.b_inside_a());
-  s.difference = norm(offset) + std::fabs(a.radius - b.radius) + std::fabs(a.half - b.half);
+  s.difference = norm(offset) + std::fabs(a.half[0] - b.half[0]) + std::fabs(a.half[2] - b.half[2]);
+  return s;
+}
+
+/// A box or a cylinder as what a sphere sees of it: the sphere's centre measured along two or three
+/// directions at right angles, in each of which the body reaches from 0 (or -half) to half.
+struct Slabs {
+  std::array<double, 3> at{}, half{};
+  std::array<Vec3d, 3> way{};  ///< unit; `at` >= 0 along it
+  std::size_t count = 0;
+
+  void add(double place, double half_length, const Vec3d& direction) {
+    at[count] = std::fabs(place);
+    half[count] = half_length;
+    way[count++] = place < 0 ? -direction : direction;
+  }
+  /// Where the body shrunk by t on all sides comes nearest to the sphere's centre.
+  [[nodiscard]] Vec3d nearest(double t) const {
+    Vec3d p;
+    for (std::size_t k = 0; k < count; ++k) p = p + way[k] * std::min(at[k], half[k] - t);
+    return p;
+  }
+  [[nodiscard]] double squared_distance(double t) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double beyond = std::max(0.0, at[k] - half[k] + t);
+      sum += beyond * beyond;
+    }
+    return sum;
+  }
+};
+
+Slabs slabs_of(const PlacedSolid& body, const Vec3d& centre) {
+  Slabs s;
+  if (body.kind == PlacedSolid::Kind::box) {
+    for (std::size_t k = 0; k < 3; ++k)
+      s.add(dot(centre, body.axes[k]), body.half[k], body.axes[k]);
+    return s;
+  }
+  const double along = dot(centre, body.axes[2]);
+  const Vec3d beside = centre - body.axes[2] * along;
+  const double distance = norm(beside);
+  s.add(distance, body.half[0], unit_or_zero(beside, distance));
+  s.add(along, body.half[2], body.axes[2]);
+  return s;
+}
+
+/// How deep in the body the deepest point of the ball lies that is in the body: the greatest t for
+/// which the body shrunk by t still comes within `radius` of the centre. The squared distance grows
+/// with t as a parabola through each set of slabs that the centre lies beyond.
+double deepest_of_ball(const Slabs& s, double radius) {
+  const auto slabs = std::span(s.half).first(s.count);
+  const double most = *std::min_element(slabs.begin(), slabs.end());
+  if (s.squared_distance(most) <= radius * radius) return most;
+  std::array<double, 3> beyond{};
+  for (std::size_t k = 0; k < s.count; ++k) beyond[k] = s.at[k] - s.half[k];
+  std::sort(beyond.begin(), beyond.begin() + static_cast<std::ptrdiff_t>(s.count),
+            [](double x, double y) { return x > y; });
+  double sum = 0, squares = 0, t = most;
+  for (std::size_t m = 0; m < s.count; ++m) {
+    sum += beyond[m];
+    squares += beyond[m] * beyond[m];
+    const auto n = static_cast<double>(m + 1);
+    const double root = sum * sum - n * (squares - radius * radius);
+    t = (std::sqrt(std::max(0.0, root)) - sum) / n;
+    if (m + 1 == s.count || t <= -beyond[m + 1]) break;
+  }
+  return std::clamp(t, 0.0, most);
+}
+
+double farthest(const Slabs& s) {
+  double sum = 0;
+  for (std::size_t k = 0; k < s.count; ++k) sum += (s.at[k] + s.half[k]) * (s.at[k] + s.half[k]);
+  return std::sqrt(sum);
+}
+
+/// A sphere against a box or cylinder; the point is relative to the body's centre.
+AnalyticSeparation sphere_and_body(const PlacedSolid& sphere, const PlacedSolid& body,
+                                   const Vec3d& centre) {
+  const Slabs slabs = slabs_of(body, centre);
+  const double radius = sphere.half[0], distance = std::sqrt(slabs.squared_distance(0));
+  const Vec3d nearest = slabs.nearest(0);
+  AnalyticSeparation s;
+  if (distance >= radius) {
+    s.d = distance - radius;
+    s.point = nearest + (centre - nearest) * (s.d / (2 * distance));
+  } else {
+    const double in_body = deepest_of_ball(slabs, radius), in_sphere = radius - distance;
+    s.d = -std::max(in_body, in_sphere);
+    s.point = in_sphere >= in_body ? nearest : slabs.nearest(in_body);
+  }
+  s.a_inside_b = -radius - distance;
+  if (!(distance > 0)) {
+    double room = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < slabs.count; ++k)
+      room = std::min(room, slabs.half[k] - slabs.at[k]);
+    s.a_inside_b = room - radius;
+  }
+  s.b_inside_a = radius - farthest(slabs);
+  s.difference = norm(centre) + radius + body.half[0] + body.half[1] + body.half[2];
+  return s;
+}
+
+double size_of(const PlacedSolid& s) {
+  if (s.kind == PlacedSolid::Kind::sphere) return s.half[0];
+  return s.half[0] + s.half[1] + s.half[2];
+}
+
+/// Nothing for a pair that has no closed form. `tilt` is what b's axis is turned by to be a's.
+std::optional<AnalyticSeparation> by_kinds(const PlacedSolid& a, const PlacedSolid& b,
+                                           double& tilt) {
+  using Kind = PlacedSolid::Kind;
+  const Vec3d offset = (b.centre - a.centre).as<double>();
+  if (a.kind == Kind::sphere && b.kind == Kind::sphere) return spheres(a, b, offset);
+  if (a.kind == Kind::cylinder && b.kind == Kind::cylinder) {
+    tilt = norm(cross(a.axes[2], b.axes[2]));
+    return cylinders(a, b, offset);
+  }
+  if (b.kind == Kind::sphere) {
+    AnalyticSeparation s = sphere_and_body(b, a, offset);
+    std::swap(s.a_inside_b, s.b_inside_a);
+    return s;
+  }
+  if (a.kind != Kind::sphere) return std::nullopt;
+  AnalyticSeparation s = sphere_and_body(a, b, -offset);
+  s.point = s.point + offset;
   return s;
 }
 
@@ -127,18 +206,16 @@ AnalyticSeparation cylinders(const Round& a, const Round& b, const Vec3d& offset
 
 std::optional<AnalyticSeparation> analytic_separation(const PlacedPrimitive& a,
                                                       const PlacedPrimitive& b) {
-  const auto x = round_of(a), y = round_of(b);
-  if (!x || !y || x->cylinder != y->cylinder) return std::nullopt;
-  const Vec3d offset = (y->centre - x->centre).as<double>();
-  const double reach = norm(offset) + x->radius + y->radius + x->half + y->half;
-  double skew = kSkew;
-  if (x->cylinder) {
-    const double angle = norm(cross(x->axis, y->axis));
-    if (!(angle < kSkew)) return std::nullopt;
-    skew += angle;
-  }
-  AnalyticSeparation s = x->cylinder ? cylinders(*x, *y, offset) : spheres(*x, *y, offset);
-  s.error = 4 * skew * reach;
+  const auto x = placed_solid(a), y = placed_solid(b);
+  if (!x || !y) return std::nullopt;
+  double tilt = 0;
+  auto s = by_kinds(*x, *y, tilt);
+  if (!s) return std::nullopt;
+  const double reach = norm((y->centre - x->centre).as<double>()) + size_of(*x) + size_of(*y);
+  // The sine of a tilt this small is the angle, and the chord, but for a part in 10^4.
+  const double turned = 1.001 * tilt * size_of(*y);
+  if (!(tilt < 0.01) || !(turned < kMaxMoved)) return std::nullopt;
+  s->error = x->error + y->error + turned + 64 * std::numeric_limits<double>::epsilon() * reach;
   return s;
 }
 

@@ -49,13 +49,126 @@ TEST(AnalyticPair, ParallelCylinders) {
   EXPECT_NEAR(of(pipe, {}, thin, {10, 0, 100}).b_inside_a, 20'000, 1e-3);
 }
 
-TEST(AnalyticPair, OthersHaveNoClosedForm) {
-  const Primitive ball = SpherePrimitive{100}, pipe = CylinderPrimitive{50, 100};
-  const Placement here, askew{{{Vec3d{1, 0, 0}, Vec3d{0, 0.6, -0.8}, Vec3d{0, 0.8, 0.6}}}, {}};
+TEST(AnalyticPair, SphereAndBox) {
+  const SpherePrimitive ball{200};
+  const BoxPrimitive box{400, 600, 1000};
+  // Over a face, an edge and a corner.
+  EXPECT_NEAR(of(box, {}, ball, {307, 50, -80}).d, 7'000, 1e-3);
+  EXPECT_NEAR(of(box, {}, ball, {200 + 63, 300 + 84, 10}).d, 5'000, 1e-3);
+  EXPECT_NEAR(of(box, {}, ball, {200 + 30, 300 + 60, -500 - 60}).d, -10'000, 1e-3);
+  EXPECT_NEAR(of(box, {}, ball, {200 + 60, 300 + 120, 500 + 120}).d, 80'000, 1e-3);
+  EXPECT_NEAR(of(ball, {}, box, {-292, 0, 0}).d, -8'000, 1e-3);
+  // Inside: as deep as the box's middle plane, when the ball reaches it.
+  const AnalyticSeparation in = of(box, {}, ball, {50, 0, 0});
+  EXPECT_NEAR(in.d, -200'000, 1e-3);
+  EXPECT_NEAR(in.b_inside_a, 50'000, 1e-3);
+  EXPECT_LT(in.a_inside_b, 0);
+  EXPECT_NEAR(of(box, {}, SpherePrimitive{40}, {150, 0, 0}).d, -70'000, 1e-3);
+  // The ball holds the box: as deep as the ball's centre.
+  const AnalyticSeparation held = of(SpherePrimitive{3000}, {}, box, {500, 0, 0});
+  EXPECT_NEAR(held.d, -1'200'000, 1e-3);
+  EXPECT_NEAR(held.b_inside_a, 1'500'000 - 1'000 * std::sqrt(700 * 700 + 300 * 300 + 500 * 500),
+              1e-3);
+}
+
+TEST(AnalyticPair, SphereAndCylinder) {
+  const SpherePrimitive ball{200};
+  const CylinderPrimitive pipe{50, 1000};
+  EXPECT_NEAR(of(pipe, {}, ball, {90, 120, 300}).d, 0, 1e-3);
+  EXPECT_NEAR(of(pipe, {}, ball, {0, 160, 300}).d, 10'000, 1e-3);
+  EXPECT_NEAR(of(pipe, {}, ball, {20, 20, -605}).d, 5'000, 1e-3);
+  EXPECT_NEAR(of(pipe, {}, ball, {0, 50 + 66, 500 + 88}).d, 10'000, 1e-3);
+  EXPECT_NEAR(of(ball, {}, pipe, {0, 0, 590}).d, -10'000, 1e-3);
+  EXPECT_NEAR(of(ball, {}, pipe, {}).d, -100'000, 1e-3);
+  EXPECT_NEAR(of(pipe, {}, SpherePrimitive{20}, {20, 0, 0}).d, -40'000, 1e-3);
+  EXPECT_NEAR(of(pipe, {}, SpherePrimitive{20}, {20, 0, 0}).b_inside_a, 20'000, 1e-3);
+}
+
+/// In any frame and either order: what a dense sampling of the definition finds.
+TEST(AnalyticPair, SpheresInBodiesAreAsDeepAsTheDeepestSample) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](int lo, int hi) {
+      return static_cast<double>(lo +
+                                 static_cast<int>(random() % static_cast<std::uint64_t>(hi - lo)));
+    };
+    const double r = draw(5, 60);
+    const bool pipe = seed % 2 == 0;
+    const BoxPrimitive box{draw(10, 90), draw(10, 90), draw(10, 90)};
+    const CylinderPrimitive cylinder{draw(5, 45), draw(10, 90)};
+    const Primitive body = pipe ? Primitive{cylinder} : Primitive{box};
+    const Vec3d at{draw(-80, 80), draw(-80, 80), draw(-80, 80)};
+    const AnalyticSeparation s = of(body, {}, SpherePrimitive{2 * r}, at);
+    EXPECT_EQ(of(SpherePrimitive{2 * r}, at, body, {}).d, s.d) << "seed " << seed;
+    EXPECT_NEAR(of(body, {}, SpherePrimitive{2 * r}, kTurn * at, kTurn).d, s.d, 2) << seed;
+    const auto depth = [&](const Vec3d& p) {
+      const double side =
+          pipe ? cylinder.radius - std::sqrt(p.x * p.x + p.y * p.y)
+               : std::min(box.length_x / 2 - std::fabs(p.x), box.length_y / 2 - std::fabs(p.y));
+      return std::min(side, (pipe ? cylinder.height : box.length_z) / 2 - std::fabs(p.z));
+    };
+    double deepest = -1, nearest = 1e9;
+    for (double x = -45; x <= 45; x += 3)
+      for (double y = -45; y <= 45; y += 3)
+        for (double z = -45; z <= 45; z += 3) {
+          const Vec3d p{x, y, z}, off = p - at;
+          const double to_centre = std::sqrt(dot(off, off)), in_body = depth(p);
+          if (in_body >= 0) nearest = std::min(nearest, to_centre - r);
+          if (in_body >= 0 && to_centre <= r) deepest = std::max({deepest, in_body, r - to_centre});
+        }
+    EXPECT_LE(deepest, std::max(0.0, -s.d / kPerMm) + 1e-9) << "seed " << seed;
+    if (s.d < -6 * kPerMm) {
+      EXPECT_GE(deepest, -s.d / kPerMm - 5.2) << "seed " << seed;
+    }
+    if (s.d > 0) {
+      EXPECT_GE(nearest, s.d / kPerMm - 1e-9) << "seed " << seed;
+      EXPECT_LE(nearest, s.d / kPerMm + 5.2) << "seed " << seed;
+    }
+  }
+}
+
+TEST(AnalyticPair, RoundingOfMatricesIsPartOfTheError) {
+  // Single precision, as RVM files have it.
+  Mat3d rough = kTurn;
+  for (Vec3d& row : rough.row)
+    for (int k = 0; k < 3; ++k) row[k] = static_cast<double>(static_cast<float>(row[k]));
+  const Primitive pipe = CylinderPrimitive{100, 6000}, ball = SpherePrimitive{200};
+  const Placement p{rough, {}}, q{kTurn, kTurn * Vec3d{215, 0, 4000}}, r{rough, {350, 0, 0}};
+  const auto pipes = analytic_separation({&pipe, &p}, {&pipe, &q});
+  ASSERT_TRUE(pipes);
+  EXPECT_NEAR(pipes->d, 15'000, pipes->error + 2);
+  EXPECT_GT(pipes->error, 0);
+  EXPECT_LT(pipes->error, 4);
+  const auto balls = analytic_separation({&ball, &p}, {&ball, &r});
+  ASSERT_TRUE(balls);
+  EXPECT_NEAR(balls->d, 150'000, balls->error);
+  EXPECT_LT(balls->error, 0.1);
+}
+
+TEST(AnalyticPair, ScalesThatLeaveTheKindAsItIs) {
+  const Primitive box = BoxPrimitive{100, 100, 100}, pipe = CylinderPrimitive{50, 100},
+                  ball = SpherePrimitive{20};
+  const Placement tall{{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 3}}}, {}};
+  const Placement above{{}, {0, 0, 170}};
+  EXPECT_NEAR(analytic_separation({&box, &tall}, {&ball, &above})->d, 10'000, 1e-3);
+  EXPECT_NEAR(analytic_separation({&pipe, &tall}, {&ball, &above})->d, 10'000, 1e-3);
+  EXPECT_FALSE(analytic_separation({&ball, &tall}, {&ball, &above})) << "an ellipsoid";
   const Placement oval{{{Vec3d{2, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, {}};
-  EXPECT_FALSE(analytic_separation({&ball, &here}, {&pipe, &here}));
+  EXPECT_FALSE(analytic_separation({&pipe, &oval}, {&ball, &above}));
+  const Placement sheared{{{Vec3d{1, 0.1, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, {}};
+  EXPECT_FALSE(analytic_separation({&box, &sheared}, {&ball, &above}));
+  const Placement flat{{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 0}}}, {}};
+  EXPECT_FALSE(analytic_separation({&box, &flat}, {&ball, &above}));
+}
+
+TEST(AnalyticPair, OthersHaveNoClosedForm) {
+  const Primitive pipe = CylinderPrimitive{50, 100}, box = BoxPrimitive{10, 10, 10},
+                  dish = SphericalDishPrimitive{50, 20};
+  const Placement here, askew{{{Vec3d{1, 0, 0}, Vec3d{0, 0.6, -0.8}, Vec3d{0, 0.8, 0.6}}}, {}};
   EXPECT_FALSE(analytic_separation({&pipe, &here}, {&pipe, &askew}));
-  EXPECT_FALSE(analytic_separation({&ball, &here}, {&ball, &oval}));
+  EXPECT_FALSE(analytic_separation({&pipe, &here}, {&box, &here}));
+  EXPECT_FALSE(analytic_separation({&box, &here}, {&box, &here}));
+  EXPECT_FALSE(analytic_separation({&dish, &here}, {&pipe, &here}));
 }
 
 /// The definition by dense sampling of the plane through both axes, in any frame.

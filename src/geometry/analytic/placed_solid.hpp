@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "strake/geometry/analytic_pair.hpp"
+
+namespace strake::geometry {
+
+/// A primitive that has closed forms, about its own centre. All lengths are grid units.
+struct PlacedSolid {
+  enum class Kind : std::uint8_t { sphere, cylinder, box };
+  Kind kind = Kind::sphere;
+  /// Sphere: the radius. Cylinder along axis 2: radius, radius, half the height. Box: half its
+  /// lengths.
+  std::array<double, 3> half{};
+  std::array<Vec3d, 3> axes;  ///< orthonormal
+  Vec3l centre;
+  double error = 0;  ///< how far a point of the placed primitive may lie from where this puts it
+};
+
+/// Nothing for other kinds, for lengths of zero, and for placements that do not leave the kind as
+/// it is. Axes that are off the right angle by the rounding of a source's numbers are put right,
+/// and what that moves is `error`; beyond kMaxMoved it is a different body.
+[[nodiscard]] std::optional<PlacedSolid> placed_solid(const PlacedPrimitive& p);
+
+/// Grid units: well below the sag of a tessellation, well above single-precision matrices at ten
+/// metres.
+inline constexpr double kMaxMoved = 10;
+
+[[nodiscard]] inline double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+
+}  // namespace strake::geometry
