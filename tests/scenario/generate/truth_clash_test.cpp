@@ -64,14 +64,11 @@ class TruthAgainstEngine : public testing::TestWithParam<Case> {
     parallel::Team team(2);
     parallel::Context context;
     context.team = &team;
-    const Result<model::Scene> scene = model::make_scene(ship_.model, {}, context);
+    const clash::Options options{.clearance_mm = Truth::kClearanceMm};
+    const Result<model::Scene> scene =
+        model::make_scene(ship_.model, clash::scene_options(options), context);
     EXPECT_TRUE(scene.has_value());
-    clash::Sets sets;
-    sets.in_a.assign(ship_.model.objects.size(), true);
-    sets.in_b = sets.in_a;
-    clash::Options options;
-    options.clearance_mm = Truth::kClearanceMm;
-    Result<clash::Report> report = clash::detect(*scene, sets, options, context);
+    Result<clash::Report> report = clash::detect(*scene, clash::one_set(*scene), options, context);
     EXPECT_TRUE(report.has_value()) << report.error().text();
     return std::move(report.value());
   }
@@ -126,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(ships, TruthAgainstEngine,
                          testing::Values(Case{1000, 1, false}, Case{1000, 1, true},
                                          Case{1000, 2, false}, Case{1000, 3, false, true},
                                          Case{1000, 3, true, true}, Case{20000, 1, false, true},
-                                         Case{20000, 1, true}),
+                                         Case{20000, 1, true, true}),
                          [](const auto& test_case) {
                            return "of_" + std::to_string(test_case.param.objects) + "_seed_" +
                                   std::to_string(test_case.param.seed) +

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""schema_test.py STRAKE SCHEMAS: everything that the program writes as JSON follows its schema."""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import jsonschema
+
+STRAKE = SCHEMAS = None
+
+# One sound tetrahedron, one open triangle, one inside out, a line, and an object that is nowhere.
+ODD_OBJ = '''o sound
+v 0 0 0
+v 100 0 0
+v 0 100 0
+v 0 0 100
+f 1 3 2
+f 1 2 4
+f 2 3 4
+f 1 4 3
+o open
+f 1 2 4
+o inside-out
+v 20 20 20
+v 120 20 20
+v 20 120 20
+v 20 20 120
+f 5 6 7
+f 5 8 6
+f 6 8 7
+f 5 7 8
+o wire
+l 1 2 3
+o nowhere
+v nan 0 0
+f 9 1 2
+'''
+
+
+class Schemas(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory(prefix='strake-schemas-')
+        cls.folder = Path(cls.keep.name)
+        (cls.folder / 'odd.obj').write_text(ODD_OBJ, encoding='utf-8')
+        cls.run_strake('generate', 'ship', '--objects', 300, '--seed', 7, '-o', 'ship.glb', '--truth',
+                       'truth.json')
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    @classmethod
+    def run_strake(cls, *arguments):
+        done = subprocess.run([STRAKE, *map(str, arguments), '--quiet'], capture_output=True, text=True,
+                              timeout=200, cwd=cls.folder, check=False)
+        if done.returncode != 0:
+            raise AssertionError(f'{arguments}: exit {done.returncode}: {done.stderr}')
+        return done.stdout
+
+    def follows(self, text, name):
+        """The document, which follows a schema that would refuse it with a key added or one left out."""
+        schema = json.loads((SCHEMAS / f'{name}.schema.json').read_text(encoding='utf-8'))
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        document = json.loads(text)
+        for error in validator.iter_errors(document):
+            self.fail(f'{name}: {"/".join(map(str, error.absolute_path))}: {error.message}')
+        self.assertFalse(validator.is_valid({**document, 'no such key': 1}))
+        for key in schema['required']:
+            self.assertFalse(validator.is_valid({k: v for k, v in document.items() if k != key}), key)
+        return document
+
+    def test_info(self):
+        ship = self.follows(self.run_strake('info', 'ship.glb', '--json'), 'info')
+        self.assertGreaterEqual(ship['total']['objects'], 300)
+        odd = self.follows(self.run_strake('info', 'odd.obj', 'ship.glb', '--json'), 'info')
+        self.assertEqual(len(odd['files']), 2)
+        self.assertGreater(odd['skipped'], 0)
+        self.assertEqual(odd['files'][0]['inverted'], 1)
+
+    def test_truth(self):
+        truth = self.follows((self.folder / 'truth.json').read_text(encoding='utf-8'), 'truth')
+        self.assertEqual(truth['generator']['seed'], 7)
+        classes = [pair['class'] for pair in truth['pairs']]
+        for name, count in truth['counts'].items():
+            self.assertEqual(classes.count(name), count)
+            self.assertGreater(count, 0)
+
+    def test_clash(self):
+        report = self.follows(self.run_strake('clash', 'odd.obj', '--json'), 'clash')
+        self.assertEqual({flag for result in report['results'] for flag in result['flags']},
+                         {'OPEN', 'INVERTED'})
+        report = self.follows(self.run_strake('clash', 'ship.glb', '--clearance', '25mm', '--json'), 'clash')
+        self.assertEqual(sum(report['counts'].values()), len(report['results']))
+        empty = self.follows(self.run_strake('clash', 'odd.obj', 'ship.glb', '--json'), 'clash')
+        self.assertEqual([file['label'] for file in empty['files']], ['odd.obj', 'ship.glb'])
+
+    def test_view(self):
+        self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json')
+        self.follows((self.folder / 'view.json').read_text(encoding='utf-8'), 'view')
+
+
+if __name__ == '__main__':
+    STRAKE = Path(sys.argv.pop(1)).resolve()
+    SCHEMAS = Path(sys.argv.pop(1)).resolve()
+    unittest.main(verbosity=2)
