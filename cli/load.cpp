@@ -56,6 +56,8 @@ void tell(Console& console, const Diagnostics& diagnostics) {
   }
 }
 
+namespace {
+
 Result<model::Model> read_model(Session& session, const InputOptions& input) {
   const Result<io::ReadOptions> options = read_options(input);
   if (!options) return options.error();
@@ -86,8 +88,22 @@ Result<model::Scene> place_model(Session& session, const model::Model& model,
   return scene;
 }
 
-ExitCode outcome(const InputOptions& input, const model::Model& model, const model::Scene& scene) {
-  const bool partial = model.diagnostics.skipped() + scene.diagnostics.skipped() > 0;
+}  // namespace
+
+Result<Loaded> load(Session& session, const InputOptions& input,
+                    const model::SceneOptions& options) {
+  Result<model::Model> model = read_model(session, input);
+  if (!model) return model.error();
+  Loaded loaded;
+  loaded.model = std::make_unique<const model::Model>(std::move(*model));
+  Result<model::Scene> scene = place_model(session, *loaded.model, options);
+  if (!scene) return scene.error();
+  loaded.scene = std::move(*scene);
+  return loaded;
+}
+
+ExitCode outcome(const InputOptions& input, const Loaded& loaded) {
+  const bool partial = loaded.model->diagnostics.skipped() + loaded.scene.diagnostics.skipped() > 0;
   return input.strict && partial ? ExitCode::partial : ExitCode::done;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "cli/exit_code.hpp"
@@ -24,16 +25,18 @@ void add_scene_options(CLI::App& command, SceneInput& options, const std::string
 [[nodiscard]] Result<model::SceneOptions> scene_options(const SceneInput& input,
                                                         double default_sag_mm);
 
-/// Reads the files of the command line as one model and tells what was read.
-[[nodiscard]] Result<model::Model> read_model(Session& session, const InputOptions& input);
+/// The files of the command line as one model, and that model on the grid.
+struct Loaded {
+  std::unique_ptr<const model::Model> model;  ///< what the scene refers to
+  model::Scene scene;
+};
 
-/// Puts a model on the grid and tells what was noticed there.
-[[nodiscard]] Result<model::Scene> place_model(Session& session, const model::Model& model,
-                                               const model::SceneOptions& options);
+/// Reads the files of the command line, puts them on the grid, and tells what was noticed.
+[[nodiscard]] Result<Loaded> load(Session& session, const InputOptions& input,
+                                  const model::SceneOptions& options);
 
 /// `done`, or `partial` where --strict was given and something was skipped.
-[[nodiscard]] ExitCode outcome(const InputOptions& input, const model::Model& model,
-                               const model::Scene& scene);
+[[nodiscard]] ExitCode outcome(const InputOptions& input, const Loaded& loaded);
 
 /// One line per kind of diagnostic: how often, and the first in its own words.
 void tell(Console& console, const Diagnostics& diagnostics);

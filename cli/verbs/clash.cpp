@@ -121,22 +121,22 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (!scene_settings) return scene_settings.error();
   if (const Status status = check_outputs(given.outputs, {".json", ".csv"}); !status)
     return status.error();
-  const Result<model::Model> model = read_model(session, given.input);
-  if (!model) return model.error();
-  const Result<model::Scene> scene = place_model(session, *model, *scene_settings);
-  if (!scene) return scene.error();
+  const Result<Loaded> loaded = load(session, given.input, *scene_settings);
+  if (!loaded) return loaded.error();
+  const model::Model& model = *loaded->model;
+  const model::Scene& scene = loaded->scene;
   Result<clash::Report> report = [&] {
     const auto timer = session.step("clash");
-    return clash::detect(*scene, sets_of(*model, given.self), *options, session.context());
+    return clash::detect(scene, sets_of(model, given.self), *options, session.context());
   }();
   if (!report) return report.error();
   tell(session.console(), report->diagnostics);
   count_work(session.stats(), report->counters);
-  if (const Status status = write_report(session, given, *report, *model); !status)
+  if (const Status status = write_report(session, given, *report, model); !status)
     return status.error();
   if (fails(*report, given.fail_on)) return ExitCode::clashes;
   if (given.input.strict && report->diagnostics.skipped() > 0) return ExitCode::partial;
-  return outcome(given.input, *model, *scene);
+  return outcome(given.input, *loaded);
 }
 
 void add_rules(CLI::App& command, ClashOptions& options) {

@@ -204,20 +204,20 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
     return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
   if (const Status status = check_outputs(given.outputs, {".svg", ".json"}); !status)
     return status.error();
-  const Result<model::Model> model = read_model(session, given.input);
-  if (!model) return model.error();
-  const Result<model::Scene> scene = place_model(session, *model, *scene_settings);
-  if (!scene) return scene.error();
+  const Result<Loaded> loaded = load(session, given.input, *scene_settings);
+  if (!loaded) return loaded.error();
+  const model::Model& model = *loaded->model;
+  const model::Scene& scene = loaded->scene;
   const Result<drawing::NeutralDrawing> drawing =
-      compute(session, given, *scene, *view, *options, *layout);
+      compute(session, given, scene, *view, *options, *layout);
   if (!drawing) return drawing.error();
   count_work(session.stats(), *drawing);
   session.console().say(fmt::format("{} lines at {} on {} x {} mm", drawing->lines.size(),
                                     drawing->sheet.scale_text, drawing->sheet.width_mm,
                                     drawing->sheet.height_mm));
-  if (const Status status = write_drawing(session, given, *drawing, *model); !status)
+  if (const Status status = write_drawing(session, given, *drawing, model); !status)
     return status.error();
-  return outcome(given.input, *model, *scene);
+  return outcome(given.input, *loaded);
 }
 
 void add_view(CLI::App& command, DrawOptions& options) {

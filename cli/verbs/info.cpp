@@ -185,14 +185,14 @@ struct InfoOptions {
 Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
   const Result<model::SceneOptions> scene_settings = scene_options(options.scene, kSagMm);
   if (!scene_settings) return scene_settings.error();
-  const Result<model::Model> model = read_model(session, options.input);
-  if (!model) return model.error();
-  const Result<model::Scene> scene = place_model(session, *model, *scene_settings);
-  if (!scene) return scene.error();
+  const Result<Loaded> loaded = load(session, options.input, *scene_settings);
+  if (!loaded) return loaded.error();
+  const model::Model& model = *loaded->model;
+  const model::Scene& scene = loaded->scene;
   const Status written =
-      session.write_stdout(session.json() ? info_json(*model, *scene) : info_text(*model, *scene));
+      session.write_stdout(session.json() ? info_json(model, scene) : info_text(model, scene));
   if (!written) return written.error();
-  return outcome(options.input, *model, *scene);
+  return outcome(options.input, *loaded);
 }
 
 }  // namespace

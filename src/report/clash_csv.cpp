@@ -39,20 +39,11 @@ void line(std::string& out, const model::Model& model, const clash::Pair& p) {
   out += ',';
   append_mm(out, p.d_mm);
   out += ',';
-  append_mm_down(out, p.d_lower_mm);
+  append_range(out, p, ",");
   out += ',';
-  append_mm_up(out, p.d_upper_mm);
-  for (int k = 0; k < 3; ++k) {
-    out += ',';
-    append_mm(out, p.point_mm[k]);
-  }
+  append_point(out, p, ",");
   out += ',';
-  bool first = true;
-  for (const std::string_view flag : clash::flag_names(p.flags)) {
-    if (!first) out += ' ';
-    first = false;
-    out += flag;
-  }
+  append_flags(out, p, " ", "");
   out += "\r\n";
 }
 

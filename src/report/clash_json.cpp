@@ -99,21 +99,11 @@ void result(std::string& out, const model::Model& model, const Pair& p) {
   out += "\", \"d_mm\": ";
   append_mm(out, p.d_mm);
   out += ", \"d_range_mm\": [";
-  append_mm_down(out, p.d_lower_mm);
-  out += ", ";
-  append_mm_up(out, p.d_upper_mm);
+  append_range(out, p, ", ");
   out += "], \"point_mm\": [";
-  for (int k = 0; k < 3; ++k) {
-    if (k > 0) out += ", ";
-    append_mm(out, p.point_mm[k]);
-  }
+  append_point(out, p, ", ");
   out += "], \"flags\": [";
-  bool first = true;
-  for (const std::string_view flag : clash::flag_names(p.flags)) {
-    if (!first) out += ", ";
-    first = false;
-    append_json(out, flag);
-  }
+  append_flags(out, p, ", ", "\"");
   out += "]}";
 }
 

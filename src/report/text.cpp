@@ -43,6 +43,31 @@ bool continues(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+void append_range(std::string& out, const clash::Pair& pair, std::string_view between) {
+  append_mm_down(out, pair.d_lower_mm);
+  out += between;
+  append_mm_up(out, pair.d_upper_mm);
+}
+
+void append_point(std::string& out, const clash::Pair& pair, std::string_view between) {
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) out += between;
+    append_mm(out, pair.point_mm[k]);
+  }
+}
+
+void append_flags(std::string& out, const clash::Pair& pair, std::string_view between,
+                  std::string_view quote) {
+  bool first = true;
+  for (const std::string_view flag : clash::flag_names(pair.flags)) {
+    if (!first) out += between;
+    first = false;
+    out += quote;
+    out += flag;
+    out += quote;
+  }
+}
+
 std::size_t utf8_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char c = byte(at);

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "strake/clash/clash.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::report {
@@ -44,6 +45,13 @@ void append_mm(std::string& out, double mm);
 /// The same, rounded down or up, so that a bracket stays certain.
 void append_mm_down(std::string& out, double mm);
 void append_mm_up(std::string& out, double mm);
+
+/// Fields of a result with something between: the bounds of d, the coordinates of the witness, the
+/// names of the flags, each between quotes.
+void append_range(std::string& out, const clash::Pair& pair, std::string_view between);
+void append_point(std::string& out, const clash::Pair& pair, std::string_view between);
+void append_flags(std::string& out, const clash::Pair& pair, std::string_view between,
+                  std::string_view quote);
 
 /// Length in bytes of the UTF-8 character that starts at `at`; 0 when none does.
 [[nodiscard]] std::size_t utf8_length(std::string_view text, std::size_t at);
