@@ -129,7 +129,8 @@ int run(const Arguments& a) {
     if (i + 1 < a.repeat) continue;
     report(*drawing);
     const test::RayCheck check = test::check_by_rays(*scene, *drawing, a.rays, 1);
-    fmt::print("  {} exact rays, {} disagree\n", check.rays, check.wrong);
+    fmt::print("  {} exact rays: {} wrong; {} pieces too short to ask\n", check.rays, check.wrong,
+               check.too_short);
     if (check.wrong > 0) return fmt::print(stderr, "{}\n", check.first_wrong), 5;
   }
   return 0;

@@ -2,6 +2,7 @@
 // The engine gives, piece by piece and bit by bit, what the definition gives.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -68,7 +69,7 @@ TEST(GatherAgainstBruteForce, HugeLattice) {
 }
 
 TEST(GatherAgainstBruteForce, Crowd) {
-  for (std::uint64_t seed = 1; seed <= count(12); ++seed)
+  for (std::uint64_t seed = 1; seed <= std::max<std::uint64_t>(12, count(12) / 50); ++seed)
     ASSERT_EQ(run(seed, {.most_objects = 40}), "") << "seed " << seed;
 }
 
