@@ -34,12 +34,6 @@ struct Content {
   geometry::Box3l extents = geometry::empty_box<std::int64_t>();
 };
 
-std::string kind_of(const model::Shape& shape) {
-  if (const auto* const primitive = std::get_if<geometry::Primitive>(&shape))
-    return std::string(geometry::kind_name(*primitive));
-  return std::holds_alternative<geometry::TriangleMesh>(shape) ? "mesh" : "polylines";
-}
-
 void count_placed(Content& content, const model::Scene& scene, model::ObjectId id) {
   for (const model::GridBody& body : scene.bodies_of(id)) {
     const model::GridShape& shape = scene.shapes[body.grid_shape];
@@ -74,7 +68,7 @@ Content content_of(const model::Model& model, const model::Scene& scene, std::si
     content.bodies += object.body_count;
     for (std::uint32_t b = 0; b < object.body_count; ++b) {
       const std::uint32_t shape = model::index(model.bodies[object.first_body + b].shape);
-      ++content.primitives[kind_of(model.shapes[shape])];
+      ++content.primitives[std::string(model::kind_name(model.shapes[shape]))];
       content.shapes += used[shape] ? 0U : 1U;
       used[shape] = true;
     }

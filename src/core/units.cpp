@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/core/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -30,21 +31,6 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-/// "25 mm" in its number and what follows it.
-struct Quantity {
-  std::optional<double> number;
-  std::string_view unit;
-};
-
-Quantity quantity(std::string_view text) {
-  text = trimmed(text);
-  // The longest prefix that is a number: "1e3m" is a thousand metres, "1em" no number at all.
-  for (std::size_t length = text.size(); length > 0; --length)
-    if (const auto number = parse_number(trimmed(text.substr(0, length))))
-      return {number, trimmed(text.substr(length))};
-  return {std::nullopt, text};
-}
-
 Error usage(std::string message, std::string mend) {
   return {ErrorCode::usage, std::move(message), {}, std::move(mend)};
 }
@@ -52,6 +38,16 @@ Error usage(std::string message, std::string mend) {
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 }  // namespace
+
+std::optional<Quantity> parse_quantity(std::string_view text) {
+  constexpr std::size_t kLongest = 64;
+  text = trimmed(text);
+  // The longest prefix that is a number: "1e3m" is a thousand metres, "1em" no number at all.
+  for (std::size_t length = std::min(text.size(), kLongest); length > 0; --length)
+    if (const auto number = parse_number(trimmed(text.substr(0, length))))
+      return Quantity{*number, std::string(trimmed(text.substr(length)))};
+  return std::nullopt;
+}
 
 std::optional<double> unit_mm(std::string_view unit) {
   for (const auto& [name, mm] : kUnits)
@@ -67,28 +63,28 @@ Result<double> parse_unit_mm(std::string_view text) {
 }
 
 Result<double> parse_length_mm(std::string_view text) {
-  const Quantity q = quantity(text);
-  if (!q.number) return usage("no length: " + quoted(text), "write a number and a unit, as 25mm");
-  if (q.unit.empty()) {
-    if (*q.number == 0) return 0.0;
+  const auto q = parse_quantity(text);
+  if (!q) return usage("no length: " + quoted(text), "write a number and a unit, as 25mm");
+  if (q->unit.empty()) {
+    if (q->number == 0) return 0.0;
     return usage("the length " + quoted(text) + " has no unit",
-                 "write " + shortest(*q.number) + "mm or another of " + std::string(kUnitNames));
+                 "write " + shortest(q->number) + "mm or another of " + std::string(kUnitNames));
   }
-  const auto mm = unit_mm(q.unit);
+  const auto mm = unit_mm(q->unit);
   if (!mm)
-    return usage("unknown unit " + quoted(q.unit) + " in " + quoted(text),
+    return usage("unknown unit " + quoted(q->unit) + " in " + quoted(text),
                  "write " + std::string(kUnitNames));
-  const double length = *q.number * *mm;
+  const double length = q->number * *mm;
   if (!std::isfinite(length)) return usage("too long: " + quoted(text), "write a smaller length");
   return length;
 }
 
 Result<double> parse_angle_deg(std::string_view text) {
-  const Quantity q = quantity(text);
-  if (!q.number) return usage("no angle: " + quoted(text), "write degrees, as 20deg");
-  if (q.unit.empty() || q.unit == "deg" || q.unit == "°") return *q.number;
-  if (q.unit == "rad") return *q.number * kDegPerRad;
-  return usage("unknown unit " + quoted(q.unit) + " in " + quoted(text), "write 20deg or 0.35rad");
+  const auto q = parse_quantity(text);
+  if (!q) return usage("no angle: " + quoted(text), "write degrees, as 20deg");
+  if (q->unit.empty() || q->unit == "deg" || q->unit == "°") return q->number;
+  if (q->unit == "rad") return q->number * kDegPerRad;
+  return usage("unknown unit " + quoted(q->unit) + " in " + quoted(text), "write 20deg or 0.35rad");
 }
 
 Result<double> parse_scale(std::string_view text) {

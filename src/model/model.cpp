@@ -117,6 +117,12 @@ void reorder(Model& model, const Order& order) {
 
 }  // namespace
 
+std::string_view kind_name(const Shape& shape) {
+  if (const auto* const primitive = std::get_if<geometry::Primitive>(&shape))
+    return geometry::kind_name(*primitive);
+  return std::holds_alternative<geometry::TriangleMesh>(shape) ? "mesh" : "polylines";
+}
+
 std::string Model::path(const Object& object) const {
   std::vector<std::string_view> names;
   GroupId group = object.parent;

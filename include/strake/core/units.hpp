@@ -12,6 +12,16 @@ namespace strake {
 // Values as a user writes them. Each function takes the whole text, blanks round it apart, and an
 // error says what would have been right.
 
+/// A number and the text that follows it, blanks apart: "25 mm" is 25 and "mm", "1e3" has no unit.
+struct Quantity {
+  double number = 0;
+  std::string unit;
+};
+
+/// The longest number that a text begins with and the rest of it as its unit; nothing when it does
+/// not begin with one. The number ends within 64 characters.
+[[nodiscard]] std::optional<Quantity> parse_quantity(std::string_view text);
+
 /// Length of a unit in millimetres: "um", "mm", "cm", "dm", "m", "km", "in", "ft"; nothing for
 /// others. Names in full ("millimetres", "meter", "inch") are understood too.
 [[nodiscard]] std::optional<double> unit_mm(std::string_view unit);

@@ -105,6 +105,11 @@ struct Box3 {
     return lo.x <= b.hi.x && b.lo.x <= hi.x && lo.y <= b.hi.y && b.lo.y <= hi.y && lo.z <= b.hi.z &&
            b.lo.z <= hi.z;
   }
+  /// Whether all of a box that is not empty lies in this closed one.
+  [[nodiscard]] constexpr bool contains(const Box3& b) const {
+    return lo.x <= b.lo.x && b.hi.x <= hi.x && lo.y <= b.lo.y && b.hi.y <= hi.y && lo.z <= b.lo.z &&
+           b.hi.z <= hi.z;
+  }
   friend constexpr bool operator==(const Box3&, const Box3&) = default;
 };
 

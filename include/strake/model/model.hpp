@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -32,6 +33,9 @@ struct Color {
   std::uint8_t alpha = 255;  ///< below 255 is transparent: hidden, but hides nothing
   friend bool operator==(const Color&, const Color&) = default;
 };
+
+/// "box", "cylinder" … for primitives, "mesh", "polylines".
+[[nodiscard]] std::string_view kind_name(const Shape& shape);
 
 /// What a body stands for in the source system.
 enum class Category : std::uint8_t {

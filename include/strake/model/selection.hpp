@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::model {
+
+namespace selection {
+struct Query;
+}
+
+/// A question that picks objects, as a user writes it:
+///
+///     type = cylinder and @DN >= 150mm and not path = "/HULL/*"
+///
+/// The language is defined in docs/selection.md. A selection is immutable and may be evaluated by
+/// several threads at once.
+class Selection {
+ public:
+  /// Errors: usage, with the column where the text stops making sense and what could stand there.
+  [[nodiscard]] static Result<Selection> parse(std::string_view text);
+
+  /// What was parsed.
+  [[nodiscard]] const std::string& text() const;
+
+  /// Whether the object is picked. An object's box is that of its placed bodies; one without any
+  /// is in no box.
+  [[nodiscard]] bool picks(const Scene& scene, ObjectId object) const;
+
+ private:
+  explicit Selection(std::shared_ptr<const selection::Query> query) : query_(std::move(query)) {}
+  std::shared_ptr<const selection::Query> query_;
+};
+
+/// One entry per object of the scene: 1 where it is picked. Errors: cancelled.
+[[nodiscard]] Result<std::vector<std::uint8_t>> pick(const Selection& selection, const Scene& scene,
+                                                     const parallel::Context& context);
+
+}  // namespace strake::model

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/selection/evaluate.hpp"
+
+#include <fmt/core.h>
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "strake/core/glob.hpp"
+
+namespace strake::model::selection {
+namespace {
+
+std::string_view name_of(Category category) {
+  switch (category) {
+    case Category::physical:
+      return "physical";
+    case Category::obstruction:
+      return "obstruction";
+    case Category::insulation:
+      return "insulation";
+  }
+  return {};
+}
+
+std::string text_of(const Color& c) {
+  return c.alpha == 255 ? fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue)
+                        : fmt::format("#{:02x}{:02x}{:02x}{:02x}", c.red, c.green, c.blue, c.alpha);
+}
+
+/// Both in millimetres where either has a unit: a number without one is in millimetres then.
+struct Comparable {
+  double left = 0, right = 0;
+};
+
+std::optional<Comparable> comparable(const Quantity& left, const Quantity& right) {
+  if (left.unit == right.unit) return Comparable{left.number, right.number};
+  const auto in_mm = [](const Quantity& q) {
+    return q.unit.empty() ? std::optional(1.0) : unit_mm(q.unit);
+  };
+  const auto l = in_mm(left), r = in_mm(right);
+  if (!l || !r) return std::nullopt;
+  return Comparable{left.number * *l, right.number * *r};
+}
+
+bool holds(Operator op, const Comparable& c) {
+  switch (op) {
+    case Operator::equal:
+      return c.left == c.right;
+    case Operator::less:
+      return c.left < c.right;
+    case Operator::less_equal:
+      return c.left <= c.right;
+    case Operator::more:
+      return c.left > c.right;
+    case Operator::more_equal:
+      return c.left >= c.right;
+    case Operator::exists:
+    case Operator::match:
+      break;
+  }
+  return false;
+}
+
+bool text_passes(const Test& test, std::string_view text) {
+  switch (test.op) {
+    case Operator::exists:
+      return !text.empty();
+    case Operator::equal:
+      return glob_match(test.text, text);
+    case Operator::match:
+      return RE2::PartialMatch(re2::StringPiece(text.data(), text.size()), *test.regex);
+    default:
+      return false;
+  }
+}
+
+bool quantity_passes(const Test& test, std::string_view text) {
+  // A bare number that is to be equal is compared as text: 007 is not 7 among part numbers.
+  if (!test.quantity || test.op == Operator::match || test.op == Operator::exists) return false;
+  if (test.op == Operator::equal && test.quantity->unit.empty()) return false;
+  const auto value = parse_quantity(text);
+  const auto both = value ? comparable(*value, *test.quantity) : std::nullopt;
+  return both && holds(test.op, *both);
+}
+
+class Asker {
+ public:
+  Asker(const Query& query, const Scene& scene, ObjectId id)
+      : query_(query), scene_(scene), model_(*scene.model), id_(id), object_(model_.object(id)) {}
+
+  [[nodiscard]] bool ask(std::uint32_t index) const {
+    const Node& node = query_.nodes[index];
+    const auto operands = [&] {
+      return std::span(query_.operands).subspan(node.first, node.count);
+    };
+    switch (node.kind) {
+      case NodeKind::test:
+        return passes(query_.tests[node.first]);
+      case NodeKind::box:
+        return stands(query_.boxes[node.first]);
+      case NodeKind::negation:
+        return !ask(operands().front());
+      case NodeKind::conjunction:
+        for (const std::uint32_t operand : operands())
+          if (!ask(operand)) return false;
+        return true;
+      case NodeKind::disjunction:
+        for (const std::uint32_t operand : operands())
+          if (ask(operand)) return true;
+        return false;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool passes(const Test& test) const {
+    switch (test.field) {
+      case Field::any:
+        return text_passes(test, object_.name) || text_passes(test, object_.id) ||
+               text_passes(test, whole_path());
+      case Field::name:
+        return text_passes(test, object_.name);
+      case Field::id:
+        return text_passes(test, object_.id);
+      case Field::path:
+        return text_passes(test, whole_path());
+      case Field::file:
+        return text_passes(test, model_.files[object_.file].label);
+      case Field::attribute:
+        return attribute_passes(test);
+      case Field::type:
+      case Field::category:
+      case Field::color:
+        return body_passes(test);
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::string whole_path() const {
+    const std::string groups = model_.path(object_);
+    return groups.empty() ? object_.name : groups + '/' + object_.name;
+  }
+
+  /// A name may be carried several times; one that passes is enough.
+  [[nodiscard]] bool attribute_passes(const Test& test) const {
+    for (const auto& [name, value] : object_.attributes)
+      if (name == test.attribute &&
+          (test.op == Operator::exists || text_passes(test, value) || quantity_passes(test, value)))
+        return true;
+    return false;
+  }
+
+  [[nodiscard]] bool body_passes(const Test& test) const {
+    for (std::uint32_t b = 0; b < object_.body_count; ++b) {
+      const Body& body = model_.bodies[object_.first_body + b];
+      const bool passes =
+          test.field == Field::type ? text_passes(test, kind_name(model_.shapes[index(body.shape)]))
+          : test.field == Field::category ? text_passes(test, name_of(body.category))
+                                          : text_passes(test, text_of(body.color));
+      if (passes) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool stands(const BoxTest& test) const {
+    geometry::Box3l box = geometry::empty_box<std::int64_t>();
+    for (const GridBody& body : scene_.bodies_of(id_)) {
+      const GridShape& shape = scene_.shapes[body.grid_shape];
+      if (!shape.box.empty()) box.include(body.box(shape));
+    }
+    if (box.empty()) return false;
+    return test.whole ? test.box.contains(box) : test.box.meets(box);
+  }
+
+  const Query& query_;
+  const Scene& scene_;
+  const Model& model_;
+  ObjectId id_;
+  const Object& object_;
+};
+
+}  // namespace
+
+bool answers(const Query& query, const Scene& scene, ObjectId object) {
+  return Asker(query, scene, object).ask(query.root);
+}
+
+}  // namespace strake::model::selection

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "strake/core/result.hpp"
+
+namespace strake::model::selection {
+
+enum class TokenKind : std::uint8_t { word, quoted, attribute, symbol, end };
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  std::string text;        ///< a symbol, or the text without its quotes or '@'
+  std::size_t column = 1;  ///< in bytes, from 1
+
+  [[nodiscard]] bool is(std::string_view symbol) const {
+    return kind == TokenKind::symbol && text == symbol;
+  }
+  [[nodiscard]] bool is_keyword(std::string_view word) const {
+    return kind == TokenKind::word && text == word;
+  }
+  /// Whether it can stand where a value is wanted.
+  [[nodiscard]] bool is_value() const {
+    return kind == TokenKind::word || kind == TokenKind::quoted;
+  }
+};
+
+/// An error at a column of a selection.
+[[nodiscard]] Error fault_at(std::size_t column, std::string message, std::string mend);
+
+/// The tokens of a selection, the last one `end`.
+[[nodiscard]] Result<std::vector<Token>> tokens_of(std::string_view text);
+
+}  // namespace strake::model::selection
