@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -27,18 +26,52 @@ std::string_view short_name(clash::Class cls) {
   return cls == clash::Class::clearance_violation ? "CLEARANCE" : name(cls);
 }
 
-std::vector<std::size_t> worst(const Report& report, std::size_t rows) {
-  std::vector<std::size_t> order(report.pairs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const std::size_t shown = std::min(rows, order.size());
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
-                    [&](std::size_t i, std::size_t j) {
-                      const Pair &x = report.pairs[i], &y = report.pairs[j];
-                      if (x.cls != y.cls) return x.cls > y.cls;
-                      return std::tuple(x.d_mm, i) < std::tuple(y.d_mm, j);
+/// The pairs of a class by d, then durable order, as many as are shown.
+struct Block {
+  std::vector<std::size_t> pairs;
+  std::size_t hidden = 0;
+};
+
+Block worst_of(const Report& report, clash::Class cls, std::size_t rows) {
+  Block block;
+  for (std::size_t i = 0; i < report.pairs.size(); ++i)
+    if (report.pairs[i].cls == cls) block.pairs.push_back(i);
+  const std::size_t shown = std::min(rows, block.pairs.size());
+  std::partial_sort(block.pairs.begin(), block.pairs.begin() + static_cast<std::ptrdiff_t>(shown),
+                    block.pairs.end(), [&](std::size_t i, std::size_t j) {
+                      return std::tuple(report.pairs[i].d_mm, i) <
+                             std::tuple(report.pairs[j].d_mm, j);
                     });
-  order.resize(shown);
-  return order;
+  block.hidden = block.pairs.size() - shown;
+  block.pairs.resize(shown);
+  return block;
+}
+
+struct ClassRows {
+  clash::Class cls;
+  std::string_view one, many;
+  std::size_t count, rows;
+};
+
+/// A fifth of the rows for each class, so that none hides the others, and the rest to those that
+/// ask for a decision before those that are mostly meant.
+std::array<ClassRows, 3> shares(const Report& report, std::size_t rows) {
+  constexpr std::size_t kParts = 5;
+  std::array<ClassRows, 3> all{{
+      {clash::Class::hit, "hit", "hits", report.count_hit, 0},
+      {clash::Class::contact, "contact", "contacts", report.count_contact, 0},
+      {clash::Class::clearance_violation, "clearance violation", "clearance violations",
+       report.count_clearance, 0},
+  }};
+  const auto give = [&](ClassRows& c, std::size_t most) {
+    const std::size_t given = std::min({most, rows, c.count - c.rows});
+    c.rows += given;
+    rows -= given;
+  };
+  const std::size_t share = std::max<std::size_t>(1, rows / kParts);
+  for (ClassRows& c : all) give(c, share);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{1}}) give(all[i], rows);
+  return all;
 }
 
 std::string right_aligned(std::string text, std::size_t columns) {
@@ -65,31 +98,30 @@ std::string_view label(const model::Model& model, model::ObjectId id) {
   return o.name.empty() ? o.id : o.name;
 }
 
-std::string summary(const Report& report) {
-  return std::to_string(report.count_hit) + " hits, " + std::to_string(report.count_contact) +
-         " contacts, " + std::to_string(report.count_clearance) + " clearance violations\n";
+std::string counted(const ClassRows& c, std::size_t n) {
+  return std::to_string(n) + ' ' + std::string(n == 1 ? c.one : c.many);
 }
 
 }  // namespace
 
 std::string clash_table(const Report& report, const model::Model& model,
                         const TableOptions& options) {
-  std::string out;
-  const std::size_t shown = std::min(options.rows, report.pairs.size());
-  if (shown > 0) {
-    const std::size_t room = options.width > kFixedColumns ? options.width - kFixedColumns : 0;
-    const std::size_t names = std::max(kLeastName, room / 2);
-    out += row("class", "d mm", "relation", "a", "b", names);
-    for (const std::size_t i : worst(report, shown)) {
+  std::string out, summary;
+  const std::size_t room = options.width > kFixedColumns ? options.width - kFixedColumns : 0;
+  const std::size_t names = std::max(kLeastName, room / 2);
+  if (!report.pairs.empty()) out += row("class", "d mm", "relation", "a", "b", names);
+  for (const ClassRows& c : shares(report, options.rows)) {
+    const Block block = worst_of(report, c.cls, c.rows);
+    for (const std::size_t i : block.pairs) {
       const Pair& p = report.pairs[i];
       out += row(short_name(p.cls), fixed(p.d_mm, 3), name(p.relation), label(model, p.a),
                  label(model, p.b), names);
     }
-    if (report.pairs.size() > shown)
-      out += "… and " + std::to_string(report.pairs.size() - shown) + " more\n";
-    out += "\n";
+    if (block.hidden > 0) out += "… and " + counted(c, block.hidden) + " more\n";
+    summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
   }
-  return out + summary(report);
+  if (!report.pairs.empty()) out += "\n";
+  return out + summary + "\n";
 }
 
 }  // namespace strake::report

@@ -33,7 +33,8 @@ struct TableOptions {
   std::size_t rows = 20;    ///< pairs shown at most
 };
 
-/// The worst pairs first: by class, then d, then durable order. Says how many more there are.
+/// The worst pairs first: by class, then d, then durable order. Every class has its share of the
+/// rows, and is followed by how many more of it there are.
 [[nodiscard]] std::string clash_table(const clash::Report& report, const model::Model& model,
                                       const TableOptions& options);
 

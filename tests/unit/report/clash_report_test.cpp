@@ -117,8 +117,8 @@ TEST(ClashTable, WorstFirstClippedAndCounted) {
   const clash::Report report = m.detect({.clearance_mm = 25});
   const std::string text = clash_table(report, m.model, {.width = 72, .rows = 2});
   EXPECT_LT(text.find("HIT"), text.find("CONTACT"));
-  EXPECT_NE(text.find("… and 1 more"), std::string::npos);
-  EXPECT_NE(text.find("1 hits, 1 contacts, 1 clearance violations"), std::string::npos);
+  EXPECT_NE(text.find("… and 1 clearance violation more"), std::string::npos);
+  EXPECT_NE(text.find("1 hit, 1 contact, 1 clearance violation"), std::string::npos);
   EXPECT_EQ(text.find('\xFF'), std::string::npos);
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = text.find('\n', at);
@@ -129,6 +129,23 @@ TEST(ClashTable, WorstFirstClippedAndCounted) {
     EXPECT_LE(columns, 72) << line;
     at = end + 1;
   }
+}
+
+TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
+  ClashModel m;
+  for (int i = 0; i < 40; ++i) {
+    const double x = 100.0 * i;
+    m.box("row" + std::to_string(100 + i), {x, 0, 0}, {x + 100, 100, 100});
+  }
+  m.box("deep", {3990, 0, 0}, {4500, 100, 100});
+  m.box("near", {4510, 0, 0}, {4600, 100, 100});
+  const clash::Report report = m.detect({.clearance_mm = 25});
+  const std::string text = clash_table(report, m.model, {.rows = 10});
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 10 + 1 + 1 + 1) << text;
+  EXPECT_NE(text.find("deep"), std::string::npos);
+  EXPECT_NE(text.find("near"), std::string::npos);
+  EXPECT_NE(text.find("… and 31 contacts more"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 hit, 39 contacts, 1 clearance violation"), std::string::npos) << text;
 }
 
 TEST(ClashTable, NothingFoundIsSaid) {
