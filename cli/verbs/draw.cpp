@@ -3,13 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/load.hpp"
+#include "cli/select.hpp"
 #include "cli/verb.hpp"
-#include "strake/core/glob.hpp"
 #include "strake/core/units.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/view.hpp"
@@ -120,31 +121,6 @@ Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
   return options;
 }
 
-/// Which objects have a name, an id or a whole path that one of the patterns matches.
-Result<std::vector<bool>> selected(const model::Model& model,
-                                   const std::vector<std::string>& patterns) {
-  std::vector<bool> drawn;
-  if (patterns.empty()) return drawn;
-  drawn.resize(model.objects.size());
-  std::vector<bool> used(patterns.size());
-  for (std::size_t o = 0; o < model.objects.size(); ++o) {
-    const model::Object& object = model.objects[o];
-    const std::string whole = model.path(object) + "/" + object.name;
-    for (std::size_t p = 0; p < patterns.size(); ++p) {
-      if (!glob_match(patterns[p], object.name) && !glob_match(patterns[p], object.id) &&
-          !glob_match(patterns[p], whole))
-        continue;
-      drawn[o] = true;
-      used[p] = true;
-    }
-  }
-  for (std::size_t p = 0; p < patterns.size(); ++p)
-    if (!used[p])
-      return Error{ErrorCode::usage, "'" + patterns[p] + "' matches no object", "--select",
-                   "names, ids and group/.../name paths are compared; * stands for any text"};
-  return drawn;
-}
-
 void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
   const hlr::Counters& work = drawing.counters;
   stats.count("objects drawn", work.objects_drawn);
@@ -176,46 +152,60 @@ Status write_drawing(Session& session, const DrawOptions& given,
       [&](Session::Sink sink) { drawing::write_view_json(drawing, model, sink); });
 }
 
-Result<drawing::NeutralDrawing> compute(Session& session, const DrawOptions& given,
-                                        const model::Scene& scene, const hlr::View& view,
-                                        const hlr::Options& options,
-                                        const drawing::LayoutOptions& layout) {
-  const Result<std::vector<bool>> drawn = selected(*scene.model, given.select);
-  if (!drawn) return drawn.error();
-  const Result<hlr::Drawing> lines = [&] {
-    const auto timer = session.step("hidden lines");
-    return hlr::draw(scene, *drawn, view, options, session.context());
-  }();
-  if (!lines) return lines.error();
-  const auto timer = session.step("layout");
-  return drawing::lay_out(*lines, *scene.model, layout);
-}
+/// What the options ask for, once they are understood.
+struct Request {
+  model::SceneOptions scene;
+  hlr::View view;
+  hlr::Options options;
+  drawing::LayoutOptions layout;
+  std::vector<model::Selection> selections;
+};
 
-Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
-  const Result<model::SceneOptions> scene_settings = scene_options(given.scene, kSagMm);
-  if (!scene_settings) return scene_settings.error();
-  const Result<hlr::View> view = view_of(given, session.console());
+Result<Request> request_of(const DrawOptions& given, Console& console) {
+  const Result<model::SceneOptions> scene = scene_options(given.scene, kSagMm);
+  if (!scene) return scene.error();
+  const Result<hlr::View> view = view_of(given, console);
   if (!view) return view.error();
   const Result<hlr::Options> options = engine_options(given);
   if (!options) return options.error();
   const Result<drawing::LayoutOptions> layout = layout_options(given);
   if (!layout) return layout.error();
+  const auto selections = parse_selections(given.select, "--select");
+  if (!selections) return selections.error();
+  return Request{*scene, *view, *options, *layout, *selections};
+}
+
+Result<drawing::NeutralDrawing> compute(Session& session, const Request& request,
+                                        const model::Scene& scene) {
+  const Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
+  if (!drawn) return drawn.error();
+  const Result<hlr::Drawing> lines = [&] {
+    const auto timer = session.step("hidden lines");
+    return hlr::draw(scene, *drawn, request.view, request.options, session.context());
+  }();
+  if (!lines) return lines.error();
+  const auto timer = session.step("layout");
+  return drawing::lay_out(*lines, *scene.model, request.layout);
+}
+
+Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
+  const Result<Request> request = request_of(given, session.console());
+  if (!request) return request.error();
   if (given.outputs.empty() && !session.json())
     return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
   if (const Status status = check_outputs(given.outputs, {".svg", ".json"}); !status)
     return status.error();
-  const Result<Loaded> loaded = load(session, given.input, *scene_settings);
+  const Result<Loaded> loaded = load(session, given.input, request->scene);
   if (!loaded) return loaded.error();
-  const model::Model& model = *loaded->model;
-  const model::Scene& scene = loaded->scene;
-  const Result<drawing::NeutralDrawing> drawing =
-      compute(session, given, scene, *view, *options, *layout);
+  const Result<drawing::NeutralDrawing> drawing = compute(session, *request, loaded->scene);
   if (!drawing) return drawing.error();
   count_work(session.stats(), *drawing);
-  session.console().say(fmt::format("{} lines at {} on {} x {} mm", drawing->lines.size(),
-                                    drawing->sheet.scale_text, drawing->sheet.width_mm,
-                                    drawing->sheet.height_mm));
-  if (const Status status = write_drawing(session, given, *drawing, model); !status)
+  const std::uint64_t visible =
+      drawing->count[static_cast<std::size_t>(drawing::LineState::visible)];
+  session.console().say(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
+                                    drawing->lines.size(), drawing->sheet.scale_text,
+                                    drawing->sheet.width_mm, drawing->sheet.height_mm));
+  if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
     return status.error();
   return outcome(given.input, *loaded);
 }
@@ -241,7 +231,9 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->group("View");
   command
       .add_option("--select", options.select,
-                  "Draw only objects whose name, id or path the pattern matches; may be repeated")
+                  "Draw only objects that this selection picks, as 'PIPE*' or 'type = box and @DN "
+                  "> 80mm'; may "
+                  "be repeated")
       ->type_name("GLOB")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

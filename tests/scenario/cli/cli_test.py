@@ -94,6 +94,7 @@ class Usage(Scenario):
                 (['draw', 'a.obj', '-o', 'a.svg', '--limits', '1,1,1,0,0,0'], 'empty'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--scale', '50'], '1:50'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--select', 'nobody*'], 'nobody*'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--select', 'type = '], '--select, selection, column 8'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--sharp-angle', '20mm'], '20deg'),
                 (['generate', 'ship'], '--output'),
                 (['generate', 'ship', '-o', 'x.glb', '--objects', '3'], 'objects'),
@@ -253,7 +254,10 @@ class Draw(Scenario):
         whole = pieces()
         self.assertEqual(whole, pieces('--solver', 'brute-force'))
         self.assertEqual(pieces('--view', 'front'), pieces('--direction', '0,-7,0'))
-        self.assertLess(len(pieces('--select', 'a0')), len(whole))
+        one = pieces('--select', 'a0')
+        self.assertLess(len(one), len(whole))
+        self.assertEqual(one, pieces('--select', 'type = mesh and not name ~ "a[1-9]"'))
+        self.assertEqual(whole, pieces('--select', 'a0', '--select', 'not a0'))
         wire = pieces('--stage', 'none')
         self.assertEqual({piece['state'] for piece in wire} - {'visible', 'projecting', 'duplicate'}, set())
         cut = pieces('--limits', '0,0,0,40,40,40')

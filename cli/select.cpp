@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/select.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace strake::cli {
+
+Result<std::vector<model::Selection>> parse_selections(const std::vector<std::string>& texts,
+                                                       const std::string& option) {
+  std::vector<model::Selection> selections;
+  for (const std::string& text : texts) {
+    auto selection = model::Selection::parse(text);
+    if (!selection) {
+      Error error = selection.error();
+      error.where = option + ", " + error.where;
+      return error;
+    }
+    selections.push_back(std::move(*selection));
+  }
+  return selections;
+}
+
+Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
+                                   const std::vector<model::Selection>& selections,
+                                   const std::string& option) {
+  std::vector<bool> any;
+  if (!selections.empty()) any.resize(scene.model->objects.size());
+  for (const model::Selection& selection : selections) {
+    const auto picked = model::pick(selection, scene, session.context());
+    if (!picked) return picked.error();
+    bool some = false;
+    for (std::size_t o = 0; o < any.size(); ++o) {
+      some = some || (*picked)[o] != 0;
+      any[o] = any[o] || (*picked)[o] != 0;
+    }
+    if (!some)
+      return Error{ErrorCode::usage, "'" + selection.text() + "' picks no object", option,
+                   "a bare pattern is compared with names, ids and group/.../name paths; * stands "
+                   "for any text"};
+  }
+  return any;
+}
+
+}  // namespace strake::cli
