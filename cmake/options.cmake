@@ -36,3 +36,8 @@ if(STRAKE_SANITIZE)
     -fsanitize=${STRAKE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(strake_flags INTERFACE -fsanitize=${STRAKE_SANITIZE})
 endif()
+if(STRAKE_FUZZERS)
+  # Coverage feedback in all code: a fuzzer that sees only its own five lines searches blindly.
+  target_compile_options(strake_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(strake_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()

@@ -1,77 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast models are read, from the first byte to a finished model: MB/s of wall time and of CPU
-// time for a made plant as OBJ, as GLB of plain geometry and as GLB of many nodes, or for the
-// files that are named. A file that comes back with other counts reports an error instead.
+// How fast models are read: MB of file per second of wall time and of CPU time, for made models as
+// OBJ, as GLB of plain geometry, of shared meshes and of many small nodes (the ship), for a real
+// RVM repeated, or for the files that are named.
 //
 //     bench_io_load [megabytes]         made models of about that size, default 100
 //     bench_io_load FILE...             these files
+//
+// "read" is io::read_models: from opening the file (which the system has in its cache) to the
+// finished model, freeing of what only the reader needed included. Not in it: freeing the model,
+// and make_scene, which tessellates primitives and puts everything on the grid; that is timed
+// once, apart, as "scene". RVM samples are HA-*.RVM below the folder that STRAKE_DATA names; see
+// repeat_rvm.hpp for how they are repeated. Counts other than expected, and counts that change
+// with the number of workers, are an error instead of a time.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "made_plant.hpp"
+#include "repeat_rvm.hpp"
+#include "strake/generate/ship.hpp"
 #include "strake/io/reader.hpp"
 #include "strake/io/writer.hpp"
+#include "strake/model/scene.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/io_files.hpp"
-#include "support/io_models.hpp"
 
 namespace {
 
 using namespace strake;
+namespace fs = std::filesystem;
 
 struct Counts {
-  std::size_t objects = 0, triangles = 0;
+  std::size_t objects = 0, bodies = 0, triangles = 0;
   friend bool operator==(const Counts&, const Counts&) = default;
 };
 
 Counts count(const model::Model& model) {
-  Counts counts{model.objects.size(), 0};
+  Counts counts{model.objects.size(), model.bodies.size(), 0};
   for (const model::Body& body : model.bodies)
     if (const auto* const mesh =
             std::get_if<geometry::TriangleMesh>(&model.shapes[model::index(body.shape)]))
       counts.triangles += mesh->triangles.size();
   return counts;
-}
-
-/// A closed tube about z; coordinates on a micrometre grid, as exporters round them.
-geometry::TriangleMesh tube(std::uint32_t sides, double radius, double length) {
-  geometry::TriangleMesh mesh;
-  const auto rounded = [](double v) { return std::round(v * 1000) / 1000; };
-  for (std::uint32_t i = 0; i < sides; ++i)
-    for (const double z : {0.0, length}) {
-      const double angle = 6.283185307179586 * i / sides;
-      mesh.vertices.push_back(
-          {rounded(radius * std::cos(angle)), rounded(radius * std::sin(angle)), z});
-    }
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % sides);
-    mesh.triangles.push_back({a, b, b + 1});
-    mesh.triangles.push_back({a, b + 1, a + 1});
-    if (i > 1) mesh.triangles.push_back({0, a, a - 2});
-    if (i > 1) mesh.triangles.push_back({1, a - 1, a + 1});
-  }
-  return mesh;
-}
-
-/// `objects` tubes, of which every `shared` stand on one shape.
-model::Model plant(std::uint32_t objects, std::uint32_t shared, std::uint32_t sides) {
-  model::Model model;
-  model.files.push_back({});
-  for (std::uint32_t i = 0; i < objects; ++i) {
-    if (i % shared == 0) test::add_shape(model, tube(sides, 50 + i % 200, 1000 + i % 777));
-    const std::string name = fmt::format("/ZONE-{}/PIPE-{:06}", i / 1000, i);
-    model::Object& object = test::add_object(model, name, name);
-    object.attributes = {{"TYPE", "TUBE"}, {"SPEC", "A150"}, {"BORE", std::to_string(i % 300)}};
-    const auto last = static_cast<model::ShapeId>(model.shapes.size() - 1);
-    test::add_body(model, last, test::quarter_turn({i % 1000 * 137.5, i / 1000 * 211.0, 2000.25}));
-  }
-  return model;
 }
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -80,61 +58,111 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The best of several readings; an error when the counts differ from those expected.
-void measure(const std::string& name, const std::filesystem::path& path, const Counts* expected) {
-  const double megabytes = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
+struct Timing {
+  double read_s = 1e30, read_cpu_s = 1e30, scene_s = 0;
+  std::optional<Error> error;
+  Counts counts;
+};
+
+/// The best of several readings, and one scene.
+Timing time_file(const fs::path& path, unsigned workers) {
+  constexpr int kRepeats = 4;
+  parallel::Team team(workers);
+  parallel::Context context;
+  context.team = &team;
+  Timing timing;
+  for (int repeat = 0; repeat < kRepeats && !timing.error; ++repeat) {
+    const double wall_start = wall_seconds(), cpu_start = cpu_seconds();
+    const Result<model::Model> model = io::read_models(std::span(&path, 1), {}, context);
+    timing.read_s = std::min(timing.read_s, wall_seconds() - wall_start);
+    timing.read_cpu_s = std::min(timing.read_cpu_s, cpu_seconds() - cpu_start);
+    if (!model) timing.error = model.error();
+    if (!model || repeat != 0) continue;
+    timing.counts = count(*model);
+    const double scene_start = wall_seconds();
+    const auto scene = model::make_scene(*model, {}, context);
+    timing.scene_s = wall_seconds() - scene_start;
+    if (!scene) timing.error = scene.error();
+  }
+  return timing;
+}
+
+void measure(const std::string& name, const fs::path& path, std::optional<Counts> expected) {
+  const double megabytes = static_cast<double>(fs::file_size(path)) / 1e6;
   for (const unsigned workers : {1U, 2U}) {
-    parallel::Team team(workers);
-    parallel::Context context;
-    context.team = &team;
-    double wall = 1e30, cpu = 1e30;
-    Counts counts;
-    for (int repeat = 0; repeat < 3; ++repeat) {
-      const double wall_start = wall_seconds(), cpu_start = cpu_seconds();
-      const Result<model::Model> model = io::read_models(std::span(&path, 1), {}, context);
-      wall = std::min(wall, wall_seconds() - wall_start);
-      cpu = std::min(cpu, cpu_seconds() - cpu_start);
-      if (!model) return fmt::print("{:<24} ERROR: {}\n", name, model.error().text());
-      counts = count(*model);
-    }
-    if (expected != nullptr && counts != *expected)
-      return fmt::print("{:<24} ERROR: wrong counts\n", name);
+    const Timing t = time_file(path, workers);
+    if (t.error) return fmt::print("{:<22} ERROR: {}\n", name, t.error->text());
+    if (t.counts != expected.value_or(t.counts))
+      return fmt::print("{:<22} ERROR: wrong counts\n", name);
+    expected = t.counts;
     fmt::print(
-        "{:<24} {} workers {:>8.1f} MB {:>8} objects {:>9} triangles {:>8.3f} s {:>7.1f} "
-        "MB/s   {:.3f} CPU s {:>7.1f} MB/CPU s\n",
-        name, workers, megabytes, counts.objects, counts.triangles, wall, megabytes / wall, cpu,
-        megabytes / cpu);
+        "{:<22} {} workers {:>7.1f} MB {:>7} objects {:>9} triangles  read {:>6.3f} s "
+        "{:>6.1f} MB/s  {:>6.3f} CPU s {:>6.1f} MB/CPU s  scene {:>6.2f} s\n",
+        name, workers, megabytes, t.counts.objects, t.counts.triangles, t.read_s,
+        megabytes / t.read_s, t.read_cpu_s, megabytes / t.read_cpu_s, t.scene_s);
+  }
+}
+
+void measure_model(const char* name, const model::Model& model, const char* file) {
+  const test::TemporaryFolder folder;
+  const fs::path path = folder.path() / file;
+  const bool obj = path.extension() == ".obj";
+  const Status written =
+      obj ? io::write_obj(model, path, {}, {}) : io::write_glb(model, path, {}, {});
+  if (!written) return fmt::print("{:<22} ERROR: {}\n", name, written.error().text());
+  measure(name, path, count(model));
+}
+
+void measure_ship(std::uint64_t objects) {
+  const Result<generate::Ship> ship = generate::generate_ship({.objects = objects}, {});
+  if (!ship) return fmt::print("ERROR: {}\n", ship.error().text());
+  measure_model("GLB, many nodes", ship->model, "ship.glb");
+}
+
+std::vector<fs::path> rvm_samples() {
+  std::vector<fs::path> samples;
+  const char* const data = std::getenv("STRAKE_DATA");
+  if (data == nullptr) return samples;
+  for (const auto& entry : fs::recursive_directory_iterator(data)) {
+    const std::string file = entry.path().filename().string();
+    if (file.starts_with("HA-") && file.ends_with(".RVM")) samples.push_back(entry.path());
+  }
+  std::sort(samples.begin(), samples.end());
+  return samples;
+}
+
+void measure_rvm(double megabytes) {
+  const std::vector<fs::path> samples = rvm_samples();
+  if (samples.empty())
+    return fmt::print("RVM: no HA-*.RVM below the folder that STRAKE_DATA names\n");
+  for (const auto& [name, copies] : {std::pair("RVM, repeated", bench::Copies::alike),
+                                     std::pair("RVM, all different", bench::Copies::different)}) {
+    const auto bytes =
+        bench::repeat_rvm(samples, static_cast<std::size_t>(megabytes * 1e6), copies);
+    if (!bytes) return fmt::print("{:<22} ERROR: {}\n", name, bytes.error().text());
+    const test::TemporaryFolder folder;
+    measure(name, folder.write("repeated.rvm", *bytes), std::nullopt);
   }
 }
 
 void measure_made(double megabytes) {
-  const test::TemporaryFolder folder;
-  const auto run = [&](const char* name, const model::Model& model, const char* file) {
-    const std::filesystem::path path = folder.path() / file;
-    const bool obj = path.extension() == ".obj";
-    const Status written =
-        obj ? io::write_obj(model, path, {}, {}) : io::write_glb(model, path, {}, {});
-    if (!written) return fmt::print("{:<24} ERROR: {}\n", name, written.error().text());
-    const Counts counts = count(model);
-    measure(name, path, &counts);
-    std::filesystem::remove(path);
-  };
   const auto scaled = [&](double per_megabyte) {
     return static_cast<std::uint32_t>(megabytes * per_megabyte) + 1;
   };
-  run("OBJ", plant(scaled(240), 1, 48), "plant.obj");
-  run("GLB, plain geometry", plant(scaled(96), 1, 256), "plain.glb");
-  run("GLB, shared meshes", plant(scaled(2800), 100, 24), "shared.glb");
+  measure_model("OBJ", bench::plant(scaled(240), 1, 48), "plant.obj");
+  measure_model("GLB, plain geometry", bench::plant(scaled(96), 1, 256), "plain.glb");
+  measure_model("GLB, shared meshes", bench::plant(scaled(2800), 100, 24), "shared.glb");
+  measure_ship(std::max(scaled(3450), 100U));
+  measure_rvm(megabytes);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || !std::filesystem::exists(argv[1])) {
+  if (argc < 2 || !fs::exists(argv[1])) {
     measure_made(argc < 2 ? 100 : std::atof(argv[1]));
     return 0;
   }
-  for (int i = 1; i < argc; ++i)
-    measure(std::filesystem::path(argv[i]).filename().string(), argv[i], nullptr);
+  for (int i = 1; i < argc; ++i) measure(fs::path(argv[i]).filename().string(), argv[i], {});
   return 0;
 }

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <unordered_set>
+
+#include "model/text_order.hpp"
 
 namespace strake::model {
 namespace {
@@ -57,10 +60,29 @@ Order order_files(Model& model) {
   return renumbered;
 }
 
+/// Puts the indices of all objects in the order of (file, id), equal ones as the source has them.
+/// True when no two objects of a file have one id.
+bool sort_objects(const Model& model, Order& order) {
+  const auto file_of = [&](std::uint32_t i) { return model.objects[i].file; };
+  const auto by_file = [&](std::uint32_t a, std::uint32_t b) {
+    return file_of(a) != file_of(b) ? file_of(a) < file_of(b) : a < b;
+  };
+  if (!std::is_sorted(order.begin(), order.end(), by_file))
+    std::sort(order.begin(), order.end(), by_file);
+  std::vector<std::string_view> ids;
+  ids.reserve(model.objects.size());
+  for (const Object& o : model.objects) ids.emplace_back(o.id);
+  bool distinct = true;
+  for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
+    for (end = i + 1; end < order.size() && file_of(order[end]) == file_of(order[i]);) ++end;
+    distinct = sort_by_text(ids, std::span(order).subspan(i, end - i)) && distinct;
+  }
+  return distinct;
+}
+
 /// Gives every repetition of an id within a file a suffix, in the order of `order`, which is
-/// sorted by (file, id) with the source's order among equals. True when an id changed.
-bool separate_ids(Model& model, const Order& order) {
-  bool changed = false;
+/// sorted by (file, id) with the source's order among equals.
+void separate_ids(Model& model, const Order& order) {
   std::unordered_set<std::string> taken;
   std::uint32_t taken_of = 0;
   for (std::size_t i = 0; i < order.size();) {
@@ -88,11 +110,9 @@ bool separate_ids(Model& model, const Order& order) {
                                         "number",
                                         end - i),
                             fmt::format("{}: {}", model.files[first.file].label, first.id));
-      changed = true;
     }
     i = end;
   }
-  return changed;
 }
 
 /// Puts the objects in the given order and their bodies behind each other in the same order.
@@ -144,16 +164,10 @@ void finish(Model& model) {
   for (Object& o : model.objects)
     if (o.file < renumbered.size()) o.file = renumbered[o.file];
   Order order = identity(model.objects.size());
-  const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    const Object& p = model.objects[a];
-    const Object& q = model.objects[b];
-    if (p.file != q.file) return p.file < q.file;
-    const int ids = p.id.compare(q.id);
-    return ids != 0 ? ids < 0 : a < b;
-  };
-  if (!std::is_sorted(order.begin(), order.end(), before))
-    std::sort(order.begin(), order.end(), before);
-  if (separate_ids(model, order)) std::sort(order.begin(), order.end(), before);
+  if (!sort_objects(model, order)) {
+    separate_ids(model, order);
+    static_cast<void>(sort_objects(model, order));
+  }
   reorder(model, order);
 }
 

@@ -1,247 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/gltf/json.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
+#include <cstring>
 
 #include "io/gltf/json_text.hpp"
 #include "io/text_number.hpp"
 
 namespace strake::io::gltf {
 
-/// Builds the index: a loop over the text with an explicit stack of what is open.
-class JsonIndexer {
- public:
-  explicit JsonIndexer(std::string_view text) : text_(text) {
-    document_.text_ = text;
-    // Dense documents have a value every five or six bytes.
-    document_.entries_.reserve(text.size() / 8);
-  }
-  Result<JsonDocument> run();
+Json JsonDocument::root() const { return {this, 0, static_cast<std::uint32_t>(size_)}; }
 
- private:
-  using Entry = JsonDocument::Entry;
-  enum class Expect { value, value_or_end, key, key_or_end, comma_or_end };
-
-  bool step();
-  bool value(char c);
-  bool key(char c);
-  bool open(JsonType type);
-  bool close(char c);
-  bool string();
-  bool escape();
-  bool number();
-  bool literal(std::string_view word, JsonType type);
-  void after_value() { expect_ = Expect::comma_or_end; }
-  bool fail(const char* message) {
-    message_ = message;
-    return false;
-  }
-  void push(JsonType type, std::size_t begin, std::size_t end) {
-    const auto next = static_cast<std::uint32_t>(document_.entries_.size() + 1);
-    document_.entries_.push_back(
-        {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), next, type});
-  }
-  [[nodiscard]] char here() const { return at_ < text_.size() ? text_[at_] : '\0'; }
-  [[nodiscard]] bool in_object() const {
-    return document_.entries_[stack_.back()].type == JsonType::object;
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  Expect expect_ = Expect::value;
-  std::vector<std::uint32_t> stack_;  ///< entries of the open arrays and objects
-  JsonDocument document_;
-  const char* message_ = nullptr;
-};
-
-namespace {
-
-constexpr bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
-constexpr bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
-
-/// Bytes that end the plain part of a string: the quote, the backslash, and control characters.
-constexpr std::array<bool, 256> kStringStops = [] {
-  std::array<bool, 256> stops{};
-  for (std::size_t c = 0; c < 0x20; ++c) stops[c] = true;
-  stops[static_cast<unsigned char>('"')] = stops[static_cast<unsigned char>('\\')] = true;
-  return stops;
-}();
-
-}  // namespace
-
-bool JsonIndexer::escape() {
-  const char c = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
-  if (c == 'u') {
-    for (std::size_t k = 2; k < 6; ++k) {
-      const char digit = at_ + k < text_.size() ? text_[at_ + k] : '\0';
-      const bool hex =
-          is_digit(digit) || (digit >= 'a' && digit <= 'f') || (digit >= 'A' && digit <= 'F');
-      if (!hex) return fail("a \\u needs four hexadecimal digits");
-    }
-    at_ += 6;
-    return true;
-  }
-  if (c == '\0' || std::string_view("\"\\/bfnrt").find(c) == std::string_view::npos)
-    return fail("this escape does not exist");
-  at_ += 2;
-  return true;
-}
-
-bool JsonIndexer::string() {
-  const std::size_t begin = ++at_;
-  while (true) {
-    while (at_ < text_.size() && !kStringStops[static_cast<unsigned char>(text_[at_])]) ++at_;
-    if (at_ == text_.size()) return fail("a string does not end");
-    if (text_[at_] == '"') break;
-    if (text_[at_] != '\\') return fail("a control character stands in a string");
-    if (!escape()) return false;
-  }
-  push(JsonType::string, begin, at_++);
-  return true;
-}
-
-bool JsonIndexer::number() {
-  const std::size_t begin = at_;
-  if (here() == '-') ++at_;
-  const std::size_t whole = at_;
-  while (is_digit(here())) ++at_;
-  if (at_ == whole) return fail("a value is expected here");
-  if (text_[whole] == '0' && at_ - whole > 1) return fail("a number may not begin with 0");
-  if (here() == '.') {
-    const std::size_t fraction = ++at_;
-    while (is_digit(here())) ++at_;
-    if (at_ == fraction) return fail("digits are expected behind the point");
-  }
-  if (here() == 'e' || here() == 'E') {
-    ++at_;
-    if (here() == '-' || here() == '+') ++at_;
-    const std::size_t exponent = at_;
-    while (is_digit(here())) ++at_;
-    if (at_ == exponent) return fail("digits are expected in the exponent");
-  }
-  push(JsonType::number, begin, at_);
-  return true;
-}
-
-bool JsonIndexer::literal(std::string_view word, JsonType type) {
-  if (text_.substr(at_, word.size()) != word) return fail("a value is expected here");
-  push(type, at_, at_ + word.size());
-  at_ += word.size();
-  return true;
-}
-
-bool JsonIndexer::open(JsonType type) {
-  if (stack_.size() == JsonDocument::kMaxDepth) return fail("values are nested too deep");
-  stack_.push_back(static_cast<std::uint32_t>(document_.entries_.size()));
-  push(type, at_++, 0);
-  expect_ = type == JsonType::object ? Expect::key_or_end : Expect::value_or_end;
-  return true;
-}
-
-bool JsonIndexer::close(char c) {
-  if (stack_.empty() || (c == '}') != in_object()) return fail("this closes nothing that is open");
-  Entry& opened = document_.entries_[stack_.back()];
-  opened.end = static_cast<std::uint32_t>(++at_);
-  opened.next = static_cast<std::uint32_t>(document_.entries_.size());
-  stack_.pop_back();
-  after_value();
-  return true;
-}
-
-bool JsonIndexer::value(char c) {
-  if (c == '{') return open(JsonType::object);
-  if (c == '[') return open(JsonType::array);
-  if (c == ']' && expect_ == Expect::value_or_end) return close(c);
-  const bool good = c == '"'   ? string()
-                    : c == 't' ? literal("true", JsonType::boolean)
-                    : c == 'f' ? literal("false", JsonType::boolean)
-                    : c == 'n' ? literal("null", JsonType::null)
-                               : number();
-  after_value();
-  return good;
-}
-
-bool JsonIndexer::key(char c) {
-  if (c == '}' && expect_ == Expect::key_or_end) return close(c);
-  if (c != '"') return fail("a key in quotes is expected here");
-  if (!string()) return false;
-  while (is_space(here())) ++at_;
-  if (here() != ':') return fail("a colon is expected behind the key");
-  ++at_;
-  expect_ = Expect::value;
-  return true;
-}
-
-bool JsonIndexer::step() {
-  const char c = text_[at_];
-  switch (expect_) {
-    case Expect::value:
-    case Expect::value_or_end:
-      return value(c);
-    case Expect::key:
-    case Expect::key_or_end:
-      return key(c);
-    case Expect::comma_or_end:
-      break;
-  }
-  if (stack_.empty()) return fail("something follows behind the document");
-  if (c == '}' || c == ']') return close(c);
-  if (c != ',') return fail("a comma or the end of the list is expected here");
-  ++at_;
-  expect_ = in_object() ? Expect::key : Expect::value;
-  return true;
-}
-
-Result<JsonDocument> JsonIndexer::run() {
-  const auto error = [this](const char* message) {
-    return Error{ErrorCode::input, fmt::format("is not valid JSON: {}", message),
-                 fmt::format("byte {}", at_), "copy or export the file again"};
-  };
-  if (text_.size() >= std::numeric_limits<std::uint32_t>::max())
-    return error("more than 4 GiB of text");
-  while (true) {
-    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
-    if (at_ == text_.size()) break;
-    if (!step()) return error(message_);
-  }
-  if (!stack_.empty() || expect_ != Expect::comma_or_end) return error("the text ends too early");
-  return std::move(document_);
-}
-
-Result<JsonDocument> JsonDocument::parse(std::string_view text) { return JsonIndexer(text).run(); }
-
-Json JsonDocument::root() const { return {this, 0, static_cast<std::uint32_t>(entries_.size())}; }
-
-JsonType Json::type() const { return exists() ? entry().type : JsonType::absent; }
-
-Json Json::first_child() const {
-  if (!is_object() && !is_array()) return {};
-  const std::uint32_t next = entry().next;
-  return entry_ + 1 == next ? Json{} : Json{document_, entry_ + 1, next};
-}
-
-Json Json::after() const {
-  const std::uint32_t next = entry().next;
-  return next == end_ ? Json{} : Json{document_, next, end_};
-}
-
-Json Json::operator[](std::string_view key) const {
-  if (!is_object()) return {};
-  for (Json name = first_child(); name.exists();) {
-    const Json value = name.after();
-    const std::string_view raw = name.raw();
-    const bool same =
-        raw == key || (raw.find('\\') != std::string_view::npos && name.text_value() == key);
-    if (same) return value;
-    name = value.after();
-  }
-  return {};
-}
+Json Json::operator[](std::string_view key) const { return pick<1>({key}).front(); }
 
 std::vector<Json> Json::items() const {
   std::vector<Json> items;
@@ -253,14 +23,10 @@ std::vector<Json> Json::items() const {
   return items;
 }
 
-std::string_view Json::raw() const {
-  if (!exists()) return {};
-  return document_->text_.substr(entry().begin, entry().end - entry().begin);
-}
-
 std::optional<double> Json::number() const {
   if (type() != JsonType::number) return std::nullopt;
   const std::string_view text = raw();
+  if (text.size() == 1) return text.front() - '0';  // most entries of most matrices
   const char* at = text.data();
   double value = 0;
   DigitStatistics unused;
@@ -295,13 +61,25 @@ bool Json::numbers(double* out, std::size_t count) const {
 
 namespace {
 
-/// ASCII that stands for itself.
-constexpr bool is_plain(char c) { return static_cast<signed char>(c) >= 0 && c != '\\'; }
+/// How many bytes at the beginning are ASCII that stands for itself.
+std::size_t plain_length(std::string_view text) {
+  constexpr std::uint64_t kOnes = 0x0101010101010101U, kHighs = 0x80 * kOnes;
+  std::size_t at = 0;
+  for (; at + 8 <= text.size(); at += 8) {
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, text.data() + at, 8);
+    // A byte becomes zero where a backslash stands; below the first such, no borrow reaches.
+    const std::uint64_t backslashes = bytes ^ (kOnes * static_cast<unsigned char>('\\'));
+    if (((bytes | ((backslashes - kOnes) & ~backslashes)) & kHighs) != 0) break;
+  }
+  while (at < text.size() && static_cast<signed char>(text[at]) >= 0 && text[at] != '\\') ++at;
+  return at;
+}
 
 unsigned hex_value(std::string_view digits) {
   unsigned value = 0;
   for (const char c : digits.substr(0, 4))
-    value = 16 * value + static_cast<unsigned>(is_digit(c) ? c - '0' : (c | 0x20) - 'a' + 10);
+    value = 16 * value + static_cast<unsigned>(c <= '9' ? c - '0' : (c | 0x20) - 'a' + 10);
   return value;
 }
 
@@ -343,15 +121,19 @@ std::size_t decode_unicode(std::string_view text, std::string& out) {
 
 std::string Json::text_value() const {
   std::string out;
-  if (!is_string()) return out;
+  append_text(out);
+  return out;
+}
+
+void Json::append_text(std::string& out) const {
+  if (!is_string()) return;
   std::string_view text = raw();
-  out.reserve(text.size());
+  out.reserve(out.size() + text.size());
   while (true) {
-    std::size_t plain = 0;
-    while (plain < text.size() && is_plain(text[plain])) ++plain;
+    const std::size_t plain = plain_length(text);
     out.append(text.substr(0, plain));
     text.remove_prefix(plain);
-    if (text.empty()) return out;
+    if (text.empty()) return;
     std::size_t length = utf8_length(text);
     if (length == 0) {
       append_utf8(out, 0xFFFD);

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::io::gltf {
 
@@ -15,9 +19,18 @@ enum class JsonType : std::uint8_t { absent, null, boolean, number, string, arra
 
 class Json;
 
-/// An index over a JSON text: one fixed-size entry per value, made in a single pass. Strings and
-/// numbers stay where they are in the text and are decoded when asked for, so a document of a
-/// hundred megabytes costs little more than looking at each of its bytes once.
+/// Where a value stands in the text and where the next one is in the index.
+struct JsonEntry {
+  std::uint32_t begin;  ///< of the value in the text, quotes left out
+  std::uint32_t end;
+  std::uint32_t next;  ///< entry behind this value and all within it
+  JsonType type;
+  bool escaped;  ///< a string that holds a backslash
+};
+
+/// An index over a JSON text: one fixed-size entry per value. Strings and numbers stay where they
+/// are in the text and are decoded when asked for, so a document of a hundred megabytes costs
+/// little more than looking at each of its bytes once.
 ///
 /// The text must outlive the document. Follows RFC 8259, except that bytes which are not UTF-8 are
 /// let through in strings (they become U+FFFD when decoded).
@@ -25,23 +38,22 @@ class JsonDocument {
  public:
   /// Values may be nested this deep.
   static constexpr std::size_t kMaxDepth = 512;
+  /// Long texts are indexed in pieces of about this size, in parallel.
+  static constexpr std::size_t kPieceBytes = std::size_t{1} << 19U;
 
-  /// The error's `where` is the byte offset alone; the caller puts the file before it.
-  [[nodiscard]] static Result<JsonDocument> parse(std::string_view text);
+  /// The error's `where` is the byte offset alone; the caller puts the file before it. Document
+  /// and error are the same for every piece size and every team.
+  [[nodiscard]] static Result<JsonDocument> parse(std::string_view text,
+                                                  const parallel::Context& context = {},
+                                                  std::size_t piece_bytes = kPieceBytes);
 
   [[nodiscard]] Json root() const;
 
  private:
   friend class Json;
-  friend class JsonIndexer;
-  struct Entry {
-    std::uint32_t begin = 0;  ///< of the value in the text, quotes left out
-    std::uint32_t end = 0;
-    std::uint32_t next = 0;  ///< entry behind this value and all within it
-    JsonType type = JsonType::null;
-  };
   std::string_view text_;
-  std::vector<Entry> entries_;
+  std::unique_ptr<JsonEntry[]> entries_;
+  std::size_t size_ = 0;
 };
 
 /// A value of a document, or the absence of one: every question may be put to any value and is
@@ -50,7 +62,7 @@ class Json {
  public:
   Json() = default;
 
-  [[nodiscard]] JsonType type() const;
+  [[nodiscard]] JsonType type() const { return exists() ? entry().type : JsonType::absent; }
   [[nodiscard]] bool exists() const { return document_ != nullptr; }
   [[nodiscard]] bool is_object() const { return type() == JsonType::object; }
   [[nodiscard]] bool is_array() const { return type() == JsonType::array; }
@@ -59,15 +71,26 @@ class Json {
   /// Member of an object; of repeated keys the first.
   [[nodiscard]] Json operator[](std::string_view key) const;
 
+  /// The same for several keys at a time, in one pass over the object.
+  template <std::size_t N>
+  [[nodiscard]] std::array<Json, N> pick(const std::array<std::string_view, N>& keys) const {
+    std::array<Json, N> found;
+    members([&](const Json& key, const Json& value) {
+      for (std::size_t i = 0; i < N; ++i)
+        if (!found[i].exists() && key.is_text(keys[i])) found[i] = value;
+    });
+    return found;
+  }
+
   /// Elements of an array, values of an object.
   [[nodiscard]] std::vector<Json> items() const;
-  /// Calls visit(key, value) for each member of an object, if it is one; the key is decoded.
+  /// Calls visit(key, value) for each member of an object, if it is one.
   template <class Visit>
   void members(Visit&& visit) const {
     if (!is_object()) return;
     for (Json key = first_child(); key.exists(); key = key.after()) {
       const Json value = key.after();
-      visit(key.text_value(), value);
+      visit(key, value);
       key = value;
     }
   }
@@ -83,8 +106,17 @@ class Json {
   [[nodiscard]] std::optional<bool> boolean() const;
   /// The decoded string; empty for other values.
   [[nodiscard]] std::string text_value() const;
+  void append_text(std::string& out) const;
+  /// True for a string that is this text once decoded.
+  [[nodiscard]] bool is_text(std::string_view text) const {
+    if (!is_string()) return false;
+    return entry().escaped ? text_value() == text : raw() == text;
+  }
   /// The value as it stands in the text; strings without their quotes.
-  [[nodiscard]] std::string_view raw() const;
+  [[nodiscard]] std::string_view raw() const {
+    if (!exists()) return {};
+    return document_->text_.substr(entry().begin, entry().end - entry().begin);
+  }
   /// Numbers of an array, if there are exactly `count` and nothing else.
   [[nodiscard]] bool numbers(double* out, std::size_t count) const;
 
@@ -92,9 +124,16 @@ class Json {
   friend class JsonDocument;
   Json(const JsonDocument* document, std::uint32_t entry, std::uint32_t end)
       : document_(document), entry_(entry), end_(end) {}
-  [[nodiscard]] const JsonDocument::Entry& entry() const { return document_->entries_[entry_]; }
-  [[nodiscard]] Json first_child() const;
-  [[nodiscard]] Json after() const;
+  [[nodiscard]] const JsonEntry& entry() const { return document_->entries_[entry_]; }
+  [[nodiscard]] Json first_child() const {
+    if (!is_object() && !is_array()) return {};
+    const std::uint32_t next = entry().next;
+    return entry_ + 1 == next ? Json{} : Json{document_, entry_ + 1, next};
+  }
+  [[nodiscard]] Json after() const {
+    const std::uint32_t next = entry().next;
+    return next == end_ ? Json{} : Json{document_, next, end_};
+  }
 
   const JsonDocument* document_ = nullptr;
   std::uint32_t entry_ = 0;

@@ -18,25 +18,28 @@ using geometry::Vec3d;
 constexpr std::size_t kMostAttributeBytes = 4096;
 constexpr int kMostAttributeDepth = 4;
 
-bool is_reserved(std::string_view key) {
-  return key == "id" || key == "path" || key == "instances";
+bool is_reserved(const Json& key) {
+  return key.is_text("id") || key.is_text("path") || key.is_text("instances");
 }
 
 void add_attributes(const Json& extras, const std::string& prefix, int depth,
                     model::Attributes& out) {
-  extras.members([&](const std::string& key, const Json& value) {
+  extras.members([&](const Json& key, const Json& value) {
     if (depth == 0 && is_reserved(key)) return;
-    const std::string name = prefix + key;
-    if (name.size() > kMostAttributeBytes || value.raw().size() > (kMostAttributeBytes << 4U))
-      return;
+    if (value.raw().size() > (kMostAttributeBytes << 4U)) return;
+    // The writer's own "attributes" are not a level of the user's.
+    const bool own = depth == 0 && value.is_object() && key.is_text("attributes");
+    std::string name = prefix;
+    if (!own) key.append_text(name);
+    if (name.size() > kMostAttributeBytes) return;
     if (value.is_object()) {
-      // The writer's own "attributes" are not a level of the user's.
-      const bool own = depth == 0 && key == "attributes";
-      if (depth < kMostAttributeDepth) add_attributes(value, own ? "" : name + ".", depth + 1, out);
+      if (!own) name.push_back('.');
+      if (depth < kMostAttributeDepth) add_attributes(value, name, depth + 1, out);
       return;
     }
     if (value.raw().size() > kMostAttributeBytes) return;
-    out.emplace_back(name, value.is_string() ? value.text_value() : std::string(value.raw()));
+    out.emplace_back(std::move(name),
+                     value.is_string() ? value.text_value() : std::string(value.raw()));
   });
 }
 
@@ -57,25 +60,26 @@ bool is_finite(const Placement& p) {
   return true;
 }
 
-std::optional<Fault> parse_transform(const Json& json, const std::string& pointer,
-                                     Placement& local) {
-  const auto checked = [&](const std::optional<Placement>& placement) -> std::optional<Fault> {
-    if (!placement || !is_finite(*placement))
-      return Fault{pointer, "its transformation is not a finite affine one"};
-    local = *placement;
-    return std::nullopt;
+/// What a node says of its place; each may be absent.
+struct Transform {
+  Json matrix, translation, rotation, scale;
+};
+
+/// Nothing when it is not a finite affine one.
+std::optional<Placement> parse_transform(const Transform& json) {
+  const auto finite = [](const std::optional<Placement>& placement) {
+    return placement && is_finite(*placement) ? placement : std::nullopt;
   };
-  if (const Json matrix = json["matrix"]; matrix.exists()) return checked(matrix_of(matrix));
+  if (json.matrix.exists()) return finite(matrix_of(json.matrix));
   std::array<double, 3> t{0, 0, 0}, s{1, 1, 1};
   std::array<double, 4> r{0, 0, 0, 1};
-  const auto given = [&](const char* name, double* out, std::size_t count) {
-    const Json value = json[name];
+  const auto given = [](const Json& value, double* out, std::size_t count) {
     return !value.exists() || value.numbers(out, count);
   };
-  if (!given("translation", t.data(), 3) || !given("scale", s.data(), 3) ||
-      !given("rotation", r.data(), 4))
-    return checked(std::nullopt);
-  return checked(placement_of({t[0], t[1], t[2]}, r.data(), {s[0], s[1], s[2]}));
+  if (!given(json.translation, t.data(), 3) || !given(json.scale, s.data(), 3) ||
+      !given(json.rotation, r.data(), 4))
+    return std::nullopt;
+  return finite(placement_of({t[0], t[1], t[2]}, r.data(), {s[0], s[1], s[2]}));
 }
 
 }  // namespace
@@ -98,27 +102,35 @@ std::optional<Placement> placement_of(const Vec3d& translation, const double* qu
 }
 
 Node parse_node(const Json& json, std::size_t index, const std::vector<Json>& meshes) {
-  const std::string pointer = fmt::format("/nodes/{}", index);
+  const auto [name, mesh, children, matrix, translation, rotation, scale, extras, extensions,
+              skin] = json.pick<10>({"name", "mesh", "children", "matrix", "translation",
+                                     "rotation", "scale", "extras", "extensions", "skin"});
   Node node;
-  node.name = json["name"].text_value();
-  if (const Json mesh = json["mesh"]; mesh.exists()) {
+  node.name = name.text_value();
+  if (mesh.exists()) {
     node.mesh = mesh.index().value_or(UINT64_MAX);
     if (*node.mesh >= meshes.size())
-      node.fault = Fault{pointer + "/mesh", "does not exist"};
+      node.fault = Fault{fmt::format("/nodes/{}/mesh", index), "does not exist"};
     else if (node.name.empty())
       node.name = meshes[*node.mesh]["name"].text_value();
   }
   if (node.name.empty()) node.name = fmt::format("node {}", index);
-  json["children"].elements(
+  children.elements(
       [&](const Json& child) { node.children.push_back(child.index().value_or(UINT64_MAX)); });
-  if (std::optional<Fault> fault = parse_transform(json, pointer, node.local))
-    node.fault = std::move(fault);
-  const Json extras = json["extras"];
-  node.id = extras["id"].text_value();
-  node.instance_extras = extras["instances"];
-  add_attributes(extras, "", 0, node.attributes);
-  node.instancing = json["extensions"]["EXT_mesh_gpu_instancing"];
-  node.skinned = json["skin"].exists();
+  if (const auto local = parse_transform({matrix, translation, rotation, scale}))
+    node.local = *local;
+  else
+    node.fault =
+        Fault{fmt::format("/nodes/{}", index), "its transformation is not a finite affine one"};
+  if (extras.is_object()) {
+    constexpr std::size_t kUsual = 4;  // what one allocation holds as well as half of it
+    node.attributes.reserve(kUsual);
+    node.id = extras["id"].text_value();
+    node.instance_extras = extras["instances"];
+    add_attributes(extras, "", 0, node.attributes);
+  }
+  node.instancing = extensions["EXT_mesh_gpu_instancing"];
+  node.skinned = skin.exists();
   return node;
 }
 

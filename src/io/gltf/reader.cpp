@@ -78,9 +78,10 @@ class GltfReader final : public Reader {
                                           const parallel::Context& context) const override {
     const Result<gltf::Container> container = gltf::open_container(file);
     if (!container) return container.error();
-    const Result<gltf::JsonDocument> document = gltf::JsonDocument::parse(container->json);
+    const Result<gltf::JsonDocument> document = gltf::JsonDocument::parse(container->json, context);
     if (!document) {
       Error error = document.error();
+      if (error.code == ErrorCode::cancelled) return cancelled(file);
       error.where = fmt::format("{}, {} of its JSON", file.path.string(), error.where);
       return error;
     }

@@ -19,10 +19,10 @@ Result<std::vector<std::uint32_t>> parents_of(const std::vector<Node>& nodes) {
   std::vector<std::uint32_t> parents(nodes.size(), kNoVisit);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const std::uint64_t child : nodes[i].children) {
-      const std::string pointer = fmt::format("/nodes/{}/children", i);
-      if (child >= nodes.size()) return refused(pointer, "names a node that does not exist");
+      const auto pointer = [i] { return fmt::format("/nodes/{}/children", i); };
+      if (child >= nodes.size()) return refused(pointer(), "names a node that does not exist");
       if (parents[child] != kNoVisit)
-        return refused(pointer,
+        return refused(pointer(),
                        fmt::format("node {} has two parents, {} and {}", child, parents[child], i));
       parents[child] = static_cast<std::uint32_t>(i);
     }

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+
+#include "strake/parallel/team.hpp"
 
 namespace strake::io::gltf {
 namespace {
@@ -69,6 +72,103 @@ TEST(Json, BoundsTheNesting) {
   EXPECT_TRUE(JsonDocument::parse(std::string(512, '[') + std::string(512, ']')));
   EXPECT_FALSE(JsonDocument::parse(std::string(513, '[') + std::string(513, ']')));
   EXPECT_FALSE(JsonDocument::parse(std::string(1'000'000, '[')));
+}
+
+/// Everything that a document says, types and places included.
+void dump(const Json& json, std::string& out) {
+  out += std::to_string(static_cast<int>(json.type()));
+  if (json.is_array()) {
+    out += '[';
+    json.elements([&](const Json& item) { dump(item, out); });
+    out += ']';
+  } else if (json.is_object()) {
+    out += '{';
+    json.members([&](const Json& key, const Json& value) {
+      out += key.text_value() + ':';
+      dump(value, out);
+    });
+    out += '}';
+  }
+  out.append(json.raw()).append(",");
+}
+
+std::string answer(const std::string& text, std::size_t piece_bytes,
+                   const parallel::Context& context = {}) {
+  const Result<JsonDocument> document = JsonDocument::parse(text, context, piece_bytes);
+  if (!document) return document.error().text();
+  std::string out;
+  dump(document->root(), out);
+  return out;
+}
+
+/// A document of all kinds of values, strings full of what could be taken for structure.
+void append_random(std::mt19937& random, int depth, std::string& out) {
+  static constexpr std::array<const char*, 12> kLeaves{
+      "0",          "-12.5e3",          "true", "null", "\"a,b\"", R"("\\")",
+      R"("\",\"")", R"("{[,\u0041]}")", "[]",   "{}",   "\"\"",    "false"};
+  const auto kind = random() % 4;
+  if (depth == 0 || kind == 0) {
+    out += kLeaves[random() % kLeaves.size()];
+    return;
+  }
+  const bool object = kind == 1;
+  out += object ? '{' : '[';
+  for (auto count = random() % 5, i = 0 * count; i < count; ++i) {
+    if (i != 0) out += random() % 2 == 0 ? "," : " ,\n";
+    if (object) out += R"("k\")" + std::to_string(random() % 100) + "\": ";
+    append_random(random, depth - 1, out);
+  }
+  out += object ? '}' : ']';
+}
+
+TEST(Json, SaysTheSameInPiecesOfAnySize) {
+  parallel::Team team(3);
+  parallel::Context context;
+  context.team = &team;
+  for (unsigned number = 1; number <= 60; ++number) {
+    SCOPED_TRACE(number);
+    std::mt19937 random(number);
+    std::string text = "[";
+    while (text.size() < 600) {
+      append_random(random, 6, text);
+      text += ",";
+    }
+    text.back() = ']';
+    const std::string whole = answer(text, text.size() + 1);
+    ASSERT_TRUE(nlohmann::json::accept(text)) << text;
+    ASSERT_TRUE(whole.starts_with("5[") || whole.starts_with("6[")) << whole;
+    for (std::size_t piece = 1; piece < 70; ++piece)
+      ASSERT_EQ(answer(text, piece, context), whole) << piece << " in " << text;
+  }
+}
+
+TEST(Json, RefusesTheSameInPiecesOfAnySize) {
+  for (unsigned number = 1; number <= 3000; ++number) {
+    SCOPED_TRACE(number);
+    std::mt19937 random(number);
+    std::string text;
+    append_random(random, 5, text);
+    const std::string pool = "{}[]\",:0 \\";
+    for (auto k = random() % 3; k > 0; --k)
+      text.insert(random() % (text.size() + 1), 1, pool[random() % pool.size()]);
+    const std::string whole = answer(text, text.size() + 1);
+    for (const std::size_t piece : {1U, 2U, 3U, 5U, 8U, 13U, 21U})
+      ASSERT_EQ(answer(text, piece), whole) << piece << " in " << text;
+  }
+}
+
+TEST(Json, BoundsTheNestingAcrossPieces) {
+  const auto nested = [](std::size_t depth) {
+    std::string text;
+    for (std::size_t i = 0; i < depth; ++i) text += "[1, ";
+    text += "1";
+    for (std::size_t i = 0; i < depth; ++i) text += ", 2]";
+    return text;
+  };
+  for (const std::size_t piece : {7U, 100U, 10000U}) {
+    EXPECT_TRUE(JsonDocument::parse(nested(512), {}, piece));
+    EXPECT_FALSE(JsonDocument::parse(nested(513), {}, piece));
+  }
 }
 
 TEST(Json, AgreesWithAnotherParserOnMutatedText) {
