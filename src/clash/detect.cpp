@@ -26,16 +26,14 @@ constexpr std::size_t kGrain = 8;
 
 /// One pair of parts on its way through the engine.
 struct Candidate {
-  PartAnswer answer;
-  geometry::MeetingResult meeting;
+  FirstLook look;
   NarrowWork work;
   bool separated = false;  ///< a coordinate plane lies between the two
   bool done = false;
-  bool needs_depth = false;
   bool too_large = false;
 };
 
-/// Something built once for each of some unique parts, in parallel, then only read.
+/// Something built once for each of some unique parts, by number, in parallel, then only read.
 template <class T, class Make>
 Result<std::vector<T>> build_for(const std::vector<bool>& wanted, const PartList& list,
                                  std::string_view name, const parallel::Context& context,
@@ -48,7 +46,7 @@ Result<std::vector<T>> build_for(const std::vector<bool>& wanted, const PartList
   std::vector<T> all(list.unique.size());
   const Status status =
       parallel::for_each(context, {.name = name, .n = indices.size(), .order = order},
-                         [&](std::size_t i) { all[indices[i]] = make(*list.unique[indices[i]]); });
+                         [&](std::size_t i) { all[indices[i]] = make(indices[i]); });
   if (!status) return status.error();
   return all;
 }
@@ -101,7 +99,7 @@ class Engine {
           auto answer = judge_analytic(x, y, options);
           if (!answer) answer = judge_flush(x, y, options, c.separated);
           c.done = answer.has_value();
-          if (c.done) c.answer = *answer;
+          if (c.done) c.look.answer = *answer;
         });
   }
 
@@ -113,12 +111,15 @@ class Engine {
       for (const std::uint32_t p : {pairs_[i].first, pairs_[i].second})
         wanted[list_.parts[p].unique] = true;
     }
-    auto trees = build_for<geometry::PartTree>(wanted, list_, "part trees", context_,
-                                               [](const Part& p) { return geometry::PartTree(p); });
+    auto trees = build_for<geometry::PartTree>(
+        wanted, list_, "part trees", context_,
+        [&](std::uint32_t u) { return geometry::PartTree(*list_.unique[u]); });
     if (!trees) return trees.error();
     trees_ = std::move(*trees);
-    auto planes = build_for<geometry::SupportPlanes>(wanted, list_, "support planes", context_,
-                                                     geometry::make_support_planes);
+    auto planes = build_for<geometry::SupportPlanes>(
+        wanted, list_, "support planes", context_, [&](std::uint32_t u) {
+          return geometry::make_support_planes(*list_.unique[u], &trees_[u]);
+        });
     if (!planes) return planes.error();
     planes_ = std::move(*planes);
     return {};
@@ -145,17 +146,13 @@ class Engine {
   void look(std::size_t i) {
     const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
     Candidate& c = candidates_[i];
-    const FirstLook found =
-        look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.separated, c.work);
-    c.answer = found.answer;
-    c.needs_depth = found.needs_depth;
-    if (found.needs_depth) c.meeting = found.meeting;
+    c.look = look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.separated, c.work);
   }
 
   Status depths() {
     std::vector<std::size_t> deep;
     for (const std::size_t i : open_)
-      if (candidates_[i].needs_depth) deep.push_back(i);
+      if (candidates_[i].look.needs_depth) deep.push_back(i);
     const auto order = parallel::longest_first(
         deep.size(), [&](std::size_t i) { return triangles(pairs_[deep[i]]); });
     return parallel::for_each(
@@ -163,8 +160,8 @@ class Engine {
           Candidate& c = candidates_[deep[i]];
           const IndexPair& p = pairs_[deep[i]];
           const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
-          c.answer =
-              judge_depth(narrow_part(a), narrow_part(b), c.meeting, narrow_options(a, b), c.work);
+          c.look.answer =
+              judge_depth(narrow_part(a), narrow_part(b), c.look, narrow_options(a, b), c.work);
         });
   }
 
@@ -196,8 +193,8 @@ class Engine {
       count(c.work, report.counters);
       if (c.too_large)
         report_too_large(pairs_[i], report.diagnostics);
-      else if (c.answer.judgement.severest != Class::no_hit)
-        found.push_back({i, c.answer});
+      else if (c.look.answer.judgement.severest != Class::no_hit)
+        found.push_back({i, c.look.answer});
     }
     report.pairs = join_by_objects(found, pairs_, list_);
     for (const Pair& pair : report.pairs) {

@@ -131,13 +131,14 @@ class PairOfParts {
   FirstLook look(bool separated) {
     FirstLook look;
     const double reach = std::max(thresholds_.gap, thresholds_.clearance) + 1;
-    const double gap = geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, reach);
-    if (gap >= reach) {
+    look.gap = geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, reach);
+    if (look.gap >= reach) {
       look.answer.separation = separated_by(std::numeric_limits<double>::infinity());
       conclude(look.answer);
       return look;
     }
-    if (!separated && !(gap > 0)) look.meeting = geometry::meet(a_, b_, work_.pair);
+    if (!separated && !(look.gap > 0))
+      look.meeting = equal_solids() ? meeting_of_equals() : geometry::meet(a_, b_, work_.pair);
     const auto form = closed_form(part_a_, part_b_);
     if (look.meeting.meeting == Meeting::touching) {
       touching(look.meeting, look.answer);
@@ -156,9 +157,9 @@ class PairOfParts {
     return look;
   }
 
-  PartAnswer depth(const MeetingResult& meeting) {
+  PartAnswer depth(const FirstLook& look) {
     PartAnswer answer;
-    interpenetrating(meeting, answer);
+    interpenetrating(look, answer);
     conclude(answer);
     return answer;
   }
@@ -178,13 +179,35 @@ class PairOfParts {
         near->distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;
   }
 
+  /// The same triangles in the same place: copies are common, and no walk over all their contacts
+  /// says more.
+  [[nodiscard]] bool equal_solids() const {
+    const Part &x = *a_.placed.part, &y = *b_.placed.part;
+    return x.kind == PartKind::solid && y.kind == PartKind::solid &&
+           a_.placed.origin == b_.placed.origin &&
+           (&x == &y || (x.vertices == y.vertices && x.triangles == y.triangles));
+  }
+
+  [[nodiscard]] MeetingResult meeting_of_equals() const {
+    const Part& part = *a_.placed.part;
+    return {.meeting = Meeting::crossing,
+            .boundaries_meet = true,
+            .a_within_b = true,
+            .b_within_a = true,
+            .point = part.vertices[part.triangles[0][0]].as<double>(),
+            .triangle_a = 0,
+            .triangle_b = 0};
+  }
+
   void touching(const MeetingResult& meeting, PartAnswer& answer) const {
     answer.point = meeting.point;
     answer.relation = Relation::abut_outside;
   }
 
-  void interpenetrating(const MeetingResult& meeting, PartAnswer& answer) {
+  void interpenetrating(const FirstLook& look, PartAnswer& answer) {
+    const MeetingResult& meeting = look.meeting;
     DepthGoal goal;
+    goal.known_upper = -look.gap;
     goal.threshold = thresholds_.overlap;
     goal.triangle_a = meeting.triangle_a;
     goal.triangle_b = meeting.triangle_b;
@@ -284,10 +307,10 @@ FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions&
   return look;
 }
 
-PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b, const MeetingResult& meeting,
+PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b, const FirstLook& look,
                        const NarrowOptions& options, NarrowWork& work) {
-  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).depth(meeting);
-  PartAnswer answer = PairOfParts(b, a, options, work).depth(meeting);
+  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).depth(look);
+  PartAnswer answer = PairOfParts(b, a, options, work).depth(look);
   turn(answer, a, b);
   return answer;
 }

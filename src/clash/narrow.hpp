@@ -57,6 +57,7 @@ struct NarrowWork {
 struct FirstLook {
   PartAnswer answer;
   geometry::MeetingResult meeting;  ///< in canonical order of the two
+  double gap = 0;                   ///< a certain lower bound on their signed separation
   bool needs_depth = false;
 };
 
@@ -68,7 +69,7 @@ struct FirstLook {
 
 /// The answer for a pair that needs its depth.
 [[nodiscard]] PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b,
-                                     const geometry::MeetingResult& meeting,
-                                     const NarrowOptions& options, NarrowWork& work);
+                                     const FirstLook& look, const NarrowOptions& options,
+                                     NarrowWork& work);
 
 }  // namespace strake::clash

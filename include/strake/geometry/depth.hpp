@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "strake/geometry/part_pair.hpp"
@@ -26,7 +27,8 @@ struct SupportPlanes {
 /// The four fixed unit directions of SupportPlanes::tetrahedral; they sum to zero.
 [[nodiscard]] const std::array<Vec3d, 4>& tetrahedral_directions();
 
-[[nodiscard]] SupportPlanes make_support_planes(const Part& part);
+/// The tree of the part, if given, changes the work only: n log n instead of planes times n.
+[[nodiscard]] SupportPlanes make_support_planes(const Part& part, const PartTree* tree = nullptr);
 
 /// A part of an interpenetrating pair.
 struct DepthPart {
@@ -35,8 +37,9 @@ struct DepthPart {
 };
 
 /// A certain lower bound on the distance of two parts: the widest gap between their supports along
-/// the face normals of either. Negative when no such direction keeps them apart. Stops at the
-/// first gap of at least `enough` grid units.
+/// the face normals of either. Negative when no such direction keeps them apart: then moving one by
+/// that much parts them, so that they are no deeper in each other. Stops at the first gap of at
+/// least `enough` grid units.
 [[nodiscard]] double gap_bound(const DepthPart& a, const DepthPart& b, double enough);
 
 /// When to stop. All lengths are grid units.
@@ -46,6 +49,8 @@ struct DepthGoal {
   double relative = 0.02;                ///< and so is one this narrow relative to the depth
   std::uint32_t cells_undecided = 3000;  ///< work limit while the threshold lies in the bracket
   std::uint32_t cells_decided = 300;     ///< work limit once it does not
+  /// A certain upper bound, if known: minus the result of gap_bound().
+  double known_upper = std::numeric_limits<double>::infinity();
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known,
   Vec3d meeting_point{};  ///< and a point there, relative to a's origin
 };
@@ -53,7 +58,7 @@ struct DepthGoal {
 /// Depth D of an interpenetrating pair, grid units: lower <= D <= upper is certain.
 struct Depth {
   double lower = 0, upper = 0;
-  double value = 0;  ///< the depth at `point`, in [lower, upper]: the nominal depth
+  double value = 0;  ///< the nominal depth, in [lower, upper]: that at `point`, but for ties
   Vec3d point;       ///< deepest point found, relative to a's origin
   std::uint64_t cells = 0;
 };

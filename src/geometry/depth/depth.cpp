@@ -12,12 +12,15 @@
 
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
+#include "geometry/depth/extreme.hpp"
 #include "geometry/depth/radius_lp.hpp"
 
 namespace strake::geometry {
 namespace {
 
 constexpr std::size_t kMaxVerticesTried = 128;
+/// A depth in which nobody needs the deepest point, grid units.
+constexpr double kTie = 2;
 
 Box3d box_of(const DepthField& f) {
   const Box3i& b = f.part().box;
@@ -95,17 +98,12 @@ class Halfspaces {
 
   void append_opposite(std::vector<RadiusConstraint>& rows, const DepthPart& other,
                        const DepthField& f, double weight) const {
-    const Part& part = f.part();
-    if (part.vertices.size() * other.planes->planes.size() > kMaxOppositeWork) return;
     for (const SupportPlanes::Plane& p : other.planes->planes) {
       const Vec3d n = -p.normal;
-      double best = -std::numeric_limits<double>::infinity();
-      for (const Vec3i& v : part.vertices) best = std::max(best, dot(n, v.as<double>()));
+      const double best = greatest_along(f.part(), f.tree(), n);
       rows.push_back({n, weight, offset(f, n, best) + kFieldError * extent_});
     }
   }
-
-  static constexpr std::size_t kMaxOppositeWork = 2'000'000;
 
   const DepthPart &a_, &b_;
   const DepthField &fa_, &fb_;
@@ -233,11 +231,15 @@ void bound_by_parting(const DepthPart& a, const DepthPart& b, const DepthGoal& g
 }  // namespace
 
 Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, PairWork& work) {
+  // Flush faces of a model that stands askew: what the snap made of a touch.
+  if (goal.known_upper <= std::min(kTie, goal.threshold))
+    return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};
   const DepthField fa(a.treed, {}), fb(b.treed, a.treed.placed.origin - b.treed.placed.origin);
   const Halfspaces spaces(a, fa, b, fb);
   Candidates candidates(fa, fb, spaces.extent(), work);
   Depth depth;
   bracket_by_programs(spaces, candidates, depth);
+  depth.upper = std::min(depth.upper, goal.known_upper);
   candidates.store(depth);
   if (!bracket_suffices(depth, goal)) {
     try_vertices(fa, fb, candidates);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "geometry/depth/extreme.hpp"
 #include "geometry/depth/nearest.hpp"
 #include "strake/geometry/depth.hpp"
 
@@ -20,31 +22,68 @@ constexpr std::size_t kMaxConvexPlanes = 1024;
 /// snapping moves a vertex by less than one, and a face's short side magnifies that.
 constexpr double kConvexSlack = 4;
 
+/// Beyond this many triangles coplanar faces are found by their hashes: sorting would cost more.
+constexpr std::size_t kSorted = 512;
+
 struct Face {
   std::array<std::int64_t, 3> key{};  ///< the normal in steps of 2^-40: equal for coplanar faces
   Vec3d normal;
-  double area = 0;
+  double area = 0;  ///< twice
 };
 
-Face face_of(const Part& part, std::uint32_t t) {
+/// The normal times twice the area.
+Vec3d normal_of(const Part& part, std::uint32_t t) {
   const Corners c = corners_of(part, t);
-  const Vec3d n = cross(c[1] - c[0], c[2] - c[0]);
+  return cross(c[1] - c[0], c[2] - c[0]);
+}
+
+Face face_of(const Part& part, std::uint32_t t) {
+  const Vec3d n = normal_of(part, t);
   Face face;
   face.area = length(n);
   if (!(face.area > 0)) return face;
   face.normal = {n.x / face.area, n.y / face.area, n.z / face.area};
-  for (int k = 0; k < 3; ++k)
-    face.key[static_cast<std::size_t>(k)] = std::llround(face.normal[k] * 0x1p40);
+  for (int k = 0; k < 3; ++k) {
+    const double steps = face.normal[k] * 0x1p40;
+    face.key[static_cast<std::size_t>(k)] =
+        static_cast<std::int64_t>(steps + (steps < 0 ? -0.5 : 0.5));
+  }
   return face;
 }
 
-std::vector<Face> distinct_faces(const Part& part) {
+std::vector<Face> all_faces(const Part& part) {
   std::vector<Face> faces;
   faces.reserve(part.triangles.size());
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
     const Face face = face_of(part, t);
     if (face.area > 0) faces.push_back(face);
   }
+  return faces;
+}
+
+/// Makes one face of those with one key, in order of first appearance.
+void merge_by_hash(std::vector<Face>& faces) {
+  constexpr std::uint32_t kFree = 0xffffffffU;
+  std::vector<std::uint32_t> slots(std::bit_ceil(2 * faces.size() + 1), kFree);
+  const std::size_t mask = slots.size() - 1;
+  std::size_t kept = 0;
+  for (const Face& face : faces) {
+    std::uint64_t h = 0;
+    for (const std::int64_t k : face.key)
+      h = (h ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15ULL;
+    std::size_t slot = (h ^ (h >> 32U)) & mask;
+    while (slots[slot] != kFree && faces[slots[slot]].key != face.key) slot = (slot + 1) & mask;
+    if (slots[slot] != kFree) {
+      faces[slots[slot]].area += face.area;
+    } else {
+      slots[slot] = static_cast<std::uint32_t>(kept);
+      faces[kept++] = face;
+    }
+  }
+  faces.resize(kept);
+}
+
+void merge_by_sorting(std::vector<Face>& faces) {
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
     return a.key != b.key ? a.key < b.key : a.area > b.area;
   });
@@ -56,16 +95,27 @@ std::vector<Face> distinct_faces(const Part& part) {
       faces[kept++] = faces[i];
   }
   faces.resize(kept);
-  return faces;
 }
 
 void keep_largest(std::vector<Face>& faces, std::size_t most) {
   if (faces.size() <= most) return;
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
-    return a.area != b.area ? a.area > b.area : a.key < b.key;
-  });
+  std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(most), faces.end(),
+                   [](const Face& a, const Face& b) {
+                     return a.area != b.area ? a.area > b.area : a.key < b.key;
+                   });
   faces.resize(most);
+}
+
+/// The distinct faces, at most `most`, by normal.
+std::vector<Face> distinct_faces(const Part& part, std::size_t most) {
+  std::vector<Face> faces = all_faces(part);
+  if (faces.size() > kSorted)
+    merge_by_hash(faces);
+  else
+    merge_by_sorting(faces);
+  keep_largest(faces, most);
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  return faces;
 }
 
 std::uint32_t apex(const Triangle& t, const PartEdge& edge) {
@@ -81,26 +131,22 @@ bool convex_edges(const Part& part) {
     const std::uint32_t first = part.edges[e].first_triangle;
     if (part.edges[e + 1].first_triangle - first != 2) return false;
     const std::uint32_t t = part.edge_triangles[first], u = part.edge_triangles[first + 1];
-    const Face face = face_of(part, t);
+    const Vec3d n = normal_of(part, t);
     const Vec3d base = part.vertices[part.edges[e].v0].as<double>();
     const Vec3d tip = part.vertices[apex(part.triangles[u], part.edges[e])].as<double>();
-    if (dot(face.normal, tip - base) > kConvexSlack) return false;
+    const double above = dot(n, tip - base);
+    if (above > 0 && above > kConvexSlack * length(n)) return false;
   }
   return true;
 }
 
-double support(const Part& part, const Vec3d& n) {
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Vec3i& v : part.vertices) {
-    const double h = n.x * static_cast<double>(v.x) + n.y * static_cast<double>(v.y) +
-                     n.z * static_cast<double>(v.z);
-    best = std::max(best, h);
-  }
+/// What rounding may leave out of a support.
+double rounding_of(const Part& part) {
   double reach = 0;
   for (int k = 0; k < 3; ++k)
     reach = std::max({reach, std::fabs(static_cast<double>(part.box.lo[k])),
                       std::fabs(static_cast<double>(part.box.hi[k]))});
-  return best + 8 * std::numeric_limits<double>::epsilon() * reach;
+  return 8 * std::numeric_limits<double>::epsilon() * reach;
 }
 
 }  // namespace
@@ -114,15 +160,16 @@ const std::array<Vec3d, 4>& tetrahedral_directions() {
   return kDirections;
 }
 
-SupportPlanes make_support_planes(const Part& part) {
+SupportPlanes make_support_planes(const Part& part, const PartTree* tree) {
   SupportPlanes result;
   result.nearly_convex = convex_edges(part);
-  std::vector<Face> faces = distinct_faces(part);
-  keep_largest(faces, result.nearly_convex ? kMaxConvexPlanes : kMaxHullPlanes);
+  const double rounding = rounding_of(part);
+  const auto support = [&](const Vec3d& n) { return greatest_along(part, tree, n) + rounding; };
+  const std::vector<Face> faces =
+      distinct_faces(part, result.nearly_convex ? kMaxConvexPlanes : kMaxHullPlanes);
   result.planes.reserve(faces.size());
-  for (const Face& face : faces) result.planes.push_back({face.normal, support(part, face.normal)});
-  for (std::size_t i = 0; i < 4; ++i)
-    result.tetrahedral[i] = support(part, tetrahedral_directions()[i]);
+  for (const Face& face : faces) result.planes.push_back({face.normal, support(face.normal)});
+  for (std::size_t i = 0; i < 4; ++i) result.tetrahedral[i] = support(tetrahedral_directions()[i]);
   return result;
 }
 

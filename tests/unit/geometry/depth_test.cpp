@@ -222,6 +222,83 @@ TEST(Depth, ChangesByNoMoreThanTheMove) {
   }
 }
 
+TEST(SupportPlanes, ATreeChangesTheWorkOnly) {
+  for (const int sides : {5, 40, 300}) {
+    const Subject s(turned(cylinder(sides, 100'000, -50'000, 90'000)));
+    const SupportPlanes walked = make_support_planes(s.part);
+    const SupportPlanes by_tree = make_support_planes(s.part, &s.tree);
+    EXPECT_TRUE(walked.nearly_convex);
+    EXPECT_GE(walked.planes.size(), static_cast<std::size_t>(sides));
+    ASSERT_EQ(walked.planes.size(), by_tree.planes.size());
+    for (std::size_t i = 0; i < walked.planes.size(); ++i) {
+      EXPECT_EQ(walked.planes[i].normal, by_tree.planes[i].normal);
+      EXPECT_EQ(walked.planes[i].support, by_tree.planes[i].support);
+    }
+    EXPECT_EQ(walked.tetrahedral, by_tree.tetrahedral);
+  }
+}
+
+TEST(SupportPlanes, FlatFacesCountOnceHoweverFinelyCut) {
+  // 2 x 40 x 40 squares on two sides of a slab, by hashing; the same slab uncut, by sorting.
+  IndexedMesh fine;
+  constexpr std::int32_t kCut = 40, kStep = 1000;
+  for (std::int32_t x = 0; x < kCut; ++x)
+    for (std::int32_t y = 0; y < kCut; ++y) {
+      fine.append(testing::quad_mesh({x * kStep, y * kStep, kStep}, {kStep, 0, 0}, {0, kStep, 0}));
+      fine.append(testing::quad_mesh({x * kStep, y * kStep, 0}, {0, kStep, 0}, {kStep, 0, 0}));
+    }
+  const SupportPlanes planes = make_support_planes(Subject(fine).part);
+  ASSERT_EQ(planes.planes.size(), 2U);
+  EXPECT_EQ(planes.planes[0].normal, (Vec3d{0, 0, -1}));
+  EXPECT_EQ(planes.planes[1].normal, (Vec3d{0, 0, 1}));
+  EXPECT_NEAR(planes.planes[1].support, kStep, 1e-6);
+}
+
+TEST(GapBound, IsNoMoreThanTheDistanceAndNoLessThanTheWidestGap) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](int lo, int hi) {
+      return lo + static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(hi - lo));
+    };
+    const Subject a(turned(cylinder(draw(3, 90), draw(5'000, 40'000), -20'000, 20'000)));
+    const Subject b(cylinder(draw(3, 90), draw(5'000, 40'000), -20'000, 20'000),
+                    {draw(-90'000, 90'000), draw(-90'000, 90'000), draw(-50'000, 50'000)});
+    const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
+    const double bound = gap_bound({a.treed(), &pa}, {b.treed(), &pb}, 1e9);
+    double widest = -1e300;
+    const auto along = [&](const SupportPlanes& planes, const Subject& to, const Vec3l& shift) {
+      for (const SupportPlanes::Plane& p : planes.planes) {
+        double least = 1e300;
+        for (const Vec3i& v : to.part.vertices)
+          least = std::min(least, dot(p.normal, (v.as<std::int64_t>() + shift).as<double>()));
+        widest = std::max(widest, least - p.support);
+      }
+    };
+    along(pa, b, b.origin - a.origin);
+    along(pb, a, a.origin - b.origin);
+    EXPECT_NEAR(bound, widest, 1e-3) << "seed " << seed;
+    PairWork work;
+    const bool apart = meet(a.treed(), b.treed(), work).meeting == Meeting::apart;
+    if (bound > 0) {
+      EXPECT_TRUE(apart);
+      EXPECT_GE(closest(a.treed(), b.treed(), 1e9, work)->distance, bound);
+    } else if (!apart) {
+      EXPECT_LE(depth_of(a, b).lower, -bound + 1e-3) << "moving it out by that much parts them";
+    }
+  }
+}
+
+TEST(Depth, ATieNeedsNoSearch) {
+  const Subject a(turned(box_mesh({0, 0, -12'000}, {6'000'000, 4'000'000, 0})));
+  const Subject b(turned(box_mesh({1'000'000, 500'000, 0}, {2'000'000, 900'000, 700'000})));
+  const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
+  const double gap = gap_bound({a.treed(), &pa}, {b.treed(), &pb}, 1000);
+  EXPECT_LE(std::fabs(gap), 2);
+  const Depth d = depth_of(a, b, {.threshold = 1000, .known_upper = std::max(0.0, -gap)});
+  EXPECT_LE(d.upper, 2);
+  EXPECT_EQ(d.lower, 0);
+}
+
 TEST(SheetDepth, PlateSheetIntoABox) {
   const Subject sheet(testing::quad_mesh({-100'000, 0, 0}, {200'000, 0, 0}, {0, 300'000, 0}));
   const Subject box(box_mesh({-50'000, 250'000, -40'000}, {50'000, 900'000, 60'000}));

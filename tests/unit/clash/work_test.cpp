@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a pair may cost, in counts, which hold on any machine. bench_clash_pairs has the times.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "strake/clash/clash.hpp"
+#include "support/clash_model.hpp"
+#include "support/revolved.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Mat3d;
+using geometry::Placement;
+using geometry::TriangleMesh;
+using geometry::Vec3d;
+using test::ClashModel;
+
+const Mat3d kTurn{{Vec3d{-2.0 / 3, 2.0 / 15, 11.0 / 15}, Vec3d{2.0 / 3, -1.0 / 3, 2.0 / 3},
+                   Vec3d{1.0 / 3, 14.0 / 15, 2.0 / 15}}};
+const Mat3d kTwist{{Vec3d{0.8, -0.6, 0}, Vec3d{0.6, 0.8, 0}, Vec3d{0, 0, 1}}};
+
+struct Looked {
+  Pair pair;
+  Counters work;
+  std::size_t triangles = 0;
+};
+
+Looked look(TriangleMesh a, TriangleMesh b, const Placement& at, const Options& options) {
+  Looked looked;
+  looked.triangles = a.triangles.size() + b.triangles.size();
+  ClashModel m;
+  m.object("a").body(std::move(a), {at.linear, {}});
+  m.object("b").body(std::move(b), at);
+  const Report report = m.detect(options);
+  looked.work = report.counters;
+  if (!report.pairs.empty()) looked.pair = report.pairs.front();
+  return looked;
+}
+
+TEST(ClashWork, RotatedPlatesCostTheSameAtEveryGap) {
+  for (const double gap : {1.001, 1.5, 2.0, 5.0, 10.0, 30.0, 100.0}) {
+    ClashModel m;
+    m.object("a").body(test::box_mesh({-5000, -5000, -13}, {5000, 5000, 0}), {kTurn, {}});
+    m.object("b").body(test::box_mesh({-5000, -5000, gap}, {5000, 5000, gap + 13}),
+                       {kTurn * kTwist, {}});
+    const Report report = m.detect({.clearance_mm = 200});
+    ASSERT_EQ(report.pairs.size(), 1U) << gap;
+    EXPECT_EQ(report.pairs[0].cls, Class::clearance_violation) << gap;
+    EXPECT_NEAR(report.pairs[0].d_mm, gap, 0.003);
+    EXPECT_LE(report.counters.triangle_pairs, 144U) << gap;
+    EXPECT_LE(report.counters.exact_fallbacks, 12U) << gap;
+    // Without anybody to ask how far, a parting plane is all it takes.
+    if (gap > 1.1) {
+      EXPECT_EQ(m.detect().counters.triangle_pairs, 0U) << gap;
+    }
+  }
+}
+
+TEST(ClashWork, ConcentricSpheresCostAFewTrianglePairsATriangle) {
+  for (const double inner : {995.0, 999.0, 500.0}) {
+    const Looked l = look(test::sphere_mesh(1000, 50), test::sphere_mesh(inner, 50), {kTurn, {}},
+                          {.clearance_mm = 25});
+    EXPECT_EQ(l.pair.cls, Class::hit);
+    EXPECT_EQ(l.pair.relation, Relation::b_in_a);
+    EXPECT_LE(l.work.triangle_pairs, 10 * l.triangles) << inner;
+    EXPECT_LE(l.work.exact_fallbacks, l.triangles / 4) << inner;
+    EXPECT_EQ(l.work.depth_cells, 0U) << inner;
+    EXPECT_LT(l.pair.d_upper_mm - l.pair.d_lower_mm, 0.01);
+  }
+}
+
+TEST(ClashWork, ConcentricCylindersCostAFewTrianglePairsATriangle) {
+  const Looked l =
+      look(test::cylinder_mesh(500, 2000, 40, 80), test::cylinder_mesh(499, 1998, 40, 80),
+           {kTurn, kTurn * Vec3d{0, 0, 1}}, {.clearance_mm = 25});
+  EXPECT_EQ(l.pair.relation, Relation::b_in_a);
+  EXPECT_LE(l.work.triangle_pairs, 10 * l.triangles);
+  EXPECT_EQ(l.work.depth_cells, 0U);
+}
+
+TEST(ClashWork, CopiesOfABodyNeedNoWalk) {
+  const TriangleMesh hills = test::bumpy_mesh(1000, 60, 12, 40);
+  const Looked l = look(hills, hills, {}, {.clearance_mm = 25});
+  EXPECT_EQ(l.pair.relation, Relation::duplicate);
+  EXPECT_EQ(l.work.triangle_pairs, 0U);
+  EXPECT_LE(l.work.depth_cells, 300U);
+  EXPECT_LE(l.pair.d_lower_mm, -940);
+  EXPECT_GE(l.pair.d_upper_mm, -960);
+}
+
+TEST(ClashWork, TheSearchForTheDepthEnds) {
+  const TriangleMesh hills = test::bumpy_mesh(1000, 60, 12, 40);
+  for (const Vec3d& at : {Vec3d{900, 300, 100}, Vec3d{1992, 20, 10}, Vec3d{2050, 0, 0}}) {
+    const Looked l = look(hills, hills, {kTurn, at}, {.clearance_mm = 25});
+    EXPECT_LE(l.work.depth_cells, 3001U);
+    EXPECT_LE(l.work.triangle_pairs, 8 * l.triangles);
+  }
+}
+
+TEST(ClashWork, FlushFacesOfATurnedModelNeedNoSearch) {
+  ClashModel m;
+  m.object("deck").body(test::box_mesh({0, 0, -12}, {6000, 4000, 0}), {kTurn, {}});
+  for (int i = 0; i < 20; ++i)
+    m.object("box " + std::to_string(i))
+        .body(test::box_mesh({i * 300.0, 100, 0}, {i * 300.0 + 200, 900, 700}), {kTurn, {}});
+  const Report report = m.detect();
+  EXPECT_EQ(report.count_contact, 20U);
+  EXPECT_EQ(report.counters.depth_cells, 0U);
+  for (const Pair& p : report.pairs) {
+    EXPECT_LE(p.d_upper_mm - p.d_lower_mm, 0.01);
+    EXPECT_EQ(p.relation, Relation::abut_outside);
+  }
+}
+
+}  // namespace
+}  // namespace strake::clash
