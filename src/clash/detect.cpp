@@ -117,9 +117,8 @@ class Engine {
     if (!trees) return trees.error();
     trees_ = std::move(*trees);
     auto planes = build_for<geometry::SupportPlanes>(
-        wanted, list_, "support planes", context_, [&](std::uint32_t u) {
-          return geometry::make_support_planes(*list_.unique[u], &trees_[u]);
-        });
+        wanted, list_, "support planes", context_,
+        [&](std::uint32_t u) { return geometry::make_support_planes(*list_.unique[u]); });
     if (!planes) return planes.error();
     planes_ = std::move(*planes);
     return {};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "strake/geometry/part_pair.hpp"
+#include "strake/geometry/vertex_tree.hpp"
 
 namespace strake::geometry {
 
@@ -20,6 +21,7 @@ struct SupportPlanes {
   };
   std::vector<Plane> planes;            ///< by normal; the largest faces when there are many
   std::array<double, 4> tetrahedral{};  ///< supports in four fixed directions
+  VertexTree vertices;                  ///< for supports in any other direction
   /// Every edge is convex to within a few grid units: the part very nearly is its half-spaces.
   bool nearly_convex = false;
 };
@@ -27,8 +29,7 @@ struct SupportPlanes {
 /// The four fixed unit directions of SupportPlanes::tetrahedral; they sum to zero.
 [[nodiscard]] const std::array<Vec3d, 4>& tetrahedral_directions();
 
-/// The tree of the part, if given, changes the work only: n log n instead of planes times n.
-[[nodiscard]] SupportPlanes make_support_planes(const Part& part, const PartTree* tree = nullptr);
+[[nodiscard]] SupportPlanes make_support_planes(const Part& part);
 
 /// A part of an interpenetrating pair.
 struct DepthPart {

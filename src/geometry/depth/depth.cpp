@@ -12,7 +12,6 @@
 
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
-#include "geometry/depth/extreme.hpp"
 #include "geometry/depth/radius_lp.hpp"
 
 namespace strake::geometry {
@@ -53,8 +52,8 @@ class Halfspaces {
     append(rows, b_, fb_, ball_is_a ? 0 : 1, 0);
     // A body that is not convex may face the other with none of its own planes: the other's planes,
     // turned round, stand for what of it lies against them, be it the ball's body or the room.
-    if (!a_.planes->nearly_convex) append_opposite(rows, b_, fa_, ball_is_a ? 1 : 0);
-    if (!b_.planes->nearly_convex) append_opposite(rows, a_, fb_, ball_is_a ? 0 : 1);
+    if (!a_.planes->nearly_convex) append_opposite(rows, a_, b_, fa_, ball_is_a ? 1 : 0);
+    if (!b_.planes->nearly_convex) append_opposite(rows, b_, a_, fb_, ball_is_a ? 0 : 1);
     return solve(rows);
   }
 
@@ -96,11 +95,11 @@ class Halfspaces {
       rows.push_back({p.normal, weight, offset(f, p.normal, p.support) - inset});
   }
 
-  void append_opposite(std::vector<RadiusConstraint>& rows, const DepthPart& other,
-                       const DepthField& f, double weight) const {
+  void append_opposite(std::vector<RadiusConstraint>& rows, const DepthPart& part,
+                       const DepthPart& other, const DepthField& f, double weight) const {
     for (const SupportPlanes::Plane& p : other.planes->planes) {
       const Vec3d n = -p.normal;
-      const double best = greatest_along(f.part(), f.tree(), n);
+      const double best = part.planes->vertices.greatest_along(n).value;
       rows.push_back({n, weight, offset(f, n, best) + kFieldError * extent_});
     }
   }

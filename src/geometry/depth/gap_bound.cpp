@@ -3,25 +3,25 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/depth/extreme.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
 namespace {
 
 /// The widest gap along the normals of `from`; `shift` takes `to` into its coordinates.
-double widest_gap(const SupportPlanes& from, const TreedPart& to, const Vec3d& shift,
+double widest_gap(const SupportPlanes& from, const VertexTree& to, const Vec3d& shift,
                   double rounding, double enough) {
-  const Part& part = *to.placed.part;
   double widest = -std::numeric_limits<double>::infinity();
-  if (part.vertices.empty()) return widest;
-  const Vec3d some_vertex = part.vertices.front().as<double>();
+  // The vertex that came nearest last: most normals are done with at a look at it.
+  Vec3d vertex = to.greatest_along({0, 0, 1}).vertex.as<double>();
   for (const SupportPlanes::Plane& plane : from.planes) {
     const double base = dot(plane.normal, shift) - plane.support;
     // Normals are unit vectors but for rounding.
     const auto certain = [&](double least) { return (least + base) * (1 - 1e-14) - rounding; };
-    if (certain(dot(plane.normal, some_vertex)) <= widest) continue;
-    widest = std::max(widest, certain(-greatest_along(part, to.tree, -plane.normal)));
+    if (certain(dot(plane.normal, vertex)) <= widest) continue;
+    const VertexTree::Extreme nearest = to.greatest_along(-plane.normal);
+    vertex = nearest.vertex.as<double>();
+    widest = std::max(widest, certain(-nearest.value));
     if (widest >= enough) break;
   }
   return widest;
@@ -38,9 +38,9 @@ double gap_bound(const DepthPart& a, const DepthPart& b, double enough) {
       reach += std::fabs(static_cast<double>(part->box.lo[k])) +
                std::fabs(static_cast<double>(part->box.hi[k]));
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
-  const double gap = widest_gap(*a.planes, b.treed, shift, rounding, enough);
+  const double gap = widest_gap(*a.planes, b.planes->vertices, shift, rounding, enough);
   if (gap >= enough) return gap;
-  return std::max(gap, widest_gap(*b.planes, a.treed, -shift, rounding, enough));
+  return std::max(gap, widest_gap(*b.planes, a.planes->vertices, -shift, rounding, enough));
 }
 
 }  // namespace strake::geometry

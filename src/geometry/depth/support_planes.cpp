@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "geometry/depth/extreme.hpp"
 #include "geometry/depth/nearest.hpp"
 #include "strake/geometry/depth.hpp"
 
@@ -160,11 +159,14 @@ const std::array<Vec3d, 4>& tetrahedral_directions() {
   return kDirections;
 }
 
-SupportPlanes make_support_planes(const Part& part, const PartTree* tree) {
+SupportPlanes make_support_planes(const Part& part) {
   SupportPlanes result;
   result.nearly_convex = convex_edges(part);
+  result.vertices = VertexTree(part.vertices);
   const double rounding = rounding_of(part);
-  const auto support = [&](const Vec3d& n) { return greatest_along(part, tree, n) + rounding; };
+  const auto support = [&](const Vec3d& n) {
+    return result.vertices.greatest_along(n).value + rounding;
+  };
   const std::vector<Face> faces =
       distinct_faces(part, result.nearly_convex ? kMaxConvexPlanes : kMaxHullPlanes);
   result.planes.reserve(faces.size());

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -222,19 +223,44 @@ TEST(Depth, ChangesByNoMoreThanTheMove) {
   }
 }
 
-TEST(SupportPlanes, ATreeChangesTheWorkOnly) {
+TEST(SupportPlanes, AreWhatAWalkOverTheVerticesFinds) {
   for (const int sides : {5, 40, 300}) {
-    const Subject s(turned(cylinder(sides, 100'000, -50'000, 90'000)));
-    const SupportPlanes walked = make_support_planes(s.part);
-    const SupportPlanes by_tree = make_support_planes(s.part, &s.tree);
-    EXPECT_TRUE(walked.nearly_convex);
-    EXPECT_GE(walked.planes.size(), static_cast<std::size_t>(sides));
-    ASSERT_EQ(walked.planes.size(), by_tree.planes.size());
-    for (std::size_t i = 0; i < walked.planes.size(); ++i) {
-      EXPECT_EQ(walked.planes[i].normal, by_tree.planes[i].normal);
-      EXPECT_EQ(walked.planes[i].support, by_tree.planes[i].support);
+    const Part part = testing::build_part(turned(cylinder(sides, 100'000, -50'000, 90'000)));
+    const SupportPlanes planes = make_support_planes(part);
+    EXPECT_TRUE(planes.nearly_convex);
+    EXPECT_GE(planes.planes.size(), static_cast<std::size_t>(sides));
+    for (const SupportPlanes::Plane& plane : planes.planes) {
+      double most = -1e300;
+      for (const Vec3i& v : part.vertices) most = std::max(most, dot(plane.normal, v.as<double>()));
+      EXPECT_GE(plane.support, most);
+      EXPECT_LE(plane.support, most + 1e-6);
+      EXPECT_EQ(planes.vertices.greatest_along(plane.normal).value, most);
     }
-    EXPECT_EQ(walked.tetrahedral, by_tree.tetrahedral);
+  }
+}
+
+TEST(VertexTree, FindsTheFarthestOfAnyPoints) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    std::mt19937_64 random(seed);
+    // Many equal coordinates: a lattice of a few steps.
+    const auto draw = [&](int n) {
+      return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(n)) * 1'000'003 -
+             1'000'000'000;
+    };
+    std::vector<Vec3i> points(random() % 400);
+    for (Vec3i& p : points) p = {draw(7), draw(900), draw(2)};
+    const VertexTree tree(points);
+    EXPECT_EQ(tree.empty(), points.empty());
+    for (int i = 0; i < 50; ++i) {
+      const Vec3d n{draw(1000) * 1e-9, draw(1000) * 1e-9, i % 5 == 0 ? 0 : draw(1000) * 1e-9};
+      double most = -std::numeric_limits<double>::infinity();
+      for (const Vec3i& p : points) most = std::max(most, dot(n, p.as<double>()));
+      const VertexTree::Extreme found = tree.greatest_along(n);
+      EXPECT_EQ(found.value, most);
+      if (!points.empty()) {
+        EXPECT_EQ(dot(n, found.vertex.as<double>()), most);
+      }
+    }
   }
 }
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/geometry/vertex_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace strake::geometry {
+namespace {
+
+/// Up to this many points a walk over all is quicker.
+constexpr std::size_t kFew = 48;
+constexpr std::uint32_t kLeaf = 8;
+/// Halving 2^32 points takes 29 levels down to the leaves; a walk keeps one node a level.
+constexpr std::size_t kDepth = 40;
+
+double along(const Vec3d& n, const Vec3i& v) {
+  return n.x * static_cast<double>(v.x) + n.y * static_cast<double>(v.y) +
+         n.z * static_cast<double>(v.z);
+}
+
+/// No point of the box gives more: its far corner is summed in the same order, and rounding never
+/// changes the order of two numbers.
+double along(const Vec3d& n, const Box3i& box) {
+  return along(n, Vec3i{n.x < 0 ? box.lo.x : box.hi.x, n.y < 0 ? box.lo.y : box.hi.y,
+                        n.z < 0 ? box.lo.z : box.hi.z});
+}
+
+Box3i box_of(std::span<const Vec3i> points) {
+  Box3i box = empty_box<std::int32_t>();
+  for (const Vec3i& p : points) box.include(p);
+  return box;
+}
+
+int longest_axis(const Box3i& box) {
+  const Vec3l d = box.hi.as<std::int64_t>() - box.lo.as<std::int64_t>();
+  return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
+}
+
+}  // namespace
+
+VertexTree::VertexTree(std::span<const Vec3i> points) : points_(points.begin(), points.end()) {
+  if (points_.size() <= kFew) return;
+  struct Range {
+    std::uint32_t node, first, last;
+  };
+  nodes_.reserve(points_.size() / 2);
+  nodes_.push_back({box_of(points_), 0, 0});
+  std::vector<Range> todo{{0, 0, static_cast<std::uint32_t>(points_.size())}};
+  while (!todo.empty()) {
+    const Range range = todo.back();
+    todo.pop_back();
+    if (range.last - range.first <= kLeaf) {
+      nodes_[range.node].first = range.first;
+      nodes_[range.node].count = range.last - range.first;
+      continue;
+    }
+    const auto mine = std::span(points_).subspan(range.first, range.last - range.first);
+    const std::size_t half = mine.size() / 2;
+    const int axis = longest_axis(nodes_[range.node].box);
+    std::nth_element(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(half), mine.end(),
+                     [axis](const Vec3i& a, const Vec3i& b) { return a[axis] < b[axis]; });
+    const auto left = static_cast<std::uint32_t>(nodes_.size());
+    const auto middle = range.first + static_cast<std::uint32_t>(half);
+    nodes_[range.node].first = left;
+    nodes_.push_back({box_of(mine.first(half)), 0, 0});
+    nodes_.push_back({box_of(mine.subspan(half)), 0, 0});
+    todo.push_back({left + 1, middle, range.last});
+    todo.push_back({left, range.first, middle});
+  }
+}
+
+VertexTree::Extreme VertexTree::greatest_along(const Vec3d& n) const {
+  Extreme best{-std::numeric_limits<double>::infinity(), {}};
+  const auto walk = [&](std::span<const Vec3i> points) {
+    for (const Vec3i& p : points) {
+      const double value = along(n, p);
+      if (value > best.value) best = {value, p};
+    }
+  };
+  if (nodes_.empty()) {
+    walk(points_);
+    return best;
+  }
+  std::array<std::pair<std::uint32_t, double>, kDepth> stack;
+  std::size_t size = 0;
+  stack[size++] = {0, along(n, nodes_.front().box)};
+  while (size > 0) {
+    const auto [index, most] = stack[--size];
+    if (!(most > best.value)) continue;
+    const Node& node = nodes_[index];
+    if (node.count > 0) {
+      walk(std::span(points_).subspan(node.first, node.count));
+      continue;
+    }
+    std::pair near{node.first, along(n, nodes_[node.first].box)};
+    std::pair far{node.first + 1, along(n, nodes_[node.first + 1].box)};
+    if (far.second > near.second) std::swap(near, far);
+    stack[size++] = far;
+    stack[size++] = near;
+  }
+  return best;
+}
+
+}  // namespace strake::geometry
