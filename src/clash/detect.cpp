@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,6 +80,7 @@ class Engine {
     if (const Status s = plant_trees(); !s) return s.error();
     if (const Status s = first_look(); !s) return s.error();
     if (const Status s = depths(); !s) return s.error();
+    if (const Status s = distances(); !s) return s.error();
     finish(report);
     return report;
   }
@@ -125,16 +127,27 @@ class Engine {
   }
 
   Status first_look() {
-    const std::size_t blocks = (open_.size() + kGrain - 1) / kGrain;
-    const auto order = parallel::longest_first(blocks, [&](std::size_t block) {
-      std::size_t cost = 0;
-      for (std::size_t i = block * kGrain; i < std::min(open_.size(), (block + 1) * kGrain); ++i)
-        cost += triangles(pairs_[open_[i]]);
-      return cost;
+    return over(open_, "narrow phase", kGrain, [&](std::size_t i, const IndexPair& p) {
+      Candidate& c = candidates_[i];
+      const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
+      c.look = look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.separated, c.work);
     });
-    return parallel::for_each(
-        context_, {.name = "narrow phase", .n = open_.size(), .grain = kGrain, .order = order},
-        [&](std::size_t i) { look(open_[i]); });
+  }
+
+  /// Runs over some of the candidates, those with most triangles first.
+  template <class Work>
+  Status over(const std::vector<std::size_t>& some, std::string_view name, std::size_t grain,
+              Work&& work) {
+    const auto order =
+        parallel::longest_first((some.size() + grain - 1) / grain, [&](std::size_t block) {
+          std::size_t cost = 0;
+          for (std::size_t i = block * grain; i < std::min(some.size(), (block + 1) * grain); ++i)
+            cost += triangles(pairs_[some[i]]);
+          return cost;
+        });
+    return parallel::for_each(context_,
+                              {.name = name, .n = some.size(), .grain = grain, .order = order},
+                              [&](std::size_t i) { work(some[i], pairs_[some[i]]); });
   }
 
   [[nodiscard]] std::size_t triangles(const IndexPair& p) const {
@@ -142,26 +155,61 @@ class Engine {
            list_.parts[p.second].placed.part->triangles.size();
   }
 
-  void look(std::size_t i) {
-    const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
-    Candidate& c = candidates_[i];
-    c.look = look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.separated, c.work);
-  }
-
   Status depths() {
     std::vector<std::size_t> deep;
     for (const std::size_t i : open_)
-      if (candidates_[i].look.needs_depth) deep.push_back(i);
-    const auto order = parallel::longest_first(
-        deep.size(), [&](std::size_t i) { return triangles(pairs_[deep[i]]); });
-    return parallel::for_each(
-        context_, {.name = "depth", .n = deep.size(), .order = order}, [&](std::size_t i) {
-          Candidate& c = candidates_[deep[i]];
-          const IndexPair& p = pairs_[deep[i]];
-          const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
-          c.look.answer =
-              judge_depth(narrow_part(a), narrow_part(b), c.look, narrow_options(a, b), c.work);
-        });
+      if (candidates_[i].look.next == FirstLook::Next::depth) deep.push_back(i);
+    return over(deep, "depth", 1, [&](std::size_t i, const IndexPair& p) {
+      Candidate& c = candidates_[i];
+      const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
+      c.look.answer =
+          judge_depth(narrow_part(a), narrow_part(b), c.look, narrow_options(a, b), c.work);
+    });
+  }
+
+  /// How far apart the others are; where two objects meet, only as far as it could matter.
+  Status distances() {
+    std::vector<std::size_t> apart;
+    std::vector<double> reach(pairs_.size(), 0);
+    for (std::size_t first = 0; first < pairs_.size();) {
+      std::size_t end = first + 1;
+      while (end < pairs_.size() && same_objects(pairs_[first], pairs_[end])) ++end;
+      add_distances(first, end, apart, reach);
+      first = end;
+    }
+    return over(apart, "distance", kGrain, [&](std::size_t i, const IndexPair& p) {
+      Candidate& c = candidates_[i];
+      const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
+      c.look.answer =
+          judge_distance(narrow_part(a), narrow_part(b), narrow_options(a, b), reach[i], c.work);
+    });
+  }
+
+  /// The candidates of one pair of objects whose distance may show in its answer. Parts that meet
+  /// are more severe than parts that are apart, unless the sag of those hides that they meet too.
+  void add_distances(std::size_t first, std::size_t end, std::vector<std::size_t>& apart,
+                     std::vector<double>& reach) const {
+    bool hit = false, meeting = false;
+    for (std::size_t i = first; i < end; ++i) {
+      const PartAnswer& answer = candidates_[i].look.answer;
+      hit = hit || answer.judgement.cls == Class::hit;
+      meeting = meeting || (answer.judgement.cls >= Class::contact && answer.separation.d <= 0);
+    }
+    for (std::size_t i = first; i < end && !hit; ++i) {
+      if (candidates_[i].look.next != FirstLook::Next::distance) continue;
+      reach[i] = std::numeric_limits<double>::infinity();
+      if (meeting) {
+        const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
+        const Part &x = *a.placed.part, &y = *b.placed.part;
+        reach[i] = x.sag + y.sag - thresholds(x, y, narrow_options(a, b)).overlap;
+      }
+      if (reach[i] > 0) apart.push_back(i);
+    }
+  }
+
+  [[nodiscard]] bool same_objects(const IndexPair& p, const IndexPair& q) const {
+    return list_.parts[p.first].object == list_.parts[q.first].object &&
+           list_.parts[p.second].object == list_.parts[q.second].object;
   }
 
   [[nodiscard]] NarrowPart bare_part(const PartRef& p) const {
@@ -216,10 +264,7 @@ class Engine {
   void count_objects(Report& report) const {
     const IndexPair* last = nullptr;
     for (const IndexPair& p : pairs_) {
-      const bool same = last != nullptr &&
-                        list_.parts[last->first].object == list_.parts[p.first].object &&
-                        list_.parts[last->second].object == list_.parts[p.second].object;
-      if (!same) ++report.counters.candidate_pairs;
+      if (last == nullptr || !same_objects(*last, p)) ++report.counters.candidate_pairs;
       last = &p;
     }
     report.objects_a =

@@ -149,12 +149,16 @@ class PairOfParts {
       look.answer = analytic(*form);
       return look;
     }
-    if (look.meeting.meeting == Meeting::apart)
-      apart(look.answer);
-    else
-      look.needs_depth = true;
-    conclude(look.answer);
+    look.next =
+        look.meeting.meeting == Meeting::apart ? FirstLook::Next::distance : FirstLook::Next::depth;
     return look;
+  }
+
+  PartAnswer distance(double reach) {
+    PartAnswer answer;
+    apart(reach, answer);
+    conclude(answer);
+    return answer;
   }
 
   PartAnswer depth(const FirstLook& look) {
@@ -165,10 +169,10 @@ class PairOfParts {
   }
 
  private:
-  void apart(PartAnswer& answer) {
-    const double reach = std::max(thresholds_.gap, thresholds_.clearance);
+  void apart(double limit, PartAnswer& answer) {
     // A unit more than the reach: what lies exactly at a threshold is for judge() to see.
-    const auto near = geometry::closest(a_, b_, reach + 1, work_.pair);
+    const double reach = std::min(limit, std::max(thresholds_.gap, thresholds_.clearance)) + 1;
+    const auto near = geometry::closest(a_, b_, reach, work_.pair);
     if (!near) {
       answer.separation = separated_by(std::numeric_limits<double>::infinity());
       return;
@@ -305,6 +309,14 @@ FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions&
   FirstLook look = PairOfParts(b, a, options, work).look(separated);
   turn(look.answer, a, b);
   return look;
+}
+
+PartAnswer judge_distance(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
+                          double reach, NarrowWork& work) {
+  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).distance(reach);
+  PartAnswer answer = PairOfParts(b, a, options, work).distance(reach);
+  turn(answer, a, b);
+  return answer;
 }
 
 PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b, const FirstLook& look,

@@ -52,20 +52,26 @@ struct NarrowWork {
 [[nodiscard]] std::optional<PartAnswer> judge_flush(const NarrowPart& a, const NarrowPart& b,
                                                     const NarrowOptions& options, bool& separated);
 
-/// What one exact look at a pair decides. Most pairs are done with it; where interiors meet the
-/// answer waits for the depth.
+/// What one exact look at a pair decides, and what is left to ask.
 struct FirstLook {
-  PartAnswer answer;
+  enum class Next : std::uint8_t { nothing, distance, depth };
+  PartAnswer answer;                ///< where nothing is left to ask
   geometry::MeetingResult meeting;  ///< in canonical order of the two
   double gap = 0;                   ///< a certain lower bound on their signed separation
-  bool needs_depth = false;
+  Next next = Next::nothing;
 };
 
-/// Class, relation, separation and witness of two parts, but for the depth of those whose
-/// interiors meet. Swapping the parts mirrors the relation and moves the witness to the other
-/// origin; every other bit of an answer stays the same.
+/// Class, relation, separation and witness of two parts, but for the distance of those that are
+/// apart and the depth of those whose interiors meet. Swapping the parts mirrors the relation and
+/// moves the witness to the other origin; every other bit of an answer stays the same.
 [[nodiscard]] FirstLook look_at(const NarrowPart& a, const NarrowPart& b,
                                 const NarrowOptions& options, bool separated, NarrowWork& work);
+
+/// The answer for a pair that is apart, if nearer than `reach` and than anybody asked; otherwise
+/// it is NO_HIT.
+[[nodiscard]] PartAnswer judge_distance(const NarrowPart& a, const NarrowPart& b,
+                                        const NarrowOptions& options, double reach,
+                                        NarrowWork& work);
 
 /// The answer for a pair that needs its depth.
 [[nodiscard]] PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b,
