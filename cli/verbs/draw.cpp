@@ -136,13 +136,23 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
 
 Status write_drawing(Session& session, const DrawOptions& given,
                      const drawing::NeutralDrawing& drawing, const model::Model& model) {
-  const drawing::SvgOptions svg{.hidden = given.hidden == "dashed"};
+  const drawing::InkOptions options{.hidden = given.hidden != "off" && !given.hidden.empty(),
+                                    .clean_up = given.hidden != "all"};
+  const bool svg = std::any_of(given.outputs.begin(), given.outputs.end(),
+                               [](const std::string& file) { return suffix_of(file) == ".svg"; });
+  drawing::Ink ink;
+  if (svg) {
+    const auto timer = session.step("ink");
+    Result<drawing::Ink> chosen = drawing::choose_ink(drawing, options, session.context());
+    if (!chosen) return chosen.error();
+    ink = std::move(*chosen);
+  }
   for (const std::string& file : given.outputs) {
     const Status status = session.write(file, [&](Session::Sink sink) {
       if (suffix_of(file) == ".json") {
         drawing::write_view_json(drawing, model, sink);
       } else {
-        drawing::write_svg(drawing, model, svg, sink);
+        drawing::write_svg(drawing, ink, model, sink);
       }
     });
     if (!status) return status;
@@ -185,7 +195,7 @@ Result<drawing::NeutralDrawing> compute(Session& session, const Request& request
   }();
   if (!lines) return lines.error();
   const auto timer = session.step("layout");
-  return drawing::lay_out(*lines, *scene.model, request.layout);
+  return drawing::lay_out(*lines, *scene.model, request.layout, session.context());
 }
 
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
@@ -241,8 +251,9 @@ void add_view(CLI::App& command, DrawOptions& options) {
 }
 
 void add_lines(CLI::App& command, DrawOptions& options) {
-  add_choice(command, "--hidden", options.hidden, {"off", "dashed"},
-             "Hidden lines in the SVG (default off)")
+  add_choice(command, "--hidden", options.hidden, {"off", "dashed", "all"},
+             "Hidden lines in the SVG: none, dashed where no line runs beside them, or all "
+             "(default off)")
       ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")

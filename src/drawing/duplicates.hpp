@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "drawing/paper.hpp"
+#include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::drawing {
 
@@ -15,9 +17,13 @@ namespace strake::drawing {
 /// stretch, the visible one stays, then the nearer to the viewer, then that of the lowest object
 /// and edge. Lines that are drawn nowhere (projecting, clipped) take no part. The order of lines
 /// stays; the parts of a split line follow each other from a to b.
-///
-/// Cost: lines that share a cell of a grid over the view are compared with each other.
-[[nodiscard]] std::vector<Line> mark_duplicates(std::vector<Line> lines, const PaperAxes& axes,
-                                                double distance_mm);
+[[nodiscard]] Result<std::vector<Line>> mark_duplicates(std::vector<Line> lines,
+                                                        const PaperAxes& axes, double distance_mm,
+                                                        const parallel::Context& context);
+
+[[nodiscard]] bool is_hidden(LineState state);
+
+/// The part of a line between two parameters, 0 at a and 1 at b.
+[[nodiscard]] Line part_of(const Line& line, double from, double to);
 
 }  // namespace strake::drawing

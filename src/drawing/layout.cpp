@@ -102,7 +102,7 @@ Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
 }  // namespace
 
 Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
-                               const LayoutOptions& options) {
+                               const LayoutOptions& options, const parallel::Context& context) {
   const auto axes = paper_axes(drawing.view);
   if (!axes)
     return Error{ErrorCode::usage, "the upward direction is parallel to the view direction", "",
@@ -128,9 +128,12 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
                          geometry::to_mm(piece.a), geometry::to_mm(piece.b),
                          projector.on_paper(piece.a), projector.on_paper(piece.b)});
   // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
-  if (options.remove_duplicates)
-    out.lines = mark_duplicates(std::move(out.lines), *axes,
-                                std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid));
+  if (options.remove_duplicates) {
+    const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);
+    auto lines = mark_duplicates(std::move(out.lines), *axes, distance, context);
+    if (!lines) return lines.error();
+    out.lines = std::move(*lines);
+  }
   for (const Line& line : out.lines) ++out.count[static_cast<std::size_t>(line.state)];
   return out;
 }

@@ -10,6 +10,8 @@
 
 #include "drawing/chains.hpp"
 #include "drawing/chunked.hpp"
+#include "drawing/duplicates.hpp"
+#include "drawing/pens.hpp"
 #include "strake/core/number.hpp"
 #include "strake/drawing/write.hpp"
 
@@ -38,44 +40,12 @@ constexpr std::array<Layer, 10> kLayers = {{
     {false, hlr::EdgeKind::contour, "Visible outline"},
 }};
 
-bool is_hidden(LineState state) {
-  return state == LineState::hidden_by_self || state == LineState::hidden_by_other;
-}
-
 bool belongs(const Line& line, const Layer& layer) {
   if (line.kind != layer.kind) return false;
   return layer.hidden ? is_hidden(line.state) : line.state == LineState::visible;
 }
 
-/// Line widths of ISO 128-20, wide and narrow one to two, with a middle one for edges.
-struct Weights {
-  double wide, middle, narrow;
-};
-
-/// The line group by how much of the drawn area ink of middle width would cover: a dense drawing
-/// in wide lines is a black patch.
-Weights choose_weights(const NeutralDrawing& drawing) {
-  double length = 0, left = 1e300, right = -1e300, top = 1e300, bottom = -1e300;
-  for (const Line& line : drawing.lines) {
-    if (line.state != LineState::visible) continue;
-    const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
-    length += std::sqrt(dx * dx + dy * dy);
-    for (const PaperPoint& p : {line.a_paper, line.b_paper}) {
-      left = std::min(left, p.x);
-      right = std::max(right, p.x);
-      top = std::min(top, p.y);
-      bottom = std::max(bottom, p.y);
-    }
-  }
-  const double area = length > 0 ? std::max(right - left, 1.0) * std::max(bottom - top, 1.0) : 1;
-  const double ink = length * 0.35 / area;
-  if (ink > 0.25) return {0.18, 0.13, 0.09};
-  if (ink > 0.12) return {0.25, 0.18, 0.13};
-  if (ink > 0.05) return {0.35, 0.25, 0.18};
-  return {0.5, 0.35, 0.25};
-}
-
-void write_style(Chunked& out, const Weights& w) {
+void write_style(Chunked& out, const Pens& pens) {
   // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
   out << fmt::format(
       "<style>\n"
@@ -91,13 +61,13 @@ void write_style(Chunked& out, const Weights& w) {
       "text {{ font-family: sans-serif; font-size: 3.5px; }}\n"
       ".frame path {{ stroke-width: {2}; }}\n"
       "</style>\n",
-      w.wide, w.middle, w.narrow, shortest(std::round(w.narrow * 1200) / 100),
-      shortest(std::round(w.narrow * 300) / 100));
+      pens.outline, pens.edge, pens.thin, shortest(std::round(pens.thin * kDash * 100) / 100),
+      shortest(std::round(pens.thin * kDashGap * 100) / 100));
 }
 
 std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-void write_head(Chunked& out, const NeutralDrawing& drawing) {
+void write_head(Chunked& out, const NeutralDrawing& drawing, const Ink& ink) {
   const Sheet& sheet = drawing.sheet;
   const std::string width = shortest(sheet.width_mm), height = shortest(sheet.height_mm);
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -119,7 +89,7 @@ void write_head(Chunked& out, const NeutralDrawing& drawing) {
     std::replace(name.begin(), name.end(), '_', '-');
     out << fmt::format(" {}=\"{}\"", name, drawing.count[s]);
   }
-  out << "/>\n</drawing>\n</metadata>\n";
+  out << fmt::format(" hidden-left-out=\"{}\"", ink.left_out) << "/>\n</drawing>\n</metadata>\n";
 }
 
 void append_point(std::string& out, const PaperPoint& p) {
@@ -149,10 +119,9 @@ void write_object(Chunked& out, const model::Model& model, std::span<const Line*
   out << "\"/></g>\n";
 }
 
-void write_layer(Chunked& out, const NeutralDrawing& drawing, const model::Model& model,
-                 const Layer& layer) {
+void write_layer(Chunked& out, const Ink& ink, const model::Model& model, const Layer& layer) {
   std::vector<const Line*> lines;
-  for (const Line& line : drawing.lines)
+  for (const Line& line : ink.lines)
     if (belongs(line, layer)) lines.push_back(&line);
   if (lines.empty()) return;
   const std::string_view state = layer.hidden ? "hidden" : "visible";
@@ -182,17 +151,16 @@ void write_title(Chunked& out, const NeutralDrawing& drawing) {
 
 }  // namespace
 
-void write_svg(const NeutralDrawing& drawing, const model::Model& model, const SvgOptions& options,
+void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model,
                Sink sink) {
   Chunked out(sink);
-  write_head(out, drawing);
-  write_style(out, choose_weights(drawing));
+  write_head(out, drawing, ink);
+  write_style(out, ink.pens);
   out << fmt::format("<rect class=\"sheet\" width=\"{}\" height=\"{}\"/>\n",
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
-  for (const Layer& layer : kLayers)
-    if (options.hidden || !layer.hidden) write_layer(out, drawing, model, layer);
+  for (const Layer& layer : kLayers) write_layer(out, ink, model, layer);
   out << "</g>\n";
   write_title(out, drawing);
   out << "</svg>\n";

@@ -13,6 +13,7 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::drawing {
 
@@ -83,6 +84,7 @@ struct NeutralDrawing {
 /// Puts a finished hidden-line run on paper: axes from direction and up, the scale, the sheet.
 /// Deterministic: + - * / and sqrt only.
 [[nodiscard]] Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
-                                             const LayoutOptions& options);
+                                             const LayoutOptions& options,
+                                             const parallel::Context& context);
 
 }  // namespace strake::drawing

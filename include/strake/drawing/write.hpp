@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "strake/drawing/drawing.hpp"
+#include "strake/drawing/ink.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/function_ref.hpp"
 
@@ -12,14 +13,9 @@ namespace strake::drawing {
 /// Takes text in pieces of some kilobytes, in order: AtomicFile::write, a string's append.
 using Sink = parallel::FunctionRef<void(std::string_view)>;
 
-struct SvgOptions {
-  bool hidden = false;  ///< draw hidden lines, dashed; otherwise leave them out
-};
-
 /// SVG in millimetres of paper: one Inkscape layer per class of line, in each one group per object
 /// (data-id, data-name) with one path, styles once. Neither time nor path of this run is written.
-void write_svg(const NeutralDrawing& drawing, const model::Model& model, const SvgOptions& options,
-               Sink sink);
+void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model, Sink sink);
 
 /// The neutral drawing as JSON, documented in schemas/view.schema.json.
 void write_view_json(const NeutralDrawing& drawing, const model::Model& model, Sink sink);

@@ -53,15 +53,16 @@ hlr::Drawing from_top(std::vector<hlr::Piece> pieces) {
 }
 
 NeutralDrawing laid_out(const hlr::Drawing& drawing, const LayoutOptions& options = {}) {
-  auto result = lay_out(drawing, two_objects(), options);
+  auto result = lay_out(drawing, two_objects(), options, {});
   EXPECT_TRUE(result) << result.error().text();
   return std::move(result).value();
 }
 
 std::string svg_of(const NeutralDrawing& drawing, bool hidden = true) {
   std::string text;
-  write_svg(drawing, two_objects(), {.hidden = hidden},
-            [&](std::string_view part) { text += part; });
+  const auto ink = choose_ink(drawing, {.hidden = hidden}, {});
+  EXPECT_TRUE(ink);
+  if (ink) write_svg(drawing, *ink, two_objects(), [&](std::string_view part) { text += part; });
   return text;
 }
 
@@ -148,7 +149,7 @@ TEST(Layout, ScalesAndSheets) {
   stated.scale = 0.5;
   EXPECT_EQ(laid_out(rectangle(), stated).sheet.scale_text, "2:1");
   stated.scale = 0;
-  EXPECT_FALSE(lay_out(ship, two_objects(), stated));
+  EXPECT_FALSE(lay_out(ship, two_objects(), stated, {}));
   EXPECT_EQ(laid_out(from_top({})).sheet.scale_text, "1:1");
 }
 
@@ -169,7 +170,7 @@ TEST(Layout, AMoveOfTheModelDoesNotMoveTheDrawing) {
 TEST(Layout, UpParallelToTheDirectionIsAnError) {
   hlr::Drawing drawing = rectangle();
   drawing.view.up = {0, 0, 2};
-  EXPECT_EQ(lay_out(drawing, two_objects(), {}).error().code, ErrorCode::usage);
+  EXPECT_EQ(lay_out(drawing, two_objects(), {}, {}).error().code, ErrorCode::usage);
 }
 
 TEST(Duplicates, TheVisibleThenTheNearestStays) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::drawing {
+
+struct InkOptions {
+  bool hidden = false;  ///< draw hidden lines, dashed; otherwise leave them out
+  /// Leave out what of a hidden line runs along a visible line, or a nearer hidden one, so close
+  /// on paper that their ink touches: two dashed lines out of step look like a third, solid one.
+  bool clean_up = true;
+};
+
+/// Widths of lines, millimetres of paper (the line groups of ISO 128).
+struct Pens {
+  double outline = 0.5, edge = 0.35, thin = 0.25;
+};
+
+/// What of a drawing gets ink on paper, and how wide.
+struct Ink {
+  Pens pens;
+  std::vector<Line> lines;     ///< visible or hidden, in the order of the drawing
+  std::uint64_t left_out = 0;  ///< hidden lines of which some or all was left out
+};
+
+/// Chooses pens by how dense the drawing is where its lines are (a dense drawing in wide lines is a
+/// black patch), and what is worth drawing with them. Visible lines are never left out.
+[[nodiscard]] Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
+                                     const parallel::Context& context);
+
+}  // namespace strake::drawing
