@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstddef>
 
+#include "strake/core/text.hpp"
+
 namespace strake::cli {
 
 namespace {
@@ -42,7 +44,7 @@ void Console::put(std::string_view line) {
 
 void Console::say(std::string_view line) {
   const std::lock_guard lock(mutex_);
-  if (!quiet_) put(line);
+  if (!quiet_) put(printable(line));
 }
 
 void Console::print(std::string_view line) {
@@ -52,7 +54,7 @@ void Console::print(std::string_view line) {
 
 void Console::error(std::string_view line) {
   const std::lock_guard lock(mutex_);
-  put("strake: error: " + std::string(line));
+  put("strake: error: " + printable(line));
 }
 
 void Console::show_status(std::string_view line) {

@@ -7,7 +7,8 @@
 
 namespace strake::cli {
 
-/// Standard error, shared by narration, errors and the progress line. Thread-safe.
+/// Standard error, shared by narration, errors and the progress line. Thread-safe. What is said may
+/// hold names out of files: characters that command a terminal are shown as '?'.
 class Console {
  public:
   Console();

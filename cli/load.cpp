@@ -13,6 +13,13 @@
 
 namespace strake::cli {
 
+namespace {
+
+/// Corners closer than the grid's spacing cannot be told apart.
+constexpr double kFinestSagMm = 0.001;
+
+}  // namespace
+
 void add_scene_options(CLI::App& command, SceneInput& options, const std::string& default_sag) {
   command
       .add_option(
@@ -38,20 +45,23 @@ Result<model::SceneOptions> scene_options(const SceneInput& input, double defaul
   if (!sag) return sag.error();
   if (*sag <= 0)
     return Error{ErrorCode::usage, "the sag must be positive", "--sag", "write a length, as 0.5mm"};
+  if (*sag < kFinestSagMm)
+    return Error{ErrorCode::usage, "'" + input.sag + "' is finer than the grid of 1um", "--sag",
+                 "write 1um or more"};
   options.sag_mm = *sag;
   return options;
 }
 
 void tell(Console& console, const Diagnostics& diagnostics) {
   for (const Diagnostics::Count& count : diagnostics.counts()) {
-    std::string line =
-        fmt::format("{} {} ({})", severity_name(count.severity), count.code, count.count);
+    std::string line = fmt::format("{} {}", severity_name(count.severity), count.code);
+    if (count.count > 1) line += fmt::format(", first of {}", count.count);
     const auto& kept = diagnostics.kept();
     const auto first = std::find_if(kept.begin(), kept.end(),
                                     [&](const Diagnostic& d) { return d.code == count.code; });
     if (first != kept.end())
-      line += fmt::format(": {}{}{}{}", first->where, first->where.empty() ? "" : ": ",
-                          first->message, count.count > 1 ? " ..." : "");
+      line +=
+          fmt::format(": {}{}{}", first->where, first->where.empty() ? "" : ": ", first->message);
     console.say(line);
   }
 }

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <string>
@@ -40,7 +43,42 @@ int run_verb(const Verb& verb, const CommonOptions& common, Console& console) {
   return static_cast<int>(exit_code_of(outcome.error().code));
 }
 
+/// What is wrong with the command line, in the words of this program rather than its parser's.
+std::string in_words(const CLI::App& program, const CLI::ParseError& error) {
+  const std::string said = error.what();
+  const std::vector<std::string> strange = program.remaining();
+  if (program.get_subcommands().empty() && !strange.empty())
+    return "there is no verb '" + strange.front() + "'";
+  const std::string option = said.substr(0, said.find(": "));
+  if (error.get_name() == "RequiredError") {
+    if (said.starts_with("A subcommand")) return "no verb is given";
+    if (said.starts_with("files")) return "no model file is given";
+  }
+  if (error.get_name() == "ArgumentMismatch" && option != said) {
+    if (said.find("missing") != std::string::npos) return option + " wants a value";
+    return option + " is given more than once";
+  }
+  return said;
+}
+
+int usage_error(const CLI::App& program, const CLI::ParseError& error, Console& console) {
+  std::string verb;
+  for (auto used = program.get_subcommands(); !used.empty(); used = used.front()->get_subcommands())
+    verb += " " + used.front()->get_name();
+  console.error(in_words(program, error) + " ('strake" + verb + " --help' tells what there is)");
+  return static_cast<int>(ExitCode::usage);
+}
+
+/// A standard stream that was closed is opened on nothing, and for the other direction, so that no
+/// file of ours takes its number and becomes where messages go; using it still fails.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0)
+      (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 int run(int argc, char** argv) {
+  occupy_standard_streams();
   Console console;
   CLI::App program("Exact clash detection and hidden-line drawings of ship and plant models.",
                    "strake");
@@ -56,13 +94,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& wanted) {  // --help, --version
     return program.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    const auto used = program.get_subcommands();
-    const std::string verb = used.empty() ? "" : " " + used.front()->get_name();
-    const std::vector<std::string> strange = program.remaining();
-    const std::string what = used.empty() && !strange.empty()
-                                 ? "there is no verb '" + strange.front() + "'"
-                                 : std::string(error.what());
-    console.error(what + " ('strake" + verb + " --help' tells what there is)");
+    return usage_error(program, error, console);
+  }
+  if (const Status status = check_no_empty_values(program); !status) {
+    console.error(status.error().text());
     return static_cast<int>(ExitCode::usage);
   }
   for (const Verb& verb : verbs)

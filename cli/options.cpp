@@ -16,8 +16,35 @@ namespace strake::cli {
 
 namespace {
 
+/// Far beyond any tolerance that a user can mean.
+constexpr double kLongestMm = 1e6;
+
 Error usage(std::string message, std::string option, std::string mend) {
   return {ErrorCode::usage, std::move(message), std::move(option), std::move(mend)};
+}
+
+/// Whether two names lead to one file, which need not be there yet.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error) && !error) return true;
+  const auto full = [&](const std::filesystem::path& path) {
+    const auto whole = std::filesystem::absolute(path, error);
+    return error ? path : std::filesystem::weakly_canonical(whole, error);
+  };
+  return full(a) == full(b);
+}
+
+Status check_place(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path folder = fs::path(file).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, error))
+    return Error{ErrorCode::output, "cannot be written: there is no such folder", file,
+                 "make the folder first"};
+  if (fs::is_directory(file, error))
+    return Error{ErrorCode::output, "cannot be written: it is a folder", file,
+                 "give the name of a file"};
+  return {};
 }
 
 }  // namespace
@@ -59,6 +86,7 @@ void add_output_option(CLI::App& command, std::vector<std::string>& files,
   command.add_option("-o,--output", files, what)
       ->type_name("FILE")
       ->expected(1)
+      ->allow_extra_args(false)  // what follows the file is the next model
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Output");
 }
@@ -122,19 +150,46 @@ std::string suffix_of(const std::string& file) {
 }
 
 Status check_outputs(const std::vector<std::string>& files,
-                     const std::vector<std::string>& suffixes) {
+                     const std::vector<std::string>& suffixes,
+                     const std::vector<std::string>& inputs) {
   std::string list;
   for (const std::string& suffix : suffixes) list += (list.empty() ? "" : " or ") + suffix;
-  for (const std::string& file : files) {
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    const std::string& file = files[f];
     const std::string suffix = suffix_of(file);
     if (std::find(suffixes.begin(), suffixes.end(), suffix) == suffixes.end())
       return usage("the format of '" + file + "' is not known", "-o", "end its name in " + list);
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    std::error_code error;
-    if (!folder.empty() && !std::filesystem::is_directory(folder, error))
-      return Error{ErrorCode::output, "cannot be written: there is no such folder", file,
-                   "make the folder first"};
+    for (const std::string& input : inputs)
+      if (same_file(file, input))
+        return usage("'" + file + "' is one of the models and would be overwritten", "-o",
+                     "give another name");
+    for (std::size_t g = 0; g < f; ++g)
+      if (same_file(file, files[g]))
+        return usage("'" + file + "' is given twice", "-o", "give each output its own name");
+    if (Status status = check_place(file); !status) return status;
   }
+  return {};
+}
+
+Status length_option(double& value, const std::string& text, const std::string& option) {
+  if (text.empty()) return {};
+  const Result<double> length = quantity(text, option, parse_length_mm);
+  if (!length) return length.error();
+  if (*length < 0) return usage("'" + text + "' is negative", option, "write 0 or more");
+  if (*length > kLongestMm)
+    return usage("'" + text + "' is longer than a kilometre", option, "write 1km or less");
+  value = *length;
+  return {};
+}
+
+Status check_no_empty_values(const CLI::App& command) {
+  for (const CLI::Option* const option : command.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty())
+        return usage("the value is empty", option->get_positional() ? "FILE" : option->get_name(),
+                     "give a value, or leave the option out");
+  for (const CLI::App* const inner : command.get_subcommands())
+    if (Status status = check_no_empty_values(*inner); !status) return status;
   return {};
 }
 

@@ -40,6 +40,10 @@ void add_output_option(CLI::App& command, std::vector<std::string>& files, const
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                         const std::vector<std::string>& words, const std::string& help);
 
+/// An error where an option of the command, or of the one within it, was given an empty value: an
+/// unset variable of a script is no default.
+[[nodiscard]] Status check_no_empty_values(const CLI::App& command);
+
 /// The number of workers asked for, or the machine's own.
 [[nodiscard]] Result<unsigned> worker_count(const CommonOptions& options);
 [[nodiscard]] Result<io::ReadOptions> read_options(const InputOptions& options);
@@ -50,9 +54,14 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
                                                       const std::string& example);
 /// The suffix of a file name in lower case, ".svg".
 [[nodiscard]] std::string suffix_of(const std::string& file);
-/// Whether every file ends in one of the suffixes and can be written where it is to stand.
+/// Whether every file ends in one of the suffixes and can be written where it is to stand, and is
+/// neither one of `inputs` nor named twice.
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& files,
-                                   const std::vector<std::string>& suffixes);
+                                   const std::vector<std::string>& suffixes,
+                                   const std::vector<std::string>& inputs);
+/// A length that is an option of the command line: overwrites `value` where it was given.
+[[nodiscard]] Status length_option(double& value, const std::string& text,
+                                   const std::string& option);
 
 /// A length, angle or scale by its own parser, with the option named in the error.
 [[nodiscard]] Result<double> quantity(const std::string& text, const std::string& option,

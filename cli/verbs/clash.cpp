@@ -12,7 +12,6 @@
 
 #include "cli/load.hpp"
 #include "cli/verb.hpp"
-#include "strake/core/units.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::cli {
@@ -27,17 +26,6 @@ struct ClashOptions {
   bool self = false;
   std::vector<std::string> outputs;
 };
-
-/// Overwrites `value` where the option was given.
-Status length_option(double& value, const std::string& text, const std::string& option) {
-  if (text.empty()) return {};
-  const Result<double> length = quantity(text, option, parse_length_mm);
-  if (!length) return length.error();
-  if (*length < 0)
-    return Error{ErrorCode::usage, "'" + text + "' is negative", option, "write 0 or more"};
-  value = *length;
-  return {};
-}
 
 Result<clash::Options> engine_options(const ClashOptions& given) {
   clash::Options options;
@@ -119,7 +107,8 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (!options) return options.error();
   const auto scene_settings = scene_options(given.scene, clash::scene_options(*options).sag_mm);
   if (!scene_settings) return scene_settings.error();
-  if (const Status status = check_outputs(given.outputs, {".json", ".csv"}); !status)
+  if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, given.input.files);
+      !status)
     return status.error();
   const Result<Loaded> loaded = load(session, given.input, *scene_settings);
   if (!loaded) return loaded.error();

@@ -41,7 +41,7 @@ Result<geometry::Vec3l> direction_of(const std::string& text, const std::string&
     return error;
   }
   const geometry::Vec3l& v = parsed->vector;
-  if (parsed->rounded)
+  if (parsed->rounded && parsed->rounding_error > 0)
     console.say(fmt::format("{} {} is taken as {},{},{}, off by {:.1e} rad", option, text, v.x, v.y,
                             v.z, parsed->rounding_error));
   return v;
@@ -75,6 +75,9 @@ Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
     if (!up) return up.error();
     view.up = *up;
   }
+  if (!drawing::can_be_up(view.up, view.direction))
+    return Error{ErrorCode::usage, "'" + given.up + "' is parallel to the view direction", "--up",
+                 "give a direction that shows on paper"};
   if (!given.limits.empty()) {
     const Result<geometry::Box3l> limits = limits_of(given.limits);
     if (!limits) return limits.error();
@@ -96,14 +99,10 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
                    "--sharp-angle", "write 0deg to 180deg"};
     options.sharp_angle_deg = *angle;
   }
-  if (!given.contact_distance.empty()) {
-    const auto length = quantity(given.contact_distance, "--contact-distance", parse_length_mm);
-    if (!length) return length.error();
-    if (*length < 0)
-      return Error{ErrorCode::usage, "'" + given.contact_distance + "' is negative",
-                   "--contact-distance", "write 0 or more"};
-    options.contact_distance_mm = *length;
-  }
+  if (const Status status =
+          length_option(options.contact_distance_mm, given.contact_distance, "--contact-distance");
+      !status)
+    return status.error();
   return options;
 }
 
@@ -132,6 +131,20 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
   for (std::size_t s = 0; s < drawing::kLineStates; ++s)
     stats.count(fmt::format("lines {}", drawing::state_name(static_cast<drawing::LineState>(s))),
                 drawing.count[s]);
+}
+
+void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing) {
+  const auto of = [&](drawing::LineState state) {
+    return drawing.count[static_cast<std::size_t>(state)];
+  };
+  const std::uint64_t visible = of(drawing::LineState::visible);
+  console.say(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
+                          drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
+                          drawing.sheet.height_mm));
+  if (visible > 0) return;
+  console.say(of(drawing::LineState::clipped) > 0
+                  ? "warning empty-sheet: nothing lies within the limits"
+                  : "warning empty-sheet: the model has nothing to draw");
 }
 
 Status write_drawing(Session& session, const DrawOptions& given,
@@ -203,18 +216,15 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   if (!request) return request.error();
   if (given.outputs.empty() && !session.json())
     return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
-  if (const Status status = check_outputs(given.outputs, {".svg", ".json"}); !status)
+  if (const Status status = check_outputs(given.outputs, {".svg", ".json"}, given.input.files);
+      !status)
     return status.error();
   const Result<Loaded> loaded = load(session, given.input, request->scene);
   if (!loaded) return loaded.error();
   const Result<drawing::NeutralDrawing> drawing = compute(session, *request, loaded->scene);
   if (!drawing) return drawing.error();
   count_work(session.stats(), *drawing);
-  const std::uint64_t visible =
-      drawing->count[static_cast<std::size_t>(drawing::LineState::visible)];
-  session.console().say(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
-                                    drawing->lines.size(), drawing->sheet.scale_text,
-                                    drawing->sheet.width_mm, drawing->sheet.height_mm));
+  tell_drawing(session.console(), *drawing);
   if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
     return status.error();
   return outcome(given.input, *loaded);
@@ -246,6 +256,7 @@ void add_view(CLI::App& command, DrawOptions& options) {
                   "be repeated")
       ->type_name("GLOB")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("View");
 }
@@ -294,7 +305,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   command->footer(R"(
 Examples:
   strake draw platform.rvm --view iso --hidden dashed -o platform.svg
-  strake draw ship.glb --direction 1,-2,1 --up 0,0,1 --scale 1:100 -o cut.svg
+  strake draw ship.glb --direction 1,-2,1 --up 0,0,1 --scale 1:100 -o cut.svg \
       --limits 0,-5000,0,20000,5000,8000
   strake draw ship.glb --select 'PIPE*' --view top -o pipes.svg -o pipes.json)");
   return {command, [options](Session& session) { return run_draw(session, *options); }};

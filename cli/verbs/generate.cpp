@@ -47,7 +47,7 @@ Status whole_number(std::uint64_t& value, const std::string& text, const std::st
   const auto number = parse_integer(text);
   if (!number || *number < 0)
     return Error{ErrorCode::usage, "'" + text + "' is no whole number", option,
-                 "write digits only, as 20000"};
+                 "write digits only, as 20000, up to 9223372036854775807"};
   value = static_cast<std::uint64_t>(*number);
   return {};
 }
@@ -68,9 +68,10 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
   if (const Status s = whole_number(options.objects, given.objects, "--objects"); !s)
     return s.error();
   if (const Status s = whole_number(options.seed, given.seed, "--seed"); !s) return s.error();
-  if (const Status s = check_outputs({given.output}, {".glb", ".obj"}); !s) return s.error();
+  if (const Status s = check_outputs({given.output}, {".glb", ".obj"}, {}); !s) return s.error();
   if (!given.truth.empty())
-    if (const Status s = check_outputs({given.truth}, {".json"}); !s) return s.error();
+    if (const Status s = check_outputs({given.truth}, {".json"}, {given.output}); !s)
+      return s.error();
   const Result<generate::Ship> ship = [&] {
     const auto timer = session.step("generate");
     return generate::generate_ship(options, session.context());
@@ -80,13 +81,15 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
       fmt::format("a ship section of {} objects, seed {}; {} pairs touch or clash",
                   ship->model.objects.size(), ship->options.seed, ship->truth.pairs.size()));
   if (const Status s = write_model(session, ship->model, given.output); !s) return s.error();
-  if (given.truth.empty()) return ExitCode::done;
-  const Status written = session.write(given.truth, [&](Session::Sink sink) {
+  const auto truth = [&](Session::Sink sink) {
     SinkBuffer buffer(sink);
     std::ostream out(&buffer);
     generate::write_truth(*ship, out);
-  });
-  if (!written) return written.error();
+  };
+  if (!given.truth.empty())
+    if (const Status s = session.write(given.truth, truth); !s) return s.error();
+  if (session.json())
+    if (const Status s = session.write_stdout(truth); !s) return s.error();
   return ExitCode::done;
 }
 
@@ -118,6 +121,7 @@ Verb add_generate(CLI::App& program, CommonOptions& common) {
                    "(.json)")
       ->type_name("FILE");
   add_common_options(*command, common);
+  group->footer("\n'strake generate ship --help' tells its options.");
   command->footer(R"(
 Example:
   strake generate ship --objects 20000 --seed 1 -o ship.glb --truth ship.truth.json)");

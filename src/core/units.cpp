@@ -22,6 +22,8 @@ constexpr std::array<std::pair<std::string_view, double>, 26> kUnits{{
     {"foot", 304.8},    {"feet", 304.8},
 }};
 constexpr std::string_view kUnitNames = "um, mm, cm, dm, m, km, in or ft";
+/// Scales beyond these are slips of the pen, and their sheets no paper.
+constexpr double kLargestBlowUp = 1e-6, kLargestReduction = 1e9;
 constexpr double kDegPerRad = 57.29577951308232;
 
 std::string_view trimmed(std::string_view text) {
@@ -94,7 +96,9 @@ Result<double> parse_scale(std::string_view text) {
     const auto real = parse_number(trimmed(text.substr(colon + 1)));
     if (paper && real && *paper > 0 && *real > 0) {
       const double scale = *real / *paper;
-      if (std::isfinite(scale) && scale > 0) return scale;
+      if (scale >= kLargestBlowUp && scale <= kLargestReduction) return scale;
+      return usage("no scale for a sheet of paper: " + quoted(text),
+                   "write 1:50, say; 1000000:1 to 1:1000000000 can be drawn");
     }
   }
   return usage("no scale: " + quoted(text), "write paper to model, as 1:50");

@@ -42,6 +42,12 @@ double usual_scale(const PlaneBox& box, const Size& space) {
   }
 }
 
+/// Without the last digits that division leaves: 49:1 is kept as 1/49, and 1 over that is not 49.
+double neat(double value) {
+  const double rounded = std::nearbyint(value * 1e6) / 1e6;
+  return std::fabs(rounded - value) <= 1e-12 * value ? rounded : value;
+}
+
 double next_ten(double mm) { return std::ceil(mm / 10) * 10; }
 
 }  // namespace
@@ -61,8 +67,8 @@ double rounded_paper(double mm) { return std::nearbyint(mm * 1000) / 1000 + 0.0;
 Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options) {
   Sheet sheet;
   sheet.scale = options.scale.value_or(usual_scale(box, room(kSheets[0], options.margin_mm)));
-  sheet.scale_text =
-      sheet.scale >= 1 ? "1:" + shortest(sheet.scale) : shortest(1 / sheet.scale) + ":1";
+  sheet.scale_text = sheet.scale >= 1 ? "1:" + shortest(neat(sheet.scale))
+                                      : shortest(neat(1 / sheet.scale)) + ":1";
   for (const Size& size : kSheets) {
     sheet.width_mm = size.width;
     sheet.height_mm = size.height;

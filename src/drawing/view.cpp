@@ -126,4 +126,6 @@ Vec3l default_up(const Vec3l& direction) {
   return {0, 0, 1};
 }
 
+bool can_be_up(const Vec3l& up, const Vec3l& direction) { return cross(up, direction) != Vec3l{}; }
+
 }  // namespace strake::drawing

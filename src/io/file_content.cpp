@@ -23,8 +23,9 @@ Error cannot_read(const std::filesystem::path& path, int reason) {
 /// An open file that closes itself.
 class Descriptor {
  public:
+  /// Does not wait for the other end of a pipe, which is no model anyway.
   explicit Descriptor(const std::filesystem::path& path)
-      : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+      : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~Descriptor() {
     if (number_ >= 0) ::close(number_);
   }
@@ -48,7 +49,8 @@ Result<FileContent> FileContent::read(const std::filesystem::path& path) {
   if (::fstat(file.number(), &facts) != 0) return cannot_read(path, errno);
   if (S_ISDIR(facts.st_mode)) return cannot_read(path, EISDIR);
   if (!S_ISREG(facts.st_mode))
-    return Error{ErrorCode::input, "is not a regular file", path.string(), "give a model file"};
+    return Error{ErrorCode::input, "is not a regular file", path.string(),
+                 "give a model file; a pipe or a device must be saved to one first"};
 
   FileContent content;
   const auto size = static_cast<std::size_t>(facts.st_size);

@@ -114,30 +114,35 @@ void report(Diagnostics& diagnostics, Severity severity, std::string_view code, 
 void report_findings(const GridShapeResult& made, const Model& model, ObjectId id,
                      Diagnostics& diagnostics) {
   const auto counted = [&](Severity severity, std::string_view code, std::uint64_t count,
-                           std::string_view text) {
+                           std::string_view one, std::string_view many) {
     if (count != 0)
       report(diagnostics, severity, code, model, id,
-             [&] { return fmt::format(fmt::runtime(text), count); });
+             [&] { return fmt::format(fmt::runtime(count == 1 ? one : many), count); });
   };
   counted(Severity::note, "mesh-degenerate", made.findings.degenerate_triangles,
-          "{} triangles without area were left out");
+          "a triangle without area was left out", "{} triangles without area were left out");
   counted(Severity::note, "mesh-duplicate", made.findings.duplicate_triangles,
-          "{} repeated triangles were left out");
+          "a repeated triangle was left out", "{} repeated triangles were left out");
   counted(Severity::warning, "mesh-nested", made.findings.nested_shells,
+          "a closed shell inside solid material was left out",
           "{} closed shells inside solid material were left out");
   counted(Severity::skipped, "mesh-bad-triangle", made.bad_triangles,
+          "a triangle with a vertex that is missing or has no place was left out",
           "{} triangles with a vertex that is missing or has no place were left out");
   counted(Severity::skipped, "polyline-bad-point", made.bad_points,
-          "{} points that have no place were left out");
+          "a point that has no place was left out", "{} points that have no place were left out");
   std::uint64_t inverted = 0, open = 0, non_manifold = 0;
   for (const geometry::Part& part : made.shape.parts) {
     inverted += part.flags.inverted ? 1U : 0U;
     open += part.flags.open ? 1U : 0U;
     non_manifold += part.flags.non_manifold ? 1U : 0U;
   }
-  counted(Severity::warning, "mesh-inverted", inverted, "{} solids were inside out and are turned");
-  counted(Severity::note, "mesh-open", open, "{} surfaces do not close and count as sheets");
+  counted(Severity::warning, "mesh-inverted", inverted, "a solid was inside out and is turned",
+          "{} solids were inside out and are turned");
+  counted(Severity::note, "mesh-open", open, "a surface does not close and counts as a sheet",
+          "{} surfaces do not close and count as sheets");
   counted(Severity::note, "mesh-non-manifold", non_manifold,
+          "a part has edges with more than two triangles",
           "{} parts have edges with more than two triangles");
 }
 

@@ -3,12 +3,14 @@
 #include <string_view>
 
 #include "report/text.hpp"
+#include "strake/core/text.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::report {
 namespace {
 
-void field(std::string& out, std::string_view text) {
+void field(std::string& out, std::string_view raw) {
+  const std::string text = valid_utf8(raw);
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
     out += text;
     return;

@@ -1,46 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/text.hpp"
 
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "strake/core/number.hpp"
+#include "strake/core/text.hpp"
 
 namespace strake::report {
 namespace {
 
 constexpr double kPerMm = 1e6;
-constexpr std::string_view kHex = "0123456789abcdef";
-
-void append_escape(std::string& out, unsigned char c) {
-  switch (c) {
-    case '"':
-      out += "\\\"";
-      return;
-    case '\\':
-      out += "\\\\";
-      return;
-    case '\n':
-      out += "\\n";
-      return;
-    case '\r':
-      out += "\\r";
-      return;
-    case '\t':
-      out += "\\t";
-      return;
-    default:
-      out += "\\u00";
-      out += kHex[c >> 4U];
-      out += kHex[c & 15U];
-  }
-}
-
-bool continues(std::string_view text, std::size_t at) {
-  return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
-}
-
 }  // namespace
 
 void append_range(std::string& out, const clash::Pair& pair, std::string_view between) {
@@ -68,39 +38,7 @@ void append_flags(std::string& out, const clash::Pair& pair, std::string_view be
   }
 }
 
-std::size_t utf8_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char c = byte(at);
-  if (c < 0x80) return 1;
-  if (c < 0xC2 || c > 0xF4 || !continues(text, at + 1)) return 0;
-  if (c < 0xE0) return 2;
-  const unsigned char d = byte(at + 1);
-  if (!continues(text, at + 2)) return 0;
-  if (c < 0xF0) {
-    const bool overlong = c == 0xE0 && d < 0xA0, surrogate = c == 0xED && d >= 0xA0;
-    return overlong || surrogate ? 0 : 3;
-  }
-  if (!continues(text, at + 3)) return 0;
-  return (c == 0xF0 && d < 0x90) || (c == 0xF4 && d >= 0x90) ? 0 : 4;
-}
-
-void append_json(std::string& out, std::string_view text) {
-  out += '"';
-  for (std::size_t i = 0; i < text.size();) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (c < 0x20 || c == '"' || c == '\\' || c == 0x7F) {
-      append_escape(out, c);
-      ++i;
-    } else if (const std::size_t n = utf8_length(text, i); n > 0) {
-      out += text.substr(i, n);
-      i += n;
-    } else {
-      out += "\xEF\xBF\xBD";
-      ++i;
-    }
-  }
-  out += '"';
-}
+void append_json(std::string& out, std::string_view text) { append_json_string(out, text); }
 
 void append_mm(std::string& out, double mm) {
   const std::size_t start = out.size();
@@ -118,12 +56,12 @@ void append_mm_up(std::string& out, double mm) { append_mm(out, std::ceil(mm * k
 
 std::string fitted(std::string_view text, std::size_t columns) {
   std::vector<std::string_view> characters;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t n = utf8_length(text, i);
-    const auto c = static_cast<unsigned char>(text[i]);
-    characters.push_back(n == 0 || c < 0x20 || c == 0x7F ? std::string_view("?")
-                                                         : text.substr(i, n));
-    i += n == 0 ? 1 : n;
+  while (!text.empty()) {
+    const Character c = first_character(text);
+    const std::size_t length = c.length == 0 ? 1 : c.length;
+    const bool shown = c.length != 0 && !is_control(c.code) && !turns_writing(c.code);
+    characters.push_back(shown ? text.substr(0, length) : std::string_view("?"));
+    text.remove_prefix(length);
   }
   std::string out;
   if (characters.size() <= columns) {

@@ -53,11 +53,9 @@ void append_point(std::string& out, const clash::Pair& pair, std::string_view be
 void append_flags(std::string& out, const clash::Pair& pair, std::string_view between,
                   std::string_view quote);
 
-/// Length in bytes of the UTF-8 character that starts at `at`; 0 when none does.
-[[nodiscard]] std::size_t utf8_length(std::string_view text, std::size_t at);
-
 /// At most `columns` characters of the text, the middle left out where it is longer; padded to the
-/// left-aligned width. Control characters and bytes that are not UTF-8 become '?'.
+/// left-aligned width. Control characters, those that turn the writing, and bytes that are not
+/// UTF-8 become '?'.
 [[nodiscard]] std::string fitted(std::string_view text, std::size_t columns);
 
 }  // namespace strake::report

@@ -37,6 +37,7 @@ struct Quantity {
 [[nodiscard]] Result<double> parse_angle_deg(std::string_view text);
 
 /// "1:50" is 50: how many millimetres of the model one millimetre of paper shows; "2:1" is 0.5.
+/// From 1000000:1 to 1:1000000000.
 [[nodiscard]] Result<double> parse_scale(std::string_view text);
 
 }  // namespace strake

@@ -25,4 +25,7 @@ struct Direction {
 /// The upward direction that people expect of a view: z, or for plans (viewed along z) y.
 [[nodiscard]] geometry::Vec3l default_up(const geometry::Vec3l& direction);
 
+/// Whether `up` shows on paper: it is not parallel to the direction.
+[[nodiscard]] bool can_be_up(const geometry::Vec3l& up, const geometry::Vec3l& direction);
+
 }  // namespace strake::drawing

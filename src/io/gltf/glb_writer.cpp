@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "io/gltf/glb_plan.hpp"
-#include "io/gltf/json_text.hpp"
 #include "io/gltf/srgb.hpp"
 #include "strake/core/atomic_file.hpp"
+#include "strake/core/text.hpp"
 #include "strake/io/writer.hpp"
 
 namespace strake::io::gltf {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/gltf/json_text.hpp"
 #include "io/text_number.hpp"
+#include "strake/core/text.hpp"
 
 namespace strake::io::gltf {
 
@@ -134,7 +134,7 @@ void Json::append_text(std::string& out) const {
     out.append(text.substr(0, plain));
     text.remove_prefix(plain);
     if (text.empty()) return;
-    std::size_t length = utf8_length(text);
+    std::size_t length = first_character(text).length;
     if (length == 0) {
       append_utf8(out, 0xFFFD);
       length = 1;

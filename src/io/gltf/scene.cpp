@@ -10,9 +10,9 @@
 namespace strake::io::gltf {
 namespace {
 
-Error refused(std::string pointer, std::string message) {
-  return {ErrorCode::input, std::move(message), std::move(pointer),
-          "mend the hierarchy: every node has at most one parent"};
+Error refused(std::string pointer, std::string message,
+              std::string mend = "mend the hierarchy: every node has at most one parent") {
+  return {ErrorCode::input, std::move(message), std::move(pointer), std::move(mend)};
 }
 
 Result<std::vector<std::uint32_t>> parents_of(const std::vector<Node>& nodes) {
@@ -96,7 +96,8 @@ Result<std::vector<Visit>> visit_order(const Json& root, const std::vector<Node>
     open.pop_back();
     if (next.depth == kMaxNodeDepth)
       return refused(fmt::format("/nodes/{}", next.visit.node),
-                     fmt::format("nodes are nested more than {} deep", kMaxNodeDepth));
+                     fmt::format("nodes are nested more than {} deep", kMaxNodeDepth),
+                     "export the model with a flatter hierarchy");
     const auto self = static_cast<std::uint32_t>(order.size());
     order.push_back(next.visit);
     const std::vector<std::uint64_t>& children = nodes[next.visit.node].children;

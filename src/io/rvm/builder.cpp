@@ -60,9 +60,8 @@ void Builder::add(const PrimitiveChunk& chunk) {
   const auto placement = placement_of(chunk.matrix, frame_);
   if (!placement)
     log_->skip("rvm-nonfinite-matrix",
-               fmt::format("a primitive of kind {} has a matrix with an entry that is not a finite "
-                           "number",
-                           chunk.kind),
+               fmt::format("{} has a matrix with an entry that is not a finite number",
+                           kind_with_article(chunk.kind)),
                chunk.offset);
   const auto shape = placement ? shape_of(chunk) : std::nullopt;
   record.dropped = !shape;
@@ -95,10 +94,9 @@ std::optional<model::ShapeId> Builder::shape_of(const PrimitiveChunk& chunk) {
   }
   const DecodedPrimitive decoded = decode_primitive(chunk);
   if (!decoded.primitive) {
-    log_->skip(
-        "rvm-bad-primitive",
-        fmt::format("a primitive of kind {} cannot be used: {}", chunk.kind, decoded.problem),
-        chunk.offset);
+    log_->skip("rvm-bad-primitive",
+               fmt::format("{} cannot be used: {}", kind_with_article(chunk.kind), decoded.problem),
+               chunk.offset);
     return std::nullopt;
   }
   check_stored_box(chunk, *decoded.primitive);

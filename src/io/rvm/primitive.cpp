@@ -161,6 +161,22 @@ std::size_t parameter_count(std::uint32_t kind) {
   return kind < kCounts.size() ? kCounts[kind] : 0;
 }
 
+std::string_view kind_with_article(std::uint32_t kind) {
+  static constexpr std::array<std::string_view, 12> kNames = {"a primitive",
+                                                              "a pyramid",
+                                                              "a box",
+                                                              "a rectangular torus",
+                                                              "a circular torus",
+                                                              "an elliptical dish",
+                                                              "a spherical dish",
+                                                              "a snout",
+                                                              "a cylinder",
+                                                              "a sphere",
+                                                              "a line",
+                                                              "a facet group"};
+  return kNames[kind < kNames.size() ? kind : 0];
+}
+
 bool is_plausible_frame(const std::array<float, 12>& matrix) {
   for (const float v : matrix)
     if (!std::isfinite(v)) return false;

@@ -32,6 +32,9 @@ struct PrimitiveChunk {
 /// Number of float parameters of kinds 1 to 10; 0 for any other kind.
 [[nodiscard]] std::size_t parameter_count(std::uint32_t kind);
 
+/// "a cylinder", "a facet group": how messages call kinds 1 to 11; "a primitive" for any other.
+[[nodiscard]] std::string_view kind_with_article(std::uint32_t kind);
+
 /// The placement that a matrix stands for; nothing when an entry is not finite.
 ///
 /// Matrices are float32 images of decimal numbers and of rotations. Both are undone within half a

@@ -69,9 +69,13 @@ class Usage(Scenario):
     def test_wrong_command_lines_are_usage_errors_that_say_what(self):
         self.two_files()
         for arguments, said in (
-                ([], 'subcommand'),
+                ([], 'no verb is given'),
                 (['frobnicate'], 'frobnicate'),
-                (['info'], 'files'),
+                (['info'], 'no model file'),
+                (['generate'], 'no verb is given'),
+                (['generate', 'ship', '--frob'], 'generate ship --help'),
+                (['clash', 'a.obj', '--clearance'], '--clearance wants a value'),
+                (['clash', 'a.obj', '--clearance', '1mm', '--clearance', '2mm'], 'more than once'),
                 (['info', 'a.obj', '--colour'], '--colour'),
                 (['clash', 'a.obj', '--clearence', '25mm'], '--clearence'),
                 (['info', 'a.obj', '--threads', '0'], '1 to'),
@@ -82,6 +86,11 @@ class Usage(Scenario):
                 (['clash', 'a.obj', '--clearance', '25'], '25mm'),
                 (['clash', 'a.obj', '--clearance', '-1mm'], 'negative'),
                 (['clash', 'a.obj', '--touch-gap', 'nan'], 'nan'),
+                (['clash', 'a.obj', '--clearance', ''], '--clearance: the value is empty'),
+                (['info', 'a.obj', '--threads', ''], '--threads: the value is empty'),
+                (['info', ''], 'FILE: the value is empty'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--limits', ''], '--limits: the value is empty'),
+                (['info', 'a.obj', '--sag', '1e-30mm'], '1um or more'),
                 (['clash', 'a.obj', '--fail-on', 'sometimes'], 'hit|contact'),
                 (['clash', 'a.obj', '-o', 'report.doc'], '.json or .csv'),
                 (['draw', 'a.obj'], '-o FILE.svg'),
@@ -93,6 +102,7 @@ class Usage(Scenario):
                 (['draw', 'a.obj', '-o', 'a.svg', '--limits', '1,2,3'], '--limits'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--limits', '1,1,1,0,0,0'], 'empty'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--scale', '50'], '1:50'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--scale', '1:5e-324'], '1:50'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--select', 'nobody*'], 'nobody*'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--select', 'type = '], '--select, selection, column 8'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--sharp-angle', '20mm'], '20deg'),
@@ -107,6 +117,28 @@ class Usage(Scenario):
                 self.assertIn('strake: error: ', done.stderr)
                 self.assertEqual(done.stdout, '')
         self.assertEqual(self.files(), ['a.obj', 'b.obj'])
+
+
+    def test_what_makes_no_sense_is_said_before_a_model_is_read(self):
+        for arguments, said in (
+                (['clash', 'missing.obj', '--clearance', '1e300mm'], '--clearance: '),
+                (['clash', 'missing.obj', '--contact-distance', '2km'], '--contact-distance: '),
+                (['draw', 'missing.obj', '-o', 'a.svg', '--direction', '1,1,1', '--up', '2,2,2'], '--up: '),
+                (['draw', 'missing.obj', '-o', 'a.svg', '--view', 'top', '--up', '0,0,-5'], 'parallel')):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(said, done.stderr)
+                self.assertNotIn('missing.obj', done.stderr)
+
+    def test_an_option_takes_one_value_and_leaves_the_next_word_alone(self):
+        self.two_files()
+        done = self.run_strake('clash', '-o', 'x.json', 'a.obj', 'b.obj')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([f['label'] for f in json.loads((self.folder / 'x.json').read_text())['files']],
+                         ['a.obj', 'b.obj'])
+        done = self.run_strake('draw', '--select', 'a0', 'a.obj', '-o', 'x.svg')
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 class Files(Scenario):
@@ -139,6 +171,60 @@ class Files(Scenario):
         self.write('x.json', 'old')
         self.assertEqual(self.run_strake('clash', 'missing.obj', '-o', 'x.json').returncode, 3)
         self.assertEqual((self.folder / 'x.json').read_text(), 'old')
+
+
+    def test_a_model_is_never_overwritten(self):
+        self.two_files()
+        model = (self.folder / 'a.obj').read_text()
+        self.write('model.json', model)
+        os.symlink('model.json', self.folder / 'link.json')
+        os.mkdir(self.folder / 'sub')
+        for arguments in (['clash', 'model.json', '-o', 'model.json'], ['clash', 'model.json', '-o', 'link.json'],
+                          ['draw', 'link.json', '-o', 'x.svg', '-o', './sub/../model.json']):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn('overwritten', done.stderr)
+                self.assertEqual((self.folder / 'model.json').read_text(), model)
+
+    def test_outputs_that_cannot_be_are_said_at_once(self):
+        self.two_files()
+        done = self.run_strake('draw', 'missing.obj', '-o', 'x.svg', '-o', './x.svg')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('twice', done.stderr)
+        os.mkdir(self.folder / 'dir.svg')
+        done = self.run_strake('draw', 'missing.obj', '-o', 'dir.svg')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('it is a folder', done.stderr)
+
+    def test_a_pipe_that_nobody_writes_to_is_refused_at_once(self):
+        os.mkfifo(self.folder / 'pipe')
+        done = self.run_strake('info', 'pipe')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('not a regular file', done.stderr)
+
+    def test_closed_standard_streams_do_not_end_in_a_result(self):
+        self.two_files()
+        done = subprocess.run(['/bin/sh', '-c', '"$0" clash a.obj -o x.json >&- 2>&- <&-', STRAKE],
+                              cwd=self.folder, timeout=100, check=False)
+        self.assertEqual(done.returncode, 3)
+        json.loads((self.folder / 'x.json').read_text())
+
+    def test_names_cannot_command_the_terminal(self):
+        self.write('evil.obj', cube('\x1b[2J\u202egpj', 0, (0, 0, 0), 1).replace('f 4 1 5 8\n', ''))
+        for arguments in (['info', 'evil.obj'], ['clash', 'evil.obj'], ['info', 'a\x1b[2J.obj']):
+            done = self.run_strake(*arguments)
+            for text in (done.stdout, done.stderr):
+                self.assertNotIn('\x1b', text)
+                self.assertNotIn('\u202e', text)
+
+
+class Generate(Scenario):
+    def test_json_is_the_truth(self):
+        done = self.run_strake('generate', 'ship', '--objects', 100, '-o', 'x.glb', '--truth', 'x.json', '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, (self.folder / 'x.json').read_text())
+        self.assertIn('pairs', json.loads(done.stdout))
 
 
 class Info(Scenario):
@@ -262,6 +348,12 @@ class Draw(Scenario):
         self.assertEqual({piece['state'] for piece in wire} - {'visible', 'projecting', 'duplicate'}, set())
         cut = pieces('--limits', '0,0,0,40,40,40')
         self.assertTrue(any(piece['state'] == 'clipped' for piece in cut))
+
+    def test_an_empty_sheet_is_not_silent(self):
+        self.two_files()
+        done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('nothing lies within the limits', done.stderr)
 
 
 class Interrupt(Scenario):

@@ -61,7 +61,8 @@ TEST(Units, scales) {
   EXPECT_DOUBLE_EQ(*parse_scale("1:50"), 50);
   EXPECT_DOUBLE_EQ(*parse_scale("2:1"), 0.5);
   EXPECT_DOUBLE_EQ(*parse_scale(" 1 : 7.5 "), 7.5);
-  for (const char* const bad : {"50", "1/50", "0:1", "1:0", "1:-5", "1:", ":", "1e308:1e-308"}) {
+  for (const char* const bad : {"50", "1/50", "0:1", "1:0", "1:-5", "1:", ":", "1e308:1e-308",
+                                "1:5e-324", "1:1e300", "1e300:1", "1000001:1"}) {
     const Result<double> got = parse_scale(bad);
     ASSERT_FALSE(got) << bad;
     EXPECT_NE(got.error().text().find("1:50"), std::string::npos);

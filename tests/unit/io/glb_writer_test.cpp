@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "io/gltf/json_text.hpp"
 #include "io/gltf/srgb.hpp"
+#include "strake/core/text.hpp"
 #include "strake/io/writer.hpp"
 #include "support/io_files.hpp"
 #include "support/io_models.hpp"
@@ -223,7 +223,7 @@ TEST(Srgb, GivesEveryValueBack) {
 TEST(JsonText, EscapesAndMendsUtf8) {
   const auto text = [](std::string_view raw) {
     std::string out;
-    gltf::append_json_string(out, raw);
+    append_json_string(out, raw);
     return json::parse(out).get<std::string>();
   };
   EXPECT_EQ(text("a\"b\\c\n\t\x01/ä€😀"), "a\"b\\c\n\t\x01/ä€😀");

@@ -112,6 +112,13 @@ TEST(ClashCsv, OneLineAPairQuotedWhereNeeded) {
   EXPECT_NE(text.find(",INVERTED\r\n"), std::string::npos);
 }
 
+TEST(ClashCsv, HoldsNothingThatIsNoUtf8) {
+  const ClashModel m = row_of_boxes();
+  const std::string text = as_csv(m.detect({.clearance_mm = 25}), m.model);
+  EXPECT_EQ(text.find('\xFF'), std::string::npos);
+  EXPECT_NE(text.find(",Büro 🚢 \xEF\xBF\xBD,"), std::string::npos);
+}
+
 TEST(ClashTable, WorstFirstClippedAndCounted) {
   const ClashModel m = row_of_boxes();
   const clash::Report report = m.detect({.clearance_mm = 25});

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace strake {
+
+// Names come from files and may hold anything; these make them fit for where they are shown.
+
+/// What stands in for bytes that are no UTF-8: U+FFFD.
+inline constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
+
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t length = 0;  ///< in bytes; 0: the bytes are no UTF-8
+};
+
+/// The well-formed UTF-8 character at the front of a text that is not empty.
+[[nodiscard]] Character first_character(std::string_view text);
+
+/// Control characters, line breaks included, and code points that are no characters.
+[[nodiscard]] bool is_control(std::uint32_t code);
+
+/// Characters without a shape that turn the direction of writing: a name that holds one shows in
+/// another order than it is.
+[[nodiscard]] bool turns_writing(std::uint32_t code);
+
+/// The text with '?' for everything that is no UTF-8, commands a terminal or turns the writing.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// The text with U+FFFD for bytes that are no UTF-8, and otherwise as it is.
+[[nodiscard]] std::string valid_utf8(std::string_view text);
+
+/// Appends a JSON string with its quotes; bytes that are no UTF-8 become U+FFFD.
+void append_json_string(std::string& out, std::string_view text);
+
+}  // namespace strake
