@@ -329,6 +329,21 @@ class Draw(Scenario):
         self.assertIn(b'<svg', expected[0])
         self.assertEqual(set(piece['object'] for piece in json.loads(expected[1])['pieces']).__len__(), 3)
 
+    def test_order_of_files_and_of_objects_changes_nothing(self):
+        self.write('b.obj', cube('b', 0, (10, 20, 90), 40))
+        got = []
+        for order in ([0, 1, 2, 3, 4, 5, 6], [6, 5, 4, 3, 2, 1, 0], [3, 0, 6, 2, 5, 1, 4]):
+            # Two of them coincide, so that which line is the duplicate must not depend on the order.
+            self.write('all.obj', ''.join(cube(f'a{i}', at, (i % 6 * 50, i % 6 * 30, i % 6 * 20), 100)
+                                          for at, i in enumerate(order)))
+            for files in (('all.obj', 'b.obj'), ('b.obj', 'all.obj')):
+                done = self.run_strake('draw', *files, '--unit', 'mm', '--up-axis', 'z', '--hidden', 'dashed', '-o',
+                                       'x.svg', '-o', 'x.json')
+                self.assertEqual(done.returncode, 0, done.stderr)
+                got.append([(self.folder / name).read_bytes() for name in ('x.svg', 'x.json')])
+        for other in got[1:]:
+            self.assertEqual(other, got[0])
+
     def test_selection_limits_and_solver(self):
         self.two_files()
 

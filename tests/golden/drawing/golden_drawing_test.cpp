@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// A real drawing, where STRAKE_DATA names the folder of real models: what it holds, to the bit, so
+// that a change of results is never silent. When one is meant, the new values go here and a line
+// with the marker [DRAWING] into CHANGELOG.md.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "strake/core/hash.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/drawing/view.hpp"
+#include "strake/drawing/write.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/io/reader.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake {
+namespace {
+
+struct Golden {
+  const char* view;
+  std::array<std::uint64_t, drawing::kLineStates> count;  ///< in the order of LineState
+  const char* hash;                                       ///< of the pieces in the model
+  const char* svg;                                        ///< of the bytes, hidden lines dashed
+};
+
+const Golden kSafe[] = {
+    {"iso",
+     {14335, 8194, 10533, 0, 0, 5326},
+     "d03cf6407b8a2ed97f3af17b10092bcf",
+     "5047965651142f3bd4965434e13e217b"},
+    {"top",
+     {8412, 2306, 4829, 1743, 0, 19662},
+     "32a5d47a40fef5e654d711e2e6522099",
+     "08db40a44fcb47dcd03f6ad6a30286e6"},
+    {"front",
+     {8791, 1047, 3770, 1852, 0, 22001},
+     "a935aa642a2882624570981260cd947b",
+     "81ecf03d8ced40f016ff2a156cd127a7"},
+};
+
+TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {
+  const char* const data = std::getenv("STRAKE_DATA");
+  if (data == nullptr || *data == '\0') GTEST_SKIP() << "STRAKE_DATA is not set";
+  parallel::Team team(2);
+  const parallel::Context context{.team = &team};
+  const auto file = std::filesystem::path(data) / "rvm" / "vegarringdal_rvm2glb" / "HA-SAFE.RVM";
+  const auto model = io::read_models({&file, 1}, {}, context);
+  ASSERT_TRUE(model);
+  const auto scene = model::make_scene(*model, {}, context);
+  ASSERT_TRUE(scene);
+  for (const Golden& golden : kSafe) {
+    SCOPED_TRACE(golden.view);
+    hlr::View view;
+    view.direction = *drawing::direction_by_name(golden.view);
+    view.up = drawing::default_up(view.direction);
+    const auto lines = hlr::draw(*scene, {}, view, {}, context);
+    ASSERT_TRUE(lines);
+    drawing::LayoutOptions layout;
+    layout.view_name = golden.view;
+    const auto sheet = drawing::lay_out(*lines, *model, layout, context);
+    ASSERT_TRUE(sheet);
+    EXPECT_EQ(sheet->count, golden.count);
+    EXPECT_EQ(sheet->hash.text(), golden.hash);
+    const auto ink = drawing::choose_ink(*sheet, {.hidden = true}, context);
+    ASSERT_TRUE(ink);
+    std::string svg;
+    drawing::write_svg(*sheet, *ink, *model, [&](std::string_view text) { svg += text; });
+    EXPECT_EQ(Hasher().add(std::string_view(svg)).value().text(), golden.svg);
+  }
+}
+
+}  // namespace
+}  // namespace strake
