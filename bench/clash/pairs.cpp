@@ -69,10 +69,17 @@ void pairs_of(double triangles) {
   bench("spheres 10 mm apart", ball, ball, {1200, 900, 1337.95},
         {Class::clearance_violation, 10, sag});
   bench("spheres equal", ball, ball, {}, {Class::hit, -r, sag});
+  bench("spheres 3 um aside", ball, ball, {0.003, 0, 0}, {Class::hit, -r, sag});
+  TriangleMesh otherwise = ball;  // the same sphere, cut into other triangles
+  for (Vec3d& v : otherwise.vertices) v = {v.z, v.x, v.y};
+  bench("spheres equal, cut otherwise", ball, otherwise, {}, {Class::hit, -r, sag});
+  bench("spheres 5 um high, cut otherwise", ball, std::move(otherwise), {0, 0, 0.005},
+        {Class::hit, -r, sag});
   const TriangleMesh hills = bumpy_mesh(r, 60, 12, rings);
   bench("hills crossing", hills, hills, {900, 300, 100}, {Class::hit, -950, 60});
   bench("hills barely crossing", hills, hills, {1992, 20, 10}, {Class::hit, -60, 120});
   bench("hills equal", hills, hills, {}, {Class::hit, -r, 60});
+  bench("hills 3 um aside", hills, hills, {0.003, 0, 0}, {Class::hit, -950, 60});
   bench("hills inside hills", hills, bumpy_mesh(r - 5, 60, 12, rings), {}, {Class::hit, -r, 60});
   const std::uint32_t bands = rings, sectors = 2 * rings;
   bench("cylinders concentric", cylinder_mesh(500, 2000, bands, sectors),

@@ -100,15 +100,22 @@ struct Plane {
   }
 };
 
+std::int32_t Vec3i::* coordinate(int axis) {
+  return axis == 0 ? &Vec3i::x : axis == 1 ? &Vec3i::y : &Vec3i::z;
+}
+
 std::vector<Patch> patches_in(const Part& part, const Vec3l& shift, const Plane& plane) {
   std::vector<Patch> patches;
+  // The plane touches the part's box, so that its place there fits the part's coordinates.
+  const auto at = static_cast<std::int32_t>(plane.at - shift[plane.axis]);
+  std::int32_t Vec3i::* const along = coordinate(plane.axis);
   for (const Triangle& t : part.triangles) {
+    const Vec3i &p = part.vertices[t[0]], &q = part.vertices[t[1]], &r = part.vertices[t[2]];
+    if (p.*along != at && q.*along != at && r.*along != at) continue;
     Patch patch;
-    for (const std::uint32_t v : t) {
-      const Vec3l p = part.vertices[v].as<std::int64_t>() + shift;
-      if (p[plane.axis] == plane.at) patch.add(plane.project(p));
-    }
-    if (patch.count > 0 && boxes_meet(patch, plane.lo, plane.hi)) patches.push_back(patch);
+    for (const Vec3i* v : {&p, &q, &r})
+      if (v->*along == at) patch.add(plane.project(v->as<std::int64_t>() + shift));
+    if (boxes_meet(patch, plane.lo, plane.hi)) patches.push_back(patch);
   }
   // Whole triangles first: they are what bodies rest on.
   std::stable_sort(patches.begin(), patches.end(),
