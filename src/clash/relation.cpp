@@ -18,7 +18,7 @@ using geometry::Vec3i;
 using geometry::Vec3l;
 
 /// Beyond this many vertices a body is not walked vertex by vertex for the sake of a word.
-constexpr std::size_t kMaxVertices = 20000;
+constexpr std::size_t kMaxVertices = std::size_t{1} << 21U;
 
 bool box_within(const TreedPart& a, const TreedPart& b, double band) {
   const Vec3l shift = a.placed.origin - b.placed.origin;
