@@ -118,9 +118,12 @@ std::vector<Patch> patches_in(const Part& part, const Vec3l& shift, const Plane&
     if (boxes_meet(patch, plane.lo, plane.hi)) patches.push_back(patch);
   }
   // Whole triangles first: they are what bodies rest on.
-  std::stable_sort(patches.begin(), patches.end(),
-                   [](const Patch& x, const Patch& y) { return x.count > y.count; });
-  return patches;
+  std::vector<Patch> sorted;
+  sorted.reserve(patches.size());
+  for (std::size_t corners = 3; corners > 0; --corners)
+    for (const Patch& patch : patches)
+      if (patch.count == corners) sorted.push_back(patch);
+  return sorted;
 }
 
 }  // namespace
