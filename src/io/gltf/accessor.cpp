@@ -122,52 +122,71 @@ std::uint32_t Accessor::integer(std::size_t index) const {
   return load<std::uint32_t, std::uint32_t>(at);
 }
 
+Accessors::Accessors(const Json& root, const Buffers& buffers) : buffers_(&buffers) {
+  root["accessors"].elements([&](const Json& json) {
+    const auto [count, component, type, normalized, view, offset, sparse] = json.pick<7>(
+        {"count", "componentType", "type", "normalized", "bufferView", "byteOffset", "sparse"});
+    Stated stated;
+    stated.count = count.index();
+    stated.component = component.index();
+    stated.width = type_width(type.text_value());
+    stated.normalized = normalized.boolean().value_or(false);
+    if (view.exists()) stated.view = view.index().value_or(UINT64_MAX);
+    stated.offset = offset.exists() ? offset.index() : std::optional<std::uint64_t>(0);
+    stated.sparse = sparse;
+    accessors_.push_back(stated);
+  });
+}
+
 std::uint64_t Accessors::stated_count(std::uint64_t index) const {
+  return index < accessors_.size() ? accessors_[index].count.value_or(0) : 0;
+}
+
+std::uint64_t Accessors::copied_count(std::uint64_t index) const {
   if (index >= accessors_.size()) return 0;
-  return accessors_[index]["count"].index().value_or(0);
+  const Stated& stated = accessors_[index];
+  return stated.sparse.is_object() || !stated.view ? stated.count.value_or(0) : 0;
 }
 
 bool Accessors::has_data(std::uint64_t index) const {
   return index < accessors_.size() &&
-         (accessors_[index]["bufferView"].exists() || accessors_[index]["sparse"].exists());
+         (accessors_[index].view.has_value() || accessors_[index].sparse.exists());
 }
 
-Checked<Accessor> Accessors::open_dense(std::uint64_t index, const Json& json) const {
+Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
+  const Stated& stated = accessors_[index];
   Accessor accessor;
   accessor.pointer = fmt::format("/accessors/{}", index);
-  const std::optional<std::uint64_t> count = json["count"].index();
-  const std::optional<std::uint64_t> component = json["componentType"].index();
-  accessor.width = type_width(json["type"].text_value());
-  const bool known = component && ((*component >= 5120 && *component <= 5123) ||
-                                   *component == 5125 || *component == 5126);
-  if (!count || !known || accessor.width == 0)
+  accessor.width = stated.width;
+  const auto component = stated.component.value_or(0);
+  const bool known =
+      (component >= 5120 && component <= 5123) || component == 5125 || component == 5126;
+  if (!stated.count || !known || accessor.width == 0)
     return Fault{accessor.pointer, "has no valid count, componentType or type"};
-  accessor.count = *count;
-  accessor.component = static_cast<Component>(*component);
-  accessor.normalized = json["normalized"].boolean().value_or(false);
+  accessor.count = *stated.count;
+  accessor.component = static_cast<Component>(component);
+  accessor.normalized = stated.normalized;
   const std::size_t size = component_bytes(accessor.component) * accessor.width;
 
-  const Json view_json = json["bufferView"], offset_json = json["byteOffset"];
-  if (!view_json.exists()) {
+  if (!stated.view) {
     // Zeros, of which a file may ask for any number: no more than its data could hold.
     const std::size_t most = std::max<std::size_t>(buffers_->total_bytes(), 4096);
     if (accessor.count > most / size)
-      return Fault{accessor.pointer, fmt::format("asks for {} elements without any data", *count)};
+      return Fault{accessor.pointer,
+                   fmt::format("asks for {} elements without any data", accessor.count)};
     accessor.stride = size;
     accessor.dense.resize(size * accessor.count);
     accessor.bytes = accessor.dense;
     return {std::move(accessor)};
   }
-  const Checked<Buffers::View> view = buffers_->view(view_json.index().value_or(UINT64_MAX));
+  const Checked<Buffers::View> view = buffers_->view(*stated.view);
   if (const Fault* fault = fault_of(view)) return *fault;
   const auto& found = std::get<Buffers::View>(view);
-  const std::optional<std::uint64_t> offset =
-      offset_json.exists() ? offset_json.index() : std::optional<std::uint64_t>(0);
-  if (!offset) return Fault{accessor.pointer, "has a byteOffset that is no whole number"};
+  if (!stated.offset) return Fault{accessor.pointer, "has a byteOffset that is no whole number"};
   accessor.stride = found.stride == 0 ? size : found.stride;
-  if (std::optional<Fault> fault = check_extent(accessor, *offset, found.bytes.size()))
+  if (std::optional<Fault> fault = check_extent(accessor, *stated.offset, found.bytes.size()))
     return std::move(*fault);
-  accessor.bytes = accessor.count == 0 ? found.bytes.first(0) : found.bytes.subspan(*offset);
+  accessor.bytes = accessor.count == 0 ? found.bytes.first(0) : found.bytes.subspan(*stated.offset);
   return {std::move(accessor)};
 }
 
@@ -226,9 +245,8 @@ Checked<Accessor> Accessors::open(std::uint64_t index) const {
   if (index >= accessors_.size())
     return Fault{fmt::format("/accessors/{}", index),
                  fmt::format("does not exist; there are {}", accessors_.size())};
-  const Json& json = accessors_[index];
-  Checked<Accessor> opened = open_dense(index, json);
-  const Json sparse = json["sparse"];
+  Checked<Accessor> opened = open_dense(index);
+  const Json& sparse = accessors_[index].sparse;
   if (fault_of(opened) != nullptr || !sparse.is_object()) return opened;
   Fault fault;
   if (!apply_sparse(std::get<Accessor>(opened), sparse, fault)) return fault;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,8 +53,7 @@ struct Accessor {
 /// Reads accessors of a document; safe to share between threads.
 class Accessors {
  public:
-  Accessors(const Json& root, const Buffers& buffers)
-      : accessors_(root["accessors"].items()), buffers_(&buffers) {}
+  Accessors(const Json& root, const Buffers& buffers);
 
   /// Any accessor that is well-formed; without data it is zeros. Sparse ones are made dense.
   [[nodiscard]] Checked<Accessor> open(std::uint64_t index) const;
@@ -61,12 +61,24 @@ class Accessors {
   /// The count that an accessor states, 0 if it does not exist; nothing else is looked at.
   [[nodiscard]] std::uint64_t stated_count(std::uint64_t index) const;
   [[nodiscard]] bool has_data(std::uint64_t index) const;
+  /// The count of an accessor whose elements are put into memory whenever it is opened, else 0.
+  [[nodiscard]] std::uint64_t copied_count(std::uint64_t index) const;
 
  private:
-  [[nodiscard]] Checked<Accessor> open_dense(std::uint64_t index, const Json& json) const;
+  /// What the document states. Read once: many primitives may share an accessor, and an object
+  /// may hold any number of members that are none of ours.
+  struct Stated {
+    std::optional<std::uint64_t> count, component, offset;
+    std::optional<std::uint64_t> view;  ///< UINT64_MAX where it is no index
+    std::size_t width = 0;
+    bool normalized = false;
+    Json sparse;
+  };
+
+  [[nodiscard]] Checked<Accessor> open_dense(std::uint64_t index) const;
   [[nodiscard]] bool apply_sparse(Accessor& accessor, const Json& sparse, Fault& fault) const;
 
-  std::vector<Json> accessors_;
+  std::vector<Stated> accessors_;
   const Buffers* buffers_;
 };
 

@@ -128,38 +128,43 @@ void Buffers::load(Buffer& buffer, std::size_t index, const Json& json, const Co
   total_bytes_ += *length;
 }
 
-Buffers::Buffers(const Json& root, const Container& container, const std::filesystem::path& file)
-    : views_(root["bufferViews"].items()) {
+Buffers::Buffers(const Json& root, const Container& container, const std::filesystem::path& file) {
   const std::vector<Json> buffers = root["buffers"].items();
   buffers_.resize(buffers.size());
   for (std::size_t i = 0; i < buffers.size(); ++i)
     load(buffers_[i], i, buffers[i], container, file);
+  root["bufferViews"].elements([&](const Json& json) {
+    const auto [buffer, offset, length, stride, extensions] =
+        json.pick<5>({"buffer", "byteOffset", "byteLength", "byteStride", "extensions"});
+    const auto optional = [](const Json& value) {
+      return value.exists() ? value.index() : std::optional<std::uint64_t>(0);
+    };
+    Stated stated{buffer.index(), optional(offset), length.index(), optional(stride), nullptr};
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+      if (!buffer.exists() && stated.packed == nullptr && extensions[name].is_object())
+        stated.packed = name;
+    views_.push_back(stated);
+  });
 }
 
 Checked<Buffers::View> Buffers::view(std::size_t index) const {
   const std::string pointer = fmt::format("/bufferViews/{}", index);
   if (index >= views_.size())
     return Fault{pointer, fmt::format("does not exist; there are {}", views_.size())};
-  const Json& json = views_[index];
-  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-    if (json["extensions"][name].is_object() && !json["buffer"].exists())
-      return Fault{pointer, fmt::format("is packed by {}, which is not read", name)};
-  const std::optional<std::uint64_t> buffer = json["buffer"].index();
-  if (!buffer || *buffer >= buffers_.size()) return Fault{pointer + "/buffer", "does not exist"};
-  const Buffer& owner = buffers_[*buffer];
+  const Stated& stated = views_[index];
+  if (stated.packed != nullptr)
+    return Fault{pointer, fmt::format("is packed by {}, which is not read", stated.packed)};
+  if (!stated.buffer || *stated.buffer >= buffers_.size())
+    return Fault{pointer + "/buffer", "does not exist"};
+  const Buffer& owner = buffers_[*stated.buffer];
   if (owner.fault) return *owner.fault;
-  const Json offset_json = json["byteOffset"], stride_json = json["byteStride"];
-  const std::optional<std::uint64_t> offset =
-      offset_json.exists() ? offset_json.index() : std::optional<std::uint64_t>(0);
-  const std::optional<std::uint64_t> length = json["byteLength"].index();
-  const std::optional<std::uint64_t> stride =
-      stride_json.exists() ? stride_json.index() : std::optional<std::uint64_t>(0);
-  if (!offset || !length || !stride)
+  if (!stated.offset || !stated.length || !stated.stride)
     return Fault{pointer, "has an offset, length or stride that is no whole number"};
-  if (*offset > owner.bytes.size() || *length > owner.bytes.size() - *offset)
-    return Fault{pointer, fmt::format("bytes {} to {} lie outside its buffer of {}", *offset,
-                                      *offset + *length, owner.bytes.size())};
-  return View{owner.bytes.subspan(*offset, *length), static_cast<std::size_t>(*stride)};
+  if (*stated.offset > owner.bytes.size() || *stated.length > owner.bytes.size() - *stated.offset)
+    return Fault{pointer, fmt::format("bytes {} to {} lie outside its buffer of {}", *stated.offset,
+                                      *stated.offset + *stated.length, owner.bytes.size())};
+  return View{owner.bytes.subspan(*stated.offset, *stated.length),
+              static_cast<std::size_t>(*stated.stride)};
 }
 
 }  // namespace strake::io::gltf

@@ -46,13 +46,19 @@ class Buffers {
     std::optional<Fault> fault;
   };
 
+  /// What the document states of a view, read once for all accessors that share it.
+  struct Stated {
+    std::optional<std::uint64_t> buffer, offset, length, stride;
+    const char* packed = nullptr;  ///< the extension without which it holds nothing
+  };
+
   void load(Buffer& buffer, std::size_t index, const Json& json, const Container& container,
             const std::filesystem::path& file);
   void load_uri(Buffer& buffer, const std::string& pointer, const Json& uri,
                 const std::filesystem::path& file);
 
   std::vector<Buffer> buffers_;
-  std::vector<Json> views_;
+  std::vector<Stated> views_;
   std::size_t total_bytes_ = 0;
 };
 

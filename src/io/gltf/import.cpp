@@ -50,6 +50,26 @@ struct MeshShapes {
   double step_mm = 0;
 };
 
+/// What naming each instance of a node copies for it.
+std::uint64_t attribute_bytes(const Node& node) {
+  std::uint64_t bytes = 0;
+  for (const auto& [key, value] : node.attributes)
+    bytes += sizeof(node.attributes[0]) + key.size() + value.size();
+  return bytes;
+}
+
+/// A path that is not too long, else a hash of it and the end of its last name.
+std::string shortened(std::string path, std::string_view name) {
+  constexpr std::size_t kMost = 256;
+  if (path.size() <= kMost) return path;
+  if (name.size() > kMost / 2) name = name.substr(name.size() - kMost / 2);
+  return fmt::format("{}/{}", Hasher().add(std::string_view(path)).value().text(), name);
+}
+
+/// A node takes half a kilobyte of memory: where there are many, each must be worth as many bytes
+/// of the file ({"mesh":1,"translation":[1,2,3]} is 36), beyond a number that hurts nobody.
+constexpr std::size_t kLeastNodeBytes = 24, kFreeNodes = std::size_t{1} << 20U;
+
 class Importer {
  public:
   Importer(const ImportInput& input, const Container& container, const Json& root)
@@ -81,8 +101,12 @@ class Importer {
   void add_object(const Node& node, Element element, model::GroupId parent,
                   std::span<const Placement> placements);
   bool add_bodies(const MeshShapes& mesh, const Placement& world);
-  [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name) const;
+  [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name);
   void skip(const Node& node, const Fault& fault);
+  [[nodiscard]] Error refusal(std::string message) const {
+    return {ErrorCode::input, std::move(message), input_.file.path.string(),
+            "export the model again"};
+  }
   [[nodiscard]] std::string place_text(const std::string& pointer) const {
     return fmt::format("{}, {}", input_.file.path.string(), pointer);
   }
@@ -107,17 +131,23 @@ class Importer {
   std::vector<LoadedMesh> loaded_;   ///< one per used mesh
   std::vector<MeshShapes> shapes_;   ///< per mesh of the document
   std::vector<std::optional<Fault>> mesh_faults_;
-  std::vector<Placed> placed_;  ///< per visit
+  std::vector<Placed> placed_;      ///< per visit
+  std::vector<std::string> paths_;  ///< per group, '/' at the end; empty: nobody asked yet
   model::Model model_;
   double largest_mm_ = 0, step_mm_ = 0;
 };
 
 Status Importer::parse_nodes() {
   const std::vector<Json> items = root_["nodes"].items();
+  if (items.size() > input_.file.bytes.size() / kLeastNodeBytes + kFreeNodes)
+    return refusal("has more nodes than it has anything to say about them");
+  std::vector<Json> mesh_names;
+  mesh_names.reserve(meshes_.size());
+  for (const Json& mesh : meshes_) mesh_names.push_back(mesh["name"]);
   nodes_.resize(items.size());
   const Status parsed = parallel::for_each(
       input_.context, {.name = "read glTF nodes", .n = items.size(), .grain = 256},
-      [&](std::size_t i) { nodes_[i] = parse_node(items[i], i, meshes_); });
+      [&](std::size_t i) { nodes_[i] = parse_node(items[i], i, mesh_names); });
   if (!parsed) return parsed;
   Result<std::vector<Visit>> order = visit_order(root_, nodes_);
   if (!order) {
@@ -140,23 +170,25 @@ Status Importer::parse_nodes() {
 /// memory is bounded by the file's size before anything is loaded.
 Status Importer::check_amount() const {
   const std::uint64_t bytes = input_.file.bytes.size() + buffers_.total_bytes();
-  const std::uint64_t most_corners = 64 * bytes + (1U << 20U);
-  std::uint64_t corners = 0, instances = 0;
   const auto refuse = [&](const char* what) {
-    return Error{ErrorCode::input,
-                 fmt::format("refers to the same {} so often that they would not "
-                             "fit into the memory",
-                             what),
-                 input_.file.path.string(), "export the model again"};
+    return refusal(
+        fmt::format("refers to the same {} so often that they would not fit into the "
+                    "memory",
+                    what));
   };
+  std::uint64_t corners = 0, instances = 0, copied = 0;
   for (const std::uint32_t mesh : used_) {
     corners += stated_corners(accessors_, meshes_[mesh]);
-    if (corners > most_corners) return refuse("vertices");
+    if (corners > 64 * bytes + (1U << 20U)) return refuse("vertices");
   }
   for (const Visit& visit : visits_) {
     const Node& node = nodes_[visit.node];
-    if (node.mesh && node.instancing.exists()) instances += stated_instances(node, accessors_);
-    if (instances > bytes + (1U << 10U)) return refuse("instances");
+    if (!node.mesh || !node.instancing.exists()) continue;
+    const std::uint64_t more = stated_instances(node, accessors_);
+    instances += more;
+    if (instances > bytes / 4 + (1U << 20U)) return refuse("instances");
+    if (node.instance_extras.is_array()) copied += more * attribute_bytes(node);
+    if (copied > 16 * bytes + (1U << 28U)) return refuse("attributes");
   }
   return {};
 }
@@ -213,27 +245,22 @@ void Importer::adopt_meshes() {
   loaded_.clear();
 }
 
-/// Names from the root, joined by '/'; one that is too long for the many objects of a deep tree
-/// keeps its end behind a hash of the whole.
-std::string Importer::path_id(model::GroupId parent, const std::string& name) const {
-  constexpr std::size_t kMost = 1024;
-  std::vector<std::string_view> names{name};
-  for (model::GroupId g = parent; g != model::GroupId::none;
+/// Names from the root, joined by '/'. What is too long for the many objects of a deep tree keeps
+/// its end behind a hash of the whole.
+std::string Importer::path_id(model::GroupId parent, const std::string& name) {
+  if (parent == model::GroupId::none) return shortened(name, name);
+  paths_.resize(model_.groups.size());
+  std::vector<std::uint32_t> unknown;
+  for (auto g = parent; g != model::GroupId::none && paths_[model::index(g)].empty();
        g = model_.groups[model::index(g)].parent)
-    names.push_back(model_.groups[model::index(g)].name);
-  std::size_t length = names.size() - 1;
-  for (const std::string_view one : names) length += one.size();
-  std::string path;
-  if (length <= kMost) {
-    for (auto one = names.rbegin(); one != names.rend(); ++one)
-      path.append(path.empty() && one == names.rbegin() ? "" : "/").append(*one);
-    return path;
+    unknown.push_back(model::index(g));
+  for (auto g = unknown.rbegin(); g != unknown.rend(); ++g) {
+    const model::Group& group = model_.groups[*g];
+    const std::string above =
+        group.parent == model::GroupId::none ? "" : paths_[model::index(group.parent)];
+    paths_[*g] = shortened(above + group.name, group.name) + "/";
   }
-  Hasher hasher;
-  for (const std::string_view one : names) hasher.add(one);
-  std::string_view end = names.front();
-  if (end.size() > kMost) end = end.substr(end.size() - kMost);
-  return fmt::format("{}/{}", hasher.value().text(), end);
+  return shortened(paths_[model::index(parent)] + name, name);
 }
 
 void Importer::skip(const Node& node, const Fault& fault) {

@@ -240,9 +240,12 @@ std::uint64_t stated_corners(const Accessors& accessors, const Json& mesh) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;  // sums of these must not wrap
   std::uint64_t sum = 0;
   mesh["primitives"].elements([&](const Json& json) {
-    const Json indices = json["indices"];
-    const Json counted = indices.exists() ? indices : json["attributes"]["POSITION"];
-    sum = std::min(sum + accessors.stated_count(counted.index().value_or(UINT64_MAX)), kMost);
+    const Json indices = json["indices"], position = json["attributes"]["POSITION"];
+    const std::uint64_t vertices = position.index().value_or(UINT64_MAX);
+    const std::uint64_t counted =
+        indices.exists() ? indices.index().value_or(UINT64_MAX) : vertices;
+    sum = std::min(sum + accessors.stated_count(counted), kMost);
+    if (indices.exists()) sum = std::min(sum + accessors.copied_count(vertices), kMost);
   });
   return sum;
 }

@@ -101,7 +101,7 @@ std::optional<Placement> placement_of(const Vec3d& translation, const double* qu
   return result;
 }
 
-Node parse_node(const Json& json, std::size_t index, const std::vector<Json>& meshes) {
+Node parse_node(const Json& json, std::size_t index, const std::vector<Json>& mesh_names) {
   const auto [name, mesh, children, matrix, translation, rotation, scale, extras, extensions,
               skin] = json.pick<10>({"name", "mesh", "children", "matrix", "translation",
                                      "rotation", "scale", "extras", "extensions", "skin"});
@@ -109,10 +109,10 @@ Node parse_node(const Json& json, std::size_t index, const std::vector<Json>& me
   node.name = name.text_value();
   if (mesh.exists()) {
     node.mesh = mesh.index().value_or(UINT64_MAX);
-    if (*node.mesh >= meshes.size())
+    if (*node.mesh >= mesh_names.size())
       node.fault = Fault{fmt::format("/nodes/{}/mesh", index), "does not exist"};
     else if (node.name.empty())
-      node.name = meshes[*node.mesh]["name"].text_value();
+      node.name = mesh_names[*node.mesh].text_value();
   }
   if (node.name.empty()) node.name = fmt::format("node {}", index);
   children.elements(

@@ -27,7 +27,9 @@ struct Node {
   std::optional<Fault> fault;  ///< set: it and what is below it cannot be placed
 };
 
-[[nodiscard]] Node parse_node(const Json& json, std::size_t index, const std::vector<Json>& meshes);
+/// `mesh_names` are the names that the meshes of the document state.
+[[nodiscard]] Node parse_node(const Json& json, std::size_t index,
+                              const std::vector<Json>& mesh_names);
 
 /// The instances of a node, in the node's frame.
 struct Instances {

@@ -98,6 +98,7 @@ class BinaryReader {
   [[nodiscard]] std::optional<std::size_t> next_of(std::size_t at) const;
   void skip_unknown(std::optional<std::size_t> next);
   void leave_chunk(std::size_t body_end, std::optional<std::size_t> next);
+  [[nodiscard]] std::size_t next_chunk(std::size_t from) const;
   void resynchronise(std::size_t from);
 
   Bytes bytes_;
@@ -152,9 +153,11 @@ void BinaryReader::read_chunk() {
     ended_ = true;
     return;
   }
-  // A chunk that is followed by another must not be read beyond it, whatever its counts say.
+  // A chunk must not be read beyond the next one, whatever its counts say: not in a file that
+  // states where that is, nor in one that does not, where each chunk might claim all that follows.
   bounded_ = next && chunk_at(bytes_, *next) != Chunk::unknown;
-  Cursor in(bounded_ ? bytes_.first(*next) : bytes_, at_ + kFrameBytes);
+  const std::size_t end = bounded_ ? *next : next_chunk(at_ + kIdBytes);
+  Cursor in(bytes_.first(end), at_ + kFrameBytes);
   if (read_body(chunk, in)) {
     leave_chunk(in.at(), next);
     return;
@@ -199,16 +202,18 @@ void BinaryReader::skip_unknown(std::optional<std::size_t> next) {
   at_ = *next;
 }
 
-/// Goes on at the first chunk id at or after `from`, at any alignment: bytes may be missing.
-void BinaryReader::resynchronise(std::size_t from) {
-  std::size_t found = bytes_.size();
+/// The first chunk id at or after `from`, at any alignment: bytes may be missing.
+std::size_t BinaryReader::next_chunk(std::size_t from) const {
   for (std::size_t at = from; at + kFrameBytes <= bytes_.size(); ++at) {
     // The first word of an id: three zero bytes and a capital letter.
     if (bytes_[at] != std::byte{0} || bytes_[at + 3] < std::byte{'A'}) continue;
-    if (chunk_at(bytes_, at) == Chunk::unknown) continue;
-    found = at;
-    break;
+    if (chunk_at(bytes_, at) != Chunk::unknown) return at;
   }
+  return bytes_.size();
+}
+
+void BinaryReader::resynchronise(std::size_t from) {
+  const std::size_t found = next_chunk(from);
   log_->skip("rvm-lost-bytes", fmt::format("{} bytes are not readable as chunks", found - from),
              from);
   at_ = found;

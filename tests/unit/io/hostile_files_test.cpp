@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small files that claim or ask for much: each is refused with a reason or read in time and memory
+// that its size justifies. Bounds of CPU time are ten times and more what is needed, and a small
+// part of what the file would take from a reader that believes it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "strake/io/reader.hpp"
+#include "strake/parallel/report.hpp"
+#include "support/gltf_files.hpp"
+#include "support/io_files.hpp"
+#include "support/rvm_writer.hpp"
+
+namespace strake::io {
+namespace {
+
+using test::bytes_of;
+using test::glb;
+
+constexpr double kPatience = 20;  // CPU seconds, sanitizers included
+
+struct Timed {
+  Result<model::Model> model;
+  double seconds = 0;
+};
+
+Timed read(const Reader& reader, std::string_view bytes) {
+  const double start = parallel::thread_cpu_s();
+  Result<model::Model> model = test::read_bytes(reader, bytes, "hostile", {});
+  return {std::move(model), parallel::thread_cpu_s() - start};
+}
+
+Timed read_glb(const std::string& bytes) { return read(*make_gltf_reader(), bytes); }
+
+std::string reason(const Timed& timed) {
+  EXPECT_FALSE(timed.model);
+  EXPECT_LT(timed.seconds, kPatience);
+  return timed.model ? "" : timed.model.error().message;
+}
+
+/// `count` times the text, with commas between.
+std::string repeated(const std::string& text, std::size_t count) {
+  std::string all;
+  for (std::size_t i = 0; i < count; ++i) all.append(i == 0 ? "" : ",").append(text);
+  return all;
+}
+
+/// One triangle mesh without indices; `mesh` and `accessor` are further members of those.
+std::string document(const std::string& nodes, const std::string& mesh = {},
+                     const std::string& accessor = {}, std::size_t primitives = 1) {
+  return glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36}],)"
+             R"("bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{)" +
+                 accessor + R"("bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)" +
+                 R"("meshes":[{)" + mesh + R"("primitives":[)" +
+                 repeated(R"({"attributes":{"POSITION":0}})", primitives) + R"(]}],"nodes":[)" +
+                 nodes + "]}",
+             bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}));
+}
+
+TEST(HostileGltf, ManyNodesThatSayNothing) {
+  EXPECT_NE(reason(read_glb(document(repeated("{}", 2'000'000)))).find("more nodes"),
+            std::string::npos);
+  EXPECT_TRUE(read_glb(document(R"({"mesh":0},)" + repeated("{}", 100'000))).model);
+}
+
+TEST(HostileGltf, LeavesBelowAChainOfGroups) {
+  constexpr std::size_t kChain = 900, kLeaves = 100'000;
+  std::string nodes, children;
+  for (std::size_t i = 1; i <= kChain; ++i)
+    nodes += fmt::format(R"({{"name":"level {}","children":[{}]}},)", i, i);
+  for (std::size_t i = 0; i < kLeaves; ++i)
+    children += fmt::format("{}{}", i == 0 ? "" : ",", kChain + 1 + i);
+  nodes += R"({"name":"last","children":[)" + children + "]}," +
+           repeated(R"({"mesh":0,"name":"leaf"})", kLeaves);
+  const std::string bytes = document(nodes);
+  const Timed timed = read_glb(bytes);
+  ASSERT_TRUE(timed.model) << timed.model.error().text();
+  EXPECT_LT(timed.seconds, kPatience);
+  ASSERT_EQ(timed.model->objects.size(), kLeaves);
+  std::size_t id_bytes = 0;
+  for (const model::Object& object : timed.model->objects) id_bytes += object.id.size();
+  EXPECT_LT(id_bytes, 40 * bytes.size());
+  EXPECT_TRUE(timed.model->objects[0].id.ends_with("/leaf")) << timed.model->objects[0].id;
+}
+
+TEST(HostileGltf, LongPathsStayApart) {
+  const std::string long_name(300, 'x');
+  const auto ids = [&](const std::string& outer, const std::string& leaf) {
+    const Timed timed = read_glb(document(fmt::format(
+        R"({{"name":"{}","children":[1]}},{{"name":"{}","children":[2]}},{{"mesh":0,"name":"{}"}})",
+        outer, long_name, leaf)));
+    return timed.model ? timed.model->objects.at(0).id : "";
+  };
+  EXPECT_EQ(ids("a", "leaf"), ids("a", "leaf"));
+  EXPECT_NE(ids("a", "leaf"), ids("b", "leaf"));
+  EXPECT_NE(ids("a", "leaf"), ids("a", "leaf2"));
+  EXPECT_LE(ids("a", long_name).size(), 256U);
+}
+
+TEST(HostileGltf, MembersThatAreNoneOfOurs) {
+  std::string junk;
+  for (int i = 0; i < 100'000; ++i) junk += fmt::format(R"("j{}":0,)", i);
+  // Nameless nodes ask the mesh for its name, primitives ask the accessor for everything.
+  for (const std::string& bytes : {document(repeated(R"({"mesh":0})", 100'000), junk),
+                                   document(R"({"mesh":0})", "", junk, 100'000)}) {
+    const Timed timed = read_glb(bytes);
+    ASSERT_TRUE(timed.model) << timed.model.error().text();
+    EXPECT_LT(timed.seconds, kPatience);
+  }
+}
+
+TEST(HostileGltf, SparseVerticesOfManyPrimitives) {
+  const std::string positions(1'200'000, '\0');
+  const std::string bytes = glb(
+      R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":1200000}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":1200000}],"accessors":[)"
+      R"({"bufferView":0,"componentType":5126,"count":100000,"type":"VEC3","sparse":{"count":1,)"
+      R"("indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}},)"
+      R"({"bufferView":0,"componentType":5125,"count":3,"type":"SCALAR"}],)"
+      R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[)" +
+          repeated(R"({"attributes":{"POSITION":0},"indices":1})", 30'000) + "]}]}",
+      positions);
+  EXPECT_NE(reason(read_glb(bytes)).find("so often"), std::string::npos);
+}
+
+/// Nodes that are instanced `count` times each by one accessor.
+std::string instancing(std::size_t nodes, std::size_t count, std::size_t stated_count,
+                       const std::string& extras = {}) {
+  const std::string offsets(3 * count, '\1');
+  return glb(
+      fmt::format(
+          R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":{}}}],"bufferViews":[)"
+          R"({{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":{}}}],)"
+          R"("accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},)"
+          R"({{"bufferView":1,"componentType":5120,"count":{},"type":"VEC3"}}],)"
+          R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],"nodes":[)",
+          36 + offsets.size(), offsets.size(), stated_count) +
+          repeated(R"({"mesh":0,)" + extras +
+                       R"("extensions":{"EXT_mesh_gpu_instancing":{"attributes":)"
+                       R"({"TRANSLATION":1}}}})",
+                   nodes) +
+          "]}",
+      bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}) + offsets);
+}
+
+TEST(HostileGltf, InstancesBeyondAllMeasure) {
+  EXPECT_NE(reason(read_glb(instancing(1, 10, 1'000'000'000))).find("so often"), std::string::npos);
+  EXPECT_NE(reason(read_glb(instancing(1000, 10'000, 10'000))).find("so often"), std::string::npos);
+  const Timed few = read_glb(instancing(3, 1000, 1000));
+  ASSERT_TRUE(few.model) << few.model.error().text();
+  EXPECT_EQ(few.model->bodies.size(), 3000U);
+}
+
+TEST(HostileGltf, AttributesOfNamedInstances) {
+  std::string attributes;
+  for (int i = 0; i < 1000; ++i)
+    attributes += fmt::format(R"("k{}":"{}",)", i, std::string(50, 'v'));
+  const auto extras = [&](std::size_t count) {
+    return R"("extras":{)" + attributes + R"("instances":[)" + repeated(R"("a")", count) + "]},";
+  };
+  EXPECT_NE(reason(read_glb(instancing(1, 20'000, 20'000, extras(20'000)))).find("attributes"),
+            std::string::npos);
+  const Timed few = read_glb(instancing(1, 20, 20, extras(20)));
+  ASSERT_TRUE(few.model) << few.model.error().text();
+  EXPECT_EQ(few.model->objects.size(), 20U);
+}
+
+TEST(HostileRvm, ChunksThatClaimAllThatFollows) {
+  // Neither the address of the next chunk nor the counts of a facet group are to be believed.
+  test::RvmWriter w;
+  w.head().modl().cntb("/A").prim(9, {5});
+  for (int i = 0; i < 100'000; ++i) w.facets({{}}, {}).set_word(80, 1'000'000).set_next(1);
+  std::string bytes(reinterpret_cast<const char*>(w.bytes().data()), w.bytes().size());
+  bytes.append(8'000'000, '\0');
+  const Timed timed = read(*make_rvm_reader(), bytes);
+  ASSERT_TRUE(timed.model) << timed.model.error().text();
+  EXPECT_LT(timed.seconds, kPatience);
+  EXPECT_EQ(timed.model->bodies.size(), 1U);
+  EXPECT_EQ(timed.model->diagnostics.count("rvm-damaged-chunk"), 100'000U);
+}
+
+TEST(HostileObj, APolygonOfManyCorners) {
+  // Corners on a circle of whole numbers would repeat; a parabola and its chord do not.
+  std::string text, face = "f";
+  constexpr int kCorners = 200'000;
+  for (int i = 0; i < kCorners; ++i) {
+    text += fmt::format("v {} {} 0\n", i, static_cast<double>(i) * i / kCorners);
+    face += fmt::format(" {}", i + 1);
+  }
+  const Timed timed = read(*make_obj_reader(), text + face + "\n");
+  ASSERT_TRUE(timed.model) << timed.model.error().text();
+  EXPECT_LT(timed.seconds, kPatience);
+  const auto& mesh = std::get<geometry::TriangleMesh>(timed.model->shapes.at(0));
+  EXPECT_EQ(mesh.triangles.size(), kCorners - 2U);
+}
+
+}  // namespace
+}  // namespace strake::io
