@@ -173,7 +173,7 @@ TEST(HostileRvm, ChunksThatClaimAllThatFollows) {
   w.head().modl().cntb("/A").prim(9, {5});
   for (int i = 0; i < 100'000; ++i) w.facets({{}}, {}).set_word(80, 1'000'000).set_next(1);
   std::string bytes(reinterpret_cast<const char*>(w.bytes().data()), w.bytes().size());
-  bytes.append(8'000'000, '\0');
+  bytes.append(2'000'000, '\0');
   const Timed timed = read(*make_rvm_reader(), bytes);
   ASSERT_TRUE(timed.model) << timed.model.error().text();
   EXPECT_LT(timed.seconds, kPatience);
