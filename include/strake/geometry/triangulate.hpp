@@ -45,8 +45,11 @@ struct FaceTriangles {
 /// 4. The result does not depend on where a contour starts, but for the choice among diagonals of
 ///    points on one circle.
 ///
-/// A constrained Delaunay triangulation: sweep insertion with Lawson's flips (C. L. Lawson, 1977),
-/// edges forced by flips (S. W. Sloan, 1993). About O(n log n) in practice.
+/// A constrained Delaunay triangulation: of few points by sweep insertion with Lawson's flips
+/// (C. L. Lawson, 1977), of many by halves (L. Guibas and J. Stolfi, 1985); where an edge is
+/// missing the cells that it crosses are triangulated anew on both sides (M. V. Anglada, 1997). O(n
+/// log n) for combs, stars and grids of holes; slanted teeth, of which every edge crosses many,
+/// cost O(n^2).
 [[nodiscard]] FaceTriangles triangulate_face(std::span<const Vec3d> points,
                                              std::span<const std::uint32_t> first);
 

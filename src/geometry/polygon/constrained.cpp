@@ -2,35 +2,46 @@
 #include "geometry/polygon/constrained.hpp"
 
 #include <algorithm>
-#include <deque>
+#include <utility>
+
+#include "geometry/polygon/delaunay.hpp"
 
 namespace strake::geometry::polygon {
 namespace {
+
+/// The sweep is quick for the few points of most faces, and quadratic where its front is long: a
+/// comb, swept along its teeth.
+constexpr std::size_t kMostSwept = 128;
 
 constexpr std::uint32_t after(std::uint32_t i) { return i == 2 ? 0 : i + 1; }
 constexpr std::uint32_t before(std::uint32_t i) { return i == 0 ? 2 : i - 1; }
 
 }  // namespace
 
-int Constrained::side(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  const Point2 &p = points_[a], &q = points_[b], &r = points_[c];
+int side_of(const Point2& p, const Point2& q, const Point2& r) {
   const std::int64_t area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
   return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 
-bool Constrained::in_circle(const Cell& cell, std::uint32_t point) const {
-  const Point2& d = points_[point];
-  std::array<std::int64_t, 3> x{}, y{}, s{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    x[k] = points_[cell.vertex[k]].x - d.x;
-    y[k] = points_[cell.vertex[k]].y - d.y;
-    s[k] = x[k] * x[k] + y[k] * y[k];
-  }
+bool inside_circle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+  const std::array<std::int64_t, 3> x{a.x - d.x, b.x - d.x, c.x - d.x};
+  const std::array<std::int64_t, 3> y{a.y - d.y, b.y - d.y, c.y - d.y};
+  std::array<std::int64_t, 3> s{};
+  for (std::size_t k = 0; k < 3; ++k) s[k] = x[k] * x[k] + y[k] * y[k];
   // Differences have 30 bits, so terms have at most 122.
   const auto minor = [&](std::size_t i, std::size_t k) { return x[i] * y[k] - x[k] * y[i]; };
   return static_cast<__int128>(s[0]) * minor(1, 2) + static_cast<__int128>(s[1]) * minor(2, 0) +
              static_cast<__int128>(s[2]) * minor(0, 1) >
          0;
+}
+
+int Constrained::side(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  return side_of(points_[a], points_[b], points_[c]);
+}
+
+bool Constrained::in_circle(const Cell& cell, std::uint32_t point) const {
+  const auto& v = cell.vertex;
+  return inside_circle(points_[v[0]], points_[v[1]], points_[v[2]], points_[point]);
 }
 
 std::uint32_t Constrained::index_of(const Cell& cell, std::uint32_t vertex) const {
@@ -125,6 +136,16 @@ Constrained::Constrained(std::vector<Point2> points) : points_(std::move(points)
   hull_previous_.assign(points_.size(), kNone);
   hull_cell_.assign(points_.size(), kNone);
   if (points_.size() < 3) return;
+  if (points_.size() <= kMostSwept) {
+    sweep();
+    return;
+  }
+  cells_ = delaunay(points_);
+  for (std::uint32_t c = 0; c < cells_.size(); ++c)
+    for (const std::uint32_t v : cells_[c].vertex) cell_of_[v] = c;
+}
+
+void Constrained::sweep() {
   const std::uint32_t used = start_fan();
   if (used == 0) return;
   cells_.reserve(points_.size() * 2);
@@ -241,58 +262,126 @@ void Constrained::fix(std::uint32_t a, std::uint32_t b) {
     }
 }
 
-/// Walks from a towards b, listing the edges crossed, to b or to the first vertex on the way.
-bool Constrained::collect(std::uint32_t a, std::uint32_t b, Corner start, std::uint32_t& end,
-                          std::vector<Edge>& crossed) const {
+/// Walks from a towards b, noting what is crossed, to b or to the first vertex on the way; false
+/// where a segment is in the way.
+bool Constrained::collect(std::uint32_t a, std::uint32_t b, Corner start, Cavity& cavity) const {
   Corner at = start;
   std::uint32_t right = cells_[at.cell].vertex[after(at.index)];
   std::uint32_t left = cells_[at.cell].vertex[before(at.index)];
+  std::uint32_t entered = kNone;
+  cavity.right = {right};
+  cavity.left = {left};
   for (;;) {
     const Cell& cell = cells_[at.cell];
     if (cell.fixed[at.index]) return false;
-    crossed.emplace_back(right, left);
+    cavity.add(at.cell, cell, entered, at.index);
     const std::uint32_t next = cell.neighbour[at.index];
     const Cell& beyond = cells_[next];
-    std::uint32_t apex = beyond.vertex[0];
-    for (const std::uint32_t v : beyond.vertex)
-      if (v != left && v != right) apex = v;
+    std::uint32_t apex_index = 0;
+    while (beyond.vertex[apex_index] == left || beyond.vertex[apex_index] == right) ++apex_index;
+    const std::uint32_t apex = beyond.vertex[apex_index];
     const int where = apex == b ? 0 : side(a, b, apex);
+    entered = apex_index;
     if (where == 0) {
-      end = apex;
+      cavity.add(next, beyond, entered, kNone);
+      cavity.end = apex;
       return true;
     }
     // Leave through the edge that the segment still separates.
     at = {next, index_of(beyond, where > 0 ? left : right)};
     (where > 0 ? left : right) = apex;
+    (where > 0 ? cavity.left : cavity.right).push_back(apex);
   }
 }
 
-/// Flips the crossed edges away until a-end is an edge.
-bool Constrained::clear_way(std::uint32_t a, std::uint32_t end, std::vector<Edge> crossed) {
-  std::deque<Edge> queue(crossed.begin(), crossed.end());
-  // Each flip that counts lowers the number of crossings; the bound only guards the loop.
-  std::uint64_t budget = 16 + 4 * static_cast<std::uint64_t>(crossed.size()) * crossed.size();
-  while (!queue.empty()) {
-    if (budget-- == 0) return false;
-    const Edge edge = queue.front();
-    queue.pop_front();
-    const Corner at = find_edge(edge.first, edge.second);
-    if (at.cell == kNone) return false;
-    const Cell& cell = cells_[at.cell];
-    const std::uint32_t other = cell.neighbour[at.index];
-    const std::uint32_t p = cell.vertex[at.index];
-    const std::uint32_t u = cell.vertex[after(at.index)], v = cell.vertex[before(at.index)];
-    std::uint32_t q = cells_[other].vertex[0];
-    for (const std::uint32_t w : cells_[other].vertex)
-      if (w != u && w != v) q = w;
-    if (side(p, u, q) <= 0 || side(p, q, v) <= 0) {
-      queue.push_back(edge);
-      continue;
+void Constrained::Cavity::add(std::uint32_t number, const Cell& cell, std::uint32_t entered,
+                              std::uint32_t left_through) {
+  cells.push_back(number);
+  for (std::uint32_t k = 0; k < 3; ++k)
+    if (k != entered && k != left_through)
+      rim.push_back({cell.vertex[after(k)], cell.vertex[before(k)], cell.neighbour[k],
+                     cell.fixed[k], cell.odd[k]});
+}
+
+/// Adds the triangles of the pseudo-polygon to the left of p -> q, whose other vertices are
+/// chain, from p to q: the one on p -> q has the vertex whose circle holds no other, and what is
+/// left of the chain lies beyond its two other edges.
+void Constrained::fill(std::uint32_t p, std::uint32_t q, std::span<const std::uint32_t> chain,
+                       std::vector<std::array<std::uint32_t, 3>>& triangles) const {
+  struct Piece {
+    std::uint32_t p, q;
+    std::size_t first, last;
+  };
+  std::vector<Piece> open{{p, q, 0, chain.size()}};
+  while (!open.empty()) {
+    const Piece piece = open.back();
+    open.pop_back();
+    if (piece.first == piece.last) continue;
+    std::size_t best = piece.first;
+    for (std::size_t i = best + 1; i < piece.last; ++i) {
+      const std::uint32_t c = chain[best], v = chain[i];
+      if (c == v) {
+        // An edge hangs in the cavity by this vertex: on which side of the triangle is it?
+        if (side(piece.p, c, chain[best + 1]) > 0) best = i;
+      } else if (inside_circle(points_[piece.p], points_[piece.q], points_[c], points_[v])) {
+        best = i;
+      }
     }
-    flip(at.cell, at.index);
-    const bool ends = p == a || p == end || q == a || q == end;
-    if (!ends && side(a, end, p) * side(a, end, q) < 0) queue.emplace_back(p, q);
+    triangles.push_back({piece.p, piece.q, chain[best]});
+    open.push_back({piece.p, chain[best], piece.first, best});
+    open.push_back({chain[best], piece.q, best + 1, piece.last});
   }
+}
+
+/// Puts triangles in the place of the cavity's cells and ties them to each other and to its rim.
+void Constrained::replace(Cavity& cavity, std::span<const std::array<std::uint32_t, 3>> triangles) {
+  struct Side {
+    Edge edge;
+    std::uint32_t cell, index;
+  };
+  std::vector<Side> sides;
+  sides.reserve(triangles.size() * 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::uint32_t number = cavity.cells[t];
+    cells_[number] = {triangles[t], {kNone, kNone, kNone}, {}, {}};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto& v = triangles[t];
+      cell_of_[v[k]] = number;
+      sides.push_back({{v[after(k)], v[before(k)]}, number, k});
+    }
+  }
+  const auto by_edge = [](const Side& x, const Side& y) { return x.edge < y.edge; };
+  std::sort(sides.begin(), sides.end(), by_edge);
+  std::sort(cavity.rim.begin(), cavity.rim.end(), [](const RimEdge& x, const RimEdge& y) {
+    return std::pair(x.from, x.to) < std::pair(y.from, y.to);
+  });
+  for (const Side& at : sides) {
+    const auto rim = std::lower_bound(
+        cavity.rim.begin(), cavity.rim.end(), at.edge,
+        [](const RimEdge& x, const Edge& edge) { return std::pair(x.from, x.to) < edge; });
+    const bool on_rim = rim != cavity.rim.end() && Edge(rim->from, rim->to) == at.edge;
+    // A hanging edge is on the rim twice, with cells of the cavity on both sides.
+    const Side turned{{at.edge.second, at.edge.first}, 0, 0};
+    const auto across = std::lower_bound(sides.begin(), sides.end(), turned, by_edge);
+    const bool within = across != sides.end() && across->edge == turned.edge;
+    attach(at.cell, at.index,
+           within   ? across->cell
+           : on_rim ? rim->neighbour
+                    : kNone,
+           on_rim && rim->fixed, on_rim && rim->odd);
+  }
+}
+
+/// Makes a - cavity.end an edge.
+bool Constrained::open_way(std::uint32_t a, Cavity& cavity) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  triangles.reserve(cavity.cells.size());
+  fill(a, cavity.end, cavity.left, triangles);
+  std::reverse(cavity.right.begin(), cavity.right.end());
+  fill(cavity.end, a, cavity.right, triangles);
+  for (const auto& t : triangles)
+    if (side(t[0], t[1], t[2]) <= 0) return false;
+  replace(cavity, triangles);
   return true;
 }
 
@@ -311,9 +400,10 @@ bool Constrained::force(std::uint32_t a, std::uint32_t b) {
       return end != kNone || start.cell != kNone;
     });
     if (end == kNone) {
-      std::vector<Edge> crossed;
-      if (start.cell == kNone || !collect(a, b, start, end, crossed)) return false;
-      if (!clear_way(a, end, std::move(crossed))) return false;
+      Cavity cavity;
+      if (start.cell == kNone || !collect(a, b, start, cavity)) return false;
+      if (!open_way(a, cavity)) return false;
+      end = cavity.end;
     }
     fix(a, end);
     a = end;

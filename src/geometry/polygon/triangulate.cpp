@@ -120,6 +120,36 @@ std::vector<std::pair<std::size_t, std::size_t>> ranges(std::span<const std::uin
   return list;
 }
 
+using Segment = std::pair<std::size_t, std::size_t>;
+
+std::vector<Segment> segments(const std::vector<std::pair<std::size_t, std::size_t>>& contours) {
+  std::vector<Segment> list;
+  for (const auto& [begin, end] : contours)
+    for (std::size_t i = begin; i < end; ++i) list.emplace_back(i, i + 1 == end ? begin : i + 1);
+  return list;
+}
+
+/// The segments in the order of their numbers' bits read backwards: early ones part the face into
+/// pieces of like size, so that later ones cross few edges. One after the other along a contour of
+/// slanted teeth each would cross nearly all.
+std::vector<Segment> scattered(const std::vector<Segment>& list) {
+  std::size_t size = 1;
+  while (size < list.size()) size *= 2;
+  std::vector<Segment> out;
+  out.reserve(list.size());
+  std::size_t turned = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (turned < list.size()) out.push_back(list[turned]);
+    std::size_t bit = size / 2;  // count up from the other end
+    while (bit > 0 && (turned & bit) != 0) {
+      turned ^= bit;
+      bit /= 2;
+    }
+    turned |= bit;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string_view describe(FaceFault fault) {
@@ -149,12 +179,9 @@ FaceTriangles triangulate_face(std::span<const Vec3d> points,
   const Distinct distinct = find_distinct(integers.points, projection);
   if (distinct.ambiguous) return {{}, FaceFault::crossing};
   polygon::Constrained mesh(distinct.points);
-  for (const auto& [begin, end] : contours)
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t a = distinct.renumbered[i];
-      const std::uint32_t b = distinct.renumbered[i + 1 == end ? begin : i + 1];
-      if (!mesh.force(a, b)) return {{}, FaceFault::crossing};
-    }
+  for (const auto& [from, to] : scattered(segments(contours)))
+    if (!mesh.force(distinct.renumbered[from], distinct.renumbered[to]))
+      return {{}, FaceFault::crossing};
   mesh.improve();
   const std::vector<bool> inside = mesh.inside();
   FaceTriangles result;

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <random>
 #include <set>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace strake::geometry {
 namespace {
@@ -324,6 +328,90 @@ TEST(Triangulate, ThousandsOfVerticesAreQuick) {
   const FaceTriangles t = triangulate_face(lift(comb.points), comb.first);
   ASSERT_EQ(t.fault, FaceFault::none);
   EXPECT_EQ(doubled_area(comb, t, -1), 2 * (kTeeth * 2 * 1000 + kTeeth * 4 * 10));
+}
+
+std::int64_t doubled_area_of(const std::vector<Lattice>& outline) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    sum += doubled_area({0, 0}, outline[i], outline[i + 1 == outline.size() ? 0 : i + 1]);
+  return sum;
+}
+
+/// The outline's area to the last unit, n - 2 triangles, and every edge of the outline among them.
+void expect_whole(const std::vector<Lattice>& outline) {
+  Face face{outline, {0, static_cast<std::uint32_t>(outline.size())}};
+  const FaceTriangles t = triangulate_face(lift(outline), face.first);
+  ASSERT_EQ(t.fault, FaceFault::none);
+  EXPECT_EQ(t.triangles.size(), outline.size() - 2);
+  const std::int64_t whole = doubled_area_of(outline);
+  // Triangles have the sense of the contour.
+  EXPECT_EQ(doubled_area(face, t, whole > 0 ? 1 : -1), std::abs(whole));
+}
+
+/// The teeth of a comb lie along x or along y: a sweep along them has the whole comb as its front.
+TEST(Triangulate, ACombOfFiftyThousandVerticesIsQuick) {
+  for (const bool turned : {false, true}) {
+    std::vector<Lattice> comb{{0, 0}};
+    for (std::int64_t i = 0; i < 25'000; ++i) {
+      comb.emplace_back(2 * i, 1000);
+      comb.emplace_back(2 * i + 1, 10);
+    }
+    comb.emplace_back(50'000, 0);
+    if (turned)
+      for (auto& [x, y] : comb) std::swap(x, y);
+    expect_whole(comb);
+  }
+}
+
+TEST(Triangulate, ASpikyWheelOfTwentyThousandVerticesIsQuick) {
+  // Round a square: corners on its sides, and points of a small square within.
+  constexpr std::int64_t kSide = 2'500, kFar = 400'000;
+  std::vector<Lattice> rim, hub;
+  for (std::int64_t s = 0; s < 4; ++s)
+    for (std::int64_t i = 0; i < kSide; ++i) {
+      const auto turn = [&](std::int64_t x, std::int64_t y) {
+        for (std::int64_t k = 0; k < s; ++k) std::tie(x, y) = std::pair(-y, x);
+        return Lattice{x, y};
+      };
+      rim.push_back(turn(kFar, (2 * i - kSide) * (kFar / kSide)));
+      hub.push_back(turn(2 * kSide, 2 * (2 * i - kSide) + 2));
+    }
+  std::vector<Lattice> wheel;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    wheel.push_back(rim[i]);
+    wheel.push_back(hub[i]);
+  }
+  expect_whole(wheel);
+}
+
+/// Slanted teeth: every edge of the outline crosses a fan of Delaunay edges.
+TEST(Triangulate, SlantedTeethAreQuick) {
+  constexpr std::int64_t kTeeth = 1'500;
+  std::vector<Lattice> saw;
+  for (std::int64_t i = 0; i < kTeeth; ++i) {
+    saw.emplace_back(0, 8 * i);
+    saw.emplace_back(100'000, 8 * (kTeeth + i));
+  }
+  for (const Lattice& corner :
+       {Lattice{0, 8 * kTeeth}, Lattice{-100, 8 * kTeeth}, Lattice{-100, -5}, Lattice{50'000, -6}})
+    saw.push_back(corner);
+  expect_whole(saw);
+}
+
+TEST(Triangulate, ThousandsOfHolesAreQuick) {
+  constexpr std::int64_t kAcross = 70;
+  Face plate{{{-1, -1}, {4 * kAcross, -1}, {4 * kAcross, 4 * kAcross}, {-1, 4 * kAcross}}, {0, 4}};
+  for (std::int64_t i = 0; i < kAcross * kAcross; ++i) {
+    const std::int64_t x = 4 * (i % kAcross), y = 4 * (i / kAcross);
+    for (const Lattice& corner :
+         {Lattice{x, y}, Lattice{x + 2, y + 1}, Lattice{x + 2, y + 2}, Lattice{x, y + 2}})
+      plate.points.push_back(corner);
+    plate.first.push_back(static_cast<std::uint32_t>(plate.points.size()));
+  }
+  const FaceTriangles t = triangulate_face(lift(plate.points), plate.first);
+  ASSERT_EQ(t.fault, FaceFault::none);
+  const std::int64_t side = 4 * kAcross + 1;
+  EXPECT_EQ(doubled_area(plate, t), 2 * side * side - 6 * kAcross * kAcross);
 }
 
 }  // namespace
