@@ -73,7 +73,7 @@ class Engine {
     Report report;
     report.options = options_;
     auto pairs = near_pairs(list_, sets_, std::max(narrow_.touch_gap, narrow_.clearance) + 2,
-                            options_.broad_phase, context_);
+                            options_, context_);
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
     if (const Status s = settle_simple_pairs(); !s) return s.error();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <tuple>
 
 namespace strake::clash {
@@ -23,11 +24,21 @@ geometry::BoxItem item_of(const PartRef& ref, const Sets& sets, double reach) {
   return item;
 }
 
-Result<std::vector<geometry::IndexPair>> tree_pairs(const std::vector<geometry::BoxItem>& items,
-                                                    const parallel::Context& context) {
+Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::BoxItem>& items,
+                                                   const Options& options,
+                                                   const parallel::Context& context) {
+  if (options.broad_phase == BroadPhase::all_pairs)
+    return geometry::meeting_pairs_all(items, context, options.most_pairs);
   const auto tree = geometry::BoxTree::build(items, context);
   if (!tree) return tree.error();
-  return geometry::meeting_pairs(*tree, context);
+  return geometry::meeting_pairs(*tree, context, options.most_pairs);
+}
+
+Error too_many(const Options& options) {
+  return {ErrorCode::input,
+          "more than " + std::to_string(options.most_pairs) +
+              " pairs of parts are within reach of each other",
+          "clash", "give a smaller clearance; or the model holds many objects at one place"};
 }
 
 }  // namespace
@@ -59,14 +70,13 @@ PartList list_parts(const model::Scene& scene, const Sets& sets) {
 }
 
 Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list, const Sets& sets,
-                                                    double reach, BroadPhase broad_phase,
+                                                    double reach, const Options& options,
                                                     const parallel::Context& context) {
   std::vector<geometry::BoxItem> items;
   items.reserve(list.parts.size());
   for (const PartRef& ref : list.parts) items.push_back(item_of(ref, sets, reach));
-  auto pairs = broad_phase == BroadPhase::all_pairs ? geometry::meeting_pairs_all(items, context)
-                                                    : tree_pairs(items, context);
-  if (!pairs) return pairs.error();
+  auto pairs = box_pairs(items, options, context);
+  if (!pairs) return pairs.error().code == ErrorCode::input ? too_many(options) : pairs.error();
   if (!sets.group.empty())
     std::erase_if(*pairs, [&](const geometry::IndexPair& p) {
       return sets.group[list.parts[p.first].object] == sets.group[list.parts[p.second].object];

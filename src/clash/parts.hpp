@@ -32,7 +32,7 @@ struct PartList {
 /// the list, by (objects, parts).
 [[nodiscard]] Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list,
                                                                   const Sets& sets, double reach,
-                                                                  BroadPhase broad_phase,
+                                                                  const Options& options,
                                                                   const parallel::Context& context);
 
 }  // namespace strake::clash

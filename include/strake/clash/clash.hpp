@@ -46,6 +46,8 @@ struct Options {
   BroadPhase broad_phase = BroadPhase::tree;
   /// Contact distance δ for the relation, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
+  /// More pairs of parts within reach of each other than this are an error: some 300 bytes each.
+  std::uint64_t most_pairs = std::uint64_t{1} << 25U;
 };
 
 /// Bits of Pair::flags.
@@ -111,7 +113,7 @@ struct Sets {
 ///    other objects, nor the order of the sets show in it.
 /// 2. Parts of one object are no pair; wires (polylines) never clash.
 /// Errors: usage for a tolerance that is negative, infinite or not a number and for sets of the
-/// wrong size; cancelled.
+/// wrong size; input for more pairs than most_pairs; cancelled.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const parallel::Context& context);
 

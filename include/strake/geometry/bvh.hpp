@@ -61,14 +61,22 @@ class BoxTree {
   std::vector<std::uint32_t> order_;
 };
 
+/// As many pairs as there may be when nobody says otherwise: 8 bytes each.
+inline constexpr std::uint64_t kMostPairs = std::uint64_t{1} << 32U;
+
 /// Every pair of items of different owners, one of set A and one of set B, whose closed boxes
 /// share a point: each unordered pair once, ascending.
+///
+/// n boxes at one place are n(n - 1)/2 pairs, more than memory holds long before n is large:
+/// more than `most` are an error (input), found before they are kept.
 [[nodiscard]] Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree,
-                                                           const parallel::Context& context);
+                                                           const parallel::Context& context,
+                                                           std::uint64_t most = kMostPairs);
 
 /// The same pairs by the nested loop over A x B, flattened into one 64-bit range: the oracle of
 /// the tree, and the baseline that it is measured against.
 [[nodiscard]] Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
-                                                               const parallel::Context& context);
+                                                               const parallel::Context& context,
+                                                               std::uint64_t most = kMostPairs);
 
 }  // namespace strake::geometry

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "strake/geometry/bvh.hpp"
@@ -22,6 +24,27 @@ struct NodePair {
 bool sets_match(std::uint8_t x, std::uint8_t y) {
   return ((x & kSetA) != 0 && (y & kSetB) != 0) || ((x & kSetB) != 0 && (y & kSetA) != 0);
 }
+
+/// Counts pairs over all workers and knows when they are too many.
+class Allowance {
+ public:
+  explicit Allowance(std::uint64_t most) : most_(most) {}
+
+  /// False once there are more than allowed. Relaxed: the sum alone matters.
+  [[nodiscard]] bool take(std::uint64_t pairs) {
+    return taken_.fetch_add(pairs, std::memory_order_relaxed) + pairs <= most_;
+  }
+  [[nodiscard]] Error error() const {
+    return {ErrorCode::input,
+            "more than " + std::to_string(most_) + " pairs of boxes meet",
+            {},
+            "take fewer objects at one place, or a smaller reach"};
+  }
+
+ private:
+  std::uint64_t most_;
+  std::atomic<std::uint64_t> taken_{0};
+};
 
 class SelfJoin {
  public:
@@ -48,7 +71,11 @@ class SelfJoin {
     return tasks;
   }
 
-  void run(const NodePair& task, std::vector<NodePair>& stack, std::vector<IndexPair>& out) const {
+  /// False when there are too many pairs.
+  [[nodiscard]] bool run(const NodePair& task, std::vector<NodePair>& stack,
+                         std::vector<IndexPair>& out, Allowance& allowance) const {
+    constexpr std::size_t kAskAfter = std::size_t{1} << 14U;
+    std::size_t counted = out.size();
     stack.assign(1, task);
     while (!stack.empty()) {
       const NodePair p = stack.back();
@@ -57,7 +84,11 @@ class SelfJoin {
         test_items(p, out);
       else
         expand(p, stack);
+      if (out.size() - counted < kAskAfter) continue;
+      if (!allowance.take(out.size() - counted)) return false;
+      counted = out.size();
     }
+    return allowance.take(out.size() - counted);
   }
 
  private:
@@ -111,14 +142,16 @@ class SelfJoin {
 
 }  // namespace
 
-Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree,
-                                             const parallel::Context& context) {
+Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree, const parallel::Context& context,
+                                             std::uint64_t most) {
+  Allowance allowance(most);
   const SelfJoin join(tree);
   const std::vector<NodePair> tasks = join.subtasks();
   auto pairs = parallel::collect_with<IndexPair>(
       context, {.name = "broad phase", .n = tasks.size()}, [] { return std::vector<NodePair>(); },
-      [&](std::vector<NodePair>& stack, std::size_t i, std::vector<IndexPair>& out) {
-        join.run(tasks[i], stack, out);
+      [&](std::vector<NodePair>& stack, std::size_t i, std::vector<IndexPair>& out) -> Status {
+        if (join.run(tasks[i], stack, out, allowance)) return {};
+        return allowance.error();
       });
   if (!pairs) return pairs.error();
   std::sort(pairs->begin(), pairs->end());
@@ -126,7 +159,9 @@ Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree,
 }
 
 Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
-                                                 const parallel::Context& context) {
+                                                 const parallel::Context& context,
+                                                 std::uint64_t most) {
+  Allowance allowance(most);
   std::vector<std::uint32_t> in_a, in_b;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items[i].box.empty()) continue;
@@ -139,13 +174,13 @@ Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
   const std::size_t cells = in_a.size() * in_b.size();
   auto pairs = parallel::collect<IndexPair>(
       context, {.name = "broad phase, all pairs", .n = cells, .grain = std::size_t{1} << 16U},
-      [&](std::size_t cell, std::vector<IndexPair>& out) {
+      [&](std::size_t cell, std::vector<IndexPair>& out) -> Status {
         const std::uint32_t a = in_a[cell / in_b.size()], b = in_b[cell % in_b.size()];
-        if (items[a].owner == items[b].owner || !items[a].box.meets(items[b].box)) return;
-        if (a < b)
-          out.push_back({a, b});
-        else if (!both_ways(a, b))
-          out.push_back({b, a});
+        if (items[a].owner == items[b].owner || !items[a].box.meets(items[b].box)) return {};
+        if (a > b && both_ways(a, b)) return {};
+        if (!allowance.take(1)) return allowance.error();
+        out.push_back({std::min(a, b), std::max(a, b)});
+        return {};
       });
   if (!pairs) return pairs.error();
   std::sort(pairs->begin(), pairs->end());

@@ -66,6 +66,20 @@ TEST(Detect, WallsEndToEnd) {
   expect(only(walls(-0.002, 0)), Class::contact, Relation::abut_outside, -0.002);
 }
 
+/// A thousand objects at one place are half a million pairs; the memory ends before a million's do.
+TEST(Detect, MorePairsThanAllowedAreAnErrorThatSaysWhy) {
+  test::ClashModel m;
+  for (int i = 0; i < 30; ++i) m.box("b" + std::to_string(i), {0, 0, 0}, {10, 10, 10});
+  const model::Scene scene = make_scene(m.model, {}, {}).value();
+  for (const BroadPhase broad_phase : {BroadPhase::tree, BroadPhase::all_pairs}) {
+    const Options options{.broad_phase = broad_phase, .most_pairs = 30 * 29 / 2 - 1};
+    const auto report = detect(scene, one_set(scene), options, {});
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::input);
+    EXPECT_NE(report.error().text().find("at one place"), std::string::npos);
+  }
+}
+
 TEST(Detect, Clearance) {
   const Options options{.clearance_mm = 25};
   expect(only(walls(24.9, 0), options), Class::clearance_violation, Relation::separate, 24.9);

@@ -70,6 +70,27 @@ TEST(BoxTree, NothingHasNoPairs) {
   EXPECT_TRUE(meeting_pairs_all({}, {})->empty());
 }
 
+TEST(BoxTree, TooManyPairsAreAnErrorForAnyTeam) {
+  const std::vector<BoxItem> items = [] {
+    std::vector<BoxItem> same;
+    for (std::uint32_t i = 0; i < 1000; ++i) same.push_back({{{0, 0, 0}, {10, 10, 10}}, i});
+    return same;
+  }();
+  constexpr std::uint64_t kAll = 1000 * 999 / 2;
+  parallel::Team team(3);
+  for (const parallel::Context& context : {parallel::Context{}, parallel::Context{.team = &team}}) {
+    const auto tree = BoxTree::build(items, context);
+    ASSERT_TRUE(tree);
+    EXPECT_EQ(meeting_pairs(*tree, context, kAll)->size(), kAll);
+    EXPECT_EQ(meeting_pairs_all(items, context, kAll)->size(), kAll);
+    for (const auto& pairs :
+         {meeting_pairs(*tree, context, kAll - 1), meeting_pairs_all(items, context, kAll - 1)}) {
+      ASSERT_FALSE(pairs);
+      EXPECT_EQ(pairs.error().code, ErrorCode::input);
+    }
+  }
+}
+
 TEST(BoxTree, TouchingBoxesMeet) {
   const std::vector<BoxItem> items{{{{0, 0, 0}, {10, 10, 10}}, 0},
                                    {{{10, 10, 10}, {20, 20, 20}}, 1},
