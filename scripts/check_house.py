@@ -25,6 +25,9 @@ IMPURE = re.compile(r'\bstd::(cout|cerr|abort|exit|getenv)\b|(?<![\w:.])(printf|
 
 
 def tracked():
+    """The files of the project: git's, or in a release, which is no checkout, all outside build."""
+    if not Path('.git').exists():
+        return sorted(path for path in Path('.').rglob('*') if path.is_file() and path.parts[0] != 'build')
     out = subprocess.run(['git', 'ls-files', '-z', '--cached', '--others', '--exclude-standard'],
                          check=True, capture_output=True, text=True).stdout
     return sorted(Path(name) for name in set(out.split('\0')) if name)

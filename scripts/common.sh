@@ -50,7 +50,15 @@ configure_and_build() {
   cmake --build "build/$preset" -j "$jobs" ${1:+--target "$@"}
 }
 
-# sources PATTERN...: those of git's files, and files not yet added, that match.
+# sources PATTERN...: those of git's files, and files not yet added, that match; in a release, which
+# is no checkout, all that do outside build.
 sources() {
-  git ls-files --cached --others --exclude-standard -- "$@"
+  if [ -e .git ]; then
+    git ls-files --cached --others --exclude-standard -- "$@"
+    return
+  fi
+  local pattern
+  for pattern in "$@"; do
+    find . -path ./build -prune -o -type f -name "$pattern" -printf '%P\n'
+  done
 }
