@@ -21,7 +21,7 @@ namespace strake::cli {
 /// 100 ms and leaves no half-written file, whatever it was doing.
 class Interrupts {
  public:
-  static constexpr int kGraceMs = 50;
+  static constexpr int kGraceMs = 25;
 
   explicit Interrupts(Console& console);
   ~Interrupts();
