@@ -144,7 +144,7 @@ TEST(BoxTree, SameTreeAndPairsForAnyTeam) {
 }
 
 TEST(BoxTree, StopsWhenAskedTo) {
-  std::stop_source source;
+  const std::stop_source source;
   source.request_stop();
   const auto items = random_items({});
   const auto tree = BoxTree::build(items, {.team = nullptr, .stop = source.get_token()});

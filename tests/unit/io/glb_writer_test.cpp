@@ -193,7 +193,7 @@ TEST(GlbWriter, RefusesCoordinatesThatAreNotFinite) {
 }
 
 TEST(GlbWriter, LeavesNothingWhenStopped) {
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   parallel::Context context;
   context.stop = stop.get_token();
