@@ -251,10 +251,9 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->group("View");
   command
       .add_option("--select", options.select,
-                  "Draw only objects that this selection picks, as 'PIPE*' or 'type = box and @DN "
-                  "> 80mm'; may "
-                  "be repeated")
-      ->type_name("GLOB")
+                  "Draw only objects that this picks, as 'PIPE*' or 'type = box and @DN > 80mm'; "
+                  "may be repeated")
+      ->type_name("SELECTION")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

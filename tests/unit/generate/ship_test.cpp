@@ -61,7 +61,7 @@ TEST(Ship, refuses_numbers_that_make_no_ship) {
 }
 
 TEST(Ship, stops_when_told) {
-  std::stop_source source;  // NOLINT(misc-const-correctness): requesting a stop is its use
+  const std::stop_source source;
   source.request_stop();
   parallel::Context context;
   context.stop = source.get_token();
