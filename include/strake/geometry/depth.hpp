@@ -49,7 +49,7 @@ struct DepthGoal {
   double tolerance = 8;                  ///< a bracket this narrow is narrow enough,
   double relative = 0.02;                ///< and so is one this narrow relative to the depth
   std::uint32_t cells_undecided = 3000;  ///< work limit while the threshold lies in the bracket
-  std::uint32_t cells_decided = 300;     ///< work limit once it does not
+  std::uint32_t cells_decided = 1000;    ///< work limit once it does not
   /// A certain upper bound, if known: minus the result of gap_bound().
   double known_upper = std::numeric_limits<double>::infinity();
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known,
@@ -70,10 +70,10 @@ struct Depth {
 /// is inside all of the part's half-spaces), by weak duality; and since a translation changes D by
 /// no more than its length, any short one that exactly parts the interiors. Lower bound: a point
 /// whose side is decided exactly, with its distances. Where the two differ by more than the goal
-/// allows, as between parts that are not convex, best-first branch and bound over their common box:
-/// within a cell the distance to one triangle is convex, so its greatest value at the corners
-/// bounds it, and distances change by no more than the way moved. Work is limited by the goal; the
-/// bracket is certain wherever it stops.
+/// allows, as between parts that are not convex, best-first branch and bound over the simplices of
+/// their common box: within one, the distance to a triangle is convex, so that a linear program
+/// through its corner values bounds the depth, exactly where the skins are flat or locally convex.
+/// Work is limited by the goal; the bracket is certain wherever it stops.
 [[nodiscard]] Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
                                 PairWork& work);
 

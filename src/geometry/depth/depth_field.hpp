@@ -45,6 +45,7 @@ class DepthField {
   [[nodiscard]] Vec3d local(const Vec3d& p) const { return p + shift_.as<double>(); }
   [[nodiscard]] Vec3d common(const Vec3d& p) const { return p - shift_.as<double>(); }
   [[nodiscard]] const Part& part() const { return *part_->placed.part; }
+  [[nodiscard]] const PartTree& tree() const { return *part_->tree; }
 
  private:
   const TreedPart* part_;

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/depth/simplex.hpp"
+
 namespace strake::geometry {
 namespace {
 
@@ -51,19 +53,9 @@ Range range_along(const DepthField& f, const Vec3d& axis) {
   return r;
 }
 
-/// What is known of a part at the centre of a cell.
-struct Sample {
-  double distance = 0;
-  std::uint32_t triangle = kNoFace;
-  bool inside = false;
-};
-
 struct Cell {
-  Vec3d centre;
-  Vec3d half;  ///< along the axes of the frame
-  Sample a, b;
+  Simplex simplex;
   double upper = 0;  ///< no point of the cell that is in both is deeper
-  int split = 0;     ///< the axis that the bound suffers from most
   std::uint32_t id = 0;
 };
 
@@ -72,6 +64,24 @@ struct LessPromising {
     return x.upper != y.upper ? x.upper < y.upper : x.id > y.id;
   }
 };
+
+struct Edge {
+  std::size_t from = 0, to = 1;
+  double squared = 0;
+};
+
+Edge longest_edge(const Simplex& s) {
+  Edge longest;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      const Vec3d e = s.corner[j].at - s.corner[i].at;
+      if (dot(e, e) > longest.squared) longest = {i, j, dot(e, e)};
+    }
+  return longest;
+}
+
+/// A cell no longer than this, grid units, is not cut further.
+constexpr double kSmallest = 0.25;
 
 class Search {
  public:
@@ -86,23 +96,21 @@ class Search {
 
   void run() {
     const double ceiling = depth_.upper;
-    Cell root;
-    if (!place_root(root)) return;
-    evaluate(root, nullptr);
+    if (!plant()) return;
+    double kept = 0;  // the greatest bound of a cell that is too small to cut
     while (!open_.empty()) {
-      depth_.upper = std::min(ceiling, std::max(open_.top().upper, depth_.value));
+      const double highest = std::max({open_.top().upper, kept, depth_.value});
+      depth_.upper = std::min(ceiling, highest);
       if (bracket_suffices(depth_, goal_) || exhausted()) return;
       const Cell cell = open_.top();
       open_.pop();
-      const double half = cell.half[cell.split] / 2;
-      for (const double side : {-1.0, 1.0}) {
-        Cell child = cell;
-        child.half[cell.split] = half;
-        child.centre = cell.centre + axes_[static_cast<std::size_t>(cell.split)] * (side * half);
-        evaluate(child, &cell);
-      }
+      const Edge edge = longest_edge(cell.simplex);
+      if (edge.squared <= kSmallest * kSmallest)
+        kept = std::max(kept, cell.upper);
+      else
+        cut(cell, edge);
     }
-    depth_.upper = std::min(ceiling, depth_.value + margin_);
+    depth_.upper = std::min(ceiling, std::max(depth_.value + margin_, kept));
   }
 
  private:
@@ -111,88 +119,91 @@ class Search {
     return depth_.cells >= (decided ? goal_.cells_decided : goal_.cells_undecided);
   }
 
-  bool place_root(Cell& root) {
+  /// The common box of the two in the frame, as the six simplices round one of its diagonals.
+  bool plant() {
+    Vec3d lo, size;
     double extent = 0;
     for (int k = 0; k < 3; ++k) {
-      const Vec3d& axis = axes_[static_cast<std::size_t>(k)];
-      const Range x = range_along(a_, axis), y = range_along(b_, axis);
-      const double lo = std::max(x.lo, y.lo) - 1, hi = std::min(x.hi, y.hi) + 1;
-      if (!(lo < hi)) return false;
+      const Range x = range_along(a_, axes_[at(k)]), y = range_along(b_, axes_[at(k)]);
+      lo[k] = std::max(x.lo, y.lo) - 1;
+      size[k] = std::min(x.hi, y.hi) + 1 - lo[k];
+      if (!(size[k] > 0)) return false;
       extent = std::max({extent, x.hi - x.lo, y.hi - y.lo});
-      root.half[k] = (hi - lo) / 2;
-      root.centre = root.centre + axis * ((lo + hi) / 2);
     }
     margin_ = kFieldError * extent;
+    slack_ = 1.0 / 1024 + margin_;
+    std::array<SimplexCorner, 8> corners;
+    for (unsigned i = 0; i < 8; ++i) {
+      Vec3d p;
+      for (int k = 0; k < 3; ++k)
+        p = p + axes_[at(k)] * (lo[k] + ((i >> static_cast<unsigned>(k) & 1U) != 0 ? size[k] : 0));
+      corners[i] = look(p, nullptr);
+    }
+    constexpr std::array<std::array<unsigned, 2>, 6> kPaths{
+        {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}}};
+    for (const auto& path : kPaths) {
+      const Cell cell{{{corners[0], corners[path[0]], corners[path[1]], corners[7]}},
+                      std::numeric_limits<double>::infinity()};
+      bound(cell);
+    }
     return true;
   }
 
-  /// The parent's side holds when no surface lies between the two centres.
-  Sample sample(const DepthField& f, const Vec3d& at, const Sample* parent, double moved) {
-    Sample s;
-    const NearestTriangle near = f.nearest(at, parent != nullptr ? parent->triangle : kNoFace);
+  static std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+  /// A new corner; the side of a known one holds when no surface lies between the two.
+  SimplexCorner look(const Vec3d& p, const SimplexCorner* known) {
+    SimplexCorner corner{p, on_field_grid(p), {}, {}};
+    corner.a = sample(a_, corner.sampled, known, known != nullptr ? &known->a : nullptr);
+    corner.b = sample(b_, corner.sampled, known, known != nullptr ? &known->b : nullptr);
+    if (corner.a.inside && corner.b.inside)
+      improve(std::max(corner.a.distance, corner.b.distance), corner.sampled);
+    return corner;
+  }
+
+  FieldSample sample(const DepthField& f, const Vec3d& p, const SimplexCorner* known,
+                     const FieldSample* there) {
+    FieldSample s;
+    const NearestTriangle near = f.nearest(p, there != nullptr ? there->triangle : kNoFace);
     s.distance = near.distance;
     s.triangle = near.triangle;
-    s.inside = parent != nullptr && moved < parent->distance * (1 - kFieldError)
-                   ? parent->inside
-                   : f.contains(at, work_);
+    const bool same_side = there != nullptr && length(p - known->sampled) + margin_ <
+                                                   std::max(there->distance, s.distance);
+    s.inside = same_side ? there->inside : f.contains(p, work_);
     return s;
   }
 
-  /// Greatest distance of the cell's corners to the triangle nearest its centre, and the axis
-  /// along which the worst corner lies farthest from it.
-  double corner_bound(const DepthField& f, const Cell& cell, const Vec3d& at, std::uint32_t t,
-                      int& axis) const {
-    const Corners corners = corners_of(f.part(), t);
-    double worst = -1;
-    for (unsigned i = 0; i < 8; ++i) {
-      Vec3d p = at;
-      for (unsigned k = 0; k < 3; ++k)
-        p = p + axes_[k] * ((i >> k & 1U) != 0 ? cell.half[static_cast<int>(k)]
-                                               : -cell.half[static_cast<int>(k)]);
-      const Vec3d q = f.local(p);
-      const Vec3d away = q - nearest_on_triangle(q, corners);
-      const double d = length(away);
-      if (!(d > worst)) continue;
-      worst = d;
-      double most = -1;
-      for (int k = 0; k < 3; ++k) {
-        const double pull = std::fabs(dot(away, axes_[static_cast<std::size_t>(k)])) * cell.half[k];
-        if (pull > most) {
-          most = pull;
-          axis = k;
-        }
-      }
+  void cut(const Cell& cell, const Edge& edge) {
+    const SimplexCorner &from = cell.simplex.corner[edge.from], &to = cell.simplex.corner[edge.to];
+    const SimplexCorner middle = look((from.at + to.at) * 0.5, &from);
+    for (const std::size_t replaced : {edge.from, edge.to}) {
+      Cell child = cell;
+      child.simplex.corner[replaced] = middle;
+      bound(child);
     }
-    return worst;
   }
 
-  void evaluate(Cell& cell, const Cell* parent) {
+  /// Keeps the cell if something in it may be deeper than what is known; `upper` comes from its
+  /// parent.
+  void bound(Cell cell) {
     ++depth_.cells;
-    const Vec3d at = on_field_grid(cell.centre);
-    const double slack = 1.0 / 1024 + margin_;  // the centre moved to the field grid
-    const double radius = length(cell.half) + slack;
-    const double moved =
-        parent != nullptr ? length(at - on_field_grid(parent->centre)) + margin_ : 0;
-    cell.a = sample(a_, at, parent != nullptr ? &parent->a : nullptr, moved);
-    if (!cell.a.inside && cell.a.distance > radius) return;
-    cell.b = sample(b_, at, parent != nullptr ? &parent->b : nullptr, moved);
-    if (!cell.b.inside && cell.b.distance > radius) return;
-    if (cell.a.inside && cell.b.inside) improve(std::max(cell.a.distance, cell.b.distance), at);
-    int split_a = 0, split_b = 0;
-    const double in_a = bound(a_, cell, cell.a, at, radius, split_a) + slack;
-    const double in_b = bound(b_, cell, cell.b, at, radius, split_b) + slack;
-    cell.upper = std::max(in_a, in_b);
-    if (parent != nullptr) cell.upper = std::min(cell.upper, parent->upper);
+    const auto bounds = bound_depth(a_, b_, cell.simplex, slack_, depth_.value + margin_, work_);
+    if (!bounds) return;
+    double most = 0;
+    for (const SimplexBound& b : *bounds) {
+      most = std::max(most, b.upper);
+      if (b.upper > depth_.value + margin_) try_point(b.point);
+    }
+    cell.upper = std::min(cell.upper, most);
     if (cell.upper <= depth_.value + margin_) return;
-    cell.split = in_a >= in_b ? split_a : split_b;
     cell.id = next_id_++;
     open_.push(cell);
   }
 
-  double bound(const DepthField& f, const Cell& cell, const Sample& s, const Vec3d& at,
-               double radius, int& axis) const {
-    const double moved = s.inside ? s.distance + radius : radius - s.distance;
-    return std::min(moved, corner_bound(f, cell, at, s.triangle, axis));
+  void try_point(const Vec3d& p) {
+    const Vec3d q = on_field_grid(p);
+    const double depth = std::max(a_.nearest(q).distance, b_.nearest(q).distance);
+    if (depth > depth_.value && a_.contains(q, work_) && b_.contains(q, work_)) improve(depth, q);
   }
 
   void improve(double depth, const Vec3d& at) {
@@ -207,7 +218,7 @@ class Search {
   Depth& depth_;
   PairWork& work_;
   Axes axes_;
-  double margin_ = 0;
+  double margin_ = 0, slack_ = 0;
   std::priority_queue<Cell, std::vector<Cell>, LessPromising> open_;
   std::uint32_t next_id_ = 0;
 };

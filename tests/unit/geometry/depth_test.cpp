@@ -153,6 +153,51 @@ TEST(Depth, BodyInTheHollowOfAChannel) {
   EXPECT_LE(d.lower, 3000);
   EXPECT_GE(d.upper, 3000);
   EXPECT_GT(d.lower, 1000) << "the class is decided";
+  EXPECT_LE(d.upper - d.lower, 60);
+  EXPECT_LT(d.cells, 200U);
+}
+
+/// Two channels, one turned over the other: the arms of one stand in the other's walls and floor.
+TEST(Depth, ChannelsStuckIntoEachOther) {
+  const Subject a(channel(1'000'000, 100'000, 80'000, 10'000));
+  IndexedMesh upside = channel(1'000'000, 100'000, 80'000, 10'000).flipped();
+  for (Vec3i& v : upside.vertices) v.z = -v.z;
+  // Arms 16 mm into a floor of 10: 10 mm of arm in 10 mm of floor, and half of that is deepest.
+  const Subject b(upside, {0, 45'000, 84'000});
+  const Depth d = depth_of(a, b, {.threshold = 1000});
+  EXPECT_NEAR(d.value, 5'000, 100);
+  EXPECT_LE(d.lower, 5'000);
+  EXPECT_GE(d.upper, 5'000);
+  EXPECT_LE(d.upper - d.lower, 100);
+}
+
+/// The search ends with a narrow bracket round any depth of bodies that are not convex.
+TEST(Depth, BracketsOfConcaveBodiesAreNarrow) {
+  int met = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](int lo, int hi) {
+      return lo + static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(hi - lo));
+    };
+    const IndexedMesh u = channel(draw(40, 90) * 1000, 60'000, 40'000, draw(4, 12) * 1000);
+    const Subject a(seed % 2 == 0 ? u : turned(u));
+    const IndexedMesh other = seed % 3 == 0
+                                  ? channel(draw(40, 90) * 1000, 30'000, 50'000, draw(4, 12) * 1000)
+                                  : cylinder(draw(3, 24), draw(5'000, 20'000), -20'000, 20'000);
+    const Subject b(turned(other), {draw(0, 40'000), draw(0, 40'000), draw(0, 20'000)});
+    PairWork work;
+    const MeetingResult meeting = meet(a.treed(), b.treed(), work);
+    if (meeting.meeting == Meeting::apart || meeting.meeting == Meeting::touching) continue;
+    ++met;
+    const Depth d = depth_of(a, b,
+                             {.threshold = 1000,
+                              .cells_decided = 10'000,
+                              .triangle_a = meeting.triangle_a,
+                              .triangle_b = meeting.triangle_b,
+                              .meeting_point = meeting.point});
+    EXPECT_LE(d.upper - d.lower, std::max(8.0, 0.02 * d.upper)) << "seed " << seed;
+  }
+  EXPECT_GT(met, 30);
 }
 
 TEST(Depth, ShallowContactInTheHollowOfATurnedChannel) {
