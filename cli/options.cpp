@@ -182,6 +182,16 @@ Status length_option(double& value, const std::string& text, const std::string& 
   return {};
 }
 
+Status whole_number(std::uint64_t& value, const std::string& text, const std::string& option) {
+  if (text.empty()) return {};
+  const auto number = parse_integer(text);
+  if (!number || *number < 0)
+    return Error{ErrorCode::usage, "'" + text + "' is no whole number", option,
+                 "write digits only, as 20000, up to 9223372036854775807"};
+  value = static_cast<std::uint64_t>(*number);
+  return {};
+}
+
 Status check_no_empty_values(const CLI::App& command) {
   for (const CLI::Option* const option : command.get_options())
     for (const std::string& value : option->results())

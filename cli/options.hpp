@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -62,6 +63,10 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
 /// A length that is an option of the command line: overwrites `value` where it was given.
 [[nodiscard]] Status length_option(double& value, const std::string& text,
                                    const std::string& option);
+
+/// A whole number that is an option of the command line: overwrites `value` where it was given.
+[[nodiscard]] Status whole_number(std::uint64_t& value, const std::string& text,
+                                  const std::string& option);
 
 /// A length, angle or scale by its own parser, with the option named in the error.
 [[nodiscard]] Result<double> quantity(const std::string& text, const std::string& option,

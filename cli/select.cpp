@@ -21,25 +21,34 @@ Result<std::vector<model::Selection>> parse_selections(const std::vector<std::st
   return selections;
 }
 
-Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
-                                   const std::vector<model::Selection>& selections,
-                                   const std::string& option) {
-  std::vector<bool> any;
-  if (!selections.empty()) any.resize(scene.model->objects.size());
+Result<Picked> pick_all(Session& session, const model::Scene& scene,
+                        const std::vector<model::Selection>& selections) {
+  Picked all;
+  all.any.resize(scene.model->objects.size());
   for (const model::Selection& selection : selections) {
     const auto picked = model::pick(selection, scene, session.context());
     if (!picked) return picked.error();
     bool some = false;
-    for (std::size_t o = 0; o < any.size(); ++o) {
+    for (std::size_t o = 0; o < all.any.size(); ++o) {
       some = some || (*picked)[o] != 0;
-      any[o] = any[o] || (*picked)[o] != 0;
+      all.any[o] = all.any[o] || (*picked)[o] != 0;
     }
-    if (!some)
-      return Error{ErrorCode::usage, "'" + selection.text() + "' picks no object", option,
-                   "a bare pattern is compared with names, ids and group/.../name paths; * stands "
-                   "for any text"};
+    if (!some) all.idle.push_back(selection.text());
   }
-  return any;
+  return all;
+}
+
+Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
+                                   const std::vector<model::Selection>& selections,
+                                   const std::string& option) {
+  if (selections.empty()) return std::vector<bool>();
+  Result<Picked> picked = pick_all(session, scene, selections);
+  if (!picked) return picked.error();
+  if (!picked->idle.empty())
+    return Error{ErrorCode::usage, "'" + picked->idle.front() + "' picks no object", option,
+                 "a bare pattern is compared with names, ids and group/.../name paths; * stands "
+                 "for any text"};
+  return std::move(picked->any);
 }
 
 }  // namespace strake::cli

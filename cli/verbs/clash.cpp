@@ -8,8 +8,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "cli/clash_sets.hpp"
 #include "cli/load.hpp"
 #include "cli/verb.hpp"
 #include "strake/report/clash.hpp"
@@ -21,9 +23,9 @@ namespace {
 struct ClashOptions {
   InputOptions input;
   SceneInput scene;
+  SetInput sets;
   std::string clearance, touch_gap, touch_overlap, contact_distance;
-  std::string broad_phase, thickness_cap, fail_on;
-  bool self = false;
+  std::string broad_phase, thickness_cap, fail_on, most_pairs;
   std::vector<std::string> outputs;
 };
 
@@ -41,25 +43,12 @@ Result<clash::Options> engine_options(const ClashOptions& given) {
         Length{options.contact_distance_mm, given.contact_distance, "--contact-distance"}})
     if (const Status status = length_option(length.value, length.text, length.option); !status)
       return status.error();
+  if (const Status status = whole_number(options.most_pairs, given.most_pairs, "--most-pairs");
+      !status)
+    return status.error();
   if (given.broad_phase == "all-pairs") options.broad_phase = clash::BroadPhase::all_pairs;
   if (given.thickness_cap == "off") options.thickness_cap = clash::ThicknessCap::off;
   return options;
-}
-
-/// One file against itself; several against each other, or with `self` all against all.
-clash::Sets sets_of(const model::Model& model, bool self) {
-  const std::size_t n = model.objects.size();
-  clash::Sets sets{std::vector<bool>(n, true), std::vector<bool>(n, true)};
-  if (self || model.files.size() < 2) return sets;
-  if (model.files.size() > 2) {
-    for (const model::Object& object : model.objects) sets.group.push_back(object.file);
-    return sets;
-  }
-  for (std::size_t o = 0; o < n; ++o) {
-    sets.in_a[o] = model.objects[o].file == 0;
-    sets.in_b[o] = !sets.in_a[o];
-  }
-  return sets;
 }
 
 std::size_t terminal_width() {
@@ -69,37 +58,57 @@ std::size_t terminal_width() {
   return std::max<std::size_t>(size.ws_col, kLeast);
 }
 
-void count_work(Stats& stats, const clash::Counters& work) {
-  stats.count("candidate pairs", work.candidate_pairs);
-  stats.count("part pairs", work.part_pairs);
-  stats.count("triangle pairs", work.triangle_pairs);
-  stats.count("exact fall-backs", work.exact_fallbacks);
-  stats.count("depth cells", work.depth_cells);
+void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
+  clash::Counters sum;
+  for (const clash::Report& test : tests) {
+    sum.candidate_pairs += test.counters.candidate_pairs;
+    sum.part_pairs += test.counters.part_pairs;
+    sum.triangle_pairs += test.counters.triangle_pairs;
+    sum.exact_fallbacks += test.counters.exact_fallbacks;
+    sum.depth_cells += test.counters.depth_cells;
+  }
+  stats.count("candidate pairs", sum.candidate_pairs);
+  stats.count("part pairs", sum.part_pairs);
+  stats.count("triangle pairs", sum.triangle_pairs);
+  stats.count("exact fall-backs", sum.exact_fallbacks);
+  stats.count("depth cells", sum.depth_cells);
 }
 
-Status write_report(Session& session, const ClashOptions& given, const clash::Report& report,
+Status write_report(Session& session, const ClashOptions& given, const clash::Findings& findings,
                     const model::Model& model) {
   for (const std::string& file : given.outputs) {
     const Status status = session.write(file, [&](Session::Sink sink) {
       if (suffix_of(file) == ".csv") {
-        report::write_clash_csv(report, model, sink);
+        report::write_clash_csv(findings, model, sink);
       } else {
-        report::write_clash_json(report, model, sink);
+        report::write_clash_json(findings, model, sink);
       }
     });
     if (!status) return status;
   }
   if (session.json())
     return session.write_stdout(
-        [&](Session::Sink sink) { report::write_clash_json(report, model, sink); });
-  return session.write_stdout(report::clash_table(report, model, {.width = terminal_width()}));
+        [&](Session::Sink sink) { report::write_clash_json(findings, model, sink); });
+  return session.write_stdout(report::clash_table(findings, model, {.width = terminal_width()}));
 }
 
 bool fails(const clash::Report& report, const std::string& fail_on) {
   if (fail_on == "hit") return report.count_hit > 0;
   if (fail_on == "contact") return report.count_hit + report.count_contact > 0;
-  if (fail_on == "clearance_violation") return !report.pairs.empty();
+  if (fail_on == "clearance_violation")
+    return report.count_hit + report.count_contact + report.count_clearance > 0;
   return false;
+}
+
+Result<clash::Findings> find(Session& session, const Loaded& loaded, const SetRequest& request,
+                             const clash::Options& options) {
+  Result<ChosenSets> chosen = choose_sets(session, loaded, request);
+  if (!chosen) return chosen.error();
+  const auto timer = session.step("clash");
+  Result<clash::Report> report =
+      clash::detect(loaded.scene, chosen->sets, options, session.context());
+  if (!report) return report.error();
+  return clash::Findings{{std::move(*report)}, std::move(chosen->diagnostics)};
 }
 
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
@@ -107,24 +116,23 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (!options) return options.error();
   const auto scene_settings = scene_options(given.scene, clash::scene_options(*options).sag_mm);
   if (!scene_settings) return scene_settings.error();
+  const Result<SetRequest> sets = set_request(given.sets);
+  if (!sets) return sets.error();
   if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, given.input.files);
       !status)
     return status.error();
   const Result<Loaded> loaded = load(session, given.input, *scene_settings);
   if (!loaded) return loaded.error();
-  const model::Model& model = *loaded->model;
-  const model::Scene& scene = loaded->scene;
-  Result<clash::Report> report = [&] {
-    const auto timer = session.step("clash");
-    return clash::detect(scene, sets_of(model, given.self), *options, session.context());
-  }();
-  if (!report) return report.error();
-  tell(session.console(), report->diagnostics);
-  count_work(session.stats(), report->counters);
-  if (const Status status = write_report(session, given, *report, model); !status)
+  const Result<clash::Findings> findings = find(session, *loaded, *sets, *options);
+  if (!findings) return findings.error();
+  const Diagnostics diagnostics = findings->all_diagnostics();
+  tell(session.console(), diagnostics);
+  count_work(session.stats(), findings->tests);
+  if (const Status status = write_report(session, given, *findings, *loaded->model); !status)
     return status.error();
-  if (fails(*report, given.fail_on)) return ExitCode::clashes;
-  if (given.input.strict && report->diagnostics.skipped() > 0) return ExitCode::partial;
+  for (const clash::Report& test : findings->tests)
+    if (fails(test, given.fail_on)) return ExitCode::clashes;
+  if (given.input.strict && diagnostics.skipped() > 0) return ExitCode::partial;
   return outcome(given.input, *loaded);
 }
 
@@ -155,19 +163,28 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_input_options(*command, options->input);
   add_scene_options(*command, options->scene, "a quarter of the touch tolerances");
   add_rules(*command, *options);
-  command->add_flag("--self", options->self, "Several files: pairs within one file too")
-      ->group("Rules");
+  add_set_options(*command, options->sets);
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
              "How near pairs are found; the result is the same (default tree)")
+      ->group("Running");
+  command
+      ->add_option("--most-pairs", options->most_pairs,
+                   fmt::format("Most pairs of parts that may be within reach of each other, some "
+                               "300 bytes each (default {})",
+                               clash::Options{}.most_pairs))
+      ->type_name("N")
       ->group("Running");
   add_output_option(*command, options->outputs, "Result as .json or .csv; may be repeated");
   add_common_options(*command, common);
   command->footer(R"(
-One file is checked against itself, several each against the others.
+One file is checked against itself, several each against the others. With --a and --b it is what
+they pick, of whatever file; with one of them, everything stands on the other side.
+docs/selection.md has the language.
 
 Examples:
   strake clash ship.glb
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
+  strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv
   strake clash hvac.rvm steel.rvm --touch-gap 0 --touch-overlap 0 --fail-on hit --json)");
   return {command, [options](Session& session) { return run_clash(session, *options); }};
 }

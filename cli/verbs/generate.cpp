@@ -8,7 +8,6 @@
 #include <string>
 
 #include "cli/verb.hpp"
-#include "strake/core/number.hpp"
 #include "strake/generate/ship.hpp"
 #include "strake/io/writer.hpp"
 
@@ -41,16 +40,6 @@ class SinkBuffer : public std::streambuf {
  private:
   Session::Sink sink_;
 };
-
-Status whole_number(std::uint64_t& value, const std::string& text, const std::string& option) {
-  if (text.empty()) return {};
-  const auto number = parse_integer(text);
-  if (!number || *number < 0)
-    return Error{ErrorCode::usage, "'" + text + "' is no whole number", option,
-                 "write digits only, as 20000, up to 9223372036854775807"};
-  value = static_cast<std::uint64_t>(*number);
-  return {};
-}
 
 Status write_model(Session& session, const model::Model& model, const std::string& file) {
   session.will_write(file);

@@ -71,6 +71,8 @@ class Engine {
 
   Result<Report> run() {
     Report report;
+    report.set_a = sets_.name_a;
+    report.set_b = sets_.name_b;
     report.options = options_;
     auto pairs = near_pairs(list_, sets_, std::max(narrow_.touch_gap, narrow_.clearance) + 2,
                             options_, context_);
@@ -274,9 +276,9 @@ class Engine {
     for (const double b : bands_)
       report.contact_distance_mm = std::max(report.contact_distance_mm, b / geometry::kGridPerMm);
     if (report.objects_a == 0 || report.objects_b == 0)
-      report.diagnostics.add(Severity::warning, "empty-set",
-                             "a set without objects clashes with nothing",
-                             report.objects_a == 0 ? "set A" : "set B");
+      report.diagnostics.add(
+          Severity::warning, "empty-set", "a set without objects clashes with nothing",
+          report.objects_a == 0 ? "set A, " + sets_.name_a : "set B, " + sets_.name_b);
   }
 
   void report_too_large(const IndexPair& p, Diagnostics& diagnostics) const {

@@ -51,7 +51,10 @@ double contact_distance(const Options& options, double precision_mm) {
 
 Sets one_set(const model::Scene& scene) {
   const std::size_t n = scene.model->objects.size();
-  return {std::vector<bool>(n, true), std::vector<bool>(n, true)};
+  Sets sets;
+  sets.in_a.assign(n, true);
+  sets.in_b.assign(n, true);
+  return sets;
 }
 
 model::SceneOptions scene_options(const Options& options) {

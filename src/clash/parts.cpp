@@ -38,7 +38,9 @@ Error too_many(const Options& options) {
   return {ErrorCode::input,
           "more than " + std::to_string(options.most_pairs) +
               " pairs of parts are within reach of each other",
-          "clash", "give a smaller clearance; or the model holds many objects at one place"};
+          "clash",
+          "give a smaller clearance, or raise the limit with --most-pairs; or the model holds many "
+          "objects at one place"};
 }
 
 }  // namespace

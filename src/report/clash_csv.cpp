@@ -32,7 +32,8 @@ void object(std::string& out, const model::Model& model, model::ObjectId id) {
   }
 }
 
-void line(std::string& out, const model::Model& model, const clash::Pair& p) {
+void line(std::string& out, const model::Model& model, const clash::Report& test,
+          const clash::Pair& p) {
   object(out, model, p.a);
   object(out, model, p.b);
   out += name(p.cls);
@@ -46,20 +47,23 @@ void line(std::string& out, const model::Model& model, const clash::Pair& p) {
   append_point(out, p, ",");
   out += ',';
   append_flags(out, p, " ", "");
+  out += ',';
+  field(out, test.name);
   out += "\r\n";
 }
 
 }  // namespace
 
-void write_clash_csv(const clash::Report& report, const model::Model& model, Sink sink) {
+void write_clash_csv(const clash::Findings& findings, const model::Model& model, Sink sink) {
   Buffered buffer(sink);
   buffer.text() =
       "a_id,a_name,a_file,b_id,b_name,b_file,class,relation,d_mm,d_lower_mm,d_upper_mm,x_mm,y_mm,"
-      "z_mm,flags\r\n";
-  for (const clash::Pair& pair : report.pairs) {
-    line(buffer.text(), model, pair);
-    buffer.done();
-  }
+      "z_mm,flags,test\r\n";
+  for (const clash::Report& test : findings.tests)
+    for (const clash::Pair& pair : test.pairs) {
+      line(buffer.text(), model, test, pair);
+      buffer.done();
+    }
 }
 
 }  // namespace strake::report

@@ -10,10 +10,11 @@
 namespace strake::report {
 namespace {
 
+using clash::Findings;
 using clash::Pair;
 using clash::Report;
 
-constexpr std::string_view kSchemaVersion = "1";
+constexpr std::string_view kSchemaVersion = "2";
 
 void key(std::string& out, std::string_view name) {
   append_json(out, name);
@@ -56,9 +57,47 @@ void files(std::string& out, const model::Model& model) {
 void counts(std::string& out, const Report& report) {
   out += "\"objects\": {\"a\": " + std::to_string(report.objects_a) +
          ", \"b\": " + std::to_string(report.objects_b) +
-         "},\n\"counts\": {\"HIT\": " + std::to_string(report.count_hit) +
+         "}, \"counts\": {\"HIT\": " + std::to_string(report.count_hit) +
          ", \"CONTACT\": " + std::to_string(report.count_contact) +
-         ", \"CLEARANCE_VIOLATION\": " + std::to_string(report.count_clearance) + "}";
+         ", \"CLEARANCE_VIOLATION\": " + std::to_string(report.count_clearance) +
+         ", \"ALLOWED\": " + std::to_string(report.count_allowed) + "}";
+}
+
+void exempted(std::string& out, const Report& report) {
+  out += "\"exempted\": [";
+  for (std::size_t i = 0; i < report.exempted.size(); ++i) {
+    out += i == 0 ? "{\"rule\": " : ", {\"rule\": ";
+    append_json(out, report.exempted[i].rule);
+    out += ", \"pairs\": " + std::to_string(report.exempted[i].pairs) + "}";
+  }
+  out += "]";
+}
+
+void test(std::string& out, const Report& report) {
+  out += "{\"name\": ";
+  append_json(out, report.name);
+  out += ", ";
+  settings(out, report);
+  out += ", \"sets\": {\"a\": ";
+  append_json(out, report.set_a);
+  out += ", \"b\": ";
+  append_json(out, report.set_b);
+  out += "}, ";
+  counts(out, report);
+  out += ", ";
+  exempted(out, report);
+  out += ", \"hash\": ";
+  append_json(out, report.hash);
+  out += "}";
+}
+
+void tests(std::string& out, const Findings& findings) {
+  out += "\"tests\": [";
+  for (std::size_t i = 0; i < findings.tests.size(); ++i) {
+    out += i == 0 ? "\n  " : ",\n  ";
+    test(out, findings.tests[i]);
+  }
+  out += "]";
 }
 
 void diagnostics(std::string& out, const Diagnostics& all) {
@@ -77,6 +116,28 @@ void diagnostics(std::string& out, const Diagnostics& all) {
   out += "]";
 }
 
+void messages(std::string& out, const Diagnostics& all) {
+  out += "\"messages\": [";
+  bool first = true;
+  for (const Diagnostic& d : all.kept()) {
+    out += first ? "\n  {" : ",\n  {";
+    first = false;
+    key(out, "code");
+    append_json(out, d.code);
+    out += ", ";
+    key(out, "severity");
+    append_json(out, severity_name(d.severity));
+    out += ", ";
+    key(out, "where");
+    append_json(out, d.where);
+    out += ", ";
+    key(out, "message");
+    append_json(out, d.message);
+    out += "}";
+  }
+  out += "]";
+}
+
 void object(std::string& out, const model::Model& model, model::ObjectId id) {
   const model::Object& o = model.object(id);
   out += "{\"id\": ";
@@ -87,8 +148,8 @@ void object(std::string& out, const model::Model& model, model::ObjectId id) {
   append_json(out, model.files[o.file].label);
 }
 
-void result(std::string& out, const model::Model& model, const Pair& p) {
-  out += "{\"a\": ";
+void result(std::string& out, const model::Model& model, std::size_t test, const Pair& p) {
+  out += "{\"test\": " + std::to_string(test) + ", \"a\": ";
   object(out, model, p.a);
   out += ", \"part\": " + std::to_string(p.part_a) + "}, \"b\": ";
   object(out, model, p.b);
@@ -109,27 +170,31 @@ void result(std::string& out, const model::Model& model, const Pair& p) {
 
 }  // namespace
 
-void write_clash_json(const Report& report, const model::Model& model, Sink sink) {
+void write_clash_json(const Findings& findings, const model::Model& model, Sink sink) {
   Buffered buffer(sink);
   std::string& out = buffer.text();
   out += "{\n\"schema_version\": ";
   out += kSchemaVersion;
   out += ",\n";
-  settings(out, report);
-  out += ",\n";
   files(out, model);
   out += ",\n";
-  counts(out, report);
+  tests(out, findings);
   out += ",\n\"hash\": ";
-  append_json(out, report.hash);
+  append_json(out, hash_of(findings));
   out += ",\n";
-  diagnostics(out, report.diagnostics);
+  const Diagnostics all = findings.all_diagnostics();
+  diagnostics(out, all);
+  out += ",\n";
+  messages(out, all);
   out += ",\n\"results\": [";
-  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
-    out += i == 0 ? "\n" : ",\n";
-    result(out, model, report.pairs[i]);
-    buffer.done();
-  }
+  bool first = true;
+  for (std::size_t t = 0; t < findings.tests.size(); ++t)
+    for (const Pair& pair : findings.tests[t].pairs) {
+      out += first ? "\n" : ",\n";
+      first = false;
+      result(out, model, t, pair);
+      buffer.done();
+    }
   out += "\n]\n}\n";
 }
 

@@ -9,6 +9,7 @@
 
 #include "report/text.hpp"
 #include "strake/core/number.hpp"
+#include "strake/core/text.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::report {
@@ -102,15 +103,24 @@ std::string counted(const ClassRows& c, std::size_t n) {
   return std::to_string(n) + ' ' + std::string(n == 1 ? c.one : c.many);
 }
 
-}  // namespace
+std::string summary_of(const Report& report, const std::array<ClassRows, 3>& classes) {
+  std::string summary;
+  for (const ClassRows& c : classes) summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
+  if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
+  for (const clash::Exempted& e : report.exempted)
+    if (e.pairs > 0)
+      summary += ", " + std::to_string(e.pairs) + " exempted by " + printable(e.rule);
+  return summary + "\n";
+}
 
-std::string clash_table(const Report& report, const model::Model& model,
-                        const TableOptions& options) {
-  std::string out, summary;
+std::string test_table(const Report& report, const model::Model& model,
+                       const TableOptions& options) {
+  std::string out;
   const std::size_t room = options.width > kFixedColumns ? options.width - kFixedColumns : 0;
   const std::size_t names = std::max(kLeastName, room / 2);
   if (!report.pairs.empty()) out += row("class", "d mm", "relation", "a", "b", names);
-  for (const ClassRows& c : shares(report, options.rows)) {
+  const std::array<ClassRows, 3> classes = shares(report, options.rows);
+  for (const ClassRows& c : classes) {
     const Block block = worst_of(report, c.cls, c.rows);
     for (const std::size_t i : block.pairs) {
       const Pair& p = report.pairs[i];
@@ -118,10 +128,22 @@ std::string clash_table(const Report& report, const model::Model& model,
                  label(model, p.b), names);
     }
     if (block.hidden > 0) out += "… and " + counted(c, block.hidden) + " more\n";
-    summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
   }
   if (!report.pairs.empty()) out += "\n";
-  return out + summary + "\n";
+  return out + summary_of(report, classes);
+}
+
+}  // namespace
+
+std::string clash_table(const clash::Findings& findings, const model::Model& model,
+                        const TableOptions& options) {
+  std::string out;
+  for (const Report& test : findings.tests) {
+    if (!out.empty()) out += "\n";
+    if (!test.name.empty()) out += "== " + printable(test.name) + "\n";
+    out += test_table(test, model, options);
+  }
+  return out;
 }
 
 }  // namespace strake::report

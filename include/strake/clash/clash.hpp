@@ -80,16 +80,37 @@ struct Counters {
   std::uint64_t depth_cells = 0;
 };
 
+/// A rule that takes pairs out of a test, and how many it took.
+struct Exempted {
+  std::string rule;
+  std::uint64_t pairs = 0;  ///< of objects, with parts within reach of each other
+};
+
+/// What one test found.
 struct Report {
+  std::string name;          ///< of the test; empty where a run has only one
+  std::string set_a, set_b;  ///< how the sets were chosen, as in Sets
   Options options;
   std::vector<Pair> pairs;  ///< by (a, b); NO_HIT pairs are not kept
   std::uint64_t objects_a = 0, objects_b = 0;
+  /// Pairs of each class, those apart that a rule allows.
   std::uint64_t count_hit = 0, count_contact = 0, count_clearance = 0;
+  std::uint64_t count_allowed = 0;  ///< pairs of any class that a rule allows
+  std::vector<Exempted> exempted;   ///< one entry per rule in force, in its order
   Counters counters;
   double contact_distance_mm = 0;  ///< the largest δ that was applied
   std::string hash;  ///< of pairs, relations, classes, d and witnesses; not of options
   /// "empty-set", "unknown-sag" (once per file), "pair-too-large" (skipped).
   Diagnostics diagnostics;
+};
+
+/// What the tests of one run over one model found.
+struct Findings {
+  std::vector<Report> tests;
+  Diagnostics diagnostics;  ///< of the run as a whole; each test has its own besides
+
+  /// Those of the run, then those of the tests in order, a named test's with its name.
+  [[nodiscard]] Diagnostics all_diagnostics() const;
 };
 
 /// Which of a scene's objects stand against which: each unordered pair once, no self-pair.
@@ -98,6 +119,8 @@ struct Sets {
   /// Two objects of one group are no pair (files against each other, say). Empty, or one entry per
   /// object.
   std::vector<std::uint32_t> group = {};
+  /// How each was chosen, for the report: a selection, or "*" for everything.
+  std::string name_a = "*", name_b = "*";
 };
 
 /// A scene against itself.
@@ -116,6 +139,9 @@ struct Sets {
 /// wrong size; input for more pairs than most_pairs; cancelled.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const parallel::Context& context);
+
+/// Hexadecimal hash of the names and hashes of all tests.
+[[nodiscard]] std::string hash_of(const Findings& findings);
 
 /// "HIT", "CONTACT", "CLEARANCE_VIOLATION", "NO_HIT".
 [[nodiscard]] std::string_view name(Class cls);

@@ -93,6 +93,9 @@ class Usage(Scenario):
                 (['info', 'a.obj', '--sag', '1e-30mm'], '1um or more'),
                 (['clash', 'a.obj', '--fail-on', 'sometimes'], 'hit|contact'),
                 (['clash', 'a.obj', '-o', 'report.doc'], '.json or .csv'),
+                (['clash', 'a.obj', '--a', 'name ='], '--a, selection, column 7'),
+                (['clash', 'a.obj', '--b', 'x', '--self'], '--b excludes --self'),
+                (['clash', 'a.obj', '--most-pairs', 'all'], '--most-pairs'),
                 (['draw', 'a.obj'], '-o FILE.svg'),
                 (['draw', 'a.obj', '-o', 'a.dwg'], '.svg or .json'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--view', 'askew'], 'top|bottom'),
@@ -304,6 +307,51 @@ class Clash(Scenario):
         self.assertEqual(self.run_strake('clash', 'b.obj', 'a.obj', *arguments[3:], '-o', 'y.json').returncode, 0)
         self.assertEqual((self.folder / 'y.json').read_bytes(), expected, 'the order of files shows')
         self.assertEqual(len((self.folder / 'x.csv').read_text().splitlines()), 3)
+
+    def test_sets_by_selection(self):
+        self.two_files()
+        both = ['a.obj', 'b.obj', '--clearance', '25mm']
+        hit, near = ('a0', 'a1', 'HIT'), ('a0', 'b0', 'CLEARANCE_VIOLATION')
+        self.assertEqual(self.pairs(*both), [near])
+        self.assertEqual(self.pairs(*both, '--a', 'a0'), [hit, near], 'one set alone is against everything')
+        self.assertEqual(self.pairs(*both, '--b', 'a1'), [hit])
+        self.assertEqual(self.pairs(*both, '--a', 'a1', '--b', 'a0', '--b', 'b0'), [hit])
+        self.assertEqual(self.pairs(*both, '--a', 'a0', '--a', 'a1', '--b', 'name ~ "^a"'), [hit])
+        self.assertEqual(self.pairs(*both, '--a', "file = 'b.obj'"), [near])
+        done = self.run_strake('clash', *both, *self.SETTINGS, '--a', 'a0', '--a', 'a9', '--b', 'b?', '--json')
+        test, = json.loads(done.stdout)['tests']
+        self.assertEqual(test['sets'], {'a': '(a0) or (a9)', 'b': 'b?'})
+        self.assertEqual(test['objects'], {'a': 1, 'b': 1})
+        self.assertIn("selection-picks-nothing: --a: 'a9' picks no object", done.stderr)
+        self.assertEqual([m['where'] for m in json.loads(done.stdout)['messages']
+                          if m['code'] == 'selection-picks-nothing'], ['--a'])
+
+    def test_sets_by_file_are_named_as_selections(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', 'b.obj', *self.SETTINGS, '--clearance', '25mm', '--json')
+        by_file = json.loads(done.stdout)
+        sets = by_file['tests'][0]['sets']
+        self.assertEqual(sets, {'a': "file = 'a.obj'", 'b': "file = 'b.obj'"})
+        done = self.run_strake('clash', 'a.obj', 'b.obj', *self.SETTINGS, '--clearance', '25mm', '--json',
+                               '--a', sets['a'], '--b', sets['b'])
+        self.assertEqual(json.loads(done.stdout), by_file)
+
+    def test_an_empty_set_is_a_warning_in_both_places(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', '--a', 'nobody', '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('empty-set: set A, nobody', done.stderr)
+        report = json.loads(done.stdout)
+        self.assertEqual(report['results'], [])
+        self.assertIn(('empty-set', 'set A, nobody'), [(m['code'], m['where']) for m in report['messages']])
+
+    def test_the_limit_of_pairs_can_be_set(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', '--most-pairs', 0)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn('more than 0 pairs', done.stderr)
+        self.assertIn('--most-pairs', done.stderr)
+        self.assertEqual(self.run_strake('clash', 'a.obj', '--most-pairs', 1).returncode, 0)
 
     def test_fail_on_is_an_exit_code(self):
         self.two_files()

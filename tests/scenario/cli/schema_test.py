@@ -96,7 +96,8 @@ class Schemas(unittest.TestCase):
         self.assertEqual({flag for result in report['results'] for flag in result['flags']},
                          {'OPEN', 'INVERTED'})
         report = self.follows(self.run_strake('clash', 'ship.glb', '--clearance', '25mm', '--json'), 'clash')
-        self.assertEqual(sum(report['counts'].values()), len(report['results']))
+        self.assertEqual(sum(sum(test['counts'].values()) for test in report['tests']), len(report['results']))
+        self.follows(self.run_strake('clash', 'ship.glb', '--a', 'PIP*', '--b', 'nobody', '--json'), 'clash')
         empty = self.follows(self.run_strake('clash', 'odd.obj', 'ship.glb', '--json'), 'clash')
         self.assertEqual([file['label'] for file in empty['files']], ['odd.obj', 'ship.glb'])
 

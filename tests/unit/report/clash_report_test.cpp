@@ -19,13 +19,13 @@ using test::ClashModel;
 
 std::string as_json(const clash::Report& report, const model::Model& model) {
   std::string text;
-  write_clash_json(report, model, [&](std::string_view piece) { text += piece; });
+  write_clash_json({{report}, {}}, model, [&](std::string_view piece) { text += piece; });
   return text;
 }
 
 std::string as_csv(const clash::Report& report, const model::Model& model) {
   std::string text;
-  write_clash_csv(report, model, [&](std::string_view piece) { text += piece; });
+  write_clash_csv({{report}, {}}, model, [&](std::string_view piece) { text += piece; });
   return text;
 }
 
@@ -42,18 +42,27 @@ TEST(ClashJson, HasTheKeysThatScriptsRelyOn) {
   const ClashModel m = row_of_boxes();
   const clash::Report report = m.detect({.clearance_mm = 25});
   const json doc = json::parse(as_json(report, m.model));
-  EXPECT_EQ(doc["schema_version"], 1);
-  EXPECT_EQ(doc["settings"]["clearance_mm"], 25);
-  EXPECT_EQ(doc["counts"]["HIT"], 1);
-  EXPECT_EQ(doc["counts"]["CONTACT"], 1);
-  EXPECT_EQ(doc["counts"]["CLEARANCE_VIOLATION"], 1);
-  EXPECT_EQ(doc["hash"], report.hash);
+  EXPECT_EQ(doc["schema_version"], 2);
+  ASSERT_EQ(doc["tests"].size(), 1U);
+  const json& told = doc["tests"][0];
+  EXPECT_EQ(told["name"], "");
+  EXPECT_EQ(told["sets"], json({{"a", "*"}, {"b", "*"}}));
+  EXPECT_EQ(told["objects"], json({{"a", 4}, {"b", 4}}));
+  EXPECT_EQ(told["settings"]["clearance_mm"], 25);
+  EXPECT_EQ(told["counts"]["HIT"], 1);
+  EXPECT_EQ(told["counts"]["CONTACT"], 1);
+  EXPECT_EQ(told["counts"]["CLEARANCE_VIOLATION"], 1);
+  EXPECT_EQ(told["counts"]["ALLOWED"], 0);
+  EXPECT_TRUE(told["exempted"].empty());
+  EXPECT_EQ(told["hash"], report.hash);
+  EXPECT_EQ(doc["hash"], clash::hash_of(clash::Findings{{report}, {}}));
   EXPECT_EQ(doc["files"][0]["label"], "t.obj");
   ASSERT_EQ(doc["results"].size(), 3U);
   const json& touch = doc["results"][0];
   EXPECT_EQ(touch["a"]["id"], "deck \"1\", port\n");
   EXPECT_EQ(touch["b"]["name"], "Büro 🚢 \xEF\xBF\xBD");
   EXPECT_EQ(touch["a"]["file"], "t.obj");
+  EXPECT_EQ(touch["test"], 0);
   EXPECT_EQ(touch["class"], "CONTACT");
   EXPECT_EQ(touch["relation"], "ABUT_OUTSIDE");
   EXPECT_EQ(touch["d_mm"], 0);
@@ -71,7 +80,7 @@ TEST(ClashJson, HasTheKeysThatScriptsRelyOn) {
 TEST(ClashJson, SettingsSayNothingOfTheRun) {
   const ClashModel m = row_of_boxes();
   const json doc = json::parse(as_json(m.detect(), m.model));
-  for (const auto& [key, value] : doc["settings"].items())
+  for (const auto& [key, value] : doc["tests"][0]["settings"].items())
     EXPECT_TRUE(key == "clearance_mm" || key == "touch_gap_mm" || key == "touch_overlap_mm" ||
                 key == "thickness_cap" || key == "contact_distance_mm")
         << key;
@@ -89,13 +98,41 @@ TEST(ClashJson, LeavesADocumentForTheSchemaTest) {
   ASSERT_TRUE(write_file(STRAKE_CLASH_DOCUMENT, as_json(m.detect({.clearance_mm = 25}), m.model)));
 }
 
+TEST(ClashReports, NameTheTestOfEachResult) {
+  const ClashModel m = row_of_boxes();
+  clash::Findings findings{{m.detect(), m.detect({.clearance_mm = 25})}, {}};
+  findings.tests[0].name = "as built";
+  findings.tests[1].name = "with, room";
+  findings.tests[1].exempted = {{"one skid", 3}, {"idle", 0}};
+  findings.tests[1].diagnostics.add(Severity::warning, "empty-set", "nothing there", "set B, x");
+  std::string text, csv;
+  write_clash_json(findings, m.model, [&](std::string_view piece) { text += piece; });
+  write_clash_csv(findings, m.model, [&](std::string_view piece) { csv += piece; });
+  const json doc = json::parse(text);
+  ASSERT_EQ(doc["results"].size(), 5U);
+  for (std::size_t r = 0; r < 5; ++r) EXPECT_EQ(doc["results"][r]["test"], r < 2 ? 0 : 1);
+  EXPECT_EQ(doc["tests"][1]["exempted"],
+            json::parse(R"([{"rule": "one skid", "pairs": 3}, {"rule": "idle", "pairs": 0}])"));
+  EXPECT_EQ(doc["messages"].back()["where"], "test 'with, room', set B, x");
+  EXPECT_EQ(doc["diagnostics"].back()["code"], "empty-set");
+  EXPECT_NE(csv.find(",as built\r\n"), std::string::npos);
+  EXPECT_NE(csv.find(",\"with, room\"\r\n"), std::string::npos);
+  const std::string table = clash_table(findings, m.model, {});
+  EXPECT_LT(table.find("== as built\n"), table.find("1 hit, 1 contact, 0 clearance violations\n"));
+  EXPECT_LT(table.find("== with, room\n"),
+            table.find("1 hit, 1 contact, 1 clearance violation, 3 exempted by one skid\n"));
+  clash::Findings renamed = findings;
+  renamed.tests[0].name = "other";
+  EXPECT_NE(clash::hash_of(findings), clash::hash_of(renamed));
+}
+
 TEST(ClashJson, StreamsInPieces) {
   ClashModel m;
   for (int i = 0; i < 900; ++i)
     m.box("box number " + std::to_string(i), {i * 10.0, 0, 0}, {i * 10.0 + 10, 10, 10});
   const clash::Report report = m.detect();
   std::size_t pieces = 0, largest = 0;
-  write_clash_json(report, m.model, [&](std::string_view piece) {
+  write_clash_json({{report}, {}}, m.model, [&](std::string_view piece) {
     ++pieces;
     largest = std::max(largest, piece.size());
   });
@@ -109,7 +146,7 @@ TEST(ClashCsv, OneLineAPairQuotedWhereNeeded) {
   EXPECT_TRUE(text.starts_with("a_id,a_name,a_file,b_id"));
   EXPECT_NE(text.find("\"deck \"\"1\"\", port\n\""), std::string::npos);
   EXPECT_NE(text.find(",CLEARANCE_VIOLATION,SEPARATE,10,"), std::string::npos);
-  EXPECT_NE(text.find(",INVERTED\r\n"), std::string::npos);
+  EXPECT_NE(text.find(",INVERTED,\r\n"), std::string::npos);
 }
 
 TEST(ClashCsv, HoldsNothingThatIsNoUtf8) {
@@ -122,7 +159,7 @@ TEST(ClashCsv, HoldsNothingThatIsNoUtf8) {
 TEST(ClashTable, WorstFirstClippedAndCounted) {
   const ClashModel m = row_of_boxes();
   const clash::Report report = m.detect({.clearance_mm = 25});
-  const std::string text = clash_table(report, m.model, {.width = 72, .rows = 2});
+  const std::string text = clash_table({{report}, {}}, m.model, {.width = 72, .rows = 2});
   EXPECT_LT(text.find("HIT"), text.find("CONTACT"));
   EXPECT_NE(text.find("… and 1 clearance violation more"), std::string::npos);
   EXPECT_NE(text.find("1 hit, 1 contact, 1 clearance violation"), std::string::npos);
@@ -147,7 +184,7 @@ TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
   m.box("deep", {3990, 0, 0}, {4500, 100, 100});
   m.box("near", {4510, 0, 0}, {4600, 100, 100});
   const clash::Report report = m.detect({.clearance_mm = 25});
-  const std::string text = clash_table(report, m.model, {.rows = 10});
+  const std::string text = clash_table({{report}, {}}, m.model, {.rows = 10});
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 10 + 1 + 1 + 1) << text;
   EXPECT_NE(text.find("deep"), std::string::npos);
   EXPECT_NE(text.find("near"), std::string::npos);
@@ -158,7 +195,8 @@ TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
 TEST(ClashTable, NothingFoundIsSaid) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {1, 1, 1});
-  EXPECT_EQ(clash_table(m.detect(), m.model, {}), "0 hits, 0 contacts, 0 clearance violations\n");
+  EXPECT_EQ(clash_table({{m.detect()}, {}}, m.model, {}),
+            "0 hits, 0 contacts, 0 clearance violations\n");
 }
 
 }  // namespace

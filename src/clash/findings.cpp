@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "strake/clash/clash.hpp"
+#include "strake/core/hash.hpp"
+
+namespace strake::clash {
+
+namespace {
+
+/// The diagnostics of a test, each place said to lie within it.
+Diagnostics named(const Report& test) {
+  Diagnostics all;
+  for (Diagnostic d : test.diagnostics.kept()) {
+    d.where = "test '" + test.name + "'" + (d.where.empty() ? "" : ", ") + d.where;
+    all.add(std::move(d));
+  }
+  // What was counted but not kept: there are enough of its code already.
+  for (const Diagnostics::Count& c : test.diagnostics.counts())
+    for (std::uint64_t n = all.count(c.code); n < c.count; ++n) all.add(c.severity, c.code, {}, {});
+  return all;
+}
+
+}  // namespace
+
+Diagnostics Findings::all_diagnostics() const {
+  Diagnostics all = diagnostics;
+  for (const Report& test : tests) all.append(test.name.empty() ? test.diagnostics : named(test));
+  return all;
+}
+
+std::string hash_of(const Findings& findings) {
+  Hasher hasher;
+  for (const Report& test : findings.tests) {
+    hasher.add(std::string_view(test.name));
+    hasher.add(std::string_view(test.hash));
+  }
+  return hasher.value().text();
+}
+
+}  // namespace strake::clash
