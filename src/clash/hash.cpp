@@ -22,7 +22,8 @@ std::string hash_of(const std::vector<Pair>& pairs, const model::Model& model) {
     hasher.add(std::uint32_t{static_cast<std::uint8_t>(pair.cls)});
     hasher.add(std::uint32_t{static_cast<std::uint8_t>(pair.relation)});
     hasher.add(pair.d_mm);
-    for (int k = 0; k < 3; ++k) hasher.add(pair.point_mm[k]);
+    for (const geometry::Vec3d& p : {pair.point_mm, pair.on_a_mm, pair.on_b_mm, pair.away})
+      for (int k = 0; k < 3; ++k) hasher.add(p[k]);
   }
   return hasher.value().text();
 }

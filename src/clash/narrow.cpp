@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "clash/relation.hpp"
+#include "clash/witness.hpp"
 #include "strake/geometry/analytic_pair.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/flush_contact.hpp"
@@ -113,7 +114,7 @@ class PairOfParts {
                          .upper = s.d + s.error,
                          .sag = 0,
                          .interiors_meet = s.d < -s.error};
-    answer.point = form.point;
+    answer.witness = witness_of(s, form.point);
     answer.relation = analytic_relation(s, options_.contact_distance);
     conclude(answer, 0);
     return answer;
@@ -178,7 +179,7 @@ class PairOfParts {
       return;
     }
     answer.separation = separated_by(near->distance);
-    answer.point = (near->on_a + near->on_b) * 0.5;
+    answer.witness = witness_of_gap(*near);
     answer.relation =
         near->distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;
   }
@@ -204,7 +205,7 @@ class PairOfParts {
   }
 
   void touching(const MeetingResult& meeting, PartAnswer& answer) const {
-    answer.point = meeting.point;
+    answer.witness = witness_of_touch(meeting.point);
     answer.relation = Relation::abut_outside;
   }
 
@@ -225,7 +226,7 @@ class PairOfParts {
     depth.upper = std::max(depth.upper, depth.value);
     answer.separation = {
         .d = -depth.value, .lower = -depth.upper, .upper = -depth.lower, .interiors_meet = true};
-    answer.point = depth.point;
+    answer.witness = witness_of_depth(a_, b_, depth.point);
     answer.relation = relation_of(a_, b_, meeting, depth, options_.contact_distance, work_.pair);
   }
 
@@ -265,7 +266,8 @@ Relation mirrored(Relation r) {
 /// An answer about (b, a) becomes one about (a, b).
 void turn(PartAnswer& answer, const NarrowPart& a, const NarrowPart& b) {
   answer.relation = mirrored(answer.relation);
-  answer.point = answer.point + (b.treed.placed.origin - a.treed.placed.origin).as<double>();
+  answer.witness =
+      mirrored(answer.witness, (b.treed.placed.origin - a.treed.placed.origin).as<double>());
 }
 
 }  // namespace

@@ -24,11 +24,29 @@ struct NarrowOptions {
   bool thickness_cap = true;
 };
 
+/// Where a separation is measured: from on_a to on_b is the way that a would have to move for the
+/// two points to coincide. Apart, they are the closest points; otherwise one is the deepest point
+/// of the common part, the other the nearest point of the skin that it is measured to.
+struct Witness {
+  geometry::Vec3d on_a = {}, on_b = {};  ///< grid units relative to a's origin
+  /// Unit: the way along which a moves away from b, or out of b; zero where there is none, as
+  /// between parts that touch and sheets that cross.
+  geometry::Vec3d away = {};
+  bool interiors_meet = false;
+  bool deep_in_a = false;  ///< interiors meet: the skin is a's and on_b the deepest point
+
+  [[nodiscard]] geometry::Vec3d point() const {
+    if (interiors_meet) return deep_in_a ? on_b : on_a;
+    return (on_a + on_b) * 0.5;
+  }
+  [[nodiscard]] const geometry::Vec3d& surface() const { return deep_in_a ? on_a : on_b; }
+};
+
 struct PartAnswer {
   Judgement judgement;
   Relation relation = Relation::separate;
   Separation separation;
-  geometry::Vec3d point;  ///< grid units relative to a's origin
+  Witness witness;
 };
 
 struct NarrowWork {

@@ -14,7 +14,12 @@ using geometry::Vec3d;
 
 Pair pair_of(const PartAnswer& answer, const PartRef& a, const PartRef& b) {
   const Separation& s = answer.separation;
-  const Vec3d at = a.placed.origin.as<double>() + answer.point;
+  const Witness& w = answer.witness;
+  const auto place = [&](const Vec3d& p) {
+    const Vec3d at = a.placed.origin.as<double>() + p;
+    return Vec3d{at.x / geometry::kGridPerMm, at.y / geometry::kGridPerMm,
+                 at.z / geometry::kGridPerMm};
+  };
   Pair pair;
   pair.a = model::ObjectId{a.object};
   pair.b = model::ObjectId{b.object};
@@ -24,8 +29,11 @@ Pair pair_of(const PartAnswer& answer, const PartRef& a, const PartRef& b) {
   pair.d_mm = s.d / geometry::kGridPerMm;
   pair.d_lower_mm = (s.lower - s.sag) / geometry::kGridPerMm;
   pair.d_upper_mm = (s.upper + s.sag) / geometry::kGridPerMm;
-  pair.point_mm = {at.x / geometry::kGridPerMm, at.y / geometry::kGridPerMm,
-                   at.z / geometry::kGridPerMm};
+  pair.point_mm = place(w.point());
+  pair.on_a_mm = place(w.on_a);
+  pair.on_b_mm = place(w.on_b);
+  pair.away = w.away;
+  pair.deep_in_a = w.deep_in_a;
   pair.part_a = a.number;
   pair.part_b = b.number;
   return pair;

@@ -69,7 +69,17 @@ struct Pair {
   double d_mm = 0;                        ///< signed separation; negative is depth
   double d_lower_mm = 0, d_upper_mm = 0;  ///< certified bracket round d
   geometry::Vec3d point_mm;               ///< midpoint of the closest pair, or the deepest point
-  std::uint32_t part_a = 0, part_b = 0;   ///< deciding parts, numbered within their objects
+  /// Moving a by on_b - on_a, which is |d| long, brings the two points together. d >= 0: the
+  /// closest points. d < 0: one is the deepest point, the other surface_mm().
+  geometry::Vec3d on_a_mm, on_b_mm;
+  /// Unit: the way along which a moves away from b or out of it. Zero where there is none: parts
+  /// that touch, sheets that cross.
+  geometry::Vec3d away;
+  bool deep_in_a = false;                ///< d < 0: measured to the skin of a
+  std::uint32_t part_a = 0, part_b = 0;  ///< deciding parts, numbered within their objects
+
+  /// d < 0: the nearest point of the skin that d is measured to.
+  [[nodiscard]] const geometry::Vec3d& surface_mm() const { return deep_in_a ? on_a_mm : on_b_mm; }
 };
 
 struct Counters {

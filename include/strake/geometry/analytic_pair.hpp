@@ -19,6 +19,11 @@ struct AnalyticSeparation {
   double d = 0;      ///< distance, or minus the depth D of docs/clash.md
   double error = 0;  ///< certain bound on the error of d
   Vec3d point;  ///< midpoint of the closest pair or deepest point, relative to a's snapped centre
+  /// Unit: the way along which a moves away from b. Apart, the closest points are point ± away·d/2,
+  /// a's first. Otherwise the deepest point comes out when a moves d this way: the nearest point of
+  /// the skin that d is measured to is point - away·D where `deep_in_a`, else point + away·D.
+  Vec3d away{1, 0, 0};
+  bool deep_in_a = false;
   /// How deep one lies wholly inside the other; negative: it sticks out by that much.
   double a_inside_b = 0, b_inside_a = 0;
   double difference = 0;  ///< bound on how far the two surfaces lie apart: 0 for duplicates

@@ -64,6 +64,17 @@ struct Depth {
   std::uint64_t cells = 0;
 };
 
+/// The point of a part's skin nearest to a point; lengths and coordinates are grid units relative
+/// to the part's origin.
+struct SkinPoint {
+  Vec3d point;
+  double distance = 0;
+  Vec3d normal;  ///< unit, outward where the part is a solid
+};
+
+/// Relative error about 1e-12; of triangles equally near, the lowest.
+[[nodiscard]] SkinPoint nearest_on_skin(const TreedPart& part, const Vec3d& p);
+
 /// Two solids: D = max over x in both of max(distance to a's surface, distance to b's).
 ///
 /// Upper bound: two linear programs over the half-spaces of both (what is in a ball inside a part

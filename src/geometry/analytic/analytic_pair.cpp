@@ -33,18 +33,25 @@ struct Overlap {
 
 Vec3d unit_or_zero(const Vec3d& v, double size) { return size > 0 ? v * (1 / size) : Vec3d{}; }
 
+/// About a common centre every way out of a ball is as short.
+Vec3d unit_or_x(const Vec3d& v) {
+  const double size = norm(v);
+  return size > 0 ? v * (1 / size) : Vec3d{1, 0, 0};
+}
+
 AnalyticSeparation spheres(const PlacedSolid& a, const PlacedSolid& b, const Vec3d& offset) {
   const double distance = norm(offset);
   const Overlap o{a.half[0], b.half[0], distance};
   const Vec3d way = unit_or_zero(offset, distance);
   AnalyticSeparation s;
+  s.away = -unit_or_x(offset);
   if (o.gap() >= 0) {
     s.d = o.gap();
     s.point = way * o.middle();
   } else {
-    const bool in_a = o.deep_in_a() >= o.deep_in_b();
+    s.deep_in_a = o.deep_in_a() >= o.deep_in_b();
     s.d = -std::max(o.deep_in_a(), o.deep_in_b());
-    s.point = way * (in_a ? o.nearest_to_a() : o.nearest_to_b());
+    s.point = way * (s.deep_in_a ? o.nearest_to_a() : o.nearest_to_b());
   }
   s.a_inside_b = o.a_inside_b();
   s.b_inside_a = o.b_inside_a();
@@ -64,12 +71,18 @@ AnalyticSeparation cylinders(const PlacedSolid& a, const PlacedSolid& b, const V
     const double x = std::max(0.0, disc.gap()), z = std::max(0.0, bar.gap());
     s.d = x > 0 && z > 0 ? std::sqrt(x * x + z * z) : std::max(x, z);
     s.point = out * disc.middle() + up * bar.middle();
+    const Vec3d gap = out * x + up * z;
+    s.away = -unit_or_x(s.d > 0 ? gap : disc.gap() >= 0 ? out : up);
   } else {
     const double in_a = std::min(disc.deep_in_a(), bar.deep_in_a());
     const double in_b = std::min(disc.deep_in_b(), bar.deep_in_b());
     s.d = -std::max(in_a, in_b);
-    s.point = in_a >= in_b ? out * disc.nearest_to_a() + up * bar.nearest_to_a()
-                           : out * disc.nearest_to_b() + up * bar.nearest_to_b();
+    s.deep_in_a = in_a >= in_b;
+    s.point = s.deep_in_a ? out * disc.nearest_to_a() + up * bar.nearest_to_a()
+                          : out * disc.nearest_to_b() + up * bar.nearest_to_b();
+    const bool by_end =
+        s.deep_in_a ? bar.deep_in_a() < disc.deep_in_a() : bar.deep_in_b() < disc.deep_in_b();
+    s.away = by_end ? -up : distance > 0 ? -out : a.axes[0];
   }
   s.a_inside_b = std::min(disc.a_inside_b(), bar.a_inside_b());
   s.b_inside_a = std::min(disc.b_inside_a(), bar.b_inside_a());
@@ -95,6 +108,14 @@ struct Slabs {
     for (std::size_t k = 0; k < count; ++k) p = p + way[k] * std::min(at[k], half[k] - t);
     return p;
   }
+  /// The face that this place lies nearest to.
+  [[nodiscard]] std::size_t nearest_face(double t) const {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < count; ++k)
+      if (half[k] - std::min(at[k], half[k] - t) < half[best] - std::min(at[best], half[best] - t))
+        best = k;
+    return best;
+  }
   [[nodiscard]] double squared_distance(double t) const {
     double sum = 0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -115,7 +136,7 @@ Slabs slabs_of(const PlacedSolid& body, const Vec3d& centre) {
   const double along = dot(centre, body.axes[2]);
   const Vec3d beside = centre - body.axes[2] * along;
   const double distance = norm(beside);
-  s.add(distance, body.half[0], unit_or_zero(beside, distance));
+  s.add(distance, body.half[0], distance > 0 ? beside * (1 / distance) : body.axes[0]);
   s.add(along, body.half[2], body.axes[2]);
   return s;
 }
@@ -149,7 +170,7 @@ double farthest(const Slabs& s) {
   return std::sqrt(sum);
 }
 
-/// A sphere against a box or cylinder; the point is relative to the body's centre.
+/// A sphere, called a, against a box or cylinder; the point is relative to the body's centre.
 AnalyticSeparation sphere_and_body(const PlacedSolid& sphere, const PlacedSolid& body,
                                    const Vec3d& centre) {
   const Slabs slabs = slabs_of(body, centre);
@@ -159,10 +180,13 @@ AnalyticSeparation sphere_and_body(const PlacedSolid& sphere, const PlacedSolid&
   if (distance >= radius) {
     s.d = distance - radius;
     s.point = nearest + (centre - nearest) * (s.d / (2 * distance));
+    s.away = unit_or_x(centre - nearest);
   } else {
     const double in_body = deepest_of_ball(slabs, radius), in_sphere = radius - distance;
     s.d = -std::max(in_body, in_sphere);
-    s.point = in_sphere >= in_body ? nearest : slabs.nearest(in_body);
+    s.deep_in_a = in_sphere >= in_body;
+    s.point = s.deep_in_a ? nearest : slabs.nearest(in_body);
+    s.away = s.deep_in_a ? unit_or_x(centre - nearest) : slabs.way[slabs.nearest_face(in_body)];
   }
   s.a_inside_b = -radius - distance;
   if (!(distance > 0)) {
@@ -194,6 +218,8 @@ std::optional<AnalyticSeparation> by_kinds(const PlacedSolid& a, const PlacedSol
   if (b.kind == Kind::sphere) {
     AnalyticSeparation s = sphere_and_body(b, a, offset);
     std::swap(s.a_inside_b, s.b_inside_a);
+    s.away = -s.away;
+    s.deep_in_a = s.d < 0 && !s.deep_in_a;
     return s;
   }
   if (a.kind != Kind::sphere) return std::nullopt;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/depth/depth_field.hpp"
@@ -20,6 +21,8 @@ namespace {
 constexpr std::size_t kMaxVerticesTried = 128;
 /// A depth in which nobody needs the deepest point, grid units.
 constexpr double kTie = 2;
+/// A step off a skin that the exact test of a side can see.
+constexpr double kLeastMove = 1.0 / 64;
 
 Box3d box_of(const DepthField& f) {
   const Box3i& b = f.part().box;
@@ -59,15 +62,60 @@ class Halfspaces {
 
   /// The point farthest from both boundaries among those at least `depth` deep in one body.
   [[nodiscard]] RadiusSolution most_central(bool deep_in_a, double depth) const {
-    std::vector<RadiusConstraint> rows;
-    start(rows, a_, fa_, 0);
+    std::vector<RadiusConstraint> rows = deep_rows(deep_in_a, depth);
     append(rows, a_, fa_, 1, 0);
     append(rows, b_, fb_, 1, 0);
-    append(rows, deep_in_a ? a_ : b_, deep_in_a ? fa_ : fb_, 0, depth);
+    return solve(rows);
+  }
+
+  /// The same where all points so deep lie on a skin of the other, as between walls whose faces are
+  /// parallel: then only the boundaries that they can be away from count.
+  [[nodiscard]] RadiusSolution middle_of_skin(bool deep_in_a, double depth) const {
+    std::vector<RadiusConstraint> rows = deep_rows(deep_in_a, depth);
+    const std::vector<Vec3d> across = skin_normals(deep_in_a, depth);
+    append_beside(rows, a_, fa_, across);
+    append_beside(rows, b_, fb_, across);
     return solve(rows);
   }
 
  private:
+  [[nodiscard]] std::vector<RadiusConstraint> deep_rows(bool deep_in_a, double depth) const {
+    std::vector<RadiusConstraint> rows;
+    start(rows, a_, fa_, 0);
+    append(rows, deep_in_a ? a_ : b_, deep_in_a ? fa_ : fb_, 0, depth);
+    return rows;
+  }
+
+  static bool parallel(const Vec3d& n, const Vec3d& m) {
+    constexpr double kSquare = 1e-9;
+    const Vec3d c = cross(n, m);
+    return dot(c, c) < kSquare;
+  }
+
+  /// Normals of the one body's planes that lie `depth` within a plane of the other turned round.
+  [[nodiscard]] std::vector<Vec3d> skin_normals(bool deep_in_a, double depth) const {
+    constexpr double kWidth = 4;
+    const DepthPart &ball = deep_in_a ? a_ : b_, &room = deep_in_a ? b_ : a_;
+    const DepthField &f = deep_in_a ? fa_ : fb_, &g = deep_in_a ? fb_ : fa_;
+    std::vector<Vec3d> normals;
+    for (const SupportPlanes::Plane& p : ball.planes->planes)
+      for (const SupportPlanes::Plane& q : room.planes->planes)
+        if (dot(p.normal, q.normal) < 0 && parallel(p.normal, q.normal) &&
+            offset(f, p.normal, p.support) + offset(g, q.normal, q.support) < depth + kWidth)
+          normals.push_back(p.normal);
+    return normals;
+  }
+
+  /// Planes that a point may be away from; those along the given normals only hold it.
+  void append_beside(std::vector<RadiusConstraint>& rows, const DepthPart& part,
+                     const DepthField& f, const std::vector<Vec3d>& across) const {
+    for (const SupportPlanes::Plane& p : part.planes->planes) {
+      const bool held =
+          std::ranges::any_of(across, [&](const Vec3d& n) { return parallel(n, p.normal); });
+      rows.push_back({p.normal, held ? 0.0 : 1.0, offset(f, p.normal, p.support)});
+    }
+  }
+
   [[nodiscard]] RadiusSolution solve(const std::vector<RadiusConstraint>& rows) const {
     RadiusSolution s = maximise_radius({rows, extent_});
     s.x = s.x + centre_;
@@ -128,8 +176,9 @@ class Candidates {
     return depth;
   }
 
+  /// All but as deep as the best, and a better place to point at.
   void prefer(const Vec3d& p, double depth) {
-    if (depth >= best_ * (1 - 1e-6)) point_ = on_field_grid(p);
+    if (depth >= best_ * (1 - 1e-6) - 4 * kLeastMove) point_ = on_field_grid(p);
   }
 
   void store(Depth& depth) const {
@@ -153,21 +202,25 @@ void bracket_by_programs(const Halfspaces& spaces, Candidates& candidates, Depth
   const RadiusSolution in_a = spaces.largest_ball(true), in_b = spaces.largest_ball(false);
   depth.upper = std::max({0.0, in_a.upper, in_b.upper});
   const bool a_deeper = in_a.r >= in_b.r;
-  const double deepest = std::max(in_a.r, in_b.r);
-  const RadiusSolution middle = spaces.most_central(a_deeper, deepest * (1 - 1e-7) - 1e-3);
+  const double deepest = std::max(in_a.r, in_b.r) * (1 - 1e-7) - 1e-3;
+  RadiusSolution middle = spaces.most_central(a_deeper, deepest);
   const auto at_middle = candidates.depth_at(middle.x);
   const auto at_corner = candidates.depth_at((a_deeper ? in_a : in_b).x);
   if (at_middle) candidates.prefer(middle.x, *at_middle);
-  if (at_corner && at_middle) return;
+  if (at_corner && at_middle && middle.r > kLeastMove) return;
   // Where the deepest points lie on the skin of the other body, as on the flat of a pipe that
   // stands into a box, their middle does too: then aim for the middle of the whole common part.
-  constexpr std::array<double, 4> kMoves{1, 4, 16, 64};
+  constexpr std::array<double, 5> kMoves{kLeastMove, 1, 4, 16, 64};
   const RadiusSolution aim = middle.r > kMoves.back() ? middle : spaces.most_central(a_deeper, 0);
-  for (const RadiusSolution* s : {&in_a, &in_b})
+  if (!(middle.r > kLeastMove)) middle = spaces.middle_of_skin(a_deeper, deepest);
+  for (const RadiusSolution* s : {&in_a, &in_b, &std::as_const(middle)})
     for (const double move : kMoves) {
       if (!(aim.r > move)) break;
-      const double t = move / aim.r;
-      if (candidates.depth_at(s->x + (aim.x - s->x) * t)) break;
+      const Vec3d p = s->x + (aim.x - s->x) * (move / aim.r);
+      const auto depth_there = candidates.depth_at(p);
+      if (!depth_there) continue;
+      if (s == &middle) candidates.prefer(p, *depth_there);
+      break;
     }
 }
 

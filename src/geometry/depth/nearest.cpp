@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "strake/geometry/depth.hpp"
+
 namespace strake::geometry {
 namespace {
 
@@ -102,6 +104,14 @@ Vec3d nearest_on_triangle(const Vec3d& p, const Corners& t) {
 NearestTriangle nearest_triangle(const Part& part, const PartTree& tree, const Vec3d& p,
                                  std::uint32_t hint, double limit) {
   return Search(part, tree, p).run(hint, limit);
+}
+
+SkinPoint nearest_on_skin(const TreedPart& part, const Vec3d& p) {
+  const NearestTriangle nearest = nearest_triangle(*part.placed.part, *part.tree, p);
+  if (nearest.triangle == kNoFace) return {p, 0, {}};
+  const Corners c = corners_of(*part.placed.part, nearest.triangle);
+  const Vec3d n = cross(c[1] - c[0], c[2] - c[0]);
+  return {nearest_on_triangle(p, c), nearest.distance, n * (1 / length(n))};
 }
 
 }  // namespace strake::geometry

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <string>
+#include <variant>
 
 namespace strake::geometry {
 namespace {
@@ -169,6 +172,58 @@ TEST(AnalyticPair, OthersHaveNoClosedForm) {
   EXPECT_FALSE(analytic_separation({&pipe, &here}, {&box, &here}));
   EXPECT_FALSE(analytic_separation({&box, &here}, {&box, &here}));
   EXPECT_FALSE(analytic_separation({&dish, &here}, {&pipe, &here}));
+}
+
+/// Distance of a point to the skin of a body about the origin, millimetres.
+double to_skin(const Primitive& body, const Vec3d& p) {
+  Vec3d beyond{};
+  if (const auto* ball = std::get_if<SpherePrimitive>(&body))
+    return std::fabs(std::sqrt(dot(p, p)) - ball->diameter / 2);
+  if (const auto* pipe = std::get_if<CylinderPrimitive>(&body)) {
+    beyond = {std::sqrt(p.x * p.x + p.y * p.y) - pipe->radius, -1e9,
+              std::fabs(p.z) - pipe->height / 2};
+  } else {
+    const auto& box = std::get<BoxPrimitive>(body);
+    beyond = {std::fabs(p.x) - box.length_x / 2, std::fabs(p.y) - box.length_y / 2,
+              std::fabs(p.z) - box.length_z / 2};
+  }
+  const double inside = std::max({beyond.x, beyond.y, beyond.z});
+  if (inside <= 0) return -inside;
+  for (int k = 0; k < 3; ++k) beyond[k] = std::max(0.0, beyond[k]);
+  return std::sqrt(dot(beyond, beyond));
+}
+
+/// Closest points lie on both skins; a deepest point and the skin's nearest lie d apart.
+TEST(AnalyticPair, WitnessesLieWhereTheySay) {
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const auto draw = [&](int lo, int hi) {
+      return static_cast<double>(lo + static_cast<int>(random() % static_cast<unsigned>(hi - lo)));
+    };
+    const Primitive ball = SpherePrimitive{draw(10, 120)},
+                    pipe = CylinderPrimitive{draw(5, 45), draw(10, 90)},
+                    box = BoxPrimitive{draw(10, 90), draw(10, 90), draw(10, 90)},
+                    other = CylinderPrimitive{draw(5, 45), draw(10, 90)};
+    const std::array<std::array<const Primitive*, 2>, 5> pairs{
+        {{&ball, &ball}, {&ball, &pipe}, {&box, &ball}, {&pipe, &other}, {&pipe, &ball}}};
+    const auto& [a, b] = pairs[seed % pairs.size()];
+    const bool centred = seed % 7 == 0;
+    const Vec3d at =
+        centred ? Vec3d{0, 0, draw(-80, 80)} : Vec3d{draw(-80, 80), draw(-80, 80), draw(-80, 80)};
+    const AnalyticSeparation s = of(*a, {}, *b, at);
+    const double d = s.d / kPerMm;
+    const Vec3d point = s.point * (1 / kPerMm);
+    EXPECT_NEAR(dot(s.away, s.away), 1, 1e-12);
+    if (d > 0) {
+      EXPECT_NEAR(to_skin(*a, point + s.away * (d / 2)), 0, 1e-6);
+      EXPECT_NEAR(to_skin(*b, point - s.away * (d / 2) - at), 0, 1e-6);
+    } else if (d < 0) {
+      const Vec3d surface = s.deep_in_a ? point + s.away * d : point - s.away * d;
+      EXPECT_NEAR(s.deep_in_a ? to_skin(*a, surface) : to_skin(*b, surface - at), 0, 1e-6);
+      EXPECT_NEAR(s.deep_in_a ? to_skin(*a, point) : to_skin(*b, point - at), -d, 1e-6);
+    }
+  }
 }
 
 /// The definition by dense sampling of the plane through both axes, in any frame.

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "clash/narrow.hpp"
+#include "strake/geometry/analytic_pair.hpp"
+
+namespace strake::clash {
+
+/// A point that both share.
+[[nodiscard]] Witness witness_of_touch(const geometry::Vec3d& point);
+
+/// The closest points of two parts that are apart.
+[[nodiscard]] Witness witness_of_gap(const geometry::Closest& closest);
+
+/// A closed form; `point` is its point relative to a's origin.
+[[nodiscard]] Witness witness_of(const geometry::AnalyticSeparation& s,
+                                 const geometry::Vec3d& point);
+
+/// The deepest point of two parts whose interiors meet, and where it comes out.
+[[nodiscard]] Witness witness_of_depth(const geometry::TreedPart& a, const geometry::TreedPart& b,
+                                       const geometry::Vec3d& deepest);
+
+/// What is about (b, a) as what is about (a, b); `shift` = b's origin minus a's.
+[[nodiscard]] Witness mirrored(const Witness& w, const geometry::Vec3d& shift);
+
+}  // namespace strake::clash

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a separation is measured: closest points, deepest points, and the way out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "strake/geometry/analyse.hpp"
+#include "strake/geometry/place.hpp"
+#include "support/clash_model.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Mat3d;
+using geometry::Placement;
+using geometry::Vec3d;
+using test::ClashModel;
+
+const Mat3d kTurn{{Vec3d{-2.0 / 3, 2.0 / 15, 11.0 / 15}, Vec3d{2.0 / 3, -1.0 / 3, 2.0 / 3},
+                   Vec3d{1.0 / 3, 14.0 / 15, 2.0 / 15}}};
+
+double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+
+void expect_near(const Vec3d& x, const Vec3d& y, double within = 1e-9) {
+  EXPECT_LE(norm(x - y), within) << x.x << ' ' << x.y << ' ' << x.z << " against " << y.x << ' '
+                                 << y.y << ' ' << y.z;
+}
+
+/// What must hold for every witness, whatever the bodies.
+void expect_sound(const Pair& p) {
+  const double slack = 1e-4 + 2e-6 * std::fabs(p.d_mm) + (p.d_upper_mm - p.d_lower_mm);
+  EXPECT_NEAR(norm(p.on_b_mm - p.on_a_mm), std::fabs(p.d_mm), slack);
+  if (p.d_mm >= 0) {
+    expect_near(p.point_mm, (p.on_a_mm + p.on_b_mm) * 0.5, 1e-6);
+  } else {
+    expect_near(p.point_mm, p.deep_in_a ? p.on_b_mm : p.on_a_mm);
+  }
+  if (p.d_mm == 0) return;
+  EXPECT_NEAR(norm(p.away), 1, 1e-12);
+  // Apart, a moves farther away; otherwise the way out is the way to go.
+  const Vec3d way = (p.on_b_mm - p.on_a_mm) * (p.d_mm < 0 ? 1 : -1);
+  EXPECT_NEAR(dot(way, p.away), std::fabs(p.d_mm), slack);
+}
+
+TEST(Witness, OfWallsApartTouchingAndOverlapping) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {200, 3000, 3000}).box("b", {210, 0, 0}, {400, 3000, 3000});
+  const Report apart = m.detect({.clearance_mm = 25});
+  ASSERT_EQ(apart.pairs.size(), 1U);
+  expect_sound(apart.pairs[0]);
+  EXPECT_EQ(apart.pairs[0].on_a_mm.x, 200);
+  EXPECT_EQ(apart.pairs[0].on_b_mm.x, 210);
+  expect_near(apart.pairs[0].away, {-1, 0, 0});
+
+  ClashModel t;
+  t.box("a", {0, 0, 0}, {200, 3000, 3000}).box("b", {200, 0, 0}, {400, 3000, 3000});
+  const Report touch = t.detect();
+  ASSERT_EQ(touch.pairs.size(), 1U);
+  EXPECT_EQ(touch.pairs[0].on_a_mm, touch.pairs[0].on_b_mm);
+  EXPECT_EQ(touch.pairs[0].away, Vec3d{});
+
+  ClashModel o;
+  o.box("a", {0, 0, 0}, {200, 3000, 3000}).box("b", {150, 0, 0}, {400, 3000, 3000});
+  const Report overlap = o.detect();
+  ASSERT_EQ(overlap.pairs.size(), 1U);
+  expect_sound(overlap.pairs[0]);
+  EXPECT_NEAR(overlap.pairs[0].d_mm, -50, 1e-3);
+  expect_near(overlap.pairs[0].away, {-1, 0, 0});
+  EXPECT_NEAR(overlap.pairs[0].point_mm.y, 1500, 1);
+  EXPECT_NEAR(overlap.pairs[0].point_mm.z, 1500, 1);
+}
+
+TEST(Witness, OfABoxInABoxLeadsToTheNearestWall) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {1000, 2000, 3000}).box("b", {900, 900, 900}, {950, 950, 950});
+  const Report report = m.detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  const Pair& p = report.pairs[0];
+  EXPECT_NEAR(p.d_mm, -100, 1e-3);
+  EXPECT_TRUE(p.deep_in_a);
+  expect_sound(p);
+  EXPECT_NEAR(p.surface_mm().x, 1000, 1e-3);
+  EXPECT_NEAR(p.away.x, -1, 1e-9);
+}
+
+TEST(Witness, OfAPlateThroughABoxPushesOutOfTheBox) {
+  ClashModel m;
+  m.box("box", {0, 0, 0}, {1000, 1000, 1000});
+  m.object("plate").body(geometry::TriangleMesh{
+      {{500, 500, 950}, {1500, 500, 950}, {500, 1500, 950}, {1500, 1500, 950}},
+      {{0, 1, 3}, {0, 3, 2}},
+      {},
+      0});
+  const Report report = m.detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  const Pair& p = report.pairs[0];
+  expect_sound(p);
+  EXPECT_TRUE(p.deep_in_a);
+  EXPECT_NEAR(p.surface_mm().z, 1000, 1e-3);
+  EXPECT_NEAR(p.away.z, -1, 1e-9);
+}
+
+TEST(Witness, OfCrossingSheetsHasNoWayOut) {
+  ClashModel m;
+  const auto sheet = [](const Vec3d& u, const Vec3d& v) {
+    const Vec3d o = (u + v) * -0.5;
+    return geometry::TriangleMesh{{o, o + u, o + u + v, o + v}, {{0, 1, 2}, {0, 2, 3}}, {}, 0};
+  };
+  m.object("a").body(sheet({1000, 0, 0}, {0, 1000, 0}));
+  m.object("b").body(sheet({1000, 0, 0}, {0, 0, 1000}));
+  const Report report = m.detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].cls, Class::hit);
+  EXPECT_EQ(report.pairs[0].away, Vec3d{});
+  EXPECT_EQ(report.pairs[0].on_a_mm, report.pairs[0].point_mm);
+}
+
+/// Primitives with closed forms and without, turned, in every relation: moved away by d and a
+/// little more, the deepest point is out of the body whose skin it was measured to.
+TEST(Witness, LeadsOutOfTheBody) {
+  int deep = 0, apart = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](int lo, int hi) {
+      return static_cast<double>(lo + static_cast<int>(random() % static_cast<unsigned>(hi - lo)));
+    };
+    const auto shape = [&]() -> model::Shape {
+      switch (random() % 4) {
+        case 0:
+          return geometry::Primitive{geometry::SpherePrimitive{draw(20, 90)}};
+        case 1:
+          return geometry::Primitive{geometry::CylinderPrimitive{draw(10, 60), draw(20, 150)}};
+        case 2:
+          return geometry::Primitive{
+              geometry::BoxPrimitive{draw(20, 90), draw(20, 90), draw(9, 90)}};
+        default: {
+          const Vec3d half{draw(10, 50), draw(10, 50), draw(10, 50)};
+          return test::box_mesh(-half, half);
+        }
+      }
+    };
+    const bool turned = random() % 2 == 0;
+    const Placement place_a{turned ? kTurn : Mat3d{}, {}};
+    const Placement place_b{random() % 2 == 0 ? kTurn : Mat3d{},
+                            {draw(-70, 70), draw(-70, 70), draw(-70, 70)}};
+    ClashModel m;
+    m.object("a").body(shape(), place_a).object("b").body(shape(), place_b);
+    const Report report = m.detect({.clearance_mm = 60});
+    if (report.pairs.empty()) continue;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Pair& p = report.pairs[0];
+    expect_sound(p);
+    if (p.d_mm > 0) ++apart;
+    if (p.d_mm > -2) continue;
+    ++deep;
+    // A ball of 1 µm about the deepest point, moved that way, no longer meets the body.
+    const Vec3d to = p.point_mm + (p.surface_mm() - p.point_mm) * (1 + 0.6 / -p.d_mm);
+    ClashModel probe;
+    probe.model.shapes = m.model.shapes;
+    model::Object body = m.model.objects[p.deep_in_a ? 0 : 1];
+    model::Body placed = m.model.bodies[p.deep_in_a ? 0 : 1];
+    body.first_body = 0;
+    probe.model.objects.push_back(body);
+    probe.model.bodies.push_back(placed);
+    probe.object("probe").body(geometry::Primitive{geometry::SpherePrimitive{0.02}}, {{}, to});
+    const Report out = probe.detect({.touch_gap_mm = 0, .touch_overlap_mm = 0});
+    EXPECT_TRUE(out.pairs.empty()) << "d " << p.d_mm;
+  }
+  EXPECT_GT(deep, 80);
+  EXPECT_GT(apart, 80);
+}
+
+/// Which of the two is called a is a matter of names: the witness is mirrored, bit by bit.
+TEST(Witness, SwappedNamesMirrorIt) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto corner = [&](int reach) {
+      const auto draw = [&] {
+        return static_cast<double>(static_cast<int>(random() % 100) - reach);
+      };
+      return Vec3d{draw(), draw(), draw()};
+    };
+    const Vec3d lo_a = corner(80), lo_b = corner(80);
+    const Vec3d hi_a = lo_a + Vec3d{20, 30, 40} + corner(0),
+                hi_b = lo_b + Vec3d{35, 25, 15} + corner(0);
+    ClashModel m, n;
+    m.box("a", lo_a, hi_a).box("b", lo_b, hi_b);
+    n.box("a", lo_b, hi_b).box("b", lo_a, hi_a);
+    const Report x = m.detect({.clearance_mm = 50}), y = n.detect({.clearance_mm = 50});
+    ASSERT_EQ(x.pairs.size(), y.pairs.size());
+    if (x.pairs.empty()) continue;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    EXPECT_EQ(x.pairs[0].d_mm, y.pairs[0].d_mm);
+    EXPECT_EQ(x.pairs[0].on_a_mm, y.pairs[0].on_b_mm);
+    EXPECT_EQ(x.pairs[0].on_b_mm, y.pairs[0].on_a_mm);
+    EXPECT_EQ(x.pairs[0].away, -y.pairs[0].away);
+    EXPECT_EQ(x.pairs[0].point_mm, y.pairs[0].point_mm);
+    EXPECT_EQ(x.pairs[0].deep_in_a != y.pairs[0].deep_in_a, x.pairs[0].d_mm < 0);
+  }
+}
+
+}  // namespace
+}  // namespace strake::clash
