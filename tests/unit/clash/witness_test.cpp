@@ -162,7 +162,7 @@ TEST(Witness, LeadsOutOfTheBody) {
     ClashModel probe;
     probe.model.shapes = m.model.shapes;
     model::Object body = m.model.objects[p.deep_in_a ? 0 : 1];
-    model::Body placed = m.model.bodies[p.deep_in_a ? 0 : 1];
+    const model::Body placed = m.model.bodies[p.deep_in_a ? 0 : 1];
     body.first_body = 0;
     probe.model.objects.push_back(body);
     probe.model.bodies.push_back(placed);
