@@ -26,6 +26,7 @@ struct ClashOptions {
   SetInput sets;
   std::string clearance, touch_gap, touch_overlap, contact_distance;
   std::string broad_phase, thickness_cap, fail_on, most_pairs;
+  bool volumes = false;
   std::vector<std::string> outputs;
 };
 
@@ -47,6 +48,7 @@ Result<clash::Options> engine_options(const ClashOptions& given) {
       !status)
     return status.error();
   if (given.broad_phase == "all-pairs") options.broad_phase = clash::BroadPhase::all_pairs;
+  if (given.volumes) options.volumes = clash::Volumes::on;
   if (given.thickness_cap == "off") options.thickness_cap = clash::ThicknessCap::off;
   return options;
 }
@@ -66,12 +68,16 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
     sum.triangle_pairs += test.counters.triangle_pairs;
     sum.exact_fallbacks += test.counters.exact_fallbacks;
     sum.depth_cells += test.counters.depth_cells;
+    sum.volume_triangle_pairs += test.counters.volume_triangle_pairs;
+    sum.volumes_given_up += test.counters.volumes_given_up;
   }
   stats.count("candidate pairs", sum.candidate_pairs);
   stats.count("part pairs", sum.part_pairs);
   stats.count("triangle pairs", sum.triangle_pairs);
   stats.count("exact fall-backs", sum.exact_fallbacks);
   stats.count("depth cells", sum.depth_cells);
+  stats.count("volume triangle pairs", sum.volume_triangle_pairs);
+  stats.count("volumes given up", sum.volumes_given_up);
 }
 
 Status write_report(Session& session, const ClashOptions& given, const clash::Findings& findings,
@@ -164,6 +170,8 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_scene_options(*command, options->scene, "a quarter of the touch tolerances");
   add_rules(*command, *options);
   add_set_options(*command, options->sets);
+  command->add_flag("--volumes", options->volumes, "Measure the volume that hits have in common")
+      ->group("Result");
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
              "How near pairs are found; the result is the same (default tree)")
       ->group("Running");

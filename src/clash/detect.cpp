@@ -11,6 +11,7 @@
 #include "clash/options.hpp"
 #include "clash/parts.hpp"
 #include "clash/reduce.hpp"
+#include "clash/volumes.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/order.hpp"
@@ -83,6 +84,11 @@ class Engine {
     if (const Status s = first_look(); !s) return s.error();
     if (const Status s = depths(); !s) return s.error();
     if (const Status s = distances(); !s) return s.error();
+    const std::vector<Found> found = answers(report);
+    report.pairs = join_by_objects(found, pairs_, list_);
+    if (options_.volumes == Volumes::on)
+      if (const Status s = measure_volumes({list_, pairs_, found, trees_}, context_, report); !s)
+        return s.error();
     finish(report);
     return report;
   }
@@ -235,7 +241,8 @@ class Engine {
     return bands_[scene_.model->objects[p.object].file];
   }
 
-  void finish(Report& report) const {
+  /// The answers that can show in a report; counts the work and what was skipped.
+  std::vector<Found> answers(Report& report) const {
     std::vector<Found> found;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       const Candidate& c = candidates_[i];
@@ -245,7 +252,10 @@ class Engine {
       else if (c.look.answer.judgement.severest != Class::no_hit)
         found.push_back({i, c.look.answer});
     }
-    report.pairs = join_by_objects(found, pairs_, list_);
+    return found;
+  }
+
+  void finish(Report& report) const {
     for (const Pair& pair : report.pairs) {
       if (pair.cls == Class::hit) ++report.count_hit;
       if (pair.cls == Class::contact) ++report.count_contact;

@@ -3,14 +3,22 @@
 #include <string_view>
 
 #include "report/text.hpp"
+#include "strake/clash/identity.hpp"
 #include "strake/core/text.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::report {
 namespace {
 
+/// What a spreadsheet would take for a formula is kept from being one: names that begin with '=' or
+/// '-' are common, and one from a foreign file may do anything.
+bool looks_like_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+}
+
 void field(std::string& out, std::string_view raw) {
-  const std::string text = valid_utf8(raw);
+  std::string text = valid_utf8(raw);
+  if (looks_like_formula(text)) text.insert(0, 1, '\'');
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
     out += text;
     return;
@@ -44,11 +52,19 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
   out += ',';
   append_range(out, p, ",");
   out += ',';
-  append_point(out, p, ",");
+  append_point(out, p.point_mm, ",");
   out += ',';
   append_flags(out, p, " ", "");
   out += ',';
   field(out, test.name);
+  out += ',';
+  out += clash::pair_key(test.name, model, p.a, p.b);
+  out += ',';
+  if (p.volume_mm3) append_mm(out, *p.volume_mm3);
+  for (const geometry::Vec3d& v : {p.on_a_mm, p.on_b_mm, p.away}) {
+    out += ',';
+    append_point(out, v, ",");
+  }
   out += "\r\n";
 }
 
@@ -58,7 +74,8 @@ void write_clash_csv(const clash::Findings& findings, const model::Model& model,
   Buffered buffer(sink);
   buffer.text() =
       "a_id,a_name,a_file,b_id,b_name,b_file,class,relation,d_mm,d_lower_mm,d_upper_mm,x_mm,y_mm,"
-      "z_mm,flags,test\r\n";
+      "z_mm,flags,test,key,volume_mm3,on_a_x_mm,on_a_y_mm,on_a_z_mm,on_b_x_mm,on_b_y_mm,on_b_z_mm,"
+      "away_x,away_y,away_z\r\n";
   for (const clash::Report& test : findings.tests)
     for (const clash::Pair& pair : test.pairs) {
       line(buffer.text(), model, test, pair);

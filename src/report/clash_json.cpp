@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "report/text.hpp"
+#include "strake/clash/identity.hpp"
 #include "strake/core/number.hpp"
 #include "strake/core/severity.hpp"
 #include "strake/report/clash.hpp"
@@ -148,8 +149,32 @@ void object(std::string& out, const model::Model& model, model::ObjectId id) {
   append_json(out, model.files[o.file].label);
 }
 
-void result(std::string& out, const model::Model& model, std::size_t test, const Pair& p) {
-  out += "{\"test\": " + std::to_string(test) + ", \"a\": ";
+void point(std::string& out, std::string_view name, const geometry::Vec3d& p) {
+  out += ", ";
+  key(out, name);
+  out += '[';
+  append_point(out, p, ", ");
+  out += ']';
+}
+
+/// Where the separation is measured: two closest points, or the way from the deepest one out.
+void witness(std::string& out, const Pair& p) {
+  point(out, "point_mm", p.point_mm);
+  if (p.d_mm >= 0) {
+    point(out, "on_a_mm", p.on_a_mm);
+    point(out, "on_b_mm", p.on_b_mm);
+  } else if (p.away == geometry::Vec3d{}) {
+    out += ", \"surface_mm\": null, \"push_out\": null";
+  } else {
+    point(out, "surface_mm", p.surface_mm());
+    point(out, "push_out", p.away);
+  }
+}
+
+void result(std::string& out, const model::Model& model, std::size_t number, const Report& test,
+            const Pair& p) {
+  out += "{\"key\": \"" + clash::pair_key(test.name, model, p.a, p.b) +
+         "\", \"test\": " + std::to_string(number) + ", \"a\": ";
   object(out, model, p.a);
   out += ", \"part\": " + std::to_string(p.part_a) + "}, \"b\": ";
   object(out, model, p.b);
@@ -161,9 +186,16 @@ void result(std::string& out, const model::Model& model, std::size_t test, const
   append_mm(out, p.d_mm);
   out += ", \"d_range_mm\": [";
   append_range(out, p, ", ");
-  out += "], \"point_mm\": [";
-  append_point(out, p, ", ");
-  out += "], \"flags\": [";
+  out += "]";
+  witness(out, p);
+  if (p.cls == clash::Class::hit && test.options.volumes == clash::Volumes::on) {
+    out += ", \"volume_mm3\": ";
+    if (p.volume_mm3)
+      append_mm(out, *p.volume_mm3);
+    else
+      out += "null";
+  }
+  out += ", \"flags\": [";
   append_flags(out, p, ", ", "\"");
   out += "]}";
 }
@@ -192,7 +224,7 @@ void write_clash_json(const Findings& findings, const model::Model& model, Sink 
     for (const Pair& pair : findings.tests[t].pairs) {
       out += first ? "\n" : ",\n";
       first = false;
-      result(out, model, t, pair);
+      result(out, model, t, findings.tests[t], pair);
       buffer.done();
     }
   out += "\n]\n}\n";

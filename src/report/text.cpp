@@ -19,10 +19,10 @@ void append_range(std::string& out, const clash::Pair& pair, std::string_view be
   append_mm_up(out, pair.d_upper_mm);
 }
 
-void append_point(std::string& out, const clash::Pair& pair, std::string_view between) {
+void append_point(std::string& out, const geometry::Vec3d& mm, std::string_view between) {
   for (int k = 0; k < 3; ++k) {
     if (k > 0) out += between;
-    append_mm(out, pair.point_mm[k]);
+    append_mm(out, mm[k]);
   }
 }
 

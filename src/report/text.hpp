@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "strake/clash/clash.hpp"
+#include "strake/geometry/vec.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::report {
@@ -46,10 +47,10 @@ void append_mm(std::string& out, double mm);
 void append_mm_down(std::string& out, double mm);
 void append_mm_up(std::string& out, double mm);
 
-/// Fields of a result with something between: the bounds of d, the coordinates of the witness, the
+/// Fields of a result with something between: the bounds of d, the coordinates of a point, the
 /// names of the flags, each between quotes.
 void append_range(std::string& out, const clash::Pair& pair, std::string_view between);
-void append_point(std::string& out, const clash::Pair& pair, std::string_view between);
+void append_point(std::string& out, const geometry::Vec3d& mm, std::string_view between);
 void append_flags(std::string& out, const clash::Pair& pair, std::string_view between,
                   std::string_view quote);
 

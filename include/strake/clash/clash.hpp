@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,7 @@ enum class Relation : std::uint8_t {
 
 enum class BroadPhase : std::uint8_t { tree, all_pairs };
 enum class ThicknessCap : std::uint8_t { on, off };
+enum class Volumes : std::uint8_t { off, on };
 
 struct Options {
   double clearance_mm = 0;      ///< c: pairs nearer than this and farther than touch_gap violate it
@@ -46,6 +48,8 @@ struct Options {
   BroadPhase broad_phase = BroadPhase::tree;
   /// Contact distance δ for the relation, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
+  /// Whether to measure the volume of the part common to two solids that hit.
+  Volumes volumes = Volumes::off;
   /// More pairs of parts within reach of each other than this are an error: some 300 bytes each.
   std::uint64_t most_pairs = std::uint64_t{1} << 25U;
 };
@@ -75,7 +79,11 @@ struct Pair {
   /// Unit: the way along which a moves away from b or out of it. Zero where there is none: parts
   /// that touch, sheets that cross.
   geometry::Vec3d away;
-  bool deep_in_a = false;                ///< d < 0: measured to the skin of a
+  bool deep_in_a = false;  ///< d < 0: measured to the skin of a
+  /// A HIT of solids, where asked for: the volume of the common parts of their parts, added up
+  /// (what two parts of one object cover twice counts twice); curved primitives as tessellated.
+  /// None where it would take too long.
+  std::optional<double> volume_mm3 = {};
   std::uint32_t part_a = 0, part_b = 0;  ///< deciding parts, numbered within their objects
 
   /// d < 0: the nearest point of the skin that d is measured to.
@@ -88,6 +96,8 @@ struct Counters {
   std::uint64_t triangle_pairs = 0;
   std::uint64_t exact_fallbacks = 0;
   std::uint64_t depth_cells = 0;
+  std::uint64_t volume_triangle_pairs = 0;
+  std::uint64_t volumes_given_up = 0;  ///< pairs of parts whose common volume takes too long
 };
 
 /// A rule that takes pairs out of a test, and how many it took.

@@ -115,8 +115,8 @@ TEST(ClashReports, NameTheTestOfEachResult) {
             json::parse(R"([{"rule": "one skid", "pairs": 3}, {"rule": "idle", "pairs": 0}])"));
   EXPECT_EQ(doc["messages"].back()["where"], "test 'with, room', set B, x");
   EXPECT_EQ(doc["diagnostics"].back()["code"], "empty-set");
-  EXPECT_NE(csv.find(",as built\r\n"), std::string::npos);
-  EXPECT_NE(csv.find(",\"with, room\"\r\n"), std::string::npos);
+  EXPECT_NE(csv.find(",as built,"), std::string::npos);
+  EXPECT_NE(csv.find(",\"with, room\","), std::string::npos);
   const std::string table = clash_table(findings, m.model, {});
   EXPECT_LT(table.find("== as built\n"), table.find("1 hit, 1 contact, 0 clearance violations\n"));
   EXPECT_LT(table.find("== with, room\n"),
@@ -146,7 +146,42 @@ TEST(ClashCsv, OneLineAPairQuotedWhereNeeded) {
   EXPECT_TRUE(text.starts_with("a_id,a_name,a_file,b_id"));
   EXPECT_NE(text.find("\"deck \"\"1\"\", port\n\""), std::string::npos);
   EXPECT_NE(text.find(",CLEARANCE_VIOLATION,SEPARATE,10,"), std::string::npos);
-  EXPECT_NE(text.find(",INVERTED,\r\n"), std::string::npos);
+  EXPECT_NE(text.find(",INVERTED,,"), std::string::npos);
+}
+
+TEST(ClashCsv, NoNameBecomesAFormula) {
+  ClashModel m;
+  m.box("=HYPERLINK(x)", {0, 0, 0}, {100, 100, 100}).box("-5", {50, 0, 0}, {150, 100, 100});
+  m.box("@c", {0, 50, 0}, {100, 150, 100}).box("+d", {50, 50, 0}, {150, 150, 100});
+  const std::string text = as_csv(m.detect(), m.model);
+  for (const std::string bad : {"=HYPERLINK", "-5,", "@c", "+d"}) {
+    EXPECT_NE(text.find("'" + bad), std::string::npos) << bad;
+    EXPECT_EQ(text.find("," + bad), std::string::npos) << bad;
+    EXPECT_EQ(text.find("\n" + bad), std::string::npos) << bad;
+  }
+  EXPECT_NE(text.find(",-50,"), std::string::npos) << "depths are numbers";
+}
+
+TEST(ClashJson, WitnessesKeysAndVolumes) {
+  const ClashModel m = row_of_boxes();
+  const clash::Report report = m.detect({.clearance_mm = 25, .volumes = clash::Volumes::on});
+  const json results = json::parse(as_json(report, m.model))["results"];
+  const json &touch = results[0], &hit = results[1], &near = results[2];
+  EXPECT_EQ(touch["on_a_mm"], touch["on_b_mm"]);
+  EXPECT_FALSE(touch.contains("volume_mm3"));
+  EXPECT_EQ(near["on_a_mm"][0], 300);
+  EXPECT_EQ(near["on_b_mm"][0], 310);
+  EXPECT_FALSE(near.contains("push_out"));
+  EXPECT_EQ(hit["volume_mm3"], 20 * 80 * 80);
+  EXPECT_EQ(hit["push_out"].size(), 3U);
+  EXPECT_EQ(hit["surface_mm"].size(), 3U);
+  EXPECT_EQ(hit["key"].get<std::string>().size(), 26U);
+  EXPECT_NE(hit["key"], touch["key"]);
+  // Neither the class nor anything else that may change shows in the key.
+  const clash::Options plain{.touch_overlap_mm = 30, .thickness_cap = clash::ThicknessCap::off};
+  const json later = json::parse(as_json(m.detect(plain), m.model))["results"];
+  EXPECT_EQ(later[1]["class"], "CONTACT");
+  EXPECT_EQ(later[1]["key"], hit["key"]);
 }
 
 TEST(ClashCsv, HoldsNothingThatIsNoUtf8) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "strake/model/model.hpp"
+
+/// Names that stay the same from run to run, so that what was decided about a clash is found again.
+namespace strake::clash {
+
+/// 64 bits of an object's file label and durable id.
+[[nodiscard]] std::uint64_t element_hash(std::string_view file_label, std::string_view id);
+[[nodiscard]] std::uint64_t element_hash(const model::Model& model, model::ObjectId id);
+
+/// The key of a clash: 26 characters of 0-9 and a-z without i, l, o and u. It depends on the name
+/// of the test, the file labels and the durable ids of the two alone: the same tomorrow, whatever
+/// the class, for swapped sets and files in another order.
+[[nodiscard]] std::string pair_key(std::string_view test, const model::Model& model,
+                                   model::ObjectId a, model::ObjectId b);
+
+/// A hash as such a text.
+[[nodiscard]] std::string key_text(std::uint64_t high, std::uint64_t low);
+
+}  // namespace strake::clash

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/volumes.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "strake/geometry/common_volume.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Part;
+using geometry::PartKind;
+using geometry::PartTree;
+
+/// What the volume of one pair may cost, in triangle pairs and tree nodes: what it takes where each
+/// triangle lies over a few of the other part, as skins of like fineness do, and some.
+constexpr std::uint64_t kWorkPerTriangle = 16, kLeastWork = 4096;
+
+/// A pair of solid parts whose interiors meet, in a pair of objects that is a HIT.
+struct Overlap {
+  const PartRef* a = nullptr;
+  const PartRef* b = nullptr;
+  std::size_t pair = 0;  ///< of objects
+};
+
+std::uint64_t most_work(const Part& a, const Part& b) {
+  return kLeastWork + kWorkPerTriangle * (a.triangles.size() + b.triangles.size());
+}
+
+std::vector<Overlap> overlaps_of_hits(const PartAnswers& answers, const std::vector<Pair>& pairs) {
+  std::vector<Overlap> overlaps;
+  std::size_t pair = 0;
+  for (const Found& f : answers.found) {
+    if (!f.answer.witness.interiors_meet) continue;
+    const geometry::IndexPair& c = answers.candidates[f.candidate];
+    const PartRef &a = answers.list.parts[c.first], &b = answers.list.parts[c.second];
+    const auto before = [&](const Pair& p) {
+      return index(p.a) != a.object ? index(p.a) < a.object : index(p.b) < b.object;
+    };
+    while (pair < pairs.size() && before(pairs[pair])) ++pair;
+    if (pair == pairs.size()) break;
+    if (index(pairs[pair].a) != a.object || index(pairs[pair].b) != b.object) continue;
+    if (pairs[pair].cls != Class::hit) continue;
+    if (a.placed.part->kind == PartKind::solid && b.placed.part->kind == PartKind::solid)
+      overlaps.push_back({&a, &b, pair});
+  }
+  return overlaps;
+}
+
+/// Trees of parts that were judged without one.
+class Trees {
+ public:
+  explicit Trees(const PartAnswers& answers) : answers_(answers) {}
+
+  Status plant(const std::vector<Overlap>& overlaps, const parallel::Context& context) {
+    std::vector<bool> wanted(answers_.list.unique.size(), false);
+    for (const Overlap& o : overlaps)
+      for (const PartRef* part : {o.a, o.b}) wanted[part->unique] = !planted(part->unique);
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t u = 0; u < wanted.size(); ++u)
+      if (wanted[u]) indices.push_back(u);
+    own_.resize(wanted.size());
+    return parallel::for_each(
+        context, {.name = "trees for volumes", .n = indices.size()},
+        [&](std::size_t i) { own_[indices[i]] = PartTree(*answers_.list.unique[indices[i]]); });
+  }
+
+  [[nodiscard]] geometry::TreedPart treed(const PartRef& part) const {
+    return {part.placed, planted(part.unique) ? &answers_.trees[part.unique] : &own_[part.unique]};
+  }
+
+ private:
+  [[nodiscard]] bool planted(std::uint32_t unique) const {
+    return unique < answers_.trees.size() && !answers_.trees[unique].nodes().empty();
+  }
+  const PartAnswers& answers_;
+  std::vector<PartTree> own_;
+};
+
+struct Measured {
+  std::optional<double> volume;  ///< cubic grid units
+  std::uint64_t triangle_pairs = 0;
+};
+
+}  // namespace
+
+Status measure_volumes(const PartAnswers& answers, const parallel::Context& context,
+                       Report& report) {
+  const std::vector<Overlap> overlaps = overlaps_of_hits(answers, report.pairs);
+  Trees trees(answers);
+  if (const Status s = trees.plant(overlaps, context); !s) return s;
+  const auto order = parallel::longest_first(overlaps.size(), [&](std::size_t i) {
+    return most_work(*overlaps[i].a->placed.part, *overlaps[i].b->placed.part);
+  });
+  const auto measured = parallel::transform(
+      context, {.name = "common volumes", .n = overlaps.size(), .order = order},
+      [&](std::size_t i) {
+        const Overlap& o = overlaps[i];
+        const auto common = geometry::common_volume(
+            trees.treed(*o.a), trees.treed(*o.b), most_work(*o.a->placed.part, *o.b->placed.part));
+        return common ? Measured{common->volume, common->triangle_pairs} : Measured{};
+      });
+  if (!measured) return measured.error();
+  constexpr double kCubic = geometry::kGridPerMm * geometry::kGridPerMm * geometry::kGridPerMm;
+  std::vector<bool> unknown(report.pairs.size(), false);
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    const std::size_t p = overlaps[i].pair;
+    const Measured& m = (*measured)[i];
+    report.counters.volume_triangle_pairs += m.triangle_pairs;
+    if (!m.volume) {
+      unknown[p] = true;
+      ++report.counters.volumes_given_up;
+    } else {
+      report.pairs[p].volume_mm3 = report.pairs[p].volume_mm3.value_or(0) + *m.volume / kCubic;
+    }
+  }
+  for (std::size_t p = 0; p < unknown.size(); ++p)
+    if (unknown[p]) report.pairs[p].volume_mm3.reset();
+  return {};
+}
+
+}  // namespace strake::clash
