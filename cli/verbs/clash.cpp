@@ -64,6 +64,7 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   clash::Counters sum;
   for (const clash::Report& test : tests) {
     sum.candidate_pairs += test.counters.candidate_pairs;
+    sum.allowed_pairs += test.counters.allowed_pairs;
     sum.part_pairs += test.counters.part_pairs;
     sum.triangle_pairs += test.counters.triangle_pairs;
     sum.exact_fallbacks += test.counters.exact_fallbacks;
@@ -72,6 +73,7 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
     sum.volumes_given_up += test.counters.volumes_given_up;
   }
   stats.count("candidate pairs", sum.candidate_pairs);
+  stats.count("pairs that may be allowed", sum.allowed_pairs);
   stats.count("part pairs", sum.part_pairs);
   stats.count("triangle pairs", sum.triangle_pairs);
   stats.count("exact fall-backs", sum.exact_fallbacks);

@@ -9,6 +9,7 @@
 
 #include "clash/narrow.hpp"
 #include "clash/options.hpp"
+#include "clash/pair_rules.hpp"
 #include "clash/parts.hpp"
 #include "clash/reduce.hpp"
 #include "clash/volumes.hpp"
@@ -55,17 +56,19 @@ Result<std::vector<T>> build_for(const std::vector<bool>& wanted, const PartList
 
 class Engine {
  public:
-  Engine(const model::Scene& scene, const Sets& sets, const Options& options,
+  Engine(const model::Scene& scene, const Sets& sets, const Options& options, const Policy& policy,
          const parallel::Context& context)
       : scene_(scene),
         sets_(sets),
         options_(options),
         context_(context),
+        rules_(policy, options, *scene.model),
         list_(list_parts(scene, sets)) {
-    narrow_.touch_overlap = options.touch_overlap_mm * geometry::kGridPerMm;
-    narrow_.touch_gap = options.touch_gap_mm * geometry::kGridPerMm;
-    narrow_.clearance = options.clearance_mm * geometry::kGridPerMm;
-    narrow_.thickness_cap = options.thickness_cap == ThicknessCap::on;
+    for (const Tolerances& t : rules_.all())
+      narrow_.push_back({.touch_overlap = t.touch_overlap_mm * geometry::kGridPerMm,
+                         .touch_gap = t.touch_gap_mm * geometry::kGridPerMm,
+                         .clearance = t.clearance_mm * geometry::kGridPerMm,
+                         .thickness_cap = t.thickness_cap == ThicknessCap::on});
     for (const model::SourceFile& file : scene.model->files)
       bands_.push_back(contact_distance(options, file.precision_mm));
   }
@@ -75,17 +78,19 @@ class Engine {
     report.set_a = sets_.name_a;
     report.set_b = sets_.name_b;
     report.options = options_;
-    auto pairs = near_pairs(list_, sets_, std::max(narrow_.touch_gap, narrow_.clearance) + 2,
+    rules_.open(sets_, report);
+    auto pairs = near_pairs(list_, sets_, search_reach(rules_.reach_mm() * geometry::kGridPerMm),
                             options_, context_);
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
+    rules_.exempt(list_, pairs_, report);
     if (const Status s = settle_simple_pairs(); !s) return s.error();
     if (const Status s = plant_trees(); !s) return s.error();
     if (const Status s = first_look(); !s) return s.error();
     if (const Status s = depths(); !s) return s.error();
     if (const Status s = distances(); !s) return s.error();
     const std::vector<Found> found = answers(report);
-    report.pairs = join_by_objects(found, pairs_, list_);
+    report.pairs = join_by_objects(found, pairs_, list_, rules_);
     if (options_.volumes == Volumes::on)
       if (const Status s = measure_volumes({list_, pairs_, found, trees_}, context_, report); !s)
         return s.error();
@@ -198,7 +203,10 @@ class Engine {
   void add_distances(std::size_t first, std::size_t end, std::vector<std::size_t>& apart,
                      std::vector<double>& reach) const {
     bool hit = false, meeting = false;
-    for (std::size_t i = first; i < end; ++i) {
+    // Where a rule may allow the worst of them, every other one counts.
+    const bool all = rules_.may_allow(list_.parts[pairs_[first].first].object,
+                                      list_.parts[pairs_[first].second].object);
+    for (std::size_t i = first; i < end && !all; ++i) {
       const PartAnswer& answer = candidates_[i].look.answer;
       hit = hit || answer.judgement.cls == Class::hit;
       meeting = meeting || (answer.judgement.cls >= Class::contact && answer.separation.d <= 0);
@@ -232,7 +240,7 @@ class Engine {
   }
 
   [[nodiscard]] NarrowOptions narrow_options(const PartRef& a, const PartRef& b) const {
-    NarrowOptions options = narrow_;
+    NarrowOptions options = narrow_[rules_.tolerances(a.object, b.object)];
     options.contact_distance = std::max(band(a), band(b));
     return options;
   }
@@ -256,12 +264,8 @@ class Engine {
   }
 
   void finish(Report& report) const {
-    for (const Pair& pair : report.pairs) {
-      if (pair.cls == Class::hit) ++report.count_hit;
-      if (pair.cls == Class::contact) ++report.count_contact;
-      if (pair.cls == Class::clearance_violation) ++report.count_clearance;
-    }
-    report.hash = hash_of(report.pairs, *scene_.model);
+    rules_.close(report);
+    report.hash = hash_of(report, *scene_.model);
     report.counters.part_pairs = pairs_.size();
     count_objects(report);
     note_unknown_sag(report.diagnostics);
@@ -276,7 +280,10 @@ class Engine {
   void count_objects(Report& report) const {
     const IndexPair* last = nullptr;
     for (const IndexPair& p : pairs_) {
-      if (last == nullptr || !same_objects(*last, p)) ++report.counters.candidate_pairs;
+      if (last == nullptr || !same_objects(*last, p)) {
+        ++report.counters.candidate_pairs;
+        rules_.count_candidate(list_.parts[p.first].object, list_.parts[p.second].object, report);
+      }
       last = &p;
     }
     report.objects_a =
@@ -315,9 +322,10 @@ class Engine {
   const Sets& sets_;
   const Options& options_;
   const parallel::Context& context_;
+  PairRules rules_;
   PartList list_;
-  NarrowOptions narrow_;
-  std::vector<double> bands_;  ///< contact distance per file
+  std::vector<NarrowOptions> narrow_;  ///< by number of tolerances
+  std::vector<double> bands_;          ///< contact distance per file
   std::vector<IndexPair> pairs_;
   std::vector<geometry::PartTree> trees_;        ///< by unique part, as far as wanted
   std::vector<geometry::SupportPlanes> planes_;  ///< likewise
@@ -328,9 +336,17 @@ class Engine {
 }  // namespace
 
 Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options& options,
-                      const parallel::Context& context) {
+                      const Policy& policy, const parallel::Context& context) {
   if (const Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
-  return Engine(scene, sets, options, context).run();
+  for (const Tolerances& t : policy.tolerances)
+    if (const Status s = check(t); !s) return s.error();
+  if (const Status s = check(policy, scene.model->objects.size()); !s) return s.error();
+  return Engine(scene, sets, options, policy, context).run();
+}
+
+Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options& options,
+                      const parallel::Context& context) {
+  return detect(scene, sets, options, {}, context);
 }
 
 }  // namespace strake::clash

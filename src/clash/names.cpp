@@ -42,6 +42,20 @@ std::string_view name(Relation relation) {
   return "";
 }
 
+std::string_view name(Level level) {
+  switch (level) {
+    case Level::hard:
+      return "hard";
+    case Level::soft:
+      return "soft";
+    case Level::insulation:
+      return "insulation";
+    case Level::none:
+      return "none";
+  }
+  return "";
+}
+
 std::vector<std::string_view> flag_names(std::uint16_t flags) {
   std::vector<std::string_view> names;
   if ((flags & kBorderline) != 0) names.push_back("BORDERLINE");

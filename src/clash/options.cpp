@@ -25,15 +25,20 @@ Error bad(const char* option, const char* what) {
 
 }  // namespace
 
-Status check(const Options& o, const Sets& sets, std::size_t objects) {
+Status check(const Tolerances& t) {
   const std::array<std::pair<const char*, double>, 3> tolerances{
-      std::pair{"clearance", o.clearance_mm}, std::pair{"touch gap", o.touch_gap_mm},
-      std::pair{"touch overlap", o.touch_overlap_mm}};
+      std::pair{"clearance", t.clearance_mm}, std::pair{"touch gap", t.touch_gap_mm},
+      std::pair{"touch overlap", t.touch_overlap_mm}};
   for (const auto& [option, value] : tolerances) {
     if (std::isnan(value)) return bad(option, "is not a number");
     if (value < 0) return bad(option, "is negative");
     if (!(value <= kMaxToleranceMm)) return bad(option, "is larger than a kilometre");
   }
+  return {};
+}
+
+Status check(const Options& o, const Sets& sets, std::size_t objects) {
+  if (Status s = check(tolerances_of(o)); !s) return s;
   if (std::isnan(o.contact_distance_mm) || o.contact_distance_mm > kMaxToleranceMm)
     return bad("contact distance", "is not a length");
   if (sets.in_a.size() != objects || sets.in_b.size() != objects ||

@@ -7,6 +7,9 @@
 
 namespace strake::clash {
 
+/// A usage error for a tolerance that is no length from 0 to a kilometre.
+[[nodiscard]] Status check(const Tolerances& tolerances);
+
 /// A usage error for a tolerance that makes no sense or sets of the wrong size.
 [[nodiscard]] Status check(const Options& options, const Sets& sets, std::size_t objects);
 

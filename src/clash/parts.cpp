@@ -10,14 +10,9 @@
 namespace strake::clash {
 namespace {
 
-/// The true surface may stand out of its tessellation by the sag.
 geometry::BoxItem item_of(const PartRef& ref, const Sets& sets, double reach) {
-  const auto inflation = static_cast<std::int64_t>(std::ceil(reach / 2 + ref.placed.part->sag));
-  const geometry::Vec3l more{inflation, inflation, inflation};
-  const geometry::Box3i& box = ref.placed.part->box;
   geometry::BoxItem item;
-  item.box = {box.lo.as<std::int64_t>() + ref.placed.origin - more,
-              box.hi.as<std::int64_t>() + ref.placed.origin + more};
+  item.box = inflated_box(ref, reach);
   item.owner = ref.object;
   item.sets = static_cast<std::uint8_t>((sets.in_a[ref.object] ? geometry::kSetA : 0U) |
                                         (sets.in_b[ref.object] ? geometry::kSetB : 0U));
@@ -44,6 +39,14 @@ Error too_many(const Options& options) {
 }
 
 }  // namespace
+
+geometry::Box3l inflated_box(const PartRef& ref, double reach) {
+  const auto inflation = static_cast<std::int64_t>(std::ceil(reach / 2 + ref.placed.part->sag));
+  const geometry::Vec3l more{inflation, inflation, inflation};
+  const geometry::Box3i& box = ref.placed.part->box;
+  return {box.lo.as<std::int64_t>() + ref.placed.origin - more,
+          box.hi.as<std::int64_t>() + ref.placed.origin + more};
+}
 
 PartList list_parts(const model::Scene& scene, const Sets& sets) {
   PartList list;

@@ -28,6 +28,14 @@ struct PartList {
 
 [[nodiscard]] PartList list_parts(const model::Scene& scene, const Sets& sets);
 
+/// What is added to the largest tolerance, both in grid units, before boxes are inflated by it:
+/// what lies exactly at a threshold is for the narrow phase to see.
+[[nodiscard]] constexpr double search_reach(double tolerance) { return tolerance + 2; }
+
+/// The part's box, so much larger that the boxes of two parts meet where their true surfaces, which
+/// may stand out of the tessellation by the sag, come within `reach` grid units.
+[[nodiscard]] geometry::Box3l inflated_box(const PartRef& ref, double reach);
+
 /// Pairs of parts of different objects whose boxes come within `reach` grid units, as indices into
 /// the list, by (objects, parts).
 [[nodiscard]] Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clash/narrow.hpp"
+#include "clash/pair_rules.hpp"
 #include "clash/parts.hpp"
 
 namespace strake::clash {
@@ -16,13 +17,15 @@ struct Found {
   PartAnswer answer;
 };
 
-/// The pairs of objects that are not NO_HIT: the join of the answers of their parts by class, d,
-/// witness and part numbers, which is associative and commutative. `found` is by candidate.
+/// The pairs of objects that are not NO_HIT: the join of the answers of their parts by whether a
+/// rule allows them, class, level, d, witness and part numbers, which is associative and
+/// commutative. `found` is by candidate.
 [[nodiscard]] std::vector<Pair> join_by_objects(const std::vector<Found>& found,
                                                 const std::vector<geometry::IndexPair>& candidates,
-                                                const PartList& list);
+                                                const PartList& list, const PairRules& rules);
 
-/// Hexadecimal hash of the pairs by durable ids: classes, relations, d and witnesses.
-[[nodiscard]] std::string hash_of(const std::vector<Pair>& pairs, const model::Model& model);
+/// Hexadecimal hash of the pairs by durable ids: classes, relations, d, witnesses, and the rules
+/// that allow them.
+[[nodiscard]] std::string hash_of(const Report& report, const model::Model& model);
 
 }  // namespace strake::clash

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -40,6 +42,18 @@ void object(std::string& out, const model::Model& model, model::ObjectId id) {
   }
 }
 
+void discipline(std::string& out, const clash::Report& test, model::ObjectId id) {
+  out += ',';
+  if (test.disciplines.empty()) return;
+  const std::uint32_t d = test.discipline[index(id)];
+  if (d != clash::kNoLabel) field(out, test.disciplines[d].name);
+}
+
+void level(std::string& out, const clash::Report& test, clash::Level of_part) {
+  out += ',';
+  if (test.levels) out += name(of_part);
+}
+
 void line(std::string& out, const model::Model& model, const clash::Report& test,
           const clash::Pair& p) {
   object(out, model, p.a);
@@ -65,6 +79,28 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
     out += ',';
     append_point(out, v, ",");
   }
+  out += ',';
+  if (p.allowed >= 0) field(out, test.allowed[static_cast<std::size_t>(p.allowed)].rule);
+  out += ',';
+  level(out, test, p.level_a);
+  level(out, test, p.level_b);
+  discipline(out, test, p.a);
+  discipline(out, test, p.b);
+  out += "\r\n";
+}
+
+/// A pair that was left out: of the class EXEMPTED, with nothing measured.
+void exempted_line(std::string& out, const model::Model& model, const clash::Report& test,
+                   const clash::ExemptedPair& p) {
+  object(out, model, p.a);
+  object(out, model, p.b);
+  out += "EXEMPTED,,,,,,,,,";
+  field(out, test.name);
+  out += ",,,,,,,,,,,,,";
+  field(out, test.exempted[p.rule].rule);
+  out += ",,";
+  discipline(out, test, p.a);
+  discipline(out, test, p.b);
   out += "\r\n";
 }
 
@@ -75,12 +111,17 @@ void write_clash_csv(const clash::Findings& findings, const model::Model& model,
   buffer.text() =
       "a_id,a_name,a_file,b_id,b_name,b_file,class,relation,d_mm,d_lower_mm,d_upper_mm,x_mm,y_mm,"
       "z_mm,flags,test,key,volume_mm3,on_a_x_mm,on_a_y_mm,on_a_z_mm,on_b_x_mm,on_b_y_mm,on_b_z_mm,"
-      "away_x,away_y,away_z\r\n";
-  for (const clash::Report& test : findings.tests)
+      "away_x,away_y,away_z,allowed_by,exempted_by,a_level,b_level,a_discipline,b_discipline\r\n";
+  for (const clash::Report& test : findings.tests) {
     for (const clash::Pair& pair : test.pairs) {
       line(buffer.text(), model, test, pair);
       buffer.done();
     }
+    for (const clash::ExemptedPair& pair : test.exempted_pairs) {
+      exempted_line(buffer.text(), model, test, pair);
+      buffer.done();
+    }
+  }
 }
 
 }  // namespace strake::report

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -22,16 +24,20 @@ void key(std::string& out, std::string_view name) {
   out += ": ";
 }
 
-void settings(std::string& out, const Report& report) {
-  const clash::Options& o = report.options;
-  out += "\"settings\": {\"clearance_mm\": ";
-  append_mm(out, o.clearance_mm);
+void tolerances(std::string& out, const clash::Tolerances& t) {
+  out += "\"clearance_mm\": ";
+  append_mm(out, t.clearance_mm);
   out += ", \"touch_gap_mm\": ";
-  append_mm(out, o.touch_gap_mm);
+  append_mm(out, t.touch_gap_mm);
   out += ", \"touch_overlap_mm\": ";
-  append_mm(out, o.touch_overlap_mm);
+  append_mm(out, t.touch_overlap_mm);
   out += ", \"thickness_cap\": ";
-  out += o.thickness_cap == clash::ThicknessCap::on ? "true" : "false";
+  out += t.thickness_cap == clash::ThicknessCap::on ? "true" : "false";
+}
+
+void settings(std::string& out, const Report& report) {
+  out += "\"settings\": {";
+  tolerances(out, clash::tolerances_of(report.options));
   out += ", \"contact_distance_mm\": ";
   append_mm(out, report.contact_distance_mm);
   out += "}";
@@ -55,13 +61,61 @@ void files(std::string& out, const model::Model& model) {
   out += "]";
 }
 
-void counts(std::string& out, const Report& report) {
+void counts(std::string& out, std::uint64_t hit, std::uint64_t contact, std::uint64_t clearance,
+            std::uint64_t allowed) {
+  out += "\"counts\": {\"HIT\": " + std::to_string(hit) +
+         ", \"CONTACT\": " + std::to_string(contact) +
+         ", \"CLEARANCE_VIOLATION\": " + std::to_string(clearance) +
+         ", \"ALLOWED\": " + std::to_string(allowed) + "}";
+}
+
+void objects(std::string& out, const Report& report) {
   out += "\"objects\": {\"a\": " + std::to_string(report.objects_a) +
-         ", \"b\": " + std::to_string(report.objects_b) +
-         "}, \"counts\": {\"HIT\": " + std::to_string(report.count_hit) +
-         ", \"CONTACT\": " + std::to_string(report.count_contact) +
-         ", \"CLEARANCE_VIOLATION\": " + std::to_string(report.count_clearance) +
-         ", \"ALLOWED\": " + std::to_string(report.count_allowed) + "}";
+         ", \"b\": " + std::to_string(report.objects_b) + "}";
+}
+
+void allowed(std::string& out, const Report& report) {
+  out += "\"allowed\": [";
+  for (std::size_t i = 0; i < report.allowed.size(); ++i) {
+    const clash::AllowedCount& rule = report.allowed[i];
+    out += i == 0 ? "{\"rule\": " : ", {\"rule\": ";
+    append_json(out, rule.rule);
+    out += ", \"candidates\": " + std::to_string(rule.candidates) +
+           ", \"pairs\": " + std::to_string(rule.pairs) + "}";
+  }
+  out += "]";
+}
+
+void cell(std::string& out, const Report& report, const clash::CellReport& cell) {
+  out += "{\"a\": ";
+  append_json(out, report.disciplines[cell.a].name);
+  out += ", \"b\": ";
+  append_json(out, report.disciplines[cell.b].name);
+  out += ", \"checked\": ";
+  if (!cell.checked) {
+    out += "false}";
+    return;
+  }
+  out += "true, \"settings\": {";
+  tolerances(out, cell.tolerances);
+  out += "}, ";
+  counts(out, cell.hit, cell.contact, cell.clearance_violation, cell.allowed);
+  out += "}";
+}
+
+void matrix(std::string& out, const Report& report) {
+  out += "\"matrix\": {\"disciplines\": [";
+  for (std::size_t i = 0; i < report.disciplines.size(); ++i) {
+    out += i == 0 ? "{\"name\": " : ", {\"name\": ";
+    append_json(out, report.disciplines[i].name);
+    out += ", \"objects\": " + std::to_string(report.disciplines[i].objects) + "}";
+  }
+  out += "], \"cells\": [";
+  for (std::size_t i = 0; i < report.cells.size(); ++i) {
+    out += i == 0 ? "\n    " : ",\n    ";
+    cell(out, report, report.cells[i]);
+  }
+  out += "]}";
 }
 
 void exempted(std::string& out, const Report& report) {
@@ -84,9 +138,17 @@ void test(std::string& out, const Report& report) {
   out += ", \"b\": ";
   append_json(out, report.set_b);
   out += "}, ";
-  counts(out, report);
+  objects(out, report);
+  out += ", ";
+  counts(out, report.count_hit, report.count_contact, report.count_clearance, report.count_allowed);
   out += ", ";
   exempted(out, report);
+  out += ", ";
+  allowed(out, report);
+  if (!report.disciplines.empty()) {
+    out += ", ";
+    matrix(out, report);
+  }
   out += ", \"hash\": ";
   append_json(out, report.hash);
   out += "}";
@@ -171,16 +233,39 @@ void witness(std::string& out, const Pair& p) {
   }
 }
 
+void side(std::string& out, const model::Model& model, const Report& report, model::ObjectId id,
+          std::uint32_t part, clash::Level level) {
+  object(out, model, id);
+  out += ", \"part\": " + std::to_string(part);
+  if (report.levels) {
+    out += ", \"level\": \"";
+    out += name(level);
+    out += '"';
+  }
+  if (!report.disciplines.empty()) {
+    const std::uint32_t d = report.discipline[index(id)];
+    out += ", \"discipline\": ";
+    append_json(out, d == clash::kNoLabel ? std::string_view() : report.disciplines[d].name);
+  }
+  out += "}";
+}
+
 void result(std::string& out, const model::Model& model, std::size_t number, const Report& test,
             const Pair& p) {
   out += "{\"key\": \"" + clash::pair_key(test.name, model, p.a, p.b) +
          "\", \"test\": " + std::to_string(number) + ", \"a\": ";
-  object(out, model, p.a);
-  out += ", \"part\": " + std::to_string(p.part_a) + "}, \"b\": ";
-  object(out, model, p.b);
-  out += ", \"part\": " + std::to_string(p.part_b) + "}, \"class\": \"";
+  side(out, model, test, p.a, p.part_a, p.level_a);
+  out += ", \"b\": ";
+  side(out, model, test, p.b, p.part_b, p.level_b);
+  out += ", \"class\": \"";
   out += name(p.cls);
-  out += "\", \"relation\": \"";
+  if (p.allowed >= 0) {
+    out += "\", \"allowed\": ";
+    append_json(out, test.allowed[static_cast<std::size_t>(p.allowed)].rule);
+    out += ", \"relation\": \"";
+  } else {
+    out += "\", \"relation\": \"";
+  }
   out += name(p.relation);
   out += "\", \"d_mm\": ";
   append_mm(out, p.d_mm);
@@ -198,6 +283,33 @@ void result(std::string& out, const model::Model& model, std::size_t number, con
   out += ", \"flags\": [";
   append_flags(out, p, ", ", "\"");
   out += "]}";
+}
+
+void exempted_pair(std::string& out, const model::Model& model, const Report& report,
+                   std::size_t test, const clash::ExemptedPair& pair) {
+  out += "{\"test\": " + std::to_string(test) + ", \"rule\": ";
+  append_json(out, report.exempted[pair.rule].rule);
+  out += ", \"a\": ";
+  object(out, model, pair.a);
+  out += "}, \"b\": ";
+  object(out, model, pair.b);
+  out += "}}";
+}
+
+void exempted_pairs(Buffered& buffer, const model::Model& model, const Findings& findings) {
+  bool listed = false, first = true;
+  for (const Report& test : findings.tests) listed = listed || test.lists_exempted;
+  if (!listed) return;
+  std::string& out = buffer.text();
+  out += ",\n\"exempted\": [";
+  for (std::size_t t = 0; t < findings.tests.size(); ++t)
+    for (const clash::ExemptedPair& pair : findings.tests[t].exempted_pairs) {
+      out += first ? "\n" : ",\n";
+      first = false;
+      exempted_pair(out, model, findings.tests[t], t, pair);
+      buffer.done();
+    }
+  out += "\n]";
 }
 
 }  // namespace
@@ -227,7 +339,9 @@ void write_clash_json(const Findings& findings, const model::Model& model, Sink 
       result(out, model, t, findings.tests[t], pair);
       buffer.done();
     }
-  out += "\n]\n}\n";
+  out += "\n]";
+  exempted_pairs(buffer, model, findings);
+  out += "\n}\n";
 }
 
 }  // namespace strake::report

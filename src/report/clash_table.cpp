@@ -27,7 +27,7 @@ std::string_view short_name(clash::Class cls) {
   return cls == clash::Class::clearance_violation ? "CLEARANCE" : name(cls);
 }
 
-/// The pairs of a class by d, then durable order, as many as are shown.
+/// The pairs of a class that no rule allows by d, then durable order, as many as are shown.
 struct Block {
   std::vector<std::size_t> pairs;
   std::size_t hidden = 0;
@@ -36,7 +36,7 @@ struct Block {
 Block worst_of(const Report& report, clash::Class cls, std::size_t rows) {
   Block block;
   for (std::size_t i = 0; i < report.pairs.size(); ++i)
-    if (report.pairs[i].cls == cls) block.pairs.push_back(i);
+    if (report.pairs[i].cls == cls && report.pairs[i].allowed < 0) block.pairs.push_back(i);
   const std::size_t shown = std::min(rows, block.pairs.size());
   std::partial_sort(block.pairs.begin(), block.pairs.begin() + static_cast<std::ptrdiff_t>(shown),
                     block.pairs.end(), [&](std::size_t i, std::size_t j) {

@@ -35,9 +35,19 @@ enum class Relation : std::uint8_t {
   cross,
 };
 
+/// What a part counts as, from the most to the least solid; `none` is not checked at all.
+enum class Level : std::uint8_t { hard, soft, insulation, none };
+
 enum class BroadPhase : std::uint8_t { tree, all_pairs };
 enum class ThicknessCap : std::uint8_t { on, off };
 enum class Volumes : std::uint8_t { off, on };
+
+/// What the classes of a pair depend on; the fields of Options of the same names.
+struct Tolerances {
+  double clearance_mm = 0, touch_gap_mm = 1, touch_overlap_mm = 1;
+  ThicknessCap thickness_cap = ThicknessCap::on;
+  friend bool operator==(const Tolerances&, const Tolerances&) = default;
+};
 
 struct Options {
   double clearance_mm = 0;      ///< c: pairs nearer than this and farther than touch_gap violate it
@@ -85,6 +95,9 @@ struct Pair {
   /// None where it would take too long.
   std::optional<double> volume_mm3 = {};
   std::uint32_t part_a = 0, part_b = 0;  ///< deciding parts, numbered within their objects
+  Level level_a = Level::hard, level_b = Level::hard;  ///< of the deciding parts
+  /// The rule that allows this result, an index into Report::allowed; negative: none.
+  std::int32_t allowed = -1;
 
   /// d < 0: the nearest point of the skin that d is measured to.
   [[nodiscard]] const geometry::Vec3d& surface_mm() const { return deep_in_a ? on_a_mm : on_b_mm; }
@@ -92,6 +105,7 @@ struct Pair {
 
 struct Counters {
   std::uint64_t candidate_pairs = 0;  ///< object pairs with parts whose inflated boxes meet
+  std::uint64_t allowed_pairs = 0;    ///< those of them that a rule about allowed contacts concerns
   std::uint64_t part_pairs = 0;
   std::uint64_t triangle_pairs = 0;
   std::uint64_t exact_fallbacks = 0;
@@ -100,10 +114,39 @@ struct Counters {
   std::uint64_t volumes_given_up = 0;  ///< pairs of parts whose common volume takes too long
 };
 
+/// The label of an object that has none.
+inline constexpr std::uint32_t kNoLabel = 0xffffffffU;
+
 /// A rule that takes pairs out of a test, and how many it took.
 struct Exempted {
   std::string rule;
   std::uint64_t pairs = 0;  ///< of objects, with parts within reach of each other
+};
+
+/// One of these pairs; a < b in the durable order.
+struct ExemptedPair {
+  model::ObjectId a{}, b{};
+  std::uint32_t rule = 0;  ///< index into Report::exempted
+};
+
+/// A rule that allows results, how many pairs it concerned and how many it allowed.
+struct AllowedCount {
+  std::string rule;
+  std::uint64_t candidates = 0, pairs = 0;
+};
+
+/// A discipline of a matrix, and how many objects of the sets are of it.
+struct DisciplineCount {
+  std::string name;
+  std::uint64_t objects = 0;
+};
+
+/// A cell of a matrix: what it was checked by and what was found, a <= b.
+struct CellReport {
+  std::uint32_t a = 0, b = 0;  ///< indices into Report::disciplines
+  bool checked = true;
+  Tolerances tolerances;
+  std::uint64_t hit = 0, contact = 0, clearance_violation = 0, allowed = 0;
 };
 
 /// What one test found.
@@ -115,11 +158,19 @@ struct Report {
   std::uint64_t objects_a = 0, objects_b = 0;
   /// Pairs of each class, those apart that a rule allows.
   std::uint64_t count_hit = 0, count_contact = 0, count_clearance = 0;
-  std::uint64_t count_allowed = 0;  ///< pairs of any class that a rule allows
-  std::vector<Exempted> exempted;   ///< one entry per rule in force, in its order
+  std::uint64_t count_allowed = 0;           ///< pairs of any class that a rule allows
+  std::vector<Exempted> exempted;            ///< one entry per rule in force, in its order
+  bool lists_exempted = false;               ///< whether they are listed as well
+  std::vector<ExemptedPair> exempted_pairs;  ///< by (a, b, rule)
+  std::vector<AllowedCount> allowed;         ///< one entry per rule in force
+  bool levels = false;                       ///< whether levels were told apart
+  std::vector<DisciplineCount> disciplines;  ///< of the matrix, if the test has one
+  std::vector<CellReport> cells;             ///< by (a, b)
+  std::vector<std::uint32_t> discipline;     ///< per object, kNoLabel: in none
   Counters counters;
   double contact_distance_mm = 0;  ///< the largest δ that was applied
-  std::string hash;  ///< of pairs, relations, classes, d and witnesses; not of options
+  /// Of pairs, relations, classes, d, witnesses and the rules that allow them; not of options.
+  std::string hash;
   /// "empty-set", "unknown-sag" (once per file), "pair-too-large" (skipped).
   Diagnostics diagnostics;
 };
@@ -163,10 +214,14 @@ struct Sets {
 /// Hexadecimal hash of the names and hashes of all tests.
 [[nodiscard]] std::string hash_of(const Findings& findings);
 
+[[nodiscard]] Tolerances tolerances_of(const Options& options);
+
 /// "HIT", "CONTACT", "CLEARANCE_VIOLATION", "NO_HIT".
 [[nodiscard]] std::string_view name(Class cls);
 /// "SEPARATE", "ABUT_OUTSIDE", "A_IN_B" …
 [[nodiscard]] std::string_view name(Relation relation);
+/// "hard", "soft", "insulation", "none".
+[[nodiscard]] std::string_view name(Level level);
 /// "BORDERLINE", "UNCERTAIN", "OPEN", "INVERTED": the names of the bits set, in this order.
 [[nodiscard]] std::vector<std::string_view> flag_names(std::uint16_t flags);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "strake/clash/policy.hpp"
 #include "strake/core/atomic_file.hpp"
 #include "strake/report/clash.hpp"
 #include "support/clash_model.hpp"
@@ -124,6 +125,77 @@ TEST(ClashReports, NameTheTestOfEachResult) {
   clash::Findings renamed = findings;
   renamed.tests[0].name = "other";
   EXPECT_NE(clash::hash_of(findings), clash::hash_of(renamed));
+}
+
+/// Two disciplines, a rule that allows, one that exempts, and levels.
+clash::Report ruled_report(const ClashModel& m) {
+  clash::Policy policy;
+  clash::Matrix matrix;
+  matrix.disciplines = {"hull, port", "pipes"};
+  matrix.discipline = {0, 0, 1, clash::kNoLabel};
+  matrix.cells = {clash::Matrix::kNotChecked, 0, 0, clash::Matrix::kDefault};
+  policy.tolerances = {{.clearance_mm = 30}};
+  policy.matrix = matrix;
+  policy.levels = clash::Levels{};
+  policy.levels->object = {clash::Level::hard, clash::Level::hard, clash::Level::soft,
+                           clash::Level::hard};
+  clash::Allowed& allowed = policy.allowed.emplace_back();
+  allowed.rule = "sleeve";
+  allowed.a = allowed.b = {false, true, true, false};
+  allowed.max_depth_mm = 25;
+  policy.list_exempted = true;
+  const clash::Options options{.clearance_mm = 25};
+  const model::Scene scene = make_scene(m.model, clash::scene_options(options), {}).value();
+  return clash::detect(scene, clash::one_set(scene), options, policy, {}).value();
+}
+
+TEST(ClashReports, TellWhatRulesDid) {
+  const ClashModel m = row_of_boxes();
+  const clash::Report report = ruled_report(m);
+  const json doc = json::parse(as_json(report, m.model));
+  const json& test = doc["tests"][0];
+  EXPECT_EQ(test["counts"], json::parse(R"({"HIT": 0, "CONTACT": 0, "CLEARANCE_VIOLATION": 1,
+                                            "ALLOWED": 1})"));
+  EXPECT_EQ(test["exempted"], json::parse(R"([{"rule": "matrix", "pairs": 1},
+                                              {"rule": "no obstruction", "pairs": 0}])"));
+  EXPECT_EQ(test["allowed"], json::parse(R"([{"rule": "sleeve", "candidates": 1, "pairs": 1}])"));
+  EXPECT_EQ(test["matrix"]["disciplines"], json::parse(R"([{"name": "hull, port", "objects": 2},
+                                                           {"name": "pipes", "objects": 1}])"));
+  const json& cells = test["matrix"]["cells"];
+  ASSERT_EQ(cells.size(), 3U);
+  EXPECT_EQ(cells[0], json::parse(R"({"a": "hull, port", "b": "hull, port", "checked": false})"));
+  EXPECT_EQ(cells[1]["settings"]["clearance_mm"], 30);
+  EXPECT_EQ(cells[1]["counts"]["ALLOWED"], 1);
+  EXPECT_EQ(cells[2]["settings"]["clearance_mm"], 25);
+  ASSERT_EQ(doc["results"].size(), 2U);
+  const json& sleeve = doc["results"][0];
+  EXPECT_EQ(sleeve["class"], "HIT");
+  EXPECT_EQ(sleeve["allowed"], "sleeve");
+  EXPECT_EQ(sleeve["a"]["level"], "hard");
+  EXPECT_EQ(sleeve["b"]["level"], "soft");
+  EXPECT_EQ(sleeve["a"]["discipline"], "hull, port");
+  EXPECT_FALSE(doc["results"][1].contains("allowed"));
+  EXPECT_EQ(doc["results"][1]["b"]["discipline"], "");
+  ASSERT_EQ(doc["exempted"].size(), 1U);
+  EXPECT_EQ(doc["exempted"][0]["rule"], "matrix");
+  EXPECT_EQ(doc["exempted"][0]["a"]["id"], "deck \"1\", port\n");
+  const std::string csv = as_csv(report, m.model);
+  EXPECT_NE(csv.find(",sleeve,,hard,soft,\"hull, port\",pipes\r\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",EXEMPTED,,,,,,,,,,,,,,,,,,,,,,matrix,,,\"hull, port\",\"hull, port\"\r\n"),
+            std::string::npos)
+      << csv;
+  const std::string table = clash_table({{report}, {}}, m.model, {});
+  EXPECT_NE(
+      table.find("0 hits, 0 contacts, 1 clearance violation, 1 allowed, 1 exempted by matrix"),
+      std::string::npos)
+      << table;
+  EXPECT_EQ(table.find("HIT"), std::string::npos) << "what is allowed is no clash to look at";
+}
+
+/// Written for the schema test, as above.
+TEST(ClashJson, LeavesARuledDocumentForTheSchemaTest) {
+  const ClashModel m = row_of_boxes();
+  ASSERT_TRUE(write_file(STRAKE_RULED_DOCUMENT, as_json(ruled_report(m), m.model)));
 }
 
 TEST(ClashJson, StreamsInPieces) {

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/pair_rules.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "strake/geometry/grid.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::IndexPair;
+
+std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options) {
+  std::vector<Tolerances> all{tolerances_of(options)};
+  all.insert(all.end(), policy.tolerances.begin(), policy.tolerances.end());
+  return all;
+}
+
+double reach_of(const Tolerances& t) { return std::max(t.clearance_mm, t.touch_gap_mm); }
+
+std::size_t count_between(const Policy& policy) {
+  return static_cast<std::size_t>(
+      std::count_if(policy.exemptions.begin(), policy.exemptions.end(),
+                    [](const Exemption& e) { return std::holds_alternative<Between>(e.test); }));
+}
+
+/// Whether two ascending lists share a number.
+bool share(const Linked::Lists& x, std::uint32_t a, const Linked::Lists& y, std::uint32_t b) {
+  std::uint32_t i = x.first[a], j = y.first[b];
+  while (i < x.first[a + 1] && j < y.first[b + 1]) {
+    if (x.numbers[i] == y.numbers[j]) return true;
+    ++(x.numbers[i] < y.numbers[j] ? i : j);
+  }
+  return false;
+}
+
+bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b) {
+  return test.label[a] == test.label[b] && test.label[a] != kNoLabel;
+}
+
+bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b) {
+  return share(test.refers_to, a, test.answers_to, b) ||
+         share(test.refers_to, b, test.answers_to, a);
+}
+
+bool within(const HalfSpace& side, const geometry::Vec3d& p) {
+  return dot(p - side.point_mm, side.normal) >= 0;
+}
+
+bool allows(const Allowed& rule, const Pair& pair) {
+  if (rule.max_depth_mm ? pair.d_lower_mm < -*rule.max_depth_mm : pair.cls == Class::hit)
+    return false;
+  const geometry::Vec3d& at = pair.point_mm;
+  if (rule.region_mm && !rule.region_mm->contains({at, at})) return false;
+  return std::all_of(rule.cavity.begin(), rule.cavity.end(),
+                     [&](const HalfSpace& side) { return within(side, at); });
+}
+
+}  // namespace
+
+Status check(const Policy& policy, std::size_t objects) {
+  const auto fits = [&](const auto&... lists) { return ((lists.size() == objects) && ...); };
+  const auto listed = [&](const Linked::Lists& lists) {
+    return lists.first.size() == objects + 1 && lists.first.back() <= lists.numbers.size();
+  };
+  bool good = true;
+  for (const Exemption& e : policy.exemptions) {
+    if (const auto* const same = std::get_if<SameLabel>(&e.test)) good &= fits(same->label);
+    if (const auto* const linked = std::get_if<Linked>(&e.test))
+      good &= listed(linked->answers_to) && listed(linked->refers_to);
+    if (const auto* const between = std::get_if<Between>(&e.test))
+      good &= fits(between->a, between->b);
+  }
+  if (policy.matrix) {
+    const std::size_t n = policy.matrix->disciplines.size();
+    good &= fits(policy.matrix->discipline) && policy.matrix->cells.size() == n * n;
+    for (const std::uint32_t d : policy.matrix->discipline) good &= d < n || d == kNoLabel;
+    for (const std::uint32_t c : policy.matrix->cells)
+      good &= c < policy.tolerances.size() || c >= Matrix::kDefault;
+  }
+  if (policy.levels) good &= fits(policy.levels->object);
+  for (const Allowed& a : policy.allowed) good &= fits(a.a, a.b);
+  if (good) return {};
+  return Error{
+      ErrorCode::usage,
+      "the rules do not have one entry per object of the scene, or refer to what is not there",
+      "rules", "build them from the same scene"};
+}
+
+Tolerances tolerances_of(const Options& o) {
+  return {o.clearance_mm, o.touch_gap_mm, o.touch_overlap_mm, o.thickness_cap};
+}
+
+PairRules::PairRules(const Policy& policy, const Options& options, const model::Model& model)
+    : policy_(policy),
+      model_(model),
+      tolerances_(all_tolerances(policy, options)),
+      between_(model.objects.size(), count_between(policy)),
+      allowed_(model.objects.size(), policy.allowed.size()) {
+  for (const Tolerances& t : tolerances_)
+    one_reach_ = one_reach_ && reach_of(t) == reach_of(tolerances_.front());
+  for (std::uint32_t e = 0; e < policy.exemptions.size(); ++e)
+    if (const auto* const test = std::get_if<Between>(&policy.exemptions[e].test)) {
+      between_.set(between_rule_.size(), test->a, test->b);
+      between_rule_.push_back(e);
+    }
+  for (std::size_t r = 0; r < policy.allowed.size(); ++r)
+    allowed_.set(r, policy.allowed[r].a, policy.allowed[r].b);
+  number_level_rules();
+}
+
+void PairRules::number_level_rules() {
+  if (!policy_.levels) return;
+  level_rules_.push_back(policy_.levels->no_obstruction_rule);
+  for (const auto& row : policy_.levels->left_out)
+    for (const std::string& rule : row)
+      if (!rule.empty() &&
+          std::find(level_rules_.begin(), level_rules_.end(), rule) == level_rules_.end())
+        level_rules_.push_back(rule);
+}
+
+std::uint32_t PairRules::cell(std::uint32_t a, std::uint32_t b) const {
+  const Matrix& m = *policy_.matrix;
+  const std::uint32_t row = m.discipline[a], column = m.discipline[b];
+  if (row == kNoLabel || column == kNoLabel) return Matrix::kDefault;
+  return m.cells[row * m.disciplines.size() + column];
+}
+
+std::size_t PairRules::tolerances(std::uint32_t a, std::uint32_t b) const {
+  if (!policy_.matrix) return 0;
+  const std::uint32_t found = cell(a, b);
+  return found >= Matrix::kDefault ? 0 : found + 1;
+}
+
+double PairRules::reach_mm() const {
+  double reach = 0;
+  for (const Tolerances& t : tolerances_) reach = std::max(reach, reach_of(t));
+  return reach;
+}
+
+Level PairRules::level(const PartRef& part) const {
+  if (!policy_.levels) return Level::hard;
+  switch (model_.bodies[part.body].category) {
+    case model::Category::insulation:
+      return Level::insulation;
+    case model::Category::obstruction:
+      return policy_.levels->obstruction_bodies;
+    case model::Category::physical:
+      break;
+  }
+  return policy_.levels->object[part.object];
+}
+
+std::uint32_t PairRules::object_rule(std::uint32_t a, std::uint32_t b) const {
+  const std::uint32_t matrix = policy_.matrix ? 1 : 0;
+  if (policy_.matrix && cell(a, b) == Matrix::kNotChecked) return 0;
+  std::uint32_t between = kNoLabel;
+  between_.each(a, b, [&](std::size_t rule) {
+    between = between_rule_[rule];
+    return true;
+  });
+  const auto end = std::min(between, static_cast<std::uint32_t>(policy_.exemptions.size()));
+  for (std::uint32_t e = 0; e < end; ++e) {
+    const auto& test = policy_.exemptions[e].test;
+    const auto* const same = std::get_if<SameLabel>(&test);
+    const auto* const linked = std::get_if<Linked>(&test);
+    if ((same != nullptr && exempts(*same, a, b)) || (linked != nullptr && exempts(*linked, a, b)))
+      return matrix + e;
+  }
+  return between == kNoLabel ? kNoLabel : matrix + between;
+}
+
+std::uint32_t PairRules::level_rule(Level a, Level b) const {
+  const auto first =
+      static_cast<std::uint32_t>((policy_.matrix ? 1 : 0) + policy_.exemptions.size());
+  if (a == Level::none || b == Level::none) return first;
+  const std::string& rule =
+      policy_.levels->left_out[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+  if (rule.empty()) return kNoLabel;
+  const auto at = std::find(level_rules_.begin(), level_rules_.end(), rule);
+  return first + static_cast<std::uint32_t>(at - level_rules_.begin());
+}
+
+bool PairRules::within_own_reach(const PartRef& a, const PartRef& b) const {
+  if (one_reach_) return true;
+  const double reach =
+      search_reach(reach_of(tolerances_[tolerances(a.object, b.object)]) * geometry::kGridPerMm);
+  return inflated_box(a, reach).meets(inflated_box(b, reach));
+}
+
+void PairRules::exempt(const PartList& list, std::vector<IndexPair>& pairs, Report& report) const {
+  const bool rules = policy_.matrix || !policy_.exemptions.empty() || policy_.levels;
+  if (!rules && one_reach_) return;
+  const auto count = [&](const PartRef& a, const PartRef& b, std::uint32_t rule) {
+    ++report.exempted[rule].pairs;
+    if (policy_.list_exempted)
+      report.exempted_pairs.push_back({model::ObjectId{a.object}, model::ObjectId{b.object}, rule});
+  };
+  std::size_t kept = 0;
+  std::vector<std::uint32_t> told;  // rules that the current pair of objects counts for already
+  std::uint32_t whole = kNoLabel;   // the rule that exempts the current pair of objects
+  const PartRef *last_a = nullptr, *last_b = nullptr;
+  for (const IndexPair& pair : pairs) {
+    const PartRef &a = list.parts[pair.first], &b = list.parts[pair.second];
+    if (!within_own_reach(a, b)) continue;
+    if (last_a == nullptr || last_a->object != a.object || last_b->object != b.object) {
+      whole = object_rule(a.object, b.object);
+      told.clear();
+      if (whole != kNoLabel) count(a, b, whole);
+      last_a = &a;
+      last_b = &b;
+    }
+    if (whole != kNoLabel) continue;
+    const std::uint32_t rule = policy_.levels ? level_rule(level(a), level(b)) : kNoLabel;
+    if (rule == kNoLabel) {
+      pairs[kept++] = pair;
+    } else if (std::find(told.begin(), told.end(), rule) == told.end()) {
+      told.push_back(rule);
+      count(a, b, rule);
+    }
+  }
+  pairs.resize(kept);
+  std::sort(report.exempted_pairs.begin(), report.exempted_pairs.end(),
+            [](const ExemptedPair& x, const ExemptedPair& y) {
+              return std::tie(x.a, x.b, x.rule) < std::tie(y.a, y.b, y.rule);
+            });
+}
+
+bool PairRules::may_allow(std::uint32_t a, std::uint32_t b) const {
+  bool some = false;
+  allowed_.each(a, b, [&](std::size_t) { return some = true; });
+  return some;
+}
+
+void PairRules::count_candidate(std::uint32_t a, std::uint32_t b, Report& report) const {
+  bool some = false;
+  allowed_.each(a, b, [&](std::size_t rule) {
+    some = true;
+    ++report.allowed[rule].candidates;
+    return false;
+  });
+  if (some) ++report.counters.allowed_pairs;
+}
+
+std::int32_t PairRules::allows(const Pair& pair) const {
+  std::int32_t found = -1;
+  allowed_.each(index(pair.a), index(pair.b), [&](std::size_t rule) {
+    if (!clash::allows(policy_.allowed[rule], pair)) return false;
+    found = static_cast<std::int32_t>(rule);
+    return true;
+  });
+  return found;
+}
+
+void PairRules::open(const Sets& sets, Report& report) const {
+  if (policy_.matrix) report.exempted.push_back({policy_.matrix->rule, 0});
+  for (const Exemption& e : policy_.exemptions) report.exempted.push_back({e.rule, 0});
+  for (const std::string& rule : level_rules_) report.exempted.push_back({rule, 0});
+  for (const Allowed& a : policy_.allowed) report.allowed.push_back({a.rule, 0, 0});
+  report.lists_exempted = policy_.list_exempted;
+  report.levels = policy_.levels.has_value();
+  if (!policy_.matrix) return;
+  const Matrix& m = *policy_.matrix;
+  for (const std::string& name : m.disciplines) report.disciplines.push_back({name, 0});
+  for (std::size_t o = 0; o < m.discipline.size(); ++o)
+    if (m.discipline[o] != kNoLabel && (sets.in_a[o] || sets.in_b[o]))
+      ++report.disciplines[m.discipline[o]].objects;
+  report.discipline = m.discipline;
+  const auto n = static_cast<std::uint32_t>(m.disciplines.size());
+  for (std::uint32_t a = 0; a < n; ++a)
+    for (std::uint32_t b = a; b < n; ++b) {
+      const std::uint32_t cell = m.cells[a * n + b];
+      CellReport& told = report.cells.emplace_back();
+      told.a = a;
+      told.b = b;
+      told.checked = cell != Matrix::kNotChecked;
+      told.tolerances = tolerances_[cell >= Matrix::kDefault ? 0 : cell + 1];
+    }
+}
+
+void PairRules::close(Report& report) const {
+  const auto cell_of = [&](const Pair& pair) -> CellReport* {
+    if (!policy_.matrix) return nullptr;
+    const Matrix& m = *policy_.matrix;
+    auto [a, b] = std::minmax(m.discipline[index(pair.a)], m.discipline[index(pair.b)]);
+    if (b == kNoLabel) return nullptr;
+    const std::size_t n = m.disciplines.size();
+    return &report.cells[a * n - a * (a + std::size_t{1}) / 2 + b];
+  };
+  for (const Pair& pair : report.pairs) {
+    CellReport* const cell = cell_of(pair);
+    const auto count = [&](std::uint64_t& test, std::uint64_t CellReport::* in_cell) {
+      ++test;
+      if (cell != nullptr) ++(cell->*in_cell);
+    };
+    if (pair.allowed >= 0) {
+      ++report.allowed[static_cast<std::size_t>(pair.allowed)].pairs;
+      count(report.count_allowed, &CellReport::allowed);
+    } else if (pair.cls == Class::hit) {
+      count(report.count_hit, &CellReport::hit);
+    } else if (pair.cls == Class::contact) {
+      count(report.count_contact, &CellReport::contact);
+    } else if (pair.cls == Class::clearance_violation) {
+      count(report.count_clearance, &CellReport::clearance_violation);
+    }
+  }
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "clash/parts.hpp"
+#include "clash/set_masks.hpp"
+#include "strake/clash/policy.hpp"
+#include "strake/geometry/bvh.hpp"
+
+namespace strake::clash {
+
+/// A usage error for a policy whose lists do not have one entry per object.
+[[nodiscard]] Status check(const Policy& policy, std::size_t objects);
+
+/// The rules of a policy as a pair of objects is asked about them.
+class PairRules {
+ public:
+  /// The policy must outlive this.
+  PairRules(const Policy& policy, const Options& options, const model::Model& model);
+
+  /// What a pair is judged by: all() has the test's own tolerances first, then the policy's.
+  [[nodiscard]] const std::vector<Tolerances>& all() const { return tolerances_; }
+  [[nodiscard]] std::size_t tolerances(std::uint32_t a, std::uint32_t b) const;
+  /// How far apart parts may be for the test to look at them, mm.
+  [[nodiscard]] double reach_mm() const;
+
+  [[nodiscard]] Level level(const PartRef& part) const;
+
+  /// Takes out what is exempted, and what is nearer than reach_mm() but not than the pair's own
+  /// tolerances ask. `pairs` is by objects.
+  void exempt(const PartList& list, std::vector<geometry::IndexPair>& pairs, Report& report) const;
+
+  /// Counts a pair of objects that goes on for the rules that may allow it.
+  void count_candidate(std::uint32_t a, std::uint32_t b, Report& report) const;
+  [[nodiscard]] bool may_allow(std::uint32_t a, std::uint32_t b) const;
+  /// The first rule that allows the result, as Pair::allowed has it.
+  [[nodiscard]] std::int32_t allows(const Pair& pair) const;
+
+  /// Names the rules in force, with counts of 0, and the disciplines of the sets.
+  void open(const Sets& sets, Report& report) const;
+  /// Counts the pairs by class, rule and cell.
+  void close(Report& report) const;
+
+ private:
+  [[nodiscard]] std::uint32_t object_rule(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] std::uint32_t level_rule(Level a, Level b) const;
+  [[nodiscard]] std::uint32_t cell(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] bool within_own_reach(const PartRef& a, const PartRef& b) const;
+  void number_level_rules();
+
+  const Policy& policy_;
+  const model::Model& model_;
+  std::vector<Tolerances> tolerances_;
+  bool one_reach_ = true;
+  SetMasks between_, allowed_;
+  std::vector<std::uint32_t> between_rule_;  ///< per Between: its exemption
+  std::vector<std::string> level_rules_;     ///< distinct, after the exemptions in reports
+};
+
+}  // namespace strake::clash
