@@ -7,10 +7,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cli/clash_result.hpp"
 #include "cli/clash_sets.hpp"
 #include "cli/load.hpp"
 #include "cli/verb.hpp"
@@ -26,7 +28,7 @@ struct ClashOptions {
   SetInput sets;
   std::string clearance, touch_gap, touch_overlap, contact_distance;
   std::string broad_phase, thickness_cap, fail_on, most_pairs;
-  bool volumes = false;
+  ClashResultInput result;
   std::vector<std::string> outputs;
 };
 
@@ -48,7 +50,7 @@ Result<clash::Options> engine_options(const ClashOptions& given) {
       !status)
     return status.error();
   if (given.broad_phase == "all-pairs") options.broad_phase = clash::BroadPhase::all_pairs;
-  if (given.volumes) options.volumes = clash::Volumes::on;
+  if (given.result.wants_volumes()) options.volumes = clash::Volumes::on;
   if (given.thickness_cap == "off") options.thickness_cap = clash::ThicknessCap::off;
   return options;
 }
@@ -82,22 +84,23 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   stats.count("volumes given up", sum.volumes_given_up);
 }
 
-Status write_report(Session& session, const ClashOptions& given, const clash::Findings& findings,
-                    const model::Model& model) {
+Status write_report(Session& session, const ClashOptions& given,
+                    const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
     const Status status = session.write(file, [&](Session::Sink sink) {
       if (suffix_of(file) == ".csv") {
-        report::write_clash_csv(findings, model, sink);
+        report::write_clash_csv(contents, sink);
       } else {
-        report::write_clash_json(findings, model, sink);
+        report::write_clash_json(contents, sink);
       }
     });
     if (!status) return status;
   }
   if (session.json())
     return session.write_stdout(
-        [&](Session::Sink sink) { report::write_clash_json(findings, model, sink); });
-  return session.write_stdout(report::clash_table(findings, model, {.width = terminal_width()}));
+        [&](Session::Sink sink) { report::write_clash_json(contents, sink); });
+  return session.write_stdout(report::clash_table(
+      contents, {.width = terminal_width(), .sort = sort_by(given.result.sort)}));
 }
 
 bool fails(const clash::Report& report, const std::string& fail_on) {
@@ -126,6 +129,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (!scene_settings) return scene_settings.error();
   const Result<SetRequest> sets = set_request(given.sets);
   if (!sets) return sets.error();
+  if (const Status status = check(given.result); !status) return status.error();
   if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, given.input.files);
       !status)
     return status.error();
@@ -136,7 +140,12 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   const Diagnostics diagnostics = findings->all_diagnostics();
   tell(session.console(), diagnostics);
   count_work(session.stats(), findings->tests);
-  if (const Status status = write_report(session, given, *findings, *loaded->model); !status)
+  const Result<std::optional<clash::Grouping>> grouping =
+      group(session, given.result, *findings, *loaded->model);
+  if (!grouping) return grouping.error();
+  if (const Status status = write_report(
+          session, given, {*findings, *loaded->model, *grouping ? &**grouping : nullptr});
+      !status)
     return status.error();
   for (const clash::Report& test : findings->tests)
     if (fails(test, given.fail_on)) return ExitCode::clashes;
@@ -172,8 +181,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_scene_options(*command, options->scene, "a quarter of the touch tolerances");
   add_rules(*command, *options);
   add_set_options(*command, options->sets);
-  command->add_flag("--volumes", options->volumes, "Measure the volume that hits have in common")
-      ->group("Result");
+  add_result_options(*command, options->result);
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
              "How near pairs are found; the result is the same (default tree)")
       ->group("Running");
@@ -194,6 +202,7 @@ docs/selection.md has the language.
 Examples:
   strake clash ship.glb
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
+  strake clash ship.glb --group-by element --sort size
   strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv
   strake clash hvac.rvm steel.rvm --touch-gap 0 --touch-overlap 0 --fail-on hit --json)");
   return {command, [options](Session& session) { return run_clash(session, *options); }};

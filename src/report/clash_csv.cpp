@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/group_numbers.hpp"
 #include "report/text.hpp"
 #include "strake/clash/identity.hpp"
 #include "strake/core/text.hpp"
@@ -55,7 +56,7 @@ void level(std::string& out, const clash::Report& test, clash::Level of_part) {
 }
 
 void line(std::string& out, const model::Model& model, const clash::Report& test,
-          const clash::Pair& p) {
+          const clash::Pair& p, std::string_view group) {
   object(out, model, p.a);
   object(out, model, p.b);
   out += name(p.cls);
@@ -86,6 +87,8 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
   level(out, test, p.level_b);
   discipline(out, test, p.a);
   discipline(out, test, p.b);
+  out += ',';
+  out += group;
   out += "\r\n";
 }
 
@@ -101,24 +104,30 @@ void exempted_line(std::string& out, const model::Model& model, const clash::Rep
   out += ",,";
   discipline(out, test, p.a);
   discipline(out, test, p.b);
+  out += ',';
   out += "\r\n";
 }
 
 }  // namespace
 
-void write_clash_csv(const clash::Findings& findings, const model::Model& model, Sink sink) {
+void write_clash_csv(const ClashContents& contents, Sink sink) {
+  const GroupNumbers numbers(contents);
   Buffered buffer(sink);
   buffer.text() =
       "a_id,a_name,a_file,b_id,b_name,b_file,class,relation,d_mm,d_lower_mm,d_upper_mm,x_mm,y_mm,"
       "z_mm,flags,test,key,volume_mm3,on_a_x_mm,on_a_y_mm,on_a_z_mm,on_b_x_mm,on_b_y_mm,on_b_z_mm,"
-      "away_x,away_y,away_z,allowed_by,exempted_by,a_level,b_level,a_discipline,b_discipline\r\n";
-  for (const clash::Report& test : findings.tests) {
-    for (const clash::Pair& pair : test.pairs) {
-      line(buffer.text(), model, test, pair);
+      "away_x,away_y,away_z,allowed_by,exempted_by,a_level,b_level,a_discipline,b_discipline,"
+      "group\r\n";
+  for (std::size_t t = 0; t < contents.findings.tests.size(); ++t) {
+    const clash::Report& test = contents.findings.tests[t];
+    for (std::size_t p = 0; p < test.pairs.size(); ++p) {
+      const auto group = numbers.of(t, p);
+      line(buffer.text(), contents.model, test, test.pairs[p],
+           group ? contents.grouping->groups[*group].id : std::string_view());
       buffer.done();
     }
     for (const clash::ExemptedPair& pair : test.exempted_pairs) {
-      exempted_line(buffer.text(), model, test, pair);
+      exempted_line(buffer.text(), contents.model, test, pair);
       buffer.done();
     }
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "report/group_numbers.hpp"
 #include "report/text.hpp"
 #include "strake/clash/identity.hpp"
 #include "strake/core/number.hpp"
@@ -250,10 +252,73 @@ void side(std::string& out, const model::Model& model, const Report& report, mod
   out += "}";
 }
 
-void result(std::string& out, const model::Model& model, std::size_t number, const Report& test,
-            const Pair& p) {
+/// Millimetres rounded outward, so that the points lie in it.
+void box(std::string& out, const geometry::Box3d& b) {
+  out += "[[";
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) out += ", ";
+    append_mm_down(out, b.lo[k]);
+  }
+  out += "], [";
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) out += ", ";
+    append_mm_up(out, b.hi[k]);
+  }
+  out += "]]";
+}
+
+void group(std::string& out, const clash::Group& g) {
+  out += "{\"id\": \"" + g.id + "\", \"name\": ";
+  append_json(out, g.name);
+  out += ", \"results\": " + std::to_string(g.results.size()) + ", \"class\": \"";
+  out += name(g.worst);
+  out += "\", \"d_mm\": ";
+  append_mm(out, g.d_mm);
+  out += ", \"counts\": {\"HIT\": " + std::to_string(g.count_hit) +
+         ", \"CONTACT\": " + std::to_string(g.count_contact) +
+         ", \"CLEARANCE_VIOLATION\": " + std::to_string(g.count_clearance) + "}";
+  if (g.volume_mm3) {
+    out += ", \"volume_mm3\": ";
+    append_mm(out, *g.volume_mm3);
+  }
+  out += ", \"box_mm\": ";
+  box(out, g.box_mm);
+  out += "}";
+}
+
+void groups(Buffered& buffer, const clash::Grouping& grouping) {
+  std::string& out = buffer.text();
+  out += "\"groups\": {\"by\": \"";
+  out += name(grouping.rules.by);
+  out += "\"";
+  if (grouping.rules.by == clash::GroupBy::proximity) {
+    out += ", \"distance_mm\": ";
+    append_mm(out, grouping.rules.distance_mm);
+  }
+  out += ", \"list\": [";
+  for (std::size_t g = 0; g < grouping.groups.size(); ++g) {
+    out += g == 0 ? "\n  " : ",\n  ";
+    group(out, grouping.groups[g]);
+    buffer.done();
+  }
+  out += "]},\n";
+}
+
+/// A result and the number of its group, if there are groups.
+struct Numbered {
+  std::size_t test = 0;
+  const Pair& pair;
+  std::optional<std::uint32_t> group;
+};
+
+void result(std::string& out, const ClashContents& contents, const Numbered& numbered) {
+  const model::Model& model = contents.model;
+  const Report& test = contents.findings.tests[numbered.test];
+  const Pair& p = numbered.pair;
   out += "{\"key\": \"" + clash::pair_key(test.name, model, p.a, p.b) +
-         "\", \"test\": " + std::to_string(number) + ", \"a\": ";
+         "\", \"test\": " + std::to_string(numbered.test);
+  if (numbered.group) out += ", \"group\": " + std::to_string(*numbered.group);
+  out += ", \"a\": ";
   side(out, model, test, p.a, p.part_a, p.level_a);
   out += ", \"b\": ";
   side(out, model, test, p.b, p.part_b, p.level_b);
@@ -314,13 +379,15 @@ void exempted_pairs(Buffered& buffer, const model::Model& model, const Findings&
 
 }  // namespace
 
-void write_clash_json(const Findings& findings, const model::Model& model, Sink sink) {
+void write_clash_json(const ClashContents& contents, Sink sink) {
+  const Findings& findings = contents.findings;
+  const GroupNumbers numbers(contents);
   Buffered buffer(sink);
   std::string& out = buffer.text();
   out += "{\n\"schema_version\": ";
   out += kSchemaVersion;
   out += ",\n";
-  files(out, model);
+  files(out, contents.model);
   out += ",\n";
   tests(out, findings);
   out += ",\n\"hash\": ";
@@ -330,17 +397,19 @@ void write_clash_json(const Findings& findings, const model::Model& model, Sink 
   diagnostics(out, all);
   out += ",\n";
   messages(out, all);
-  out += ",\n\"results\": [";
+  out += ",\n";
+  if (contents.grouping != nullptr) groups(buffer, *contents.grouping);
+  out += "\"results\": [";
   bool first = true;
   for (std::size_t t = 0; t < findings.tests.size(); ++t)
-    for (const Pair& pair : findings.tests[t].pairs) {
+    for (std::size_t p = 0; p < findings.tests[t].pairs.size(); ++p) {
       out += first ? "\n" : ",\n";
       first = false;
-      result(out, model, t, findings.tests[t], pair);
+      result(out, contents, {t, findings.tests[t].pairs[p], numbers.of(t, p)});
       buffer.done();
     }
   out += "\n]";
-  exempted_pairs(buffer, model, findings);
+  exempted_pairs(buffer, contents.model, findings);
   out += "\n}\n";
 }
 

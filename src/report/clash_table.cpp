@@ -33,15 +33,18 @@ struct Block {
   std::size_t hidden = 0;
 };
 
-Block worst_of(const Report& report, clash::Class cls, std::size_t rows) {
+Block worst_of(const Report& report, clash::Class cls, std::size_t rows, clash::SortBy sort) {
   Block block;
   for (std::size_t i = 0; i < report.pairs.size(); ++i)
     if (report.pairs[i].cls == cls && report.pairs[i].allowed < 0) block.pairs.push_back(i);
   const std::size_t shown = std::min(rows, block.pairs.size());
+  const auto volume = [&](std::size_t i) {
+    return sort == clash::SortBy::volume ? report.pairs[i].volume_mm3.value_or(0) : 0;
+  };
   std::partial_sort(block.pairs.begin(), block.pairs.begin() + static_cast<std::ptrdiff_t>(shown),
                     block.pairs.end(), [&](std::size_t i, std::size_t j) {
-                      return std::tuple(report.pairs[i].d_mm, i) <
-                             std::tuple(report.pairs[j].d_mm, j);
+                      return std::tuple(-volume(i), report.pairs[i].d_mm, i) <
+                             std::tuple(-volume(j), report.pairs[j].d_mm, j);
                     });
   block.hidden = block.pairs.size() - shown;
   block.pairs.resize(shown);
@@ -121,7 +124,7 @@ std::string test_table(const Report& report, const model::Model& model,
   if (!report.pairs.empty()) out += row("class", "d mm", "relation", "a", "b", names);
   const std::array<ClassRows, 3> classes = shares(report, options.rows);
   for (const ClassRows& c : classes) {
-    const Block block = worst_of(report, c.cls, c.rows);
+    const Block block = worst_of(report, c.cls, c.rows, options.sort);
     for (const std::size_t i : block.pairs) {
       const Pair& p = report.pairs[i];
       out += row(short_name(p.cls), fixed(p.d_mm, 3), name(p.relation), label(model, p.a),
@@ -133,15 +136,49 @@ std::string test_table(const Report& report, const model::Model& model,
   return out + summary_of(report, classes);
 }
 
+std::string group_row(std::string_view cls, std::string d, std::string results, std::string size,
+                      std::string_view name) {
+  std::string line = fitted(cls, kClassColumns) + "  " +
+                     right_aligned(std::move(d), kNumberColumns) + "  " +
+                     right_aligned(std::move(results), kNumberColumns) + "  " +
+                     right_aligned(std::move(size), kNumberColumns) + "  " + std::string(name);
+  strip(line);
+  return line + "\n";
+}
+
+std::string group_table(const clash::Grouping& grouping, const TableOptions& options) {
+  constexpr std::size_t kFixed = kClassColumns + 3 * kNumberColumns + 8;
+  const std::size_t room =
+      options.width > kFixed + kLeastName ? options.width - kFixed : kLeastName;
+  const std::vector<clash::Group>& groups = grouping.groups;
+  std::string out = group_row("class", "d mm", "results", "size m", name(grouping.rules.by));
+  const std::size_t shown = std::min(options.rows, groups.size());
+  for (std::size_t g = 0; g < shown; ++g) {
+    const geometry::Vec3d d = groups[g].box_mm.hi - groups[g].box_mm.lo;
+    out += group_row(short_name(groups[g].worst), fixed(groups[g].d_mm, 3),
+                     std::to_string(groups[g].results.size()),
+                     fixed(std::max({d.x, d.y, d.z}) / 1000, 1), fitted(groups[g].name, room));
+  }
+  if (shown < groups.size()) {
+    const std::size_t more = groups.size() - shown;
+    out += "… and " + std::to_string(more) + (more == 1 ? " group more\n" : " groups more\n");
+  }
+  return out + "\n";
+}
+
 }  // namespace
 
-std::string clash_table(const clash::Findings& findings, const model::Model& model,
-                        const TableOptions& options) {
+std::string clash_table(const ClashContents& contents, const TableOptions& options) {
   std::string out;
-  for (const Report& test : findings.tests) {
-    if (!out.empty()) out += "\n";
+  const bool grouped = contents.grouping != nullptr && !contents.grouping->groups.empty();
+  if (grouped) out = group_table(*contents.grouping, options);
+  bool first = true;
+  for (const Report& test : contents.findings.tests) {
+    if (!first && contents.grouping == nullptr) out += "\n";
+    first = false;
     if (!test.name.empty()) out += "== " + printable(test.name) + "\n";
-    out += test_table(test, model, options);
+    out += contents.grouping != nullptr ? summary_of(test, shares(test, 0))
+                                        : test_table(test, contents.model, options);
   }
   return out;
 }

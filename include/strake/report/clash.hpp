@@ -6,13 +6,14 @@
 #include <string_view>
 
 #include "strake/clash/clash.hpp"
+#include "strake/clash/group.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/function_ref.hpp"
 
 /// Clash reports as text: JSON for programs, CSV for spreadsheets, a table for a terminal.
 ///
 ///     AtomicFile file = ...;
-///     report::write_clash_json({{*report}}, model, [&](std::string_view s) { file.write(s); });
+///     report::write_clash_json({findings, model}, [&](std::string_view s) { file.write(s); });
 ///
 /// Bytes depend on the findings and the model alone: not on the locale, the team or the run.
 namespace strake::report {
@@ -20,22 +21,30 @@ namespace strake::report {
 /// Takes text piece by piece; pieces end anywhere.
 using Sink = parallel::FunctionRef<void(std::string_view)>;
 
+/// What there is to tell.
+struct ClashContents {
+  const clash::Findings& findings;
+  const model::Model& model;
+  const clash::Grouping* grouping = nullptr;  ///< of these findings, if asked for
+};
+
 /// The document of schemas/clash.schema.json, one result a line, streamed: memory does not grow
 /// with the number of results. Lengths are rounded to a nanometre, brackets outward. Bytes of a
 /// name that are not UTF-8 become U+FFFD.
-void write_clash_json(const clash::Findings& findings, const model::Model& model, Sink sink);
+void write_clash_json(const ClashContents& contents, Sink sink);
 
 /// One header line and one line per pair, comma-separated (RFC 4180), lines ended by CRLF.
-void write_clash_csv(const clash::Findings& findings, const model::Model& model, Sink sink);
+void write_clash_csv(const ClashContents& contents, Sink sink);
 
 struct TableOptions {
-  std::size_t width = 100;  ///< columns of the terminal; names are clipped to fit
-  std::size_t rows = 20;    ///< pairs shown at most of each test
+  std::size_t width = 100;                    ///< columns of the terminal; names are clipped to fit
+  std::size_t rows = 20;                      ///< pairs shown at most of each test, or groups
+  clash::SortBy sort = clash::SortBy::depth;  ///< of pairs; size is as depth
 };
 
-/// Test by test, the worst pairs first: by class, then d, then durable order. Every class has its
-/// share of the rows, and is followed by how many more of it there are.
-[[nodiscard]] std::string clash_table(const clash::Findings& findings, const model::Model& model,
-                                      const TableOptions& options);
+/// Test by test, the worst pairs first: by class, then as sorted, then durable order. Every class
+/// has its share of the rows, and is followed by how many more of it there are. With a grouping the
+/// groups in its order, and what each test counts.
+[[nodiscard]] std::string clash_table(const ClashContents& contents, const TableOptions& options);
 
 }  // namespace strake::report

@@ -99,6 +99,18 @@ class Schemas(unittest.TestCase):
         self.assertEqual(sum(sum(test['counts'].values()) for test in report['tests']), len(report['results']))
         self.follows(self.run_strake('clash', 'ship.glb', '--a', 'PIP*', '--b', 'nobody', '--json'), 'clash')
         empty = self.follows(self.run_strake('clash', 'odd.obj', 'ship.glb', '--json'), 'clash')
+        volumes = self.follows(self.run_strake('clash', 'ship.glb', '--volumes', '--json'), 'clash')
+        self.assertTrue(all('volume_mm3' in r for r in volumes['results'] if r['class'] == 'HIT'))
+        for by in 'element', 'proximity', 'test', 'files':
+            grouped = self.follows(self.run_strake('clash', 'ship.glb', '--group-by', by, '--json'), 'clash')
+            self.assertEqual([r['class'] == 'CONTACT' for r in grouped['results']],
+                             ['group' not in r for r in grouped['results']])
+            grouped = self.follows(self.run_strake('clash', 'ship.glb', '--group-by', by, '--group-contacts',
+                                                   '--json'), 'clash')
+            sizes = [group['results'] for group in grouped['groups']['list']]
+            self.assertEqual(sum(sizes), len(grouped['results']))
+            for number, size in enumerate(sizes):
+                self.assertEqual(sum(r['group'] == number for r in grouped['results']), size)
         self.assertEqual([file['label'] for file in empty['files']], ['odd.obj', 'ship.glb'])
 
     def test_view(self):

@@ -20,13 +20,13 @@ using test::ClashModel;
 
 std::string as_json(const clash::Report& report, const model::Model& model) {
   std::string text;
-  write_clash_json({{report}, {}}, model, [&](std::string_view piece) { text += piece; });
+  write_clash_json({{{report}, {}}, model}, [&](std::string_view piece) { text += piece; });
   return text;
 }
 
 std::string as_csv(const clash::Report& report, const model::Model& model) {
   std::string text;
-  write_clash_csv({{report}, {}}, model, [&](std::string_view piece) { text += piece; });
+  write_clash_csv({{{report}, {}}, model}, [&](std::string_view piece) { text += piece; });
   return text;
 }
 
@@ -107,8 +107,8 @@ TEST(ClashReports, NameTheTestOfEachResult) {
   findings.tests[1].exempted = {{"one skid", 3}, {"idle", 0}};
   findings.tests[1].diagnostics.add(Severity::warning, "empty-set", "nothing there", "set B, x");
   std::string text, csv;
-  write_clash_json(findings, m.model, [&](std::string_view piece) { text += piece; });
-  write_clash_csv(findings, m.model, [&](std::string_view piece) { csv += piece; });
+  write_clash_json({findings, m.model}, [&](std::string_view piece) { text += piece; });
+  write_clash_csv({findings, m.model}, [&](std::string_view piece) { csv += piece; });
   const json doc = json::parse(text);
   ASSERT_EQ(doc["results"].size(), 5U);
   for (std::size_t r = 0; r < 5; ++r) EXPECT_EQ(doc["results"][r]["test"], r < 2 ? 0 : 1);
@@ -118,7 +118,7 @@ TEST(ClashReports, NameTheTestOfEachResult) {
   EXPECT_EQ(doc["diagnostics"].back()["code"], "empty-set");
   EXPECT_NE(csv.find(",as built,"), std::string::npos);
   EXPECT_NE(csv.find(",\"with, room\","), std::string::npos);
-  const std::string table = clash_table(findings, m.model, {});
+  const std::string table = clash_table({findings, m.model}, {});
   EXPECT_LT(table.find("== as built\n"), table.find("1 hit, 1 contact, 0 clearance violations\n"));
   EXPECT_LT(table.find("== with, room\n"),
             table.find("1 hit, 1 contact, 1 clearance violation, 3 exempted by one skid\n"));
@@ -184,7 +184,7 @@ TEST(ClashReports, TellWhatRulesDid) {
   EXPECT_NE(csv.find(",EXEMPTED,,,,,,,,,,,,,,,,,,,,,,matrix,,,\"hull, port\",\"hull, port\"\r\n"),
             std::string::npos)
       << csv;
-  const std::string table = clash_table({{report}, {}}, m.model, {});
+  const std::string table = clash_table({{{report}, {}}, m.model}, {});
   EXPECT_NE(
       table.find("0 hits, 0 contacts, 1 clearance violation, 1 allowed, 1 exempted by matrix"),
       std::string::npos)
@@ -204,7 +204,7 @@ TEST(ClashJson, StreamsInPieces) {
     m.box("box number " + std::to_string(i), {i * 10.0, 0, 0}, {i * 10.0 + 10, 10, 10});
   const clash::Report report = m.detect();
   std::size_t pieces = 0, largest = 0;
-  write_clash_json({{report}, {}}, m.model, [&](std::string_view piece) {
+  write_clash_json({{{report}, {}}, m.model}, [&](std::string_view piece) {
     ++pieces;
     largest = std::max(largest, piece.size());
   });
@@ -266,7 +266,7 @@ TEST(ClashCsv, HoldsNothingThatIsNoUtf8) {
 TEST(ClashTable, WorstFirstClippedAndCounted) {
   const ClashModel m = row_of_boxes();
   const clash::Report report = m.detect({.clearance_mm = 25});
-  const std::string text = clash_table({{report}, {}}, m.model, {.width = 72, .rows = 2});
+  const std::string text = clash_table({{{report}, {}}, m.model}, {.width = 72, .rows = 2});
   EXPECT_LT(text.find("HIT"), text.find("CONTACT"));
   EXPECT_NE(text.find("… and 1 clearance violation more"), std::string::npos);
   EXPECT_NE(text.find("1 hit, 1 contact, 1 clearance violation"), std::string::npos);
@@ -291,7 +291,7 @@ TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
   m.box("deep", {3990, 0, 0}, {4500, 100, 100});
   m.box("near", {4510, 0, 0}, {4600, 100, 100});
   const clash::Report report = m.detect({.clearance_mm = 25});
-  const std::string text = clash_table({{report}, {}}, m.model, {.rows = 10});
+  const std::string text = clash_table({{{report}, {}}, m.model}, {.rows = 10});
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 10 + 1 + 1 + 1) << text;
   EXPECT_NE(text.find("deep"), std::string::npos);
   EXPECT_NE(text.find("near"), std::string::npos);
@@ -302,7 +302,7 @@ TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
 TEST(ClashTable, NothingFoundIsSaid) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {1, 1, 1});
-  EXPECT_EQ(clash_table({{m.detect()}, {}}, m.model, {}),
+  EXPECT_EQ(clash_table({{{m.detect()}, {}}, m.model}, {}),
             "0 hits, 0 contacts, 0 clearance violations\n");
 }
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/clash_result.hpp"
+
+#include <CLI/CLI.hpp>
+#include <utility>
+
+#include "cli/options.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
+  clash::GroupRules rules;
+  for (const clash::GroupBy by : {clash::GroupBy::element, clash::GroupBy::proximity,
+                                  clash::GroupBy::test, clash::GroupBy::files})
+    if (name(by) == input.group_by) rules.by = by;
+  rules.sort = sort_by(input.sort);
+  rules.contacts = input.group_contacts;
+  if (const Status status =
+          length_option(rules.distance_mm, input.group_distance, "--group-distance");
+      !status)
+    return status.error();
+  return rules;
+}
+
+}  // namespace
+
+void add_result_options(CLI::App& command, ClashResultInput& options) {
+  constexpr const char* kGroup = "Result";
+  add_choice(command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
+             "Put results together: by the object that most of them share, by place, by test or by "
+             "the files of the two")
+      ->group(kGroup);
+  command
+      .add_option("--group-distance", options.group_distance,
+                  "With --group-by proximity: results no farther apart are one group (default 3m)")
+      ->type_name("LENGTH")
+      ->group(kGroup);
+  command.add_flag("--group-contacts", options.group_contacts, "Put contacts into groups too")
+      ->group(kGroup);
+  add_choice(command, "--sort", options.sort, {"depth", "volume", "size"},
+             "What comes first: the deepest (default), the largest common volume, or with "
+             "--group-by the largest group")
+      ->group(kGroup);
+  command.add_flag("--volumes", options.volumes, "Measure the volume that hits have in common")
+      ->group(kGroup);
+}
+
+Status check(const ClashResultInput& input) {
+  if (input.sort == "size" && input.group_by.empty())
+    return Error{ErrorCode::usage, "only groups have a size", "--sort", "add --group-by"};
+  if (input.group_contacts && input.group_by.empty())
+    return Error{ErrorCode::usage, "there are no groups", "--group-contacts", "add --group-by"};
+  if (!input.group_distance.empty() && input.group_by != "proximity")
+    return Error{ErrorCode::usage, "is for groups by proximity", "--group-distance",
+                 "add --group-by proximity"};
+  if (const Result<clash::GroupRules> rules = rules_of(input); !rules) return rules.error();
+  return {};
+}
+
+clash::SortBy sort_by(const std::string& word) {
+  if (word == "volume") return clash::SortBy::volume;
+  return word == "size" ? clash::SortBy::size : clash::SortBy::depth;
+}
+
+Result<std::optional<clash::Grouping>> group(Session& session, const ClashResultInput& input,
+                                             const clash::Findings& findings,
+                                             const model::Model& model) {
+  if (input.group_by.empty()) return std::optional<clash::Grouping>();
+  const Result<clash::GroupRules> rules = rules_of(input);
+  if (!rules) return rules.error();
+  const auto timer = session.step("group");
+  Result<clash::Grouping> grouping = group_results(findings, model, *rules);
+  if (!grouping) return grouping.error();
+  return std::optional(std::move(*grouping));
+}
+
+}  // namespace strake::cli

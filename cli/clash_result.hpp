@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/session.hpp"
+#include "strake/clash/group.hpp"
+#include "strake/core/result.hpp"
+
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
+class App;
+}  // namespace CLI
+
+namespace strake::cli {
+
+/// How the result of a clash run is to be told, as written.
+struct ClashResultInput {
+  std::string group_by, group_distance, sort;
+  bool volumes = false, group_contacts = false;
+
+  [[nodiscard]] bool wants_volumes() const { return volumes || sort == "volume"; }
+};
+
+void add_result_options(CLI::App& command, ClashResultInput& options);
+/// An error for options that say nothing without another.
+[[nodiscard]] Status check(const ClashResultInput& input);
+[[nodiscard]] clash::SortBy sort_by(const std::string& word);
+
+/// The groups, if any are asked for.
+[[nodiscard]] Result<std::optional<clash::Grouping>> group(Session& session,
+                                                           const ClashResultInput& input,
+                                                           const clash::Findings& findings,
+                                                           const model::Model& model);
+
+}  // namespace strake::cli

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/clash/group.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "clash/group/partition.hpp"
+#include "strake/clash/identity.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/core/number.hpp"
+
+namespace strake::clash {
+namespace {
+
+constexpr double kLeastDistanceMm = 1;
+
+std::vector<Item> items_of(const Findings& findings, bool contacts) {
+  std::vector<Item> items;
+  for (std::uint32_t t = 0; t < findings.tests.size(); ++t) {
+    const std::vector<Pair>& pairs = findings.tests[t].pairs;
+    for (std::uint32_t p = 0; p < pairs.size(); ++p)
+      if (pairs[p].allowed < 0 && (contacts || pairs[p].cls != Class::contact))
+        items.push_back({&pairs[p], t, p});
+  }
+  return items;
+}
+
+using Labels = std::pair<std::string, std::string>;
+
+Labels files_of(const model::Model& model, const Pair& pair) {
+  const auto label = [&](model::ObjectId id) { return model.files[model.object(id).file].label; };
+  return std::minmax(label(pair.a), label(pair.b));
+}
+
+/// Groups by a value of each item, numbered in the order of the values.
+template <class Value>
+Partition by_value(std::span<const Item> items, Value&& value) {
+  std::map<std::decay_t<decltype(value(items.front()))>, std::uint32_t> numbers;
+  for (const Item& item : items) numbers.try_emplace(value(item), 0);
+  Partition partition;
+  for (auto& entry : numbers) entry.second = partition.count++;
+  for (const Item& item : items) partition.group.push_back(numbers.at(value(item)));
+  return partition;
+}
+
+Partition partition_of(std::span<const Item> items, const model::Model& model,
+                       const GroupRules& rules) {
+  switch (rules.by) {
+    case GroupBy::element:
+      return by_element(items);
+    case GroupBy::proximity:
+      return by_proximity(items, rules.distance_mm);
+    case GroupBy::test:
+      return by_value(items, [](const Item& item) { return item.test; });
+    case GroupBy::files:
+      return by_value(items, [&](const Item& item) { return files_of(model, *item.pair); });
+  }
+  return {};
+}
+
+void add(Group& group, const Item& item) {
+  const Pair& pair = *item.pair;
+  if (group.results.empty()) group.box_mm = geometry::empty_box<double>();
+  if (group.results.empty() || pair.cls > group.worst ||
+      (pair.cls == group.worst && pair.d_mm < group.d_mm))
+    group.d_mm = pair.d_mm;
+  group.worst = std::max(group.worst, pair.cls);
+  if (pair.cls == Class::hit) ++group.count_hit;
+  if (pair.cls == Class::contact) ++group.count_contact;
+  if (pair.cls == Class::clearance_violation) ++group.count_clearance;
+  if (pair.volume_mm3) group.volume_mm3 = group.volume_mm3.value_or(0) + *pair.volume_mm3;
+  group.box_mm.include(pair.point_mm);
+  group.results.push_back({item.test, item.number});
+}
+
+/// "at 12.3 4.5 6.7 m": the middle of the box.
+std::string place_of(const geometry::Box3d& box) {
+  std::string text = "at";
+  const geometry::Vec3d middle = (box.lo + box.hi) * 0.5;
+  for (int k = 0; k < 3; ++k) text += ' ' + fixed(middle[k] / 1000, 1);
+  return text + " m";
+}
+
+class Namer {
+ public:
+  Namer(const Findings& findings, const model::Model& model) : findings_(findings), model_(model) {}
+
+  void name(Group& group, GroupBy by, const Partition& partition, std::size_t number) const {
+    Hasher hasher;
+    hasher.add(clash::name(by));
+    const Report& test = findings_.tests[group.results.front().test];
+    const Pair& pair = test.pairs[group.results.front().pair];
+    if (by == GroupBy::element) {
+      const model::Object& object = model_.object(partition.about[number]);
+      hasher.add(model_.files[object.file].label).add(object.id);
+      group.name = object.name.empty() ? object.id : object.name;
+    } else if (by == GroupBy::test) {
+      hasher.add(test.name);
+      group.name = test.name;
+    } else if (by == GroupBy::files) {
+      const Labels labels = files_of(model_, pair);
+      hasher.add(labels.first).add(labels.second);
+      group.name =
+          labels.first == labels.second ? labels.first : labels.first + " and " + labels.second;
+    } else {
+      hasher.add(lowest_key(group));
+      group.name = place_of(group.box_mm);
+    }
+    const Hash128 hash = hasher.value();
+    group.id = key_text(hash.high, hash.low);
+  }
+
+ private:
+  [[nodiscard]] std::string lowest_key(const Group& group) const {
+    std::string lowest;
+    for (const ResultRef& r : group.results) {
+      const Report& test = findings_.tests[r.test];
+      std::string key = pair_key(test.name, model_, test.pairs[r.pair].a, test.pairs[r.pair].b);
+      if (lowest.empty() || key < lowest) lowest = std::move(key);
+    }
+    return lowest;
+  }
+  const Findings& findings_;
+  const model::Model& model_;
+};
+
+void sort_groups(std::vector<Group>& groups, SortBy by) {
+  const auto rank = [by](const Group& g) {
+    const double first = by == SortBy::volume ? -g.volume_mm3.value_or(0)
+                         : by == SortBy::size ? -static_cast<double>(g.results.size())
+                                              : 0;
+    return std::tuple(first, -static_cast<int>(g.worst), g.d_mm, std::cref(g.id));
+  };
+  std::ranges::sort(groups, [&](const Group& x, const Group& y) {
+    const auto [vx, cx, dx, ix] = rank(x);
+    const auto [vy, cy, dy, iy] = rank(y);
+    return std::tie(vx, cx, dx, ix.get()) < std::tie(vy, cy, dy, iy.get());
+  });
+}
+
+}  // namespace
+
+Result<Grouping> group_results(const Findings& findings, const model::Model& model,
+                               const GroupRules& rules) {
+  if (!(rules.distance_mm >= kLeastDistanceMm))
+    return Error{ErrorCode::usage, "the distance of groups is less than a millimetre",
+                 "group distance", "give a length such as 3m"};
+  const std::vector<Item> items = items_of(findings, rules.contacts);
+  const Partition partition = partition_of(items, model, rules);
+  std::vector<Group> groups(partition.count);
+  for (std::size_t i = 0; i < items.size(); ++i) add(groups[partition.group[i]], items[i]);
+  const Namer namer(findings, model);
+  for (std::size_t g = 0; g < groups.size(); ++g) namer.name(groups[g], rules.by, partition, g);
+  sort_groups(groups, rules.sort);
+  return Grouping{rules, std::move(groups)};
+}
+
+std::string_view name(GroupBy by) {
+  switch (by) {
+    case GroupBy::element:
+      return "element";
+    case GroupBy::proximity:
+      return "proximity";
+    case GroupBy::test:
+      return "test";
+    case GroupBy::files:
+      return "files";
+  }
+  return "";
+}
+
+}  // namespace strake::clash
