@@ -36,24 +36,6 @@ struct Candidate {
   bool too_large = false;
 };
 
-/// Something built once for each of some unique parts, by number, in parallel, then only read.
-template <class T, class Make>
-Result<std::vector<T>> build_for(const std::vector<bool>& wanted, const PartList& list,
-                                 std::string_view name, const parallel::Context& context,
-                                 Make&& make) {
-  std::vector<std::uint32_t> indices;
-  for (std::uint32_t u = 0; u < list.unique.size(); ++u)
-    if (wanted[u]) indices.push_back(u);
-  const auto order = parallel::longest_first(
-      indices.size(), [&](std::size_t i) { return list.unique[indices[i]]->triangles.size(); });
-  std::vector<T> all(list.unique.size());
-  const Status status =
-      parallel::for_each(context, {.name = name, .n = indices.size(), .order = order},
-                         [&](std::size_t i) { all[indices[i]] = make(indices[i]); });
-  if (!status) return status.error();
-  return all;
-}
-
 class Engine {
  public:
   Engine(const model::Scene& scene, const Sets& sets, const Options& options, const Policy& policy,
@@ -85,7 +67,7 @@ class Engine {
     pairs_ = std::move(*pairs);
     rules_.exempt(list_, pairs_, report);
     if (const Status s = settle_simple_pairs(); !s) return s.error();
-    if (const Status s = plant_trees(); !s) return s.error();
+    if (const Status s = part_distant_pairs(); !s) return s.error();
     if (const Status s = first_look(); !s) return s.error();
     if (const Status s = depths(); !s) return s.error();
     if (const Status s = distances(); !s) return s.error();
@@ -118,33 +100,62 @@ class Engine {
         });
   }
 
-  Status plant_trees() {
-    std::vector<bool> wanted(list_.unique.size(), false);
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (candidates_[i].done || candidates_[i].too_large) continue;
-      open_.push_back(i);
-      for (const std::uint32_t p : {pairs_[i].first, pairs_[i].second})
-        wanted[list_.parts[p].unique] = true;
-    }
-    auto trees = build_for<geometry::PartTree>(
-        wanted, list_, "part trees", context_,
-        [&](std::uint32_t u) { return geometry::PartTree(*list_.unique[u]); });
-    if (!trees) return trees.error();
-    trees_ = std::move(*trees);
-    auto planes = build_for<geometry::SupportPlanes>(
-        wanted, list_, "support planes", context_,
-        [&](std::uint32_t u) { return geometry::make_support_planes(*list_.unique[u]); });
-    if (!planes) return planes.error();
-    planes_ = std::move(*planes);
+  /// Boxes along the coordinate axes of what stands askew meet far more often than the bodies do.
+  Status part_distant_pairs() {
+    std::vector<std::size_t> unsettled;
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      if (!candidates_[i].done && !candidates_[i].too_large) unsettled.push_back(i);
+    auto frames = build_for<geometry::PartFrame>(unsettled, "part frames", [&](std::uint32_t u) {
+      return geometry::make_frame(*list_.unique[u]);
+    });
+    if (!frames) return frames.error();
+    frames_ = std::move(*frames);
+    const Status status =
+        over(unsettled, "parting planes", kGrain, [&](std::size_t i, const IndexPair& p) {
+          const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
+          const NarrowOptions options = narrow_options(a, b);
+          Candidate& c = candidates_[i];
+          c.look.gap = gap_between(framed_part(a), framed_part(b), options);
+          c.done = c.look.gap >= reach_of(options);
+        });
+    if (!status) return status;
+    for (const std::size_t i : unsettled)
+      if (!candidates_[i].done) open_.push_back(i);
     return {};
   }
 
   Status first_look() {
+    auto trees = build_for<geometry::PartTree>(
+        open_, "part trees", [&](std::uint32_t u) { return geometry::PartTree(*list_.unique[u]); });
+    if (!trees) return trees.error();
+    trees_ = std::move(*trees);
     return over(open_, "narrow phase", kGrain, [&](std::size_t i, const IndexPair& p) {
       Candidate& c = candidates_[i];
       const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
-      c.look = look_at(narrow_part(a), narrow_part(b), narrow_options(a, b), c.separated, c.work);
+      c.look = look_at(treed_part(a), treed_part(b), narrow_options(a, b), c.look.gap, c.separated,
+                       c.work);
     });
+  }
+
+  /// Something built once for each of the unique parts of some pairs, in parallel, then only read.
+  template <class T, class Make>
+  Result<std::vector<T>> build_for(const std::vector<std::size_t>& pairs, std::string_view name,
+                                   Make&& make) const {
+    std::vector<bool> wanted(list_.unique.size(), false);
+    for (const std::size_t i : pairs)
+      for (const std::uint32_t p : {pairs_[i].first, pairs_[i].second})
+        wanted[list_.parts[p].unique] = true;
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t u = 0; u < list_.unique.size(); ++u)
+      if (wanted[u]) indices.push_back(u);
+    const auto order = parallel::longest_first(
+        indices.size(), [&](std::size_t i) { return list_.unique[indices[i]]->triangles.size(); });
+    std::vector<T> all(list_.unique.size());
+    const Status status =
+        parallel::for_each(context_, {.name = name, .n = indices.size(), .order = order},
+                           [&](std::size_t i) { all[indices[i]] = make(indices[i]); });
+    if (!status) return status.error();
+    return all;
   }
 
   /// Runs over some of the candidates, those with most triangles first.
@@ -169,14 +180,21 @@ class Engine {
   }
 
   Status depths() {
-    std::vector<std::size_t> deep;
-    for (const std::size_t i : open_)
+    std::vector<std::size_t> deep, asking;
+    for (const std::size_t i : open_) {
       if (candidates_[i].look.next == FirstLook::Next::depth) deep.push_back(i);
+      if (candidates_[i].look.next != FirstLook::Next::nothing) asking.push_back(i);
+    }
+    auto planes = build_for<geometry::SupportPlanes>(
+        asking, "support planes",
+        [&](std::uint32_t u) { return geometry::make_support_planes(*list_.unique[u]); });
+    if (!planes) return planes.error();
+    planes_ = std::move(*planes);
     return over(deep, "depth", 1, [&](std::size_t i, const IndexPair& p) {
       Candidate& c = candidates_[i];
       const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
       c.look.answer =
-          judge_depth(narrow_part(a), narrow_part(b), c.look, narrow_options(a, b), c.work);
+          judge_depth(planed_part(a), planed_part(b), c.look, narrow_options(a, b), c.work);
     });
   }
 
@@ -194,7 +212,7 @@ class Engine {
       Candidate& c = candidates_[i];
       const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
       c.look.answer =
-          judge_distance(narrow_part(a), narrow_part(b), narrow_options(a, b), reach[i], c.work);
+          judge_distance(planed_part(a), planed_part(b), narrow_options(a, b), reach[i], c.work);
     });
   }
 
@@ -229,12 +247,23 @@ class Engine {
   }
 
   [[nodiscard]] NarrowPart bare_part(const PartRef& p) const {
-    return {{p.placed, nullptr}, nullptr, &scene_.model->bodies[p.body].placement};
+    return {{p.placed, nullptr}, nullptr, nullptr, &scene_.model->bodies[p.body].placement};
   }
 
-  [[nodiscard]] NarrowPart narrow_part(const PartRef& p) const {
+  [[nodiscard]] NarrowPart framed_part(const PartRef& p) const {
     NarrowPart part = bare_part(p);
+    part.frame = &frames_[p.unique];
+    return part;
+  }
+
+  [[nodiscard]] NarrowPart treed_part(const PartRef& p) const {
+    NarrowPart part = framed_part(p);
     part.treed.tree = &trees_[p.unique];
+    return part;
+  }
+
+  [[nodiscard]] NarrowPart planed_part(const PartRef& p) const {
+    NarrowPart part = treed_part(p);
     part.planes = &planes_[p.unique];
     return part;
   }
@@ -327,7 +356,8 @@ class Engine {
   std::vector<NarrowOptions> narrow_;  ///< by number of tolerances
   std::vector<double> bands_;          ///< contact distance per file
   std::vector<IndexPair> pairs_;
-  std::vector<geometry::PartTree> trees_;        ///< by unique part, as far as wanted
+  std::vector<geometry::PartFrame> frames_;      ///< by unique part, as far as wanted
+  std::vector<geometry::PartTree> trees_;        ///< likewise
   std::vector<geometry::SupportPlanes> planes_;  ///< likewise
   std::vector<Candidate> candidates_;            ///< one per pair
   std::vector<std::size_t> open_;                ///< pairs that want trees

@@ -129,16 +129,14 @@ class PairOfParts {
     return answer;
   }
 
-  FirstLook look(bool separated) {
+  FirstLook look(double gap, bool separated) {
     FirstLook look;
-    const double reach = std::max(thresholds_.gap, thresholds_.clearance) + 1;
-    look.gap = geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, reach);
-    if (look.gap >= reach) {
-      look.answer.separation = separated_by(std::numeric_limits<double>::infinity());
-      conclude(look.answer);
+    look.gap = gap;
+    if (const auto near = flush_near(gap)) {
+      nearly_touching(*near, gap, look.answer);
       return look;
     }
-    if (!separated && !(look.gap > 0))
+    if (!separated && !(gap > 0))
       look.meeting = equal_solids() ? meeting_of_equals() : geometry::meet(a_, b_, work_.pair);
     const auto form = closed_form(part_a_, part_b_);
     if (look.meeting.meeting == Meeting::touching) {
@@ -150,8 +148,10 @@ class PairOfParts {
       look.answer = analytic(*form);
       return look;
     }
-    look.next =
-        look.meeting.meeting == Meeting::apart ? FirstLook::Next::distance : FirstLook::Next::depth;
+    if (look.meeting.meeting == Meeting::apart)
+      look.next = FirstLook::Next::distance;
+    else
+      look.next = FirstLook::Next::depth;
     return look;
   }
 
@@ -171,8 +171,11 @@ class PairOfParts {
 
  private:
   void apart(double limit, PartAnswer& answer) {
-    // A unit more than the reach: what lies exactly at a threshold is for judge() to see.
-    const double reach = std::min(limit, std::max(thresholds_.gap, thresholds_.clearance)) + 1;
+    const double reach = std::min(limit + 1, reach_of(options_));
+    if (geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, reach) >= reach) {
+      answer.separation = separated_by(std::numeric_limits<double>::infinity());
+      return;
+    }
     const auto near = geometry::closest(a_, b_, reach, work_.pair);
     if (!near) {
       answer.separation = separated_by(std::numeric_limits<double>::infinity());
@@ -209,10 +212,36 @@ class PairOfParts {
     answer.relation = Relation::abut_outside;
   }
 
+  /// Flush faces of a model that stands askew are what the snap has made of them: a little apart,
+  /// touching, a little deep, or all of it here and there. Within the contact distance that says
+  /// nothing about the source, and it is one class and one relation: two triangles so near settle
+  /// it.
+  [[nodiscard]] std::optional<geometry::Closest> flush_near(double gap) const {
+    const Part &x = *a_.placed.part, &y = *b_.placed.part;
+    const double band = options_.contact_distance;
+    if (gap > band || -gap > std::min(band, thresholds_.overlap) || thresholds_.gap < band ||
+        x.kind != PartKind::solid || y.kind != PartKind::solid)
+      return std::nullopt;
+    // Slivers as thin as the band may be duplicates.
+    if (std::min(x.thickness(), y.thickness()) < 4 * band) return std::nullopt;
+    return geometry::any_within(a_, b_, band, work_.pair);
+  }
+
+  void nearly_touching(const geometry::Closest& near, double gap, PartAnswer& answer) const {
+    answer.separation = separated_by(near.distance);
+    answer.separation.lower = std::min(gap, answer.separation.lower);
+    answer.witness = near.distance > 0 ? witness_of_gap(near) : witness_of_touch(near.on_a);
+    answer.relation = Relation::abut_outside;
+    conclude(answer, sag_beside(closed_form(part_a_, part_b_)));
+  }
+
   void interpenetrating(const FirstLook& look, PartAnswer& answer) {
     const MeetingResult& meeting = look.meeting;
     DepthGoal goal;
     goal.known_upper = -look.gap;
+    if (part_a_.planes != nullptr && part_b_.planes != nullptr)
+      goal.known_upper =
+          -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, 0));
     goal.threshold = thresholds_.overlap;
     goal.triangle_a = meeting.triangle_a;
     goal.triangle_b = meeting.triangle_b;
@@ -305,10 +334,23 @@ std::optional<PartAnswer> judge_flush(const NarrowPart& a, const NarrowPart& b,
   return answer;
 }
 
+double reach_of(const NarrowOptions& options) {
+  // A unit more than the thresholds: what lies exactly at one is for judge() to see.
+  return std::max(options.touch_gap, options.clearance) + 1;
+}
+
+double gap_between(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options) {
+  const bool ordered = in_canonical_order(a.treed, b.treed);
+  const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
+  return geometry::frame_gap({x.treed.placed, x.frame}, {y.treed.placed, y.frame},
+                             reach_of(options));
+}
+
 FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
-                  bool separated, NarrowWork& work) {
-  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).look(separated);
-  FirstLook look = PairOfParts(b, a, options, work).look(separated);
+                  double gap, bool separated, NarrowWork& work) {
+  if (in_canonical_order(a.treed, b.treed))
+    return PairOfParts(a, b, options, work).look(gap, separated);
+  FirstLook look = PairOfParts(b, a, options, work).look(gap, separated);
   turn(look.answer, a, b);
   return look;
 }

@@ -6,13 +6,15 @@
 
 #include "clash/classify.hpp"
 #include "strake/geometry/depth.hpp"
+#include "strake/geometry/part_frame.hpp"
 
 namespace strake::clash {
 
 /// One side of a pair of parts.
 struct NarrowPart {
   geometry::TreedPart treed;
-  const geometry::SupportPlanes* planes = nullptr;
+  const geometry::PartFrame* frame = nullptr;
+  const geometry::SupportPlanes* planes = nullptr;  ///< for judge_distance() and judge_depth()
   /// What the part's primitive is placed by; null: its triangles speak for it.
   const geometry::Placement* placement = nullptr;
 };
@@ -79,11 +81,22 @@ struct FirstLook {
   Next next = Next::nothing;
 };
 
+/// A certain lower bound on the signed separation of two framed parts, grid units; the same
+/// whichever is called a. Not below reach_of(): the pair is NO_HIT.
+[[nodiscard]] double gap_between(const NarrowPart& a, const NarrowPart& b,
+                                 const NarrowOptions& options);
+
+/// How far apart is too far for any class, grid units.
+[[nodiscard]] double reach_of(const NarrowOptions& options);
+
 /// Class, relation, separation and witness of two parts, but for the distance of those that are
 /// apart and the depth of those whose interiors meet. Swapping the parts mirrors the relation and
 /// moves the witness to the other origin; every other bit of an answer stays the same.
+/// `gap` is that of gap_between(); `separated` what judge_flush() found. Depth that the gap alone
+/// shows to be that of a tie is given too.
 [[nodiscard]] FirstLook look_at(const NarrowPart& a, const NarrowPart& b,
-                                const NarrowOptions& options, bool separated, NarrowWork& work);
+                                const NarrowOptions& options, double gap, bool separated,
+                                NarrowWork& work);
 
 /// The answer for a pair that is apart, if nearer than `reach` and than anybody asked; otherwise
 /// it is NO_HIT.

@@ -73,6 +73,8 @@ class ClosestSearch {
         work_(work) {}
 
   std::optional<Closest> run();
+  /// Ends at the first pair of triangles that is certainly not farther apart than the limit.
+  std::optional<Closest> run_until_near();
 
  private:
   void walk();
@@ -83,7 +85,9 @@ class ClosestSearch {
 
   PartView a_, b_;
   double limit_;
-  double reach_;  ///< squared distances strictly above this are of no interest
+  double reach_;        ///< squared distances strictly above this are of no interest
+  double enough_ = -1;  ///< a squared distance that is near enough to look no further
+  bool near_ = false;   ///< one was found
   PairWork& work_;
   std::array<Entry, 2 * kMaxTreeDepth + 2> stack_;
   std::size_t size_ = 0;
@@ -125,7 +129,14 @@ void ClosestSearch::leaves(const NodePair& pair) {
       ++work_.triangle_pairs;
       const DistanceBounds bounds = distance_bounds(a, b, reach_);
       if (bounds.lower > reach_) continue;
-      candidates_.push_back({bounds, leaf_a_.id[i], leaf_b_.id[j]});
+      const Candidate candidate{bounds, leaf_a_.id[i], leaf_b_.id[j]};
+      if (bounds.upper <= enough_) {
+        candidates_.assign(1, candidate);
+        size_ = 0;
+        near_ = true;
+        return;
+      }
+      candidates_.push_back(candidate);
       reach_ = std::min(reach_, bounds.upper * kOutward);
     }
   }
@@ -182,6 +193,13 @@ std::optional<Closest> ClosestSearch::run() {
   return decide();
 }
 
+std::optional<Closest> ClosestSearch::run_until_near() {
+  enough_ = limit_ * limit_;
+  if (a_.tree().nodes().empty() || b_.tree().nodes().empty()) return std::nullopt;
+  walk();
+  return near_ ? decide() : std::nullopt;
+}
+
 /// Squared distance of a point to a triangle, in doubles.
 double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t) {
   const Vec3d u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
@@ -213,6 +231,11 @@ double squared_gap(const Vec3d& p, const Box3i& box) {
 std::optional<Closest> closest(const TreedPart& a, const TreedPart& b, double limit,
                                PairWork& work) {
   return ClosestSearch(a, b, limit, work).run();
+}
+
+std::optional<Closest> any_within(const TreedPart& a, const TreedPart& b, double distance,
+                                  PairWork& work) {
+  return ClosestSearch(a, b, distance, work).run_until_near();
 }
 
 double distance_to_surface(const TreedPart& part, const Vec3d& point, double limit) {

@@ -12,6 +12,9 @@ namespace {
 constexpr std::size_t kBins = 8;
 /// Ranges up to this size are halved by sorting: binning them costs more than it gains.
 constexpr std::size_t kFew = 12;
+/// The triangles of parts up to this size stay in their order: sources write down what is close
+/// together one after the other, and a better tree would cost more than all that is asked of it.
+constexpr std::size_t kSmallPart = 256;
 /// Beyond this depth ranges are halved, so that traversal stacks can have a fixed size.
 constexpr std::uint32_t kMaxSplitDepth = 40;
 
@@ -146,6 +149,13 @@ std::vector<Reference> references(const Part& part) {
   return refs;
 }
 
+Split halve_in_order(std::span<const Reference> refs) {
+  // Whole leaves, so that there are as few as can be.
+  const std::size_t leaves = (refs.size() + PartTree::kLeafSize - 1) / PartTree::kLeafSize;
+  const std::size_t half = std::min(leaves / 2 * PartTree::kLeafSize, refs.size() - 1);
+  return {half, box_of(refs.first(half)), box_of(refs.subspan(half))};
+}
+
 struct Range {
   std::uint32_t node = 0, first = 0, last = 0, depth = 0;
 };
@@ -169,7 +179,8 @@ PartTree::PartTree(const Part& part) {
       node.count = static_cast<std::uint32_t>(mine.size());
       continue;
     }
-    const Split halves = split(mine, node.box, range.depth);
+    const Split halves =
+        refs.size() <= kSmallPart ? halve_in_order(mine) : split(mine, node.box, range.depth);
     const auto middle = range.first + static_cast<std::uint32_t>(halves.first);
     const auto left = static_cast<std::uint32_t>(nodes_.size());
     node.first = left;

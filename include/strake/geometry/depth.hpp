@@ -43,6 +43,10 @@ struct DepthPart {
 /// least `enough` grid units.
 [[nodiscard]] double gap_bound(const DepthPart& a, const DepthPart& b, double enough);
 
+/// A depth in which nobody needs the deepest point, grid units: a known upper bound no greater is
+/// the whole answer.
+inline constexpr double kTieDepth = 2;
+
 /// When to stop. All lengths are grid units.
 struct DepthGoal {
   double threshold = 0;                  ///< the depth that decides the class

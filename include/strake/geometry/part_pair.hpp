@@ -70,6 +70,12 @@ struct Closest {
 [[nodiscard]] std::optional<Closest> closest(const TreedPart& a, const TreedPart& b, double limit,
                                              PairWork& work);
 
+/// Two triangles nearer than `distance` grid units, the first that are found, with their own
+/// closest points: not the closest of the parts, but far cheaper where whole faces are about
+/// equally near. May find none where the distance is within rounding of the limit.
+[[nodiscard]] std::optional<Closest> any_within(const TreedPart& a, const TreedPart& b,
+                                                double distance, PairWork& work);
+
 enum class PointSide : std::uint8_t { outside, on_boundary, inside };
 
 /// Exact side of a rational point: numerator / denominator in grid units relative to the part's

@@ -19,8 +19,6 @@ namespace strake::geometry {
 namespace {
 
 constexpr std::size_t kMaxVerticesTried = 128;
-/// A depth in which nobody needs the deepest point, grid units.
-constexpr double kTie = 2;
 /// A step off a skin that the exact test of a side can see.
 constexpr double kLeastMove = 1.0 / 64;
 
@@ -284,7 +282,7 @@ void bound_by_parting(const DepthPart& a, const DepthPart& b, const DepthGoal& g
 
 Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, PairWork& work) {
   // Flush faces of a model that stands askew: what the snap made of a touch.
-  if (goal.known_upper <= std::min(kTie, goal.threshold))
+  if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};
   const DepthField fa(a.treed, {}), fb(b.treed, a.treed.placed.origin - b.treed.placed.origin);
   const Halfspaces spaces(a, fa, b, fb);

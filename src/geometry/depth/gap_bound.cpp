@@ -12,6 +12,7 @@ namespace {
 double widest_gap(const SupportPlanes& from, const VertexTree& to, const Vec3d& shift,
                   double rounding, double enough) {
   double widest = -std::numeric_limits<double>::infinity();
+  if (to.empty()) return widest;
   // The vertex that came nearest last: most normals are done with at a look at it.
   Vec3d vertex = to.greatest_along({0, 0, 1}).vertex.as<double>();
   for (const SupportPlanes::Plane& plane : from.planes) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "strake/geometry/part.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::geometry {
+
+/// A box round a part that lies along the part's own faces: tight for what stands askew, where the
+/// box along the coordinate axes is not.
+///
+///     const PartFrame f = make_frame(x), g = make_frame(y);
+///     if (frame_gap({{&x, at_x}, &f}, {{&y, at_y}, &g}, reach) >= reach) ...  // apart for certain
+struct PartFrame {
+  std::array<Vec3d, 3> axis;     ///< unit normals of the largest faces; not quite square
+  std::array<double, 3> lo, hi;  ///< extent of the vertices along each, grid units
+  std::array<Vec3d, 3> edge;     ///< half the edges of a box with right angles round the vertices,
+  Vec3d centre;                  ///< and its centre
+};
+
+/// One pass over the triangles, one over the vertices.
+[[nodiscard]] PartFrame make_frame(const Part& part);
+
+struct FramedPart {
+  PlacedPart placed;
+  const PartFrame* frame = nullptr;
+};
+
+/// A certain lower bound on the distance of two parts, grid units: the widest gap between them
+/// along the axes of either frame. Negative when none keeps them apart: moving one by that much
+/// parts them. Tells boxes first and looks at vertices only where these leave the gap below
+/// `enough`; stops at the first gap of at least that.
+[[nodiscard]] double frame_gap(const FramedPart& a, const FramedPart& b, double enough);
+
+}  // namespace strake::geometry

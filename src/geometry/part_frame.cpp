@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/geometry/part_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace strake::geometry {
+namespace {
+
+/// The cosine below which two faces count as square to each other.
+constexpr double kSquare = 0.1;
+
+Vec3d normal_of(const Part& part, const Triangle& t) {
+  const Vec3d p = part.vertices[t[0]].as<double>();
+  return cross(part.vertices[t[1]].as<double>() - p, part.vertices[t[2]].as<double>() - p);
+}
+
+/// The normal of the largest triangle among those that pass.
+template <class Pass>
+Vec3d largest(const Part& part, Pass&& pass) {
+  Vec3d best;
+  double most = 0;
+  for (const Triangle& t : part.triangles) {
+    const Vec3d n = normal_of(part, t);
+    const double squared = dot(n, n);
+    if (squared > most && pass(n, squared)) {
+      most = squared;
+      best = n;
+    }
+  }
+  return most > 0 ? best * (1 / std::sqrt(most)) : Vec3d{};
+}
+
+/// Any unit vector square to a unit vector.
+Vec3d square_to(const Vec3d& n) {
+  const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
+  const Vec3d other = x <= y && x <= z ? Vec3d{1, 0, 0} : y <= z ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
+  const Vec3d v = cross(n, other);
+  return v * (1 / std::sqrt(dot(v, v)));
+}
+
+struct Range {
+  double lo = std::numeric_limits<double>::infinity();
+  double hi = -std::numeric_limits<double>::infinity();
+};
+
+Range range_along(const Part& part, const Vec3d& n) {
+  Range r;
+  for (const Vec3i& v : part.vertices) {
+    const double at = dot(n, v.as<double>());
+    r.lo = std::min(r.lo, at);
+    r.hi = std::max(r.hi, at);
+  }
+  return r;
+}
+
+double magnitude(const Box3i& box) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k)
+    sum += std::max(std::fabs(static_cast<double>(box.lo[k])),
+                    std::fabs(static_cast<double>(box.hi[k])));
+  return sum;
+}
+
+/// A pair in the coordinates of its first part.
+struct Pair {
+  const FramedPart &a, &b;
+  Vec3d shift;          ///< takes b's coordinates into a's
+  double rounding = 0;  ///< bound on what the arithmetic of a gap may be off by
+};
+
+/// The gap along an axis of `of`, by the extent of `other` along it; axes are unit vectors but for
+/// rounding, for which the gap gives way a little.
+double certain(double gap, const Pair& pair) {
+  return gap - std::fabs(gap) * 1e-14 - pair.rounding;
+}
+
+double gap_along(const PartFrame& of, std::size_t axis, double lo, double hi) {
+  return std::max(lo - of.hi[axis], of.lo[axis] - hi);
+}
+
+/// By the box of `other`.
+double box_gap(const PartFrame& of, const PartFrame& other, const Vec3d& to_of, const Pair& pair) {
+  double widest = -std::numeric_limits<double>::infinity();
+  const Vec3d centre = other.centre + to_of;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double at = dot(of.axis[i], centre);
+    double half = 0;
+    for (const Vec3d& e : other.edge) half += std::fabs(dot(of.axis[i], e));
+    widest = std::max(widest, certain(gap_along(of, i, at - half, at + half), pair));
+  }
+  return widest;
+}
+
+/// By the vertices of `other`.
+double vertex_gap(const PartFrame& of, const Part& other, const Vec3d& to_of, const Pair& pair,
+                  double enough) {
+  double widest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3 && widest < enough; ++i) {
+    const Vec3d& n = of.axis[i];
+    const Range r = range_along(other, n);
+    const double base = dot(n, to_of);
+    widest = std::max(widest, certain(gap_along(of, i, r.lo + base, r.hi + base), pair));
+  }
+  return widest;
+}
+
+}  // namespace
+
+PartFrame make_frame(const Part& part) {
+  PartFrame frame;
+  const Vec3d x = largest(part, [](const Vec3d&, double) { return true; });
+  frame.axis[0] = dot(x, x) > 0 ? x : Vec3d{1, 0, 0};
+  const Vec3d y = largest(part, [&](const Vec3d& n, double squared) {
+    const double along = dot(n, frame.axis[0]);
+    return along * along < kSquare * kSquare * squared;
+  });
+  frame.axis[1] = dot(y, y) > 0 ? y : square_to(frame.axis[0]);
+  const Vec3d z = cross(frame.axis[0], frame.axis[1]);
+  frame.axis[2] = z * (1 / std::sqrt(dot(z, z)));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Range r = range_along(part, frame.axis[i]);
+    frame.lo[i] = r.lo;
+    frame.hi[i] = r.hi;
+  }
+  const std::array<Vec3d, 3> square{frame.axis[0], cross(frame.axis[2], frame.axis[0]),
+                                    frame.axis[2]};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Range r = range_along(part, square[i]);
+    frame.centre = frame.centre + square[i] * ((r.lo + r.hi) / 2);
+    frame.edge[i] = square[i] * ((r.hi - r.lo) / 2);
+  }
+  return frame;
+}
+
+double frame_gap(const FramedPart& a, const FramedPart& b, double enough) {
+  Pair pair{a, b, (b.placed.origin - a.placed.origin).as<double>()};
+  const double reach = std::fabs(pair.shift.x) + std::fabs(pair.shift.y) + std::fabs(pair.shift.z) +
+                       magnitude(a.placed.part->box) + magnitude(b.placed.part->box);
+  pair.rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
+  const PartFrame &f = *a.frame, &g = *b.frame;
+  // The boxes' own rounding is far less than the part of a unit that they are asked to be wider.
+  const double boxes = std::max(box_gap(f, g, pair.shift, pair), box_gap(g, f, -pair.shift, pair));
+  if (boxes >= enough + 1) return boxes;
+  const double gap = vertex_gap(f, *b.placed.part, pair.shift, pair, enough);
+  if (gap >= enough) return gap;
+  return std::max(gap, vertex_gap(g, *a.placed.part, -pair.shift, pair, enough));
+}
+
+}  // namespace strake::geometry
