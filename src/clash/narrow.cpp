@@ -230,6 +230,7 @@ class PairOfParts {
   void nearly_touching(const geometry::Closest& near, double gap, PartAnswer& answer) const {
     answer.separation = separated_by(near.distance);
     answer.separation.lower = std::min(gap, answer.separation.lower);
+    if (!(near.distance > 0)) answer.separation.d = std::min(gap, 0.0);
     answer.witness = near.distance > 0 ? witness_of_gap(near) : witness_of_touch(near.on_a);
     answer.relation = Relation::abut_outside;
     conclude(answer, sag_beside(closed_form(part_a_, part_b_)));
