@@ -104,27 +104,67 @@ std::int32_t Vec3i::* coordinate(int axis) {
   return axis == 0 ? &Vec3i::x : axis == 1 ? &Vec3i::y : &Vec3i::z;
 }
 
-std::vector<Patch> patches_in(const Part& part, const Vec3l& shift, const Plane& plane) {
+/// What of a part lies in the plane: `whole`: its triangles there, which are what bodies rest on;
+/// otherwise the edges and corners of the others.
+std::vector<Patch> patches_in(const Part& part, const Vec3l& shift, const Plane& plane,
+                              bool whole) {
   std::vector<Patch> patches;
   // The plane touches the part's box, so that its place there fits the part's coordinates.
   const auto at = static_cast<std::int32_t>(plane.at - shift[plane.axis]);
   std::int32_t Vec3i::* const along = coordinate(plane.axis);
+  const auto on = [&](std::uint32_t v) { return part.vertices[v].*along == at; };
   for (const Triangle& t : part.triangles) {
-    const Vec3i &p = part.vertices[t[0]], &q = part.vertices[t[1]], &r = part.vertices[t[2]];
-    if (p.*along != at && q.*along != at && r.*along != at) continue;
+    if (whole ? !(on(t[0]) && on(t[1]) && on(t[2])) : !(on(t[0]) || on(t[1]) || on(t[2]))) continue;
     Patch patch;
-    for (const Vec3i* v : {&p, &q, &r})
-      if (v->*along == at) patch.add(plane.project(v->as<std::int64_t>() + shift));
-    if (boxes_meet(patch, plane.lo, plane.hi)) patches.push_back(patch);
+    for (const std::uint32_t v : t)
+      if (on(v)) patch.add(plane.project(part.vertices[v].as<std::int64_t>() + shift));
+    if ((whole || patch.count < 3) && boxes_meet(patch, plane.lo, plane.hi))
+      patches.push_back(patch);
   }
-  // Whole triangles first: they are what bodies rest on.
-  std::vector<Patch> sorted;
-  sorted.reserve(patches.size());
-  for (std::size_t corners = 3; corners > 0; --corners)
-    for (const Patch& patch : patches)
-      if (patch.count == corners) sorted.push_back(patch);
-  return sorted;
+  if (!whole)
+    std::stable_partition(patches.begin(), patches.end(),
+                          [](const Patch& patch) { return patch.count == 2; });
+  return patches;
 }
+
+/// The plane in which two boxes meet, with what of the two bodies lies in it.
+class FlushPlane {
+ public:
+  FlushPlane(const PlacedPart& a, const PlacedPart& b, const Plane& plane)
+      : a_(*a.part), b_(*b.part), shift_(b.origin - a.origin), plane_(plane) {}
+
+  /// A point that both have there: of two whole triangles, if there is one, or else of any two
+  /// patches; nothing also when there are too many to look at.
+  [[nodiscard]] std::optional<Point2d> find() const {
+    const std::vector<Patch> whole_a = patches_in(a_, {}, plane_, true);
+    const std::vector<Patch> whole_b =
+        whole_a.empty() ? std::vector<Patch>{} : patches_in(b_, shift_, plane_, true);
+    if (const auto point = common(whole_a, whole_b)) return point;
+    const std::vector<Patch> rest_a = patches_in(a_, {}, plane_, false);
+    if (whole_a.empty() && rest_a.empty()) return std::nullopt;
+    const std::vector<Patch> all_b = patches_in(b_, shift_, plane_, true);
+    const std::vector<Patch> rest_b = patches_in(b_, shift_, plane_, false);
+    if (const auto point = common(whole_a, rest_b)) return point;
+    if (const auto point = common(rest_a, all_b)) return point;
+    return common(rest_a, rest_b);
+  }
+
+ private:
+  static std::optional<Point2d> common(const std::vector<Patch>& of_a,
+                                       const std::vector<Patch>& of_b) {
+    if (of_a.size() * of_b.size() > kMaxTests) return std::nullopt;
+    for (const Patch& p : of_a)
+      for (const Patch& q : of_b) {
+        if (!boxes_meet(p, q.lo, q.hi)) continue;
+        if (const auto point = common_point(p, q)) return point;
+      }
+    return std::nullopt;
+  }
+
+  const Part &a_, &b_;
+  Vec3l shift_;
+  const Plane& plane_;
+};
 
 }  // namespace
 
@@ -148,21 +188,12 @@ FlushContact flush_contact(const PlacedPart& a, const PlacedPart& b) {
   const Vec3l hi{std::min(x.hi.x, y.hi.x), std::min(x.hi.y, y.hi.y), std::min(x.hi.z, y.hi.z)};
   plane.lo = plane.project(lo);
   plane.hi = plane.project(hi);
-  const std::vector<Patch> of_a = patches_in(*a.part, {}, plane);
-  if (of_a.empty()) return result;
-  const std::vector<Patch> of_b = patches_in(*b.part, shift, plane);
-  if (of_a.size() * of_b.size() > kMaxTests) return result;
-  for (const Patch& p : of_a)
-    for (const Patch& q : of_b) {
-      if (!boxes_meet(p, q.lo, q.hi)) continue;
-      if (const auto point = common_point(p, q)) {
-        result.touching = true;
-        result.point[axis] = static_cast<double>(plane.at);
-        result.point[(axis + 1) % 3] = (*point)[0];
-        result.point[(axis + 2) % 3] = (*point)[1];
-        return result;
-      }
-    }
+  const auto point = FlushPlane(a, b, plane).find();
+  if (!point) return result;
+  result.touching = true;
+  result.point[axis] = static_cast<double>(plane.at);
+  result.point[(axis + 1) % 3] = (*point)[0];
+  result.point[(axis + 2) % 3] = (*point)[1];
   return result;
 }
 
