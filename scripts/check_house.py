@@ -13,6 +13,7 @@ MAY_USE = {
     'model': ['core', 'parallel', 'geometry'],
     'io': ['core', 'parallel', 'geometry', 'model'],
     'clash': ['core', 'parallel', 'geometry', 'model'],
+    'rules': ['core', 'parallel', 'geometry', 'model', 'clash'],
     'hlr': ['core', 'parallel', 'geometry', 'model'],
     'drawing': ['core', 'parallel', 'geometry', 'model', 'hlr'],
     'report': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing'],

@@ -17,6 +17,7 @@
 #include "cli/load.hpp"
 #include "cli/verb.hpp"
 #include "strake/report/clash.hpp"
+#include "strake/rules/rules.hpp"
 
 namespace strake::cli {
 
@@ -27,7 +28,8 @@ struct ClashOptions {
   SceneInput scene;
   SetInput sets;
   std::string clearance, touch_gap, touch_overlap, contact_distance;
-  std::string broad_phase, thickness_cap, fail_on, most_pairs;
+  std::string broad_phase, thickness_cap, fail_on, most_pairs, rules;
+  bool list_exempted = false;
   ClashResultInput result;
   std::vector<std::string> outputs;
 };
@@ -111,31 +113,94 @@ bool fails(const clash::Report& report, const std::string& fail_on) {
   return false;
 }
 
-Result<clash::Findings> find(Session& session, const Loaded& loaded, const SetRequest& request,
-                             const clash::Options& options) {
-  Result<ChosenSets> chosen = choose_sets(session, loaded, request);
+/// What is to be done, understood before a model is read.
+struct Request {
+  clash::Options options;  ///< of the only test; with rules, what they do not say
+  SetRequest sets;
+  std::optional<rules::Rules> rules;
+  model::SceneOptions scene;
+};
+
+Result<Request> request_of(const ClashOptions& given) {
+  Request request;
+  const Result<clash::Options> options = engine_options(given);
+  if (!options) return options.error();
+  request.options = *options;
+  Result<SetRequest> sets = set_request(given.sets);
+  if (!sets) return sets.error();
+  request.sets = std::move(*sets);
+  if (!given.rules.empty()) {
+    Result<rules::Rules> read = rules::Rules::read(given.rules);
+    if (!read) return read.error();
+    request.rules = std::move(*read);
+  }
+  const model::SceneOptions wanted =
+      request.rules ? request.rules->scene_options() : clash::scene_options(*options);
+  const Result<model::SceneOptions> scene = scene_options(given.scene, wanted.sag_mm);
+  if (!scene) return scene.error();
+  request.scene = *scene;
+  request.scene.obstruction = scene->obstruction || wanted.obstruction;
+  request.scene.insulation = scene->insulation || wanted.insulation;
+  return request;
+}
+
+/// The tests of the rules file, or the one that the command line asks for.
+Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const Request& request) {
+  const auto timer = session.step("select");
+  if (request.rules) {
+    Result<rules::Plan> plan = request.rules->plan(loaded.scene, session.context());
+    if (!plan) return plan;
+    for (rules::PlannedTest& test : plan->tests) {
+      test.options.broad_phase = request.options.broad_phase;
+      test.options.most_pairs = request.options.most_pairs;
+      test.options.volumes = request.options.volumes;
+    }
+    return plan;
+  }
+  Result<ChosenSets> chosen = choose_sets(session, loaded, request.sets);
   if (!chosen) return chosen.error();
-  const auto timer = session.step("clash");
-  Result<clash::Report> report =
-      clash::detect(loaded.scene, chosen->sets, options, session.context());
-  if (!report) return report.error();
-  return clash::Findings{{std::move(*report)}, std::move(chosen->diagnostics)};
+  rules::PlannedTest test{{}, request.options, std::move(chosen->sets), {}};
+  return rules::Plan{{std::move(test)}, std::move(chosen->diagnostics)};
+}
+
+Result<clash::Findings> find(Session& session, const Loaded& loaded, rules::Plan plan,
+                             bool list_exempted) {
+  clash::Findings findings;
+  findings.diagnostics = std::move(plan.diagnostics);
+  for (rules::PlannedTest& test : plan.tests) {
+    const auto timer = session.step(test.name.empty() ? "clash" : "clash " + test.name);
+    test.policy.list_exempted = list_exempted;
+    Result<clash::Report> report =
+        clash::detect(loaded.scene, test.sets, test.options, test.policy, session.context());
+    if (!report) return report.error();
+    report->name = test.name;
+    findings.tests.push_back(std::move(*report));
+  }
+  return findings;
+}
+
+Result<clash::Findings> findings_of(Session& session, const Loaded& loaded, const Request& request,
+                                    bool list_exempted) {
+  Result<rules::Plan> plan = plan_of(session, loaded, request);
+  if (!plan) return plan.error();
+  return find(session, loaded, std::move(*plan), list_exempted);
+}
+
+Status check_files(const ClashOptions& given) {
+  std::vector<std::string> inputs = given.input.files;
+  if (!given.rules.empty()) inputs.push_back(given.rules);
+  return check_outputs(given.outputs, {".json", ".csv"}, inputs);
 }
 
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
-  const Result<clash::Options> options = engine_options(given);
-  if (!options) return options.error();
-  const auto scene_settings = scene_options(given.scene, clash::scene_options(*options).sag_mm);
-  if (!scene_settings) return scene_settings.error();
-  const Result<SetRequest> sets = set_request(given.sets);
-  if (!sets) return sets.error();
+  const Result<Request> request = request_of(given);
+  if (!request) return request.error();
   if (const Status status = check(given.result); !status) return status.error();
-  if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, given.input.files);
-      !status)
-    return status.error();
-  const Result<Loaded> loaded = load(session, given.input, *scene_settings);
+  if (const Status status = check_files(given); !status) return status.error();
+  const Result<Loaded> loaded = load(session, given.input, request->scene);
   if (!loaded) return loaded.error();
-  const Result<clash::Findings> findings = find(session, *loaded, *sets, *options);
+  const Result<clash::Findings> findings =
+      findings_of(session, *loaded, *request, given.list_exempted);
   if (!findings) return findings.error();
   const Diagnostics diagnostics = findings->all_diagnostics();
   tell(session.console(), diagnostics);
@@ -151,6 +216,24 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
     if (fails(test, given.fail_on)) return ExitCode::clashes;
   if (given.input.strict && diagnostics.skipped() > 0) return ExitCode::partial;
   return outcome(given.input, *loaded);
+}
+
+/// After the options that it excludes.
+void add_rules_file(CLI::App& command, ClashOptions& options) {
+  CLI::Option* const rules =
+      command
+          .add_option("--rules", options.rules,
+                      "Tests, exemptions and allowances of a rules file (TOML, docs/rules.md)")
+          ->type_name("FILE")
+          ->group("Rules");
+  for (const char* const name : {"--clearance", "--touch-gap", "--touch-overlap", "--thickness-cap",
+                                 "--contact-distance", "--a", "--b", "--self"})
+    rules->excludes(command.get_option(name));
+  command
+      .add_flag("--list-exempted", options.list_exempted,
+                "List the pairs that rules exempt, in .json and .csv")
+      ->group("Rules")
+      ->needs(rules);
 }
 
 void add_rules(CLI::App& command, ClashOptions& options) {
@@ -181,6 +264,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_scene_options(*command, options->scene, "a quarter of the touch tolerances");
   add_rules(*command, *options);
   add_set_options(*command, options->sets);
+  add_rules_file(*command, *options);
   add_result_options(*command, options->result);
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
              "How near pairs are found; the result is the same (default tree)")
@@ -204,6 +288,7 @@ Examples:
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
   strake clash ship.glb --group-by element --sort size
   strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv
+  strake clash hvac.rvm steel.rvm piping.rvm --rules project.toml --list-exempted -o all.json
   strake clash hvac.rvm steel.rvm --touch-gap 0 --touch-overlap 0 --fail-on hit --json)");
   return {command, [options](Session& session) { return run_clash(session, *options); }};
 }

@@ -10,6 +10,7 @@
 #include "strake/core/result.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/function_ref.hpp"
 
 namespace strake::model {
 
@@ -27,6 +28,11 @@ class Selection {
  public:
   /// Errors: usage, with the column where the text stops making sense and what could stand there.
   [[nodiscard]] static Result<Selection> parse(std::string_view text);
+
+  /// What set(NAME) stands for; an error that says no place gets that of the name.
+  using SetLookup = parallel::FunctionRef<Result<Selection>(std::string_view name)>;
+  /// The same where named sets are known.
+  [[nodiscard]] static Result<Selection> parse(std::string_view text, SetLookup set);
 
   /// What was parsed.
   [[nodiscard]] const std::string& text() const;

@@ -100,6 +100,8 @@ class Asker {
         return passes(query_.tests[node.first]);
       case NodeKind::box:
         return stands(query_.boxes[node.first]);
+      case NodeKind::set:
+        return answers(*query_.sets[node.first], scene_, id_);
       case NodeKind::negation:
         return !ask(operands().front());
       case NodeKind::conjunction:

@@ -18,6 +18,8 @@ namespace {
 
 /// Deeper nesting than any person writes; a hostile text must not exhaust the stack.
 constexpr int kDeepest = 200;
+/// Sets that name each other twice over and over grow beyond any model.
+constexpr std::uint64_t kHeaviest = 100'000;
 
 constexpr std::array<std::pair<std::string_view, Field>, 7> kFields{{
     {"name", Field::name},
@@ -64,7 +66,8 @@ std::string shown(const Token& token) {
 
 class Parser {
  public:
-  Parser(std::string_view text, std::vector<Token> tokens) : tokens_(std::move(tokens)) {
+  Parser(std::string_view text, std::vector<Token> tokens, SetLookup lookup)
+      : tokens_(std::move(tokens)), lookup_(lookup) {
     query_.text = text;
   }
 
@@ -77,6 +80,7 @@ class Parser {
       return fault(shown(now()) + " is one thing too many",
                    "join tests with and, or; quote a text that has blanks in it");
     query_.root = *root;
+    query_.weight += query_.nodes.size();
     return std::move(query_);
   }
 
@@ -118,6 +122,7 @@ class Parser {
     const Token& next = tokens_[std::min(at_ + 1, tokens_.size() - 1)];
     if (token.is("(")) return bracketed();
     if ((token.is_keyword("inside") || token.is_keyword("touches")) && next.is("(")) return box();
+    if (token.is_keyword("set") && next.is("(")) return named_set();
     if (token.kind == TokenKind::attribute) return comparison(Field::attribute);
     if (operator_of(next) != nullptr) {
       if (const auto field = field_of(token)) return comparison(*field);
@@ -183,6 +188,29 @@ class Parser {
     }
     ++at_;
     return {};
+  }
+
+  NodeResult named_set() {
+    at_ += 2;
+    const Token name = now();
+    if (!name.is_value())
+      return fault("the name of a set is missing before " + shown(name), "write set(NAME)");
+    ++at_;
+    if (!now().is(")"))
+      return fault("')' is missing before " + shown(now()), "write set(NAME), with one name");
+    ++at_;
+    Result<std::shared_ptr<const Query>> found = lookup_(name.text);
+    if (!found) {
+      Error error = fault_at(name.column, found.error().message, found.error().mend);
+      if (!found.error().where.empty()) error.where = found.error().where;
+      return error;
+    }
+    query_.weight += (*found)->weight;
+    if (query_.weight > kHeaviest)
+      return fault_at(name.column, "the sets named here hold too many tests, one within another",
+                      "name fewer of them");
+    query_.sets.push_back(std::move(*found));
+    return add({NodeKind::set, static_cast<std::uint32_t>(query_.sets.size() - 1), 0});
   }
 
   NodeResult box() {
@@ -253,16 +281,17 @@ class Parser {
 
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
+  SetLookup lookup_;
   int depth_ = 0;
   Query query_;
 };
 
 }  // namespace
 
-Result<Query> parse_query(std::string_view text) {
+Result<Query> parse_query(std::string_view text, SetLookup lookup) {
   Result<std::vector<Token>> tokens = tokens_of(text);
   if (!tokens) return tokens.error();
-  return Parser(text, std::move(*tokens)).run();
+  return Parser(text, std::move(*tokens), lookup).run();
 }
 
 }  // namespace strake::model::selection

@@ -44,9 +44,9 @@ struct BoxTest {
   bool whole = false;  ///< the object lies inside, rather than touching
 };
 
-enum class NodeKind : std::uint8_t { test, box, negation, conjunction, disjunction };
+enum class NodeKind : std::uint8_t { test, box, set, negation, conjunction, disjunction };
 
-/// A leaf's `first` is the index of its test or box; an inner node's operands are
+/// A leaf's `first` is the index of its test, box or set; an inner node's operands are
 /// Query::operands[first, first + count).
 struct Node {
   NodeKind kind = NodeKind::test;
@@ -57,9 +57,12 @@ struct Query {
   std::string text;
   std::vector<Test> tests;
   std::vector<BoxTest> boxes;
+  std::vector<std::shared_ptr<const Query>> sets;  ///< that set(NAME) stands for
   std::vector<Node> nodes;
   std::vector<std::uint32_t> operands;
   std::uint32_t root = 0;
+  /// Nodes that asking may visit, those of its sets included.
+  std::uint64_t weight = 0;
 };
 
 }  // namespace strake::model::selection

@@ -10,7 +10,23 @@
 namespace strake::model {
 
 Result<Selection> Selection::parse(std::string_view text) {
-  Result<selection::Query> query = selection::parse_query(text);
+  const auto none = [](std::string_view name) -> Result<Selection> {
+    return Error{ErrorCode::usage,
+                 "no set is called '" + std::string(name) + "'",
+                 {},
+                 "named sets are known in a rules file"};
+  };
+  return parse(text, none);
+}
+
+Result<Selection> Selection::parse(std::string_view text, SetLookup set) {
+  using QueryPointer = std::shared_ptr<const selection::Query>;
+  const auto lookup = [&](std::string_view name) -> Result<QueryPointer> {
+    const Result<Selection> found = set(name);
+    if (!found) return found.error();
+    return found->query_;
+  };
+  Result<selection::Query> query = selection::parse_query(text, lookup);
   if (!query) return query.error();
   return Selection(std::make_shared<const selection::Query>(std::move(*query)));
 }

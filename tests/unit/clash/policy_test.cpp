@@ -295,7 +295,7 @@ void add_body(ClashModel& m, model::Category category, const Vec3d& lo, const Ve
 }
 
 TEST(ClashPolicy, LevelsSayWhatIsSetAgainstWhat) {
-  ClashModel m = chain();
+  const ClashModel m = chain();
   Policy policy;
   policy.levels = levels(std::vector{Level::hard, Level::soft, Level::soft, Level::none});
   Report report = report_of(m, {{}, {}, policy});

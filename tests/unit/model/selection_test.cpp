@@ -153,6 +153,48 @@ TEST_F(SelectionTest, FaultsNameTheColumnAndTheMend) {
         << text.substr(0, 40) << ": " << picked(text);
 }
 
+TEST_F(SelectionTest, NamedSetsStandForWhatTheyPick) {
+  const auto sets = [&](std::string_view name) -> Result<Selection> {
+    if (name == "pipes") return Selection::parse("type = cylinder");
+    if (name == "two words") return Selection::parse("w1 or p1");
+    return Error{ErrorCode::usage, "no set is called '" + std::string(name) + "'", {}, "name one"};
+  };
+  const auto picked_by = [&](std::string_view text) {
+    const auto selection = Selection::parse(text, sets);
+    if (!selection) return selection.error().text();
+    std::string names;
+    const Scene scene = make_scene(model_, {}, {}).value();
+    for (std::uint32_t o = 0; o < model_.objects.size(); ++o)
+      if (selection->picks(scene, ObjectId{o})) names += model_.objects[o].name + " ";
+    return names;
+  };
+  EXPECT_EQ(picked_by("set(pipes)"), picked_by("type = cylinder"));
+  EXPECT_EQ(picked_by("not set(pipes) or set('two words')"),
+            picked_by("type != cylinder or w1 or p1"));
+  EXPECT_EQ(picked_by("a or set( nobody )"),
+            "selection, column 11: no set is called 'nobody' (name one)");
+  EXPECT_NE(picked_by("set(pipes").find("column 10: ')' is missing"), std::string::npos);
+  EXPECT_NE(picked_by("set()").find("column 5: the name of a set is missing"), std::string::npos);
+  EXPECT_NE(picked("set(pipes)").find("column 5: no set is called 'pipes'"), std::string::npos);
+  EXPECT_EQ(picked_by("set"), "") << "a pattern without brackets";
+}
+
+TEST_F(SelectionTest, SetsThatGrowWithoutEndAreRefused) {
+  const auto sets = [&](std::string_view wanted) -> Result<Selection> {
+    Selection set = Selection::parse("a").value();
+    const auto inner = [&](std::string_view) -> Result<Selection> { return set; };
+    for (int level = 0; level < 40; ++level) {
+      const auto twice = Selection::parse("set(x) and set(x)", inner);
+      if (!twice) return twice.error();
+      set = *twice;
+    }
+    return wanted == "s" ? Result<Selection>(set) : Selection::parse("b");
+  };
+  const auto heavy = Selection::parse("set(s)", sets);
+  ASSERT_FALSE(heavy);
+  EXPECT_NE(heavy.error().message.find("too many tests"), std::string::npos);
+}
+
 TEST_F(SelectionTest, HostileTextsEndSoon) {
   std::string many = "a";
   for (int i = 0; i < 100000; ++i) many += " or a";

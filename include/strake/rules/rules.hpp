@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "strake/clash/policy.hpp"
+#include "strake/core/diagnostics.hpp"
+#include "strake/core/result.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
+
+/// Rules files: several clash tests in one run, with what is exempted and what is meant.
+///
+///     const auto rules = rules::Rules::read("rules.toml");
+///     const auto scene = model::make_scene(model, rules->scene_options(), context);
+///     const auto plan = rules->plan(*scene, context);
+///     for (const rules::PlannedTest& test : plan->tests)
+///       clash::detect(*scene, test.sets, test.options, test.policy, context);
+///
+/// docs/rules.md defines the language.
+namespace strake::rules {
+
+struct RuleFile;
+
+/// A test, worked out for a scene.
+struct PlannedTest {
+  std::string name;
+  clash::Options options;
+  clash::Sets sets;
+  clash::Policy policy;
+};
+
+struct Plan {
+  std::vector<PlannedTest> tests;  ///< those that are enabled, in the order of the file
+  /// "rule-matches-nothing" (a rule or a set, by name), "in-several-disciplines",
+  /// "in-no-discipline", "unit-not-a-number", "obstruction-not-known".
+  Diagnostics diagnostics;
+};
+
+/// A rules file, understood but not yet held against a model. Immutable; cheap to copy.
+class Rules {
+ public:
+  /// `file` is what errors and diagnostics call it.
+  ///
+  /// Errors: input, with line and column, what is wrong there and how to mend it. Keys that are not
+  /// known, wrong types, names given twice and sets that need themselves are errors.
+  [[nodiscard]] static Result<Rules> parse(std::string_view text, std::string_view file);
+  [[nodiscard]] static Result<Rules> read(const std::filesystem::path& file);
+
+  /// What the scene must hold for all tests: the finest tessellation that one of them asks for, and
+  /// the categories of bodies that a rule speaks of.
+  [[nodiscard]] model::SceneOptions scene_options() const;
+
+  /// Asks every selection about every object of the scene, once. Errors: cancelled.
+  [[nodiscard]] Result<Plan> plan(const model::Scene& scene,
+                                  const parallel::Context& context) const;
+
+ private:
+  explicit Rules(std::shared_ptr<const RuleFile> file) : file_(std::move(file)) {}
+  std::shared_ptr<const RuleFile> file_;
+};
+
+}  // namespace strake::rules

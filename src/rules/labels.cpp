@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rules/labels.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "strake/core/glob.hpp"
+#include "strake/core/number.hpp"
+
+namespace strake::rules {
+namespace {
+
+using clash::kNoLabel;
+using clash::SameLabel;
+using model::GroupId;
+using model::Model;
+using model::Object;
+
+/// Numbers texts by their first appearance.
+class Numbers {
+ public:
+  std::uint32_t of(std::string_view text) {
+    const auto next = static_cast<std::uint32_t>(numbers_.size());
+    return numbers_.try_emplace(std::string(text), next).first->second;
+  }
+
+ private:
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+};
+
+/// The hierarchy as paths from the outermost group.
+class Hierarchy {
+ public:
+  explicit Hierarchy(const Model& model) : model_(model) {
+    for (std::uint32_t g = 0; g < model.groups.size(); ++g) {
+      const auto key = std::pair(model.groups[g].parent, std::string_view(model.groups[g].name));
+      const auto [at, added] = own_.try_emplace(key, GroupId{g});
+      if (!added) at->second = GroupId::none;  // two of one name: nobody knows which is meant
+    }
+  }
+
+  /// The object's groups, outermost first; the group that it is itself, if it is one, last.
+  [[nodiscard]] std::vector<GroupId> path(const Object& object) const {
+    std::vector<GroupId> path;
+    for (GroupId g = object.parent; known(g) && path.size() <= model_.groups.size();
+         g = model_.groups[index(g)].parent)
+      path.push_back(g);
+    std::reverse(path.begin(), path.end());
+    const auto own = own_.find({object.parent, std::string_view(object.name)});
+    if (own != own_.end() && own->second != GroupId::none) path.push_back(own->second);
+    return path;
+  }
+
+  [[nodiscard]] const std::string& name(GroupId group) const {
+    return model_.groups[index(group)].name;
+  }
+
+ private:
+  [[nodiscard]] bool known(GroupId g) const {
+    return g != GroupId::none && index(g) < model_.groups.size();
+  }
+  const Model& model_;
+  std::map<std::pair<GroupId, std::string_view>, GroupId> own_;
+};
+
+SameLabel unlabelled(const Asking& asking) {
+  return {std::vector<std::uint32_t>(asking.objects(), kNoLabel)};
+}
+
+/// Fills in the labels of one kind of rule.
+struct Labelling {
+  const Exempting& rule;
+  Asking& asking;
+  std::vector<bool> among;
+
+  using Test = decltype(clash::Exemption::test);
+
+  Test operator()(const UnitRule& units) const {
+    const std::vector<Object>& objects = asking.model().objects;
+    std::vector<std::int64_t> unit(objects.size(), -1);
+    std::vector<bool> said(objects.size());
+    for (const UnitRule::Group& group : units.groups) {
+      const std::vector<bool> picked = asking.pick(group.chooser);
+      for (std::size_t o = 0; o < objects.size(); ++o) {
+        if (!picked[o] || said[o]) continue;
+        said[o] = true;
+        unit[o] = group.number;
+      }
+    }
+    for (std::size_t o = 0; o < objects.size() && !units.attribute.empty(); ++o) {
+      if (said[o]) continue;
+      for (const std::string_view value : values_of(objects[o], units.attribute)) {
+        if (const auto number = parse_integer(value))
+          unit[o] = *number;
+        else
+          asking.diagnostics().add(Severity::warning, "unit-not-a-number",
+                                   "the attribute '" + units.attribute + "' is '" +
+                                       std::string(value) + "'; the object is in no unit",
+                                   objects[o].id);
+        said[o] = true;
+        break;
+      }
+    }
+    if (std::find(said.begin(), said.end(), true) == said.end() && !units.attribute.empty())
+      asking.nothing(rule.where, "no object has the attribute '" + units.attribute + "'");
+    std::map<std::int64_t, std::uint32_t> numbers;
+    SameLabel test = unlabelled(asking);
+    for (std::size_t o = 0; o < objects.size(); ++o)
+      if (unit[o] >= 0 && among[o])
+        test.label[o] =
+            numbers.try_emplace(unit[o], static_cast<std::uint32_t>(numbers.size())).first->second;
+    return test;
+  }
+
+  Test operator()(const AssemblyRule& assembly) const {
+    const Hierarchy hierarchy(asking.model());
+    SameLabel test = unlabelled(asking);
+    Numbers paths;
+    bool some = false;
+    for (std::size_t o = 0; o < test.label.size(); ++o) {
+      const Object& object = asking.model().objects[o];
+      if (!among[o]) continue;
+      const std::vector<GroupId> path = hierarchy.path(object);
+      const std::size_t depth = depth_of(assembly, object, path, hierarchy);
+      if (depth == 0) continue;
+      some = true;
+      if (!assembly.across_files) {
+        test.label[o] = index(path[depth - 1]);
+        continue;
+      }
+      std::string text;
+      for (std::size_t g = 0; g < depth; ++g) text += hierarchy.name(path[g]) + '\0';
+      test.label[o] = paths.of(text);
+    }
+    if (!some) asking.nothing(rule.where, "no object lies in such a group");
+    return test;
+  }
+
+  /// How many groups of the path lead to the assembly; 0: it has none.
+  static std::size_t depth_of(const AssemblyRule& assembly, const Object& object,
+                              const std::vector<GroupId>& path, const Hierarchy& hierarchy) {
+    if (assembly.level > 0) return assembly.level <= path.size() ? assembly.level : 0;
+    for (std::size_t depth = path.size(); depth > 0; --depth)
+      if (assembly.parent ? path[depth - 1] == object.parent
+                          : glob_match(assembly.group, hierarchy.name(path[depth - 1])))
+        return depth;
+    return 0;
+  }
+
+  Test operator()(const AttributeRule& same) const {
+    SameLabel test = unlabelled(asking);
+    Numbers values;
+    bool some = false;
+    for (std::size_t o = 0; o < test.label.size(); ++o) {
+      const auto found = values_of(asking.model().objects[o], same.attribute);
+      if (found.empty() || !among[o]) continue;
+      test.label[o] = values.of(found.front());
+      some = true;
+    }
+    if (!some) asking.nothing(rule.where, "no object has the attribute '" + same.attribute + "'");
+    return test;
+  }
+
+  Test operator()(const FileRule&) const {
+    SameLabel test = unlabelled(asking);
+    for (std::size_t o = 0; o < test.label.size(); ++o)
+      if (among[o]) test.label[o] = asking.model().objects[o].file;
+    return test;
+  }
+
+  Test operator()(const ExemptRule& exempt) const {
+    return clash::Between{asking.pick(exempt.a), asking.pick(exempt.b)};
+  }
+
+  Test operator()(const ConnectedRule& connected) const {
+    const Hierarchy hierarchy(asking.model());
+    Numbers texts;
+    clash::Linked test{{{0}, {}}, {{0}, {}}};
+    for (std::size_t o = 0; o < asking.objects(); ++o) {
+      const Object& object = asking.model().objects[o];
+      std::vector<std::uint32_t> refers, answers;
+      if (among[o]) {
+        for (const std::string& attribute : connected.attributes)
+          for (const std::string_view value : values_of(object, attribute))
+            split(value, connected.separator, texts, refers);
+        answers = connected.node ? refers : names(object, connected, hierarchy, texts);
+      }
+      append(test.refers_to, std::move(refers));
+      append(test.answers_to, std::move(answers));
+    }
+    if (test.refers_to.numbers.empty())
+      asking.nothing(rule.where, "no object has one of the attributes with a value");
+    return test;
+  }
+
+  static void split(std::string_view value, const std::string& separator, Numbers& texts,
+                    std::vector<std::uint32_t>& numbers) {
+    while (!separator.empty() && value.find(separator) != std::string_view::npos) {
+      const std::size_t end = value.find(separator);
+      if (end > 0) numbers.push_back(texts.of(trimmed(value.substr(0, end))));
+      value.remove_prefix(end + separator.size());
+    }
+    if (!trimmed(value).empty()) numbers.push_back(texts.of(trimmed(value)));
+  }
+
+  static std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+    return text;
+  }
+
+  static std::vector<std::uint32_t> names(const Object& object, const ConnectedRule& connected,
+                                          const Hierarchy& hierarchy, Numbers& texts) {
+    std::vector<std::uint32_t> numbers;
+    for (const std::string& text : {object.id, object.name})
+      if (!text.empty()) numbers.push_back(texts.of(text));
+    for (const std::string_view value : values_of(object, "Name"))
+      numbers.push_back(texts.of(value));
+    if (connected.groups)
+      for (const GroupId group : hierarchy.path(object))
+        if (!hierarchy.name(group).empty()) numbers.push_back(texts.of(hierarchy.name(group)));
+    return numbers;
+  }
+
+  static void append(clash::Linked::Lists& lists, std::vector<std::uint32_t> numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    lists.numbers.insert(lists.numbers.end(), numbers.begin(), numbers.end());
+    lists.first.push_back(static_cast<std::uint32_t>(lists.numbers.size()));
+  }
+};
+
+}  // namespace
+
+clash::Exemption exemption_of(const Exempting& rule, Asking& asking) {
+  return {rule.name, std::visit(Labelling{rule, asking, asking.pick(rule.among)}, rule.rule)};
+}
+
+}  // namespace strake::rules

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rules/rule_file.hpp"
+#include "rules/table_reader.hpp"
+
+namespace strake::rules {
+
+/// The [sets] of a file: selections that name each other in any order, but not in a circle.
+class NamedSets {
+ public:
+  /// `table` may be null: no sets.
+  NamedSets(Reading& reading, const Value* table);
+
+  /// A selection of the file, which may name sets; a fault of the reading where it makes no sense.
+  std::optional<Chooser> chooser(const Value& value, const std::string& what);
+  /// The key of a table, where it is there.
+  std::optional<Chooser> chooser(TableReader& table, std::string_view key);
+  /// The key of a table, which must be there.
+  std::optional<Chooser> required(TableReader& table, std::string_view key);
+
+  /// All sets, in the order of the file.
+  std::vector<NamedSet> all();
+
+ private:
+  struct Set {
+    const Entry* entry = nullptr;
+    std::optional<model::Selection> selection;
+    bool open = false;  ///< being worked out
+  };
+  Result<model::Selection> find(std::string_view name);
+  Result<model::Selection> parse(const Value& value, const std::string& what);
+
+  Reading& reading_;
+  std::vector<Set> sets_;
+  int depth_ = 0;
+};
+
+}  // namespace strake::rules

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "rules/named_sets.hpp"
+#include "rules/rule_file.hpp"
+#include "rules/table_reader.hpp"
+
+namespace strake::rules {
+namespace {
+
+using clash::Level;
+using clash::Tolerances;
+
+constexpr std::string_view kChecked = "checked", kNotChecked = "not checked";
+
+/// Reads the tables of a file one by one. A fault is kept by the reading, and what is read after it
+/// is thrown away with the rest.
+class Parser {
+ public:
+  Parser(Reading& reading, const Value& document)
+      : reading_(reading), top_(reading, document, "the file"), sets_(reading, top_.table("sets")) {
+    rules_.file = reading.file();
+  }
+
+  RuleFile run() {
+    rules_.sets = sets_.all();
+    defaults();
+    disciplines();
+    matrix();
+    units();
+    for (const Value* table : top_.tables("same_assembly")) assembly(*table);
+    for (const Value* table : top_.tables("connected")) connected(*table);
+    for (const Value* table : top_.tables("same_attribute")) same_attribute(*table);
+    for (const Value* table : top_.tables("exempt")) exempt(*table);
+    obstruction();
+    insulation();
+    for (const Value* table : top_.tables("allowed")) allowed(*table);
+    for (const Value* table : top_.tables("test")) test(*table);
+    if (rules_.tests.empty()) rules_.tests.push_back(plain_test(""));
+    if (std::none_of(rules_.tests.begin(), rules_.tests.end(),
+                     [](const TestRule& t) { return t.enabled; }))
+      reading_.fault({1, 1}, "every test is disabled", "enable one");
+    return std::move(rules_);
+  }
+
+ private:
+  [[nodiscard]] std::string place(Place at) const {
+    return reading_.file() + ", line " + std::to_string(at.line);
+  }
+
+  /// A name that reports and `without` tell a rule by.
+  std::string new_name(TableReader& table, std::vector<std::string>& taken) {
+    std::string name = table.required_text("name");
+    claim(name, table.at(), taken);
+    table.call(name);
+    return name;
+  }
+
+  void claim(const std::string& name, Place at, std::vector<std::string>& taken) {
+    if (std::find(taken.begin(), taken.end(), name) != taken.end())
+      reading_.fault(at, "the name '" + name + "' is given twice", "give each its own");
+    taken.push_back(name);
+  }
+
+  /// The tolerances of a table, on top of others.
+  bool tolerances(TableReader& table, Tolerances& t) {
+    bool some = false;
+    const auto read = [&](std::string_view key, double& value) {
+      const auto length = table.tolerance_mm(key);
+      if (length) value = *length;
+      some = some || length;
+    };
+    read("clearance", t.clearance_mm);
+    read("touch_gap", t.touch_gap_mm);
+    read("touch_overlap", t.touch_overlap_mm);
+    if (const auto cap = table.flag("thickness_cap")) {
+      t.thickness_cap = *cap ? clash::ThicknessCap::on : clash::ThicknessCap::off;
+      some = true;
+    }
+    return some;
+  }
+
+  [[nodiscard]] TestRule plain_test(std::string name) const {
+    TestRule test;
+    test.name = std::move(name);
+    test.tolerances = defaults_;
+    test.contact_distance_mm = contact_distance_mm_;
+    return test;
+  }
+
+  void defaults() {
+    const Value* const value = top_.table("defaults");
+    if (value == nullptr) return;
+    TableReader table(reading_, *value, "[defaults]");
+    tolerances(table, defaults_);
+    contact_distance_mm_ = table.tolerance_mm("contact_distance").value_or(-1);
+    if (!table.flag("within_file").value_or(true)) {
+      rules_.exempting.push_back({"within one file", place(value->at), {}, FileRule{}});
+      rule_names_.emplace_back("within one file");
+    }
+  }
+
+  void disciplines() {
+    std::vector<std::string> names;
+    for (const Value* value : top_.tables("discipline")) {
+      TableReader table(reading_, *value, "[[discipline]]");
+      std::string name = new_name(table, names);
+      if (auto select = sets_.required(table, "select"))
+        rules_.disciplines.push_back({std::move(name), std::move(*select)});
+    }
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> discipline(const Entry& entry) {
+    std::string known;
+    for (std::uint32_t d = 0; d < rules_.disciplines.size(); ++d) {
+      if (rules_.disciplines[d].name == entry.key) return d;
+      known += (known.empty() ? "" : ", ") + rules_.disciplines[d].name;
+    }
+    reading_.fault(
+        entry.at, "no discipline is called '" + entry.key + "'",
+        known.empty() ? "write [[discipline]] with its name" : "the disciplines are " + known);
+    return std::nullopt;
+  }
+
+  void matrix() {
+    const Value* const value = top_.table("matrix");
+    if (value == nullptr) {
+      if (!rules_.disciplines.empty() && reading_.good())
+        reading_.fault(top_.value("discipline")->at, "disciplines without a matrix do nothing",
+                       "add [matrix], which may be empty");
+      return;
+    }
+    TableReader table(reading_, *value, "[matrix]");
+    if (rules_.disciplines.empty())
+      reading_.fault(value->at, "a matrix without disciplines", "write [[discipline]] tables");
+    TestRule test = plain_test(table.text("name").value_or("matrix"));
+    claim(test.name, value->at, test_names_);
+    common(table, test);
+    test.matrix = true;
+    MatrixRule& matrix = rules_.matrix.emplace();
+    constexpr std::array kWords{kChecked, kNotChecked};
+    matrix.missing_checked =
+        table.word("missing", kWords).value_or(std::string(kChecked)) == kChecked;
+    const Value* const rows = table.table("cells");
+    if (rows != nullptr) {
+      TableReader reader(reading_, *rows, "[matrix.cells]");
+      for (const Entry* row : reader.others()) matrix_row(*row, test.tolerances);
+    }
+    rules_.tests.push_back(std::move(test));
+    rule_names_.emplace_back(kMatrixRule);
+  }
+
+  void matrix_row(const Entry& row, const Tolerances& base) {
+    const auto a = discipline(row);
+    if (!a) return;
+    TableReader reader(reading_, row.value, "[matrix.cells." + row.key + "]");
+    for (const Entry* column : reader.others()) {
+      const auto b = discipline(*column);
+      if (!b) return;
+      for (const CellRule& other : rules_.matrix->cells)
+        if (std::minmax(other.a, other.b) == std::minmax(*a, *b))
+          reading_.fault(column->at,
+                         "the cell of '" + row.key + "' and '" + column->key + "' is given twice",
+                         "leave one out: the matrix is symmetric");
+      rules_.matrix->cells.push_back(cell(*a, *b, *column, base));
+    }
+  }
+
+  CellRule cell(std::uint32_t a, std::uint32_t b, const Entry& entry, const Tolerances& base) {
+    CellRule rule{a, b, true, {}};
+    const std::string what = "the cell '" + entry.key + "'";
+    const auto* const word = std::get_if<std::string>(&entry.value.held);
+    if (word != nullptr && (*word == kChecked || *word == kNotChecked)) {
+      rule.checked = *word == kChecked;
+    } else if (std::holds_alternative<Table>(entry.value.held)) {
+      TableReader table(reading_, entry.value, what);
+      Tolerances own = base;
+      if (tolerances(table, own)) rule.tolerances = own;
+    } else {
+      reading_.fault(entry.value.at, what + " is no rule for a pair of disciplines",
+                     "write \"checked\", \"not checked\" or { clearance = \"25mm\" }");
+    }
+    return rule;
+  }
+
+  /// What [matrix] and [[test]] have in common.
+  void common(TableReader& table, TestRule& test) {
+    test.enabled = table.flag("enabled").value_or(true);
+    tolerances(table, test.tolerances);
+    if (const auto distance = table.tolerance_mm("contact_distance"))
+      test.contact_distance_mm = *distance;
+    test.without = table.texts("without");
+    without_at_.emplace_back(test.without, table.at());
+  }
+
+  void test(const Value& value) {
+    TableReader table(reading_, value, "[[test]]");
+    TestRule test = plain_test(new_name(table, test_names_));
+    common(table, test);
+    test.a = sets_.chooser(table, "a");
+    test.b = sets_.chooser(table, "b");
+    rules_.tests.push_back(std::move(test));
+  }
+
+  /// The name and the `among` of a rule that exempts; `rule` is filled in by the caller.
+  Exempting& exempting(TableReader& table) {
+    Exempting& rule = rules_.exempting.emplace_back();
+    rule.name = new_name(table, rule_names_);
+    rule.where = place(table.at()) + ": " + table.what();
+    rule.among = sets_.chooser(table, "among");
+    return rule;
+  }
+
+  void units() {
+    const Value* const value = top_.table("unit_groups");
+    if (value == nullptr) return;
+    TableReader table(reading_, *value, "[unit_groups]");
+    Exempting& rule = rules_.exempting.emplace_back();
+    rule.name = table.text("name").value_or("unit groups");
+    claim(rule.name, value->at, rule_names_);
+    rule.where = place(value->at) + ": [unit_groups]";
+    UnitRule units;
+    units.attribute = table.text("attribute").value_or("");
+    for (const Value* group : table.tables("group")) {
+      TableReader inner(reading_, *group, "[[unit_groups.group]]");
+      const auto number = inner.whole("number");
+      if (!number)
+        reading_.fault(group->at, inner.what() + " has no 'number'",
+                       "write number = 7; a negative one is no unit");
+      inner.call(std::to_string(number.value_or(-1)));
+      if (auto select = sets_.required(inner, "select"))
+        units.groups.push_back({number.value_or(-1), std::move(*select)});
+    }
+    if (units.attribute.empty() && units.groups.empty())
+      reading_.fault(value->at, "[unit_groups] says no unit of anything",
+                     "write attribute = \"NAME\", or [[unit_groups.group]] tables");
+    rule.rule = std::move(units);
+  }
+
+  void assembly(const Value& value) {
+    TableReader table(reading_, value, "[[same_assembly]]");
+    Exempting& rule = exempting(table);
+    AssemblyRule assembly;
+    const auto group = table.text("group");
+    assembly.group = group.value_or("");
+    const Value* const level = table.value("level");
+    if (level != nullptr) {
+      const auto* const number = std::get_if<std::int64_t>(&level->held);
+      const auto* const word = std::get_if<std::string>(&level->held);
+      assembly.parent = word != nullptr && *word == "parent";
+      const bool deep =
+          number != nullptr && *number >= 1 && *number <= std::numeric_limits<std::int32_t>::max();
+      if (deep) assembly.level = static_cast<std::uint32_t>(*number);
+      if (!deep && !assembly.parent)
+        reading_.fault(level->at, "'level' of [[same_assembly]] is no level of the hierarchy",
+                       "write level = 1 for the outermost group, 2 for the next, or \"parent\"");
+    }
+    if ((level == nullptr) == assembly.group.empty())
+      reading_.fault(value.at, "[[same_assembly]] takes either 'level' or 'group'",
+                     "write level = 3, level = \"parent\" or group = \"EQUIP*\"");
+    assembly.across_files = table.flag("across_files").value_or(false);
+    rule.rule = std::move(assembly);
+  }
+
+  void connected(const Value& value) {
+    TableReader table(reading_, value, "[[connected]]");
+    Exempting& rule = exempting(table);
+    ConnectedRule connected;
+    connected.attributes = table.texts("attributes");
+    if (connected.attributes.empty())
+      reading_.fault(value.at, "[[connected]] names no attributes",
+                     "write attributes = [\"HREF\", \"TREF\"]");
+    constexpr std::array<std::string_view, 2> kWords{"partner", "node"};
+    connected.node = table.word("by", kWords).value_or("partner") == "node";
+    connected.groups = table.flag("groups").value_or(false);
+    connected.separator = table.text("separator").value_or("");
+    rule.rule = std::move(connected);
+  }
+
+  void same_attribute(const Value& value) {
+    TableReader table(reading_, value, "[[same_attribute]]");
+    Exempting& rule = exempting(table);
+    rule.rule = AttributeRule{table.required_text("attribute")};
+  }
+
+  void exempt(const Value& value) {
+    TableReader table(reading_, value, "[[exempt]]");
+    const std::string name = new_name(table, rule_names_);
+    auto a = sets_.required(table, "a"), b = sets_.required(table, "b");
+    if (a && b)
+      rules_.exempting.push_back({name,
+                                  place(value.at) + ": " + table.what(),
+                                  {},
+                                  ExemptRule{std::move(*a), std::move(*b)}});
+  }
+
+  void obstruction() {
+    const Value* const value = top_.table("obstruction");
+    if (value == nullptr) return;
+    TableReader table(reading_, *value, "[obstruction]");
+    ObstructionRule& rule = rules_.obstruction.emplace();
+    rule.attribute = table.text("attribute").value_or(rule.attribute);
+    constexpr std::array<std::string_view, 3> kWords{"soft", "hard", "none"};
+    const std::string bodies = table.word("volumes", kWords).value_or("soft");
+    rule.bodies = bodies == "hard" ? Level::hard : bodies == "none" ? Level::none : Level::soft;
+    rule.soft_against_soft = table.flag("soft_against_soft").value_or(true);
+    rule.soft = sets_.chooser(table, "soft");
+    rule.none = sets_.chooser(table, "none");
+    for (const std::string_view name : {kNoObstructionRule, kSoftRule})
+      claim(std::string(name), value->at, rule_names_);
+  }
+
+  void insulation() {
+    const Value* const value = top_.table("insulation");
+    if (value == nullptr) return;
+    TableReader table(reading_, *value, "[insulation]");
+    InsulationRule& rule = rules_.insulation.emplace();
+    rule.against_insulation = table.flag("against_insulation").value_or(true);
+    rule.against_soft = table.flag("against_soft").value_or(true);
+    for (const std::string_view name : {kInsulationRule, kInsulationSoftRule})
+      claim(std::string(name), value->at, rule_names_);
+  }
+
+  void allowed(const Value& value) {
+    TableReader table(reading_, value, "[[allowed]]");
+    const std::string name = new_name(table, rule_names_);
+    auto a = sets_.required(table, "a"), b = sets_.required(table, "b");
+    std::optional<double> depth;
+    const Value* const deepest = table.value("max_depth");
+    const auto* const any = deepest != nullptr ? std::get_if<std::string>(&deepest->held) : nullptr;
+    if (any != nullptr && *any == "any")
+      depth = std::numeric_limits<double>::infinity();
+    else if (deepest != nullptr)
+      depth = table.tolerance_mm("max_depth");
+    auto box = region(table);
+    auto planes = cavity(table);
+    if (a && b)
+      rules_.allowed.push_back({name, std::move(*a), std::move(*b), box, std::move(planes), depth});
+  }
+
+  std::optional<geometry::Box3d> region(TableReader& outer) {
+    const Value* const value = outer.table("region");
+    if (value == nullptr) return std::nullopt;
+    TableReader table(reading_, *value, "'region' of [[allowed]]");
+    const auto lo = table.point_mm("min"), hi = table.point_mm("max");
+    if (!lo || !hi) {
+      reading_.fault(value->at, "'region' wants both corners of its box",
+                     "write region = { min = [\"0m\", \"0m\", \"0m\"], max = [...] }");
+      return std::nullopt;
+    }
+    const geometry::Box3d box{*lo, *hi};
+    if (!(lo->x <= hi->x && lo->y <= hi->y && lo->z <= hi->z))
+      reading_.fault(value->at, "'region' ends before it begins", "put the smaller numbers in min");
+    return box;
+  }
+
+  std::vector<clash::HalfSpace> cavity(TableReader& outer) {
+    std::vector<clash::HalfSpace> planes;
+    for (const Value* value : outer.tables("cavity")) {
+      TableReader table(reading_, *value, "'cavity' of [[allowed]]");
+      const auto point = table.point_mm("point");
+      const auto normal = table.direction("normal");
+      if (point && normal)
+        planes.push_back({*point, *normal});
+      else
+        reading_.fault(value->at, "a plane of a cavity wants a point and a normal",
+                       "write { point = [\"0m\", \"0m\", \"3m\"], normal = [0, 0, 1] }");
+    }
+    return planes;
+  }
+
+ public:
+  /// Once all rules are read: what tests leave out must be there.
+  void check_without() {
+    for (const auto& [names, at] : without_at_)
+      for (const std::string& name : names)
+        if (name == kMatrixRule ||
+            std::find(rule_names_.begin(), rule_names_.end(), name) == rule_names_.end()) {
+          std::string known;
+          for (const std::string& rule : rule_names_)
+            if (rule != kMatrixRule) known += (known.empty() ? "" : ", ") + rule;
+          reading_.fault(at, "'without' names a rule '" + name + "' that is not there",
+                         known.empty() ? "there are no rules" : "the rules are " + known);
+        }
+  }
+
+ private:
+  Reading& reading_;
+  TableReader top_;
+  NamedSets sets_;
+  RuleFile rules_;
+  Tolerances defaults_;
+  double contact_distance_mm_ = -1;
+  std::vector<std::string> rule_names_, test_names_;
+  std::vector<std::pair<std::vector<std::string>, Place>> without_at_;
+};
+
+}  // namespace
+
+Result<RuleFile> parse_rules(std::string_view text, std::string_view file) {
+  const Result<Value> document = read_document(text, file);
+  if (!document) return document.error();
+  Reading reading{std::string(file)};
+  RuleFile rules;
+  {
+    Parser parser(reading, *document);
+    rules = parser.run();
+    parser.check_without();
+  }  // the parser refuses what nobody asked for as it ends
+  if (!reading.good()) return reading.error();
+  return rules;
+}
+
+}  // namespace strake::rules

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "rules/asking.hpp"
+#include "rules/labels.hpp"
+#include "rules/rule_file.hpp"
+#include "strake/rules/rules.hpp"
+
+namespace strake::rules {
+namespace {
+
+using clash::kNoLabel;
+using clash::Level;
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 20U;
+
+/// The level that an attribute's value says; none where it says something else.
+std::optional<Level> level_of(std::string_view value) {
+  constexpr std::array<std::pair<std::string_view, Level>, 6> kWords{{{"0", Level::none},
+                                                                      {"1", Level::soft},
+                                                                      {"2", Level::hard},
+                                                                      {"NONE", Level::none},
+                                                                      {"SOFT", Level::soft},
+                                                                      {"HARD", Level::hard}}};
+  std::string upper(value);
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  for (const auto& [word, level] : kWords)
+    if (upper == word) return level;
+  return std::nullopt;
+}
+
+/// Works the rules out once; each test takes those that it follows.
+class Planner {
+ public:
+  Planner(const RuleFile& rules, const model::Scene& scene, const parallel::Context& context)
+      : rules_(rules), asking_(scene, context) {}
+
+  Result<Plan> run() {
+    for (const NamedSet& set : rules_.sets) asking_.pick(set.chooser);
+    for (const Exempting& rule : rules_.exempting)
+      exemptions_.push_back(exemption_of(rule, asking_));
+    make_levels();
+    for (const AllowedRule& rule : rules_.allowed)
+      allowed_.push_back({rule.name, asking_.pick(rule.a), asking_.pick(rule.b), rule.region_mm,
+                          rule.cavity, rule.max_depth_mm});
+    make_disciplines();
+    Plan plan;
+    for (const TestRule& test : rules_.tests)
+      if (test.enabled) plan.tests.push_back(planned(test));
+    if (asking_.error()) return *asking_.error();
+    plan.diagnostics = std::move(asking_.diagnostics());
+    return plan;
+  }
+
+ private:
+  void make_levels() {
+    if (!rules_.obstruction && !rules_.insulation) return;
+    clash::Levels& levels = levels_.emplace();
+    levels.object.assign(asking_.objects(), Level::hard);
+    levels.no_obstruction_rule = std::string(kNoObstructionRule);
+    const auto leave_out = [&](Level a, Level b, std::string_view rule) {
+      const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+      levels.left_out[i][j] = levels.left_out[j][i] = rule;
+    };
+    if (rules_.obstruction) {
+      levels.obstruction_bodies = rules_.obstruction->bodies;
+      read_levels(*rules_.obstruction, levels.object);
+      if (!rules_.obstruction->soft_against_soft) leave_out(Level::soft, Level::soft, kSoftRule);
+    } else {
+      levels.obstruction_bodies = Level::hard;
+    }
+    if (!rules_.insulation) return;
+    if (!rules_.insulation->against_insulation)
+      leave_out(Level::insulation, Level::insulation, kInsulationRule);
+    if (!rules_.insulation->against_soft)
+      leave_out(Level::insulation, Level::soft, kInsulationSoftRule);
+  }
+
+  void read_levels(const ObstructionRule& rule, std::vector<Level>& levels) {
+    bool some = rule.soft.has_value() || rule.none.has_value();
+    for (std::size_t o = 0; o < levels.size(); ++o) {
+      const model::Object& object = asking_.model().objects[o];
+      for (const model::Body& body :
+           std::span(asking_.model().bodies).subspan(object.first_body, object.body_count))
+        some = some || body.category == model::Category::obstruction;
+      for (const auto& [name, text] : object.attributes) {
+        if (name != rule.attribute) continue;
+        some = true;
+        // "none" is a level here, which values_of() takes for no value.
+        const std::size_t first = text.find_first_not_of(" '\""),
+                          last = text.find_last_not_of(" '\"");
+        const auto level = first == std::string::npos
+                               ? std::nullopt
+                               : level_of(std::string_view(text).substr(first, last - first + 1));
+        if (level)
+          levels[o] = *level;
+        else
+          asking_.diagnostics().add(Severity::warning, "obstruction-not-known",
+                                    "the attribute '" + name + "' is '" + text +
+                                        "', not 0, 1 or 2; the object counts as hard",
+                                    object.id);
+        break;
+      }
+    }
+    if (!some)
+      asking_.nothing(rules_.file + ": [obstruction]",
+                      "no object has the attribute '" + rule.attribute +
+                          "' and there are no obstruction volumes");
+    apply(rule.soft, Level::soft, levels);
+    apply(rule.none, Level::none, levels);
+  }
+
+  void apply(const std::optional<Chooser>& chooser, Level level, std::vector<Level>& levels) {
+    if (!chooser) return;
+    const std::vector<bool> picked = asking_.pick(*chooser);
+    for (std::size_t o = 0; o < levels.size(); ++o)
+      if (picked[o]) levels[o] = level;
+  }
+
+  /// An object counts for the first discipline that picks it; how often others pick it too is told.
+  void make_disciplines() {
+    discipline_.assign(asking_.objects(), kNoLabel);
+    for (std::uint32_t d = 0; d < rules_.disciplines.size(); ++d) {
+      const std::vector<bool> picked = asking_.pick(rules_.disciplines[d].chooser);
+      std::map<std::uint32_t, std::uint64_t> taken;  // by earlier disciplines
+      for (std::size_t o = 0; o < picked.size(); ++o) {
+        if (!picked[o]) continue;
+        if (discipline_[o] == kNoLabel)
+          discipline_[o] = d;
+        else
+          ++taken[discipline_[o]];
+      }
+      for (const auto& [earlier, count] : taken)
+        asking_.diagnostics().add(
+            Severity::note, "in-several-disciplines",
+            std::to_string(count) + (count == 1 ? " object counts" : " objects count") + " for '" +
+                rules_.disciplines[earlier].name + "', which comes first",
+            rules_.disciplines[d].chooser.where);
+    }
+    const auto none = std::count(discipline_.begin(), discipline_.end(), kNoLabel);
+    if (rules_.matrix && none > 0)
+      asking_.diagnostics().add(Severity::warning, "in-no-discipline",
+                                std::to_string(none) + (none == 1 ? " object is" : " objects are") +
+                                    " of no discipline and not checked by the matrix",
+                                rules_.file + ": [[discipline]]");
+  }
+
+  PlannedTest planned(const TestRule& test) {
+    PlannedTest planned;
+    planned.name = test.name;
+    planned.options.clearance_mm = test.tolerances.clearance_mm;
+    planned.options.touch_gap_mm = test.tolerances.touch_gap_mm;
+    planned.options.touch_overlap_mm = test.tolerances.touch_overlap_mm;
+    planned.options.thickness_cap = test.tolerances.thickness_cap;
+    planned.options.contact_distance_mm = test.contact_distance_mm;
+    planned.policy = policy(test);
+    if (test.matrix) {
+      add_matrix(planned);
+      return planned;
+    }
+    planned.sets.in_a = asking_.pick(test.a);
+    planned.sets.in_b = asking_.pick(test.b);
+    if (test.a) planned.sets.name_a = test.a->selection.text();
+    if (test.b) planned.sets.name_b = test.b->selection.text();
+    return planned;
+  }
+
+  [[nodiscard]] clash::Policy policy(const TestRule& test) const {
+    const auto follows = [&](std::string_view rule) {
+      return std::find(test.without.begin(), test.without.end(), rule) == test.without.end();
+    };
+    clash::Policy policy;
+    for (const clash::Exemption& e : exemptions_)
+      if (follows(e.rule)) policy.exemptions.push_back(e);
+    for (const clash::Allowed& a : allowed_)
+      if (follows(a.rule)) policy.allowed.push_back(a);
+    policy.levels = levels_;
+    if (!policy.levels) return policy;
+    for (auto& row : policy.levels->left_out)
+      for (std::string& rule : row)
+        if (!follows(rule)) rule.clear();
+    if (!follows(kNoObstructionRule))
+      std::replace(policy.levels->object.begin(), policy.levels->object.end(), Level::none,
+                   Level::hard);
+    return policy;
+  }
+
+  void add_matrix(PlannedTest& planned) const {
+    clash::Matrix matrix;
+    matrix.rule = std::string(kMatrixRule);
+    const std::size_t n = rules_.disciplines.size();
+    for (const NamedSet& d : rules_.disciplines) matrix.disciplines.push_back(d.name);
+    matrix.discipline = discipline_;
+    matrix.cells.assign(n * n, rules_.matrix->missing_checked ? clash::Matrix::kDefault
+                                                              : clash::Matrix::kNotChecked);
+    for (const CellRule& cell : rules_.matrix->cells) {
+      std::uint32_t value = clash::Matrix::kDefault;
+      if (!cell.checked) value = clash::Matrix::kNotChecked;
+      if (cell.tolerances) {
+        value = static_cast<std::uint32_t>(planned.policy.tolerances.size());
+        planned.policy.tolerances.push_back(*cell.tolerances);
+      }
+      matrix.cells[cell.a * n + cell.b] = matrix.cells[cell.b * n + cell.a] = value;
+    }
+    planned.policy.matrix = std::move(matrix);
+    planned.sets.in_a.resize(discipline_.size());
+    for (std::size_t o = 0; o < discipline_.size(); ++o)
+      planned.sets.in_a[o] = discipline_[o] != kNoLabel;
+    planned.sets.in_b = planned.sets.in_a;
+    planned.sets.name_a = planned.sets.name_b = "the disciplines";
+  }
+
+  const RuleFile& rules_;
+  Asking asking_;
+  std::vector<clash::Exemption> exemptions_;
+  std::vector<clash::Allowed> allowed_;
+  std::optional<clash::Levels> levels_;
+  std::vector<std::uint32_t> discipline_;
+};
+
+}  // namespace
+
+Result<Rules> Rules::parse(std::string_view text, std::string_view file) {
+  Result<RuleFile> parsed = parse_rules(text, file);
+  if (!parsed) return parsed.error();
+  return Rules(std::make_shared<const RuleFile>(std::move(*parsed)));
+}
+
+Result<Rules> Rules::read(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error || !std::filesystem::is_regular_file(file))
+    return Error{ErrorCode::input, "cannot be read: it is no file", file.string(),
+                 "give the name of a rules file"};
+  if (size > kLargestFile)
+    return Error{ErrorCode::input, "is larger than any rules file", file.string(),
+                 "give a rules file; models come before --rules"};
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream)
+    return Error{ErrorCode::input, "cannot be read", file.string(), "check who may read it"};
+  return parse(text, file.filename().string());
+}
+
+model::SceneOptions Rules::scene_options() const {
+  model::SceneOptions options;
+  bool first = true;
+  const auto refine = [&](const clash::Tolerances& t) {
+    const double sag = clash::scene_options(clash::Options{.clearance_mm = t.clearance_mm,
+                                                           .touch_gap_mm = t.touch_gap_mm,
+                                                           .touch_overlap_mm = t.touch_overlap_mm})
+                           .sag_mm;
+    options.sag_mm = first ? sag : std::min(options.sag_mm, sag);
+    first = false;
+  };
+  for (const TestRule& test : file_->tests)
+    if (test.enabled) refine(test.tolerances);
+  if (file_->matrix)
+    for (const CellRule& cell : file_->matrix->cells)
+      if (cell.tolerances) refine(*cell.tolerances);
+  options.obstruction = file_->obstruction && file_->obstruction->bodies != Level::none;
+  options.insulation = file_->insulation.has_value();
+  return options;
+}
+
+Result<Plan> Rules::plan(const model::Scene& scene, const parallel::Context& context) const {
+  return Planner(*file_, scene, context).run();
+}
+
+}  // namespace strake::rules

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "rules/document.hpp"
+#include "strake/clash/policy.hpp"
+#include "strake/model/selection.hpp"
+
+namespace strake::rules {
+
+/// A selection and what messages call its place: "steel.toml, line 7: [sets] 'hull'".
+struct Chooser {
+  model::Selection selection;
+  std::string where;
+};
+
+struct NamedSet {
+  std::string name;
+  Chooser chooser;
+};
+
+struct TestRule {
+  std::string name;
+  bool enabled = true;
+  bool matrix = false;
+  std::optional<Chooser> a, b;  ///< absent: everything
+  clash::Tolerances tolerances;
+  double contact_distance_mm = -1;
+  std::vector<std::string> without;  ///< rules that this test does not follow
+};
+
+struct CellRule {
+  std::uint32_t a = 0, b = 0;  ///< disciplines
+  bool checked = true;
+  std::optional<clash::Tolerances> tolerances;  ///< absent: those of the test
+};
+
+struct MatrixRule {
+  bool missing_checked = true;
+  std::vector<CellRule> cells;
+};
+
+/// Objects of one unit are no pair.
+struct UnitRule {
+  std::string attribute;  ///< empty: by selection only
+  struct Group {
+    std::int64_t number = 0;
+    Chooser chooser;
+  };
+  std::vector<Group> groups;  ///< the first that picks an object decides
+};
+
+/// Objects of one assembly are no pair; which of its groups that is, is said in one of three ways.
+struct AssemblyRule {
+  std::uint32_t level = 0;  ///< 1: the outermost group of the path; 0: not said
+  bool parent = false;
+  std::string group;  ///< a pattern of names: the innermost group that matches
+  bool across_files = false;
+};
+
+/// Objects whose attributes name each other, or a common node, are no pair.
+struct ConnectedRule {
+  std::vector<std::string> attributes;
+  bool node = false;    ///< equal values connect; otherwise a value is the partner's name or id
+  bool groups = false;  ///< the names of a partner's groups count as its own
+  std::string separator;
+};
+
+struct AttributeRule {
+  std::string attribute;
+};
+
+struct FileRule {};
+
+struct ExemptRule {
+  Chooser a, b;
+};
+
+struct Exempting {
+  std::string name, where;
+  std::optional<Chooser> among;  ///< only objects that this picks
+  std::variant<UnitRule, AssemblyRule, ConnectedRule, AttributeRule, FileRule, ExemptRule> rule;
+};
+
+struct ObstructionRule {
+  std::string attribute = "OBST";
+  clash::Level bodies = clash::Level::soft;  ///< none: obstruction volumes are not placed
+  bool soft_against_soft = true;
+  std::optional<Chooser> soft, none;
+};
+
+struct InsulationRule {
+  bool against_insulation = true, against_soft = true;
+};
+
+struct AllowedRule {
+  std::string name;
+  Chooser a, b;
+  std::optional<geometry::Box3d> region_mm;
+  std::vector<clash::HalfSpace> cavity;
+  std::optional<double> max_depth_mm;
+};
+
+/// What a rules file says.
+struct RuleFile {
+  std::string file;
+  std::vector<NamedSet> sets, disciplines;
+  std::optional<MatrixRule> matrix;
+  std::vector<TestRule> tests;
+  std::vector<Exempting> exempting;
+  std::optional<ObstructionRule> obstruction;
+  std::optional<InsulationRule> insulation;
+  std::vector<AllowedRule> allowed;
+};
+
+// What reports call the rules that have no name in the file.
+inline constexpr std::string_view kMatrixRule = "matrix";
+inline constexpr std::string_view kNoObstructionRule = "no obstruction";
+inline constexpr std::string_view kSoftRule = "soft against soft";
+inline constexpr std::string_view kInsulationRule = "insulation against insulation";
+inline constexpr std::string_view kInsulationSoftRule = "insulation against soft";
+
+[[nodiscard]] Result<RuleFile> parse_rules(std::string_view text, std::string_view file);
+
+}  // namespace strake::rules

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rules/document.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::rules {
+
+/// A file on its way through the reader, and the first thing found wrong with it.
+class Reading {
+ public:
+  explicit Reading(std::string file) : file_(std::move(file)) {}
+
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] bool good() const { return !error_.has_value(); }
+  [[nodiscard]] const Error& error() const { return *error_; }
+  void fault(Place at, std::string message, std::string mend) {
+    if (good()) error_ = fault_at(file_, at, std::move(message), std::move(mend));
+  }
+  void fault(Error error) {
+    if (good()) error_ = std::move(error);
+  }
+
+ private:
+  std::string file_;
+  std::optional<Error> error_;
+};
+
+/// The keys of a table, each asked for by name and type. What is missing reads as nothing; a wrong
+/// type is a fault of the reading, and so is, in the end, a key that nobody asked for.
+class TableReader {
+ public:
+  /// `what` names the table in messages, as "[[test]]". A value that is no table is a fault.
+  TableReader(Reading& reading, const Value& table, std::string what);
+  ~TableReader() { refuse_other_keys(); }
+  TableReader(const TableReader&) = delete;
+  TableReader& operator=(const TableReader&) = delete;
+  TableReader(TableReader&&) = delete;
+  TableReader& operator=(TableReader&&) = delete;
+
+  [[nodiscard]] Place at() const { return at_; }
+  [[nodiscard]] const std::string& what() const { return what_; }
+  /// Puts a name to it in messages that follow.
+  void call(const std::string& name) { what_ += " '" + name + "'"; }
+
+  /// The value, whatever its type.
+  const Value* value(std::string_view key);
+  /// The keys not asked for yet, which are names that the user chose; asks for all of them.
+  std::vector<const Entry*> others();
+
+  std::optional<std::string> text(std::string_view key);
+  std::optional<bool> flag(std::string_view key);
+  std::optional<std::int64_t> whole(std::string_view key);
+  /// A text with a unit, as "25mm"; 0 needs none. From 0 to a kilometre.
+  std::optional<double> tolerance_mm(std::string_view key);
+  /// One of some words.
+  std::optional<std::string> word(std::string_view key, std::span<const std::string_view> words);
+  /// One text or a list of them.
+  std::vector<std::string> texts(std::string_view key);
+  /// Three lengths with their units, or three plain numbers.
+  std::optional<geometry::Vec3d> point_mm(std::string_view key);
+  std::optional<geometry::Vec3d> direction(std::string_view key);
+  /// A table, or the tables of a [[list]]; empty where it is missing.
+  const Value* table(std::string_view key);
+  std::vector<const Value*> tables(std::string_view key);
+
+  /// The text of a key that must be there and not be empty.
+  std::string required_text(std::string_view key);
+
+ private:
+  void refuse_other_keys();
+  void wrong_type(const Value& value, std::string_view key, std::string_view wanted);
+  template <class T>
+  const T* held(std::string_view key, std::string_view wanted);
+  std::optional<double> length_mm(const Value& value, std::string_view key);
+  const Array* three(std::string_view key);
+
+  Reading& reading_;
+  const Table* table_ = nullptr;
+  Place at_;
+  std::string what_;
+  std::vector<bool> asked_;
+  std::vector<std::string> known_;  ///< keys asked for, there or not
+};
+
+}  // namespace strake::rules
