@@ -113,6 +113,16 @@ class Schemas(unittest.TestCase):
                 self.assertEqual(sum(r['group'] == number for r in grouped['results']), size)
         self.assertEqual([file['label'] for file in empty['files']], ['odd.obj', 'ship.glb'])
 
+    def test_clash_by_rules(self):
+        (self.folder / 'r.toml').write_text(
+            '[[discipline]]\nname = "pipes"\nselect = "PIP*"\n[[discipline]]\nname = "rest"\nselect = "*"\n'
+            '[matrix.cells.rest]\nrest = "not checked"\n[obstruction]\n[insulation]\n'
+            '[[allowed]]\nname = "seats"\na = "PIP*"\nb = "SUP*"\n[[test]]\nname = "all"\n', encoding='utf-8')
+        report = self.follows(self.run_strake('clash', 'ship.glb', '--rules', 'r.toml', '--list-exempted', '--json'),
+                              'clash')
+        self.assertGreater(len(report['exempted']), 0)
+        self.assertGreater(sum('allowed' in result for result in report['results']), 0)
+
     def test_view(self):
         self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json')
         self.follows((self.folder / 'view.json').read_text(encoding='utf-8'), 'view')

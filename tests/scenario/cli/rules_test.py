@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""rules_test.py STRAKE EXAMPLES: rules files on whole models, against what plain runs and the files say."""
+import csv
+import io
+import json
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+STRAKE = EXAMPLES = None
+
+
+def cubes(*places):
+    """An OBJ file: cubes of side 100 at places along x, named c0, c1 ..."""
+    faces = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
+    lines = []
+    for number, at in enumerate(places):
+        lines.append(f'o c{number}')
+        lines += [f'v {at + dx * 100} {dy * 100} {dz * 100}'
+                  for dz in (0, 1) for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        lines += ['f ' + ' '.join(str(corner + 8 * number) for corner in face) for face in faces]
+    return '\n'.join(lines) + '\n'
+
+
+class Rules(unittest.TestCase):
+    def setUp(self):
+        self.keep = tempfile.TemporaryDirectory(prefix='strake-rules-')
+        self.folder = Path(self.keep.name)
+
+    def tearDown(self):
+        self.keep.cleanup()
+
+    def run_strake(self, *arguments):
+        return subprocess.run([STRAKE, *map(str, arguments)], capture_output=True, text=True, timeout=200,
+                              cwd=self.folder, check=False)
+
+    def report(self, *arguments):
+        done = self.run_strake('clash', *arguments, '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding='utf-8')
+        return name
+
+
+class Small(Rules):
+    SETTINGS = ['--unit', 'mm', '--up-axis', 'z']
+
+    def test_what_is_allowed_fails_nothing_and_keeps_its_class(self):
+        self.write('m.obj', cubes(0, 90))
+        self.write('r.toml', '[[allowed]]\nname = "glued"\na = "c0"\nb = "c1"\nmax_depth = "11mm"\n')
+        run = ['clash', 'm.obj', *self.SETTINGS, '--fail-on', 'contact']
+        self.assertEqual(self.run_strake(*run).returncode, 1)
+        done = self.run_strake(*run, '--rules', 'r.toml', '--stats')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('0 hits, 0 contacts, 0 clearance violations, 1 allowed', done.stdout)
+        self.assertRegex(done.stderr, r'pairs that may be allowed\s+1\n')
+        result, = self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')['results']
+        self.assertEqual((result['class'], result['allowed'], result['d_mm']), ('HIT', 'glued', -10))
+
+    def test_exempted_pairs_are_listed_where_asked_for(self):
+        self.write('m.obj', cubes(0, 90, 180))
+        self.write('r.toml', '[[exempt]]\nname = "a pair"\na = "c0"\nb = "c1"\n')
+        run = ['m.obj', *self.SETTINGS, '--rules', 'r.toml']
+        plain = self.report(*run)
+        self.assertNotIn('exempted', plain)
+        self.assertEqual(plain['tests'][0]['exempted'], [{'rule': 'a pair', 'pairs': 1}])
+        listed = self.report(*run, '--list-exempted')
+        pair, = listed['exempted']
+        self.assertEqual((pair['rule'], pair['a']['name'], pair['b']['name']), ('a pair', 'c0', 'c1'))
+        self.assertEqual(listed['results'], plain['results'])
+        self.assertEqual(self.run_strake('clash', *run, '--list-exempted', '-o', 'x.csv').returncode, 0)
+        rows = list(csv.DictReader(io.StringIO((self.folder / 'x.csv').read_text(encoding='utf-8'))))
+        self.assertEqual([(row['a_name'], row['b_name'], row['class'], row['exempted_by']) for row in rows],
+                         [('c1', 'c2', 'HIT', ''), ('c0', 'c1', 'EXEMPTED', 'a pair')])
+
+    def test_faults_of_a_rules_file_are_told_before_a_model_is_read(self):
+        self.write('r.toml', '[defaults]\nclearance = 25\n')
+        done = self.run_strake('clash', 'missing.obj', '--rules', 'r.toml')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("r.toml, line 2, column 13: 'clearance' of [defaults]", done.stderr)
+        self.assertNotIn('missing.obj', done.stderr)
+        done = self.run_strake('clash', 'missing.obj', '--rules', 'none.toml')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('none.toml', done.stderr)
+
+    def test_the_command_line_leaves_to_the_file_what_the_file_says(self):
+        self.write('r.toml', '')
+        for option in (['--clearance', '1mm'], ['--touch-gap', '1mm'], ['--touch-overlap', '1mm'],
+                       ['--thickness-cap', 'off'], ['--contact-distance', '1mm'], ['--a', 'x'], ['--b', 'x'],
+                       ['--self']):
+            done = self.run_strake('clash', 'missing.obj', '--rules', 'r.toml', *option)
+            self.assertEqual(done.returncode, 2, option)
+            self.assertIn('excludes', done.stderr)
+        done = self.run_strake('clash', 'missing.obj', '--list-exempted')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('--rules', done.stderr)
+        self.write('rules.json', '')
+        self.write('m.obj', cubes(0))
+        done = self.run_strake('clash', 'm.obj', '--rules', 'rules.json', '-o', 'rules.json')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('overwritten', done.stderr)
+
+    def test_a_rule_that_matches_nothing_is_named_in_both_places(self):
+        self.write('m.obj', cubes(0))
+        self.write('r.toml', '[[exempt]]\nname = "old"\na = "c0"\nb = "ghost*"\n')
+        done = self.run_strake('clash', 'm.obj', '--rules', 'r.toml', '--json')
+        said = "r.toml, line 4: [[exempt]] 'old', b: 'ghost*' picks no object"
+        self.assertIn('rule-matches-nothing: ' + said, done.stderr)
+        self.assertIn(said, [f"{m['where']}: {m['message']}" for m in json.loads(done.stdout)['messages']])
+
+
+def paths_of_glb(file):
+    """Path of each node with a mesh, by its name, from the file itself."""
+    data = file.read_bytes()
+    document = json.loads(data[20:20 + struct.unpack('<I', data[12:16])[0]])
+    paths = {}
+
+    def walk(node, above):
+        here = document['nodes'][node]
+        if 'mesh' in here:
+            paths[here['name']] = above
+        for child in here.get('children', []):
+            walk(child, above + (here['name'],))
+
+    for root in document['scenes'][0]['nodes']:
+        walk(root, ())
+    return paths
+
+
+class Ship(Rules):
+    """The example file on a generated ship, against a plain run and a second reading of the rules."""
+
+    SUPPORTS, SEATS = re.compile('SUP-|HGR-'), re.compile('FND-|BED-')
+    ENGINE = re.compile('(ENG|CYL|MAN|MPT|MNT|BED)-')
+    CLEARANCE = {('piping', 'steel'): 10, ('others', 'steel'): 0}
+
+    def setUp(self):
+        super().setUp()
+        done = self.run_strake('generate', 'ship', '--objects', 1200, '--seed', 7, '-o', 'ship.glb')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.paths = paths_of_glb(self.folder / 'ship.glb')
+        self.rules = EXAMPLES / 'ship_rules.toml'
+
+    def discipline(self, name):
+        groups = self.paths[name]
+        if 'STRUCTURE' in groups or 'HULL' in groups:
+            return 'steel'
+        return 'piping' if 'PIPING' in groups else 'machinery' if 'MACHINERY' in groups else 'others'
+
+    def exemption(self, a, b):
+        disciplines = sorted((self.discipline(a), self.discipline(b)))
+        if disciplines == ['steel', 'steel']:
+            return 'matrix'
+        both = [self.paths[name] for name in (a, b) if self.ENGINE.match(name) and 'MACHINERY' in self.paths[name]]
+        if len(both) == 2 and both[0] == both[1]:
+            return 'one engine'
+        return 'flanges of one joint' if a.startswith('FLG-') and b.startswith('FLG-') else None
+
+    def allowance(self, a, b, result):
+        def between(test_a, test_b):
+            return test_a(a) and test_b(b) or test_a(b) and test_b(a)
+
+        def piping(name):
+            return self.discipline(name) == 'piping'
+
+        if between(piping, lambda n: piping(n) and self.SUPPORTS.match(n)) and result['d_range_mm'][0] >= -0.5:
+            return 'pipes on their supports'
+        x, y, z = result['point_mm']
+        inside = -1000 <= x <= 500000 and -50000 <= y <= 50000 and 0 <= z <= 6000
+        if inside and result['class'] != 'HIT' and between(lambda n: n.startswith('MNT-'), self.SEATS.match):
+            return 'seats of engines'
+        return None
+
+    def expected(self):
+        results, exempted = {}, {}
+        for r in self.report('ship.glb', '--clearance', '25mm')['results']:
+            a, b = r['a']['name'], r['b']['name']
+            rule = self.exemption(a, b)
+            disciplines = tuple(sorted((self.discipline(a), self.discipline(b))))
+            if rule:
+                exempted[a, b] = rule
+            elif r['class'] != 'CLEARANCE_VIOLATION' or r['d_mm'] < self.CLEARANCE.get(disciplines, 25):
+                results[a, b] = (r['class'], r['d_mm'], self.allowance(a, b, r))
+        return results, exempted
+
+    def test_the_example_says_what_a_second_reading_says(self):
+        report = self.report('ship.glb', '--rules', self.rules, '--list-exempted')
+        self.assertEqual([test['name'] for test in report['tests']], ['disciplines', 'pipes among themselves'])
+        results, exempted = self.expected()
+        got = {(r['a']['name'], r['b']['name']): (r['class'], r['d_mm'], r.get('allowed'))
+               for r in report['results'] if r['test'] == 0}
+        self.assertEqual(got, results)
+        listed = {(p['a']['name'], p['b']['name']): p['rule'] for p in report['exempted'] if p['test'] == 0}
+        # Pairs within reach that clash nowhere are exempted as well.
+        self.assertEqual({pair: listed.get(pair) for pair in exempted}, exempted)
+        self.assertEqual({pair: self.exemption(*pair) for pair in listed}, listed)
+        test = report['tests'][0]
+        for rule in test['exempted']:
+            self.assertEqual(rule['pairs'], list(listed.values()).count(rule['rule']))
+            self.assertGreater(rule['pairs'], 0)
+        allowed = [label for _, _, label in results.values()]
+        for rule in test['allowed']:
+            self.assertEqual(rule['pairs'], allowed.count(rule['rule']))
+            self.assertGreater(rule['pairs'], 0)
+        self.assertEqual(sum(test['counts'].values()), len(results))
+        for cell in test['matrix']['cells']:
+            inside = [r for pair, r in results.items()
+                      if sorted(map(self.discipline, pair)) == sorted((cell['a'], cell['b']))]
+            if cell['checked']:
+                self.assertEqual(sum(cell['counts'].values()), len(inside), cell)
+            else:
+                self.assertEqual(inside, [])
+        for r in report['results']:
+            if r['test'] == 0:
+                self.assertEqual(r['a']['discipline'], self.discipline(r['a']['name']))
+
+    def test_same_bytes_for_any_team_and_broad_phase(self):
+        expected = None
+        for more in ([], ['--threads', 1], ['--threads', 3], ['--threads', 64], ['--broad-phase', 'all-pairs']):
+            done = self.run_strake('clash', 'ship.glb', '--rules', self.rules, '--list-exempted', *more, '-o',
+                                   'x.json', '-o', 'x.csv')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            got = [(self.folder / name).read_bytes() for name in ('x.json', 'x.csv')]
+            expected = expected or got
+            self.assertEqual(got, expected, more)
+
+
+@unittest.skipUnless('STRAKE_DATA' in os.environ, 'STRAKE_DATA names no folder of real models')
+class RealModels(Rules):
+    def setUp(self):
+        super().setUp()
+        self.data = Path(os.environ['STRAKE_DATA']) / 'rvm'
+
+    def test_a_matrix_of_files_is_what_each_pair_of_files_gives(self):
+        names = ['ARCH', 'HVAC', 'MECH', 'SAFE']
+        files = {name: self.data / 'vegarringdal_rvm2glb' / f'HA-{name}.RVM' for name in names}
+        clearance = {('ARCH', 'HVAC'): '50mm', ('MECH', 'SAFE'): '3mm'}
+        rules = '[defaults]\nclearance = "10mm"\n'
+        for name in names:
+            rules += f'[[discipline]]\nname = "{name}"\nselect = "file = HA-{name}.RVM"\n'
+        rules += '[matrix]\n'
+        for name in names:
+            rules += f'[matrix.cells.{name}]\n{name} = "not checked"\n'
+            for (a, b), value in clearance.items():
+                rules += f'{b} = {{ clearance = "{value}" }}\n' if a == name else ''
+        self.write('ha.toml', rules)
+        report = self.report(*files.values(), '--rules', 'ha.toml')
+        shown = ('class', 'relation', 'd_mm', 'd_range_mm', 'point_mm', 'flags')
+        seen = 0
+        for i, a in enumerate(names):
+            for b in names[i + 1:]:
+                plain = self.report(files[a], files[b], '--clearance', clearance.get((a, b), '10mm'))
+                expected = [[r['a']['id'], r['b']['id'], *(r[key] for key in shown)] for r in plain['results']]
+                got = [[r['a']['id'], r['b']['id'], *(r[key] for key in shown)] for r in report['results']
+                       if (r['a']['discipline'], r['b']['discipline']) == (a, b)]
+                self.assertEqual(got, expected, (a, b))
+                seen += len(got)
+        self.assertEqual(seen, len(report['results']))
+        self.assertGreater(seen, 300)
+
+    def test_obstruction_levels_of_a_real_attribute_file(self):
+        model = self.data / 'equinor_rvmsharp' / 'WD1-PSUP.RVM'
+        levels, name = {}, None
+        for line in (model.with_suffix('.txt')).read_text(encoding='utf-8-sig', errors='replace').splitlines():
+            if line.strip().startswith('NEW '):
+                name = line.strip()[4:]
+            elif line.strip().startswith('OBST:='):
+                levels[name] = line.split(':=')[1].strip()
+        self.assertEqual(set(levels.values()), {'0', '1', '2'})
+        self.write('r.toml', '[obstruction]\nsoft_against_soft = false\n')
+        plain = self.report(model)['results']
+        ruled = self.report(model, '--rules', 'r.toml', '--list-exempted')
+        word = {'0': 'none', '1': 'soft'}
+
+        def level(side):
+            return word.get(levels.get(side['name'], '2'), 'hard')
+
+        def pair(r):
+            return r['a']['id'], r['b']['id']
+
+        kept = {pair(r) for r in plain if 'none' not in (level(r['a']), level(r['b'])) and
+                (level(r['a']), level(r['b'])) != ('soft', 'soft')}
+        self.assertEqual({pair(r) for r in ruled['results']}, kept)
+        self.assertLess(len(kept), len(plain))
+        self.assertEqual({pair(r) for r in plain} - kept, {pair(r) for r in plain} & {pair(r) for r in ruled['exempted']})
+        for r in ruled['results']:
+            self.assertEqual((r['a']['level'], r['b']['level']), (level(r['a']), level(r['b'])))
+
+
+if __name__ == '__main__':
+    STRAKE = Path(sys.argv.pop(1)).resolve()
+    EXAMPLES = Path(sys.argv.pop(1)).resolve()
+    unittest.main(verbosity=1)

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "strake/rules/rules.hpp"
+
+namespace strake::rules {
+namespace {
+
+std::string fault_of(std::string_view text) {
+  const auto rules = Rules::parse(text, "r.toml");
+  if (rules) return "";
+  EXPECT_EQ(rules.error().code, ErrorCode::input);
+  return rules.error().text();
+}
+
+TEST(RulesFile, AnEmptyFileIsOneTestOfEverything) { EXPECT_EQ(fault_of(""), ""); }
+
+TEST(RulesFile, EverythingThatThereIsCanBeWritten) {
+  EXPECT_EQ(fault_of(R"toml(
+[defaults]
+clearance = "10mm"
+touch_gap = "1mm"
+touch_overlap = 0
+thickness_cap = false
+contact_distance = "5um"
+within_file = false
+[sets]
+both = "set(one) or set('an other')"
+one = "type = box"
+"an other" = "type = mesh"
+[[discipline]]
+name = "hull"
+select = "set(both)"
+[[discipline]]
+name = "pipes"
+select = "PIPE*"
+[matrix]
+name = "by discipline"
+enabled = true
+missing = "not checked"
+clearance = "2cm"
+without = ["units"]
+[matrix.cells.hull]
+hull = "checked"
+pipes = { clearance = "1in", thickness_cap = true }
+[[test]]
+name = "all"
+[[test]]
+name = "later"
+enabled = false
+a = "set(one)"
+b = "*"
+touch_gap = "2mm"
+contact_distance = 0
+without = ["sleeves", "soft against soft"]
+[unit_groups]
+name = "units"
+attribute = "UNIT"
+[[unit_groups.group]]
+number = -1
+select = "a*"
+[[same_assembly]]
+name = "equipment"
+level = 3
+across_files = true
+among = "b*"
+[[same_assembly]]
+name = "owner"
+level = "parent"
+[[same_assembly]]
+name = "skid"
+group = "SKID*"
+[[connected]]
+name = "joints"
+attributes = ["HREF", "TREF"]
+by = "partner"
+groups = true
+separator = ","
+[[connected]]
+name = "nodes"
+attributes = "NODE"
+by = "node"
+[[same_attribute]]
+name = "system"
+attribute = "SYSTEM"
+[[exempt]]
+name = "not ours"
+a = "file = x.rvm"
+b = "file = y.rvm"
+[obstruction]
+attribute = ":OBST"
+volumes = "hard"
+soft_against_soft = false
+soft = "ACCESS*"
+none = "NOTE*"
+[insulation]
+against_insulation = false
+against_soft = false
+[[allowed]]
+name = "sleeves"
+a = "PIPE*"
+b = "SLEEVE*"
+max_depth = "5mm"
+region = { min = ["0m", 0, "-1m"], max = ["9m", "9m", "9m"] }
+cavity = [ { point = ["0m", "0m", "3m"], normal = [0, 0.5, -1] } ]
+[[allowed]]
+name = "embedded"
+a = "ANCHOR*"
+b = "WALL*"
+max_depth = "any"
+)toml"),
+            "");
+}
+
+TEST(RulesFile, FaultsNamePlaceAndMend) {
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {"a = = 1", "r.toml, line 1, column 5: "},
+      {"x = 1", "r.toml, line 1, column 1: the file has no key 'x' (its keys are sets, defaults"},
+      {"[defaults]\nclearence = \"1mm\"",
+       "r.toml, line 2, column 1: [defaults] has no key 'clearence' (its keys are clearance,"},
+      {"[defaults]\nclearance = 25",
+       "line 2, column 13: 'clearance' of [defaults] is a whole number, not a length with its "
+       "unit"},
+      {"[defaults]\nclearance = \"25\"",
+       "line 2, column 13: 'clearance' of [defaults]: the length '25' has no unit (write 25mm or"},
+      {"[defaults]\nclearance = \"-1mm\"", "is negative (write a length from 0 to 1km)"},
+      {"[defaults]\nclearance = \"2km\"", "is longer than a kilometre"},
+      {"[defaults]\nclearance = \"nanmm\"", "'clearance' of [defaults]"},
+      {"[defaults]\nthickness_cap = \"yes\"",
+       "'thickness_cap' of [defaults] is a text, not true or false"},
+      {"defaults = 3", "'defaults' is a whole number, not a table (write [defaults] with single"},
+      {"[test]\nname = \"x\"",
+       "'test' is not a list of tables (write [[test]] with double brackets"},
+      {"test = [1]", "'test' is not a list of tables"},
+      {"[sets]\na = 3", "line 2, column 5: [sets] 'a' is no selection"},
+      {"[sets]\na = \"type =\"", "r.toml, line 2, column 5, [sets] 'a', selection, column 7"},
+      {"[sets]\na = \"set(b)\"\nb = \"not set(a)\"", "line 2, column 1: the set 'a' needs itself"},
+      {"[sets]\na = \"set(c)\"", "no set is called 'c' (the sets are a)"},
+      {"[sets]\na = \"set(b)\"\nb = \"(\"", "r.toml, line 3, column 5, [sets] 'b', selection"},
+      {"[[test]]\na = \"set(x)\"\nname = \"t\"",
+       "line 2, column 5, [[test]] 't', a, selection, column 5: no set is called 'x' (write one"},
+      {"[[test]]\na = \"x\"", "line 1, column 1: [[test]] has no 'name'"},
+      {"[[test]]\nname = \"\"", "[[test]] has an empty 'name'"},
+      {"[[test]]\nname = \"t\"\n[[test]]\nname = \"t\"",
+       "line 3, column 1: the name 't' is given twice"},
+      {"[[test]]\nname = \"t\"\nenabled = false", "every test is disabled"},
+      {"[[test]]\nname = \"t\"\nwithout = [\"x\"]",
+       "'without' names a rule 'x' that is not there (there are no rules)"},
+      {"[[test]]\nname = \"t\"\nwithout = [1]",
+       "'without' of [[test]] 't' is a whole number, not a list of texts"},
+      {"[[discipline]]\nname = \"h\"\nselect = \"*\"", "disciplines without a matrix do nothing"},
+      {"[[discipline]]\nname = \"h\"\n[matrix]", "[[discipline]] 'h' has no 'select'"},
+      {"[matrix]", "a matrix without disciplines"},
+      {"[[discipline]]\nname = \"h\"\nselect = \"*\"\n[matrix]\nmissing = \"no\"",
+       "'missing' of [matrix] is 'no' (write one of \"checked\", \"not checked\")"},
+      {"[[discipline]]\nname = \"h\"\nselect = \"*\"\n[matrix.cells.x]\nh = \"checked\"",
+       "no discipline is called 'x' (the disciplines are h)"},
+      {"[[discipline]]\nname = \"h\"\nselect = \"*\"\n[matrix.cells.h]\nx = \"checked\"",
+       "line 5, column 1: no discipline is called 'x'"},
+      {"[[discipline]]\nname = \"h\"\nselect = \"*\"\n[matrix.cells.h]\nh = \"1mm\"",
+       "the cell 'h' is no rule for a pair of disciplines"},
+      {"[[discipline]]\nname = \"h\"\nselect = \"*\"\n[matrix.cells.h]\nh = { clear = 1 }",
+       "the cell 'h' has no key 'clear'"},
+      {"[[discipline]]\nname = \"h\"\nselect = \"*\"\n[[discipline]]\nname = \"p\"\nselect = "
+       "\"*\"\n"
+       "[matrix.cells.h]\np = \"checked\"\n[matrix.cells.p]\nh = \"checked\"",
+       "line 10, column 1: the cell of 'p' and 'h' is given twice"},
+      {"[unit_groups]", "[unit_groups] says no unit of anything"},
+      {"[unit_groups]\n[[unit_groups.group]]\nselect = \"*\"", "has no 'number'"},
+      {"[unit_groups]\n[[unit_groups.group]]\nnumber = 1.5\nselect = \"*\"", "not a whole number"},
+      {"[[same_assembly]]\nname = \"s\"", "takes either 'level' or 'group'"},
+      {"[[same_assembly]]\nname = \"s\"\nlevel = 1\ngroup = \"x\"",
+       "takes either 'level' or 'group'"},
+      {"[[same_assembly]]\nname = \"s\"\nlevel = 0", "'level' of [[same_assembly]] is no level"},
+      {"[[same_assembly]]\nname = \"s\"\nlevel = \"top\"", "is no level of the hierarchy"},
+      {"[[connected]]\nname = \"c\"", "[[connected]] names no attributes"},
+      {"[[connected]]\nname = \"c\"\nattributes = [\"A\"]\nby = \"luck\"",
+       "write one of \"partner\", \"node\""},
+      {"[[same_attribute]]\nname = \"c\"", "[[same_attribute]] 'c' has no 'attribute'"},
+      {"[[exempt]]\nname = \"c\"\na = \"x\"", "[[exempt]] 'c' has no 'b'"},
+      {"[obstruction]\nvolumes = \"hart\"", "write one of \"soft\", \"hard\", \"none\""},
+      {"[insulation]\nagainst_soft = 1", "not true or false"},
+      {"[[exempt]]\nname = \"soft against soft\"\na = \"x\"\nb = \"y\"\n[obstruction]",
+       "the name 'soft against soft' is given twice"},
+      {"[[allowed]]\nname = \"c\"\nb = \"x\"", "[[allowed]] 'c' has no 'a'"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\nmax_depth = \"deep\"",
+       "'max_depth' of [[allowed]]"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\nregion = { min = [0, 0, 0] }",
+       "'region' wants both corners"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\nregion = { min = [\"1m\", 0, 0], max = "
+       "[0, 0, 0] }",
+       "'region' ends before it begins"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\nregion = { min = [0, 0], max = [0, 0, 0] "
+       "}",
+       "is no list of three"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0], normal = "
+       "[0, 0, 0] } ]",
+       "has no direction"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0], normal = "
+       "[inf, 0, 0] } ]",
+       "not a list of three numbers"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0] } ]",
+       "a plane of a cavity wants a point and a normal"},
+      {"[defaults]\nclearance = 2020-01-01", "is a date or time, not a length"},
+  };
+  for (const auto& [text, fault] : faults)
+    EXPECT_NE(fault_of(text).find(fault), std::string::npos) << text << "\n" << fault_of(text);
+}
+
+TEST(RulesFile, HostileTextsEndInAnError) {
+  std::string nested = "[sets]\n";
+  for (int i = 0; i < 200; ++i)
+    nested += "s" + std::to_string(i) + " = \"set(s" + std::to_string(i + 1) + ")\"\n";
+  EXPECT_NE(fault_of(nested + "s200 = \"*\""), "");
+  EXPECT_NE(fault_of(std::string(100000, '[')), "");
+  EXPECT_NE(fault_of("a = " + std::string(100000, '[')), "");
+  EXPECT_NE(fault_of(std::string("a = \"\0\"", 7)), "");
+  EXPECT_NE(fault_of("a = \"\xFF\xFE\""), "");
+}
+
+TEST(RulesFile, IsReadFromAFile) {
+  namespace fs = std::filesystem;
+  const auto rules = Rules::read(STRAKE_EXAMPLE_RULES);
+  ASSERT_TRUE(rules) << rules.error().text();
+  const auto missing = Rules::read("no such rules.toml");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, ErrorCode::input);
+  EXPECT_NE(missing.error().text().find("no such rules.toml"), std::string::npos);
+  EXPECT_FALSE(Rules::read(fs::temp_directory_path()));
+}
+
+TEST(RulesFile, TheSceneIsAsFineAsTheFinestTest) {
+  EXPECT_EQ(Rules::parse("", "r").value().scene_options().sag_mm, 0.25);
+  const auto fine = Rules::parse(
+      "[[discipline]]\nname = \"h\"\nselect = \"*\"\n[matrix.cells.h]\nh = { touch_gap = \"0.4mm\" "
+      "}\n"
+      "[[test]]\nname = \"off\"\nenabled = false\ntouch_gap = 0\n[insulation]",
+      "r");
+  ASSERT_TRUE(fine) << fine.error().text();
+  EXPECT_EQ(fine.value().scene_options().sag_mm, 0.1);
+  EXPECT_TRUE(fine.value().scene_options().insulation);
+  EXPECT_FALSE(fine.value().scene_options().obstruction);
+  EXPECT_TRUE(Rules::parse("[obstruction]", "r").value().scene_options().obstruction);
+}
+
+}  // namespace
+}  // namespace strake::rules

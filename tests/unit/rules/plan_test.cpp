@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "strake/clash/policy.hpp"
+#include "strake/parallel/team.hpp"
+#include "strake/rules/rules.hpp"
+#include "support/clash_model.hpp"
+
+namespace strake::rules {
+namespace {
+
+using test::ClashModel;
+using Told = std::vector<std::string>;
+
+/// Cubes of side 100 in a row, each 10 into the next, in groups of a hierarchy.
+class Row {
+ public:
+  Row() { m_.model.files.push_back({"u.obj", "OBJ", "mm", "z", 1, 0}); }
+
+  Row& cube(const std::string& id, model::Attributes attributes = {},
+            model::GroupId parent = model::GroupId::none, std::uint32_t file = 0) {
+    const double x = 90.0 * static_cast<double>(m_.model.objects.size());
+    m_.box(id, {x, 0, 0}, {x + 100, 100, 100});
+    model::Object& object = m_.model.objects.back();
+    object.attributes = std::move(attributes);
+    object.parent = parent;
+    object.file = file;
+    return *this;
+  }
+  Row& category(model::Category category) {
+    m_.model.bodies.back().category = category;
+    return *this;
+  }
+  model::GroupId group(const std::string& name, model::GroupId parent = model::GroupId::none) {
+    m_.model.groups.push_back({name, parent});
+    return model::GroupId{static_cast<std::uint32_t>(m_.model.groups.size() - 1)};
+  }
+
+  struct Outcome {
+    std::vector<clash::Report> reports;
+    Diagnostics diagnostics;
+    std::vector<Told> told;  ///< per test: "a-b HIT", "a-b HIT by RULE"
+  };
+
+  [[nodiscard]] Outcome run(std::string_view rules_text,
+                            const parallel::Context& context = {}) const {
+    const auto rules = Rules::parse(rules_text, "r.toml");
+    if (!rules) {
+      ADD_FAILURE() << rules.error().text();
+      return {};
+    }
+    const auto scene = make_scene(m_.model, rules.value().scene_options(), context).value();
+    Plan plan = rules.value().plan(scene, context).value();
+    Outcome outcome;
+    for (const PlannedTest& test : plan.tests) {
+      auto report = detect(scene, test.sets, test.options, test.policy, context).value();
+      report.name = test.name;
+      outcome.told.push_back(told(report));
+      outcome.reports.push_back(std::move(report));
+    }
+    outcome.diagnostics = std::move(plan.diagnostics);
+    return outcome;
+  }
+  /// What the only test finds.
+  [[nodiscard]] Told hits(std::string_view rules) const {
+    const Outcome outcome = run(rules);
+    return outcome.told.size() == 1 ? outcome.told[0] : Told{"no single test"};
+  }
+
+ private:
+  [[nodiscard]] Told told(const clash::Report& report) const {
+    Told all;
+    for (const clash::Pair& p : report.pairs) {
+      all.push_back(m_.model.object(p.a).id + "-" + m_.model.object(p.b).id + " " +
+                    std::string(name(p.cls)));
+      if (p.allowed >= 0)
+        all.back() += " by " + report.allowed[static_cast<std::size_t>(p.allowed)].rule;
+    }
+    return all;
+  }
+  ClashModel m_;
+};
+
+std::vector<std::pair<std::string, std::uint64_t>> exempted(const clash::Report& report) {
+  std::vector<std::pair<std::string, std::uint64_t>> all;
+  for (const clash::Exempted& e : report.exempted) all.emplace_back(e.rule, e.pairs);
+  return all;
+}
+using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+std::string warned(const Diagnostics& diagnostics, std::string_view code) {
+  std::string all;
+  for (const Diagnostic& d : diagnostics.kept())
+    if (d.code == code) all += d.where + ": " + d.message + "\n";
+  return all;
+}
+
+TEST(RulesPlan, SeveralTestsInTheOrderOfTheFile) {
+  const Row row = Row().cube("a").cube("b").cube("c");
+  const auto outcome = row.run(R"toml(
+[sets]
+first = "a"
+[[test]]
+name = "second to none"
+a = "set(first)"
+b = "b"
+[[test]]
+name = "not today"
+enabled = false
+[[test]]
+name = "shallow"
+touch_overlap = "10.5mm"
+thickness_cap = false
+)toml");
+  ASSERT_EQ(outcome.told.size(), 2U);
+  EXPECT_EQ(outcome.reports[0].name, "second to none");
+  EXPECT_EQ(outcome.reports[0].set_a, "set(first)");
+  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT"}));
+  EXPECT_EQ(outcome.told[1], (Told{"a-b CONTACT", "b-c CONTACT"}));
+  EXPECT_EQ(outcome.reports[1].options.touch_overlap_mm, 10.5);
+  EXPECT_TRUE(outcome.diagnostics.kept().empty());
+}
+
+TEST(RulesPlan, OneSetAloneIsAgainstEverything) {
+  const Row row = Row().cube("a").cube("b").cube("c");
+  EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\na = \"a or b\""), (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\nb = \"a\""), (Told{"a-b HIT"}));
+}
+
+TEST(RulesPlan, UnitGroupsByAttributeAndByRule) {
+  const Row row = Row()
+                      .cube("a", {{"UNIT", "7"}})
+                      .cube("b", {{"UNIT", " '7' "}})
+                      .cube("c", {{"UNIT", "-3"}})
+                      .cube("d", {{"UNIT", "-3"}})
+                      .cube("e", {{"UNIT", "seven"}})
+                      .cube("f")
+                      .cube("g", {{"UNIT", "7"}});
+  auto outcome = row.run("[unit_groups]\nattribute = \"UNIT\"");
+  EXPECT_EQ(outcome.told[0], (Told{"b-c HIT", "c-d HIT", "d-e HIT", "e-f HIT", "f-g HIT"}))
+      << "a negative number is no unit";
+  EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"unit groups", 1}}));
+  EXPECT_EQ(warned(outcome.diagnostics, "unit-not-a-number"),
+            "e: the attribute 'UNIT' is 'seven'; the object is in no unit\n");
+  outcome = row.run(R"toml(
+[unit_groups]
+name = "skids"
+attribute = "UNIT"
+[[unit_groups.group]]
+number = -1
+select = "a"
+[[unit_groups.group]]
+number = 7
+select = "name ~ '^[acdf]$'"
+)toml");
+  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "d-e HIT", "e-f HIT"})) << "the first rule decides";
+  EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"skids", 3}}));
+}
+
+/// site/pump: a, b; site/pump itself holds c; site/fan: d, e; other/fan: f.
+Row assemblies() {
+  Row row;
+  const auto site = row.group("site"), other = row.group("other");
+  const auto pump = row.group("pump", site), fan = row.group("fan", site);
+  row.cube("a", {}, pump).cube("b", {}, pump).cube("pump", {}, site);
+  row.cube("d", {}, fan).cube("e", {}, fan).cube("f", {}, row.group("fan", other));
+  return row;
+}
+
+TEST(RulesPlan, SameAssemblyByLevel) {
+  const Row row = assemblies();
+  const auto with = [&](const std::string& keys) {
+    return row.hits("[[same_assembly]]\nname = \"one\"\n" + keys);
+  };
+  EXPECT_EQ(with("level = 2"), (Told{"pump-d HIT", "e-f HIT"})) << "a group that is an object too";
+  EXPECT_EQ(with("level = 1"), (Told{"e-f HIT"}));
+  EXPECT_EQ(with("level = 3"), (Told{"a-b HIT", "b-pump HIT", "pump-d HIT", "d-e HIT", "e-f HIT"}));
+  EXPECT_EQ(with("level = \"parent\""), (Told{"b-pump HIT", "pump-d HIT", "e-f HIT"}));
+  EXPECT_EQ(with("group = \"p*p\""), (Told{"pump-d HIT", "d-e HIT", "e-f HIT"}));
+  EXPECT_EQ(with("group = \"fan\"\nacross_files = true"),
+            (Told{"a-b HIT", "b-pump HIT", "pump-d HIT", "e-f HIT"}))
+      << "site/fan is not other/fan";
+  EXPECT_EQ(with("level = 1\namong = \"a or b or d\""),
+            (Told{"b-pump HIT", "pump-d HIT", "d-e HIT", "e-f HIT"}));
+}
+
+TEST(RulesPlan, SameAssemblyAcrossFiles) {
+  Row row;
+  const auto one = row.group("skid"), two = row.group("skid");
+  row.cube("a", {}, one, 0).cube("b", {}, two, 1);
+  const std::string rule = "[[same_assembly]]\nname = \"skid\"\nlevel = 1\n";
+  EXPECT_EQ(row.hits(rule), (Told{"a-b HIT"}));
+  EXPECT_EQ(row.hits(rule + "across_files = true"), Told{});
+}
+
+TEST(RulesPlan, ConnectedByThePartnersNameOrId) {
+  const Row row = Row()
+                      .cube("a", {{"TREF", "'/b'"}, {"HREF", "Nulref"}})
+                      .cube("b", {{"Name", "/b"}})
+                      .cube("c", {{"HREF", "b"}})
+                      .cube("d", {{"TREF", "unset"}, {"CREF", "x, e,y"}})
+                      .cube("e", {{"TREF", "Nulref"}})
+                      .cube("f", {{"TREF", "Nulref"}});
+  const std::string rule = "[[connected]]\nname = \"joints\"\nattributes = [\"HREF\", \"TREF\"]\n";
+  auto outcome = row.run(rule);
+  EXPECT_EQ(outcome.told[0], (Told{"c-d HIT", "d-e HIT", "e-f HIT"}));
+  EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"joints", 2}}));
+  outcome = row.run("[[connected]]\nname = \"c\"\nattributes = \"CREF\"\nseparator = \",\"");
+  EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"c", 1}}));
+}
+
+TEST(RulesPlan, ConnectedByACommonNode) {
+  const Row row = Row()
+                      .cube("a", {{"END1", "n1"}, {"END2", "n2"}})
+                      .cube("b", {{"END1", "n2"}})
+                      .cube("c", {{"END1", "n3"}})
+                      .cube("d", {{"END2", "d"}});
+  const std::string rule = "[[connected]]\nname = \"x\"\nattributes = [\"END1\", \"END2\"]\n";
+  EXPECT_EQ(row.hits(rule + "by = \"node\""), (Told{"b-c HIT", "c-d HIT"}));
+  EXPECT_EQ(row.hits(rule), (Told{"a-b HIT", "b-c HIT", "c-d HIT"}));
+}
+
+TEST(RulesPlan, ConnectedToAGroupOfThePartner) {
+  Row row;
+  const auto branch = row.group("/100-B-1");
+  row.cube("nozzle", {{"CREF", "/100-B-1"}}).cube("elbow", {}, branch).cube("tee", {}, branch);
+  const std::string rule = "[[connected]]\nname = \"x\"\nattributes = [\"CREF\"]\n";
+  EXPECT_EQ(row.hits(rule), (Told{"nozzle-elbow HIT", "elbow-tee HIT"}));
+  EXPECT_EQ(row.hits(rule + "groups = true"), (Told{"elbow-tee HIT"}));
+}
+
+TEST(RulesPlan, SameAttributeSameFileAndPairsOfSets) {
+  const Row row = Row()
+                      .cube("a", {{"SYSTEM", "hvac"}}, model::GroupId::none, 0)
+                      .cube("b", {{"SYSTEM", "hvac"}}, model::GroupId::none, 1)
+                      .cube("c", {{"SYSTEM", "none"}}, model::GroupId::none, 1)
+                      .cube("d", {{"SYSTEM", "none"}}, model::GroupId::none, 0);
+  EXPECT_EQ(row.hits("[[same_attribute]]\nname = \"s\"\nattribute = \"SYSTEM\""),
+            (Told{"b-c HIT", "c-d HIT"}));
+  const auto outcome = row.run("[defaults]\nwithin_file = false");
+  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "c-d HIT"}));
+  EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"within one file", 1}}));
+  EXPECT_EQ(row.hits("[[exempt]]\nname = \"x\"\na = \"file = t.obj\"\nb = \"file = u.obj\""),
+            (Told{"b-c HIT"}));
+}
+
+TEST(RulesPlan, ATestMayDoWithoutARule) {
+  const Row row = Row().cube("a").cube("b").cube("c");
+  const auto outcome = row.run(R"toml(
+[[exempt]]
+name = "ab"
+a = "a"
+b = "b"
+[[allowed]]
+name = "bc"
+a = "b"
+b = "c"
+max_depth = "any"
+[[test]]
+name = "strict"
+without = ["ab", "bc"]
+[[test]]
+name = "lenient"
+)toml");
+  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(exempted(outcome.reports[0]), Counts{});
+  EXPECT_EQ(outcome.told[1], (Told{"b-c HIT by bc"}));
+}
+
+TEST(RulesPlan, ObstructionLevels) {
+  const Row row = Row()
+                      .cube("a", {{"OBST", "2"}})
+                      .cube("b", {{"OBST", "1"}})
+                      .cube("c", {{"OBST", "Soft"}})
+                      .cube("d", {{"OBST", " 'NONE'"}})
+                      .cube("e", {{"OBST", "5"}})
+                      .cube("f")
+                      .cube("g")
+                      .category(model::Category::obstruction);
+  EXPECT_EQ(row.hits("").size(), 5U) << "off unless asked for, and no obstruction volumes";
+  auto outcome = row.run("[obstruction]");
+  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c HIT", "e-f HIT", "f-g HIT"}));
+  EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"no obstruction", 2}}));
+  EXPECT_EQ(outcome.reports[0].pairs[3].level_b, clash::Level::soft);
+  EXPECT_EQ(warned(outcome.diagnostics, "obstruction-not-known"),
+            "e: the attribute 'OBST' is '5', not 0, 1 or 2; the object counts as hard\n");
+  outcome = row.run(
+      "[obstruction]\nsoft_against_soft = false\nvolumes = \"none\"\nsoft = \"f\"\nnone = \"a\"");
+  EXPECT_EQ(outcome.told[0], (Told{"e-f HIT"}));
+  EXPECT_EQ(exempted(outcome.reports[0]),
+            (Counts{{"no obstruction", 3}, {"soft against soft", 1}}));
+  EXPECT_EQ(outcome.reports[0].pairs[0].level_b, clash::Level::soft);
+}
+
+TEST(RulesPlan, Insulation) {
+  const Row row = Row()
+                      .cube("a")
+                      .cube("b")
+                      .category(model::Category::insulation)
+                      .cube("c")
+                      .category(model::Category::insulation)
+                      .cube("d")
+                      .category(model::Category::obstruction);
+  EXPECT_EQ(row.hits(""), Told{});
+  EXPECT_EQ(row.hits("[insulation]"), (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits("[insulation]\nagainst_insulation = false"), (Told{"a-b HIT"}));
+  EXPECT_EQ(row.hits("[obstruction]\n[insulation]"), (Told{"a-b HIT", "b-c HIT", "c-d HIT"}));
+  EXPECT_EQ(row.hits("[obstruction]\n[insulation]\nagainst_soft = false"),
+            (Told{"a-b HIT", "b-c HIT"}));
+}
+
+TEST(RulesPlan, AllowedContacts) {
+  const Row row = Row().cube("a").cube("b").cube("c");
+  const auto outcome = row.run(R"toml(
+[[allowed]]
+name = "seat"
+a = "a or b or c"
+b = "*"
+max_depth = "10.5mm"
+region = { min = ["-1m", "-1m", "-1m"], max = ["1m", "1m", "1m"] }
+cavity = [ { point = ["150mm", 0, 0], normal = [1, 0, 0] } ]
+)toml");
+  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c HIT by seat"}));
+  EXPECT_EQ(outcome.reports[0].count_allowed, 1U);
+  EXPECT_EQ(outcome.reports[0].counters.allowed_pairs, 2U);
+}
+
+constexpr std::string_view kDisciplines = R"toml(
+[[discipline]]
+name = "hull"
+select = "a or b"
+[[discipline]]
+name = "pipes"
+select = "b or c"
+)toml";
+
+TEST(RulesPlan, DisciplinesTheFirstThatPicksAnObjectCounts) {
+  const Row row = Row().cube("a").cube("b").cube("c").cube("d");
+  const auto outcome = row.run(std::string(kDisciplines) + R"toml(
+[matrix]
+[matrix.cells.pipes]
+hull = { touch_overlap = "10.5mm", thickness_cap = false }
+)toml");
+  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c CONTACT"})) << "d is of no discipline";
+  EXPECT_EQ(outcome.reports[0].name, "matrix");
+  EXPECT_EQ(outcome.reports[0].disciplines[0].objects, 2U);
+  EXPECT_EQ(outcome.reports[0].disciplines[1].objects, 1U);
+  EXPECT_EQ(warned(outcome.diagnostics, "in-several-disciplines"),
+            "r.toml, line 7: [[discipline]] 'pipes', select: 1 object counts for 'hull', which "
+            "comes first\n");
+  EXPECT_EQ(warned(outcome.diagnostics, "in-no-discipline"),
+            "r.toml: [[discipline]]: 1 object is of no discipline and not checked by the matrix\n");
+}
+
+TEST(RulesPlan, MissingCellsAreAsStated) {
+  const Row row = Row().cube("a").cube("b").cube("c");
+  const std::string cells = "[matrix.cells.hull]\npipes = \"checked\"\n";
+  EXPECT_EQ(row.hits(std::string(kDisciplines) + cells), (Told{"a-b HIT", "b-c HIT"}));
+  const auto outcome =
+      row.run(std::string(kDisciplines) + "[matrix]\nmissing = \"not checked\"\n" + cells);
+  EXPECT_EQ(outcome.told[0], (Told{"b-c HIT"}));
+  EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"matrix", 1}}));
+}
+
+TEST(RulesPlan, WhatMatchesNothingIsNamed) {
+  const Row row = Row().cube("a").cube("b");
+  const auto outcome = row.run(R"toml(
+[sets]
+ghosts = "x*"
+[[test]]
+name = "t"
+a = "y*"
+[unit_groups]
+attribute = "UNIT"
+[[same_assembly]]
+name = "deep"
+level = 9
+[[connected]]
+name = "joints"
+attributes = "HREF"
+[[same_attribute]]
+name = "system"
+attribute = "SYS"
+[[exempt]]
+name = "old"
+a = "a"
+b = "z*"
+[obstruction]
+[[allowed]]
+name = "seat"
+a = "w*"
+b = "a"
+)toml");
+  const std::string all = warned(outcome.diagnostics, "rule-matches-nothing");
+  for (const char* line :
+       {"r.toml, line 3: [sets] 'ghosts': 'x*' picks no object\n",
+        "r.toml, line 6: [[test]] 't', a: 'y*' picks no object\n",
+        "r.toml, line 7: [unit_groups]: no object has the attribute 'UNIT'\n",
+        "r.toml, line 9: [[same_assembly]] 'deep': no object lies in such a group\n",
+        "r.toml, line 12: [[connected]] 'joints': no object has one of the attributes with a "
+        "value\n",
+        "r.toml, line 15: [[same_attribute]] 'system': no object has the attribute 'SYS'\n",
+        "r.toml, line 21: [[exempt]] 'old', b: 'z*' picks no object\n",
+        "r.toml: [obstruction]: no object has the attribute 'OBST' and there are no obstruction "
+        "volumes\n",
+        "r.toml, line 25: [[allowed]] 'seat', a: 'w*' picks no object\n"})
+    EXPECT_NE(all.find(line), std::string::npos) << line << "in\n" << all;
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 9) << all;
+  EXPECT_EQ(outcome.reports[0].diagnostics.count("empty-set"), 1U);
+}
+
+TEST(RulesPlan, TheSameForAnyTeam) {
+  const Row row = assemblies();
+  const std::string rules = std::string(kDisciplines) + R"toml(
+[matrix.cells.hull]
+hull = { clearance = "5mm" }
+[[same_assembly]]
+name = "one"
+level = 2
+[[test]]
+name = "all"
+)toml";
+  const auto first = row.run(rules);
+  for (const unsigned workers : {1U, 3U, 64U}) {
+    parallel::Team team(workers);
+    parallel::Context context;
+    context.team = &team;
+    const auto again = row.run(rules, context);
+    ASSERT_EQ(again.reports.size(), first.reports.size());
+    for (std::size_t t = 0; t < first.reports.size(); ++t) {
+      EXPECT_EQ(again.reports[t].hash, first.reports[t].hash);
+      EXPECT_EQ(exempted(again.reports[t]), exempted(first.reports[t]));
+    }
+    EXPECT_EQ(again.diagnostics.kept().size(), first.diagnostics.kept().size());
+  }
+}
+
+TEST(RulesPlan, CanBeCancelled) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {1, 1, 1});
+  const auto scene = make_scene(m.model, {}, {}).value();
+  std::stop_source source;
+  source.request_stop();
+  const auto plan = Rules::parse("[[exempt]]\nname = \"x\"\na = \"a\"\nb = \"b\"", "r")
+                        .value()
+                        .plan(scene, {.team = nullptr, .stop = source.get_token()});
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().code, ErrorCode::cancelled);
+}
+
+}  // namespace
+}  // namespace strake::rules
