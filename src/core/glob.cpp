@@ -68,6 +68,15 @@ bool match_one(std::string_view pattern, std::string_view text, std::size_t& use
   return pattern[0] == text[0];
 }
 
+/// Where a star may end at the earliest: at the character that must follow it, where that is a
+/// plain one of ASCII, which never stands within another.
+std::size_t next_start(std::string_view after_star, std::string_view text, std::size_t from) {
+  const char c = after_star[0];
+  const bool plain =
+      static_cast<unsigned char>(c) < 0x80U && std::string_view("*?[\\").find(c) == kNone;
+  return plain ? text.find(c, from) : from;
+}
+
 }  // namespace
 
 bool glob_match(std::string_view pattern, std::string_view text) {
@@ -79,7 +88,9 @@ bool glob_match(std::string_view pattern, std::string_view text) {
     std::size_t used_pattern = 0, used_text = 0;
     if (p < pattern.size() && pattern[p] == '*') {
       star = p++;
-      star_text = t;
+      if (p == pattern.size()) return true;
+      t = star_text = next_start(pattern.substr(p), text, t);
+      if (t == kNone) return false;
     } else if (p < pattern.size() &&
                match_one(pattern.substr(p), text.substr(t), used_pattern, used_text)) {
       p += used_pattern;
@@ -87,7 +98,8 @@ bool glob_match(std::string_view pattern, std::string_view text) {
     } else if (star != kNone) {
       p = star + 1;
       star_text += character(text.substr(star_text));
-      t = star_text;
+      t = star_text = next_start(pattern.substr(p), text, star_text);
+      if (t == kNone) return false;
     } else {
       return false;
     }

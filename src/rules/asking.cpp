@@ -35,20 +35,24 @@ bool says_none(std::string_view value) {
 
 }  // namespace
 
+Asking::Asking(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
+               const parallel::Context& context)
+    : scene_(scene) {
+  std::vector<model::Selection> selections;
+  for (const Chooser* chooser : choosers) selections.push_back(chooser->selection);
+  const auto answers = model::pick(selections, scene, context);
+  if (!answers) error_ = answers.error();
+  for (std::size_t c = 0; c < choosers.size(); ++c) {
+    std::vector<bool>& picked = picked_[choosers[c]];
+    picked.resize(objects());
+    for (std::size_t o = 0; answers && o < picked.size(); ++o) picked[o] = (*answers)[c][o] != 0;
+  }
+}
+
 std::vector<bool> Asking::pick(const Chooser& chooser) {
-  std::vector<bool> picked(objects());
-  if (error_) return picked;
-  const auto found = model::pick(chooser.selection, scene_, context_);
-  if (!found) {
-    error_ = found.error();
-    return picked;
-  }
-  bool some = false;
-  for (std::size_t o = 0; o < picked.size(); ++o) {
-    picked[o] = (*found)[o] != 0;
-    some = some || picked[o];
-  }
-  if (!some) nothing(chooser.where, "'" + chooser.selection.text() + "' picks no object");
+  std::vector<bool> picked = picked_.at(&chooser);
+  if (!error_ && std::find(picked.begin(), picked.end(), true) == picked.end())
+    nothing(chooser.where, "'" + chooser.selection.text() + "' picks no object");
   return picked;
 }
 
@@ -58,6 +62,38 @@ std::vector<bool> Asking::pick(const std::optional<Chooser>& chooser) {
 
 void Asking::nothing(const std::string& where, const std::string& what) {
   diagnostics_.add(Severity::warning, "rule-matches-nothing", what, where);
+}
+
+std::vector<const Chooser*> choosers_of(const RuleFile& rules) {
+  std::vector<const Chooser*> all;
+  const auto add = [&](const std::optional<Chooser>& chooser) {
+    if (chooser) all.push_back(&*chooser);
+  };
+  for (const NamedSet& set : rules.sets) all.push_back(&set.chooser);
+  for (const NamedSet& discipline : rules.disciplines) all.push_back(&discipline.chooser);
+  for (const TestRule& test : rules.tests) {
+    if (!test.enabled) continue;
+    add(test.a);
+    add(test.b);
+  }
+  for (const Exempting& rule : rules.exempting) {
+    add(rule.among);
+    if (const auto* const units = std::get_if<UnitRule>(&rule.rule))
+      for (const UnitRule::Group& group : units->groups) all.push_back(&group.chooser);
+    if (const auto* const exempt = std::get_if<ExemptRule>(&rule.rule)) {
+      all.push_back(&exempt->a);
+      all.push_back(&exempt->b);
+    }
+  }
+  if (rules.obstruction) {
+    add(rules.obstruction->soft);
+    add(rules.obstruction->none);
+  }
+  for (const AllowedRule& rule : rules.allowed) {
+    all.push_back(&rule.a);
+    all.push_back(&rule.b);
+  }
+  return all;
 }
 
 std::vector<std::string_view> values_of(const model::Object& object, std::string_view attribute) {

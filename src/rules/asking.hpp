@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,8 +19,9 @@ namespace strake::rules {
 /// was cancelled: what is answered after that is thrown away.
 class Asking {
  public:
-  Asking(const model::Scene& scene, const parallel::Context& context)
-      : scene_(scene), context_(context) {}
+  /// Asks all selections about all objects, in one pass. They must outlive this.
+  Asking(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
+         const parallel::Context& context);
 
   [[nodiscard]] const model::Scene& scene() const { return scene_; }
   [[nodiscard]] const model::Model& model() const { return *scene_.model; }
@@ -27,7 +29,7 @@ class Asking {
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
-  /// The objects that a selection picks; a warning where there are none.
+  /// The objects that one of the selections picks; a warning where there are none.
   std::vector<bool> pick(const Chooser& chooser);
   /// The same, and all objects where there is no selection.
   std::vector<bool> pick(const std::optional<Chooser>& chooser);
@@ -36,7 +38,7 @@ class Asking {
 
  private:
   const model::Scene& scene_;
-  const parallel::Context& context_;
+  std::map<const Chooser*, std::vector<bool>> picked_;
   Diagnostics diagnostics_;
   std::optional<Error> error_;
 };

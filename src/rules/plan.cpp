@@ -42,7 +42,7 @@ std::optional<Level> level_of(std::string_view value) {
 class Planner {
  public:
   Planner(const RuleFile& rules, const model::Scene& scene, const parallel::Context& context)
-      : rules_(rules), asking_(scene, context) {}
+      : rules_(rules), asking_(scene, choosers_of(rules), context) {}
 
   Result<Plan> run() {
     for (const NamedSet& set : rules_.sets) asking_.pick(set.chooser);

@@ -126,6 +126,9 @@ inline constexpr std::string_view kSoftRule = "soft against soft";
 inline constexpr std::string_view kInsulationRule = "insulation against insulation";
 inline constexpr std::string_view kInsulationSoftRule = "insulation against soft";
 
+/// Every selection that the tests of a file ask.
+[[nodiscard]] std::vector<const Chooser*> choosers_of(const RuleFile& rules);
+
 [[nodiscard]] Result<RuleFile> parse_rules(std::string_view text, std::string_view file);
 
 }  // namespace strake::rules

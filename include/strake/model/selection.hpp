@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,9 @@ class Selection {
   [[nodiscard]] bool picks(const Scene& scene, ObjectId object) const;
 
  private:
+  friend Result<std::vector<std::vector<std::uint8_t>>> pick(std::span<const Selection> selections,
+                                                             const Scene& scene,
+                                                             const parallel::Context& context);
   explicit Selection(std::shared_ptr<const selection::Query> query) : query_(std::move(query)) {}
   std::shared_ptr<const selection::Query> query_;
 };
@@ -49,5 +53,10 @@ class Selection {
 /// One entry per object of the scene: 1 where it is picked. Errors: cancelled.
 [[nodiscard]] Result<std::vector<std::uint8_t>> pick(const Selection& selection, const Scene& scene,
                                                      const parallel::Context& context);
+
+/// The same for several selections in one pass: what they share, as an object's path and the sets
+/// they name, is found out once per object.
+[[nodiscard]] Result<std::vector<std::vector<std::uint8_t>>> pick(
+    std::span<const Selection> selections, const Scene& scene, const parallel::Context& context);
 
 }  // namespace strake::model

@@ -85,10 +85,17 @@ bool quantity_passes(const Test& test, std::string_view text) {
   return both && holds(test.op, *both);
 }
 
+}  // namespace
+
+/// One query about one object.
 class Asker {
  public:
-  Asker(const Query& query, const Scene& scene, ObjectId id)
-      : query_(query), scene_(scene), model_(*scene.model), id_(id), object_(model_.object(id)) {}
+  Asker(const Query& query, Asked& asked)
+      : query_(query),
+        asked_(asked),
+        scene_(asked.scene_),
+        model_(*scene_.model),
+        object_(model_.object(asked.id_)) {}
 
   [[nodiscard]] bool ask(std::uint32_t index) const {
     const Node& node = query_.nodes[index];
@@ -101,7 +108,7 @@ class Asker {
       case NodeKind::box:
         return stands(query_.boxes[node.first]);
       case NodeKind::set:
-        return answers(*query_.sets[node.first], scene_, id_);
+        return asked_.by_set(*query_.sets[node.first]);
       case NodeKind::negation:
         return !ask(operands().front());
       case NodeKind::conjunction:
@@ -121,13 +128,13 @@ class Asker {
     switch (test.field) {
       case Field::any:
         return text_passes(test, object_.name) || text_passes(test, object_.id) ||
-               text_passes(test, whole_path());
+               text_passes(test, asked_.whole_path());
       case Field::name:
         return text_passes(test, object_.name);
       case Field::id:
         return text_passes(test, object_.id);
       case Field::path:
-        return text_passes(test, whole_path());
+        return text_passes(test, asked_.whole_path());
       case Field::file:
         return text_passes(test, model_.files[object_.file].label);
       case Field::attribute:
@@ -138,11 +145,6 @@ class Asker {
         return body_passes(test);
     }
     return false;
-  }
-
-  [[nodiscard]] std::string whole_path() const {
-    const std::string groups = model_.path(object_);
-    return groups.empty() ? object_.name : groups + '/' + object_.name;
   }
 
   /// A name may be carried several times; one that passes is enough.
@@ -168,7 +170,7 @@ class Asker {
 
   [[nodiscard]] bool stands(const BoxTest& test) const {
     geometry::Box3l box = geometry::empty_box<std::int64_t>();
-    for (const GridBody& body : scene_.bodies_of(id_)) {
+    for (const GridBody& body : scene_.bodies_of(asked_.id_)) {
       const GridShape& shape = scene_.shapes[body.grid_shape];
       if (!shape.box.empty()) box.include(body.box(shape));
     }
@@ -177,16 +179,29 @@ class Asker {
   }
 
   const Query& query_;
+  Asked& asked_;
   const Scene& scene_;
   const Model& model_;
-  ObjectId id_;
   const Object& object_;
 };
 
-}  // namespace
+bool Asked::by(const Query& query) { return Asker(query, *this).ask(query.root); }
 
-bool answers(const Query& query, const Scene& scene, ObjectId object) {
-  return Asker(query, scene, object).ask(query.root);
+bool Asked::by_set(const Query& query) {
+  for (const auto& [set, picked] : known_)
+    if (set == &query) return picked;
+  const bool picked = by(query);
+  known_.emplace_back(&query, picked);
+  return picked;
+}
+
+const std::string& Asked::whole_path() {
+  if (has_path_) return path_;
+  const Object& object = scene_.model->object(id_);
+  path_ = scene_.model->path(object);
+  path_ += path_.empty() ? object.name : '/' + object.name;
+  has_path_ = true;
+  return path_;
 }
 
 }  // namespace strake::model::selection

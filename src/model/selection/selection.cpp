@@ -5,7 +5,7 @@
 
 #include "model/selection/evaluate.hpp"
 #include "model/selection/parser.hpp"
-#include "strake/parallel/transform.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::model {
 
@@ -34,17 +34,31 @@ Result<Selection> Selection::parse(std::string_view text, SetLookup set) {
 const std::string& Selection::text() const { return query_->text; }
 
 bool Selection::picks(const Scene& scene, ObjectId object) const {
-  return selection::answers(*query_, scene, object);
+  return selection::Asked(scene, object).by(*query_);
+}
+
+Result<std::vector<std::vector<std::uint8_t>>> pick(std::span<const Selection> selections,
+                                                    const Scene& scene,
+                                                    const parallel::Context& context) {
+  constexpr std::size_t kGrain = 256;
+  const std::size_t objects = scene.model->objects.size();
+  std::vector<std::vector<std::uint8_t>> picked(selections.size(),
+                                                std::vector<std::uint8_t>(objects));
+  const Status status = parallel::for_each(
+      context, {.name = "selection", .n = objects, .grain = kGrain}, [&](std::size_t o) {
+        selection::Asked asked(scene, static_cast<ObjectId>(o));
+        for (std::size_t s = 0; s < selections.size(); ++s)
+          picked[s][o] = asked.by(*selections[s].query_) ? 1 : 0;
+      });
+  if (!status) return status.error();
+  return picked;
 }
 
 Result<std::vector<std::uint8_t>> pick(const Selection& selection, const Scene& scene,
                                        const parallel::Context& context) {
-  constexpr std::size_t kGrain = 256;
-  return parallel::transform(
-      context, {.name = "selection", .n = scene.model->objects.size(), .grain = kGrain},
-      [&](std::size_t i) -> std::uint8_t {
-        return selection.picks(scene, static_cast<ObjectId>(i)) ? 1 : 0;
-      });
+  auto picked = pick(std::span(&selection, 1), scene, context);
+  if (!picked) return picked.error();
+  return std::move(picked->front());
 }
 
 }  // namespace strake::model

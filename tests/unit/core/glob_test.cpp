@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
+#include <string_view>
 
 namespace strake {
 namespace {
@@ -45,6 +47,31 @@ TEST(Glob, matches_the_whole_text) {
            Case{"**a**", "a", true},
        })
     EXPECT_EQ(glob_match(one.pattern, one.text), one.matches) << one.pattern << " on " << one.text;
+}
+
+/// The definition, by trying every way.
+bool matches(std::string_view pattern, std::string_view text) {
+  if (pattern.empty()) return text.empty();
+  if (pattern[0] == '*')
+    return matches(pattern.substr(1), text) || (!text.empty() && matches(pattern, text.substr(1)));
+  return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) &&
+         matches(pattern.substr(1), text.substr(1));
+}
+
+TEST(Glob, is_what_trying_every_way_gives) {
+  std::mt19937 random(7);
+  const auto word = [&](std::string_view letters, std::size_t most) {
+    std::string text(random() % most, ' ');
+    for (char& c : text) c = letters[random() % letters.size()];
+    return text;
+  };
+  int matched = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const std::string pattern = word("ab*?", 8), text = word("ab/", 10);
+    ASSERT_EQ(glob_match(pattern, text), matches(pattern, text)) << pattern << " on " << text;
+    matched += glob_match(pattern, text) ? 1 : 0;
+  }
+  EXPECT_GT(matched, 1000);
 }
 
 TEST(Glob, does_not_explode) {

@@ -445,7 +445,7 @@ TEST(RulesPlan, CanBeCancelled) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {1, 1, 1});
   const auto scene = make_scene(m.model, {}, {}).value();
-  std::stop_source source;
+  const std::stop_source source;
   source.request_stop();
   const auto plan = Rules::parse("[[exempt]]\nname = \"x\"\na = \"a\"\nb = \"b\"", "r")
                         .value()
