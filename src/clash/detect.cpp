@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "clash/cases.hpp"
 #include "clash/narrow.hpp"
 #include "clash/options.hpp"
 #include "clash/pair_rules.hpp"
@@ -26,8 +27,10 @@ using geometry::Part;
 
 /// Items per block of the narrow phase: small enough that a heavy pair holds up few others.
 constexpr std::size_t kGrain = 8;
+/// Pairs per block where each is done in no time.
+constexpr std::size_t kBlock = 4096;
 
-/// One pair of parts on its way through the engine.
+/// One case of a pair of parts on its way through the engine.
 struct Candidate {
   FirstLook look;
   NarrowWork work;
@@ -66,6 +69,9 @@ class Engine {
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
     rules_.exempt(list_, pairs_, report);
+    auto cases = tell_cases_apart();
+    if (!cases) return cases.error();
+    cases_ = std::move(*cases);
     if (const Status s = settle_simple_pairs(); !s) return s.error();
     if (const Status s = part_distant_pairs(); !s) return s.error();
     if (const Status s = first_look(); !s) return s.error();
@@ -81,13 +87,30 @@ class Engine {
   }
 
  private:
-  /// Closed forms, and contacts in coordinate planes, which are most of them, need no trees.
-  Status settle_simple_pairs() {
-    candidates_.resize(pairs_.size());
-    return parallel::for_each(
-        context_, {.name = "simple pairs", .n = pairs_.size(), .grain = kGrain},
+  Result<Cases> tell_cases_apart() const {
+    const auto settings = parallel::transform(
+        context_, {.name = "settings of pairs", .n = pairs_.size(), .grain = kBlock},
         [&](std::size_t i) {
           const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
+          return CaseSettings{static_cast<std::uint32_t>(rules_.tolerances(a.object, b.object)),
+                              std::max(band(a), band(b))};
+        });
+    if (!settings) return settings.error();
+    return find_cases(pairs_, list_, *settings, context_);
+  }
+
+  /// The first pair that is the case.
+  [[nodiscard]] const IndexPair& pair_of(std::size_t number) const {
+    return pairs_[cases_.first[number]];
+  }
+
+  /// Closed forms, and contacts in coordinate planes, which are most of them, need no trees.
+  Status settle_simple_pairs() {
+    candidates_.resize(cases_.first.size());
+    return parallel::for_each(
+        context_, {.name = "simple pairs", .n = candidates_.size(), .grain = kGrain},
+        [&](std::size_t i) {
+          const PartRef &a = list_.parts[pair_of(i).first], &b = list_.parts[pair_of(i).second];
           Candidate& c = candidates_[i];
           c.too_large = !geometry::fits_pair(a.placed, b.placed);
           if (c.too_large) return;
@@ -103,7 +126,7 @@ class Engine {
   /// Boxes along the coordinate axes of what stands askew meet far more often than the bodies do.
   Status part_distant_pairs() {
     std::vector<std::size_t> unsettled;
-    for (std::size_t i = 0; i < pairs_.size(); ++i)
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (!candidates_[i].done && !candidates_[i].too_large) unsettled.push_back(i);
     auto frames = build_for<geometry::PartFrame>(unsettled, "part frames", [&](std::uint32_t u) {
       return geometry::make_frame(*list_.unique[u]);
@@ -137,13 +160,13 @@ class Engine {
     });
   }
 
-  /// Something built once for each of the unique parts of some pairs, in parallel, then only read.
+  /// Something built once for each of the unique parts of some cases, in parallel, then only read.
   template <class T, class Make>
-  Result<std::vector<T>> build_for(const std::vector<std::size_t>& pairs, std::string_view name,
+  Result<std::vector<T>> build_for(const std::vector<std::size_t>& some, std::string_view name,
                                    Make&& make) const {
     std::vector<bool> wanted(list_.unique.size(), false);
-    for (const std::size_t i : pairs)
-      for (const std::uint32_t p : {pairs_[i].first, pairs_[i].second})
+    for (const std::size_t i : some)
+      for (const std::uint32_t p : {pair_of(i).first, pair_of(i).second})
         wanted[list_.parts[p].unique] = true;
     std::vector<std::uint32_t> indices;
     for (std::uint32_t u = 0; u < list_.unique.size(); ++u)
@@ -166,12 +189,12 @@ class Engine {
         parallel::longest_first((some.size() + grain - 1) / grain, [&](std::size_t block) {
           std::size_t cost = 0;
           for (std::size_t i = block * grain; i < std::min(some.size(), (block + 1) * grain); ++i)
-            cost += triangles(pairs_[some[i]]);
+            cost += triangles(pair_of(some[i]));
           return cost;
         });
     return parallel::for_each(context_,
                               {.name = name, .n = some.size(), .grain = grain, .order = order},
-                              [&](std::size_t i) { work(some[i], pairs_[some[i]]); });
+                              [&](std::size_t i) { work(some[i], pair_of(some[i])); });
   }
 
   [[nodiscard]] std::size_t triangles(const IndexPair& p) const {
@@ -200,14 +223,16 @@ class Engine {
 
   /// How far apart the others are; where two objects meet, only as far as it could matter.
   Status distances() {
-    std::vector<std::size_t> apart;
-    std::vector<double> reach(pairs_.size(), 0);
+    std::vector<double> reach(candidates_.size(), 0);
     for (std::size_t first = 0; first < pairs_.size();) {
       std::size_t end = first + 1;
       while (end < pairs_.size() && same_objects(pairs_[first], pairs_[end])) ++end;
-      add_distances(first, end, apart, reach);
+      add_distances(first, end, reach);
       first = end;
     }
+    std::vector<std::size_t> apart;
+    for (std::size_t i = 0; i < reach.size(); ++i)
+      if (reach[i] > 0) apart.push_back(i);
     return over(apart, "distance", kGrain, [&](std::size_t i, const IndexPair& p) {
       Candidate& c = candidates_[i];
       const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
@@ -216,28 +241,31 @@ class Engine {
     });
   }
 
-  /// The candidates of one pair of objects whose distance may show in its answer. Parts that meet
+  [[nodiscard]] const Candidate& candidate_of(std::size_t pair) const {
+    return candidates_[cases_.of[pair]];
+  }
+
+  /// How far the distances of one pair of objects' parts may show in its answer. Parts that meet
   /// are more severe than parts that are apart, unless the sag of those hides that they meet too.
-  void add_distances(std::size_t first, std::size_t end, std::vector<std::size_t>& apart,
-                     std::vector<double>& reach) const {
+  void add_distances(std::size_t first, std::size_t end, std::vector<double>& reach) const {
     bool hit = false, meeting = false;
     // Where a rule may allow the worst of them, every other one counts.
     const bool all = rules_.may_allow(list_.parts[pairs_[first].first].object,
                                       list_.parts[pairs_[first].second].object);
     for (std::size_t i = first; i < end && !all; ++i) {
-      const PartAnswer& answer = candidates_[i].look.answer;
+      const PartAnswer& answer = candidate_of(i).look.answer;
       hit = hit || answer.judgement.cls == Class::hit;
       meeting = meeting || (answer.judgement.cls >= Class::contact && answer.separation.d <= 0);
     }
     for (std::size_t i = first; i < end && !hit; ++i) {
-      if (candidates_[i].look.next != FirstLook::Next::distance) continue;
-      reach[i] = std::numeric_limits<double>::infinity();
+      if (candidate_of(i).look.next != FirstLook::Next::distance) continue;
+      double far = std::numeric_limits<double>::infinity();
       if (meeting) {
         const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
         const Part &x = *a.placed.part, &y = *b.placed.part;
-        reach[i] = x.sag + y.sag - thresholds(x, y, narrow_options(a, b)).overlap;
+        far = x.sag + y.sag - thresholds(x, y, narrow_options(a, b)).overlap;
       }
-      if (reach[i] > 0) apart.push_back(i);
+      reach[cases_.of[i]] = std::max(reach[cases_.of[i]], far);
     }
   }
 
@@ -281,13 +309,13 @@ class Engine {
   /// The answers that can show in a report; counts the work and what was skipped.
   std::vector<Found> answers(Report& report) const {
     std::vector<Found> found;
-    for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      const Candidate& c = candidates_[i];
-      count(c.work, report.counters);
+    for (const Candidate& c : candidates_) count(c.work, report.counters);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const Candidate& c = candidate_of(i);
       if (c.too_large)
         report_too_large(pairs_[i], report.diagnostics);
       else if (c.look.answer.judgement.severest != Class::no_hit)
-        found.push_back({i, c.look.answer});
+        found.push_back({i, &c.look.answer});
     }
     return found;
   }
@@ -356,11 +384,12 @@ class Engine {
   std::vector<NarrowOptions> narrow_;  ///< by number of tolerances
   std::vector<double> bands_;          ///< contact distance per file
   std::vector<IndexPair> pairs_;
+  Cases cases_;
   std::vector<geometry::PartFrame> frames_;      ///< by unique part, as far as wanted
   std::vector<geometry::PartTree> trees_;        ///< likewise
   std::vector<geometry::SupportPlanes> planes_;  ///< likewise
-  std::vector<Candidate> candidates_;            ///< one per pair
-  std::vector<std::size_t> open_;                ///< pairs that want trees
+  std::vector<Candidate> candidates_;            ///< one per case
+  std::vector<std::size_t> open_;                ///< cases that want trees
 };
 
 }  // namespace

@@ -63,14 +63,14 @@ std::vector<Pair> join_by_objects(const std::vector<Found>& found,
   Class severest = Class::no_hit;  // that the brackets of what no rule allows permit
   for (const Found& f : found) {
     const geometry::IndexPair& c = candidates[f.candidate];
-    const Pair pair = pair_of(f.answer, list.parts[c.first], list.parts[c.second], rules);
+    const Pair pair = pair_of(*f.answer, list.parts[c.first], list.parts[c.second], rules);
     if (pairs.empty() || pairs.back().a != pair.a || pairs.back().b != pair.b) {
       pairs.push_back(pair);
       severest = Class::no_hit;
     } else if (more_severe(pair, pairs.back())) {
       pairs.back() = pair;
     }
-    if (pair.allowed < 0) severest = std::max(severest, f.answer.judgement.severest);
+    if (pair.allowed < 0) severest = std::max(severest, f.answer->judgement.severest);
     // Other parts of the two may turn out worse than the deciding ones.
     const Class known = pairs.back().allowed < 0 ? pairs.back().cls : Class::no_hit;
     if (severest > known) pairs.back().flags |= kUncertain;

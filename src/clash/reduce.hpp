@@ -11,10 +11,10 @@
 
 namespace strake::clash {
 
-/// The answer for one pair of parts, by its index among the candidates.
+/// The answer for one pair of parts, by its index among the candidates; not null.
 struct Found {
   std::size_t candidate = 0;
-  PartAnswer answer;
+  const PartAnswer* answer = nullptr;
 };
 
 /// The pairs of objects that are not NO_HIT: the join of the answers of their parts by whether a

@@ -37,7 +37,7 @@ std::vector<Overlap> overlaps_of_hits(const PartAnswers& answers, const std::vec
   std::vector<Overlap> overlaps;
   std::size_t pair = 0;
   for (const Found& f : answers.found) {
-    if (!f.answer.witness.interiors_meet) continue;
+    if (!f.answer->witness.interiors_meet) continue;
     const geometry::IndexPair& c = answers.candidates[f.candidate];
     const PartRef &a = answers.list.parts[c.first], &b = answers.list.parts[c.second];
     const auto before = [&](const Pair& p) {
