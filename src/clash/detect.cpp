@@ -78,11 +78,13 @@ class Engine {
     if (const Status s = depths(); !s) return s.error();
     if (const Status s = distances(); !s) return s.error();
     const std::vector<Found> found = answers(report);
-    report.pairs = join_by_objects(found, pairs_, list_, rules_);
+    auto joined = join_by_objects(found, pairs_, list_, rules_, context_);
+    if (!joined) return joined.error();
+    report.pairs = std::move(*joined);
     if (options_.volumes == Volumes::on)
       if (const Status s = measure_volumes({list_, pairs_, found, trees_}, context_, report); !s)
         return s.error();
-    finish(report);
+    if (const Status s = finish(report); !s) return s.error();
     return report;
   }
 
@@ -320,12 +322,15 @@ class Engine {
     return found;
   }
 
-  void finish(Report& report) const {
+  Status finish(Report& report) const {
     rules_.close(report);
-    report.hash = hash_of(report, *scene_.model);
+    auto hash = hash_of(report, *scene_.model, context_);
+    if (!hash) return hash.error();
+    report.hash = std::move(*hash);
     report.counters.part_pairs = pairs_.size();
     count_objects(report);
     note_unknown_sag(report.diagnostics);
+    return {};
   }
 
   static void count(const NarrowWork& work, Counters& counters) {

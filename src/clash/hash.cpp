@@ -1,34 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/core/hash.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "clash/reduce.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
 
-std::string hash_of(const Report& report, const model::Model& model) {
-  Hasher hasher;
-  const auto add_object = [&](model::ObjectId id) {
+namespace {
+
+/// Pairs hashed as one piece; part of what the hash is.
+constexpr std::size_t kPiece = 4096;
+
+void add_pair(Hasher& hasher, const Pair& pair, const Report& report, const model::Model& model) {
+  for (const model::ObjectId id : {pair.a, pair.b}) {
     const model::Object& object = model.object(id);
     hasher.add(std::string_view(model.files[object.file].label));
     hasher.add(std::string_view(object.id));
-  };
-  for (const Pair& pair : report.pairs) {
-    add_object(pair.a);
-    add_object(pair.b);
-    hasher.add(std::uint32_t{static_cast<std::uint8_t>(pair.cls)});
-    hasher.add(std::uint32_t{static_cast<std::uint8_t>(pair.relation)});
-    hasher.add(pair.d_mm);
-    for (const geometry::Vec3d& p : {pair.point_mm, pair.on_a_mm, pair.on_b_mm, pair.away})
-      for (int k = 0; k < 3; ++k) hasher.add(p[k]);
-    if (pair.allowed >= 0)
-      hasher.add(std::string_view(report.allowed[static_cast<std::size_t>(pair.allowed)].rule));
   }
-  return hasher.value().text();
+  hasher.add(std::uint32_t{static_cast<std::uint8_t>(pair.cls)});
+  hasher.add(std::uint32_t{static_cast<std::uint8_t>(pair.relation)});
+  hasher.add(pair.d_mm);
+  for (const geometry::Vec3d& p : {pair.point_mm, pair.on_a_mm, pair.on_b_mm, pair.away})
+    for (int k = 0; k < 3; ++k) hasher.add(p[k]);
+  if (pair.allowed >= 0)
+    hasher.add(std::string_view(report.allowed[static_cast<std::size_t>(pair.allowed)].rule));
+}
+
+}  // namespace
+
+Result<std::string> hash_of(const Report& report, const model::Model& model,
+                            const parallel::Context& context) {
+  const std::vector<Pair>& pairs = report.pairs;
+  const auto pieces = parallel::transform(
+      context, {.name = "hash of results", .n = (pairs.size() + kPiece - 1) / kPiece},
+      [&](std::size_t piece) {
+        Hasher hasher;
+        for (std::size_t i = piece * kPiece; i < std::min(pairs.size(), (piece + 1) * kPiece); ++i)
+          add_pair(hasher, pairs[i], report, model);
+        return hasher.value();
+      });
+  if (!pieces) return pieces.error();
+  Hasher whole;
+  for (const Hash128& piece : *pieces) whole.add(piece.high).add(piece.low);
+  return whole.value().text();
 }
 
 }  // namespace strake::clash

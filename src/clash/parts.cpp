@@ -7,8 +7,12 @@
 #include <string>
 #include <tuple>
 
+#include "strake/parallel/transform.hpp"
+
 namespace strake::clash {
 namespace {
+
+constexpr std::size_t kGrain = 4096;
 
 geometry::BoxItem item_of(const PartRef& ref, const Sets& sets, double reach) {
   geometry::BoxItem item;
@@ -27,6 +31,26 @@ Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::B
   const auto tree = geometry::BoxTree::build(items, context);
   if (!tree) return tree.error();
   return geometry::meeting_pairs(*tree, context, options.most_pairs);
+}
+
+/// Puts all parts of two objects side by side in a list of pairs that is ascending by parts, which
+/// are themselves by object: the second part's object goes before the first part.
+void gather_by_objects(std::vector<geometry::IndexPair>& pairs, const PartList& list) {
+  const auto object = [&](std::uint32_t part) { return list.parts[part].object; };
+  for (std::size_t first = 0; first < pairs.size();) {
+    std::size_t end = first + 1;
+    bool one_part = true;
+    for (; end < pairs.size() && object(pairs[end].first) == object(pairs[first].first); ++end)
+      one_part = one_part && pairs[end].first == pairs[first].first;
+    if (!one_part)
+      std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first),
+                pairs.begin() + static_cast<std::ptrdiff_t>(end),
+                [&](const auto& x, const auto& y) {
+                  return std::tuple{object(x.second), x.first, x.second} <
+                         std::tuple{object(y.second), y.first, y.second};
+                });
+    first = end;
+  }
 }
 
 Error too_many(const Options& options) {
@@ -77,21 +101,17 @@ PartList list_parts(const model::Scene& scene, const Sets& sets) {
 Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list, const Sets& sets,
                                                     double reach, const Options& options,
                                                     const parallel::Context& context) {
-  std::vector<geometry::BoxItem> items;
-  items.reserve(list.parts.size());
-  for (const PartRef& ref : list.parts) items.push_back(item_of(ref, sets, reach));
-  auto pairs = box_pairs(items, options, context);
+  const auto items =
+      parallel::transform(context, {.name = "boxes", .n = list.parts.size(), .grain = kGrain},
+                          [&](std::size_t i) { return item_of(list.parts[i], sets, reach); });
+  if (!items) return items.error();
+  auto pairs = box_pairs(*items, options, context);
   if (!pairs) return pairs.error().code == ErrorCode::input ? too_many(options) : pairs.error();
   if (!sets.group.empty())
     std::erase_if(*pairs, [&](const geometry::IndexPair& p) {
       return sets.group[list.parts[p.first].object] == sets.group[list.parts[p.second].object];
     });
-  // The second part's object goes before the first part: all parts of two objects side by side.
-  const auto key = [&](const geometry::IndexPair& p) {
-    return std::tuple{list.parts[p.first].object, list.parts[p.second].object, p.first, p.second};
-  };
-  std::sort(pairs->begin(), pairs->end(),
-            [&](const auto& x, const auto& y) { return key(x) < key(y); });
+  gather_by_objects(*pairs, list);
   return pairs;
 }
 

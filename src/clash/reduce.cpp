@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
 
 namespace strake::clash {
 namespace {
@@ -54,29 +55,63 @@ bool more_severe(const Pair& x, const Pair& y) {
   return rest(x) < rest(y);
 }
 
+/// Answers about pairs of objects, joined by object.
+class Join {
+ public:
+  Join(const std::vector<Found>& found, const std::vector<geometry::IndexPair>& candidates,
+       const PartList& list, const PairRules& rules)
+      : found_(found), candidates_(candidates), list_(list), rules_(rules) {}
+
+  [[nodiscard]] bool same_objects(std::size_t i, std::size_t j) const {
+    return a(i).object == a(j).object && b(i).object == b(j).object;
+  }
+
+  /// Appends the pair of objects whose answers begin at `i`, if it is not NO_HIT.
+  void append(std::size_t i, std::vector<Pair>& out) const {
+    Pair worst = pair(i);
+    Class severest = Class::no_hit;  // that the brackets of what no rule allows permit
+    const std::size_t first = i;
+    for (; i < found_.size() && same_objects(first, i); ++i) {
+      const Pair next = pair(i);
+      if (more_severe(next, worst)) worst = next;
+      if (next.allowed < 0) severest = std::max(severest, found_[i].answer->judgement.severest);
+    }
+    // Other parts of the two may turn out worse than the deciding ones.
+    const Class known = worst.allowed < 0 ? worst.cls : Class::no_hit;
+    if (severest > known) worst.flags |= kUncertain;
+    if (worst.cls != Class::no_hit) out.push_back(worst);
+  }
+
+ private:
+  [[nodiscard]] const PartRef& a(std::size_t i) const {
+    return list_.parts[candidates_[found_[i].candidate].first];
+  }
+  [[nodiscard]] const PartRef& b(std::size_t i) const {
+    return list_.parts[candidates_[found_[i].candidate].second];
+  }
+  [[nodiscard]] Pair pair(std::size_t i) const {
+    return pair_of(*found_[i].answer, a(i), b(i), rules_);
+  }
+
+  const std::vector<Found>& found_;
+  const std::vector<geometry::IndexPair>& candidates_;
+  const PartList& list_;
+  const PairRules& rules_;
+};
+
 }  // namespace
 
-std::vector<Pair> join_by_objects(const std::vector<Found>& found,
-                                  const std::vector<geometry::IndexPair>& candidates,
-                                  const PartList& list, const PairRules& rules) {
-  std::vector<Pair> pairs;
-  Class severest = Class::no_hit;  // that the brackets of what no rule allows permit
-  for (const Found& f : found) {
-    const geometry::IndexPair& c = candidates[f.candidate];
-    const Pair pair = pair_of(*f.answer, list.parts[c.first], list.parts[c.second], rules);
-    if (pairs.empty() || pairs.back().a != pair.a || pairs.back().b != pair.b) {
-      pairs.push_back(pair);
-      severest = Class::no_hit;
-    } else if (more_severe(pair, pairs.back())) {
-      pairs.back() = pair;
-    }
-    if (pair.allowed < 0) severest = std::max(severest, f.answer->judgement.severest);
-    // Other parts of the two may turn out worse than the deciding ones.
-    const Class known = pairs.back().allowed < 0 ? pairs.back().cls : Class::no_hit;
-    if (severest > known) pairs.back().flags |= kUncertain;
-  }
-  std::erase_if(pairs, [](const Pair& p) { return p.cls == Class::no_hit; });
-  return pairs;
+Result<std::vector<Pair>> join_by_objects(const std::vector<Found>& found,
+                                          const std::vector<geometry::IndexPair>& candidates,
+                                          const PartList& list, const PairRules& rules,
+                                          const parallel::Context& context) {
+  constexpr std::size_t kGrain = 4096;
+  const Join join(found, candidates, list, rules);
+  return parallel::collect<Pair>(context,
+                                 {.name = "join by objects", .n = found.size(), .grain = kGrain},
+                                 [&](std::size_t i, std::vector<Pair>& out) {
+                                   if (i == 0 || !join.same_objects(i - 1, i)) join.append(i, out);
+                                 });
 }
 
 }  // namespace strake::clash

@@ -19,13 +19,14 @@ struct Found {
 
 /// The pairs of objects that are not NO_HIT: the join of the answers of their parts by whether a
 /// rule allows them, class, level, d, witness and part numbers, which is associative and
-/// commutative. `found` is by candidate.
-[[nodiscard]] std::vector<Pair> join_by_objects(const std::vector<Found>& found,
-                                                const std::vector<geometry::IndexPair>& candidates,
-                                                const PartList& list, const PairRules& rules);
+/// commutative. `found` is by candidate. Errors: cancelled.
+[[nodiscard]] Result<std::vector<Pair>> join_by_objects(
+    const std::vector<Found>& found, const std::vector<geometry::IndexPair>& candidates,
+    const PartList& list, const PairRules& rules, const parallel::Context& context);
 
 /// Hexadecimal hash of the pairs by durable ids: classes, relations, d, witnesses, and the rules
-/// that allow them.
-[[nodiscard]] std::string hash_of(const Report& report, const model::Model& model);
+/// that allow them. Errors: cancelled.
+[[nodiscard]] Result<std::string> hash_of(const Report& report, const model::Model& model,
+                                          const parallel::Context& context);
 
 }  // namespace strake::clash

@@ -3,10 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "strake/geometry/bvh.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::geometry {
@@ -16,6 +19,8 @@ using Node = BoxTree::Node;
 
 constexpr std::size_t kLeafSize = 4;
 constexpr std::size_t kBins = 16;
+/// So many items show where to cut a range.
+constexpr std::size_t kSample = std::size_t{1} << 14U;
 /// Ranges of at most this many items are built as one piece of parallel work; fixed, so that the
 /// tree does not depend on the team.
 constexpr std::size_t kSubtree = 4096;
@@ -59,18 +64,19 @@ std::int64_t centre2(const Box3i& b, int axis) {
   return std::int64_t{b.lo[axis]} + std::int64_t{b.hi[axis]};
 }
 
+/// Bins along the longest side of the box of centres.
 struct Split {
-  int axis = -1;
+  int axis = 0;
   std::size_t bin = 0;  ///< items in bins 0..bin go left
   std::int64_t lo = 0, extent = 0;
-  double cost = std::numeric_limits<double>::infinity();
 
-  [[nodiscard]] static std::size_t bin_of(std::int64_t c, std::int64_t lo, std::int64_t extent) {
-    return static_cast<std::size_t>((c - lo) * static_cast<std::int64_t>(kBins) / (extent + 1));
+  /// Rounding may misplace an item by a bin: nothing but the tree's shape depends on it.
+  [[nodiscard]] std::size_t bin_of(const Box3i& box) const {
+    const double scale = static_cast<double>(kBins) / static_cast<double>(extent + 1);
+    const double at = static_cast<double>(centre2(box, axis) - lo) * scale;
+    return at < 0 ? 0 : std::min(kBins - 1, static_cast<std::size_t>(at));
   }
-  [[nodiscard]] bool left(const Ref& r) const {
-    return bin_of(centre2(r.box, axis), lo, extent) <= bin;
-  }
+  [[nodiscard]] bool left(const Ref& r) const { return bin_of(r.box) <= bin; }
 };
 
 struct Bin {
@@ -78,7 +84,10 @@ struct Bin {
   std::size_t count = 0;
 };
 
-void sweep(const std::array<Bin, kBins>& bins, Split& candidate, Split& best) {
+using Bins = std::array<Bin, kBins>;
+
+/// The bin after which a cut costs least: half areas times counts on either side.
+std::size_t cheapest_cut(const Bins& bins) {
   std::array<double, kBins> right{};
   Bin tail;
   for (std::size_t b = kBins - 1; b > 0; --b) {
@@ -87,52 +96,54 @@ void sweep(const std::array<Bin, kBins>& bins, Split& candidate, Split& best) {
     right[b - 1] = tail.count == 0 ? 0 : half_area(tail.box) * static_cast<double>(tail.count);
   }
   Bin head;
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b + 1 < kBins; ++b) {
     head.box.include(bins[b].box);
     head.count += bins[b].count;
     if (head.count == 0) continue;
-    candidate.bin = b;
-    candidate.cost = half_area(head.box) * static_cast<double>(head.count) + right[b];
-    if (candidate.cost < best.cost) best = candidate;
-  }
-}
-
-Split best_split(std::span<const Ref> refs) {
-  std::array<std::int64_t, 3> lo, hi;
-  lo.fill(std::numeric_limits<std::int64_t>::max());
-  hi.fill(std::numeric_limits<std::int64_t>::min());
-  for (const Ref& r : refs)
-    for (int k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::size_t>(k);
-      const std::int64_t c = centre2(r.box, k);
-      lo[a] = std::min(lo[a], c);
-      hi[a] = std::max(hi[a], c);
+    const double cost = half_area(head.box) * static_cast<double>(head.count) + right[b];
+    if (cost < least) {
+      least = cost;
+      best = b;
     }
-  Split best;
-  for (int k = 0; k < 3; ++k) {
-    const auto a = static_cast<std::size_t>(k);
-    if (lo[a] == hi[a]) continue;
-    Split candidate;
-    candidate.axis = k;
-    candidate.lo = lo[a];
-    candidate.extent = hi[a] - lo[a];
-    std::array<Bin, kBins> bins;
-    for (const Ref& r : refs) {
-      Bin& bin = bins[Split::bin_of(centre2(r.box, k), lo[a], candidate.extent)];
-      bin.box.include(r.box);
-      ++bin.count;
-    }
-    sweep(bins, candidate, best);
   }
   return best;
 }
 
+/// Where to cut, from every n-th item when there are many; nothing when all centres are equal.
+std::optional<Split> best_split(std::span<const Ref> refs) {
+  const std::size_t step = 1 + refs.size() / kSample;
+  Box3l centres = empty_box<std::int64_t>();
+  for (std::size_t i = 0; i < refs.size(); i += step) {
+    const Box3i& box = refs[i].box;
+    centres.include(Vec3l{centre2(box, 0), centre2(box, 1), centre2(box, 2)});
+  }
+  Split split;
+  for (int k = 0; k < 3; ++k) {
+    const std::int64_t extent = centres.hi[k] - centres.lo[k];
+    if (extent <= split.extent) continue;
+    split.axis = k;
+    split.lo = centres.lo[k];
+    split.extent = extent;
+  }
+  if (split.extent == 0) return std::nullopt;
+  Bins bins;
+  for (std::size_t i = 0; i < refs.size(); i += step) {
+    Bin& bin = bins[split.bin_of(refs[i].box)];
+    bin.box.include(refs[i].box);
+    ++bin.count;
+  }
+  split.bin = cheapest_cut(bins);
+  return split;
+}
+
 /// Sorts the range into two non-empty halves and returns the size of the first.
 std::size_t divide(std::span<Ref> refs) {
-  const Split split = best_split(refs);
-  if (split.axis < 0) return refs.size() / 2;  // all centres equal: any halves do
+  const auto split = best_split(refs);
+  if (!split) return refs.size() / 2;  // all centres equal: any halves do
   const auto middle =
-      std::partition(refs.begin(), refs.end(), [&](const Ref& r) { return split.left(r); });
+      std::partition(refs.begin(), refs.end(), [&](const Ref& r) { return split->left(r); });
   const auto size = static_cast<std::size_t>(middle - refs.begin());
   return size == 0 || size == refs.size() ? refs.size() / 2 : size;
 }
@@ -143,7 +154,7 @@ struct Task {
   std::size_t first = 0, count = 0;
 };
 
-void fill(Node& node, std::span<const Ref> refs) {
+void fill_leaf(Node& node, std::span<const Ref> refs) {
   node.box = empty_box<std::int32_t>();
   node.sets = 0;
   for (const Ref& r : refs) {
@@ -152,10 +163,21 @@ void fill(Node& node, std::span<const Ref> refs) {
   }
 }
 
-/// Splits the node of a task, appends its two children and tells them to `add`.
+/// Boxes of the inner nodes from those of their children, which stand behind them.
+void fill_inner(std::span<Node> nodes) {
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    Node& node = nodes[i];
+    if (node.count > 0) continue;
+    const Node &left = nodes[node.first], &right = nodes[node.first + 1];
+    node.box = left.box;
+    node.box.include(right.box);
+    node.sets = static_cast<std::uint8_t>(left.sets | right.sets);
+  }
+}
+
+/// Appends two children to the node of a task and tells them to `add`; `left` items go left.
 template <class Add>
-void grow(std::vector<Node>& nodes, std::span<Ref> refs, const Task& task, Add&& add) {
-  const std::size_t left = divide(refs.subspan(task.first, task.count));
+void grow(std::vector<Node>& nodes, const Task& task, std::size_t left, Add&& add) {
   const auto child = static_cast<std::uint32_t>(nodes.size());
   nodes[task.node].first = child;
   nodes[task.node].count = 0;
@@ -173,29 +195,33 @@ std::vector<Node> subtree(std::span<Ref> refs, const Task& range) {
   while (!stack.empty()) {
     const Task task = stack.back();
     stack.pop_back();
-    fill(nodes[task.node], refs.subspan(task.first, task.count));
+    const std::span<Ref> mine = refs.subspan(task.first, task.count);
     if (task.count <= kLeafSize) {
+      fill_leaf(nodes[task.node], mine);
       nodes[task.node].first = static_cast<std::uint32_t>(task.first);
       nodes[task.node].count = static_cast<std::uint16_t>(task.count);
     } else {
-      grow(nodes, refs, task, [&](const Task& t) { stack.push_back(t); });
+      grow(nodes, task, divide(mine), [&](const Task& t) { stack.push_back(t); });
     }
   }
+  fill_inner(nodes);
   return nodes;
 }
 
-/// Nodes above the subtrees; their tasks in the order in which they were found.
-std::vector<Task> top(std::vector<Node>& nodes, std::span<Ref> refs, const std::stop_token& stop) {
+/// Nodes above the subtrees, a level at a time; the tasks of the subtrees in the order in which
+/// they were found.
+Result<std::vector<Task>> top(std::vector<Node>& nodes, std::span<Ref> refs,
+                              const parallel::Context& context) {
   std::vector<Task> done, level{{0, 0, refs.size()}};
-  while (!level.empty() && !stop.stop_requested()) {
-    std::vector<Task> next;
-    for (const Task& task : level) {
-      fill(nodes[task.node], refs.subspan(task.first, task.count));
-      if (task.count <= kSubtree)
-        done.push_back(task);
-      else
-        grow(nodes, refs, task, [&](const Task& t) { next.push_back(t); });
-    }
+  while (!level.empty()) {
+    std::vector<Task> large, next;
+    for (const Task& task : level) (task.count <= kSubtree ? done : large).push_back(task);
+    const auto left = parallel::transform(
+        context, {.name = "box tree, top", .n = large.size()},
+        [&](std::size_t i) { return divide(refs.subspan(large[i].first, large[i].count)); });
+    if (!left) return left.error();
+    for (std::size_t i = 0; i < large.size(); ++i)
+      grow(nodes, large[i], (*left)[i], [&](const Task& t) { next.push_back(t); });
     level.swap(next);
   }
   return done;
@@ -232,17 +258,22 @@ Result<BoxTree> BoxTree::build(std::span<const BoxItem> items, const parallel::C
   if (refs.empty()) return tree;
   tree.nodes_.reserve(refs.size());
   tree.nodes_.resize(1);
-  const std::vector<Task> tasks = top(tree.nodes_, refs, context.stop);
-  auto pieces = parallel::transform(context, {.name = "box tree", .n = tasks.size()},
-                                    [&](std::size_t i) { return subtree(refs, tasks[i]); });
+  const auto tasks = top(tree.nodes_, refs, context);
+  if (!tasks) return tasks.error();
+  auto pieces = parallel::transform(context, {.name = "box tree", .n = tasks->size()},
+                                    [&](std::size_t i) { return subtree(refs, (*tasks)[i]); });
   if (!pieces) return pieces.error();
-  for (std::size_t i = 0; i < tasks.size(); ++i) attach(tree.nodes_, tasks[i], (*pieces)[i]);
-  tree.items_.reserve(refs.size());
-  tree.order_.reserve(refs.size());
-  for (const Ref& r : refs) {
-    tree.items_.push_back(items[r.item]);
-    tree.order_.push_back(r.item);
-  }
+  const std::size_t inner = tree.nodes_.size();
+  for (std::size_t i = 0; i < tasks->size(); ++i) attach(tree.nodes_, (*tasks)[i], (*pieces)[i]);
+  fill_inner(std::span(tree.nodes_).first(inner));
+  tree.items_.resize(refs.size());
+  tree.order_.resize(refs.size());
+  const Status status = parallel::for_each(
+      context, {.name = "box tree items", .n = refs.size(), .grain = kSubtree}, [&](std::size_t i) {
+        tree.items_[i] = items[refs[i].item];
+        tree.order_[i] = refs[i].item;
+      });
+  if (!status) return status.error();
   return tree;
 }
 

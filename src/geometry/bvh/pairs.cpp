@@ -7,6 +7,7 @@
 
 #include "strake/geometry/bvh.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -16,6 +17,9 @@ using Node = BoxTree::Node;
 /// Pieces of work that the self-join is expanded into before it is shared out: enough for any
 /// team, and the same for every team.
 constexpr std::size_t kSubtasks = 1024;
+
+/// First items whose pairs are sorted as one piece of work.
+constexpr std::size_t kItemsPerBlock = 4096;
 
 struct NodePair {
   std::uint32_t a = 0, b = 0;  ///< a == b: the pairs within one node
@@ -140,6 +144,27 @@ class SelfJoin {
   const std::vector<Node>& nodes_;
 };
 
+/// Ascending, by counting the first items and sorting the few seconds of each.
+Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& context) {
+  std::uint32_t last = 0;
+  for (const IndexPair& p : pairs) last = std::max(last, p.first);
+  std::vector<std::size_t> begin(std::size_t{last} + 2, 0);
+  for (const IndexPair& p : pairs) ++begin[p.first + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  std::vector<IndexPair> sorted(pairs.size());
+  for (const IndexPair& p : pairs) sorted[next[p.first]++] = p;
+  pairs = std::move(sorted);
+  return parallel::for_each(context,
+                            {.name = "sort pairs", .n = begin.size() - 1, .grain = kItemsPerBlock},
+                            [&](std::size_t i) {
+                              const auto at = [&](std::size_t k) {
+                                return pairs.begin() + static_cast<std::ptrdiff_t>(begin[k]);
+                              };
+                              std::sort(at(i), at(i + 1));
+                            });
+}
+
 }  // namespace
 
 Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree, const parallel::Context& context,
@@ -154,7 +179,7 @@ Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree, const parallel
         return allowance.error();
       });
   if (!pairs) return pairs.error();
-  std::sort(pairs->begin(), pairs->end());
+  if (const Status s = sort_pairs(*pairs, context); !s) return s.error();
   return pairs;
 }
 
@@ -183,7 +208,7 @@ Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
         return {};
       });
   if (!pairs) return pairs.error();
-  std::sort(pairs->begin(), pairs->end());
+  if (const Status s = sort_pairs(*pairs, context); !s) return s.error();
   return pairs;
 }
 
