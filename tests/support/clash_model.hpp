@@ -28,8 +28,16 @@ struct ClashModel {
   }
   ClashModel& body(model::Shape shape, const geometry::Placement& placement = {}) {
     model.shapes.push_back(std::move(shape));
+    return again(placement);
+  }
+  /// Another body of the shape made last.
+  ClashModel& again(const geometry::Placement& placement) {
+    return body_of(model.shapes.size() - 1, placement);
+  }
+  /// Another body of shape number `shape`.
+  ClashModel& body_of(std::size_t shape, const geometry::Placement& placement) {
     model::Body b;
-    b.shape = model::ShapeId{static_cast<std::uint32_t>(model.shapes.size() - 1)};
+    b.shape = model::ShapeId{static_cast<std::uint32_t>(shape)};
     b.placement = placement;
     model.bodies.push_back(b);
     ++model.objects.back().body_count;

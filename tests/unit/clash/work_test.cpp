@@ -41,6 +41,53 @@ Looked look(TriangleMesh a, TriangleMesh b, const Placement& at, const Options& 
   return looked;
 }
 
+TEST(ClashWork, CopiesAtOnePlaceCostOnePair) {
+  const auto copies = [](int count) {
+    ClashModel m;
+    m.object("0").body(test::cylinder_mesh(30, 80, 2, 24), {kTurn, {}});
+    for (int i = 1; i < count; ++i) m.object(std::to_string(i)).again({kTurn, {}});
+    return m.detect();
+  };
+  const Report two = copies(2), many = copies(400);
+  ASSERT_EQ(two.pairs.size(), 1U);
+  ASSERT_EQ(many.pairs.size(), 400U * 399 / 2);
+  EXPECT_EQ(many.counters.triangle_pairs, two.counters.triangle_pairs);
+  EXPECT_EQ(many.counters.depth_cells, two.counters.depth_cells);
+  for (const Pair& p : many.pairs) {
+    EXPECT_EQ(p.cls, Class::hit);
+    EXPECT_EQ(p.relation, Relation::duplicate);
+    EXPECT_EQ(p.d_mm, two.pairs[0].d_mm);
+  }
+}
+
+/// A frame of a ship again and again: each has the answers of the first, at its own place.
+TEST(ClashWork, RepeatedFramesHaveTheAnswersOfTheFirst) {
+  ClashModel m;
+  constexpr int kFrames = 50;
+  for (int i = 0; i < kFrames; ++i) {
+    const Placement at{kTurn, {700.0 * i, 31.0 * i, 0}};
+    const std::string number = std::to_string(100 + i);
+    if (i == 0)
+      m.object("beam" + number).body(test::box_mesh({0, 0, 0}, {300, 20, 10}), at);
+    else
+      m.object("beam" + number).body_of(0, at);
+    if (i == 0)
+      m.object("pipe" + number).body(test::box_mesh({50, 5, -40}, {60, 15, 43}), at);
+    else
+      m.object("pipe" + number).body_of(1, at);
+  }
+  const Report report = m.detect();
+  ASSERT_EQ(report.pairs.size(), static_cast<std::size_t>(kFrames));
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
+    const Pair &p = report.pairs[i], &first = report.pairs[0];
+    EXPECT_EQ(p.cls, first.cls);
+    EXPECT_EQ(p.d_mm, first.d_mm);
+    EXPECT_EQ(p.away, first.away);
+    EXPECT_NEAR(p.point_mm.x - first.point_mm.x, 700.0 * static_cast<double>(i), 1e-6);
+    EXPECT_NEAR(p.point_mm.y - first.point_mm.y, 31.0 * static_cast<double>(i), 1e-6);
+  }
+}
+
 TEST(ClashWork, RotatedPlatesCostTheSameAtEveryGap) {
   for (const double gap : {1.001, 1.5, 2.0, 5.0, 10.0, 30.0, 100.0}) {
     ClashModel m;
