@@ -66,11 +66,13 @@ geometry::Depth depth_of(const NarrowPart& a, const NarrowPart& b, const DepthGo
 }
 
 Relation analytic_relation(const geometry::AnalyticSeparation& s, double band) {
+  const bool sheet = s.sheet_a || s.sheet_b;
   if (s.difference <= band) return Relation::duplicate;
   if (std::fabs(s.d) <= band) return Relation::abut_outside;
   if (s.d > 0) return Relation::separate;
   if (s.a_inside_b > band) return Relation::a_in_b;
   if (s.b_inside_a > band) return Relation::b_in_a;
+  if (sheet) return Relation::cross;
   return std::max(s.a_inside_b, s.b_inside_a) >= -band ? Relation::abut_inside
                                                        : Relation::interfere;
 }
@@ -83,12 +85,17 @@ struct ClosedForm {
   bool tie = false;
 };
 
-std::optional<ClosedForm> closed_form(const NarrowPart& a, const NarrowPart& b) {
-  const auto &p = a.treed.placed.part->primitive, &q = b.treed.placed.part->primitive;
+std::optional<ClosedForm> closed_form(const NarrowPart& a, const NarrowPart& b, double enough) {
+  const Part &x = *a.treed.placed.part, &y = *b.treed.placed.part;
+  const auto &p = x.primitive, &q = y.primitive;
   if (!p || !q || a.placement == nullptr || b.placement == nullptr) return std::nullopt;
-  const auto s = geometry::analytic_separation({&*p, a.placement}, {&*q, b.placement});
+  // Triangles that are the true surface are compared exactly.
+  if (!(x.sag + y.sag > 0)) return std::nullopt;
+  const auto s = geometry::analytic_separation({&*p, a.placement}, {&*q, b.placement}, enough + 1);
   const auto centre = geometry::snap(a.placement->translation);
   if (!s || !centre) return std::nullopt;
+  if (s->sheet_a != (x.kind == PartKind::sheet) || s->sheet_b != (y.kind == PartKind::sheet))
+    return std::nullopt;
   return ClosedForm{*s, s->point + (*centre - a.treed.placed.origin).as<double>(),
                     !(std::fabs(s->d) > 1 + s->error)};
 }
@@ -125,7 +132,7 @@ class PairOfParts {
     MeetingResult meeting;
     meeting.point = point;
     touching(meeting, answer);
-    conclude(answer, sag_beside(closed_form(part_a_, part_b_)));
+    conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
     return answer;
   }
 
@@ -138,7 +145,7 @@ class PairOfParts {
     }
     if (!separated && !(gap > 0))
       look.meeting = equal_solids() ? meeting_of_equals() : geometry::meet(a_, b_, work_.pair);
-    const auto form = closed_form(part_a_, part_b_);
+    const auto form = closed_form(part_a_, part_b_, reach_of(options_));
     if (look.meeting.meeting == Meeting::touching) {
       touching(look.meeting, look.answer);
       conclude(look.answer, sag_beside(form));
@@ -233,7 +240,7 @@ class PairOfParts {
     if (!(near.distance > 0)) answer.separation.d = std::min(gap, 0.0);
     answer.witness = near.distance > 0 ? witness_of_gap(near) : witness_of_touch(near.on_a);
     answer.relation = Relation::abut_outside;
-    conclude(answer, sag_beside(closed_form(part_a_, part_b_)));
+    conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
   }
 
   void interpenetrating(const FirstLook& look, PartAnswer& answer) {
@@ -314,7 +321,7 @@ std::optional<PartAnswer> judge_analytic(const NarrowPart& a, const NarrowPart& 
                                          const NarrowOptions& options) {
   const bool ordered = in_canonical_order(a.treed, b.treed);
   const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
-  const auto form = closed_form(x, y);
+  const auto form = closed_form(x, y, reach_of(options));
   if (!form || form->tie) return std::nullopt;
   NarrowWork work;
   PartAnswer answer = PairOfParts(x, y, options, work).analytic(*form);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "strake/geometry/primitive.hpp"
@@ -27,13 +28,30 @@ struct AnalyticSeparation {
   /// How deep one lies wholly inside the other; negative: it sticks out by that much.
   double a_inside_b = 0, b_inside_a = 0;
   double difference = 0;  ///< bound on how far the two surfaces lie apart: 0 for duplicates
+  bool sheet_a = false, sheet_b = false;  ///< without thickness: depth is measured in the other
 };
 
-/// Closed forms for a sphere and a sphere, cylinder or box, and for cylinders with parallel axes;
-/// placements must be rotations, mirrored or not, with scales that leave the kind as it is. What
-/// the rounding of a source's matrices makes of right angles and parallel axes is part of `error`.
-/// Nothing for any other pair.
-[[nodiscard]] std::optional<AnalyticSeparation> analytic_separation(const PlacedPrimitive& a,
-                                                                    const PlacedPrimitive& b);
+/// Signed separation of two true surfaces within a certain bracket, for every pair of boxes,
+/// pyramids, cylinders, snouts, spheres and dishes under any placement that does not flatten them.
+/// Nothing for other pairs, for a snout whose end planes meet in it, and for two sheets that meet:
+/// their triangles speak for them.
+///
+/// Closed forms where there are any (a sphere and a sphere, cylinder or box; cylinders with
+/// parallel axes), otherwise solved_separation(). `error` is a fraction of a grid unit but for
+/// bodies that a closed form takes as what rounded matrices meant.
+///
+/// Where the two are at least `enough` apart the answer may be any certain lower bound from
+/// `enough` up, with an `error` of 0.
+[[nodiscard]] std::optional<AnalyticSeparation> analytic_separation(
+    const PlacedPrimitive& a, const PlacedPrimitive& b,
+    double enough = std::numeric_limits<double>::infinity());
+
+/// The same without closed forms, of which it is the oracle. Apart: a parting plane from below, a
+/// pair of points from above (Gilbert, Johnson and Keerthi 1988). Meeting: a linear program over
+/// all half-spaces of both by cutting planes (Kelley 1960), its multipliers from above, a point
+/// whose depth is certain from below.
+[[nodiscard]] std::optional<AnalyticSeparation> solved_separation(
+    const PlacedPrimitive& a, const PlacedPrimitive& b,
+    double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace strake::geometry

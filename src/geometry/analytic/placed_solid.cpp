@@ -5,7 +5,7 @@
 
 #include "strake/geometry/grid.hpp"
 
-namespace strake::geometry {
+namespace strake::geometry::analytic {
 namespace {
 
 using Three = std::array<double, 3>;
@@ -79,4 +79,4 @@ std::optional<PlacedSolid> placed_solid(const PlacedPrimitive& p) {
   return solid;
 }
 
-}  // namespace strake::geometry
+}  // namespace strake::geometry::analytic

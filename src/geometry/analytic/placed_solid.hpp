@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "geometry/analytic/support_shape.hpp"
 #include "strake/geometry/analytic_pair.hpp"
 
-namespace strake::geometry {
+namespace strake::geometry::analytic {
 
 /// A primitive that has closed forms, about its own centre. All lengths are grid units.
 struct PlacedSolid {
@@ -31,6 +32,4 @@ struct PlacedSolid {
 /// metres.
 inline constexpr double kMaxMoved = 10;
 
-[[nodiscard]] inline double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
-
-}  // namespace strake::geometry
+}  // namespace strake::geometry::analytic

@@ -155,23 +155,31 @@ TEST(AnalyticPair, ScalesThatLeaveTheKindAsItIs) {
   const Placement above{{}, {0, 0, 170}};
   EXPECT_NEAR(analytic_separation({&box, &tall}, {&ball, &above})->d, 10'000, 1e-3);
   EXPECT_NEAR(analytic_separation({&pipe, &tall}, {&ball, &above})->d, 10'000, 1e-3);
-  EXPECT_FALSE(analytic_separation({&ball, &tall}, {&ball, &above})) << "an ellipsoid";
+  EXPECT_NEAR(analytic_separation({&ball, &tall}, {&ball, &above})->d, 130'000, 0.1)
+      << "an ellipsoid";
   const Placement oval{{{Vec3d{2, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, {}};
-  EXPECT_FALSE(analytic_separation({&pipe, &oval}, {&ball, &above}));
+  const Placement beside{{}, {113, 0, 0}};
+  EXPECT_NEAR(analytic_separation({&pipe, &oval}, {&ball, &beside})->d, 3'000, 0.1);
   const Placement sheared{{{Vec3d{1, 0.1, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, {}};
-  EXPECT_FALSE(analytic_separation({&box, &sheared}, {&ball, &above}));
+  EXPECT_NEAR(analytic_separation({&box, &sheared}, {&ball, &beside})->d,
+              63'000 / std::sqrt(1.01) - 10'000, 0.1);
   const Placement flat{{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 0}}}, {}};
   EXPECT_FALSE(analytic_separation({&box, &flat}, {&ball, &above}));
 }
 
-TEST(AnalyticPair, OthersHaveNoClosedForm) {
-  const Primitive pipe = CylinderPrimitive{50, 100}, box = BoxPrimitive{10, 10, 10},
-                  dish = SphericalDishPrimitive{50, 20};
-  const Placement here, askew{{{Vec3d{1, 0, 0}, Vec3d{0, 0.6, -0.8}, Vec3d{0, 0.8, 0.6}}}, {}};
-  EXPECT_FALSE(analytic_separation({&pipe, &here}, {&pipe, &askew}));
-  EXPECT_FALSE(analytic_separation({&pipe, &here}, {&box, &here}));
-  EXPECT_FALSE(analytic_separation({&box, &here}, {&box, &here}));
-  EXPECT_FALSE(analytic_separation({&dish, &here}, {&pipe, &here}));
+TEST(AnalyticPair, LinesAndWedgedSnoutsHaveNone) {
+  const Primitive pipe = CylinderPrimitive{50, 100}, line = LinePrimitive{0, 100};
+  SnoutPrimitive cut;
+  cut.bottom_radius = cut.top_radius = 50;
+  cut.height = 30;
+  cut.top_shear_x = 0.7;
+  const Primitive wedge = cut;
+  const Placement here;
+  EXPECT_FALSE(analytic_separation({&pipe, &here}, {&line, &here}));
+  EXPECT_FALSE(analytic_separation({&wedge, &here}, {&pipe, &here})) << "end planes meet in it";
+  cut.top_shear_x = 0.5;
+  const Primitive mitre = cut;
+  EXPECT_TRUE(analytic_separation({&mitre, &here}, {&pipe, &here}));
 }
 
 /// Distance of a point to the skin of a body about the origin, millimetres.

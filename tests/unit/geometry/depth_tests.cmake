@@ -9,3 +9,5 @@ strake_test(geometry_flush_contact_test
   SOURCES flush_contact_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_analytic_pair_test
   SOURCES analytic_pair_test.cpp MODULES geometry LABELS fast)
+strake_test(geometry_analytic_solver_test
+  SOURCES analytic_solver_test.cpp MODULES geometry LABELS fast)

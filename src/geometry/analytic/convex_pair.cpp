@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/analytic/convex_pair.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/analytic/convex_depth.hpp"
+#include "geometry/analytic/convex_gap.hpp"
+#include "geometry/analytic/inside.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::geometry::analytic {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+AnalyticSeparation between(double lower, double upper, const Vec3d& point) {
+  AnalyticSeparation s;
+  s.d = (lower + upper) / 2;
+  s.error = (upper - lower) / 2;
+  s.point = point;
+  s.a_inside_b = s.b_inside_a = -s.d;
+  s.difference = kNever;
+  return s;
+}
+
+/// Two that are not known to meet.
+AnalyticSeparation apart(const ConvexGap& gap, double lower, double upper) {
+  AnalyticSeparation s = between(lower, upper, (gap.on_a + gap.on_b) * 0.5);
+  const Vec3d way = gap.on_a - gap.on_b;
+  const double length = norm(way);
+  s.away = length > gap.upper / 2 ? way * (1 / length) : gap.normal;
+  return s;
+}
+
+/// Grid units: two that overlap by no more along some direction, and are no farther apart, touch as
+/// far as this can tell.
+constexpr double kTouch = 1;
+
+/// Two bodies that meet, or nearly so.
+class Meeting {
+ public:
+  Meeting(const PlacedPrimitive& a, const ConvexBody& body_a, const PlacedPrimitive& b,
+          const ConvexBody& body_b, const Vec3l& origin)
+      : a_(body_a),
+        b_(body_b),
+        field_a_(InnerField::of(a, body_a, origin)),
+        field_b_(InnerField::of(b, body_b, origin)) {}
+
+  [[nodiscard]] bool measurable() const {
+    return (field_a_ || a_.flat) && (field_b_ || b_.flat) && (field_a_ || field_b_);
+  }
+
+  [[nodiscard]] AnalyticSeparation separation(ConvexGap gap) const {
+    look_along_faces(gap, field_a_, 1);
+    look_along_faces(gap, field_b_, -1);
+    if (gap.lower >= -kTouch && gap.upper <= kTouch) return apart(gap, gap.lower, gap.upper);
+    ConvexDepth depth;
+    bool deep_in_a = true;
+    depth.upper = -kNever;
+    if (field_a_) depth = deepest_in({&a_, &*field_a_}, b_, -kNever);
+    if (field_b_) {
+      const ConvexDepth other = deepest_in({&b_, &*field_b_}, a_, depth.lower);
+      if (other.lower > depth.lower) {
+        depth.lower = other.lower;
+        depth.point = other.point;
+        deep_in_a = false;
+      }
+      depth.upper = std::max(depth.upper, other.upper);
+    }
+    AnalyticSeparation s = summary(gap, depth, deep_in_a);
+    if (field_b_) s.a_inside_b = inside_by(a_, b_, *field_b_);
+    if (field_a_) s.b_inside_a = inside_by(b_, a_, *field_a_);
+    if (field_a_ && field_b_) s.difference = std::max(-s.a_inside_b, -s.b_inside_a);
+    return s;
+  }
+
+ private:
+  /// What touches flat meets no better parting plane than a face of either.
+  void look_along_faces(ConvexGap& gap, const std::optional<InnerField>& field, double side) const {
+    for (std::size_t i = 0; field && i < field->planes(); ++i) {
+      const Vec3d n = field->normal(i) * -side;
+      const double slab = dot(n, support(a_.shape, -n) - support(b_.shape, n));
+      gap.lower = std::max(gap.lower, slab - a_.error - b_.error);
+    }
+  }
+
+  [[nodiscard]] AnalyticSeparation summary(const ConvexGap& gap, const ConvexDepth& depth,
+                                           bool deep_in_a) const {
+    const double lower = std::max(-depth.upper, gap.lower);
+    if (!(depth.lower > 0)) return apart(gap, lower, std::max(gap.upper, -depth.upper));
+    AnalyticSeparation s = between(lower, -depth.lower, depth.point);
+    s.deep_in_a = deep_in_a;
+    const Vec3d out = (deep_in_a ? field_a_ : field_b_)->nearest(depth.point).normal;
+    s.away = deep_in_a ? -out : out;
+    return s;
+  }
+
+  const ConvexBody &a_, &b_;
+  std::optional<InnerField> field_a_, field_b_;
+};
+
+}  // namespace
+
+std::optional<AnalyticSeparation> convex_separation(const PlacedPrimitive& a,
+                                                    const PlacedPrimitive& b, double enough) {
+  const auto origin = snap(a.placement->translation);
+  if (!origin) return std::nullopt;
+  const auto x = convex_body(a, *origin), y = convex_body(b, *origin);
+  if (!x || !y) return std::nullopt;
+  const ConvexGap gap = convex_gap(*x, *y, enough);
+  AnalyticSeparation s;
+  if (gap.lower > 0) {
+    s = apart(gap, gap.lower, gap.lower >= enough ? gap.lower : gap.upper);
+  } else {
+    const Meeting meeting(a, *x, b, *y, *origin);
+    if (!meeting.measurable()) return std::nullopt;
+    s = meeting.separation(gap);
+  }
+  s.sheet_a = x->flat;
+  s.sheet_b = y->flat;
+  return s;
+}
+
+}  // namespace strake::geometry::analytic

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/analytic/inside.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace strake::geometry::analytic {
+namespace {
+
+constexpr int kMaxDescents = 24;
+/// Grid units: a body that sticks out by more is not looked at more closely.
+constexpr double kFarOut = 1e4;
+
+double room(const ConvexBody& inner, const ConvexBody& outer, const Vec3d& n) {
+  return dot(n, support(outer.shape, n) - support(inner.shape, n));
+}
+
+/// Alternates between the inner body's farthest point and the face nearest to it, each of which
+/// can only lessen the room.
+double descend(const ConvexBody& inner, const ConvexBody& outer, const InnerField& field, Vec3d n) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMaxDescents; ++step) {
+    n = field.nearest(support(inner.shape, n)).normal;
+    const double next = room(inner, outer, n);
+    if (!(next < least)) break;
+    least = next;
+  }
+  return least;
+}
+
+}  // namespace
+
+double inside_by(const ConvexBody& inner, const ConvexBody& outer, const InnerField& field) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < field.planes(); ++i)
+    least = std::min(least, room(inner, outer, field.normal(i)));
+  if (!field.curved()) return least;
+  const auto& axes = field.quadric().axes;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        if (least < -kFarOut) return least;
+        const Vec3d n = axes[0] * x + axes[1] * y + axes[2] * z;
+        if (x != 0 || y != 0 || z != 0) least = std::min(least, descend(inner, outer, field, n));
+      }
+  return least;
+}
+
+}  // namespace strake::geometry::analytic

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws of the certified separation of analytic primitives, over all kinds and placements: brackets
+// are narrow, overlap with those of closed forms and of meshes ever finer, and change under swap,
+// motion and turn as the definition does.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "strake/geometry/analyse.hpp"
+#include "strake/geometry/analytic_pair.hpp"
+#include "strake/geometry/depth.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/geometry/place.hpp"
+#include "strake/geometry/tessellate.hpp"
+#include "support/random_primitives.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using test::PrimitiveDraw;
+
+#ifdef STRAKE_LONG_RUN
+constexpr std::uint64_t kPairs = 200'000, kMeshPairs = 6'000;
+constexpr std::array kSags{5.0, 0.5, 0.05};
+#else
+constexpr std::uint64_t kPairs = 3'000, kMeshPairs = 60;
+constexpr std::array kSags{5.0, 0.5};
+#endif
+
+struct Body {
+  Primitive primitive;
+  Placement at;
+
+  [[nodiscard]] PlacedPrimitive placed() const { return {&primitive, &at}; }
+};
+
+struct Pair {
+  Body a, b;
+  std::string what;
+};
+
+Vec3d on_grid(const Vec3d& p) { return to_mm(snap(p).value_or(Vec3l{})); }
+
+std::optional<AnalyticSeparation> solved(const Body& a, const Body& b) {
+  return solved_separation(a.placed(), b.placed());
+}
+
+/// In general position, nested, beside each other or touching; small, large and far away.
+Pair draw_pair(std::uint64_t seed) {
+  PrimitiveDraw draw(seed);
+  const double size = std::pow(10, draw.between(0.5, 4));
+  Pair p;
+  p.a.primitive = draw.convex(size);
+  p.b.primitive = draw.convex(size * std::pow(10, draw.between(-0.8, 0.8)));
+  p.a.at.linear = draw.linear();
+  p.b.at.linear = draw.linear();
+  const double spread = draw.one_in(3) ? 0.2 : 1;
+  const Vec3d far = draw.one_in(10) ? draw.point(5e8) : Vec3d{};
+  p.a.at.translation = on_grid(far + draw.point(size * spread));
+  p.b.at.translation = on_grid(far + draw.point(size * spread));
+  p.what = "seed " + std::to_string(seed) + ' ' + std::string(kind_name(p.a.primitive)) + ' ' +
+           std::string(kind_name(p.b.primitive));
+  const auto s = solved(p.a, p.b);
+  // Move b along the way between the two to where they are near a touch.
+  if (s && draw.one_in(3)) {
+    const double step = (std::fabs(s->d) < 1e9 ? s->d : 0) * kMmPerGrid;
+    p.b.at.translation = on_grid(p.b.at.translation - draw.direction() * step);
+  }
+  return p;
+}
+
+bool overlap(const AnalyticSeparation& x, const AnalyticSeparation& y, double slack = 0) {
+  return std::fabs(x.d - y.d) <= x.error + y.error + slack;
+}
+
+TEST(AnalyticPairLaws, BracketsAreNarrowAndAgreeWithClosedForms) {
+  std::uint64_t answered = 0;
+  for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
+    const Pair p = draw_pair(seed);
+    const auto s = solved(p.a, p.b);
+    if (!s) continue;
+    ++answered;
+    ASSERT_GE(s->error, 0) << p.what;
+    ASSERT_LE(s->error, 1) << p.what << " d " << s->d;
+    const auto closed = analytic_separation(p.a.placed(), p.b.placed());
+    ASSERT_TRUE(closed);
+    EXPECT_TRUE(overlap(*s, *closed)) << p.what << ' ' << s->d << " and " << closed->d;
+  }
+  // What is left out: snouts whose end planes meet.
+  EXPECT_GT(answered, kPairs * 9 / 10);
+}
+
+TEST(AnalyticPairLaws, SwapMotionAndTurn) {
+  for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
+    const Pair p = draw_pair(seed);
+    const auto s = solved(p.a, p.b);
+    if (!s) continue;
+    const auto swapped = solved(p.b, p.a);
+    ASSERT_TRUE(swapped) << p.what;
+    EXPECT_TRUE(overlap(*s, *swapped)) << p.what << ' ' << s->d << " and " << swapped->d;
+    PrimitiveDraw draw(seed * 7919);
+    Body moved = p.b;
+    const Vec3d before = moved.at.translation;
+    moved.at.translation = on_grid(before + draw.point(std::pow(10, draw.between(-2, 3))));
+    const Vec3d way = (moved.at.translation - before) * kGridPerMm;
+    const auto after = solved(p.a, moved);
+    ASSERT_TRUE(after) << p.what;
+    EXPECT_TRUE(overlap(*s, *after, std::sqrt(dot(way, way)) + 2))
+        << p.what << ' ' << s->d << " and " << after->d;
+    // Both turned about the middle of a, then snapped: by less than two units each.
+    const Mat3d turn = draw.turn();
+    Pair q = p;
+    q.a.at = {turn * p.a.at.linear, p.a.at.translation};
+    q.b.at = {turn * p.b.at.linear,
+              p.a.at.translation + turn * (p.b.at.translation - p.a.at.translation)};
+    const auto turned = solved(q.a, q.b);
+    ASSERT_TRUE(turned) << p.what;
+    EXPECT_TRUE(overlap(*s, *turned, 2)) << p.what << ' ' << s->d << " and " << turned->d;
+  }
+}
+
+TEST(AnalyticPairLaws, TheSamePairAtAnotherPlaceGivesTheSameBits) {
+  for (std::uint64_t seed = 1; seed <= kPairs / 10; ++seed) {
+    const Pair p = draw_pair(seed);
+    const auto s = solved(p.a, p.b);
+    if (!s || std::fabs(p.a.at.translation.x) > 1e6) continue;
+    Pair q = p;
+    for (Body* body : {&q.a, &q.b})
+      body->at.translation = body->at.translation + Vec3d{1048576, -2097152, 524288};
+    const auto t = solved(q.a, q.b);
+    ASSERT_TRUE(t);
+    EXPECT_EQ(s->d, t->d) << p.what;
+    EXPECT_EQ(s->error, t->error) << p.what;
+    EXPECT_EQ(s->point, t->point) << p.what;
+  }
+}
+
+TEST(AnalyticPairLaws, AnEarlyEndIsACertainLowerBound) {
+  for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
+    const Pair p = draw_pair(seed);
+    const auto s = solved(p.a, p.b);
+    if (!s || s->d < 0) continue;
+    const double enough = s->d * 0.7;
+    const auto early = analytic_separation(p.a.placed(), p.b.placed(), enough);
+    ASSERT_TRUE(early);
+    EXPECT_LE(early->d - early->error, s->d + s->error) << p.what;
+    EXPECT_GE(early->d + early->error, enough) << p.what;
+  }
+}
+
+/// A primitive as the engine tessellates it.
+struct Meshed {
+  Part part;
+  PartTree tree;
+  SupportPlanes planes;
+  Vec3l origin;
+  double off = 0;  ///< the true surface lies within this of the triangles
+
+  [[nodiscard]] DepthPart deep() const { return {treed(), &planes}; }
+  [[nodiscard]] TreedPart treed() const { return {{&part, origin}, &tree}; }
+};
+
+std::optional<Meshed> meshed(const Body& body, double sag_mm) {
+  const Tessellation t = tessellate(body.primitive, body.at.linear, sag_mm);
+  if (!t.fault.empty()) return std::nullopt;
+  auto placed = place(t.mesh, {});
+  if (!placed) return std::nullopt;
+  const Vec3l base = placed->base;
+  MeshAnalysis analysis = analyse(std::move(placed->mesh));
+  if (analysis.parts.size() != 1 || analysis.parts[0].kind != PartKind::solid) return std::nullopt;
+  Meshed m;
+  m.part = std::move(analysis.parts[0]);
+  m.origin = snap(body.at.translation).value_or(Vec3l{}) + base;
+  m.planes = make_support_planes(m.part);
+  m.tree = PartTree(m.part);
+  m.off = t.mesh.sag_mm * kGridPerMm + 0.87;
+  return m;
+}
+
+/// The bracket that triangles give, widened by how far they may lie from the surfaces.
+struct Range {
+  double lower = 0, upper = 0;
+};
+Range mesh_range(const Meshed& a, const Meshed& b) {
+  PairWork work;
+  const double off = a.off + b.off;
+  const MeetingResult meeting = meet(a.treed(), b.treed(), work);
+  if (meeting.meeting == Meeting::apart) {
+    const auto near = closest(a.treed(), b.treed(), 1e12, work);
+    return {near->distance - off, near->distance + off};
+  }
+  if (meeting.meeting == Meeting::touching) return {-off, off};
+  DepthGoal goal;
+  goal.triangle_a = meeting.triangle_a;
+  goal.triangle_b = meeting.triangle_b;
+  goal.meeting_point = meeting.point;
+  const Depth depth = solid_depth(a.deep(), b.deep(), goal, work);
+  return {-depth.upper - off, -depth.lower + off};
+}
+
+TEST(AnalyticPairLaws, MeshesEverFinerAgree) {
+  std::uint64_t compared = 0;
+  for (std::uint64_t seed = 1; seed <= kMeshPairs; ++seed) {
+    const Pair p = draw_pair(seed);
+    const auto s = solved(p.a, p.b);
+    if (!s || std::fabs(p.a.at.translation.x) > 1e6) continue;
+    for (const double sag : kSags) {
+      const auto a = meshed(p.a, sag), b = meshed(p.b, sag);
+      if (!a || !b || a->part.triangles.size() + b->part.triangles.size() > 40'000) break;
+      const Range range = mesh_range(*a, *b);
+      EXPECT_GE(s->d + s->error, range.lower) << p.what << " sag " << sag;
+      EXPECT_LE(s->d - s->error, range.upper) << p.what << " sag " << sag;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, kMeshPairs);
+}
+
+}  // namespace
+}  // namespace strake::geometry
