@@ -116,6 +116,30 @@ std::string summary_of(const Report& report, const std::array<ClassRows, 3>& cla
   return summary + "\n";
 }
 
+std::string cell_row(std::string_view cell, const std::array<std::string, 4>& counts,
+                     std::size_t cell_columns) {
+  std::string line = fitted(cell, cell_columns);
+  for (const std::string& count : counts) line += "  " + right_aligned(count, kNumberColumns);
+  return line + "\n";
+}
+
+/// The cells of a matrix in which something was found.
+std::string matrix_table(const Report& report, std::size_t width) {
+  constexpr std::size_t kCounts = 4 * (kNumberColumns + 2), kMost = 40;
+  const std::size_t columns = std::clamp(width - std::min(width, kCounts), kLeastName, kMost);
+  std::string out;
+  for (const clash::CellReport& c : report.cells) {
+    if (c.hit + c.contact + c.clearance_violation + c.allowed == 0) continue;
+    if (out.empty())
+      out = cell_row("disciplines", {"hits", "contacts", "clearance", "allowed"}, columns);
+    out += cell_row(report.disciplines[c.a].name + " x " + report.disciplines[c.b].name,
+                    {std::to_string(c.hit), std::to_string(c.contact),
+                     std::to_string(c.clearance_violation), std::to_string(c.allowed)},
+                    columns);
+  }
+  return out.empty() ? out : out + "\n";
+}
+
 std::string test_table(const Report& report, const model::Model& model,
                        const TableOptions& options) {
   std::string out;
@@ -133,7 +157,7 @@ std::string test_table(const Report& report, const model::Model& model,
     if (block.hidden > 0) out += "… and " + counted(c, block.hidden) + " more\n";
   }
   if (!report.pairs.empty()) out += "\n";
-  return out + summary_of(report, classes);
+  return out + matrix_table(report, options.width) + summary_of(report, classes);
 }
 
 std::string group_row(std::string_view cls, std::string d, std::string results, std::string size,
@@ -177,8 +201,9 @@ std::string clash_table(const ClashContents& contents, const TableOptions& optio
     if (!first && contents.grouping == nullptr) out += "\n";
     first = false;
     if (!test.name.empty()) out += "== " + printable(test.name) + "\n";
-    out += contents.grouping != nullptr ? summary_of(test, shares(test, 0))
-                                        : test_table(test, contents.model, options);
+    out += contents.grouping != nullptr
+               ? matrix_table(test, options.width) + summary_of(test, shares(test, 0))
+               : test_table(test, contents.model, options);
   }
   return out;
 }

@@ -108,6 +108,53 @@ class Small(Rules):
         self.assertEqual(done.returncode, 2)
         self.assertIn('overwritten', done.stderr)
 
+    def test_the_order_of_objects_and_files_changes_nothing(self):
+        self.write('r.toml', """
+[defaults]
+clearance = "25mm"
+[[discipline]]
+name = "low"
+select = "name ~ 'c[0-2]'"
+[[discipline]]
+name = "high"
+select = "*"
+[matrix.cells.low]
+high = { clearance = "5mm" }
+[[exempt]]
+name = "neighbours"
+a = "c0"
+b = "c1"
+[[allowed]]
+name = "meant"
+a = "c1"
+b = "c2"
+max_depth = "any"
+""")
+        places = [0, 90, 180, 283, 390, 390]
+        blocks = [block for block in re.split(r'(?m)^(?=o )', cubes(*places)) if block]
+        expected = None
+        for order in ([0, 1, 2, 3, 4, 5], [5, 3, 1, 4, 2, 0], [2, 4, 0, 5, 1, 3]):
+            text = ''
+            for at, number in enumerate(order):
+                shift = 8 * (at - number)
+                text += re.sub(r'(?m)^f .*$', lambda line, by=shift: 'f ' + ' '.join(
+                    str(int(corner) + by) for corner in line[0].split()[1:]), blocks[number])
+            self.write('a.obj', text)
+            self.write('b.obj', cubes(700, 790))
+            for files in (['a.obj', 'b.obj'], ['b.obj', 'a.obj']):
+                done = self.run_strake('clash', *files, *self.SETTINGS, '--rules', 'r.toml', '--list-exempted',
+                                       '--json')
+                self.assertEqual(done.returncode, 0, done.stderr)
+                expected = expected or done.stdout
+                self.assertEqual(done.stdout, expected, (order, files))
+        report = json.loads(expected)
+        self.assertEqual([(r['a']['name'], r['b']['name'], r['class'], r.get('allowed')) for r in report['results']],
+                         [('c1', 'c2', 'HIT', 'meant'), ('c2', 'c3', 'CLEARANCE_VIOLATION', None),
+                          ('c3', 'c4', 'CLEARANCE_VIOLATION', None), ('c3', 'c5', 'CLEARANCE_VIOLATION', None),
+                          ('c4', 'c5', 'HIT', None)])
+        self.assertEqual(report['tests'][0]['exempted'],
+                         [{'rule': 'matrix', 'pairs': 0}, {'rule': 'neighbours', 'pairs': 2}])
+
     def test_a_rule_that_matches_nothing_is_named_in_both_places(self):
         self.write('m.obj', cubes(0))
         self.write('r.toml', '[[exempt]]\nname = "old"\na = "c0"\nb = "ghost*"\n')

@@ -189,6 +189,9 @@ TEST(ClashReports, TellWhatRulesDid) {
       table.find("0 hits, 0 contacts, 1 clearance violation, 1 allowed, 1 exempted by matrix"),
       std::string::npos)
       << table;
+  EXPECT_NE(table.find("hits    contacts   clearance     allowed\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("hull, port x pipes"), std::string::npos) << table;
+  EXPECT_EQ(table.find("pipes x pipes"), std::string::npos) << "nothing was found there";
   EXPECT_EQ(table.find("HIT"), std::string::npos) << "what is allowed is no clash to look at";
 }
 

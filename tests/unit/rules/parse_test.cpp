@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -222,6 +224,31 @@ TEST(RulesFile, HostileTextsEndInAnError) {
   EXPECT_NE(fault_of("a = " + std::string(100000, '[')), "");
   EXPECT_NE(fault_of(std::string("a = \"\0\"", 7)), "");
   EXPECT_NE(fault_of("a = \"\xFF\xFE\""), "");
+}
+
+TEST(RulesFile, DamageEndsInAnErrorWithAPlaceOrInRules) {
+  std::ifstream stream(STRAKE_EXAMPLE_RULES, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  ASSERT_GT(whole.size(), 1000U);
+  std::mt19937 random(11);
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string text = whole;
+    for (std::size_t cut = random() % 3 + 1; cut > 0; --cut) {
+      const std::size_t at = random() % text.size();
+      if (random() % 2 == 0)
+        text[at] = static_cast<char>(random() % 256);
+      else
+        text.erase(at, random() % 30);
+    }
+    const auto rules = Rules::parse(text, "r.toml");
+    if (rules) continue;
+    ++refused;
+    EXPECT_TRUE(rules.error().where.starts_with("r.toml, line ")) << rules.error().text();
+    EXPECT_FALSE(rules.error().message.empty());
+    EXPECT_FALSE(rules.error().mend.empty()) << rules.error().text();
+  }
+  EXPECT_GT(refused, 500);
 }
 
 TEST(RulesFile, IsReadFromAFile) {
