@@ -49,6 +49,16 @@ bool within(const HalfSpace& side, const geometry::Vec3d& p) {
   return dot(p - side.point_mm, side.normal) >= 0;
 }
 
+/// Whether a rule allows every place of a box.
+bool holds_all(const Allowed& rule, const geometry::Box3d& box) {
+  if (rule.region_mm && !rule.region_mm->contains(box)) return false;
+  return std::all_of(rule.cavity.begin(), rule.cavity.end(), [&](const HalfSpace& side) {
+    geometry::Vec3d outermost;
+    for (int k = 0; k < 3; ++k) outermost[k] = side.normal[k] > 0 ? box.lo[k] : box.hi[k];
+    return within(side, outermost);
+  });
+}
+
 bool allows(const Allowed& rule, const Pair& pair) {
   if (rule.max_depth_mm ? pair.d_lower_mm < -*rule.max_depth_mm : pair.cls == Class::hit)
     return false;
@@ -183,10 +193,13 @@ std::uint32_t PairRules::level_rule(Level a, Level b) const {
   return first + static_cast<std::uint32_t>(at - level_rules_.begin());
 }
 
+double PairRules::own_reach(const PartRef& a, const PartRef& b) const {
+  return search_reach(reach_of(tolerances_[tolerances(a.object, b.object)]) * geometry::kGridPerMm);
+}
+
 bool PairRules::within_own_reach(const PartRef& a, const PartRef& b) const {
   if (one_reach_) return true;
-  const double reach =
-      search_reach(reach_of(tolerances_[tolerances(a.object, b.object)]) * geometry::kGridPerMm);
+  const double reach = own_reach(a, b);
   return inflated_box(a, reach).meets(inflated_box(b, reach));
 }
 
@@ -244,14 +257,22 @@ void PairRules::count_candidate(std::uint32_t a, std::uint32_t b, Report& report
   if (some) ++report.counters.allowed_pairs;
 }
 
-std::int32_t PairRules::allows(const Pair& pair) const {
-  std::int32_t found = -1;
-  allowed_.each(index(pair.a), index(pair.b), [&](std::size_t rule) {
+void PairRules::allow(const PartRef& a, const PartRef& b, Pair& pair) const {
+  allowed_.each(a.object, b.object, [&](std::size_t rule) {
     if (!clash::allows(policy_.allowed[rule], pair)) return false;
-    found = static_cast<std::int32_t>(rule);
+    pair.allowed = static_cast<std::int32_t>(rule);
     return true;
   });
-  return found;
+  if (pair.allowed < 0) return;
+  const double reach = own_reach(a, b);
+  const geometry::Box3l x = inflated_box(a, reach), y = inflated_box(b, reach);
+  geometry::Box3d common;
+  for (int k = 0; k < 3; ++k) {
+    common.lo[k] = static_cast<double>(std::max(x.lo[k], y.lo[k])) / geometry::kGridPerMm;
+    common.hi[k] = static_cast<double>(std::min(x.hi[k], y.hi[k])) / geometry::kGridPerMm;
+  }
+  if (!holds_all(policy_.allowed[static_cast<std::size_t>(pair.allowed)], common))
+    pair.flags |= kUncertain;
 }
 
 void PairRules::open(const Sets& sets, Report& report) const {

@@ -37,8 +37,9 @@ class PairRules {
   /// Counts a pair of objects that goes on for the rules that may allow it.
   void count_candidate(std::uint32_t a, std::uint32_t b, Report& report) const;
   [[nodiscard]] bool may_allow(std::uint32_t a, std::uint32_t b) const;
-  /// The first rule that allows the result, as Pair::allowed has it.
-  [[nodiscard]] std::int32_t allows(const Pair& pair) const;
+  /// Pair::allowed by the first rule that allows the result; flagged uncertain where the two parts
+  /// may meet beyond what the rule allows, at a place that is not their worst.
+  void allow(const PartRef& a, const PartRef& b, Pair& pair) const;
 
   /// Names the rules in force, with counts of 0, and the disciplines of the sets.
   void open(const Sets& sets, Report& report) const;
@@ -49,6 +50,7 @@ class PairRules {
   [[nodiscard]] std::uint32_t object_rule(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::uint32_t level_rule(Level a, Level b) const;
   [[nodiscard]] std::uint32_t cell(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] double own_reach(const PartRef& a, const PartRef& b) const;
   [[nodiscard]] bool within_own_reach(const PartRef& a, const PartRef& b) const;
   void number_level_rules();
 

@@ -39,7 +39,7 @@ Pair pair_of(const PartAnswer& answer, const PartRef& a, const PartRef& b, const
   pair.part_b = b.number;
   pair.level_a = rules.level(a);
   pair.level_b = rules.level(b);
-  pair.allowed = rules.allows(pair);
+  rules.allow(a, b, pair);
   return pair;
 }
 

@@ -441,6 +441,28 @@ TEST(ClashPolicy, WhatIsMeantHidesNothingElseOfThePair) {
   EXPECT_EQ(run({150, 150, 15}, {160, 160, 80}), (Told{"deck-pipe HIT by meant"}));
 }
 
+TEST(ClashPolicy, PartsThatMayMeetBeyondWhatIsAllowedAreUncertain) {
+  const ClashModel m = chain();  // a and b meet between x = 90 and 100, y and z from 0 to 100
+  const auto flags = [&](auto&& limit) {
+    Policy policy;
+    policy.allowed = {meant(4)};
+    policy.allowed[0].max_depth_mm = 50;
+    limit(policy.allowed[0]);
+    const Report report = report_of(m, {{}, {}, policy});
+    EXPECT_EQ(report.pairs[0].allowed, 0);
+    return report.pairs[0].flags;
+  };
+  EXPECT_EQ(flags([](Allowed&) {}), 0);
+  EXPECT_EQ(flags([](Allowed& a) { a.region_mm = {{80, -10, -10}, {110, 110, 110}}; }), 0);
+  EXPECT_EQ(flags([](Allowed& a) { a.region_mm = {{80, 0, 0}, {110, 110, 110}}; }), kUncertain)
+      << "a gap of a millimetre is a contact as well, and below the region";
+  EXPECT_EQ(flags([](Allowed& a) { a.cavity = {{{80, 0, 0}, {1, 0, 0}}}; }), 0);
+  EXPECT_EQ(
+      flags([](Allowed& a) { a.cavity = {{{80, 0, 0}, {1, 0, 0}}, {{97, 0, 0}, {-1, 0, 0}}}; }),
+      kUncertain);
+  EXPECT_EQ(flags([](Allowed& a) { a.cavity = {{{0, 0, 97}, {0, 0, -1}}}; }), kUncertain);
+}
+
 TEST(ClashPolicy, ListsOfTheWrongSizeAreErrors) {
   const ClashModel m = chain();
   const model::Scene scene = scene_of(m);
