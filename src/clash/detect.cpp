@@ -68,7 +68,7 @@ class Engine {
                             options_, context_);
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
-    rules_.exempt(list_, pairs_, report);
+    if (const Status s = rules_.exempt(list_, pairs_, context_, report); !s) return s.error();
     auto cases = tell_cases_apart();
     if (!cases) return cases.error();
     cases_ = std::move(*cases);

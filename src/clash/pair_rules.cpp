@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
 namespace {
@@ -203,42 +204,50 @@ bool PairRules::within_own_reach(const PartRef& a, const PartRef& b) const {
   return inflated_box(a, reach).meets(inflated_box(b, reach));
 }
 
-void PairRules::exempt(const PartList& list, std::vector<IndexPair>& pairs, Report& report) const {
+PairRules::Verdict PairRules::verdict(const PartRef& a, const PartRef& b) const {
+  if (!within_own_reach(a, b)) return {.rule = kNoLabel, .far = true};
+  const std::uint32_t whole = object_rule(a.object, b.object);
+  if (whole != kNoLabel || !policy_.levels) return {whole};
+  return {level_rule(level(a), level(b))};
+}
+
+Status PairRules::exempt(const PartList& list, std::vector<IndexPair>& pairs,
+                         const parallel::Context& context, Report& report) const {
+  constexpr std::size_t kGrain = 4096;
   const bool rules = policy_.matrix || !policy_.exemptions.empty() || policy_.levels;
-  if (!rules && one_reach_) return;
-  const auto count = [&](const PartRef& a, const PartRef& b, std::uint32_t rule) {
-    ++report.exempted[rule].pairs;
-    if (policy_.list_exempted)
-      report.exempted_pairs.push_back({model::ObjectId{a.object}, model::ObjectId{b.object}, rule});
-  };
+  if (!rules && one_reach_) return {};
+  const auto verdicts = parallel::transform(
+      context, {.name = "rules", .n = pairs.size(), .grain = kGrain}, [&](std::size_t i) {
+        return verdict(list.parts[pairs[i].first], list.parts[pairs[i].second]);
+      });
+  if (!verdicts) return verdicts.error();
   std::size_t kept = 0;
   std::vector<std::uint32_t> told;  // rules that the current pair of objects counts for already
-  std::uint32_t whole = kNoLabel;   // the rule that exempts the current pair of objects
   const PartRef *last_a = nullptr, *last_b = nullptr;
-  for (const IndexPair& pair : pairs) {
-    const PartRef &a = list.parts[pair.first], &b = list.parts[pair.second];
-    if (!within_own_reach(a, b)) continue;
-    if (last_a == nullptr || last_a->object != a.object || last_b->object != b.object) {
-      whole = object_rule(a.object, b.object);
-      told.clear();
-      if (whole != kNoLabel) count(a, b, whole);
-      last_a = &a;
-      last_b = &b;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const PartRef &a = list.parts[pairs[i].first], &b = list.parts[pairs[i].second];
+    const Verdict& v = (*verdicts)[i];
+    if (v.far) continue;
+    if (v.rule == kNoLabel) {
+      pairs[kept++] = pairs[i];
+      continue;
     }
-    if (whole != kNoLabel) continue;
-    const std::uint32_t rule = policy_.levels ? level_rule(level(a), level(b)) : kNoLabel;
-    if (rule == kNoLabel) {
-      pairs[kept++] = pair;
-    } else if (std::find(told.begin(), told.end(), rule) == told.end()) {
-      told.push_back(rule);
-      count(a, b, rule);
-    }
+    if (last_a == nullptr || last_a->object != a.object || last_b->object != b.object) told.clear();
+    last_a = &a;
+    last_b = &b;
+    if (std::find(told.begin(), told.end(), v.rule) != told.end()) continue;
+    told.push_back(v.rule);
+    ++report.exempted[v.rule].pairs;
+    if (policy_.list_exempted)
+      report.exempted_pairs.push_back(
+          {model::ObjectId{a.object}, model::ObjectId{b.object}, v.rule});
   }
   pairs.resize(kept);
   std::sort(report.exempted_pairs.begin(), report.exempted_pairs.end(),
             [](const ExemptedPair& x, const ExemptedPair& y) {
               return std::tie(x.a, x.b, x.rule) < std::tie(y.a, y.b, y.rule);
             });
+  return {};
 }
 
 bool PairRules::may_allow(std::uint32_t a, std::uint32_t b) const {

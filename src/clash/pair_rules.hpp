@@ -32,7 +32,8 @@ class PairRules {
 
   /// Takes out what is exempted, and what is nearer than reach_mm() but not than the pair's own
   /// tolerances ask. `pairs` is by objects.
-  void exempt(const PartList& list, std::vector<geometry::IndexPair>& pairs, Report& report) const;
+  [[nodiscard]] Status exempt(const PartList& list, std::vector<geometry::IndexPair>& pairs,
+                              const parallel::Context& context, Report& report) const;
 
   /// Counts a pair of objects that goes on for the rules that may allow it.
   void count_candidate(std::uint32_t a, std::uint32_t b, Report& report) const;
@@ -47,6 +48,12 @@ class PairRules {
   void close(Report& report) const;
 
  private:
+  /// What becomes of one pair of parts.
+  struct Verdict {
+    std::uint32_t rule = kNoLabel;  ///< kNoLabel: none exempts it
+    bool far = false;               ///< out of the reach of its own tolerances
+  };
+  [[nodiscard]] Verdict verdict(const PartRef& a, const PartRef& b) const;
   [[nodiscard]] std::uint32_t object_rule(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::uint32_t level_rule(Level a, Level b) const;
   [[nodiscard]] std::uint32_t cell(std::uint32_t a, std::uint32_t b) const;
