@@ -70,9 +70,11 @@ class Schemas(unittest.TestCase):
         document = json.loads(text)
         for error in validator.iter_errors(document):
             self.fail(f'{name}: {"/".join(map(str, error.absolute_path))}: {error.message}')
-        self.assertFalse(validator.is_valid({**document, 'no such key': 1}))
+        short = {k: v[:3] if isinstance(v, list) else v for k, v in document.items()}
+        self.assertTrue(validator.is_valid(short))
+        self.assertFalse(validator.is_valid({**short, 'no such key': 1}))
         for key in schema['required']:
-            self.assertFalse(validator.is_valid({k: v for k, v in document.items() if k != key}), key)
+            self.assertFalse(validator.is_valid({k: v for k, v in short.items() if k != key}), key)
         return document
 
     def test_info(self):
