@@ -52,16 +52,25 @@ Result<model::SceneOptions> scene_options(const SceneInput& input, double defaul
   return options;
 }
 
-void tell(Console& console, const Diagnostics& diagnostics) {
+void tell(Console& console, const Diagnostics& diagnostics,
+          std::initializer_list<std::string_view> each) {
+  const auto words = [](const Diagnostic& d) {
+    return fmt::format(": {}{}{}", d.where, d.where.empty() ? "" : ": ", d.message);
+  };
+  const auto& kept = diagnostics.kept();
   for (const Diagnostics::Count& count : diagnostics.counts()) {
     std::string line = fmt::format("{} {}", severity_name(count.severity), count.code);
+    if (std::find(each.begin(), each.end(), count.code) != each.end()) {
+      for (const Diagnostic& d : kept)
+        if (d.code == count.code) console.say(line + words(d));
+      if (count.count > Diagnostics::kMaxPerCode)
+        console.say(line + fmt::format(", {} in all", count.count));
+      continue;
+    }
     if (count.count > 1) line += fmt::format(", first of {}", count.count);
-    const auto& kept = diagnostics.kept();
     const auto first = std::find_if(kept.begin(), kept.end(),
                                     [&](const Diagnostic& d) { return d.code == count.code; });
-    if (first != kept.end())
-      line +=
-          fmt::format(": {}{}{}", first->where, first->where.empty() ? "" : ": ", first->message);
+    if (first != kept.end()) line += words(*first);
     console.say(line);
   }
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "cli/exit_code.hpp"
 #include "cli/options.hpp"
@@ -38,7 +40,9 @@ struct Loaded {
 /// `done`, or `partial` where --strict was given and something was skipped.
 [[nodiscard]] ExitCode outcome(const InputOptions& input, const Loaded& loaded);
 
-/// One line per kind of diagnostic: how often, and the first in its own words.
-void tell(Console& console, const Diagnostics& diagnostics);
+/// One line per kind of diagnostic: how often, and the first in its own words. Of the kinds in
+/// `each`, every one.
+void tell(Console& console, const Diagnostics& diagnostics,
+          std::initializer_list<std::string_view> each = {});
 
 }  // namespace strake::cli

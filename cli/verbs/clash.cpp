@@ -203,7 +203,9 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
       findings_of(session, *loaded, *request, given.list_exempted);
   if (!findings) return findings.error();
   const Diagnostics diagnostics = findings->all_diagnostics();
-  tell(session.console(), diagnostics);
+  // A rule or a set that does nothing is misspelt more often than meant: each is named.
+  tell(session.console(), diagnostics,
+       {"rule-matches-nothing", "selection-picks-nothing", "empty-set"});
   count_work(session.stats(), findings->tests);
   const Result<std::optional<clash::Grouping>> grouping =
       group(session, given.result, *findings, *loaded->model);

@@ -155,13 +155,27 @@ max_depth = "any"
         self.assertEqual(report['tests'][0]['exempted'],
                          [{'rule': 'matrix', 'pairs': 0}, {'rule': 'neighbours', 'pairs': 2}])
 
+    def test_the_snippets_of_the_documentation_are_one_file_that_runs(self):
+        text = (EXAMPLES.parent / 'docs' / 'rules.md').read_text(encoding='utf-8')
+        snippets = re.findall(r'(?s)```toml\n(.*?)```', text)
+        self.assertEqual(len(snippets), 6)
+        self.write('r.toml', ''.join(snippets))
+        self.write('m.obj', cubes(0, 90))
+        report = self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')
+        self.assertEqual([test['name'] for test in report['tests']], ['disciplines', 'hvac against steel'])
+        self.assertEqual(report['tests'][1]['settings']['clearance_mm'], 50)
+
     def test_a_rule_that_matches_nothing_is_named_in_both_places(self):
         self.write('m.obj', cubes(0))
-        self.write('r.toml', '[[exempt]]\nname = "old"\na = "c0"\nb = "ghost*"\n')
+        self.write('r.toml', '[[exempt]]\nname = "old"\na = "new*"\nb = "ghost*"\n[[test]]\nname = "t"\na = "x"\n')
         done = self.run_strake('clash', 'm.obj', '--rules', 'r.toml', '--json')
-        said = "r.toml, line 4: [[exempt]] 'old', b: 'ghost*' picks no object"
-        self.assertIn('rule-matches-nothing: ' + said, done.stderr)
-        self.assertIn(said, [f"{m['where']}: {m['message']}" for m in json.loads(done.stdout)['messages']])
+        messages = [f"{m['code']}: {m['where']}: {m['message']}" for m in json.loads(done.stdout)['messages']]
+        for said in ("rule-matches-nothing: r.toml, line 3: [[exempt]] 'old', a: 'new*' picks no object",
+                     "rule-matches-nothing: r.toml, line 4: [[exempt]] 'old', b: 'ghost*' picks no object",
+                     "rule-matches-nothing: r.toml, line 7: [[test]] 't', a: 'x' picks no object",
+                     "empty-set: test 't', set A, x: a set without objects clashes with nothing"):
+            self.assertIn(said, done.stderr)
+            self.assertIn(said, messages)
 
 
 def paths_of_glb(file):
