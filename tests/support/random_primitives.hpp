@@ -95,6 +95,23 @@ class PrimitiveDraw {
       }
     }
   }
+  /// Elbows, rings and bends, about `size` mm large.
+  geometry::Primitive torus(double size) {
+    const double angle = one_in(5) ? 6.283185307179586 : between(0.1, 6.2);
+    if (one_in(2)) {
+      geometry::CircularTorusPrimitive t;
+      t.tube_radius = between(0.05, 0.4) * size;
+      t.centre_radius = t.tube_radius * (one_in(6) ? 1 : between(1, 6));
+      t.angle = angle;
+      return t;
+    }
+    geometry::RectangularTorusPrimitive t;
+    t.outer_radius = between(0.2, 1) * size;
+    t.inner_radius = one_in(5) ? 0 : t.outer_radius * between(0.1, 0.95);
+    t.height = between(0.05, 1) * size;
+    t.angle = angle;
+    return t;
+  }
   geometry::Primitive convex(double size) { return convex(below(kConvexKinds), size); }
 
  private:

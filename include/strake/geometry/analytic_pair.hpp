@@ -31,14 +31,16 @@ struct AnalyticSeparation {
   bool sheet_a = false, sheet_b = false;  ///< without thickness: depth is measured in the other
 };
 
-/// Signed separation of two true surfaces within a certain bracket, for every pair of boxes,
-/// pyramids, cylinders, snouts, spheres and dishes under any placement that does not flatten them.
-/// Nothing for other pairs, for a snout whose end planes meet in it, and for two sheets that meet:
-/// their triangles speak for them.
+/// Signed separation of two true surfaces within a certain bracket: boxes, pyramids, cylinders,
+/// snouts, spheres and dishes under any placement that does not flatten them, tori under
+/// similarities. Nothing for lines, for tubes that reach beyond their axis, for a snout whose end
+/// planes meet in it, for sheets of a torus that meet the other and for two sheets that meet: their
+/// triangles speak for them.
 ///
 /// Closed forms where there are any (a sphere and a sphere, cylinder or box; cylinders with
-/// parallel axes), otherwise solved_separation(). `error` is a fraction of a grid unit but for
-/// bodies that a closed form takes as what rounded matrices meant.
+/// parallel axes), otherwise solved_separation(). `error` is a fraction of a grid unit, but for
+/// bodies that a closed form or a torus takes as what rounded matrices meant, and for rings that
+/// run along the other body for long.
 ///
 /// Where the two are at least `enough` apart the answer may be any certain lower bound from
 /// `enough` up, with an `error` of 0.

@@ -3,6 +3,7 @@
 
 #include "geometry/analytic/closed_forms.hpp"
 #include "geometry/analytic/convex_pair.hpp"
+#include "geometry/analytic/torus_pair.hpp"
 
 namespace strake::geometry {
 
@@ -14,7 +15,8 @@ std::optional<AnalyticSeparation> analytic_separation(const PlacedPrimitive& a,
 
 std::optional<AnalyticSeparation> solved_separation(const PlacedPrimitive& a,
                                                     const PlacedPrimitive& b, double enough) {
-  return analytic::convex_separation(a, b, enough);
+  if (auto s = analytic::convex_separation(a, b, enough)) return s;
+  return analytic::torus_separation(a, b, enough);
 }
 
 }  // namespace strake::geometry

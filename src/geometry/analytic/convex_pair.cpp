@@ -55,12 +55,12 @@ class Meeting {
     look_along_faces(gap, field_a_, 1);
     look_along_faces(gap, field_b_, -1);
     if (gap.lower >= -kTouch && gap.upper <= kTouch) return apart(gap, gap.lower, gap.upper);
-    ConvexDepth depth;
+    DeepestPoint depth;
     bool deep_in_a = true;
     depth.upper = -kNever;
-    if (field_a_) depth = deepest_in({&a_, &*field_a_}, b_, -kNever);
+    if (field_a_) depth = deepest(DeepBody(a_, *field_a_), ConvexRoom{b_}, -kNever);
     if (field_b_) {
-      const ConvexDepth other = deepest_in({&b_, &*field_b_}, a_, depth.lower);
+      const DeepestPoint other = deepest(DeepBody(b_, *field_b_), ConvexRoom{a_}, depth.lower);
       if (other.lower > depth.lower) {
         depth.lower = other.lower;
         depth.point = other.point;
@@ -85,7 +85,7 @@ class Meeting {
     }
   }
 
-  [[nodiscard]] AnalyticSeparation summary(const ConvexGap& gap, const ConvexDepth& depth,
+  [[nodiscard]] AnalyticSeparation summary(const ConvexGap& gap, const DeepestPoint& depth,
                                            bool deep_in_a) const {
     const double lower = std::max(-depth.upper, gap.lower);
     if (!(depth.lower > 0)) return apart(gap, lower, std::max(gap.upper, -depth.upper));

@@ -61,6 +61,15 @@ bool read(const Primitive& primitive, PlacedSolid::Kind& kind, Three& half) {
 
 }  // namespace
 
+std::optional<SquaredFrame> squared_frame(const Mat3d& linear, double reach) {
+  const auto frame = frame_of(linear);
+  if (!frame) return std::nullopt;
+  SquaredFrame s{frame->axes, frame->scale[2], 0};
+  s.moved = moved(linear, *frame, {s.scale, s.scale, s.scale}, {reach, reach, reach});
+  if (!(s.moved * kGridPerMm < kMaxMoved)) return std::nullopt;
+  return s;
+}
+
 std::optional<PlacedSolid> placed_solid(const PlacedPrimitive& p) {
   PlacedSolid solid;
   Three local{};

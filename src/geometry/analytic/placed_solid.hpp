@@ -32,4 +32,13 @@ struct PlacedSolid {
 /// metres.
 inline constexpr double kMaxMoved = 10;
 
+/// Orthonormal axes and one scale for a map that is a similarity but for rounding; `moved` (the
+/// unit of `reach`) is how far it takes a point within `reach` of the centre from where these do.
+struct SquaredFrame {
+  std::array<Vec3d, 3> axes;
+  double scale = 1, moved = 0;
+};
+/// Nothing where that is more than kMaxMoved; lengths are millimetres.
+[[nodiscard]] std::optional<SquaredFrame> squared_frame(const Mat3d& linear, double reach);
+
 }  // namespace strake::geometry::analytic

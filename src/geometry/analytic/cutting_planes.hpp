@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "geometry/analytic/body.hpp"
+#include "geometry/analytic/convex_gap.hpp"
+#include "geometry/depth/radius_simplex.hpp"
+#include "strake/geometry/depth.hpp"
+
+namespace strake::geometry::analytic {
+
+/// Grid units: the bracket of a depth is narrow enough.
+inline constexpr double kDepthTolerance = 1.0 / 16;
+
+/// How deep a body is at the deepest of the points that lie in another: lower <= depth <= upper is
+/// certain. Negative `upper`: the two are apart.
+struct DeepestPoint {
+  double lower = 0, upper = std::numeric_limits<double>::infinity();
+  Vec3d point;  ///< in both, `lower` deep in the first
+  int steps = 0;
+};
+
+/// What a measured body shows at a point: how deep it certainly is there, and of its half-spaces
+/// (or what stands for one) the one that the point with a ball of radius r about it violates most.
+struct DepthLook {
+  double certain = 0;
+  RadiusConstraint cut;  ///< about the origin
+};
+
+/// {x : n·x + weight·r <= the body's support along n}, about the origin.
+[[nodiscard]] inline RadiusConstraint half_space(const ConvexBody& body, const Vec3d& n,
+                                                 double weight) {
+  return {n, weight, dot(n, support(body.shape, n)) + body.error};
+}
+
+/// The same constraint for x measured from elsewhere. What that rounds is in the supports' errors.
+[[nodiscard]] inline RadiusConstraint moved(RadiusConstraint c, const Vec3d& from) {
+  c.offset -= dot(c.normal, from);
+  return c;
+}
+
+/// The greatest r for which a ball of that radius lies in `measured` with its centre in `room`: a
+/// linear program in four variables over all half-spaces of both, whose cuts (Kelley 1960) are
+/// found as they are needed and taken in by the dual simplex method. Multipliers prove the upper
+/// bound, a point of the room with its certain depth the lower one. Ends when they agree to
+/// kDepthTolerance, when the upper one falls to `enough`, or when nothing is violated by more than
+/// a part of that.
+///
+/// Measured: middle(), extent() and bound(n) give a point, a bound on coordinates about it, and a
+/// bound on n·x + r; look(x, r) is a DepthLook; certain(x) the depth at a point that is there.
+/// Room: hull() is a convex set; real(x) takes one of its points into the body that it stands for.
+template <class Measured, class Room>
+[[nodiscard]] DeepestPoint deepest(const Measured& measured, const Room& room, double enough) {
+  constexpr int kMaxSteps = 200;
+  const Vec3d from = measured.middle();
+  std::array<RadiusConstraint, 4> first;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3d& n = tetrahedral_directions()[i];
+    first[i] = moved({n, 1, measured.bound(n)}, from);
+  }
+  RadiusSimplex simplex(first, measured.extent());
+  DeepestPoint result;
+  const auto try_point = [&](const Vec3d& at, double depth) {
+    if (!(depth > result.lower)) return;
+    result.lower = depth;
+    result.point = at;
+  };
+  for (; result.steps < kMaxSteps && simplex.load(); ++result.steps) {
+    result.upper = std::min(result.upper, simplex.proven_upper());
+    const Vec3d at = simplex.x() + from;
+    const ConvexGap to_room = convex_gap(point_body(at), room.hull());
+    const DepthLook look = measured.look(at, simplex.r());
+    const Vec3d real = room.real(to_room.upper > kGapTolerance ? to_room.on_b : at);
+    // Within the tolerance of the room: there is a point of it that near.
+    if (real == at)
+      try_point(at, look.certain - to_room.upper - room.hull().error);
+    else
+      try_point(real, measured.certain(real) - room.hull().error);
+    if (result.upper - result.lower <= kDepthTolerance || result.upper <= enough) break;
+    RadiusConstraint cut = moved(look.cut, from);
+    if (to_room.lower > simplex.excess(cut))
+      cut = moved(half_space(room.hull(), to_room.normal, 0), from);
+    if (!(simplex.excess(cut) > kDepthTolerance / 8)) break;
+    if (!simplex.exchange(cut, static_cast<std::size_t>(result.steps) + 4)) break;
+  }
+  return result;
+}
+
+}  // namespace strake::geometry::analytic
