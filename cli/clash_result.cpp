@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/clash_result.hpp"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "cli/options.hpp"
 
@@ -43,6 +49,12 @@ void add_result_options(CLI::App& command, ClashResultInput& options) {
              "What comes first: the deepest (default), the largest common volume, or with "
              "--group-by the largest group")
       ->group(kGroup);
+  command
+      .add_option("--log-pairs", options.log_pairs,
+                  "Write every pair that went to the detailed stage to this .csv: class (NO_HIT "
+                  "too), whether a rule may allow it, and what it cost")
+      ->type_name("FILE")
+      ->group(kGroup);
   command.add_flag("--volumes", options.volumes, "Measure the volume that hits have in common")
       ->group(kGroup);
 }
@@ -57,6 +69,27 @@ Status check(const ClashResultInput& input) {
                  "add --group-by proximity"};
   if (const Result<clash::GroupRules> rules = rules_of(input); !rules) return rules.error();
   return {};
+}
+
+std::size_t terminal_width() {
+  constexpr std::size_t kDefault = 100, kLeast = 60;
+  winsize size{};
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefault;
+  return std::max<std::size_t>(size.ws_col, kLeast);
+}
+
+void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model) {
+  constexpr std::size_t kShown = 5;
+  std::vector<const clash::LoggedPair*> pairs;
+  for (const clash::Report& test : findings.tests)
+    for (const clash::LoggedPair& pair : test.log) pairs.push_back(&pair);
+  const auto shown = static_cast<std::ptrdiff_t>(std::min(kShown, pairs.size()));
+  std::partial_sort(pairs.begin(), pairs.begin() + shown, pairs.end(), [](auto* x, auto* y) {
+    return std::tuple(y->cost(), x->a, x->b) < std::tuple(x->cost(), y->a, y->b);
+  });
+  pairs.resize(static_cast<std::size_t>(shown));
+  for (const clash::LoggedPair* pair : pairs)
+    stats.costly(model.object(pair->a).id, model.object(pair->b).id, pair->cost());
 }
 
 clash::SortBy sort_by(const std::string& word) {

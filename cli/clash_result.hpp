@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -16,7 +17,7 @@ namespace strake::cli {
 
 /// How the result of a clash run is to be told, as written.
 struct ClashResultInput {
-  std::string group_by, group_distance, sort;
+  std::string group_by, group_distance, sort, log_pairs;
   bool volumes = false, group_contacts = false;
 
   [[nodiscard]] bool wants_volumes() const { return volumes || sort == "volume"; }
@@ -25,7 +26,11 @@ struct ClashResultInput {
 void add_result_options(CLI::App& command, ClashResultInput& options);
 /// An error for options that say nothing without another.
 [[nodiscard]] Status check(const ClashResultInput& input);
+[[nodiscard]] std::size_t terminal_width();
 [[nodiscard]] clash::SortBy sort_by(const std::string& word);
+
+/// Tells --stats which pairs cost most.
+void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model);
 
 /// The groups, if any are asked for.
 [[nodiscard]] Result<std::optional<clash::Grouping>> group(Session& session,

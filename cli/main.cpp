@@ -20,6 +20,7 @@ constexpr const char* kFooter = R"(
 Examples:
   strake info platform.rvm
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
+  strake clash diff monday.json tuesday.json
   strake draw ship.glb --view iso --hidden dashed -o ship.svg
   strake generate ship --objects 20000 --seed 1 -o ship.glb --truth ship.truth.json
 
@@ -87,8 +88,11 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kFooter);
   CommonOptions common;
-  const std::vector<Verb> verbs{add_info(program, common), add_clash(program, common),
-                                add_draw(program, common), add_generate(program, common)};
+  const Verb clash = add_clash(program, common);
+  // A verb within a verb goes first: both count as parsed.
+  const std::vector<Verb> verbs{add_clash_diff(*clash.command, common), clash,
+                                add_info(program, common), add_draw(program, common),
+                                add_generate(program, common)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version

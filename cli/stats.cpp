@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "strake/core/text.hpp"
+
 namespace strake::cli {
 
 namespace {
@@ -35,6 +37,10 @@ void Stats::count(std::string_view name, std::uint64_t value) {
   counters_.emplace_back(name, value);
 }
 
+void Stats::costly(std::string_view a, std::string_view b, std::uint64_t cost) {
+  costly_.push_back({std::string(a), std::string(b), cost});
+}
+
 std::string Stats::text(const std::vector<parallel::RegionReport>& regions) const {
   std::string out = fmt::format("{:<28}{:>10}{:>10}\n", "phase", "wall s", "cpu s");
   for (const Phase& phase : phases_)
@@ -53,6 +59,9 @@ std::string Stats::text(const std::vector<parallel::RegionReport>& regions) cons
                        region.bound(), region.longest_s);
   }
   for (const auto& [name, value] : counters_) out += fmt::format("{:<28}{:>10}\n", name, value);
+  for (const Costly& pair : costly_)
+    out += fmt::format("{:<28}{:>10}   {} and {}\n", "costly pair", pair.cost, printable(pair.a),
+                       printable(pair.b));
   out += fmt::format("{:<28}{:>10.1f} MiB", "peak memory",
                      static_cast<double>(peak_memory_bytes()) / (1024.0 * 1024.0));
   return out;
@@ -60,7 +69,8 @@ std::string Stats::text(const std::vector<parallel::RegionReport>& regions) cons
 
 std::string Stats::json(const std::vector<parallel::RegionReport>& regions) const {
   using Json = nlohmann::ordered_json;
-  Json phases = Json::array(), parts = Json::array(), counters = Json::object();
+  Json phases = Json::array(), parts = Json::array(), counters = Json::object(),
+       costly = Json::array();
   for (const Phase& phase : phases_)
     phases.push_back({{"name", phase.name}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}});
   for (const parallel::RegionReport& region : regions)
@@ -75,9 +85,12 @@ std::string Stats::json(const std::vector<parallel::RegionReport>& regions) cons
                      {"load_balance", region.load_balance()},
                      {"bound", region.bound()}});
   for (const auto& [name, value] : counters_) counters[name] = value;
+  for (const Costly& pair : costly_)
+    costly.push_back({{"a", valid_utf8(pair.a)}, {"b", valid_utf8(pair.b)}, {"cost", pair.cost}});
   return Json{{"phases", std::move(phases)},
               {"regions", std::move(parts)},
               {"counters", std::move(counters)},
+              {"costly_pairs", std::move(costly)},
               {"peak_memory_bytes", peak_memory_bytes()}}
       .dump();
 }

@@ -34,6 +34,8 @@ class Stats {
 
   [[nodiscard]] Timer time(std::string_view phase) { return Timer(*this, phase); }
   void count(std::string_view name, std::uint64_t value);
+  /// One of the pairs that cost most.
+  void costly(std::string_view a, std::string_view b, std::uint64_t cost);
 
   /// Lines for a person.
   [[nodiscard]] std::string text(const std::vector<parallel::RegionReport>& regions) const;
@@ -46,7 +48,12 @@ class Stats {
     double wall_s = 0, cpu_s = 0;
   };
   std::vector<Phase> phases_;
+  struct Costly {
+    std::string a, b;
+    std::uint64_t cost = 0;
+  };
   std::vector<std::pair<std::string, std::uint64_t>> counters_;
+  std::vector<Costly> costly_;
 };
 
 /// The most memory that this process has held at a time.

@@ -18,6 +18,8 @@ struct Verb {
 // Each adds its command to the program. What the options are bound to lives as long as `run`.
 [[nodiscard]] Verb add_info(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_clash(CLI::App& program, CommonOptions& common);
+/// `clash` is the command of add_clash().
+[[nodiscard]] Verb add_clash_diff(CLI::App& clash, CommonOptions& common);
 [[nodiscard]] Verb add_draw(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
 

@@ -2,8 +2,6 @@
 #include "strake/clash/clash.hpp"
 
 #include <fmt/core.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -57,13 +55,6 @@ Result<clash::Options> engine_options(const ClashOptions& given) {
   return options;
 }
 
-std::size_t terminal_width() {
-  constexpr std::size_t kDefault = 100, kLeast = 60;
-  winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefault;
-  return std::max<std::size_t>(size.ws_col, kLeast);
-}
-
 void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   clash::Counters sum;
   for (const clash::Report& test : tests) {
@@ -95,6 +86,12 @@ Status write_report(Session& session, const ClashOptions& given,
       } else {
         report::write_clash_json(contents, sink);
       }
+    });
+    if (!status) return status;
+  }
+  if (!given.result.log_pairs.empty()) {
+    const Status status = session.write(given.result.log_pairs, [&](Session::Sink sink) {
+      report::write_pair_log(contents, sink);
     });
     if (!status) return status;
   }
@@ -154,6 +151,7 @@ Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const Reques
       test.options.broad_phase = request.options.broad_phase;
       test.options.most_pairs = request.options.most_pairs;
       test.options.volumes = request.options.volumes;
+      test.options.log_pairs = request.options.log_pairs;
     }
     return plan;
   }
@@ -186,15 +184,24 @@ Result<clash::Findings> findings_of(Session& session, const Loaded& loaded, cons
   return find(session, loaded, std::move(*plan), list_exempted);
 }
 
+/// Every file that the run writes, each once.
 Status check_files(const ClashOptions& given) {
-  std::vector<std::string> inputs = given.input.files;
-  if (!given.rules.empty()) inputs.push_back(given.rules);
-  return check_outputs(given.outputs, {".json", ".csv"}, inputs);
+  if (given.input.files.empty())
+    return Error{
+        ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
+  std::vector<std::string> others = given.input.files;
+  if (!given.rules.empty()) others.push_back(given.rules);
+  if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, others); !status)
+    return status;
+  if (given.result.log_pairs.empty()) return {};
+  others.insert(others.end(), given.outputs.begin(), given.outputs.end());
+  return check_outputs({given.result.log_pairs}, {".csv"}, others);
 }
 
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
-  const Result<Request> request = request_of(given);
+  Result<Request> request = request_of(given);
   if (!request) return request.error();
+  request->options.log_pairs = !given.result.log_pairs.empty() || session.wants_stats();
   if (const Status status = check(given.result); !status) return status.error();
   if (const Status status = check_files(given); !status) return status.error();
   const Result<Loaded> loaded = load(session, given.input, request->scene);
@@ -207,6 +214,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   tell(session.console(), diagnostics,
        {"rule-matches-nothing", "selection-picks-nothing", "empty-set"});
   count_work(session.stats(), findings->tests);
+  count_costs(session.stats(), *findings, *loaded->model);
   const Result<std::optional<clash::Grouping>> grouping =
       group(session, given.result, *findings, *loaded->model);
   if (!grouping) return grouping.error();
@@ -263,6 +271,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   CLI::App* const command = program.add_subcommand(
       "clash", "Clashes, contacts and clearance violations of models, with exact distances");
   add_input_options(*command, options->input);
+  command->get_option("files")->required(false);  // 'strake clash diff' has files of its own
   add_scene_options(*command, options->scene, "a quarter of the touch tolerances");
   add_rules(*command, *options);
   add_set_options(*command, options->sets);
@@ -289,6 +298,8 @@ Examples:
   strake clash ship.glb
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
   strake clash ship.glb --group-by element --sort size
+  strake clash ship.glb --log-pairs pairs.csv --stats
+  strake clash diff monday.json tuesday.json
   strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv
   strake clash hvac.rvm steel.rvm piping.rvm --rules project.toml --list-exempted -o all.json
   strake clash hvac.rvm steel.rvm --touch-gap 0 --touch-overlap 0 --fail-on hit --json)");

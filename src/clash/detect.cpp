@@ -10,6 +10,7 @@
 #include "clash/cases.hpp"
 #include "clash/narrow.hpp"
 #include "clash/options.hpp"
+#include "clash/pair_log.hpp"
 #include "clash/pair_rules.hpp"
 #include "clash/parts.hpp"
 #include "clash/reduce.hpp"
@@ -63,6 +64,9 @@ class Engine {
     report.set_a = sets_.name_a;
     report.set_b = sets_.name_b;
     report.options = options_;
+    report.in_a = sets_.in_a;
+    report.in_b = sets_.in_b;
+    report.within_files = sets_.group.empty();
     rules_.open(sets_, report);
     auto pairs = near_pairs(list_, sets_, search_reach(rules_.reach_mm() * geometry::kGridPerMm),
                             options_, context_);
@@ -330,7 +334,17 @@ class Engine {
     report.counters.part_pairs = pairs_.size();
     count_objects(report);
     note_unknown_sag(report.diagnostics);
+    if (options_.log_pairs) log(report);
     return {};
+  }
+
+  void log(Report& report) const {
+    PairLog log(list_);
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      log.add(pairs_[i], candidate_of(i).work, cases_.first[cases_.of[i]] != i);
+    for (LoggedPair& pair : log.pairs())
+      pair.may_be_allowed = rules_.may_allow(index(pair.a), index(pair.b));
+    log.close(report);
   }
 
   static void count(const NarrowWork& work, Counters& counters) {

@@ -4,41 +4,20 @@
 #include <string>
 #include <string_view>
 
+#include "report/csv.hpp"
 #include "report/group_numbers.hpp"
 #include "report/text.hpp"
 #include "strake/clash/identity.hpp"
-#include "strake/core/text.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::report {
 namespace {
 
-/// What a spreadsheet would take for a formula is kept from being one: names that begin with '=' or
-/// '-' are common, and one from a foreign file may do anything.
-bool looks_like_formula(std::string_view text) {
-  return !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
-}
-
-void field(std::string& out, std::string_view raw) {
-  std::string text = valid_utf8(raw);
-  if (looks_like_formula(text)) text.insert(0, 1, '\'');
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  out += '"';
-}
-
 void object(std::string& out, const model::Model& model, model::ObjectId id) {
   const model::Object& o = model.object(id);
   for (const std::string_view text : {std::string_view(o.id), std::string_view(o.name),
                                       std::string_view(model.files[o.file].label)}) {
-    field(out, text);
+    append_csv(out, text);
     out += ',';
   }
 }
@@ -47,7 +26,7 @@ void discipline(std::string& out, const clash::Report& test, model::ObjectId id)
   out += ',';
   if (test.disciplines.empty()) return;
   const std::uint32_t d = test.discipline[index(id)];
-  if (d != clash::kNoLabel) field(out, test.disciplines[d].name);
+  if (d != clash::kNoLabel) append_csv(out, test.disciplines[d].name);
 }
 
 void level(std::string& out, const clash::Report& test, clash::Level of_part) {
@@ -71,7 +50,7 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
   out += ',';
   append_flags(out, p, " ", "");
   out += ',';
-  field(out, test.name);
+  append_csv(out, test.name);
   out += ',';
   out += clash::pair_key(test.name, model, p.a, p.b);
   out += ',';
@@ -81,7 +60,7 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
     append_point(out, v, ",");
   }
   out += ',';
-  if (p.allowed >= 0) field(out, test.allowed[static_cast<std::size_t>(p.allowed)].rule);
+  if (p.allowed >= 0) append_csv(out, test.allowed[static_cast<std::size_t>(p.allowed)].rule);
   out += ',';
   level(out, test, p.level_a);
   level(out, test, p.level_b);
@@ -98,9 +77,9 @@ void exempted_line(std::string& out, const model::Model& model, const clash::Rep
   object(out, model, p.a);
   object(out, model, p.b);
   out += "EXEMPTED,,,,,,,,,";
-  field(out, test.name);
+  append_csv(out, test.name);
   out += ",,,,,,,,,,,,,";
-  field(out, test.exempted[p.rule].rule);
+  append_csv(out, test.exempted[p.rule].rule);
   out += ",,";
   discipline(out, test, p.a);
   discipline(out, test, p.b);

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/elements.hpp"
 #include "report/group_numbers.hpp"
 #include "report/text.hpp"
 #include "strake/clash/identity.hpp"
@@ -130,7 +131,17 @@ void exempted(std::string& out, const Report& report) {
   out += "]";
 }
 
-void test(std::string& out, const Report& report) {
+/// Who was set against whom, so that a later run can tell what is gone from what was not looked at.
+void tested(std::string& out, const Report& report, const Elements& elements) {
+  out += "\"tested\": {\"a\": \"";
+  elements.append_members(out, report.in_a);
+  out += "\", \"b\": \"";
+  elements.append_members(out, report.in_b);
+  out += "\", \"within_files\": ";
+  out += report.within_files ? "true}" : "false}";
+}
+
+void test(std::string& out, const Report& report, const Elements& elements) {
   out += "{\"name\": ";
   append_json(out, report.name);
   out += ", ";
@@ -151,16 +162,18 @@ void test(std::string& out, const Report& report) {
     out += ", ";
     matrix(out, report);
   }
+  out += ", ";
+  tested(out, report, elements);
   out += ", \"hash\": ";
   append_json(out, report.hash);
   out += "}";
 }
 
-void tests(std::string& out, const Findings& findings) {
+void tests(std::string& out, const Findings& findings, const Elements& elements) {
   out += "\"tests\": [";
   for (std::size_t i = 0; i < findings.tests.size(); ++i) {
     out += i == 0 ? "\n  " : ",\n  ";
-    test(out, findings.tests[i]);
+    test(out, findings.tests[i], elements);
   }
   out += "]";
 }
@@ -389,7 +402,11 @@ void write_clash_json(const ClashContents& contents, Sink sink) {
   out += ",\n";
   files(out, contents.model);
   out += ",\n";
-  tests(out, findings);
+  const Elements elements(contents.model);
+  out += "\"elements\": \"";
+  elements.append_list(out);
+  out += "\",\n";
+  tests(out, findings, elements);
   out += ",\n\"hash\": ";
   append_json(out, hash_of(findings));
   out += ",\n";

@@ -60,6 +60,8 @@ struct Options {
   double contact_distance_mm = -1;
   /// Whether to measure the volume of the part common to two solids that hit.
   Volumes volumes = Volumes::off;
+  /// Whether Report::log is filled.
+  bool log_pairs = false;
   /// More pairs of parts within reach of each other than this are an error: some 300 bytes each.
   std::uint64_t most_pairs = std::uint64_t{1} << 25U;
 };
@@ -112,6 +114,26 @@ struct Counters {
   std::uint64_t depth_cells = 0;
   std::uint64_t volume_triangle_pairs = 0;
   std::uint64_t volumes_given_up = 0;  ///< pairs of parts whose common volume takes too long
+};
+
+/// A pair of objects that went to the detailed stage, whatever came of it.
+struct LoggedPair {
+  model::ObjectId a{}, b{};
+  Class cls = Class::no_hit;
+  bool may_be_allowed = false;  ///< a rule about allowed contacts concerns the two
+  std::uint64_t part_pairs = 0, node_pairs = 0, triangle_pairs = 0, exact_fallbacks = 0,
+                depth_cells = 0;
+  /// Part pairs that were the same question as an earlier one: copies in equal places are worked on
+  /// once. What it took counts for each of them all the same.
+  std::uint64_t repeated_part_pairs = 0;
+
+  /// What it takes, in steps of about ten nanoseconds: counted, not timed, so the same in every
+  /// run.
+  [[nodiscard]] std::uint64_t cost() const {
+    constexpr std::uint64_t kPart = 10, kTriangle = 8, kExact = 200, kCell = 100;
+    return kPart * part_pairs + node_pairs + kTriangle * triangle_pairs + kExact * exact_fallbacks +
+           kCell * depth_cells;
+  }
 };
 
 /// The label of an object that has none.
@@ -167,6 +189,9 @@ struct Report {
   std::vector<DisciplineCount> disciplines;  ///< of the matrix, if the test has one
   std::vector<CellReport> cells;             ///< by (a, b)
   std::vector<std::uint32_t> discipline;     ///< per object, kNoLabel: in none
+  std::vector<bool> in_a, in_b;              ///< the sets, an entry per object
+  bool within_files = true;     ///< whether pairs of objects of one file were looked at
+  std::vector<LoggedPair> log;  ///< where asked for: by (a, b)
   Counters counters;
   double contact_distance_mm = 0;  ///< the largest δ that was applied
   /// Of pairs, relations, classes, d, witnesses and the rules that allow them; not of options.

@@ -8,6 +8,7 @@
 #include "strake/model/model.hpp"
 
 /// Names that stay the same from run to run, so that what was decided about a clash is found again.
+/// Bytes of a label or id that are not UTF-8 count as U+FFFD, which is how files show them.
 namespace strake::clash {
 
 /// 64 bits of an object's file label and durable id.
@@ -19,6 +20,15 @@ namespace strake::clash {
 /// the class, for swapped sets and files in another order.
 [[nodiscard]] std::string pair_key(std::string_view test, const model::Model& model,
                                    model::ObjectId a, model::ObjectId b);
+
+/// What a durable id is unique within, and the id.
+struct ElementName {
+  std::string_view file_label, id;
+};
+
+/// The same of two objects that are known by name.
+[[nodiscard]] std::string pair_key(std::string_view test, const ElementName& a,
+                                   const ElementName& b);
 
 /// A hash as such a text.
 [[nodiscard]] std::string key_text(std::uint64_t high, std::uint64_t low);

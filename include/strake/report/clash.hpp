@@ -36,6 +36,10 @@ void write_clash_json(const ClashContents& contents, Sink sink);
 /// One header line and one line per pair, comma-separated (RFC 4180), lines ended by CRLF.
 void write_clash_csv(const ClashContents& contents, Sink sink);
 
+/// Every pair of objects that went to the detailed stage, as CSV in the same form: whether a rule
+/// may allow it, its class (NO_HIT too) and what it cost. Of tests that were asked to log pairs.
+void write_pair_log(const ClashContents& contents, Sink sink);
+
 struct TableOptions {
   std::size_t width = 100;                    ///< columns of the terminal; names are clipped to fit
   std::size_t rows = 20;                      ///< pairs shown at most of each test, or groups

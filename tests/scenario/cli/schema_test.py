@@ -125,6 +125,16 @@ class Schemas(unittest.TestCase):
         self.assertGreater(len(report['exempted']), 0)
         self.assertGreater(sum('allowed' in result for result in report['results']), 0)
 
+    def test_clash_diff(self):
+        for name, clearance in (('tight.json', '0'), ('wide.json', '25mm')):
+            self.run_strake('clash', 'ship.glb', '--clearance', clearance, '-o', name)
+        wider = self.follows(self.run_strake('clash', 'diff', 'tight.json', 'wide.json', '--json'), 'clash-diff')
+        tighter = self.follows(self.run_strake('clash', 'diff', 'wide.json', 'tight.json', '--json'), 'clash-diff')
+        self.assertGreater(wider['counts']['new'], 0)
+        self.assertEqual(wider['counts']['new'], tighter['counts']['cannot_tell'])
+        self.assertEqual([(s['setting'], s['old'], s['new']) for s in wider['settings_changed']],
+                         [('clearance_mm', 0, 25)])
+
     def test_view(self):
         self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json')
         self.follows((self.folder / 'view.json').read_text(encoding='utf-8'), 'view')

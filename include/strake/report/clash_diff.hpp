@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strake/report/clash.hpp"
+#include "strake/report/clash_document.hpp"
+
+namespace strake::report {
+
+/// One clash in two runs, told by its key.
+struct DiffEntry {
+  const DocumentResult* before = nullptr;  ///< absent: not a result of the old run
+  const DocumentResult* after = nullptr;   ///< absent: not a result of the new run
+  /// New: what else than the model may have made it one, if anything. Cannot tell: why not.
+  std::string why;
+
+  [[nodiscard]] const DocumentResult& either() const { return after != nullptr ? *after : *before; }
+};
+
+struct SettingChange {
+  std::string test, setting;
+  std::string before, after;  ///< as in the documents; empty: absent
+};
+
+/// What changed between two runs. Refers to both documents. Each list has HITs first, then
+/// CLEARANCE_VIOLATIONs, then CONTACTs, what a rule allows after what none allows, by d, then key.
+struct ClashDiff {
+  const ClashDocument* before = nullptr;
+  const ClashDocument* after = nullptr;
+  std::vector<DiffEntry> added;    ///< new
+  std::vector<DiffEntry> changed;  ///< still there: another class, rule or d (by over a micrometre)
+  std::vector<DiffEntry> same;     ///< still there
+  std::vector<DiffEntry> gone;     ///< looked at again, and no result any more
+  std::vector<DiffEntry> cannot_tell;  ///< no result any more, but it was not looked at again
+  std::vector<SettingChange> settings;
+  std::vector<std::string> tests_added, tests_gone;
+
+  /// Whether a result is new, or still there and worse: of a severer class, or deeper or nearer by
+  /// over a micrometre. What a rule allows in the new run is neither.
+  [[nodiscard]] bool has_new(bool hits_only) const;
+  [[nodiscard]] bool has_worse() const;
+};
+
+/// Tests of the two documents go together by name. A result of the old run that the new one does
+/// not have is `gone` only if the new run looked at the pair: both objects are in its model and in
+/// opposite sets of the test, no rule exempts them, and its tolerances would report what the old
+/// run measured.
+[[nodiscard]] ClashDiff compare(const ClashDocument& before, const ClashDocument& after);
+ClashDiff compare(ClashDocument&& before, const ClashDocument& after) = delete;
+ClashDiff compare(const ClashDocument& before, ClashDocument&& after) = delete;
+ClashDiff compare(ClashDocument&& before, ClashDocument&& after) = delete;
+
+/// The document of schemas/clash-diff.schema.json.
+void write_clash_diff_json(const ClashDiff& diff, Sink sink);
+
+/// For a terminal: what is new, changed, gone and not to be told, as many of each as `rows`.
+[[nodiscard]] std::string clash_diff_table(const ClashDiff& diff, const TableOptions& options);
+
+}  // namespace strake::report

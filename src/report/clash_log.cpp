@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "report/csv.hpp"
+#include "report/text.hpp"
+#include "strake/clash/identity.hpp"
+#include "strake/report/clash.hpp"
+
+namespace strake::report {
+namespace {
+
+void number(std::string& out, std::uint64_t value) {
+  out += ',';
+  out += std::to_string(value);
+}
+
+void line(std::string& out, const ClashContents& contents, const clash::Report& test,
+          const clash::LoggedPair& p) {
+  append_csv(out, test.name);
+  for (const model::ObjectId id : {p.a, p.b}) {
+    const model::Object& object = contents.model.object(id);
+    for (const std::string* text :
+         {&object.id, &object.name, &contents.model.files[object.file].label}) {
+      out += ',';
+      append_csv(out, *text);
+    }
+  }
+  out += p.may_be_allowed ? ",1," : ",0,";
+  out += name(p.cls);
+  number(out, p.cost());
+  for (const std::uint64_t n : {p.part_pairs, p.repeated_part_pairs, p.node_pairs, p.triangle_pairs,
+                                p.exact_fallbacks, p.depth_cells})
+    number(out, n);
+  out += "\r\n";
+}
+
+}  // namespace
+
+void write_pair_log(const ClashContents& contents, Sink sink) {
+  Buffered buffer(sink);
+  buffer.text() =
+      "test,a_id,a_name,a_file,b_id,b_name,b_file,may_be_allowed,class,cost,part_pairs,repeated_"
+      "part_pairs,node_pairs,"
+      "triangle_pairs,exact_fallbacks,depth_cells\r\n";
+  for (const clash::Report& test : contents.findings.tests)
+    for (const clash::LoggedPair& pair : test.log) {
+      line(buffer.text(), contents, test, pair);
+      buffer.done();
+    }
+}
+
+}  // namespace strake::report

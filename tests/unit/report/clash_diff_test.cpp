@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/report/clash_diff.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "strake/clash/policy.hpp"
+#include "support/clash_model.hpp"
+
+namespace strake::report {
+namespace {
+
+using nlohmann::json;
+using test::ClashModel;
+
+/// A folder that is gone when the test is, and the documents read from it.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("strake-diff-" + unique())) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  Folder(Folder&&) = delete;
+  Folder& operator=(Folder&&) = delete;
+
+  [[nodiscard]] std::filesystem::path write(const std::string& name, std::string_view text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  const ClashDocument& keep(ClashDocument document) {
+    return documents_.emplace_back(std::move(document));
+  }
+
+ private:
+  static std::string unique() {
+    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
+    return std::string(info->name()) +
+           std::to_string(::testing::UnitTest::GetInstance()->random_seed());
+  }
+  std::filesystem::path path_;
+  std::deque<ClashDocument> documents_;
+};
+
+std::string text_of(const clash::Findings& findings, const model::Model& model) {
+  std::string text;
+  write_clash_json({findings, model}, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
+const ClashDocument& document(Folder& folder, const std::string& name,
+                              const clash::Findings& findings, const model::Model& model) {
+  return folder.keep(read_clash_document(folder.write(name, text_of(findings, model))).value());
+}
+
+clash::Findings run(const ClashModel& m, const clash::Options& options = {}) {
+  return {{m.detect(options)}, {}};
+}
+
+/// Four boxes in a row: two hits, one clearance violation at 25 mm.
+ClashModel row(double c_from = 180) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {90, 0, 0}, {200, 100, 100});
+  m.box("c", {c_from, 10, 10}, {300, 90, 90}).box("d", {310, 0, 0}, {400, 100, 100});
+  return m;
+}
+
+std::vector<std::string> names(const std::vector<DiffEntry>& entries) {
+  std::vector<std::string> all;
+  for (const DiffEntry& e : entries) all.push_back(e.either().a.id + "-" + e.either().b.id);
+  return all;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(ClashDiff, TheSameRunTwice) {
+  Folder folder;
+  const ClashModel m = row();
+  const ClashDocument& x = document(folder, "x.json", run(m, {.clearance_mm = 25}), m.model);
+  const ClashDiff diff = compare(x, x);
+  EXPECT_EQ(diff.same.size(), 3U);
+  EXPECT_TRUE(diff.added.empty() && diff.changed.empty() && diff.gone.empty() &&
+              diff.cannot_tell.empty() && diff.settings.empty());
+  EXPECT_FALSE(diff.has_worse());
+}
+
+TEST(ClashDiff, NewChangedAndGone) {
+  Folder folder;
+  ClashModel before = row(), after = row(190);
+  // d comes into c's way; a moves off b.
+  after.model.objects.clear();
+  after.model.bodies.clear();
+  after.model.shapes.clear();
+  after.box("a", {0, 0, 0}, {50, 100, 100}).box("b", {90, 0, 0}, {200, 100, 100});
+  after.box("c", {190, 10, 10}, {300, 90, 90}).box("d", {295, 0, 0}, {400, 100, 100});
+  const ClashDocument& x = document(folder, "x.json", run(before), before.model);
+  const ClashDocument& y = document(folder, "y.json", run(after), after.model);
+  const ClashDiff diff = compare(x, y);
+  EXPECT_EQ(names(diff.added), Names{"c-d"});
+  EXPECT_EQ(diff.added[0].why, "");
+  EXPECT_EQ(names(diff.changed), Names{"b-c"});
+  EXPECT_EQ(diff.changed[0].before->d_mm, -20);
+  EXPECT_EQ(diff.changed[0].after->d_mm, -10);
+  EXPECT_EQ(names(diff.gone), Names{"a-b"});
+  EXPECT_TRUE(diff.cannot_tell.empty());
+  EXPECT_TRUE(diff.has_new(true));
+  EXPECT_TRUE(diff.has_worse());
+  const ClashDiff back = compare(y, x);
+  EXPECT_EQ(names(back.added), Names{"a-b"});
+  EXPECT_EQ(names(back.gone), Names{"c-d"});
+}
+
+TEST(ClashDiff, AMissingElementIsNotAMendedClash) {
+  Folder folder;
+  const ClashModel before = row();
+  ClashModel after;
+  after.box("a", {0, 0, 0}, {100, 100, 100}).box("c", {180, 10, 10}, {300, 90, 90});
+  const ClashDocument& x = document(folder, "x.json", run(before), before.model);
+  const ClashDocument& y = document(folder, "y.json", run(after), after.model);
+  const ClashDiff diff = compare(x, y);
+  EXPECT_TRUE(diff.gone.empty());
+  EXPECT_EQ(names(diff.cannot_tell), (Names{"b-c", "a-b"}));
+  EXPECT_EQ(diff.cannot_tell[0].why, "'b' of t.obj is not in the model");
+  const ClashDiff back = compare(y, x);
+  ASSERT_EQ(back.added.size(), 2U);
+  EXPECT_EQ(back.added[0].why, "'b' of t.obj is not in the model") << "of the old run";
+}
+
+TEST(ClashDiff, WhatIsNotTestedAnyMore) {
+  Folder folder;
+  const ClashModel m = row();
+  const model::Scene scene = make_scene(m.model, clash::scene_options({}), {}).value();
+  const auto with = [&](clash::Sets sets) {
+    return clash::Findings{{clash::detect(scene, sets, {}, {}).value()}, {}};
+  };
+  const ClashDocument& all = document(folder, "all.json", with(clash::one_set(scene)), m.model);
+  clash::Sets no_b = clash::one_set(scene);
+  no_b.in_a[1] = no_b.in_b[1] = false;
+  const ClashDiff without = compare(all, document(folder, "no_b.json", with(no_b), m.model));
+  ASSERT_EQ(without.cannot_tell.size(), 2U);
+  EXPECT_EQ(without.cannot_tell[0].why, "'b' of t.obj is in neither set");
+  clash::Sets one_side = clash::one_set(scene);
+  for (std::size_t o = 0; o < 4; ++o) {
+    one_side.in_a[o] = o < 2;
+    one_side.in_b[o] = o >= 2;
+  }
+  const ClashDiff sides = compare(all, document(folder, "side.json", with(one_side), m.model));
+  ASSERT_EQ(sides.cannot_tell.size(), 1U);
+  EXPECT_EQ(sides.cannot_tell[0].why, "both are in the same set");
+  clash::Sets by_file = clash::one_set(scene);
+  by_file.group.assign(4, 0);
+  const ClashDiff files = compare(all, document(folder, "files.json", with(by_file), m.model));
+  ASSERT_EQ(files.cannot_tell.size(), 2U);
+  EXPECT_EQ(files.cannot_tell[0].why, "pairs within a file are not looked at");
+}
+
+TEST(ClashDiff, SettingsThatWouldNotReportIt) {
+  Folder folder;
+  const ClashModel m = row();
+  const ClashDocument& wide = document(folder, "w.json", run(m, {.clearance_mm = 25}), m.model);
+  const ClashDocument& tight = document(folder, "t.json", run(m, {.clearance_mm = 5}), m.model);
+  const ClashDiff diff = compare(wide, tight);
+  ASSERT_EQ(diff.settings.size(), 1U);
+  EXPECT_EQ(diff.settings[0].setting, "clearance_mm");
+  EXPECT_EQ(diff.settings[0].before, "25");
+  EXPECT_EQ(names(diff.cannot_tell), Names{"c-d"});
+  EXPECT_EQ(diff.cannot_tell[0].why, "settings differ: clearance_mm");
+  EXPECT_EQ(diff.same.size(), 2U);
+  EXPECT_EQ(compare(tight, wide).added[0].why, "settings differ: clearance_mm");
+}
+
+TEST(ClashDiff, ExemptedAndAllowed) {
+  Folder folder;
+  const ClashModel m = row();
+  const model::Scene scene = make_scene(m.model, clash::scene_options({}), {}).value();
+  clash::Policy policy;
+  policy.exemptions.push_back(
+      {"one unit", clash::SameLabel{{7, 7, clash::kNoLabel, clash::kNoLabel}}});
+  clash::Allowed& sleeve = policy.allowed.emplace_back();
+  sleeve.rule = "sleeve";
+  sleeve.a = sleeve.b = {false, true, true, false};
+  sleeve.max_depth_mm = 25;
+  const auto under = [&](bool list) {
+    policy.list_exempted = list;
+    return clash::Findings{{clash::detect(scene, clash::one_set(scene), {}, policy, {}).value()},
+                           {}};
+  };
+  const ClashDocument& plain = document(folder, "p.json", run(m), m.model);
+  const ClashDocument& listed = document(folder, "l.json", under(true), m.model);
+  const ClashDocument& counted = document(folder, "c.json", under(false), m.model);
+  const ClashDiff told = compare(plain, listed);
+  EXPECT_EQ(names(told.cannot_tell), Names{"a-b"});
+  EXPECT_EQ(told.cannot_tell[0].why, "exempted by one unit");
+  EXPECT_EQ(names(told.changed), Names{"b-c"});
+  EXPECT_EQ(told.changed[0].after->allowed, "sleeve");
+  EXPECT_FALSE(told.has_worse());
+  EXPECT_TRUE(compare(listed, plain).has_worse()) << "allowed no more";
+  EXPECT_EQ(compare(plain, counted).cannot_tell[0].why,
+            "may be among the 1 exempted pairs, which are not listed");
+}
+
+TEST(ClashDiff, TestsGoTogetherByName) {
+  Folder folder;
+  const ClashModel m = row();
+  clash::Findings two = run(m), other = run(m);
+  two.tests.push_back(two.tests[0]);
+  two.tests[0].name = "pipes";
+  two.tests[1].name = "steel";
+  other.tests[0].name = "steel";
+  other.tests.push_back(other.tests[0]);
+  other.tests[1].name = "hvac";
+  const ClashDiff diff =
+      compare(document(folder, "x.json", two, m.model), document(folder, "y.json", other, m.model));
+  EXPECT_EQ(diff.same.size(), 2U);
+  EXPECT_EQ(diff.tests_gone, Names{"pipes"});
+  EXPECT_EQ(diff.tests_added, Names{"hvac"});
+  ASSERT_EQ(diff.cannot_tell.size(), 2U);
+  EXPECT_EQ(diff.cannot_tell[0].why, "there is no test 'pipes'");
+  std::string text;
+  write_clash_diff_json(diff, [&](std::string_view piece) { text += piece; });
+  const json doc = json::parse(text);
+  EXPECT_EQ(doc["counts"],
+            json::parse(R"({"new": 2, "changed": 0, "same": 2, "gone": 0, "cannot_tell": 2})"));
+  const std::string table = clash_diff_table(diff, {});
+  EXPECT_NE(table.find("2 new, 0 changed, 2 unchanged, 0 gone, 2 cannot tell\n"),
+            std::string::npos);
+}
+
+TEST(ClashDocument, NamesThatAreNoUtf8AreFoundAgain) {
+  Folder folder;
+  ClashModel m;
+  m.box("b\xFFse", {0, 0, 0}, {100, 100, 100}).box("x", {50, 0, 0}, {150, 100, 100});
+  const ClashDocument& x = document(folder, "x.json", run(m), m.model);
+  ClashModel apart;
+  apart.box("b\xFFse", {0, 0, 0}, {10, 100, 100}).box("x", {50, 0, 0}, {150, 100, 100});
+  EXPECT_EQ(compare(x, document(folder, "y.json", run(apart), apart.model)).gone.size(), 1U);
+}
+
+TEST(ClashDocument, SaysWhatIsWrongAndWhere) {
+  Folder folder;
+  const auto error = [&](std::string_view text) {
+    const auto read = read_clash_document(folder.write("bad.json", text));
+    EXPECT_FALSE(read) << text;
+    return read ? std::string() : read.error().text();
+  };
+  const auto expect = [&](std::string_view text, const std::string& part) {
+    const std::string said = error(text);
+    EXPECT_NE(said.find("bad.json"), std::string::npos) << said;
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  };
+  expect("", "ends too soon");
+  expect("[1, 2", "ends too soon");
+  expect("solid cube", "bad.json:1: this is no JSON");
+  expect("{\n\n  \"a\": }", "bad.json:3: this is no JSON");
+  expect("[]", "no result of a clash run");
+  expect("{\"schema_version\": 3, \"tests\": []}", "it says version 3");
+  expect("{\"results\": []}", "no result of a clash run");
+  expect("{\"schema_version\": 1, \"results\": [{}]}", "it says version 1");
+  expect("{\"results\": [{\"key\": 5}]}", "results[0] \"key\" is no text");
+  expect(std::string(100'000, '['), "nested too deeply");
+  std::string objects;
+  for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
+  expect(objects, "nested too deeply");
+  EXPECT_FALSE(read_clash_document(folder.path()));
+  EXPECT_FALSE(read_clash_document(folder.path() / "nowhere.json"));
+}
+
+/// Cut anywhere, and with any value replaced by one of another kind: an error or a document, and
+/// nothing worse. A cut is always an error.
+TEST(ClashDocument, SurvivesDamage) {
+  Folder folder;
+  const ClashModel m = row();
+  const std::string good = text_of(run(m, {.clearance_mm = 25}), m.model);
+  for (std::size_t size = 0; size + 2 < good.size(); size += 1 + size / 40) {
+    const auto read = read_clash_document(folder.write("cut.json", good.substr(0, size)));
+    ASSERT_FALSE(read) << size;
+    EXPECT_EQ(read.error().code, ErrorCode::input);
+  }
+  const json whole = json::parse(good);
+  const json flat = whole.flatten();
+  const std::vector<json> others{nullptr, true, -1, 1e300, "text", json::array(), json::object()};
+  for (const auto& [pointer, value] : flat.items())
+    for (const json& other : others) {
+      json damaged = whole;
+      damaged[json::json_pointer(pointer)] = other;
+      const auto read = read_clash_document(folder.write("damaged.json", damaged.dump()));
+      if (read) (void)compare(*read, *read);
+    }
+}
+
+}  // namespace
+}  // namespace strake::report
