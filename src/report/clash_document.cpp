@@ -205,14 +205,13 @@ class Reader {
 };
 
 /// nlohmann's words hold the line: "… parse error at line 3, column 7: …".
-Error unreadable(const std::string& file, const std::string& said) {
+Error unreadable(const std::string& file, const std::string& said, bool cut) {
   constexpr std::string_view kLine = "at line ";
   std::string where = file;
   if (const std::size_t at = said.find(kLine); at != std::string::npos) {
     const std::size_t start = at + kLine.size();
     where += ":" + said.substr(start, said.find_first_not_of("0123456789", start) - start);
   }
-  const bool cut = said.find("unexpected end of input") != std::string::npos;
   return {ErrorCode::input, cut ? "the file ends too soon" : "this is no JSON", where,
           cut ? "it was cut off: run the test again or copy the file anew"
               : "give a file that 'strake clash -o FILE.json' wrote"};
@@ -234,8 +233,11 @@ Result<ClashDocument> read_clash_document(const std::filesystem::path& file) {
   } catch (const Fault& fault) {
     return Error{ErrorCode::input, fault.where + " " + fault.what, name,
                  "give a file that 'strake clash -o FILE.json' of this version wrote"};
+  } catch (const Json::parse_error& error) {
+    const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+    return unreadable(name, error.what(), !ignored && error.byte >= size);
   } catch (const Json::exception& error) {
-    return unreadable(name, error.what());
+    return unreadable(name, error.what(), false);
   }
   return document;
 }

@@ -262,7 +262,7 @@ TEST(ClashDocument, SaysWhatIsWrongAndWhere) {
   expect("", "ends too soon");
   expect("[1, 2", "ends too soon");
   expect("solid cube", "bad.json:1: this is no JSON");
-  expect("{\n\n  \"a\": }", "bad.json:3: this is no JSON");
+  expect("{\n\n  \"a\": }\n", "bad.json:3: this is no JSON");
   expect("[]", "no result of a clash run");
   expect("{\"schema_version\": 3, \"tests\": []}", "it says version 3");
   expect("{\"results\": []}", "no result of a clash run");
@@ -286,6 +286,7 @@ TEST(ClashDocument, SurvivesDamage) {
     const auto read = read_clash_document(folder.write("cut.json", good.substr(0, size)));
     ASSERT_FALSE(read) << size;
     EXPECT_EQ(read.error().code, ErrorCode::input);
+    EXPECT_NE(read.error().message.find("ends too soon"), std::string::npos) << size;
   }
   const json whole = json::parse(good);
   const json flat = whole.flatten();
