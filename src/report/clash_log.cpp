@@ -39,9 +39,8 @@ void line(std::string& out, const ClashContents& contents, const clash::Report& 
 void write_pair_log(const ClashContents& contents, Sink sink) {
   Buffered buffer(sink);
   buffer.text() =
-      "test,a_id,a_name,a_file,b_id,b_name,b_file,may_be_allowed,class,cost,part_pairs,repeated_"
-      "part_pairs,node_pairs,"
-      "triangle_pairs,exact_fallbacks,depth_cells\r\n";
+      "test,a_id,a_name,a_file,b_id,b_name,b_file,may_be_allowed,class,cost,part_pairs,"
+      "repeated_part_pairs,node_pairs,triangle_pairs,exact_fallbacks,depth_cells\r\n";
   for (const clash::Report& test : contents.findings.tests)
     for (const clash::LoggedPair& pair : test.log) {
       line(buffer.text(), contents, test, pair);
