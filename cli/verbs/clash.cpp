@@ -26,7 +26,7 @@ struct ClashOptions {
   SceneInput scene;
   SetInput sets;
   std::string clearance, touch_gap, touch_overlap, contact_distance;
-  std::string broad_phase, thickness_cap, fail_on, most_pairs, rules;
+  std::string broad_phase, narrow_phase, thickness_cap, fail_on, most_pairs, most_spheres, rules;
   bool list_exempted = false;
   ClashResultInput result;
   std::vector<std::string> outputs;
@@ -49,7 +49,13 @@ Result<clash::Options> engine_options(const ClashOptions& given) {
   if (const Status status = whole_number(options.most_pairs, given.most_pairs, "--most-pairs");
       !status)
     return status.error();
+  if (const Status status =
+          whole_number(options.most_spheres, given.most_spheres, "--most-spheres");
+      !status)
+    return status.error();
   if (given.broad_phase == "all-pairs") options.broad_phase = clash::BroadPhase::all_pairs;
+  if (given.narrow_phase == "sphere-subdivision")
+    options.narrow_phase = clash::NarrowPhase::sphere_subdivision;
   if (given.result.wants_volumes()) options.volumes = clash::Volumes::on;
   if (given.thickness_cap == "off") options.thickness_cap = clash::ThicknessCap::off;
   return options;
@@ -149,6 +155,8 @@ Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const Reques
     if (!plan) return plan;
     for (rules::PlannedTest& test : plan->tests) {
       test.options.broad_phase = request.options.broad_phase;
+      test.options.narrow_phase = request.options.narrow_phase;
+      test.options.most_spheres = request.options.most_spheres;
       test.options.most_pairs = request.options.most_pairs;
       test.options.volumes = request.options.volumes;
       test.options.log_pairs = request.options.log_pairs;
@@ -279,6 +287,17 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_result_options(*command, options->result);
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
              "How near pairs are found; the result is the same (default tree)")
+      ->group("Running");
+  add_choice(*command, "--narrow-phase", options->narrow_phase, {"exact", "sphere-subdivision"},
+             "How pairs are judged: exactly, or by the baseline that benchmarks compare with "
+             "(default exact)")
+      ->group("Running");
+  command
+      ->add_option("--most-spheres", options->most_spheres,
+                   fmt::format("Spheres that sphere-subdivision tests for one pair of parts before "
+                               "it gives up and says so (default {})",
+                               clash::Options{}.most_spheres))
+      ->type_name("N")
       ->group("Running");
   command
       ->add_option("--most-pairs", options->most_pairs,

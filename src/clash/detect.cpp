@@ -14,6 +14,7 @@
 #include "clash/pair_rules.hpp"
 #include "clash/parts.hpp"
 #include "clash/reduce.hpp"
+#include "clash/spheres.hpp"
 #include "clash/volumes.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -76,11 +77,8 @@ class Engine {
     auto cases = tell_cases_apart();
     if (!cases) return cases.error();
     cases_ = std::move(*cases);
-    if (const Status s = settle_simple_pairs(); !s) return s.error();
-    if (const Status s = part_distant_pairs(); !s) return s.error();
-    if (const Status s = first_look(); !s) return s.error();
-    if (const Status s = depths(); !s) return s.error();
-    if (const Status s = distances(); !s) return s.error();
+    const bool exact = options_.narrow_phase == NarrowPhase::exact;
+    if (const Status s = exact ? narrow_phase() : test_spheres(); !s) return s.error();
     const std::vector<Found> found = answers(report);
     auto joined = join_by_objects(found, pairs_, list_, rules_, context_);
     if (!joined) return joined.error();
@@ -108,6 +106,31 @@ class Engine {
   /// The first pair that is the case.
   [[nodiscard]] const IndexPair& pair_of(std::size_t number) const {
     return pairs_[cases_.first[number]];
+  }
+
+  Status narrow_phase() {
+    if (const Status s = settle_simple_pairs(); !s) return s;
+    if (const Status s = part_distant_pairs(); !s) return s;
+    if (const Status s = first_look(); !s) return s;
+    if (const Status s = depths(); !s) return s;
+    return distances();
+  }
+
+  /// The baseline: every case by halving its common box.
+  Status test_spheres() {
+    candidates_.resize(cases_.first.size());
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      const PartRef &a = list_.parts[pair_of(i).first], &b = list_.parts[pair_of(i).second];
+      candidates_[i].too_large = !geometry::fits_pair(a.placed, b.placed);
+      if (!candidates_[i].too_large) open_.push_back(i);
+    }
+    if (const Status s = plant_trees(); !s) return s;
+    return over(open_, "sphere subdivision", 1, [&](std::size_t i, const IndexPair& p) {
+      const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
+      Candidate& c = candidates_[i];
+      c.look.answer = judge_spheres(treed_part(a), treed_part(b), narrow_options(a, b),
+                                    options_.most_spheres, c.work);
+    });
   }
 
   /// Closed forms, and contacts in coordinate planes, which are most of them, need no trees.
@@ -153,11 +176,16 @@ class Engine {
     return {};
   }
 
-  Status first_look() {
+  Status plant_trees() {
     auto trees = build_for<geometry::PartTree>(
         open_, "part trees", [&](std::uint32_t u) { return geometry::PartTree(*list_.unique[u]); });
     if (!trees) return trees.error();
     trees_ = std::move(*trees);
+    return {};
+  }
+
+  Status first_look() {
+    if (const Status s = plant_trees(); !s) return s;
     return over(open_, "narrow phase", kGrain, [&](std::size_t i, const IndexPair& p) {
       Candidate& c = candidates_[i];
       const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
@@ -286,7 +314,7 @@ class Engine {
 
   [[nodiscard]] NarrowPart framed_part(const PartRef& p) const {
     NarrowPart part = bare_part(p);
-    part.frame = &frames_[p.unique];
+    if (!frames_.empty()) part.frame = &frames_[p.unique];
     return part;
   }
 

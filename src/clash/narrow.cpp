@@ -31,19 +31,6 @@ using geometry::Vec3d;
 /// An interior that is known to be met without a measured depth: less than any grid can resolve.
 constexpr double kLeastDepth = 1e-6;
 
-/// An order of parts by what they are and where they stand relative to each other, so that the
-/// pair is worked on the same way round whichever is called a.
-bool in_canonical_order(const TreedPart& a, const TreedPart& b) {
-  const Part &x = *a.placed.part, &y = *b.placed.part;
-  if (&x != &y) {
-    if (x.kind != y.kind) return x.kind < y.kind;
-    if (x.triangles.size() != y.triangles.size()) return x.triangles.size() > y.triangles.size();
-    if (x.vertices != y.vertices) return x.vertices < y.vertices;
-    if (x.triangles != y.triangles) return x.triangles < y.triangles;
-  }
-  return a.placed.origin <= b.placed.origin;
-}
-
 Separation separated_by(double distance) {
   // The distance is the rounded root of a rounded square: off by less than two ulp.
   constexpr double kEps = 2 * std::numeric_limits<double>::epsilon();
@@ -280,11 +267,7 @@ class PairOfParts {
   void conclude(PartAnswer& answer, double sag) const {
     answer.separation.sag = sag;
     answer.judgement = judge(answer.separation, thresholds_);
-    std::uint16_t& flags = answer.judgement.flags;
-    for (const Part* part : {a_.placed.part, b_.placed.part}) {
-      if (part->kind == PartKind::sheet) flags |= kOpen;
-      if (part->flags.inverted) flags |= kInverted;
-    }
+    answer.judgement.flags |= part_flags(*a_.placed.part, *b_.placed.part);
   }
 
   const NarrowPart &part_a_, &part_b_;
@@ -300,14 +283,33 @@ Relation mirrored(Relation r) {
   return r;
 }
 
-/// An answer about (b, a) becomes one about (a, b).
+}  // namespace
+
+bool in_canonical_order(const TreedPart& a, const TreedPart& b) {
+  const Part &x = *a.placed.part, &y = *b.placed.part;
+  if (&x != &y) {
+    if (x.kind != y.kind) return x.kind < y.kind;
+    if (x.triangles.size() != y.triangles.size()) return x.triangles.size() > y.triangles.size();
+    if (x.vertices != y.vertices) return x.vertices < y.vertices;
+    if (x.triangles != y.triangles) return x.triangles < y.triangles;
+  }
+  return a.placed.origin <= b.placed.origin;
+}
+
 void turn(PartAnswer& answer, const NarrowPart& a, const NarrowPart& b) {
   answer.relation = mirrored(answer.relation);
   answer.witness =
       mirrored(answer.witness, (b.treed.placed.origin - a.treed.placed.origin).as<double>());
 }
 
-}  // namespace
+std::uint16_t part_flags(const Part& a, const Part& b) {
+  std::uint16_t flags = 0;
+  for (const Part* part : {&a, &b}) {
+    if (part->kind == PartKind::sheet) flags |= kOpen;
+    if (part->flags.inverted) flags |= kInverted;
+  }
+  return flags;
+}
 
 Thresholds thresholds(const Part& a, const Part& b, const NarrowOptions& options) {
   Thresholds t{options.touch_overlap, options.touch_gap, options.clearance};

@@ -60,6 +60,16 @@ struct NarrowWork {
 [[nodiscard]] Thresholds thresholds(const geometry::Part& a, const geometry::Part& b,
                                     const NarrowOptions& options);
 
+/// An order of parts by what they are and where they stand relative to each other, so that the
+/// pair is worked on the same way round whichever is called a.
+[[nodiscard]] bool in_canonical_order(const geometry::TreedPart& a, const geometry::TreedPart& b);
+
+/// An answer about (b, a) becomes one about (a, b).
+void turn(PartAnswer& answer, const NarrowPart& a, const NarrowPart& b);
+
+/// The flags of a pair that come from its parts.
+[[nodiscard]] std::uint16_t part_flags(const geometry::Part& a, const geometry::Part& b);
+
 /// The answer for two primitives that have a closed form: about their true surfaces, so without
 /// sag. None where they are within a micrometre of a touch: whether the triangles touch is decided
 /// exactly, by judge_flush() and look_at(), before the closed form is asked again.

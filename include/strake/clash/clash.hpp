@@ -39,6 +39,7 @@ enum class Relation : std::uint8_t {
 enum class Level : std::uint8_t { hard, soft, insulation, none };
 
 enum class BroadPhase : std::uint8_t { tree, all_pairs };
+enum class NarrowPhase : std::uint8_t { exact, sphere_subdivision };
 enum class ThicknessCap : std::uint8_t { on, off };
 enum class Volumes : std::uint8_t { off, on };
 
@@ -56,6 +57,10 @@ struct Options {
   /// on: t_o is at most a quarter of the smaller thickness of the two parts.
   ThicknessCap thickness_cap = ThicknessCap::on;
   BroadPhase broad_phase = BroadPhase::tree;
+  /// sphere_subdivision: the baseline that benchmarks compare with, see docs/clash.md.
+  NarrowPhase narrow_phase = NarrowPhase::exact;
+  /// Spheres that sphere_subdivision may test for one pair of parts before it gives up, flagged.
+  std::uint64_t most_spheres = 1'000'000;
   /// Contact distance δ for the relation, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
   /// Whether to measure the volume of the part common to two solids that hit.
