@@ -121,10 +121,13 @@ std::vector<Patch> patches_in(const Part& part, const Vec3l& shift, const Plane&
     if ((whole || patch.count < 3) && boxes_meet(patch, plane.lo, plane.hi))
       patches.push_back(patch);
   }
-  if (!whole)
-    std::stable_partition(patches.begin(), patches.end(),
-                          [](const Patch& patch) { return patch.count == 2; });
-  return patches;
+  // Edges before corners, each in the order of the triangles.
+  std::vector<Patch> sorted;
+  sorted.reserve(patches.size());
+  for (const std::size_t corners : {3U, 2U, 1U})
+    for (const Patch& patch : patches)
+      if (patch.count == corners) sorted.push_back(patch);
+  return sorted;
 }
 
 /// The plane in which two boxes meet, with what of the two bodies lies in it.
