@@ -224,6 +224,8 @@ TEST(RulesFile, HostileTextsEndInAnError) {
   EXPECT_NE(fault_of("a = " + std::string(100000, '[')), "");
   EXPECT_NE(fault_of(std::string("a = \"\0\"", 7)), "");
   EXPECT_NE(fault_of("a = \"\xFF\xFE\""), "");
+  EXPECT_NE(fault_of("b\u00FCro = 1"), "");
+  EXPECT_EQ(fault_of("# B\u00FCro\n[sets]\n\"B\u00FCro\" = \"name = '\u00C5*'\""), "");
 }
 
 TEST(RulesFile, DamageEndsInAnErrorWithAPlaceOrInRules) {
