@@ -62,10 +62,28 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+namespace {
+
+/// Characters at the front that stand for themselves in a JSON string: most of every name.
+std::size_t plain_run(std::string_view text) {
+  std::size_t n = 0;
+  while (n < text.size() && text[n] >= 0x20 && text[n] < 0x7F && text[n] != '"' && text[n] != '\\')
+    ++n;
+  return n;
+}
+
+void move_run(std::string& out, std::string_view& text) {
+  const std::size_t n = plain_run(text);
+  out += text.substr(0, n);
+  text.remove_prefix(n);
+}
+
+}  // namespace
+
 std::string valid_utf8(std::string_view text) {
   std::string out;
   out.reserve(text.size());
-  while (!text.empty()) {
+  for (move_run(out, text); !text.empty(); move_run(out, text)) {
     const std::size_t length = first_character(text).length;
     out += length == 0 ? kReplacement : text.substr(0, length);
     text.remove_prefix(length == 0 ? 1 : length);
@@ -75,7 +93,7 @@ std::string valid_utf8(std::string_view text) {
 
 void append_json_string(std::string& out, std::string_view text) {
   out += '"';
-  while (!text.empty()) {
+  for (move_run(out, text); !text.empty(); move_run(out, text)) {
     const Character c = first_character(text);
     if (c.length == 0)
       out += kReplacement;

@@ -195,10 +195,10 @@ void write_clash_diff_json(const ClashDiff& diff, Sink sink) {
 }
 
 std::string clash_diff_table(const ClashDiff& diff, const TableOptions& options) {
-  std::string out = settings_text(diff) + block("new", diff.added, options) +
-                    block("still there, changed", diff.changed, options) +
-                    block("gone", diff.gone, options) +
-                    block("cannot tell: not looked at again", diff.cannot_tell, options);
+  const std::string out = settings_text(diff) + block("new", diff.added, options) +
+                          block("still there, changed", diff.changed, options) +
+                          block("gone", diff.gone, options) +
+                          block("cannot tell: not looked at again", diff.cannot_tell, options);
   return out + std::to_string(diff.added.size()) + " new, " + std::to_string(diff.changed.size()) +
          " changed, " + std::to_string(diff.same.size()) + " unchanged, " +
          std::to_string(diff.gone.size()) + " gone, " + std::to_string(diff.cannot_tell.size()) +
