@@ -151,8 +151,7 @@ class PairOfParts {
 
   PartAnswer distance(double reach) {
     PartAnswer answer;
-    apart(reach, answer);
-    conclude(answer);
+    conclude(answer, apart(reach, answer));
     return answer;
   }
 
@@ -164,21 +163,50 @@ class PairOfParts {
   }
 
  private:
-  void apart(double limit, PartAnswer& answer) {
+  /// The sag that the answer has to count with.
+  double apart(double limit, PartAnswer& answer) {
     const double reach = std::min(limit + 1, reach_of(options_));
     if (geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, reach) >= reach) {
       answer.separation = separated_by(std::numeric_limits<double>::infinity());
-      return;
+      return sag();
     }
+    if (apart_from_mesh(reach, answer))
+      return a_.placed.part->primitive ? b_.placed.part->sag : a_.placed.part->sag;
     const auto near = geometry::closest(a_, b_, reach, work_.pair);
     if (!near) {
       answer.separation = separated_by(std::numeric_limits<double>::infinity());
-      return;
+      return sag();
     }
     answer.separation = separated_by(near->distance);
     answer.witness = witness_of_gap(*near);
     answer.relation =
         near->distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;
+    return sag();
+  }
+
+  /// A primitive beside a mesh, by its true surface; false where that is not certainly clear of the
+  /// mesh, and the sag of its triangles has to be counted.
+  bool apart_from_mesh(double reach, PartAnswer& answer) {
+    const bool a_is_primitive = a_.placed.part->primitive.has_value();
+    const NarrowPart &p = a_is_primitive ? part_a_ : part_b_,
+                     &m = a_is_primitive ? part_b_ : part_a_;
+    const Part& part = *p.treed.placed.part;
+    if (!part.primitive || m.treed.placed.part->primitive || p.placement == nullptr ||
+        part.kind != PartKind::solid || !(part.sag > 0))
+      return false;
+    const auto gap = geometry::analytic_gap({&*part.primitive, p.placement}, m.treed, reach);
+    if (!gap || !(gap->lower > 0)) return false;
+    const double upper = gap->lower >= reach ? gap->lower : gap->upper;
+    const Vec3d shift = (m.treed.placed.origin - a_.placed.origin).as<double>();
+    geometry::Closest near;
+    near.distance = (gap->lower + upper) / 2;
+    near.on_a = (a_is_primitive ? gap->on_primitive : gap->on_mesh) + shift;
+    near.on_b = (a_is_primitive ? gap->on_mesh : gap->on_primitive) + shift;
+    answer.separation = {.d = near.distance, .lower = gap->lower, .upper = upper};
+    answer.witness = witness_of_gap(near);
+    answer.relation =
+        near.distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;
+    return true;
   }
 
   /// The same triangles in the same place: copies are common, and no walk over all their contacts

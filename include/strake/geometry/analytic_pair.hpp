@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "strake/geometry/part_pair.hpp"
 #include "strake/geometry/primitive.hpp"
 #include "strake/geometry/vec.hpp"
 
@@ -54,6 +55,21 @@ struct AnalyticSeparation {
 /// whose depth is certain from below.
 [[nodiscard]] std::optional<AnalyticSeparation> solved_separation(
     const PlacedPrimitive& a, const PlacedPrimitive& b,
+    double enough = std::numeric_limits<double>::infinity());
+
+/// Distance of a primitive's true body and the triangles of a mesh, grid units: lower <= distance
+/// <= upper is certain. A mesh that closes round the primitive is as far away as its triangles.
+struct AnalyticGap {
+  double lower = std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  Vec3d on_primitive, on_mesh;  ///< `upper` apart, relative to the mesh's origin
+};
+
+/// Convex hulls against triangles as in solved_separation(), driven by the mesh's tree. Where no
+/// triangle is nearer than `enough`, lower is at least that. Nothing for primitives that
+/// solved_separation() leaves out.
+[[nodiscard]] std::optional<AnalyticGap> analytic_gap(
+    const PlacedPrimitive& primitive, const TreedPart& mesh,
     double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace strake::geometry

@@ -254,5 +254,30 @@ void compare_with_meshes(Kinds kinds) {
 TEST(AnalyticPairLaws, MeshesEverFinerAgree) { compare_with_meshes(Kinds::convex); }
 TEST(AnalyticPairLaws, MeshesOfToriEverFinerAgree) { compare_with_meshes(Kinds::with_torus); }
 
+/// A mesh of planes only is its own true surface, but for the snap.
+TEST(AnalyticPairLaws, BesideAMeshAsBesideTheBodyThatItIs) {
+  std::uint64_t compared = 0;
+  for (std::uint64_t seed = 1; seed <= kTorusPairs; ++seed) {
+    Pair p = draw_pair(seed, seed % 3 == 0 ? Kinds::with_torus : Kinds::convex);
+    PrimitiveDraw draw(seed + 1'000'000);
+    p.b.primitive = draw.convex(draw.below(2), std::pow(10, draw.between(0.5, 3.5)));
+    const auto mesh = meshed(p.b, 1);
+    const auto s = solved(p.a, p.b);
+    if (!mesh || !s || !(s->d > 4) || std::fabs(p.a.at.translation.x) > 1e6) continue;
+    ++compared;
+    const auto gap = analytic_gap(p.a.placed(), mesh->treed());
+    ASSERT_TRUE(gap) << p.what;
+    EXPECT_LE(gap->lower, gap->upper) << p.what;
+    EXPECT_LE(gap->lower, s->d + s->error + mesh->off) << p.what;
+    EXPECT_GE(gap->upper, s->d - s->error - mesh->off) << p.what;
+    EXPECT_LE(gap->upper - gap->lower, 1) << p.what << ' ' << s->d;
+    const Vec3d way = gap->on_primitive - gap->on_mesh;
+    EXPECT_NEAR(std::sqrt(dot(way, way)), gap->upper, 1) << p.what;
+    const auto early = analytic_gap(p.a.placed(), mesh->treed(), gap->lower / 2);
+    EXPECT_GE(early->lower, gap->lower / 2) << p.what;
+  }
+  EXPECT_GT(compared, kTorusPairs / 4);
+}
+
 }  // namespace
 }  // namespace strake::geometry

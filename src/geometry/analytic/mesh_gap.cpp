@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "geometry/analytic/torus_gap.hpp"
+#include "geometry/pair_view.hpp"
+#include "strake/geometry/analytic_pair.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using analytic::Arc;
+using analytic::ConvexBody;
+using analytic::ConvexGap;
+using analytic::PairSide;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Depth first over the mesh's tree, the nearer child first; only what is certainly farther than
+/// the nearest pair of points so far is left out, so the answer does not depend on the way.
+class Search {
+ public:
+  Search(const PairSide& primitive, const TreedPart& mesh, double enough)
+      : primitive_(primitive), mesh_(mesh), enough_(enough) {
+    for (const Arc& arc : primitive.arcs()) hulls_.push_back(primitive.hull(arc));
+    box_ = empty_box<double>();
+    for (const ConvexBody& hull : hulls_)
+      for (int k = 0; k < 3; ++k) {
+        Vec3d n;
+        n[k] = 1;
+        box_.hi[k] = std::max(box_.hi[k], support(hull.shape, n)[k] + hull.error);
+        box_.lo[k] = std::min(box_.lo[k], support(hull.shape, -n)[k] - hull.error);
+      }
+  }
+
+  AnalyticGap run() {
+    std::array<std::pair<std::uint32_t, double>, kMaxTreeDepth + 2> stack;
+    std::size_t size = 0;
+    if (!nodes().empty()) stack[size++] = {0, bound(0)};
+    while (size > 0) {
+      const auto [index, lower] = stack[--size];
+      if (lower > reach()) continue;
+      const PartTree::Node& node = nodes()[index];
+      if (node.count != 0) {
+        leaf(node);
+        continue;
+      }
+      std::pair near{node.first, bound(node.first)}, far{node.first + 1, bound(node.first + 1)};
+      if (far.second < near.second) std::swap(near, far);
+      stack[size++] = far;
+      stack[size++] = near;
+    }
+    best_.lower = std::min(best_.lower, best_.upper);
+    return best_;
+  }
+
+ private:
+  [[nodiscard]] const std::vector<PartTree::Node>& nodes() const { return mesh_.tree->nodes(); }
+  [[nodiscard]] double reach() const { return std::min(best_.upper, enough_); }
+
+  /// No triangle of the node is nearer.
+  [[nodiscard]] double bound(std::uint32_t index) const {
+    const Box3i& box = nodes()[index].box;
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double gap = std::max({box.lo[k] - box_.hi[k], box_.lo[k] - box.hi[k], 0.0});
+      square += gap * gap;
+    }
+    const double apart = std::sqrt(square) * (1 - 1e-14);
+    if (apart > reach()) return apart;
+    const Vec3d lo = box.lo.as<double>(), hi = box.hi.as<double>();
+    const ConvexBody block = analytic::block_body((lo + hi) * 0.5, (hi - lo) * 0.5);
+    double least = kNever;
+    for (const ConvexBody& hull : hulls_)
+      least = std::min(least, analytic::convex_gap(hull, block, reach()).lower);
+    return std::max(least, apart);
+  }
+
+  void leaf(const PartTree::Node& node) {
+    const Part& part = *mesh_.placed.part;
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      const Triangle& t = part.triangles[mesh_.tree->order()[node.first + i]];
+      PairSide triangle;
+      triangle.convex = analytic::triangle_body({part.vertices[t[0]].as<double>(),
+                                                 part.vertices[t[1]].as<double>(),
+                                                 part.vertices[t[2]].as<double>()});
+      const ConvexGap gap = analytic::GapSearch(primitive_, triangle, reach()).run();
+      best_.lower = std::min(best_.lower, gap.lower);
+      if (!(gap.upper < best_.upper)) continue;
+      best_.upper = gap.upper;
+      best_.on_primitive = gap.on_a;
+      best_.on_mesh = gap.on_b;
+    }
+  }
+
+  const PairSide& primitive_;
+  const TreedPart& mesh_;
+  double enough_;
+  std::vector<ConvexBody> hulls_;
+  Box3d box_;
+  AnalyticGap best_;
+};
+
+}  // namespace
+
+std::optional<AnalyticGap> analytic_gap(const PlacedPrimitive& primitive, const TreedPart& mesh,
+                                        double enough) {
+  PairSide side;
+  if (!side.read(primitive, mesh.placed.origin)) return std::nullopt;
+  return Search(side, mesh, enough).run();
+}
+
+}  // namespace strake::geometry
