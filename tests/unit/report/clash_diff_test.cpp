@@ -97,7 +97,8 @@ TEST(ClashDiff, TheSameRunTwice) {
 
 TEST(ClashDiff, NewChangedAndGone) {
   Folder folder;
-  ClashModel before = row(), after = row(190);
+  const ClashModel before = row();
+  ClashModel after = row(190);
   // d comes into c's way; a moves off b.
   after.model.objects.clear();
   after.model.bodies.clear();
@@ -141,7 +142,7 @@ TEST(ClashDiff, WhatIsNotTestedAnyMore) {
   Folder folder;
   const ClashModel m = row();
   const model::Scene scene = make_scene(m.model, clash::scene_options({}), {}).value();
-  const auto with = [&](clash::Sets sets) {
+  const auto with = [&](const clash::Sets& sets) {
     return clash::Findings{{clash::detect(scene, sets, {}, {}).value()}, {}};
   };
   const ClashDocument& all = document(folder, "all.json", with(clash::one_set(scene)), m.model);
@@ -279,7 +280,7 @@ TEST(ClashDocument, SaysWhatIsWrongAndWhere) {
 /// Cut anywhere, and with any value replaced by one of another kind: an error or a document, and
 /// nothing worse. A cut is always an error.
 TEST(ClashDocument, SurvivesDamage) {
-  Folder folder;
+  const Folder folder;
   const ClashModel m = row();
   const std::string good = text_of(run(m, {.clearance_mm = 25}), m.model);
   for (std::size_t size = 0; size + 2 < good.size(); size += 1 + size / 40) {
