@@ -168,7 +168,7 @@ class Engine {
           const NarrowOptions options = narrow_options(a, b);
           Candidate& c = candidates_[i];
           c.look.gap = gap_between(framed_part(a), framed_part(b), options);
-          c.done = c.look.gap >= reach_of(options);
+          c.done = c.look.gap >= parting_gap(*a.placed.part, *b.placed.part, options);
         });
     if (!status) return status;
     for (const std::size_t i : unsettled)

@@ -166,7 +166,8 @@ class PairOfParts {
   /// The sag that the answer has to count with.
   double apart(double limit, PartAnswer& answer) {
     const double reach = std::min(limit + 1, reach_of(options_));
-    if (geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, reach) >= reach) {
+    const double parting = reach + sag();
+    if (geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, parting) >= parting) {
       answer.separation = separated_by(std::numeric_limits<double>::infinity());
       return sag();
     }
@@ -261,10 +262,8 @@ class PairOfParts {
   void interpenetrating(const FirstLook& look, PartAnswer& answer) {
     const MeetingResult& meeting = look.meeting;
     DepthGoal goal;
-    goal.known_upper = -look.gap;
-    if (part_a_.planes != nullptr && part_b_.planes != nullptr)
-      goal.known_upper =
-          -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, 0));
+    goal.known_upper =
+        -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, 0));
     goal.threshold = thresholds_.overlap;
     goal.triangle_a = meeting.triangle_a;
     goal.triangle_b = meeting.triangle_b;
@@ -381,7 +380,11 @@ double gap_between(const NarrowPart& a, const NarrowPart& b, const NarrowOptions
   const bool ordered = in_canonical_order(a.treed, b.treed);
   const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
   return geometry::frame_gap({x.treed.placed, x.frame}, {y.treed.placed, y.frame},
-                             reach_of(options));
+                             parting_gap(*x.treed.placed.part, *y.treed.placed.part, options));
+}
+
+double parting_gap(const Part& a, const Part& b, const NarrowOptions& options) {
+  return reach_of(options) + a.sag + b.sag;
 }
 
 FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,

@@ -91,13 +91,17 @@ struct FirstLook {
   Next next = Next::nothing;
 };
 
-/// A certain lower bound on the signed separation of two framed parts, grid units; the same
-/// whichever is called a. Not below reach_of(): the pair is NO_HIT.
+/// A certain lower bound on the signed separation of two framed parts as they are on the grid, grid
+/// units; the same whichever is called a. Not below parting_gap(): the pair is NO_HIT.
 [[nodiscard]] double gap_between(const NarrowPart& a, const NarrowPart& b,
                                  const NarrowOptions& options);
 
 /// How far apart is too far for any class, grid units.
 [[nodiscard]] double reach_of(const NarrowOptions& options);
+
+/// The same for triangles: true surfaces may stand out of them by the sag of both.
+[[nodiscard]] double parting_gap(const geometry::Part& a, const geometry::Part& b,
+                                 const NarrowOptions& options);
 
 /// Class, relation, separation and witness of two parts, but for the distance of those that are
 /// apart and the depth of those whose interiors meet. Swapping the parts mirrors the relation and

@@ -140,15 +140,15 @@ class FlushPlane {
   /// patches; nothing also when there are too many to look at.
   [[nodiscard]] std::optional<Point2d> find() const {
     const std::vector<Patch> whole_a = patches_in(a_, {}, plane_, true);
-    const std::vector<Patch> whole_b =
-        whole_a.empty() ? std::vector<Patch>{} : patches_in(b_, shift_, plane_, true);
+    std::vector<Patch> whole_b;
+    if (!whole_a.empty()) whole_b = patches_in(b_, shift_, plane_, true);
     if (const auto point = common(whole_a, whole_b)) return point;
     const std::vector<Patch> rest_a = patches_in(a_, {}, plane_, false);
     if (whole_a.empty() && rest_a.empty()) return std::nullopt;
-    const std::vector<Patch> all_b = patches_in(b_, shift_, plane_, true);
+    if (whole_a.empty()) whole_b = patches_in(b_, shift_, plane_, true);
     const std::vector<Patch> rest_b = patches_in(b_, shift_, plane_, false);
     if (const auto point = common(whole_a, rest_b)) return point;
-    if (const auto point = common(rest_a, all_b)) return point;
+    if (const auto point = common(rest_a, whole_b)) return point;
     return common(rest_a, rest_b);
   }
 

@@ -344,5 +344,23 @@ TEST(CertifiedPairs, ConvexMeshInsideAnother) {
   }
 }
 
+/// A pipe's true surface stands out of its triangles: however it is turned about its axis, a mesh
+/// within the touch gap of the pipe is a contact, also where the triangles are farther than that.
+TEST(CertifiedPairs, PipeBesideAMeshHoweverItsTrianglesLie) {
+  constexpr double kRadius = 500, kGap = 0.98;
+  for (int i = 0; i < 48; ++i) {
+    const double angle = 0.004 * i, c = std::cos(angle), z = std::sin(angle);
+    ClashModel m;
+    m.object("pipe").body(geometry::CylinderPrimitive{kRadius, 300},
+                          {Mat3d{{Vec3d{c, -z, 0}, Vec3d{z, c, 0}, Vec3d{0, 0, 1}}}, {}});
+    m.box("plate", {kRadius + kGap, -600, -600}, {kRadius + 20, 600, 600});
+    const Report report = m.detect();
+    ASSERT_EQ(report.pairs.size(), 1U) << angle;
+    EXPECT_EQ(report.pairs[0].cls, Class::contact) << angle;
+    EXPECT_LE(report.pairs[0].d_lower_mm, kGap + 1e-3);
+    EXPECT_GE(report.pairs[0].d_upper_mm, kGap - 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace strake::clash
