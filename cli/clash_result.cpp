@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/clash_result.hpp"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -56,6 +57,13 @@ void add_result_options(CLI::App& command, ClashResultInput& options) {
       ->type_name("FILE")
       ->group(kGroup);
   command.add_flag("--volumes", options.volumes, "Measure the volume that hits have in common")
+      ->group(kGroup);
+  command
+      .add_option("--regions", options.regions,
+                  fmt::format("Places of a pair that meets in several that are listed, the worst "
+                              "first; all are counted (default {}; 0: not told apart)",
+                              clash::Options{}.most_regions))
+      ->type_name("N")
       ->group(kGroup);
 }
 

@@ -17,7 +17,7 @@ namespace strake::cli {
 
 /// How the result of a clash run is to be told, as written.
 struct ClashResultInput {
-  std::string group_by, group_distance, sort, log_pairs;
+  std::string group_by, group_distance, sort, log_pairs, regions;
   bool volumes = false, group_contacts = false;
 
   [[nodiscard]] bool wants_volumes() const { return volumes || sort == "volume"; }

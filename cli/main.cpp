@@ -9,6 +9,7 @@
 
 #include "cli/console.hpp"
 #include "cli/interrupts.hpp"
+#include "cli/memory.hpp"
 #include "cli/verb.hpp"
 #include "strake/core/version.hpp"
 
@@ -80,6 +81,7 @@ void occupy_standard_streams() {
 
 int run(int argc, char** argv) {
   occupy_standard_streams();
+  keep_freed_memory();
   Console console;
   CLI::App program("Exact clash detection and hidden-line drawings of ship and plant models.",
                    "strake");

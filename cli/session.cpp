@@ -32,29 +32,35 @@ parallel::Context Session::context() {
           .report = options_.stats ? &report_ : nullptr};
 }
 
-Status Session::write(const std::filesystem::path& target,
-                      parallel::FunctionRef<void(Sink)> producer) {
+Status Session::write(const std::filesystem::path& target, Producer producer) {
   // Between computing and writing a run may have been cancelled: then there is no output at all.
   if (interrupts_.token().stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
   const auto timer = step("write " + target.filename().string());
   will_write(target);
   Result<AtomicFile> file = AtomicFile::create(target);
   if (!file) return file.error();
-  producer([&](std::string_view text) { file->write(text); });
+  if (Status status = producer([&](std::string_view text) { file->write(text); }); !status)
+    return status;
   if (Status status = file->commit(); !status) return status;
   console_.say("wrote " + target.string());
   return {};
 }
 
-Status Session::write_stdout(parallel::FunctionRef<void(Sink)> producer) {
+Status Session::write_stdout(Producer producer) {
   bool good = true;
-  producer([&](std::string_view text) { good = good && cli::write_stdout(text); });
+  if (Status status =
+          producer([&](std::string_view text) { good = good && cli::write_stdout(text); });
+      !status)
+    return status;
   if (good) return {};
   return Error{ErrorCode::output, "cannot be written", "standard output", {}};
 }
 
 Status Session::write_stdout(std::string_view text) {
-  return write_stdout([&](Sink sink) { sink(text); });
+  return write_stdout([&](Sink sink) {
+    sink(text);
+    return Status{};
+  });
 }
 
 void Session::finish() {

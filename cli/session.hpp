@@ -40,11 +40,12 @@ class Session {
   void will_write(const std::filesystem::path& target) { interrupts_.guard(target); }
   /// Takes text piece by piece.
   using Sink = parallel::FunctionRef<void(std::string_view)>;
+  /// Gives all the text, or the error that prevented it.
+  using Producer = parallel::FunctionRef<Status(Sink)>;
   /// Writes a file, whole or not at all, and says so.
-  [[nodiscard]] Status write(const std::filesystem::path& target,
-                             parallel::FunctionRef<void(Sink)> producer);
+  [[nodiscard]] Status write(const std::filesystem::path& target, Producer producer);
   /// Data for standard output.
-  [[nodiscard]] Status write_stdout(parallel::FunctionRef<void(Sink)> producer);
+  [[nodiscard]] Status write_stdout(Producer producer);
   [[nodiscard]] Status write_stdout(std::string_view text);
   /// Removes the progress line and prints what --stats asks for.
   void finish();

@@ -8,7 +8,7 @@ set -euo pipefail
 need build test
 seconds=600
 [ "${1:-}" = --seconds ] && { seconds=$2; shift 2; }
-formats=${*:-gltf obj stl rvm rvm_attributes}
+formats=${*:-gltf obj stl rvm rvm_attributes rules clash_document}
 configure_and_build fuzz fuzzers
 build/fuzz/bin/write_seeds build/fuzz/seeds
 for format in $formats; do
@@ -17,7 +17,8 @@ for format in $formats; do
   case $format in
     gltf) real=gltf ;;
     obj|stl) real=mesh ;;
-    *) real=rvm ;;
+    rvm*) real=rvm ;;
+    *) real=none ;;
   esac
   folders=("build/fuzz/corpus/$format" "build/fuzz/seeds/$format")
   [ -d "${STRAKE_DATA:-}/$real" ] && folders+=("$STRAKE_DATA/$real")

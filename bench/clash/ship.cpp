@@ -7,30 +7,15 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <map>
-#include <utility>
 #include <vector>
 
-#include "timed_run.hpp"
+#include "clocks.hpp"
+#include "ship_truth.hpp"
+#include "strake/parallel/team.hpp"
 
 namespace {
 
 using namespace strake;
-
-using Key = std::pair<std::uint32_t, std::uint32_t>;
-
-std::size_t wrong_pairs(const clash::Report& report, const generate::Truth& truth) {
-  std::map<Key, clash::Class> open;
-  for (const generate::TruthPair& p : truth.pairs)
-    open[{model::index(p.a), model::index(p.b)}] = p.cls;
-  std::size_t wrong = 0;
-  for (const clash::Pair& p : report.pairs) {
-    const auto at = open.find({model::index(p.a), model::index(p.b)});
-    if (at == open.end() || at->second != p.cls) ++wrong;
-    if (at != open.end()) open.erase(at);
-  }
-  return wrong + open.size();
-}
 
 bool measure(std::uint64_t objects, bool turned) {
   parallel::Team team(parallel::default_workers());
@@ -44,7 +29,7 @@ bool measure(std::uint64_t objects, bool turned) {
   const double scene_s = lap();
   const auto report = clash::detect(*scene, clash::one_set(*scene), options, context);
   const double clash_s = lap();
-  const std::size_t wrong = report ? wrong_pairs(*report, ship->truth) : 1;
+  const std::size_t wrong = report ? bench::wrong_pairs(*report, ship->truth) : 1;
   if (wrong > 0) {
     fmt::print("{:>8} objects{}  ERROR: {} wrong pairs\n", objects, turned ? ", turned" : "",
                wrong);

@@ -2,12 +2,12 @@
 // Files to clashes, with a clock beside it: what the clash benchmarks share.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "clocks.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/io/reader.hpp"
 #include "strake/model/scene.hpp"
@@ -21,20 +21,6 @@ struct TimedRun {
   double load_s = 0, scene_s = 0, clash_s = 0;
 
   [[nodiscard]] double total_s() const { return load_s + scene_s + clash_s; }
-};
-
-/// Seconds since the last call.
-class Lap {
- public:
-  double operator()() {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> lap = now - last_;
-    last_ = now;
-    return lap.count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 /// `sets_of` makes the sets of a scene.

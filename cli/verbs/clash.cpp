@@ -27,7 +27,7 @@ struct ClashOptions {
   SetInput sets;
   std::string clearance, touch_gap, touch_overlap, contact_distance;
   std::string broad_phase, narrow_phase, thickness_cap, fail_on, most_pairs, most_spheres, rules;
-  bool list_exempted = false;
+  bool list_exempted = false, curves = false;
   ClashResultInput result;
   std::vector<std::string> outputs;
 };
@@ -53,10 +53,14 @@ Result<clash::Options> engine_options(const ClashOptions& given) {
           whole_number(options.most_spheres, given.most_spheres, "--most-spheres");
       !status)
     return status.error();
+  if (const Status status = whole_number(options.most_regions, given.result.regions, "--regions");
+      !status)
+    return status.error();
   if (given.broad_phase == "all-pairs") options.broad_phase = clash::BroadPhase::all_pairs;
   if (given.narrow_phase == "sphere-subdivision")
     options.narrow_phase = clash::NarrowPhase::sphere_subdivision;
   if (given.result.wants_volumes()) options.volumes = clash::Volumes::on;
+  if (given.curves) options.curves = clash::Curves::on;
   if (given.thickness_cap == "off") options.thickness_cap = clash::ThicknessCap::off;
   return options;
 }
@@ -72,6 +76,7 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
     sum.depth_cells += test.counters.depth_cells;
     sum.volume_triangle_pairs += test.counters.volume_triangle_pairs;
     sum.volumes_given_up += test.counters.volumes_given_up;
+    sum.regions_given_up += test.counters.regions_given_up;
   }
   stats.count("candidate pairs", sum.candidate_pairs);
   stats.count("pairs that may be allowed", sum.allowed_pairs);
@@ -81,29 +86,29 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   stats.count("depth cells", sum.depth_cells);
   stats.count("volume triangle pairs", sum.volume_triangle_pairs);
   stats.count("volumes given up", sum.volumes_given_up);
+  stats.count("regions given up", sum.regions_given_up);
 }
 
 Status write_report(Session& session, const ClashOptions& given,
                     const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
     const Status status = session.write(file, [&](Session::Sink sink) {
-      if (suffix_of(file) == ".csv") {
-        report::write_clash_csv(contents, sink);
-      } else {
-        report::write_clash_json(contents, sink);
-      }
+      return suffix_of(file) == ".csv"
+                 ? report::write_clash_csv(contents, sink, session.context())
+                 : report::write_clash_json(contents, sink, session.context());
     });
     if (!status) return status;
   }
   if (!given.result.log_pairs.empty()) {
     const Status status = session.write(given.result.log_pairs, [&](Session::Sink sink) {
-      report::write_pair_log(contents, sink);
+      return report::write_pair_log(contents, sink, session.context());
     });
     if (!status) return status;
   }
   if (session.json())
-    return session.write_stdout(
-        [&](Session::Sink sink) { report::write_clash_json(contents, sink); });
+    return session.write_stdout([&](Session::Sink sink) {
+      return report::write_clash_json(contents, sink, session.context());
+    });
   return session.write_stdout(report::clash_table(
       contents, {.width = terminal_width(), .sort = sort_by(given.result.sort)}));
 }
@@ -159,7 +164,9 @@ Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const Reques
       test.options.most_spheres = request.options.most_spheres;
       test.options.most_pairs = request.options.most_pairs;
       test.options.volumes = request.options.volumes;
+      test.options.most_regions = request.options.most_regions;
       test.options.log_pairs = request.options.log_pairs;
+      test.options.curves = request.options.curves;
     }
     return plan;
   }
@@ -266,6 +273,11 @@ void add_rules(CLI::App& command, ClashOptions& options) {
          "precision of the files)");
   add_choice(command, "--thickness-cap", options.thickness_cap, {"on", "off"},
              "Allow no more overlap than a quarter of the thinner part (default on)")
+      ->group("Rules");
+  command
+      .add_flag("--curves", options.curves,
+                "Judge lines and polylines too, as bodies without thickness (default: they are "
+                "drawn, but never clash)")
       ->group("Rules");
   add_choice(command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},
              "Exit code 1 where a pair is of this class or worse")

@@ -2,12 +2,14 @@
 #include "strake/report/clash_diff.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/clash_result.hpp"
 #include "cli/verb.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::cli {
 
@@ -25,32 +27,36 @@ bool fails(const report::ClashDiff& diff, const std::string& fail_on) {
   return fail_on == "cannot-tell" && !diff.cannot_tell.empty();
 }
 
-Result<report::ClashDocument> read(Session& session, const std::string& file) {
-  const auto timer = session.step("read " + file);
-  return report::read_clash_document(file);
+/// Both documents, at once where there is a team.
+Result<std::vector<report::ClashDocument>> read(Session& session, const DiffOptions& given) {
+  const auto timer = session.step("read");
+  return parallel::transform(
+      session.context(), {.name = "read results", .n = 2}, [&](std::size_t i) {
+        return report::read_clash_document(i == 0 ? given.before : given.after);
+      });
 }
 
 Result<ExitCode> run_diff(Session& session, const DiffOptions& given) {
   if (const Status status = check_outputs(given.outputs, {".json"}, {given.before, given.after});
       !status)
     return status.error();
-  const Result<report::ClashDocument> before = read(session, given.before);
-  if (!before) return before.error();
-  const Result<report::ClashDocument> after = read(session, given.after);
-  if (!after) return after.error();
+  const Result<std::vector<report::ClashDocument>> documents = read(session, given);
+  if (!documents) return documents.error();
   const report::ClashDiff diff = [&] {
     const auto timer = session.step("compare");
-    return report::compare(*before, *after);
+    return report::compare(documents->front(), documents->back());
   }();
+  const auto as_json = [&](Session::Sink sink) {
+    report::write_clash_diff_json(diff, sink);
+    return Status{};
+  };
   for (const std::string& file : given.outputs) {
-    const Status status =
-        session.write(file, [&](Session::Sink sink) { report::write_clash_diff_json(diff, sink); });
+    const Status status = session.write(file, as_json);
     if (!status) return status.error();
   }
   const Status told =
       session.json()
-          ? session.write_stdout(
-                [&](Session::Sink sink) { report::write_clash_diff_json(diff, sink); })
+          ? session.write_stdout(as_json)
           : session.write_stdout(report::clash_diff_table(diff, {.width = terminal_width()}));
   if (!told) return told.error();
   return fails(diff, given.fail_on) ? ExitCode::clashes : ExitCode::done;

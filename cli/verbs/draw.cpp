@@ -167,12 +167,15 @@ Status write_drawing(Session& session, const DrawOptions& given,
       } else {
         drawing::write_svg(drawing, ink, model, sink);
       }
+      return Status{};
     });
     if (!status) return status;
   }
   if (!session.json()) return {};
-  return session.write_stdout(
-      [&](Session::Sink sink) { drawing::write_view_json(drawing, model, sink); });
+  return session.write_stdout([&](Session::Sink sink) {
+    drawing::write_view_json(drawing, model, sink);
+    return Status{};
+  });
 }
 
 /// What the options ask for, once they are understood.

@@ -74,6 +74,7 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
     SinkBuffer buffer(sink);
     std::ostream out(&buffer);
     generate::write_truth(*ship, out);
+    return Status{};
   };
   if (!given.truth.empty())
     if (const Status s = session.write(given.truth, truth); !s) return s.error();

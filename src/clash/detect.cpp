@@ -4,19 +4,29 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "clash/candidate.hpp"
 #include "clash/cases.hpp"
+#include "clash/curves.hpp"
 #include "clash/narrow.hpp"
+#include "clash/object_pairs.hpp"
 #include "clash/options.hpp"
 #include "clash/pair_log.hpp"
 #include "clash/pair_rules.hpp"
 #include "clash/parts.hpp"
+#include "clash/places.hpp"
 #include "clash/reduce.hpp"
+#include "clash/regions.hpp"
 #include "clash/spheres.hpp"
+#include "clash/tally.hpp"
+#include "clash/telling.hpp"
 #include "clash/volumes.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/geometry/meeting_places.hpp"
+#include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
@@ -32,15 +42,6 @@ constexpr std::size_t kGrain = 8;
 /// Pairs per block where each is done in no time.
 constexpr std::size_t kBlock = 4096;
 
-/// One case of a pair of parts on its way through the engine.
-struct Candidate {
-  FirstLook look;
-  NarrowWork work;
-  bool separated = false;  ///< a coordinate plane lies between the two
-  bool done = false;
-  bool too_large = false;
-};
-
 class Engine {
  public:
   Engine(const model::Scene& scene, const Sets& sets, const Options& options, const Policy& policy,
@@ -49,8 +50,7 @@ class Engine {
         sets_(sets),
         options_(options),
         context_(context),
-        rules_(policy, options, *scene.model),
-        list_(list_parts(scene, sets)) {
+        rules_(policy, options, *scene.model) {
     for (const Tolerances& t : rules_.all())
       narrow_.push_back({.touch_overlap = t.touch_overlap_mm * geometry::kGridPerMm,
                          .touch_gap = t.touch_gap_mm * geometry::kGridPerMm,
@@ -65,10 +65,15 @@ class Engine {
     report.set_a = sets_.name_a;
     report.set_b = sets_.name_b;
     report.options = options_;
+    // The baseline has no triangles to tell places by.
+    if (options_.narrow_phase != NarrowPhase::exact) report.options.most_regions = 0;
     report.in_a = sets_.in_a;
     report.in_b = sets_.in_b;
     report.within_files = sets_.group.empty();
     rules_.open(sets_, report);
+    auto parts = list_parts(scene_, sets_, options_.curves, context_);
+    if (!parts) return parts.error();
+    list_ = std::move(*parts);
     auto pairs = near_pairs(list_, sets_, search_reach(rules_.reach_mm() * geometry::kGridPerMm),
                             options_, context_);
     if (!pairs) return pairs.error();
@@ -77,14 +82,24 @@ class Engine {
     auto cases = tell_cases_apart();
     if (!cases) return cases.error();
     cases_ = std::move(*cases);
+    auto objects = ObjectPairs::find(pairs_, list_, context_);
+    if (!objects) return objects.error();
+    objects_ = std::move(*objects);
+    candidates_.resize(cases_.first.size());
     const bool exact = options_.narrow_phase == NarrowPhase::exact;
     if (const Status s = exact ? narrow_phase() : test_spheres(); !s) return s.error();
-    const std::vector<Found> found = answers(report);
-    auto joined = join_by_objects(found, pairs_, list_, rules_, context_);
+    if (exact)
+      if (const Status s = places(); !s) return s.error();
+    const auto found = answers(report);
+    if (!found) return found.error();
+    const PartFindings findings{*found, pairs_, list_, rules_};
+    auto joined = join_by_objects(findings, context_);
     if (!joined) return joined.error();
     report.pairs = std::move(*joined);
+    if (report.options.most_regions > 0)
+      if (const Status s = list_regions(findings, context_, report); !s) return s.error();
     if (options_.volumes == Volumes::on)
-      if (const Status s = measure_volumes({list_, pairs_, found, trees_}, context_, report); !s)
+      if (const Status s = measure_volumes({list_, pairs_, *found, trees_}, context_, report); !s)
         return s.error();
     if (const Status s = finish(report); !s) return s.error();
     return report;
@@ -118,7 +133,6 @@ class Engine {
 
   /// The baseline: every case by halving its common box.
   Status test_spheres() {
-    candidates_.resize(cases_.first.size());
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       const PartRef &a = list_.parts[pair_of(i).first], &b = list_.parts[pair_of(i).second];
       candidates_[i].too_large = !geometry::fits_pair(a.placed, b.placed);
@@ -135,7 +149,6 @@ class Engine {
 
   /// Closed forms, and contacts in coordinate planes, which are most of them, need no trees.
   Status settle_simple_pairs() {
-    candidates_.resize(cases_.first.size());
     return parallel::for_each(
         context_, {.name = "simple pairs", .n = candidates_.size(), .grain = kGrain},
         [&](std::size_t i) {
@@ -143,6 +156,7 @@ class Engine {
           Candidate& c = candidates_[i];
           c.too_large = !geometry::fits_pair(a.placed, b.placed);
           if (c.too_large) return;
+          if (has_wire(*a.placed.part, *b.placed.part)) return;
           const NarrowPart x = bare_part(a), y = bare_part(b);
           const NarrowOptions options = narrow_options(a, b);
           auto answer = judge_analytic(x, y, options);
@@ -154,16 +168,16 @@ class Engine {
 
   /// Boxes along the coordinate axes of what stands askew meet far more often than the bodies do.
   Status part_distant_pairs() {
-    std::vector<std::size_t> unsettled;
-    for (std::size_t i = 0; i < candidates_.size(); ++i)
-      if (!candidates_[i].done && !candidates_[i].too_large) unsettled.push_back(i);
-    auto frames = build_for<geometry::PartFrame>(unsettled, "part frames", [&](std::uint32_t u) {
+    const auto unsettled =
+        some_of("unsettled pairs", [](const Candidate& c) { return !c.done && !c.too_large; });
+    if (!unsettled) return unsettled.error();
+    auto frames = build_for<geometry::PartFrame>(*unsettled, "part frames", [&](std::uint32_t u) {
       return geometry::make_frame(*list_.unique[u]);
     });
     if (!frames) return frames.error();
     frames_ = std::move(*frames);
     const Status status =
-        over(unsettled, "parting planes", kGrain, [&](std::size_t i, const IndexPair& p) {
+        over(*unsettled, "parting planes", kGrain, [&](std::size_t i, const IndexPair& p) {
           const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
           const NarrowOptions options = narrow_options(a, b);
           Candidate& c = candidates_[i];
@@ -171,9 +185,20 @@ class Engine {
           c.done = c.look.gap >= parting_gap(*a.placed.part, *b.placed.part, options);
         });
     if (!status) return status;
-    for (const std::size_t i : unsettled)
-      if (!candidates_[i].done) open_.push_back(i);
+    auto open = some_of("open pairs", [](const Candidate& c) { return !c.done && !c.too_large; });
+    if (!open) return open.error();
+    open_ = std::move(*open);
     return {};
+  }
+
+  /// The candidates that pass a test, ascending.
+  template <class Test>
+  Result<std::vector<std::size_t>> some_of(std::string_view name, Test&& test) const {
+    return parallel::collect<std::size_t>(context_,
+                                          {.name = name, .n = candidates_.size(), .grain = kBlock},
+                                          [&](std::size_t i, std::vector<std::size_t>& out) {
+                                            if (test(candidates_[i])) out.push_back(i);
+                                          });
   }
 
   Status plant_trees() {
@@ -189,8 +214,12 @@ class Engine {
     return over(open_, "narrow phase", kGrain, [&](std::size_t i, const IndexPair& p) {
       Candidate& c = candidates_[i];
       const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
-      c.look = look_at(treed_part(a), treed_part(b), narrow_options(a, b), c.look.gap, c.separated,
-                       c.work);
+      const NarrowPart x = treed_part(a), y = treed_part(b);
+      const NarrowOptions options = narrow_options(a, b);
+      if (has_wire(*a.placed.part, *b.placed.part))
+        c.look.answer = judge_wire(x, y, options, c.work);
+      else
+        c.look = look_at(x, y, options, c.look.gap, c.separated, c.work);
     });
   }
 
@@ -255,15 +284,20 @@ class Engine {
     });
   }
 
+  /// A case whose distance may show in the answer of a pair of objects, as far as `far`.
+  struct Wanted {
+    std::uint32_t number = 0;
+    double far = 0;
+  };
+
   /// How far apart the others are; where two objects meet, only as far as it could matter.
   Status distances() {
+    const auto wanted = parallel::collect<Wanted>(
+        context_, {.name = "distances wanted", .n = objects_.size(), .grain = kBlock},
+        [&](std::size_t k, std::vector<Wanted>& out) { want_distances(k, out); });
+    if (!wanted) return wanted.error();
     std::vector<double> reach(candidates_.size(), 0);
-    for (std::size_t first = 0; first < pairs_.size();) {
-      std::size_t end = first + 1;
-      while (end < pairs_.size() && same_objects(pairs_[first], pairs_[end])) ++end;
-      add_distances(first, end, reach);
-      first = end;
-    }
+    for (const Wanted& w : *wanted) reach[w.number] = std::max(reach[w.number], w.far);
     std::vector<std::size_t> apart;
     for (std::size_t i = 0; i < reach.size(); ++i)
       if (reach[i] > 0) apart.push_back(i);
@@ -275,37 +309,144 @@ class Engine {
     });
   }
 
-  [[nodiscard]] const Candidate& candidate_of(std::size_t pair) const {
-    return candidates_[cases_.of[pair]];
+  [[nodiscard]] Judged judged() const { return {list_, pairs_, cases_, candidates_}; }
+
+  /// Tells the places of pairs of parts apart where that shows.
+  Status places() {
+    const auto telling = how_to_tell(judged(), objects_, rules_, options_, context_);
+    if (!telling) return telling.error();
+    std::vector<std::size_t> alone, asking;
+    for (std::size_t i = 0; i < telling->size(); ++i) {
+      if ((*telling)[i] == Telling::if_several) alone.push_back(i);
+      if ((*telling)[i] == Telling::each) asking.push_back(i);
+    }
+    places_.resize(candidates_.size());
+    if (const auto taken = take_simple(alone); !taken) return taken.error();
+    const auto simple = take_simple(asking);
+    if (!simple) return simple.error();
+    if (const Status s = measure_simple(*simple); !s) return s;
+    asking.insert(asking.end(), alone.begin(), alone.end());
+    if (const Status s = plant_missing_trees(asking); !s) return s;
+    return over(asking, "places", 1, [&](std::size_t i, const IndexPair& p) {
+      Candidate& c = candidates_[i];
+      const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
+      auto found = places_of(treed_part(a), treed_part(b), c.look.answer, narrow_options(a, b),
+                             (*telling)[i] == Telling::each, c.work);
+      c.too_near_to_tell = !found;
+      if (found) places_[i] = std::move(*found);
+    });
+  }
+
+  /// Dents that a place cannot be told by: the touch gap bridges them.
+  [[nodiscard]] double convex_slack() const {
+    double gap = std::numeric_limits<double>::infinity();
+    for (const NarrowOptions& n : narrow_) gap = std::min(gap, n.touch_gap);
+    return std::max(1.0, gap / 4);
+  }
+
+  /// Takes those cases out that certainly have one place: where one flat face of each meets, and of
+  /// two convex parts.
+  Result<std::vector<std::size_t>> take_simple(std::vector<std::size_t>& some) const {
+    const auto flat = parallel::transform(
+        context_, {.name = "flat places", .n = some.size(), .grain = kGrain}, [&](std::size_t i) {
+          const IndexPair& p = pair_of(some[i]);
+          return static_cast<std::uint8_t>(in_flat_place(
+              candidates_[some[i]].look.answer, list_.parts[p.first], list_.parts[p.second]));
+        });
+    if (!flat) return flat.error();
+    std::vector<std::size_t> taken, others;
+    for (std::size_t i = 0; i < some.size(); ++i)
+      ((*flat)[i] != 0 ? taken : others).push_back(some[i]);
+    const auto convex = build_for<std::uint8_t>(others, "convex parts", [&](std::uint32_t u) {
+      return static_cast<std::uint8_t>(geometry::nearly_convex(*list_.unique[u], convex_slack()));
+    });
+    if (!convex) return convex.error();
+    some.clear();
+    for (const std::size_t i : others) {
+      const IndexPair& p = pair_of(i);
+      const bool both = (*convex)[list_.parts[p.first].unique] != 0 &&
+                        (*convex)[list_.parts[p.second].unique] != 0;
+      (both ? taken : some).push_back(i);
+    }
+    return taken;
+  }
+
+  /// The boxes of cases that have one place.
+  Status measure_simple(const std::vector<std::size_t>& some) {
+    const auto frames = build_for<geometry::PartFrame>(
+        some, "frames of places",
+        [&](std::uint32_t u) { return geometry::make_frame(*list_.unique[u]); });
+    if (!frames) return frames.error();
+    return over(some, "simple places", kGrain, [&](std::size_t i, const IndexPair& p) {
+      const PartRef &a = list_.parts[p.first], &b = list_.parts[p.second];
+      const PartAnswer& answer = candidates_[i].look.answer;
+      const double reach = place_reach(bare_part(a), bare_part(b), answer, narrow_options(a, b));
+      places_[i] = {{answer, geometry::common_extent({a.placed, &(*frames)[a.unique]},
+                                                     {b.placed, &(*frames)[b.unique]}, reach)}};
+    });
+  }
+
+  [[nodiscard]] bool in_flat_place(const PartAnswer& answer, const PartRef& a,
+                                   const PartRef& b) const {
+    if (answer.separation.interiors_meet || answer.judgement.cls != Class::contact) return false;
+    const NarrowPart x = framed_part(a), y = framed_part(b);
+    return geometry::in_one_flat_place({x.treed.placed, x.frame}, {y.treed.placed, y.frame},
+                                       place_reach(x, y, answer, narrow_options(a, b)));
+  }
+
+  /// Pairs that were settled without trees have none yet.
+  Status plant_missing_trees(const std::vector<std::size_t>& some) {
+    std::vector<std::size_t> bare;
+    const auto planted = [&](std::uint32_t part) {
+      const std::uint32_t unique = list_.parts[part].unique;
+      return unique < trees_.size() && !trees_[unique].nodes().empty();
+    };
+    for (const std::size_t i : some)
+      if ((!planted(pair_of(i).first) || !planted(pair_of(i).second)) && wants_trees(i))
+        bare.push_back(i);
+    auto trees = build_for<geometry::PartTree>(
+        bare, "part trees", [&](std::uint32_t u) { return geometry::PartTree(*list_.unique[u]); });
+    if (!trees) return trees.error();
+    trees_.resize(list_.unique.size());
+    for (std::size_t u = 0; u < trees_.size(); ++u)
+      if (trees_[u].nodes().empty()) trees_[u] = std::move((*trees)[u]);
+    return {};
+  }
+
+  /// Small parts that only touch are walked faster than a tree is built.
+  [[nodiscard]] bool wants_trees(std::size_t number) const {
+    constexpr std::size_t kMostWalked = 512;
+    return candidates_[number].look.answer.separation.interiors_meet ||
+           triangles(pair_of(number)) > kMostWalked;
   }
 
   /// How far the distances of one pair of objects' parts may show in its answer. Parts that meet
   /// are more severe than parts that are apart, unless the sag of those hides that they meet too.
-  void add_distances(std::size_t first, std::size_t end, std::vector<double>& reach) const {
+  void want_distances(std::size_t objects, std::vector<Wanted>& wanted) const {
+    const std::size_t first = objects_.begin(objects), end = objects_.end(objects);
+    const Judged judged = this->judged();
     bool hit = false, meeting = false;
     // Where a rule may allow the worst of them, every other one counts.
-    const bool all = rules_.may_allow(list_.parts[pairs_[first].first].object,
-                                      list_.parts[pairs_[first].second].object);
+    const bool all = rules_.may_allow(judged.a(first).object, judged.b(first).object);
     for (std::size_t i = first; i < end && !all; ++i) {
-      const PartAnswer& answer = candidate_of(i).look.answer;
+      const PartAnswer& answer = judged.of(i).look.answer;
       hit = hit || answer.judgement.cls == Class::hit;
       meeting = meeting || (answer.judgement.cls >= Class::contact && answer.separation.d <= 0);
     }
-    for (std::size_t i = first; i < end && !hit; ++i) {
-      if (candidate_of(i).look.next != FirstLook::Next::distance) continue;
+    const bool regions = options_.most_regions > 0;
+    for (std::size_t i = first; i < end && (!hit || regions); ++i) {
+      if (judged.of(i).look.next != FirstLook::Next::distance) continue;
       double far = std::numeric_limits<double>::infinity();
-      if (meeting) {
-        const PartRef &a = list_.parts[pairs_[i].first], &b = list_.parts[pairs_[i].second];
+      if (hit || meeting) {
+        const PartRef &a = judged.a(i), &b = judged.b(i);
         const Part &x = *a.placed.part, &y = *b.placed.part;
-        far = x.sag + y.sag - thresholds(x, y, narrow_options(a, b)).overlap;
+        const Thresholds limits = thresholds(x, y, narrow_options(a, b));
+        far = x.sag + y.sag - limits.overlap;
+        // Contacts elsewhere are regions of their own.
+        if (regions) far = std::max(far, x.sag + y.sag + limits.gap + 1);
       }
-      reach[cases_.of[i]] = std::max(reach[cases_.of[i]], far);
+      wanted.push_back({cases_.of[i], far});
     }
-  }
-
-  [[nodiscard]] bool same_objects(const IndexPair& p, const IndexPair& q) const {
-    return list_.parts[p.first].object == list_.parts[q.first].object &&
-           list_.parts[p.second].object == list_.parts[q.second].object;
   }
 
   [[nodiscard]] NarrowPart bare_part(const PartRef& p) const {
@@ -340,56 +481,44 @@ class Engine {
     return bands_[scene_.model->objects[p.object].file];
   }
 
-  /// The answers that can show in a report; counts the work and what was skipped.
-  std::vector<Found> answers(Report& report) const {
-    std::vector<Found> found;
-    for (const Candidate& c : candidates_) count(c.work, report.counters);
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const Candidate& c = candidate_of(i);
-      if (c.too_large)
-        report_too_large(pairs_[i], report.diagnostics);
-      else if (c.look.answer.judgement.severest != Class::no_hit)
-        found.push_back({i, &c.look.answer});
+  /// The answers that can show in a report; tells of the pairs that were skipped.
+  Result<std::vector<Found>> answers(Report& report) const {
+    const Judged all = judged();
+    if (const Status s = note_too_large(all, *scene_.model, context_, report.diagnostics); !s)
+      return s.error();
+    return parallel::collect<Found>(
+        context_, {.name = "answers", .n = pairs_.size(), .grain = kBlock},
+        [&](std::size_t i, std::vector<Found>& out) {
+          const Candidate& c = all.of(i);
+          if (!c.too_large && c.look.answer.judgement.severest != Class::no_hit)
+            append_places(i, c, out);
+        });
+  }
+
+  /// The places of a pair of parts, or its answer as a whole.
+  void append_places(std::size_t pair, const Candidate& c, std::vector<Found>& found) const {
+    const std::uint32_t number = cases_.of[pair];
+    if (places_.empty() || places_[number].empty()) {
+      found.push_back({pair, &c.look.answer, nullptr, c.too_near_to_tell});
+      return;
     }
-    return found;
+    for (const PartPlace& place : places_[number])
+      found.push_back({pair, &place.answer, &place.extent, false});
   }
 
   Status finish(Report& report) const {
-    rules_.close(report);
+    if (const Status s = rules_.close(context_, report); !s) return s.error();
     auto hash = hash_of(report, *scene_.model, context_);
     if (!hash) return hash.error();
     report.hash = std::move(*hash);
-    report.counters.part_pairs = pairs_.size();
-    count_objects(report);
-    note_unknown_sag(report.diagnostics);
-    if (options_.log_pairs) log(report);
-    return {};
+    if (const Status s = tally(judged(), objects_, rules_, context_, report); !s) return s.error();
+    describe_sets(report);
+    if (const Status s = note_unknown_sag(list_, *scene_.model, context_, report.diagnostics); !s)
+      return s.error();
+    return options_.log_pairs ? log_pairs(judged(), objects_, rules_, context_, report) : Status{};
   }
 
-  void log(Report& report) const {
-    PairLog log(list_);
-    for (std::size_t i = 0; i < pairs_.size(); ++i)
-      log.add(pairs_[i], candidate_of(i).work, cases_.first[cases_.of[i]] != i);
-    for (LoggedPair& pair : log.pairs())
-      pair.may_be_allowed = rules_.may_allow(index(pair.a), index(pair.b));
-    log.close(report);
-  }
-
-  static void count(const NarrowWork& work, Counters& counters) {
-    counters.triangle_pairs += work.pair.triangle_pairs;
-    counters.exact_fallbacks += work.pair.exact_fallbacks;
-    counters.depth_cells += work.depth_cells;
-  }
-
-  void count_objects(Report& report) const {
-    const IndexPair* last = nullptr;
-    for (const IndexPair& p : pairs_) {
-      if (last == nullptr || !same_objects(*last, p)) {
-        ++report.counters.candidate_pairs;
-        rules_.count_candidate(list_.parts[p.first].object, list_.parts[p.second].object, report);
-      }
-      last = &p;
-    }
+  void describe_sets(Report& report) const {
     report.objects_a =
         static_cast<std::uint64_t>(std::count(sets_.in_a.begin(), sets_.in_a.end(), true));
     report.objects_b =
@@ -402,26 +531,6 @@ class Engine {
           report.objects_a == 0 ? "set A, " + sets_.name_a : "set B, " + sets_.name_b);
   }
 
-  void report_too_large(const IndexPair& p, Diagnostics& diagnostics) const {
-    const model::Model& model = *scene_.model;
-    diagnostics.add(Severity::skipped, "pair-too-large",
-                    "the pair spans more than a kilometre and was not compared",
-                    model.objects[list_.parts[p.first].object].id + " and " +
-                        model.objects[list_.parts[p.second].object].id);
-  }
-
-  void note_unknown_sag(Diagnostics& diagnostics) const {
-    std::vector<bool> unknown(scene_.model->files.size(), false);
-    for (const PartRef& p : list_.parts)
-      if (p.placed.part->flags.unknown_sag) unknown[scene_.model->objects[p.object].file] = true;
-    for (std::size_t f = 0; f < unknown.size(); ++f)
-      if (unknown[f])
-        diagnostics.add(Severity::note, "unknown-sag",
-                        "meshes are taken as the true surfaces: how far they lie from them is "
-                        "not known",
-                        scene_.model->files[f].label);
-  }
-
   const model::Scene& scene_;
   const Sets& sets_;
   const Options& options_;
@@ -432,11 +541,13 @@ class Engine {
   std::vector<double> bands_;          ///< contact distance per file
   std::vector<IndexPair> pairs_;
   Cases cases_;
+  ObjectPairs objects_;
   std::vector<geometry::PartFrame> frames_;      ///< by unique part, as far as wanted
   std::vector<geometry::PartTree> trees_;        ///< likewise
   std::vector<geometry::SupportPlanes> planes_;  ///< likewise
   std::vector<Candidate> candidates_;            ///< one per case
   std::vector<std::size_t> open_;                ///< cases that want trees
+  std::vector<std::vector<PartPlace>> places_;   ///< by case, where told apart
 };
 
 }  // namespace

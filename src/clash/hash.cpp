@@ -18,6 +18,13 @@ namespace {
 /// Pairs hashed as one piece; part of what the hash is.
 constexpr std::size_t kPiece = 4096;
 
+void add_region(Hasher& hasher, const Region& region) {
+  hasher.add(std::uint32_t{static_cast<std::uint8_t>(region.cls)});
+  hasher.add(region.d_mm);
+  for (const geometry::Vec3d& p : {region.point_mm, region.box_mm.lo, region.box_mm.hi})
+    for (int k = 0; k < 3; ++k) hasher.add(p[k]);
+}
+
 void add_pair(Hasher& hasher, const Pair& pair, const Report& report, const model::Model& model) {
   for (const model::ObjectId id : {pair.a, pair.b}) {
     const model::Object& object = model.object(id);
@@ -29,6 +36,12 @@ void add_pair(Hasher& hasher, const Pair& pair, const Report& report, const mode
   hasher.add(pair.d_mm);
   for (const geometry::Vec3d& p : {pair.point_mm, pair.on_a_mm, pair.on_b_mm, pair.away})
     for (int k = 0; k < 3; ++k) hasher.add(p[k]);
+  if (report.options.most_regions > 0) {
+    hasher.add(pair.regions);
+    const std::uint32_t listed = pair.regions_listed(report.options);
+    for (std::uint32_t r = pair.first_region; r < pair.first_region + listed; ++r)
+      add_region(hasher, report.regions[r]);
+  }
   if (pair.allowed >= 0)
     hasher.add(std::string_view(report.allowed[static_cast<std::size_t>(pair.allowed)].rule));
 }

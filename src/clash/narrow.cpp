@@ -37,21 +37,6 @@ Separation separated_by(double distance) {
   return {.d = distance, .lower = distance * (1 - kEps), .upper = distance * (1 + kEps)};
 }
 
-geometry::Depth depth_of(const NarrowPart& a, const NarrowPart& b, const DepthGoal& goal,
-                         NarrowWork& work) {
-  const bool sheet_a = a.treed.placed.part->kind == PartKind::sheet;
-  const bool sheet_b = b.treed.placed.part->kind == PartKind::sheet;
-  if (sheet_a && sheet_b) return geometry::sheet_crossing_depth(a.treed, b.treed, goal, work.pair);
-  const DepthPart x{a.treed, a.planes}, y{b.treed, b.planes};
-  if (sheet_a) return geometry::sheet_in_solid_depth(x, y, goal, work.pair);
-  if (sheet_b) {
-    geometry::Depth depth = geometry::sheet_in_solid_depth(y, x, goal, work.pair);
-    depth.point = depth.point + (b.treed.placed.origin - a.treed.placed.origin).as<double>();
-    return depth;
-  }
-  return geometry::solid_depth(x, y, goal, work.pair);
-}
-
 Relation analytic_relation(const geometry::AnalyticSeparation& s, double band) {
   const bool sheet = s.sheet_a || s.sheet_b;
   if (s.difference <= band) return Relation::duplicate;
@@ -344,6 +329,24 @@ Thresholds thresholds(const Part& a, const Part& b, const NarrowOptions& options
   for (const Part* part : {&a, &b})
     if (part->kind == PartKind::solid) t.overlap = std::min(t.overlap, part->thickness() / 4);
   return t;
+}
+
+geometry::Depth depth_of(const NarrowPart& a, const NarrowPart& b, const DepthGoal& goal,
+                         NarrowWork& work) {
+  const bool sheet_a = a.treed.placed.part->kind == PartKind::sheet;
+  const bool sheet_b = b.treed.placed.part->kind == PartKind::sheet;
+  if (sheet_a && sheet_b) return geometry::sheet_crossing_depth(a.treed, b.treed, goal, work.pair);
+  const DepthPart x{a.treed, a.planes}, y{b.treed, b.planes};
+  if (sheet_a) return geometry::sheet_in_solid_depth(x, y, goal, work.pair);
+  if (sheet_b) {
+    const Vec3d shift = (b.treed.placed.origin - a.treed.placed.origin).as<double>();
+    DepthGoal of_sheet = goal;
+    if (goal.within) of_sheet.within = {goal.within->lo - shift, goal.within->hi - shift};
+    geometry::Depth depth = geometry::sheet_in_solid_depth(y, x, of_sheet, work.pair);
+    depth.point = depth.point + shift;
+    return depth;
+  }
+  return geometry::solid_depth(x, y, goal, work.pair);
 }
 
 std::optional<PartAnswer> judge_analytic(const NarrowPart& a, const NarrowPart& b,

@@ -70,6 +70,11 @@ void turn(PartAnswer& answer, const NarrowPart& a, const NarrowPart& b);
 /// The flags of a pair that come from its parts.
 [[nodiscard]] std::uint16_t part_flags(const geometry::Part& a, const geometry::Part& b);
 
+/// The depth of two parts whose interiors meet, of whatever kinds; its point and the goal's are
+/// relative to a's origin. Both have planes, but for two sheets.
+[[nodiscard]] geometry::Depth depth_of(const NarrowPart& a, const NarrowPart& b,
+                                       const geometry::DepthGoal& goal, NarrowWork& work);
+
 /// The answer for two primitives that have a closed form: about their true surfaces, so without
 /// sag. None where they are within a micrometre of a touch: whether the triangles touch is decided
 /// exactly, by judge_flush() and look_at(), before the closed form is asked again.

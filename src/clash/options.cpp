@@ -45,6 +45,9 @@ Status check(const Options& o, const Sets& sets, std::size_t objects) {
       (!sets.group.empty() && sets.group.size() != objects))
     return Error{ErrorCode::usage, "the sets do not have one entry per object of the scene", "sets",
                  "build them from the same scene"};
+  if (o.curves == Curves::on && o.narrow_phase != NarrowPhase::exact)
+    return Error{ErrorCode::usage, "lines are judged by the exact narrow phase only", "curves",
+                 "leave out --curves or --narrow-phase"};
   return {};
 }
 

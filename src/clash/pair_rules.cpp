@@ -6,12 +6,16 @@
 #include <utility>
 
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
 namespace {
 
 using geometry::IndexPair;
+
+/// Pairs per block of what is counted.
+constexpr std::size_t kGrain = 65536;
 
 std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options) {
   std::vector<Tolerances> all{tolerances_of(options)};
@@ -59,6 +63,49 @@ bool holds_all(const Allowed& rule, const geometry::Box3d& box) {
     return within(side, outermost);
   });
 }
+
+/// Pairs of each class, those apart that a rule allows.
+struct ByClass {
+  std::uint64_t hit = 0, contact = 0, clearance_violation = 0, allowed = 0;
+
+  void add(const Pair& pair) {
+    if (pair.allowed >= 0)
+      ++allowed;
+    else if (pair.cls == Class::hit)
+      ++hit;
+    else if (pair.cls == Class::contact)
+      ++contact;
+    else if (pair.cls == Class::clearance_violation)
+      ++clearance_violation;
+  }
+  void add(const ByClass& o) {
+    hit += o.hit;
+    contact += o.contact;
+    clearance_violation += o.clearance_violation;
+    allowed += o.allowed;
+  }
+};
+
+/// What is counted over the pairs of a report.
+struct Totals {
+  ByClass all;
+  std::vector<std::uint64_t> by_rule;  ///< pairs that it allows
+  std::vector<ByClass> by_cell;
+
+  Totals(std::size_t rules, std::size_t cells) : by_rule(rules, 0), by_cell(cells) {}
+  Totals() = default;
+
+  void add(const Pair& pair, std::size_t cell) {
+    all.add(pair);
+    if (pair.allowed >= 0) ++by_rule[static_cast<std::size_t>(pair.allowed)];
+    if (cell < by_cell.size()) by_cell[cell].add(pair);
+  }
+  void add(const Totals& o) {
+    all.add(o.all);
+    for (std::size_t r = 0; r < by_rule.size(); ++r) by_rule[r] += o.by_rule[r];
+    for (std::size_t c = 0; c < by_cell.size(); ++c) by_cell[c].add(o.by_cell[c]);
+  }
+};
 
 bool allows(const Allowed& rule, const Pair& pair) {
   if (rule.max_depth_mm ? pair.d_lower_mm < -*rule.max_depth_mm : pair.cls == Class::hit)
@@ -213,11 +260,11 @@ PairRules::Verdict PairRules::verdict(const PartRef& a, const PartRef& b) const 
 
 Status PairRules::exempt(const PartList& list, std::vector<IndexPair>& pairs,
                          const parallel::Context& context, Report& report) const {
-  constexpr std::size_t kGrain = 4096;
+  constexpr std::size_t kPairs = 4096;
   const bool rules = policy_.matrix || !policy_.exemptions.empty() || policy_.levels;
   if (!rules && one_reach_) return {};
   const auto verdicts = parallel::transform(
-      context, {.name = "rules", .n = pairs.size(), .grain = kGrain}, [&](std::size_t i) {
+      context, {.name = "rules", .n = pairs.size(), .grain = kPairs}, [&](std::size_t i) {
         return verdict(list.parts[pairs[i].first], list.parts[pairs[i].second]);
       });
   if (!verdicts) return verdicts.error();
@@ -256,31 +303,47 @@ bool PairRules::may_allow(std::uint32_t a, std::uint32_t b) const {
   return some;
 }
 
-void PairRules::count_candidate(std::uint32_t a, std::uint32_t b, Report& report) const {
-  bool some = false;
-  allowed_.each(a, b, [&](std::size_t rule) {
-    some = true;
-    ++report.allowed[rule].candidates;
-    return false;
-  });
-  if (some) ++report.counters.allowed_pairs;
+Status PairRules::count_candidates(const Judged& judged, const ObjectPairs& objects,
+                                   const parallel::Context& context, Report& report) const {
+  if (policy_.allowed.empty()) return {};
+  struct Counts {
+    std::uint64_t pairs = 0;
+    std::vector<std::uint64_t> by_rule;
+  };
+  const auto counts = parallel::reduce(
+      context, {.name = "candidates of rules", .n = objects.size(), .grain = kGrain},
+      Counts{0, std::vector<std::uint64_t>(policy_.allowed.size(), 0)},
+      [&](Counts& partial, std::size_t k) {
+        bool some = false;
+        const std::size_t first = objects.begin(k);
+        allowed_.each(judged.a(first).object, judged.b(first).object, [&](std::size_t rule) {
+          some = true;
+          ++partial.by_rule[rule];
+          return false;
+        });
+        if (some) ++partial.pairs;
+      },
+      [](Counts& into, const Counts& partial) {
+        into.pairs += partial.pairs;
+        for (std::size_t r = 0; r < into.by_rule.size(); ++r) into.by_rule[r] += partial.by_rule[r];
+      });
+  if (!counts) return counts.error();
+  report.counters.allowed_pairs = counts->pairs;
+  for (std::size_t r = 0; r < report.allowed.size(); ++r)
+    report.allowed[r].candidates = counts->by_rule[r];
+  return {};
 }
 
-void PairRules::allow(const PartRef& a, const PartRef& b, Pair& pair) const {
+void PairRules::allow(const PartRef& a, const PartRef& b,
+                      const std::optional<geometry::Box3d>& extent_mm, Pair& pair) const {
   allowed_.each(a.object, b.object, [&](std::size_t rule) {
     if (!clash::allows(policy_.allowed[rule], pair)) return false;
     pair.allowed = static_cast<std::int32_t>(rule);
     return true;
   });
   if (pair.allowed < 0) return;
-  const double reach = own_reach(a, b);
-  const geometry::Box3l x = inflated_box(a, reach), y = inflated_box(b, reach);
-  geometry::Box3d common;
-  for (int k = 0; k < 3; ++k) {
-    common.lo[k] = static_cast<double>(std::max(x.lo[k], y.lo[k])) / geometry::kGridPerMm;
-    common.hi[k] = static_cast<double>(std::min(x.hi[k], y.hi[k])) / geometry::kGridPerMm;
-  }
-  if (!holds_all(policy_.allowed[static_cast<std::size_t>(pair.allowed)], common))
+  if (!holds_all(policy_.allowed[static_cast<std::size_t>(pair.allowed)],
+                 extent_mm.value_or(common_box_mm(a, b, own_reach(a, b)))))
     pair.flags |= kUncertain;
 }
 
@@ -310,32 +373,39 @@ void PairRules::open(const Sets& sets, Report& report) const {
     }
 }
 
-void PairRules::close(Report& report) const {
-  const auto cell_of = [&](const Pair& pair) -> CellReport* {
-    if (!policy_.matrix) return nullptr;
-    const Matrix& m = *policy_.matrix;
-    auto [a, b] = std::minmax(m.discipline[index(pair.a)], m.discipline[index(pair.b)]);
-    if (b == kNoLabel) return nullptr;
-    const std::size_t n = m.disciplines.size();
-    return &report.cells[a * n - a * (a + std::size_t{1}) / 2 + b];
-  };
-  for (const Pair& pair : report.pairs) {
-    CellReport* const cell = cell_of(pair);
-    const auto count = [&](std::uint64_t& test, std::uint64_t CellReport::* in_cell) {
-      ++test;
-      if (cell != nullptr) ++(cell->*in_cell);
-    };
-    if (pair.allowed >= 0) {
-      ++report.allowed[static_cast<std::size_t>(pair.allowed)].pairs;
-      count(report.count_allowed, &CellReport::allowed);
-    } else if (pair.cls == Class::hit) {
-      count(report.count_hit, &CellReport::hit);
-    } else if (pair.cls == Class::contact) {
-      count(report.count_contact, &CellReport::contact);
-    } else if (pair.cls == Class::clearance_violation) {
-      count(report.count_clearance, &CellReport::clearance_violation);
-    }
+Status PairRules::close(const parallel::Context& context, Report& report) const {
+  const auto totals = parallel::reduce(
+      context, {.name = "count by class", .n = report.pairs.size(), .grain = kGrain},
+      Totals(policy_.allowed.size(), report.cells.size()),
+      [&](Totals& partial, std::size_t i) {
+        partial.add(report.pairs[i], cell_number(report.pairs[i]));
+      },
+      [](Totals& into, const Totals& partial) { into.add(partial); });
+  if (!totals) return totals.error();
+  report.count_hit = totals->all.hit;
+  report.count_contact = totals->all.contact;
+  report.count_clearance = totals->all.clearance_violation;
+  report.count_allowed = totals->all.allowed;
+  for (std::size_t r = 0; r < report.allowed.size(); ++r)
+    report.allowed[r].pairs = totals->by_rule[r];
+  for (std::size_t c = 0; c < report.cells.size(); ++c) {
+    const ByClass& counts = totals->by_cell[c];
+    CellReport& cell = report.cells[c];
+    cell.hit = counts.hit;
+    cell.contact = counts.contact;
+    cell.clearance_violation = counts.clearance_violation;
+    cell.allowed = counts.allowed;
   }
+  return {};
+}
+
+std::size_t PairRules::cell_number(const Pair& pair) const {
+  if (!policy_.matrix) return kNoCell;
+  const Matrix& m = *policy_.matrix;
+  const auto [a, b] = std::minmax(m.discipline[index(pair.a)], m.discipline[index(pair.b)]);
+  if (b == kNoLabel) return kNoCell;
+  const std::size_t n = m.disciplines.size();
+  return a * n - a * (a + std::size_t{1}) / 2 + b;
 }
 
 }  // namespace strake::clash

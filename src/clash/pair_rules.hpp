@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "clash/candidate.hpp"
+#include "clash/object_pairs.hpp"
 #include "clash/parts.hpp"
 #include "clash/set_masks.hpp"
 #include "strake/clash/policy.hpp"
@@ -35,17 +38,20 @@ class PairRules {
   [[nodiscard]] Status exempt(const PartList& list, std::vector<geometry::IndexPair>& pairs,
                               const parallel::Context& context, Report& report) const;
 
-  /// Counts a pair of objects that goes on for the rules that may allow it.
-  void count_candidate(std::uint32_t a, std::uint32_t b, Report& report) const;
+  /// Counts the pairs of objects that went on for the rules that may allow them.
+  [[nodiscard]] Status count_candidates(const Judged& judged, const ObjectPairs& objects,
+                                        const parallel::Context& context, Report& report) const;
   [[nodiscard]] bool may_allow(std::uint32_t a, std::uint32_t b) const;
-  /// Pair::allowed by the first rule that allows the result; flagged uncertain where the two parts
-  /// may meet beyond what the rule allows, at a place that is not their worst.
-  void allow(const PartRef& a, const PartRef& b, Pair& pair) const;
+  /// Pair::allowed by the first rule that allows the result; flagged uncertain where the place may
+  /// reach beyond what the rule allows. `extent_mm` holds the place; none: it may be anywhere
+  /// between the two parts.
+  void allow(const PartRef& a, const PartRef& b, const std::optional<geometry::Box3d>& extent_mm,
+             Pair& pair) const;
 
   /// Names the rules in force, with counts of 0, and the disciplines of the sets.
   void open(const Sets& sets, Report& report) const;
   /// Counts the pairs by class, rule and cell.
-  void close(Report& report) const;
+  [[nodiscard]] Status close(const parallel::Context& context, Report& report) const;
 
  private:
   /// What becomes of one pair of parts.
@@ -60,6 +66,9 @@ class PairRules {
   [[nodiscard]] double own_reach(const PartRef& a, const PartRef& b) const;
   [[nodiscard]] bool within_own_reach(const PartRef& a, const PartRef& b) const;
   void number_level_rules();
+  /// The place of a pair's cell in Report::cells, or kNoCell.
+  [[nodiscard]] std::size_t cell_number(const Pair& pair) const;
+  static constexpr std::size_t kNoCell = ~std::size_t{0};
 
   const Policy& policy_;
   const model::Model& model_;

@@ -4,9 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
@@ -33,24 +39,42 @@ Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::B
   return geometry::meeting_pairs(*tree, context, options.most_pairs);
 }
 
+/// Pairs that stand in different groups.
+Result<std::vector<geometry::IndexPair>> across_groups(
+    const std::vector<geometry::IndexPair>& pairs, const PartList& list, const Sets& sets,
+    const parallel::Context& context) {
+  const auto group = [&](std::uint32_t part) { return sets.group[list.parts[part].object]; };
+  return parallel::collect<geometry::IndexPair>(
+      context, {.name = "pairs across groups", .n = pairs.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<geometry::IndexPair>& out) {
+        if (group(pairs[i].first) != group(pairs[i].second)) out.push_back(pairs[i]);
+      });
+}
+
 /// Puts all parts of two objects side by side in a list of pairs that is ascending by parts, which
 /// are themselves by object: the second part's object goes before the first part.
-void gather_by_objects(std::vector<geometry::IndexPair>& pairs, const PartList& list) {
+Status gather_by_objects(std::vector<geometry::IndexPair>& pairs, const PartList& list,
+                         const parallel::Context& context) {
   const auto object = [&](std::uint32_t part) { return list.parts[part].object; };
-  for (std::size_t first = 0; first < pairs.size();) {
-    std::size_t end = first + 1;
-    bool one_part = true;
-    for (; end < pairs.size() && object(pairs[end].first) == object(pairs[first].first); ++end)
-      one_part = one_part && pairs[end].first == pairs[first].first;
-    if (!one_part)
-      std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first),
-                pairs.begin() + static_cast<std::ptrdiff_t>(end),
-                [&](const auto& x, const auto& y) {
-                  return std::tuple{object(x.second), x.first, x.second} <
-                         std::tuple{object(y.second), y.first, y.second};
-                });
-    first = end;
-  }
+  const auto gather = [&](std::span<geometry::IndexPair> of_object) {
+    // Ascending by the first part.
+    if (of_object.front().first != of_object.back().first)
+      std::sort(of_object.begin(), of_object.end(), [&](const auto& x, const auto& y) {
+        return std::tuple{object(x.second), x.first, x.second} <
+               std::tuple{object(y.second), y.first, y.second};
+      });
+  };
+  auto begin = parallel::collect<std::size_t>(
+      context, {.name = "pairs by first object", .n = pairs.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<std::size_t>& out) {
+        if (i == 0 || object(pairs[i - 1].first) != object(pairs[i].first)) out.push_back(i);
+      });
+  if (!begin) return begin.error();
+  begin->push_back(pairs.size());
+  const std::vector<std::size_t>& at = *begin;
+  return parallel::for_each(
+      context, {.name = "gather by objects", .n = at.size() - 1, .grain = kGrain},
+      [&](std::size_t k) { gather(std::span(pairs).subspan(at[k], at[k + 1] - at[k])); });
 }
 
 Error too_many(const Options& options) {
@@ -72,30 +96,60 @@ geometry::Box3l inflated_box(const PartRef& ref, double reach) {
           box.hi.as<std::int64_t>() + ref.placed.origin + more};
 }
 
-PartList list_parts(const model::Scene& scene, const Sets& sets) {
+Result<PartList> list_parts(const model::Scene& scene, const Sets& sets, Curves curves,
+                            const parallel::Context& context) {
   PartList list;
   std::vector<std::uint32_t> first(scene.shapes.size() + 1, 0);
   for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
     for (const geometry::Part& part : scene.shapes[s].parts) list.unique.push_back(&part);
     first[s + 1] = static_cast<std::uint32_t>(list.unique.size());
   }
-  for (std::size_t o = 0; o + 1 < scene.first_body.size(); ++o) {
-    if (!sets.in_a[o] && !sets.in_b[o]) continue;
+  // Calls take(part, its number among those of the object, body) for each that can clash.
+  const auto each = [&](std::size_t o, auto&& take) {
+    if (!sets.in_a[o] && !sets.in_b[o]) return;
     std::uint32_t number = 0;
     for (std::size_t b = scene.first_body[o]; b < scene.first_body[o + 1]; ++b) {
-      const model::GridBody& body = scene.bodies[b];
-      const std::vector<geometry::Part>& parts = scene.shapes[body.grid_shape].parts;
-      for (std::size_t p = 0; p < parts.size(); ++p, ++number) {
-        if (parts[p].kind == geometry::PartKind::wire || parts[p].triangles.empty()) continue;
-        list.parts.push_back({{&parts[p], body.origin},
-                              static_cast<std::uint32_t>(o),
-                              number,
-                              first[body.grid_shape] + static_cast<std::uint32_t>(p),
-                              body.body});
+      const std::vector<geometry::Part>& parts = scene.shapes[scene.bodies[b].grid_shape].parts;
+      for (const geometry::Part& part : parts) {
+        const bool wire = part.kind == geometry::PartKind::wire;
+        if (wire ? curves == Curves::on : !part.triangles.empty())
+          take(part, number, scene.bodies[b]);
+        ++number;
       }
     }
-  }
+  };
+  const std::size_t objects = scene.first_body.empty() ? 0 : scene.first_body.size() - 1;
+  auto parts = parallel::count_fill<PartRef>(
+      context, {.name = "list parts", .n = objects, .grain = kGrain},
+      [&](std::size_t o) {
+        std::size_t count = 0;
+        each(o, [&](const auto&, std::uint32_t, const model::GridBody&) { ++count; });
+        return count;
+      },
+      [&](std::size_t o, std::span<PartRef> out) {
+        std::size_t at = 0;
+        each(o, [&](const geometry::Part& part, std::uint32_t number, const model::GridBody& body) {
+          const geometry::Part* const all = scene.shapes[body.grid_shape].parts.data();
+          out[at++] = {{&part, body.origin},
+                       static_cast<std::uint32_t>(o),
+                       number,
+                       first[body.grid_shape] + static_cast<std::uint32_t>(&part - all),
+                       body.body};
+        });
+      });
+  if (!parts) return parts.error();
+  list.parts = std::move(parts->values);
   return list;
+}
+
+geometry::Box3d common_box_mm(const PartRef& a, const PartRef& b, double reach) {
+  const geometry::Box3l x = inflated_box(a, reach), y = inflated_box(b, reach);
+  geometry::Box3d common;
+  for (int k = 0; k < 3; ++k) {
+    common.lo[k] = static_cast<double>(std::max(x.lo[k], y.lo[k])) / geometry::kGridPerMm;
+    common.hi[k] = static_cast<double>(std::min(x.hi[k], y.hi[k])) / geometry::kGridPerMm;
+  }
+  return common;
 }
 
 Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list, const Sets& sets,
@@ -107,11 +161,11 @@ Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list, const 
   if (!items) return items.error();
   auto pairs = box_pairs(*items, options, context);
   if (!pairs) return pairs.error().code == ErrorCode::input ? too_many(options) : pairs.error();
-  if (!sets.group.empty())
-    std::erase_if(*pairs, [&](const geometry::IndexPair& p) {
-      return sets.group[list.parts[p.first].object] == sets.group[list.parts[p.second].object];
-    });
-  gather_by_objects(*pairs, list);
+  if (!sets.group.empty()) {
+    pairs = across_groups(*pairs, list, sets, context);
+    if (!pairs) return pairs;
+  }
+  if (const Status s = gather_by_objects(*pairs, list, context); !s) return s.error();
   return pairs;
 }
 

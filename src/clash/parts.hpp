@@ -20,13 +20,15 @@ struct PartRef {
   std::uint32_t body = 0;    ///< index into Model::bodies
 };
 
-/// Solids and sheets of the objects in either set, by object and number.
+/// Solids and sheets of the objects in either set, and lines where asked for, by object and number.
 struct PartList {
   std::vector<PartRef> parts;
   std::vector<const geometry::Part*> unique;
 };
 
-[[nodiscard]] PartList list_parts(const model::Scene& scene, const Sets& sets);
+/// Errors: cancelled.
+[[nodiscard]] Result<PartList> list_parts(const model::Scene& scene, const Sets& sets,
+                                          Curves curves, const parallel::Context& context);
 
 /// What is added to the largest tolerance, both in grid units, before boxes are inflated by it:
 /// what lies exactly at a threshold is for the narrow phase to see.
@@ -35,6 +37,9 @@ struct PartList {
 /// The part's box, so much larger that the boxes of two parts meet where their true surfaces, which
 /// may stand out of the tessellation by the sag, come within `reach` grid units.
 [[nodiscard]] geometry::Box3l inflated_box(const PartRef& ref, double reach);
+
+/// What the inflated boxes of two parts have in common, mm.
+[[nodiscard]] geometry::Box3d common_box_mm(const PartRef& a, const PartRef& b, double reach);
 
 /// Pairs of parts of different objects whose boxes come within `reach` grid units, as indices into
 /// the list, by (objects, parts).

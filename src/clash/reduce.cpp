@@ -3,45 +3,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "strake/geometry/grid.hpp"
-#include "strake/parallel/collect.hpp"
+#include "strake/parallel/count_fill.hpp"
 
 namespace strake::clash {
 namespace {
 
 using geometry::Vec3d;
 
-Pair pair_of(const PartAnswer& answer, const PartRef& a, const PartRef& b, const PairRules& rules) {
-  const Separation& s = answer.separation;
-  const Witness& w = answer.witness;
-  const auto place = [&](const Vec3d& p) {
-    const Vec3d at = a.placed.origin.as<double>() + p;
-    return Vec3d{at.x / geometry::kGridPerMm, at.y / geometry::kGridPerMm,
-                 at.z / geometry::kGridPerMm};
-  };
-  Pair pair;
-  pair.a = model::ObjectId{a.object};
-  pair.b = model::ObjectId{b.object};
-  pair.cls = answer.judgement.cls;
-  pair.relation = answer.relation;
-  pair.flags = answer.judgement.flags;
-  pair.d_mm = s.d / geometry::kGridPerMm;
-  pair.d_lower_mm = (s.lower - s.sag) / geometry::kGridPerMm;
-  pair.d_upper_mm = (s.upper + s.sag) / geometry::kGridPerMm;
-  pair.point_mm = place(w.point());
-  pair.on_a_mm = place(w.on_a);
-  pair.on_b_mm = place(w.on_b);
-  pair.away = w.away;
-  pair.deep_in_a = w.deep_in_a;
-  pair.part_a = a.number;
-  pair.part_b = b.number;
-  pair.level_a = rules.level(a);
-  pair.level_b = rules.level(b);
-  rules.allow(a, b, pair);
-  return pair;
+/// A point relative to a part's origin.
+Vec3d place_mm(const PartRef& part, const Vec3d& p) {
+  const Vec3d at = part.placed.origin.as<double>() + p;
+  return {at.x / geometry::kGridPerMm, at.y / geometry::kGridPerMm, at.z / geometry::kGridPerMm};
 }
+
+/// The d of two objects is the least of their parts': so is either end of its bracket, over the
+/// parts that stand as the deciding ones do.
+void widen_bracket(Pair& worst, const Pair& other) {
+  const auto standing = [](const Pair& p) {
+    return std::tuple(p.allowed < 0, p.cls, std::max(p.level_a, p.level_b),
+                      std::min(p.level_a, p.level_b));
+  };
+  if (standing(worst) != standing(other)) return;
+  worst.d_lower_mm = std::min(worst.d_lower_mm, other.d_lower_mm);
+  worst.d_upper_mm = std::max(worst.d_mm, std::min(worst.d_upper_mm, other.d_upper_mm));
+}
+
+/// What the bracket of an answer permits, where no rule allows it.
+Class severest_open(const Found& found, const Pair& pair) {
+  return pair.allowed < 0 ? found.answer->judgement.severest : Class::no_hit;
+}
+
+/// Whether the answers of a pair of objects begin at `i` and it is not NO_HIT: any answer that is
+/// not NO_HIT is worse than those that are.
+bool begins(const PartFindings& findings, std::size_t i) {
+  if (i > 0 && findings.same_objects(i - 1, i)) return false;
+  const std::size_t first = i;
+  for (; i < findings.found.size() && findings.same_objects(first, i); ++i)
+    if (findings.found[i].answer->judgement.cls != Class::no_hit) return true;
+  return false;
+}
+
+/// The pair of objects whose answers begin at `first`.
+Pair join(const PartFindings& findings, std::size_t first) {
+  Pair worst = findings.pair(first);
+  Class severest = severest_open(findings.found[first], worst);
+  std::size_t last = first + 1;
+  for (; last < findings.found.size() && findings.same_objects(first, last); ++last) {
+    const Pair next = findings.pair(last);
+    if (more_severe(next, worst)) worst = next;
+    severest = std::max(severest, severest_open(findings.found[last], next));
+  }
+  if (last - first > 1)
+    for (std::size_t i = first; i < last; ++i) widen_bracket(worst, findings.pair(i));
+  // Other parts of the two may turn out worse than the deciding ones.
+  const Class known = worst.allowed < 0 ? worst.cls : Class::no_hit;
+  if (severest > known) worst.flags |= kUncertain;
+  worst.first_region = static_cast<std::uint32_t>(first);
+  return worst;
+}
+
+}  // namespace
 
 /// Nothing that a rule allows hides something that none allows, and nothing soft something hard.
 bool more_severe(const Pair& x, const Pair& y) {
@@ -55,63 +81,49 @@ bool more_severe(const Pair& x, const Pair& y) {
   return rest(x) < rest(y);
 }
 
-/// Answers about pairs of objects, joined by object.
-class Join {
- public:
-  Join(const std::vector<Found>& found, const std::vector<geometry::IndexPair>& candidates,
-       const PartList& list, const PairRules& rules)
-      : found_(found), candidates_(candidates), list_(list), rules_(rules) {}
+std::optional<geometry::Box3d> PartFindings::extent_mm(std::size_t i) const {
+  if (found[i].extent == nullptr) return std::nullopt;
+  return geometry::Box3d{place_mm(a(i), found[i].extent->lo), place_mm(a(i), found[i].extent->hi)};
+}
 
-  [[nodiscard]] bool same_objects(std::size_t i, std::size_t j) const {
-    return a(i).object == a(j).object && b(i).object == b(j).object;
-  }
+Pair PartFindings::pair(std::size_t i) const {
+  const PartRef &x = a(i), &y = b(i);
+  const PartAnswer& answer = *found[i].answer;
+  const Separation& s = answer.separation;
+  const Witness& w = answer.witness;
+  Pair pair;
+  pair.a = model::ObjectId{x.object};
+  pair.b = model::ObjectId{y.object};
+  pair.cls = answer.judgement.cls;
+  pair.relation = answer.relation;
+  pair.flags = answer.judgement.flags;
+  pair.d_mm = s.d / geometry::kGridPerMm;
+  pair.d_lower_mm = (s.lower - s.sag) / geometry::kGridPerMm;
+  pair.d_upper_mm = (s.upper + s.sag) / geometry::kGridPerMm;
+  pair.point_mm = place_mm(x, w.point());
+  pair.on_a_mm = place_mm(x, w.on_a);
+  pair.on_b_mm = place_mm(x, w.on_b);
+  pair.away = w.away;
+  pair.deep_in_a = w.deep_in_a;
+  pair.part_a = x.number;
+  pair.part_b = y.number;
+  pair.level_a = rules.level(x);
+  pair.level_b = rules.level(y);
+  rules.allow(x, y, extent_mm(i), pair);
+  return pair;
+}
 
-  /// Appends the pair of objects whose answers begin at `i`, if it is not NO_HIT.
-  void append(std::size_t i, std::vector<Pair>& out) const {
-    Pair worst = pair(i);
-    Class severest = Class::no_hit;  // that the brackets of what no rule allows permit
-    const std::size_t first = i;
-    for (; i < found_.size() && same_objects(first, i); ++i) {
-      const Pair next = pair(i);
-      if (more_severe(next, worst)) worst = next;
-      if (next.allowed < 0) severest = std::max(severest, found_[i].answer->judgement.severest);
-    }
-    // Other parts of the two may turn out worse than the deciding ones.
-    const Class known = worst.allowed < 0 ? worst.cls : Class::no_hit;
-    if (severest > known) worst.flags |= kUncertain;
-    if (worst.cls != Class::no_hit) out.push_back(worst);
-  }
-
- private:
-  [[nodiscard]] const PartRef& a(std::size_t i) const {
-    return list_.parts[candidates_[found_[i].candidate].first];
-  }
-  [[nodiscard]] const PartRef& b(std::size_t i) const {
-    return list_.parts[candidates_[found_[i].candidate].second];
-  }
-  [[nodiscard]] Pair pair(std::size_t i) const {
-    return pair_of(*found_[i].answer, a(i), b(i), rules_);
-  }
-
-  const std::vector<Found>& found_;
-  const std::vector<geometry::IndexPair>& candidates_;
-  const PartList& list_;
-  const PairRules& rules_;
-};
-
-}  // namespace
-
-Result<std::vector<Pair>> join_by_objects(const std::vector<Found>& found,
-                                          const std::vector<geometry::IndexPair>& candidates,
-                                          const PartList& list, const PairRules& rules,
+Result<std::vector<Pair>> join_by_objects(const PartFindings& findings,
                                           const parallel::Context& context) {
   constexpr std::size_t kGrain = 4096;
-  const Join join(found, candidates, list, rules);
-  return parallel::collect<Pair>(context,
-                                 {.name = "join by objects", .n = found.size(), .grain = kGrain},
-                                 [&](std::size_t i, std::vector<Pair>& out) {
-                                   if (i == 0 || !join.same_objects(i - 1, i)) join.append(i, out);
-                                 });
+  auto pairs = parallel::count_fill<Pair>(
+      context, {.name = "join by objects", .n = findings.found.size(), .grain = kGrain},
+      [&](std::size_t i) { return std::size_t{begins(findings, i) ? 1U : 0U}; },
+      [&](std::size_t i, std::span<Pair> out) {
+        if (!out.empty()) out.front() = join(findings, i);
+      });
+  if (!pairs) return pairs.error();
+  return std::move(pairs->values);
 }
 
 }  // namespace strake::clash

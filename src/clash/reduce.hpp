@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,18 +12,45 @@
 
 namespace strake::clash {
 
-/// The answer for one pair of parts, by its index among the candidates; not null.
+/// The answer for one pair of parts, or for one place of it, by its index among the candidates; not
+/// null.
 struct Found {
   std::size_t candidate = 0;
   const PartAnswer* answer = nullptr;
+  const geometry::Box3d* extent = nullptr;  ///< of the place, if known: relative to a's origin
+  bool too_near_to_tell = false;            ///< whether there is one place or several
 };
+
+/// What was found about parts, and what is needed to tell it of objects.
+struct PartFindings {
+  const std::vector<Found>& found;  ///< by candidate
+  const std::vector<geometry::IndexPair>& candidates;
+  const PartList& list;
+  const PairRules& rules;
+
+  [[nodiscard]] const PartRef& a(std::size_t i) const {
+    return list.parts[candidates[found[i].candidate].first];
+  }
+  [[nodiscard]] const PartRef& b(std::size_t i) const {
+    return list.parts[candidates[found[i].candidate].second];
+  }
+  [[nodiscard]] bool same_objects(std::size_t i, std::size_t j) const {
+    return a(i).object == a(j).object && b(i).object == b(j).object;
+  }
+  /// Of the place, if known.
+  [[nodiscard]] std::optional<geometry::Box3d> extent_mm(std::size_t i) const;
+  /// The answer as one about the two objects.
+  [[nodiscard]] Pair pair(std::size_t i) const;
+};
+
+/// Which of two answers about one pair of objects decides.
+[[nodiscard]] bool more_severe(const Pair& x, const Pair& y);
 
 /// The pairs of objects that are not NO_HIT: the join of the answers of their parts by whether a
 /// rule allows them, class, level, d, witness and part numbers, which is associative and
-/// commutative. `found` is by candidate. Errors: cancelled.
-[[nodiscard]] Result<std::vector<Pair>> join_by_objects(
-    const std::vector<Found>& found, const std::vector<geometry::IndexPair>& candidates,
-    const PartList& list, const PairRules& rules, const parallel::Context& context);
+/// commutative. Pair::first_region is the number of the pair's first answer. Errors: cancelled.
+[[nodiscard]] Result<std::vector<Pair>> join_by_objects(const PartFindings& findings,
+                                                        const parallel::Context& context);
 
 /// Hexadecimal hash of the pairs by durable ids: classes, relations, d, witnesses, and the rules
 /// that allow them. Errors: cancelled.

@@ -46,7 +46,8 @@ bool within_band(const TreedPart& a, const TreedPart& b, double band, bool& on_s
 }
 
 bool skins_meet(const TreedPart& a, const TreedPart& b, double band, geometry::PairWork& work) {
-  return geometry::closest(a, b, band + 1, work).has_value();
+  const auto near = geometry::closest(a, b, band + 1, work);
+  return near && near->distance <= band;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "strake/geometry/common_volume.hpp"
@@ -35,9 +36,11 @@ std::uint64_t most_work(const Part& a, const Part& b) {
 
 std::vector<Overlap> overlaps_of_hits(const PartAnswers& answers, const std::vector<Pair>& pairs) {
   std::vector<Overlap> overlaps;
-  std::size_t pair = 0;
+  std::size_t pair = 0, last = std::numeric_limits<std::size_t>::max();
   for (const Found& f : answers.found) {
     if (!f.answer->witness.interiors_meet) continue;
+    if (f.candidate == last) continue;  // another place of the same parts
+    last = f.candidate;
     const geometry::IndexPair& c = answers.candidates[f.candidate];
     const PartRef &a = answers.list.parts[c.first], &b = answers.list.parts[c.second];
     const auto before = [&](const Pair& p) {

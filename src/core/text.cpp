@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/core/text.hpp"
 
+#include <cstring>
+
 namespace strake {
 
 namespace {
@@ -64,9 +66,26 @@ std::string printable(std::string_view text) {
 
 namespace {
 
+/// Whether each of eight bytes stands for itself in a JSON string: printable ASCII, no quote, no
+/// backslash.
+bool plain_word(std::uint64_t word) {
+  constexpr std::uint64_t kOnes = 0x0101010101010101, kHigh = kOnes * 0x80;
+  const auto has = [word](std::uint64_t byte) {
+    const std::uint64_t x = word ^ (kOnes * byte);
+    return ((x - kOnes) & ~x & kHigh) != 0;
+  };
+  // Without high bits, a byte below the blank borrows one.
+  return (word & kHigh) == 0 && ((word - kOnes * 0x20) & kHigh) == 0 && !has('"') && !has('\\') &&
+         !has(0x7F);
+}
+
 /// Characters at the front that stand for themselves in a JSON string: most of every name.
 std::size_t plain_run(std::string_view text) {
   std::size_t n = 0;
+  for (std::uint64_t word = 0; n + sizeof(word) <= text.size(); n += sizeof(word)) {
+    std::memcpy(&word, text.data() + n, sizeof(word));
+    if (!plain_word(word)) break;
+  }
   while (n < text.size() && text[n] >= 0x20 && text[n] < 0x7F && text[n] != '"' && text[n] != '\\')
     ++n;
   return n;

@@ -18,6 +18,7 @@ class PartView {
 
   [[nodiscard]] const Part& part() const { return *part_; }
   [[nodiscard]] const PartTree& tree() const { return *tree_; }
+  [[nodiscard]] bool planted() const { return tree_ != nullptr && !tree_->nodes().empty(); }
   [[nodiscard]] const Vec3l& shift() const { return shift_; }
   [[nodiscard]] bool solid() const { return part_->kind == PartKind::solid; }
 

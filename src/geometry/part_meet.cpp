@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/pair_view.hpp"
+#include "geometry/part_edges.hpp"
 #include "geometry/plane_sides.hpp"
 #include "geometry/sectors.hpp"
 #include "strake/geometry/part_pair.hpp"
@@ -61,14 +62,8 @@ std::uint32_t shell_of(const Part& part, std::uint32_t triangle) {
 
 /// The triangles round the edge between two vertices.
 std::span<const std::uint32_t> star(const Part& part, std::uint32_t u, std::uint32_t v) {
-  const std::uint32_t low = std::min(u, v), high = std::max(u, v);
-  const auto end = part.edges.end() - 1;  // the sentinel
-  const auto it = std::lower_bound(
-      part.edges.begin(), end, std::pair(low, high),
-      [](const PartEdge& e, const auto& key) { return std::pair(e.v0, e.v1) < key; });
-  if (it == end || it->v0 != low || it->v1 != high) return {};
-  return std::span(part.edge_triangles)
-      .subspan(it->first_triangle, (it + 1)->first_triangle - it->first_triangle);
+  const std::uint32_t edge = edge_between(part, u, v);
+  return edge == kNoFace ? std::span<const std::uint32_t>{} : triangles_round(part, edge);
 }
 
 /// Whether two parallel directions point the same way.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "strake/geometry/grid.hpp"
 
@@ -23,11 +24,9 @@ Vec3l snap_or_nowhere(const Vec3d& mm) {
   return p ? *p : Vec3l{kNowhere, 0, 0};
 }
 
-std::vector<Vec3l> snap_all(const std::vector<Vec3d>& points, const Mat3d& linear) {
-  std::vector<Vec3l> snapped;
-  snapped.reserve(points.size());
-  for (const Vec3d& p : points) snapped.push_back(snap_or_nowhere(linear * p));
-  return snapped;
+void snap_all(const std::vector<Vec3d>& points, const Mat3d& linear, std::vector<Vec3l>& snapped) {
+  snapped.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) snapped[i] = snap_or_nowhere(linear * points[i]);
 }
 
 /// The base of points in a box, or nothing when int32 cannot span it.
@@ -43,61 +42,82 @@ std::optional<Vec3l> choose_base(const Box3l& box) {
   return far ? centre : Vec3l{};
 }
 
-constexpr std::uint32_t kUnused = 0xffffffffU;
+/// A box that any point on the grid makes that point.
+constexpr Box3l kNoBox{{kWidest << 20, kWidest << 20, kWidest << 20},
+                       {-(kWidest << 20), -(kWidest << 20), -(kWidest << 20)}};
 
 }  // namespace
 
-std::optional<PlacedMesh> place(const TriangleMesh& mesh, const Mat3d& linear) {
-  const std::vector<Vec3l> snapped = snap_all(mesh.vertices, linear);
-  const bool mirrored = linear.determinant() < 0;
-  PlacedMesh placed;
-  std::vector<std::uint32_t> renumbered(snapped.size(), kUnused);
-  std::vector<std::uint32_t> used;
-  used.reserve(snapped.size());
-  placed.mesh.triangles.reserve(mesh.triangles.size());
-  if (!mesh.faces.empty()) placed.mesh.faces.reserve(mesh.triangles.size());
-  Box3l box{{kWidest << 20, kWidest << 20, kWidest << 20},
-            {-(kWidest << 20), -(kWidest << 20), -(kWidest << 20)}};
+void MeshPlacer::take_triangles(const TriangleMesh& mesh, bool mirrored) {
   const auto stands = [&](std::uint32_t v) {
-    return v < snapped.size() && snapped[v].x != kNowhere;
+    return v < snapped_.size() && snapped_[v].x != kNowhere;
   };
+  used_.assign(snapped_.size(), 0);
+  std::vector<Triangle>& triangles = placed_.mesh.triangles;
+  std::vector<std::uint32_t>& faces = placed_.mesh.faces;
+  triangles.resize(mesh.triangles.size());
+  faces.clear();
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Triangle& t = mesh.triangles[i];
-    if (!stands(t[0]) || !stands(t[1]) || !stands(t[2])) {
-      ++placed.bad_triangles;
-      continue;
-    }
-    Triangle r{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::uint32_t& n = renumbered[t[k]];
-      if (n == kUnused) {
-        n = static_cast<std::uint32_t>(used.size());
-        used.push_back(t[k]);
-        box.include(snapped[t[k]]);
-      }
-      r[k] = n;
-    }
-    if (mirrored) std::swap(r[1], r[2]);
-    placed.mesh.triangles.push_back(r);
-    if (!mesh.faces.empty())
-      placed.mesh.faces.push_back(i < mesh.faces.size() ? mesh.faces[i] : kNoFace);
+    Triangle t = mesh.triangles[i];
+    if (!stands(t[0]) || !stands(t[1]) || !stands(t[2])) continue;
+    for (const std::uint32_t v : t) used_[v] = 1;
+    if (mirrored) std::swap(t[1], t[2]);
+    triangles[kept++] = t;
+    if (!mesh.faces.empty()) faces.push_back(i < mesh.faces.size() ? mesh.faces[i] : kNoFace);
+  }
+  triangles.resize(kept);
+  placed_.bad_triangles = mesh.triangles.size() - kept;
+}
+
+bool MeshPlacer::take_vertices() {
+  Box3l box = kNoBox;
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < snapped_.size(); ++v) {
+    if (used_[v] == 0) continue;
+    box.include(snapped_[v]);
+    ++kept;
   }
   const std::optional<Vec3l> base = choose_base(box);
-  if (!base) return std::nullopt;
-  placed.base = *base;
-  placed.mesh.vertices.reserve(used.size());
-  for (const std::uint32_t v : used)
-    placed.mesh.vertices.push_back((snapped[v] - *base).as<std::int32_t>());
-  return placed;
+  if (!base) return false;
+  placed_.base = *base;
+  std::vector<Vec3i>& vertices = placed_.mesh.vertices;
+  vertices.clear();
+  vertices.reserve(kept);
+  if (kept == snapped_.size()) {
+    for (const Vec3l& v : snapped_) vertices.push_back((v - *base).as<std::int32_t>());
+    return true;
+  }
+  renumbered_.resize(snapped_.size());
+  for (std::size_t v = 0; v < snapped_.size(); ++v) {
+    if (used_[v] == 0) continue;
+    renumbered_[v] = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back((snapped_[v] - *base).as<std::int32_t>());
+  }
+  for (Triangle& t : placed_.mesh.triangles)
+    for (std::uint32_t& v : t) v = renumbered_[v];
+  return true;
+}
+
+const PlacedMesh* MeshPlacer::place(const TriangleMesh& mesh, const Mat3d& linear) {
+  snap_all(mesh.vertices, linear, snapped_);
+  take_triangles(mesh, linear.determinant() < 0);
+  return take_vertices() ? &placed_ : nullptr;
+}
+
+std::optional<PlacedMesh> place(const TriangleMesh& mesh, const Mat3d& linear) {
+  MeshPlacer placer;
+  if (placer.place(mesh, linear) == nullptr) return std::nullopt;
+  return std::move(placer.placed_);
 }
 
 std::optional<PlacedWire> place(const Polylines& lines, const Mat3d& linear) {
-  const std::vector<Vec3l> snapped = snap_all(lines.points, linear);
+  std::vector<Vec3l> snapped;
+  snap_all(lines.points, linear, snapped);
   PlacedWire wire;
   std::vector<Vec3l> kept;
   std::vector<std::uint32_t> first{0};
-  Box3l box{{kWidest << 20, kWidest << 20, kWidest << 20},
-            {-(kWidest << 20), -(kWidest << 20), -(kWidest << 20)}};
+  Box3l box = kNoBox;
   for (std::size_t c = 0; c + 1 < lines.first.size(); ++c) {
     const std::size_t end = std::min<std::size_t>(lines.first[c + 1], snapped.size());
     for (std::size_t i = lines.first[c]; i < end; ++i) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/feature_gap.hpp"
 #include "strake/geometry/predicates.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
@@ -101,63 +102,6 @@ void offer_foot(const Vec3d& corner, const Points& t, const Vec3d& n, const Offe
   offer(t[0] * (w0 / sum) + t[1] * (w1 / sum) + t[2] * (w2 / sum));
 }
 
-Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
-
-/// An exact distance, with the direction across which it stands where that is short enough.
-struct Value {
-  SquaredDistance squared;
-  Vec3<Int128> direction{};
-  Int128 width = 0;
-};
-
-/// Exact test and value of one pair of features; each returns false when the nearest points of the
-/// features' lines or planes do not lie inside the features.
-class ExactFeatures {
- public:
-  static Value corner_corner(const Vec3l& p, const Vec3l& q) {
-    const Vec3<Int128> d = (q - p).as<Int128>();
-    return {{Int256(dot(d, d)), Int192(Int128{1})}, d, dot(d, d)};
-  }
-
-  static bool corner_edge(const Vec3l& p, const Vec3l& from, const Vec3l& to, Value& r) {
-    const Vec3l e = to - from, d = p - from;
-    const Int128 along = dot(e.as<Int128>(), d.as<Int128>());
-    const Int128 length = dot(e.as<Int128>(), e.as<Int128>());
-    if (along <= 0 || along >= length) return false;
-    r = {{norm(cross_exact(d, e)), Int192(length)}};
-    return true;
-  }
-
-  static bool corner_face(const Vec3l& p, const TriangleCorners& t, Value& r) {
-    const Vec3<Int128> n = cross_exact(t[1] - t[0], t[2] - t[0]);
-    for (std::size_t i = 0; i < 3; ++i)
-      if (product(cross_exact(t[next(i)] - t[i], p - t[i]), n).sign() <= 0) return false;
-    const Int128 height = dot(n, (p - t[0]).as<Int128>());
-    r = {{mul(height, height), narrow<3>(norm(n))}, n, magnitude(height)};
-    return true;
-  }
-
-  static bool edge_edge(const Vec3l& p, const Vec3l& to_p, const Vec3l& q, const Vec3l& to_q,
-                        Value& r) {
-    const Vec3l e = to_p - p, f = to_q - q, d = q - p;
-    const Vec3<Int128> c = cross_exact(e, f);
-    const Int256 length = norm(c);
-    if (length.sign() == 0) return false;
-    const Int256 s = product(cross_exact(d, f), c), t = product(cross_exact(d, e), c);
-    if (s.sign() <= 0 || t.sign() <= 0 || s >= length || t >= length) return false;
-    const Int128 height = dot(c, d.as<Int128>());
-    r = {{mul(height, height), narrow<3>(length)}, c, magnitude(height)};
-    return true;
-  }
-
-  static Int256 norm(const Vec3<Int128>& v) { return product(v, v); }
-
- private:
-  static Int256 product(const Vec3<Int128>& u, const Vec3<Int128>& v) {
-    return mul(u.x, v.x) + mul(u.y, v.y) + mul(u.z, v.z);
-  }
-};
-
 /// How far the triangles lie apart across a direction, exactly (times its length).
 Int128 width_across(const Vec3<Int128>& direction, const TriangleCorners& a,
                     const TriangleCorners& b) {
@@ -190,7 +134,7 @@ class ExactSearch {
   void corners_faces();
   void edges();
   void find_direction();
-  void offer(const Value& value, const Vec3d& p, const Vec3d& q);
+  void offer(const FeatureGap& value, const Vec3d& p, const Vec3d& q);
 
   /// Whether |height|/|n| <= reach cannot be excluded, for n = u x v and height = n·d in doubles,
   /// each component of n off by 2^-51·|u||v| at most.
@@ -211,7 +155,7 @@ class ExactSearch {
   NearestPoints best_;
 };
 
-void ExactSearch::offer(const Value& value, const Vec3d& p, const Vec3d& q) {
+void ExactSearch::offer(const FeatureGap& value, const Vec3d& p, const Vec3d& q) {
   if (any_ && value.squared >= best_.squared) return;
   any_ = true;
   best_ = {value.squared, absolute(p), absolute(q), value.direction, value.width};
@@ -222,7 +166,7 @@ void ExactSearch::corners() {
     for (std::size_t j = 0; j < 3; ++j) {
       const Vec3d &p = near_a_[i], &q = near_b_[j];
       if (std::sqrt(squared_length(q - p)) * (1 - 0x1p-40) > reach_) continue;
-      offer(ExactFeatures::corner_corner(a_[i], b_[j]), p, q);
+      offer(feature::corner_corner(a_[i], b_[j]), p, q);
     }
 }
 
@@ -233,7 +177,7 @@ Vec3d foot_on_edge(const Vec3d& p, const Vec3d& from, const Vec3d& to) {
 }
 
 void ExactSearch::corners_edges() {
-  Value s;
+  FeatureGap s;
   const auto near = [this](const Vec3d& p, const Vec3d& from, const Vec3d& to) {
     // |d x e| / |e|, off by less than 2^-48 of |d|.
     const Vec3d e = to - from, d = p - from;
@@ -243,19 +187,19 @@ void ExactSearch::corners_edges() {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
       const Vec3d &p = near_a_[i], &q = near_b_[j], &r = near_b_[next(j)];
-      if (near(p, q, r) && ExactFeatures::corner_edge(a_[i], b_[j], b_[next(j)], s))
+      if (near(p, q, r) && feature::corner_edge(a_[i], b_[j], b_[next(j)], s))
         offer(s, p, foot_on_edge(p, q, r));
     }
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
       const Vec3d &p = near_a_[i], &q = near_a_[next(i)], &r = near_b_[j];
-      if (near(r, p, q) && ExactFeatures::corner_edge(b_[j], a_[i], a_[next(i)], s))
+      if (near(r, p, q) && feature::corner_edge(b_[j], a_[i], a_[next(i)], s))
         offer(s, foot_on_edge(r, p, q), r);
     }
 }
 
 void ExactSearch::corners_faces() {
-  Value s;
+  FeatureGap s;
   const auto foot = [](const Vec3d& p, const Points& t) {
     const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
     return p - n * (dot(n, p - t[0]) / squared_length(n));
@@ -265,21 +209,21 @@ void ExactSearch::corners_faces() {
     return within_reach(u, v, cross(u, v), p - t[0]);
   };
   for (std::size_t i = 0; i < 3; ++i)
-    if (near(near_a_[i], near_b_) && ExactFeatures::corner_face(a_[i], b_, s))
+    if (near(near_a_[i], near_b_) && feature::corner_face(a_[i], b_, s))
       offer(s, near_a_[i], foot(near_a_[i], near_b_));
   for (std::size_t j = 0; j < 3; ++j)
-    if (near(near_b_[j], near_a_) && ExactFeatures::corner_face(b_[j], a_, s))
+    if (near(near_b_[j], near_a_) && feature::corner_face(b_[j], a_, s))
       offer(s, foot(near_b_[j], near_a_), near_b_[j]);
 }
 
 void ExactSearch::edges() {
-  Value s;
+  FeatureGap s;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
       const Vec3d &p = near_a_[i], &q = near_b_[j];
       const Vec3d e = near_a_[next(i)] - p, f = near_b_[next(j)] - q;
       if (!within_reach(e, f, cross(e, f), q - p)) continue;
-      if (!ExactFeatures::edge_edge(a_[i], a_[next(i)], b_[j], b_[next(j)], s)) continue;
+      if (!feature::edge_edge(a_[i], a_[next(i)], b_[j], b_[next(j)], s)) continue;
       Near near;
       offer_segments(p, e, q, f, near);
       offer(s, near.on_a, near.on_b);
@@ -292,7 +236,7 @@ void ExactSearch::find_direction() {
     const Vec3<Int128> n = cross_exact((*t)[1] - (*t)[0], (*t)[2] - (*t)[0]);
     const Int128 width = width_across(n, a_, b_);
     if (width <= 0) continue;
-    const SquaredDistance across{mul(width, width), narrow<3>(ExactFeatures::norm(n))};
+    const SquaredDistance across{mul(width, width), narrow<3>(feature::norm(n))};
     if (across != best_.squared) continue;
     best_.direction = n;
     best_.width = width;

@@ -2,15 +2,12 @@
 #pragma once
 
 #include <array>
-#include <compare>
-#include <cstdint>
 
+#include "strake/geometry/grid_shapes.hpp"
+#include "strake/geometry/rational.hpp"
 #include "strake/geometry/vec.hpp"
-#include "strake/geometry/wide_int.hpp"
 
 namespace strake::geometry {
-
-using TriangleCorners = std::array<Vec3l, 3>;
 
 /// Certified bounds on the squared distance of two triangles.
 struct DistanceBounds {
@@ -35,19 +32,6 @@ struct DoubleTriangle {
 /// upper one is not worked out and is infinite.
 [[nodiscard]] DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
                                              double enough);
-
-/// A squared distance: an exact rational, numerator below 2^200 and denominator below 2^136.
-struct SquaredDistance {
-  Int256 numerator;
-  Int192 denominator = Int192(Int128{1});
-
-  friend std::strong_ordering operator<=>(const SquaredDistance& x, const SquaredDistance& y) {
-    return mul(x.numerator, y.denominator) <=> mul(y.numerator, x.denominator);
-  }
-  friend bool operator==(const SquaredDistance& x, const SquaredDistance& y) {
-    return (x <=> y) == 0;
-  }
-};
 
 /// The nearest points of two triangles; among equal distances the pair of features that comes
 /// first: corner-corner, corner-edge, edge-corner, corner-face, face-corner, edge-edge.

@@ -19,24 +19,6 @@ using geometry::Part;
 
 constexpr std::string_view kTooWide = "wider than 2.1 km";
 
-void add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear, GridShapeResult& result) {
-  std::optional<geometry::PlacedMesh> placed = geometry::place(mesh, linear);
-  if (!placed) {
-    result.fault = kTooWide;
-    return;
-  }
-  result.bad_triangles = placed->bad_triangles;
-  result.shape.base = placed->base;
-  geometry::MeshAnalysis analysis = geometry::analyse(std::move(placed->mesh));
-  result.findings = analysis.findings;
-  result.shape.parts = std::move(analysis.parts);
-  for (Part& part : result.shape.parts) {
-    part.flags.unknown_sag = !(mesh.sag_mm >= 0);
-    part.sag =
-        part.flags.unknown_sag ? 0 : mesh.sag_mm * geometry::kGridPerMm * geometry::stretch(linear);
-  }
-}
-
 void add_lines(const geometry::Polylines& lines, const Mat3d& linear, GridShapeResult& result) {
   std::optional<geometry::PlacedWire> wire = geometry::place(lines, linear);
   if (!wire) {
@@ -62,8 +44,29 @@ double moved_by_snap(const geometry::TriangleMesh& mesh) {
   return std::sqrt(most);
 }
 
-void add_primitive(const geometry::Primitive& primitive, const Mat3d& linear, double sag_mm,
-                   GridShapeResult& result) {
+}  // namespace
+
+void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear,
+                              GridShapeResult& result) {
+  const geometry::PlacedMesh* placed = placer_.place(mesh, linear);
+  if (placed == nullptr) {
+    result.fault = kTooWide;
+    return;
+  }
+  result.bad_triangles = placed->bad_triangles;
+  result.shape.base = placed->base;
+  geometry::MeshAnalysis analysis = analyser_.analyse(placed->mesh);
+  result.findings = analysis.findings;
+  result.shape.parts = std::move(analysis.parts);
+  for (Part& part : result.shape.parts) {
+    part.flags.unknown_sag = !(mesh.sag_mm >= 0);
+    part.sag =
+        part.flags.unknown_sag ? 0 : mesh.sag_mm * geometry::kGridPerMm * geometry::stretch(linear);
+  }
+}
+
+void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const Mat3d& linear,
+                                   double sag_mm, GridShapeResult& result) {
   const geometry::Tessellation made = geometry::tessellate(primitive, linear, sag_mm);
   result.fault = made.fault;
   if (!made.fault.empty()) return;
@@ -82,9 +85,7 @@ void add_primitive(const geometry::Primitive& primitive, const Mat3d& linear, do
   }
 }
 
-}  // namespace
-
-GridShapeResult make_grid_shape(const Shape& shape, const Mat3d& linear, double sag_mm) {
+GridShapeResult GridShapeMaker::make(const Shape& shape, const Mat3d& linear, double sag_mm) {
   GridShapeResult result;
   if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
     add_mesh(*mesh, linear, result);

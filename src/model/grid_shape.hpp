@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "strake/geometry/analyse.hpp"
+#include "strake/geometry/place.hpp"
 #include "strake/model/scene.hpp"
 
 namespace strake::model {
@@ -18,7 +19,20 @@ struct GridShapeResult {
   std::string_view fault;  ///< why the shape has no parts; empty when it has some
 };
 
-[[nodiscard]] GridShapeResult make_grid_shape(const Shape& shape, const geometry::Mat3d& linear,
-                                              double sag_mm);
+/// Makes shapes one after another in memory that it keeps: one per worker.
+class GridShapeMaker {
+ public:
+  [[nodiscard]] GridShapeResult make(const Shape& shape, const geometry::Mat3d& linear,
+                                     double sag_mm);
+
+ private:
+  void add_mesh(const geometry::TriangleMesh& mesh, const geometry::Mat3d& linear,
+                GridShapeResult& result);
+  void add_primitive(const geometry::Primitive& primitive, const geometry::Mat3d& linear,
+                     double sag_mm, GridShapeResult& result);
+
+  geometry::MeshPlacer placer_;
+  geometry::MeshAnalyser analyser_;
+};
 
 }  // namespace strake::model

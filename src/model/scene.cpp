@@ -199,13 +199,15 @@ Result<std::vector<GridShapeResult>> make_shapes(const Assembly& assembly,
   const std::vector<std::uint32_t> order = parallel::longest_first(costs);
   const parallel::Region region{
       .name = "shapes on the grid", .n = uses.size(), .grain = kGrain, .order = order};
-  return parallel::transform(context, region, [&](std::size_t i) {
-    GridShapeResult made =
-        make_grid_shape(model.shapes[index(uses[i].shape)],
-                        model.bodies[uses[i].body].placement.linear, assembly.options.sag_mm);
-    made.shape.shape = uses[i].shape;
-    return made;
-  });
+  return parallel::transform_with(
+      context, region, [] { return GridShapeMaker(); },
+      [&](GridShapeMaker& maker, std::size_t i) {
+        GridShapeResult made =
+            maker.make(model.shapes[index(uses[i].shape)],
+                       model.bodies[uses[i].body].placement.linear, assembly.options.sag_mm);
+        made.shape.shape = uses[i].shape;
+        return made;
+      });
 }
 
 /// Places the bodies of the shapes that were made; the others and the unplaceable are reported.

@@ -6,6 +6,7 @@
 
 #include "report/csv.hpp"
 #include "report/group_numbers.hpp"
+#include "report/lines.hpp"
 #include "report/text.hpp"
 #include "strake/clash/identity.hpp"
 #include "strake/report/clash.hpp"
@@ -44,11 +45,11 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
   out += ',';
   append_mm(out, p.d_mm);
   out += ',';
-  append_range(out, p, ",");
+  append_range(out, p.d_lower_mm, p.d_upper_mm, ",");
   out += ',';
   append_point(out, p.point_mm, ",");
   out += ',';
-  append_flags(out, p, " ", "");
+  append_flags(out, p.flags, " ", "");
   out += ',';
   append_csv(out, test.name);
   out += ',';
@@ -68,6 +69,8 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
   discipline(out, test, p.b);
   out += ',';
   out += group;
+  out += ',';
+  if (p.regions > 0) out += std::to_string(p.regions);
   out += "\r\n";
 }
 
@@ -83,33 +86,35 @@ void exempted_line(std::string& out, const model::Model& model, const clash::Rep
   out += ",,";
   discipline(out, test, p.a);
   discipline(out, test, p.b);
-  out += ',';
-  out += "\r\n";
+  out += ",,\r\n";
 }
 
 }  // namespace
 
-void write_clash_csv(const ClashContents& contents, Sink sink) {
+Status write_clash_csv(const ClashContents& contents, Sink sink, const parallel::Context& context) {
   const GroupNumbers numbers(contents);
   Buffered buffer(sink);
   buffer.text() =
       "a_id,a_name,a_file,b_id,b_name,b_file,class,relation,d_mm,d_lower_mm,d_upper_mm,x_mm,y_mm,"
       "z_mm,flags,test,key,volume_mm3,on_a_x_mm,on_a_y_mm,on_a_z_mm,on_b_x_mm,on_b_y_mm,on_b_z_mm,"
       "away_x,away_y,away_z,allowed_by,exempted_by,a_level,b_level,a_discipline,b_discipline,"
-      "group\r\n";
+      "group,regions\r\n";
   for (std::size_t t = 0; t < contents.findings.tests.size(); ++t) {
     const clash::Report& test = contents.findings.tests[t];
-    for (std::size_t p = 0; p < test.pairs.size(); ++p) {
-      const auto group = numbers.of(t, p);
-      line(buffer.text(), contents.model, test, test.pairs[p],
-           group ? contents.grouping->groups[*group].id : std::string_view());
-      buffer.done();
-    }
-    for (const clash::ExemptedPair& pair : test.exempted_pairs) {
-      exempted_line(buffer.text(), contents.model, test, pair);
-      buffer.done();
-    }
+    const Status pairs =
+        write_lines(context, test.pairs.size(), buffer, [&](std::size_t p, std::string& out) {
+          const auto group = numbers.of(t, p);
+          line(out, contents.model, test, test.pairs[p],
+               group ? contents.grouping->groups[*group].id : std::string_view());
+        });
+    if (!pairs) return pairs;
+    const Status exempted = write_lines(
+        context, test.exempted_pairs.size(), buffer, [&](std::size_t p, std::string& out) {
+          exempted_line(out, contents.model, test, test.exempted_pairs[p]);
+        });
+    if (!exempted) return exempted;
   }
+  return {};
 }
 
 }  // namespace strake::report

@@ -98,6 +98,11 @@ class Looks {
       }
       return {};
     }
+    const auto curves = [](const DocumentTest& test) {
+      const auto it = test.settings.find("curves");
+      return it != test.settings.end() && it->second == "true";
+    };
+    if (!curves(here) && curves(other)) return "settings differ: curves";
     if (r.d_mm <= here.touch_gap_mm || r.d_mm < here.clearance_mm) return {};
     const bool clearance = here.clearance_mm != other.clearance_mm;
     return std::string("settings differ: ") + (clearance ? "clearance_mm" : "touch_gap_mm");

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <unordered_set>
 #include <utility>
 
 #include "strake/clash/identity.hpp"
@@ -85,8 +86,11 @@ class Reader {
     if (!results.is_array()) throw Fault{"the document", "\"results\" is no list"};
     document_.hash = text(rest, "hash", "the document");
     name_exempted();
-    for (const DocumentResult& r : document_.results)
+    std::unordered_set<std::string_view> keys;
+    for (const DocumentResult& r : document_.results) {
       if (r.test >= document_.tests.size()) throw Fault{"result " + r.key, "is of no test"};
+      if (!keys.insert(r.key).second) throw Fault{"result " + r.key, "stands there twice"};
+    }
   }
 
  private:
@@ -164,6 +168,7 @@ class Reader {
     t.name = text(json, "name", where);
     const Json& settings = member(json, "settings", where);
     if (!settings.is_object()) throw Fault{where, "\"settings\" is no object"};
+    t.settings["curves"] = "false";  // what older results do not say
     for (const auto& [key, value] : settings.items()) t.settings[key] = value.dump();
     t.clearance_mm = number(settings, "clearance_mm", where);
     t.touch_gap_mm = number(settings, "touch_gap_mm", where);
@@ -219,13 +224,7 @@ Error unreadable(const std::string& file, const std::string& said, bool cut) {
 
 }  // namespace
 
-Result<ClashDocument> read_clash_document(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    return Error{ErrorCode::input, "is a folder", name, "name a file in it"};
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return Error{ErrorCode::input, "cannot be opened", name, "does it exist?"};
+Result<ClashDocument> parse_clash_document(std::istream& in, const std::string& name) {
   ClashDocument document;
   document.name = name;
   try {
@@ -234,12 +233,24 @@ Result<ClashDocument> read_clash_document(const std::filesystem::path& file) {
     return Error{ErrorCode::input, fault.where + " " + fault.what, name,
                  "give a file that 'strake clash -o FILE.json' of this version wrote"};
   } catch (const Json::parse_error& error) {
-    const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-    return unreadable(name, error.what(), !ignored && error.byte >= size);
+    in.clear();
+    const std::streamoff size = in.seekg(0, std::ios::end).tellg();
+    return unreadable(name, error.what(),
+                      size >= 0 && error.byte >= static_cast<std::size_t>(size));
   } catch (const Json::exception& error) {
     return unreadable(name, error.what(), false);
   }
   return document;
+}
+
+Result<ClashDocument> read_clash_document(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return Error{ErrorCode::input, "is a folder", name, "name a file in it"};
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return Error{ErrorCode::input, "cannot be opened", name, "does it exist?"};
+  return parse_clash_document(in, name);
 }
 
 }  // namespace strake::report

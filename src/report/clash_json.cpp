@@ -4,9 +4,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "report/elements.hpp"
 #include "report/group_numbers.hpp"
+#include "report/lines.hpp"
 #include "report/text.hpp"
 #include "strake/clash/identity.hpp"
 #include "strake/core/number.hpp"
@@ -43,7 +45,8 @@ void settings(std::string& out, const Report& report) {
   tolerances(out, clash::tolerances_of(report.options));
   out += ", \"contact_distance_mm\": ";
   append_mm(out, report.contact_distance_mm);
-  out += "}";
+  out += ", \"curves\": ";
+  out += report.options.curves == clash::Curves::on ? "true}" : "false}";
 }
 
 void files(std::string& out, const model::Model& model) {
@@ -317,6 +320,33 @@ void groups(Buffered& buffer, const clash::Grouping& grouping) {
   out += "]},\n";
 }
 
+/// How many separate places the two meet in, and the worst of several.
+void regions(std::string& out, const Report& test, const Pair& p) {
+  out += ", \"region_count\": ";
+  out += p.regions == 0 ? "null" : std::to_string(p.regions);
+  const std::uint32_t listed = p.regions_listed(test.options);
+  if (listed == 0) return;
+  out += ", \"regions\": [";
+  for (std::uint32_t i = 0; i < listed; ++i) {
+    const clash::Region& r = test.regions[p.first_region + i];
+    out += i == 0 ? "{\"class\": \"" : ", {\"class\": \"";
+    out += name(r.cls);
+    out += "\", \"d_mm\": ";
+    append_mm(out, r.d_mm);
+    out += ", \"d_range_mm\": [";
+    append_range(out, r.d_lower_mm, r.d_upper_mm, ", ");
+    out += "]";
+    point(out, "point_mm", r.point_mm);
+    out += ", \"box_mm\": ";
+    box(out, r.box_mm);
+    out += ", \"part_a\": " + std::to_string(r.part_a) +
+           ", \"part_b\": " + std::to_string(r.part_b) + ", \"flags\": [";
+    append_flags(out, r.flags, ", ", "\"");
+    out += "]}";
+  }
+  out += "]";
+}
+
 /// A result and the number of its group, if there are groups.
 struct Numbered {
   std::size_t test = 0;
@@ -348,7 +378,7 @@ void result(std::string& out, const ClashContents& contents, const Numbered& num
   out += "\", \"d_mm\": ";
   append_mm(out, p.d_mm);
   out += ", \"d_range_mm\": [";
-  append_range(out, p, ", ");
+  append_range(out, p.d_lower_mm, p.d_upper_mm, ", ");
   out += "]";
   witness(out, p);
   if (p.cls == clash::Class::hit && test.options.volumes == clash::Volumes::on) {
@@ -358,8 +388,9 @@ void result(std::string& out, const ClashContents& contents, const Numbered& num
     else
       out += "null";
   }
+  if (test.options.most_regions > 0) regions(out, test, p);
   out += ", \"flags\": [";
-  append_flags(out, p, ", ", "\"");
+  append_flags(out, p.flags, ", ", "\"");
   out += "]}";
 }
 
@@ -374,27 +405,49 @@ void exempted_pair(std::string& out, const model::Model& model, const Report& re
   out += "}}";
 }
 
-void exempted_pairs(Buffered& buffer, const model::Model& model, const Findings& findings) {
+Status exempted_pairs(Buffered& buffer, const model::Model& model, const Findings& findings,
+                      const parallel::Context& context) {
   bool listed = false, first = true;
   for (const Report& test : findings.tests) listed = listed || test.lists_exempted;
-  if (!listed) return;
-  std::string& out = buffer.text();
-  out += ",\n\"exempted\": [";
-  for (std::size_t t = 0; t < findings.tests.size(); ++t)
-    for (const clash::ExemptedPair& pair : findings.tests[t].exempted_pairs) {
-      out += first ? "\n" : ",\n";
-      first = false;
-      exempted_pair(out, model, findings.tests[t], t, pair);
-      buffer.done();
-    }
-  out += "\n]";
+  if (!listed) return {};
+  buffer.text() += ",\n\"exempted\": [";
+  for (std::size_t t = 0; t < findings.tests.size(); ++t) {
+    const Report& test = findings.tests[t];
+    const Status status = write_lines(context, test.exempted_pairs.size(), buffer,
+                                      [&](std::size_t p, std::string& out) {
+                                        out += first && p == 0 ? "\n" : ",\n";
+                                        exempted_pair(out, model, test, t, test.exempted_pairs[p]);
+                                      });
+    if (!status) return status;
+    first = first && test.exempted_pairs.empty();
+  }
+  buffer.text() += "\n]";
+  return {};
+}
+
+Status results(Buffered& buffer, const ClashContents& contents, const parallel::Context& context) {
+  const GroupNumbers numbers(contents);
+  bool first = true;
+  buffer.text() += "\"results\": [";
+  for (std::size_t t = 0; t < contents.findings.tests.size(); ++t) {
+    const std::vector<Pair>& pairs = contents.findings.tests[t].pairs;
+    const Status status =
+        write_lines(context, pairs.size(), buffer, [&](std::size_t p, std::string& out) {
+          out += first && p == 0 ? "\n" : ",\n";
+          result(out, contents, {t, pairs[p], numbers.of(t, p)});
+        });
+    if (!status) return status;
+    first = first && pairs.empty();
+  }
+  buffer.text() += "\n]";
+  return {};
 }
 
 }  // namespace
 
-void write_clash_json(const ClashContents& contents, Sink sink) {
+Status write_clash_json(const ClashContents& contents, Sink sink,
+                        const parallel::Context& context) {
   const Findings& findings = contents.findings;
-  const GroupNumbers numbers(contents);
   Buffered buffer(sink);
   std::string& out = buffer.text();
   out += "{\n\"schema_version\": ";
@@ -416,18 +469,10 @@ void write_clash_json(const ClashContents& contents, Sink sink) {
   messages(out, all);
   out += ",\n";
   if (contents.grouping != nullptr) groups(buffer, *contents.grouping);
-  out += "\"results\": [";
-  bool first = true;
-  for (std::size_t t = 0; t < findings.tests.size(); ++t)
-    for (std::size_t p = 0; p < findings.tests[t].pairs.size(); ++p) {
-      out += first ? "\n" : ",\n";
-      first = false;
-      result(out, contents, {t, findings.tests[t].pairs[p], numbers.of(t, p)});
-      buffer.done();
-    }
-  out += "\n]";
-  exempted_pairs(buffer, contents.model, findings);
+  if (const Status s = results(buffer, contents, context); !s) return s;
+  if (const Status s = exempted_pairs(buffer, contents.model, findings, context); !s) return s;
   out += "\n}\n";
+  return {};
 }
 
 }  // namespace strake::report

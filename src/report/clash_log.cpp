@@ -2,6 +2,7 @@
 #include <string>
 
 #include "report/csv.hpp"
+#include "report/lines.hpp"
 #include "report/text.hpp"
 #include "strake/clash/identity.hpp"
 #include "strake/report/clash.hpp"
@@ -36,16 +37,18 @@ void line(std::string& out, const ClashContents& contents, const clash::Report& 
 
 }  // namespace
 
-void write_pair_log(const ClashContents& contents, Sink sink) {
+Status write_pair_log(const ClashContents& contents, Sink sink, const parallel::Context& context) {
   Buffered buffer(sink);
   buffer.text() =
       "test,a_id,a_name,a_file,b_id,b_name,b_file,may_be_allowed,class,cost,part_pairs,"
       "repeated_part_pairs,node_pairs,triangle_pairs,exact_fallbacks,depth_cells\r\n";
-  for (const clash::Report& test : contents.findings.tests)
-    for (const clash::LoggedPair& pair : test.log) {
-      line(buffer.text(), contents, test, pair);
-      buffer.done();
-    }
+  for (const clash::Report& test : contents.findings.tests) {
+    const Status status = write_lines(
+        context, test.log.size(), buffer,
+        [&](std::size_t p, std::string& out) { line(out, contents, test, test.log[p]); });
+    if (!status) return status;
+  }
+  return {};
 }
 
 }  // namespace strake::report

@@ -49,9 +49,9 @@ void append_mm_up(std::string& out, double mm);
 
 /// Fields of a result with something between: the bounds of d, the coordinates of a point, the
 /// names of the flags, each between quotes.
-void append_range(std::string& out, const clash::Pair& pair, std::string_view between);
+void append_range(std::string& out, double lower_mm, double upper_mm, std::string_view between);
 void append_point(std::string& out, const geometry::Vec3d& mm, std::string_view between);
-void append_flags(std::string& out, const clash::Pair& pair, std::string_view between,
+void append_flags(std::string& out, std::uint16_t flags, std::string_view between,
                   std::string_view quote);
 
 /// At most `columns` characters of the text, the middle left out where it is longer; padded to the

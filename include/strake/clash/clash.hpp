@@ -42,6 +42,7 @@ enum class BroadPhase : std::uint8_t { tree, all_pairs };
 enum class NarrowPhase : std::uint8_t { exact, sphere_subdivision };
 enum class ThicknessCap : std::uint8_t { on, off };
 enum class Volumes : std::uint8_t { off, on };
+enum class Curves : std::uint8_t { off, on };
 
 /// What the classes of a pair depend on; the fields of Options of the same names.
 struct Tolerances {
@@ -65,6 +66,11 @@ struct Options {
   double contact_distance_mm = -1;
   /// Whether to measure the volume of the part common to two solids that hit.
   Volumes volumes = Volumes::off;
+  /// Whether lines and polylines are judged, as bodies without thickness; with the exact narrow
+  /// phase only.
+  Curves curves = Curves::off;
+  /// Whether to tell the separate places of a pair apart, and how many of them to list; 0: no.
+  std::uint64_t most_regions = 8;
   /// Whether Report::log is filled.
   bool log_pairs = false;
   /// More pairs of parts within reach of each other than this are an error: some 300 bytes each.
@@ -79,6 +85,16 @@ enum Flag : std::uint16_t {
       1U << 1U,          ///< the bracket straddles a threshold: the class of the nominal d is given
   kOpen = 1U << 2U,      ///< one of the two is an open surface
   kInverted = 1U << 3U,  ///< one of the two came inside out
+};
+
+/// One of several places where a pair of objects meets or comes too near.
+struct Region {
+  Class cls = Class::no_hit;
+  std::uint16_t flags = 0;
+  double d_mm = 0, d_lower_mm = 0, d_upper_mm = 0;  ///< as of the pair, of this place alone
+  geometry::Vec3d point_mm;
+  geometry::Box3d box_mm;                ///< holds the place
+  std::uint32_t part_a = 0, part_b = 0;  ///< deciding parts
 };
 
 /// One pair of objects that is not NO_HIT; a < b in the durable order.
@@ -105,7 +121,15 @@ struct Pair {
   Level level_a = Level::hard, level_b = Level::hard;  ///< of the deciding parts
   /// The rule that allows this result, an index into Report::allowed; negative: none.
   std::int32_t allowed = -1;
+  /// Where asked for: the number of separate places, 0 where there is too much to tell them apart.
+  /// Of several, as many as asked for are listed from Report::regions[first_region] on.
+  std::uint32_t regions = 0, first_region = 0;
 
+  [[nodiscard]] std::uint32_t regions_listed(const Options& options) const {
+    if (regions < 2) return 0;
+    return regions < options.most_regions ? regions
+                                          : static_cast<std::uint32_t>(options.most_regions);
+  }
   /// d < 0: the nearest point of the skin that d is measured to.
   [[nodiscard]] const geometry::Vec3d& surface_mm() const { return deep_in_a ? on_a_mm : on_b_mm; }
 };
@@ -119,6 +143,7 @@ struct Counters {
   std::uint64_t depth_cells = 0;
   std::uint64_t volume_triangle_pairs = 0;
   std::uint64_t volumes_given_up = 0;  ///< pairs of parts whose common volume takes too long
+  std::uint64_t regions_given_up = 0;  ///< pairs of objects whose places could not be told apart
 };
 
 /// A pair of objects that went to the detailed stage, whatever came of it.
@@ -181,7 +206,8 @@ struct Report {
   std::string name;          ///< of the test; empty where a run has only one
   std::string set_a, set_b;  ///< how the sets were chosen, as in Sets
   Options options;
-  std::vector<Pair> pairs;  ///< by (a, b); NO_HIT pairs are not kept
+  std::vector<Pair> pairs;      ///< by (a, b); NO_HIT pairs are not kept
+  std::vector<Region> regions;  ///< of pairs with several, in their order; of each the worst first
   std::uint64_t objects_a = 0, objects_b = 0;
   /// Pairs of each class, those apart that a rule allows.
   std::uint64_t count_hit = 0, count_contact = 0, count_clearance = 0;
@@ -199,7 +225,8 @@ struct Report {
   std::vector<LoggedPair> log;  ///< where asked for: by (a, b)
   Counters counters;
   double contact_distance_mm = 0;  ///< the largest δ that was applied
-  /// Of pairs, relations, classes, d, witnesses and the rules that allow them; not of options.
+  /// Of pairs, relations, classes, d, witnesses, regions and the rules that allow them; not of
+  /// options.
   std::string hash;
   /// "empty-set", "unknown-sag" (once per file), "pair-too-large" (skipped).
   Diagnostics diagnostics;
@@ -235,7 +262,7 @@ struct Sets {
 ///
 /// 1. A pair's result is a function of the pair alone: neither the team, nor the broad phase, nor
 ///    other objects, nor the order of the sets show in it.
-/// 2. Parts of one object are no pair; wires (polylines) never clash.
+/// 2. Parts of one object are no pair; wires (polylines) only with Options::curves.
 /// Errors: usage for a tolerance that is negative, infinite or not a number and for sets of the
 /// wrong size; input for more pairs than most_pairs; cancelled.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,

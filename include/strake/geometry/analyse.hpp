@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "strake/geometry/mesh.hpp"
@@ -44,6 +45,26 @@ struct MeshAnalysis {
 ///
 /// Every decision is exact. Cost: O(n log n) for one shell; nesting tests only shells whose boxes
 /// lie inside each other.
-[[nodiscard]] MeshAnalysis analyse(GridMesh mesh);
+[[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh);
+
+struct AnalyseScratch;
+
+/// Analyses meshes one after another in memory that it keeps: give each worker its own, since the
+/// allocations cost about as much as the analysis of a mesh of a hundred triangles. The results
+/// are those of analyse(), whatever came before.
+class MeshAnalyser {
+ public:
+  MeshAnalyser();
+  ~MeshAnalyser();
+  MeshAnalyser(MeshAnalyser&&) noexcept;
+  MeshAnalyser& operator=(MeshAnalyser&&) noexcept;
+  MeshAnalyser(const MeshAnalyser&) = delete;
+  MeshAnalyser& operator=(const MeshAnalyser&) = delete;
+
+  [[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh);
+
+ private:
+  std::unique_ptr<AnalyseScratch> scratch_;
+};
 
 }  // namespace strake::geometry

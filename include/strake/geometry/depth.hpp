@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "strake/geometry/part_pair.hpp"
@@ -58,6 +59,8 @@ struct DepthGoal {
   double known_upper = std::numeric_limits<double>::infinity();
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known,
   Vec3d meeting_point{};  ///< and a point there, relative to a's origin
+  /// Only points in this box, relative to a's origin, count.
+  std::optional<Box3d> within = {};
 };
 
 /// Depth D of an interpenetrating pair, grid units: lower <= D <= upper is certain.

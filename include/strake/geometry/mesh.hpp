@@ -25,7 +25,8 @@ struct TriangleMesh {
   double sag_mm = -1;
 };
 
-/// Open or closed chains of points, in millimetres; each is drawn, none clashes.
+/// Open or closed chains of points, in millimetres; each is drawn, and clashes only where asked
+/// for.
 struct Polylines {
   std::vector<Vec3d> points;
   /// Chain i is points[first[i] .. first[i + 1]); first has one entry more than there are chains.

@@ -15,7 +15,7 @@ namespace strake::geometry {
 enum class PartKind : std::uint8_t {
   solid,  ///< directed edges cancel: the part bounds a volume
   sheet,  ///< open or edge-unbalanced surface
-  wire,   ///< polylines: drawn, never clashed
+  wire,   ///< polylines: drawn; clashed only where asked for
 };
 
 /// What the analysis of a part found; each flag travels with the answers that the part takes part
@@ -48,7 +48,8 @@ struct Part {
   std::vector<std::uint32_t> faces;  ///< source face of each triangle; empty: each its own
   std::vector<PartEdge> edges;       ///< by (v0, v1); one sentinel at the end
   std::vector<std::uint32_t> edge_triangles;
-  std::vector<std::uint32_t> shells;  ///< shell (connected through edges) of each triangle, 0-based
+  /// Shell (connected through edges) of each triangle, 0-based; empty: one shell.
+  std::vector<std::uint32_t> shells;
   std::uint32_t shell_count = 0;
   std::vector<std::uint32_t> chain_first;  ///< wires: chain i is vertices[chain_first[i]..[i+1])
   Box3i box = empty_box<std::int32_t>();

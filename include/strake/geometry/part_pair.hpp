@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "strake/geometry/inside.hpp"
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/part_tree.hpp"
 #include "strake/geometry/vec.hpp"
@@ -75,8 +76,6 @@ struct Closest {
 /// equally near. May find none where the distance is within rounding of the limit.
 [[nodiscard]] std::optional<Closest> any_within(const TreedPart& a, const TreedPart& b,
                                                 double distance, PairWork& work);
-
-enum class PointSide : std::uint8_t { outside, on_boundary, inside };
 
 /// Exact side of a rational point: numerator / denominator in grid units relative to the part's
 /// origin, denominator in 1..4096.

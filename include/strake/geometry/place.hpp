@@ -24,6 +24,23 @@ struct PlacedMesh {
 /// Nothing when the result is wider than 2^31 grid units (2.1 km).
 [[nodiscard]] std::optional<PlacedMesh> place(const TriangleMesh& mesh, const Mat3d& linear);
 
+/// Places meshes one after another in memory that it keeps: one per worker.
+class MeshPlacer {
+ public:
+  /// As place(), null for nothing; stands until the next call.
+  [[nodiscard]] const PlacedMesh* place(const TriangleMesh& mesh, const Mat3d& linear);
+
+ private:
+  friend std::optional<PlacedMesh> geometry::place(const TriangleMesh& mesh, const Mat3d& linear);
+  void take_triangles(const TriangleMesh& mesh, bool mirrored);
+  [[nodiscard]] bool take_vertices();
+
+  std::vector<Vec3l> snapped_;
+  std::vector<std::uint8_t> used_;         ///< of `snapped_`
+  std::vector<std::uint32_t> renumbered_;  ///< likewise, where some are not used
+  PlacedMesh placed_;
+};
+
 /// Chains on the grid as a wire part; `bad_points` counts points left out because they have no
 /// place.
 struct PlacedWire {

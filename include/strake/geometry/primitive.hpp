@@ -58,7 +58,7 @@ struct RectangularTorusPrimitive {
   double inner_radius = 0, outer_radius = 0, height = 0, angle = 0;
 };
 
-/// A centre line along local Z, centred on the origin: drawn, never clashed.
+/// A centre line along local Z, centred on the origin: drawn, clashed only where asked for.
 struct LinePrimitive {
   double half_width = 0, length = 0;
 };

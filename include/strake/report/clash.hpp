@@ -7,15 +7,20 @@
 
 #include "strake/clash/clash.hpp"
 #include "strake/clash/group.hpp"
+#include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
 #include "strake/parallel/function_ref.hpp"
 
 /// Clash reports as text: JSON for programs, CSV for spreadsheets, a table for a terminal.
 ///
 ///     AtomicFile file = ...;
-///     report::write_clash_json({findings, model}, [&](std::string_view s) { file.write(s); });
+///     const Status status = report::write_clash_json(
+///         {findings, model}, [&](std::string_view s) { file.write(s); }, context);
 ///
-/// Bytes depend on the findings and the model alone: not on the locale, the team or the run.
+/// Bytes depend on the findings and the model alone: not on the locale, the team or the run. The
+/// team formats results while the calling thread hands them on; errors: cancelled, and then what
+/// went to the sink is no document.
 namespace strake::report {
 
 /// Takes text piece by piece; pieces end anywhere.
@@ -31,14 +36,17 @@ struct ClashContents {
 /// The document of schemas/clash.schema.json, one result a line, streamed: memory does not grow
 /// with the number of results. Lengths are rounded to a nanometre, brackets outward. Bytes of a
 /// name that are not UTF-8 become U+FFFD.
-void write_clash_json(const ClashContents& contents, Sink sink);
+[[nodiscard]] Status write_clash_json(const ClashContents& contents, Sink sink,
+                                      const parallel::Context& context = {});
 
 /// One header line and one line per pair, comma-separated (RFC 4180), lines ended by CRLF.
-void write_clash_csv(const ClashContents& contents, Sink sink);
+[[nodiscard]] Status write_clash_csv(const ClashContents& contents, Sink sink,
+                                     const parallel::Context& context = {});
 
 /// Every pair of objects that went to the detailed stage, as CSV in the same form: whether a rule
 /// may allow it, its class (NO_HIT too) and what it cost. Of tests that were asked to log pairs.
-void write_pair_log(const ClashContents& contents, Sink sink);
+[[nodiscard]] Status write_pair_log(const ClashContents& contents, Sink sink,
+                                    const parallel::Context& context = {});
 
 struct TableOptions {
   std::size_t width = 100;                    ///< columns of the terminal; names are clipped to fit

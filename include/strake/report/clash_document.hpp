@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <map>
 #include <string>
 #include <vector>
@@ -56,5 +57,8 @@ struct ClashDocument {
 /// Errors: input for a file that cannot be read, is cut off, is no such document, is of another
 /// version of the schema, or contradicts itself; each names the line or the result.
 [[nodiscard]] Result<ClashDocument> read_clash_document(const std::filesystem::path& file);
+
+/// The same from a stream that can be rewound; `name` is what errors call it.
+[[nodiscard]] Result<ClashDocument> parse_clash_document(std::istream& in, const std::string& name);
 
 }  // namespace strake::report

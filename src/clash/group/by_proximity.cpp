@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "clash/group/partition.hpp"
+#include "strake/core/disjoint_sets.hpp"
 
 namespace strake::clash {
 namespace {
@@ -13,26 +14,6 @@ namespace {
 using geometry::Box3d;
 using geometry::Vec3d;
 using geometry::Vec3l;
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-  }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The lowest of a set is its root.
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = root(i);
-    j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 double squared_distance(const Vec3d& p, const Vec3d& q) {
   const Vec3d d = p - q;
@@ -66,7 +47,7 @@ class Linkage {
     });
   }
 
-  UnionFind& run() {
+  DisjointSets& run() {
     make_cells();
     for (std::size_t c = 0; c < cells_.size(); ++c)
       for (std::int64_t dx = 0; dx <= kReach; ++dx)
@@ -107,18 +88,18 @@ class Linkage {
   }
 
   void link(const Cell& x, const Cell& y) {
-    if (sets_.root(order_[x.first]) == sets_.root(order_[y.first])) return;
+    if (sets_.joined(order_[x.first], order_[y.first])) return;
     for (std::size_t i = x.first; i < x.last; ++i) {
       if (squared_distance(point(i), y.box) > squared_) continue;
       for (std::size_t j = y.first; j < y.last; ++j)
         if (squared_distance(point(i), point(j)) <= squared_)
-          return sets_.join(order_[i], order_[j]);
+          return void(sets_.join(order_[i], order_[j]));
     }
   }
 
   std::span<const Item> items_;
   double squared_, side_;
-  UnionFind sets_;
+  DisjointSets sets_;
   std::vector<std::uint32_t> order_;
   std::vector<Vec3l> places_;
   std::vector<Cell> cells_;
@@ -128,7 +109,7 @@ class Linkage {
 
 Partition by_proximity(std::span<const Item> items, double distance_mm) {
   Linkage linkage(items, distance_mm);
-  UnionFind& sets = linkage.run();
+  DisjointSets& sets = linkage.run();
   Partition partition;
   partition.group.resize(items.size());
   for (std::uint32_t i = 0; i < items.size(); ++i) {

@@ -2,10 +2,12 @@
 #include "strake/geometry/analyse.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <utility>
 
 #include "geometry/analyse/nest.hpp"
+#include "geometry/analyse/scratch.hpp"
 #include "geometry/analyse/shell_part.hpp"
 #include "geometry/analyse/topology.hpp"
 #include "geometry/analyse/weld.hpp"
@@ -67,22 +69,22 @@ std::vector<std::uint32_t> find_roots(const std::vector<std::uint32_t>& parents)
 }
 
 /// The solid bounded by the chosen shells of a nest.
-Part merge_nest(const GridMesh& mesh, const Grouped& grouped, const std::vector<Shell>& shells,
-                const std::vector<std::uint32_t>& members, bool inverted) {
+Part merge_nest(const Grouped& grouped, const std::vector<Shell>& shells,
+                const std::vector<std::uint32_t>& members, bool inverted, AnalyseScratch& scratch) {
   std::vector<std::uint32_t> triangles;
   for (const std::uint32_t m : members) {
     const auto of = grouped.of(shells[m].label);
     triangles.insert(triangles.end(), of.begin(), of.end());
   }
   std::sort(triangles.begin(), triangles.end());
-  GridMesh piece = extract(mesh, triangles);
-  if (inverted) turn(piece.triangles);
-  return make_part(std::move(piece), PartKind::solid);
+  extract(triangles, scratch);
+  if (inverted) turn(scratch.piece.triangles);
+  return make_part(PartKind::solid, signed_volume_6(scratch.piece), scratch);
 }
 
 /// Solids from the closed shells: one part per nest, in the order of their outermost shells.
-void add_solids(const GridMesh& mesh, const Grouped& grouped, const std::vector<Shell>& shells,
-                std::vector<Part> shell_parts, MeshAnalysis& analysis) {
+void add_solids(const Grouped& grouped, const std::vector<Shell>& shells,
+                std::vector<Part> shell_parts, AnalyseScratch& scratch, MeshAnalysis& analysis) {
   const std::vector<std::uint32_t> parents = find_parents(shell_parts);
   const std::vector<std::uint32_t> roots = find_roots(parents);
   const std::vector<bool> bounds = bounding(shells, parents, roots);
@@ -97,71 +99,83 @@ void add_solids(const GridMesh& mesh, const Grouped& grouped, const std::vector<
     if (members[i].empty()) continue;
     const bool inverted = shells[i].sign < 0;
     Part part = members[i].size() == 1 ? std::move(shell_parts[i])
-                                       : merge_nest(mesh, grouped, shells, members[i], inverted);
+                                       : merge_nest(grouped, shells, members[i], inverted, scratch);
     part.flags.inverted = inverted;
     analysis.parts.push_back(std::move(part));
   }
 }
 
-/// The whole mesh is one shell: no splitting, no copies.
-Part whole(GridMesh mesh, Topology topology, ShellLabels labels) {
+/// The whole mesh is one shell: no splitting.
+Part whole(const Topology& topology, ShellLabels labels, AnalyseScratch& scratch) {
+  GridMesh& mesh = scratch.welded;
   const bool closed = labels.closed[0] != 0;
-  const __int128 volume = closed ? signed_volume_6(mesh.vertices, mesh.triangles) : 0;
+  const __int128 volume = closed ? signed_volume_6(mesh) : 0;
   if (closed && volume == 0) {
     std::vector<std::uint32_t> all(mesh.triangles.size());
     std::iota(all.begin(), all.end(), 0U);
-    return make_part(extract(mesh, single_layer(mesh, all)), PartKind::sheet);
+    extract(single_layer(mesh, all), scratch);
+    return make_part(PartKind::sheet, 0, scratch);
   }
   if (volume < 0) turn(mesh.triangles);
-  Part part = make_part(std::move(mesh), closed ? PartKind::solid : PartKind::sheet,
-                        std::move(topology), std::move(labels));
+  Part part = make_part(closed ? PartKind::solid : PartKind::sheet,
+                        {mesh, topology, std::move(labels), volume < 0 ? -volume : volume});
   part.flags.inverted = volume < 0;
   return part;
 }
 
-void split(const GridMesh& mesh, const ShellLabels& labels, MeshAnalysis& analysis) {
+void split(const ShellLabels& labels, AnalyseScratch& scratch, MeshAnalysis& analysis) {
   const Grouped grouped = group_by_shell(labels);
   std::vector<Shell> shells;
   std::vector<Part> shell_parts;
   std::vector<std::uint32_t> open;
   for (std::uint32_t s = 0; s < labels.count; ++s) {
     const auto of = grouped.of(s);
-    GridMesh piece;
     __int128 volume = 0;
     if (labels.closed[s] != 0) {
-      piece = extract(mesh, of);
-      volume = signed_volume_6(piece.vertices, piece.triangles);
+      extract(of, scratch);
+      volume = signed_volume_6(scratch.piece);
     }
     if (volume == 0) {
       const std::vector<std::uint32_t> layer =
-          labels.closed[s] != 0 ? single_layer(mesh, of)
+          labels.closed[s] != 0 ? single_layer(scratch.welded, of)
                                 : std::vector<std::uint32_t>(of.begin(), of.end());
       open.insert(open.end(), layer.begin(), layer.end());
       continue;
     }
-    if (volume < 0) turn(piece.triangles);
+    if (volume < 0) turn(scratch.piece.triangles);
     shells.push_back({s, volume < 0 ? -1 : 1});
-    shell_parts.push_back(make_part(std::move(piece), PartKind::solid));
+    shell_parts.push_back(make_part(PartKind::solid, volume < 0 ? -volume : volume, scratch));
   }
-  add_solids(mesh, grouped, shells, std::move(shell_parts), analysis);
+  add_solids(grouped, shells, std::move(shell_parts), scratch, analysis);
   if (open.empty()) return;
   std::sort(open.begin(), open.end());
-  analysis.parts.push_back(make_part(extract(mesh, open), PartKind::sheet));
+  extract(open, scratch);
+  analysis.parts.push_back(make_part(PartKind::sheet, 0, scratch));
 }
 
 }  // namespace
 
-MeshAnalysis analyse(GridMesh mesh) {
+MeshAnalyser::MeshAnalyser() : scratch_(std::make_unique<AnalyseScratch>()) {}
+MeshAnalyser::~MeshAnalyser() = default;
+MeshAnalyser::MeshAnalyser(MeshAnalyser&&) noexcept = default;
+MeshAnalyser& MeshAnalyser::operator=(MeshAnalyser&&) noexcept = default;
+
+MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh) {
+  AnalyseScratch& scratch = *scratch_;
   MeshAnalysis analysis;
-  mesh = weld(mesh, analysis.findings);
-  if (mesh.triangles.empty()) return analysis;
-  Topology topology = make_topology(mesh.vertices.size(), mesh.triangles);
-  ShellLabels labels = label_shells(mesh.vertices, mesh.triangles, topology);
+  weld(mesh, scratch, analysis.findings);
+  const GridMesh& welded = scratch.welded;
+  if (welded.triangles.empty()) return analysis;
+  const Topology topology =
+      make_topology(welded.vertices.size(), welded.triangles, scratch.topology);
+  ShellLabels labels = label_shells(welded.vertices, welded.triangles, topology, scratch.topology);
   if (labels.count == 1)
-    analysis.parts.push_back(whole(std::move(mesh), std::move(topology), std::move(labels)));
+    analysis.parts.push_back(whole(topology, std::move(labels), scratch));
   else
-    split(mesh, labels, analysis);
+    split(labels, scratch, analysis);
   return analysis;
 }
+
+MeshAnalysis analyse(const GridMesh& mesh) { return MeshAnalyser().analyse(mesh); }
 
 }  // namespace strake::geometry

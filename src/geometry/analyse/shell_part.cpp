@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/analyse/weld.hpp"
-
 namespace strake::geometry {
 namespace {
 
@@ -17,73 +15,100 @@ double double_area(const Vec3i& a, const Vec3i& b, const Vec3i& c) {
   return std::sqrt(dot(n, n));
 }
 
-bool has_crowded_edge(const Part& part) {
-  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e)
-    if (part.edges[e + 1].first_triangle - part.edges[e].first_triangle > 2) return true;
-  return false;
+bool has_crowded_edge(const Topology& topology) {
+  return std::any_of(topology.uneven.begin(), topology.uneven.end(),
+                     [&](std::uint32_t e) { return topology.triangles_of(e).size() > 2; });
 }
 
-}  // namespace
+Box3i box_of(std::span<const Vec3i> vertices) {
+  Box3i box = empty_box<std::int32_t>();
+  for (const Vec3i& v : vertices) box.include(v);
+  return box;
+}
 
-__int128 signed_volume_6(std::span<const Vec3i> vertices, std::span<const Triangle> triangles) {
+/// Whether a determinant of points relative to the low corner of a box fits 64 bits: it has three
+/// terms of at most the volume of the box.
+bool is_small(const Box3i& box) {
+  const Vec3l size = box.hi.as<std::int64_t>() - box.lo.as<std::int64_t>();
+  return static_cast<__int128>(size.x) * size.y * size.z < __int128{1} << 61U;
+}
+
+/// Sum of the determinants of the corners; `Wide` holds one of them.
+template <class Wide>
+__int128 sum_of_determinants(const GridMesh& mesh, const Vec3l& origin) {
   __int128 sum = 0;
-  for (const Triangle& t : triangles) {
-    const Vec3l a = vertices[t[0]].as<std::int64_t>();
-    const Vec3l n = cross(vertices[t[1]].as<std::int64_t>(), vertices[t[2]].as<std::int64_t>());
-    sum += static_cast<__int128>(a.x) * n.x + static_cast<__int128>(a.y) * n.y +
-           static_cast<__int128>(a.z) * n.z;
+  const auto corner = [&](std::uint32_t v) { return mesh.vertices[v].as<std::int64_t>() - origin; };
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3l a = corner(t[0]);
+    const Vec3l n = cross(corner(t[1]), corner(t[2]));
+    sum +=
+        static_cast<Wide>(a.x) * n.x + static_cast<Wide>(a.y) * n.y + static_cast<Wide>(a.z) * n.z;
   }
   return sum;
 }
 
-GridMesh extract(const GridMesh& mesh, std::span<const std::uint32_t> triangles) {
+}  // namespace
+
+__int128 signed_volume_6(const GridMesh& mesh) {
+  // Where the edges balance, any origin gives the same sum.
+  const Box3i box = box_of(mesh.vertices);
+  if (is_small(box)) return sum_of_determinants<std::int64_t>(mesh, box.lo.as<std::int64_t>());
+  return sum_of_determinants<__int128>(mesh, {});
+}
+
+void extract(std::span<const std::uint32_t> triangles, AnalyseScratch& scratch) {
+  const GridMesh& mesh = scratch.welded;
+  GridMesh& piece = scratch.piece;
   std::vector<std::uint32_t> used;
   used.reserve(triangles.size() * 3);
   for (const std::uint32_t t : triangles)
     used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  GridMesh piece;
-  piece.vertices.reserve(used.size());
-  for (const std::uint32_t v : used) piece.vertices.push_back(mesh.vertices[v]);
-  const auto local = [&](std::uint32_t v) {
-    return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
-  };
-  piece.triangles.reserve(triangles.size());
+  const std::span<std::uint32_t> local = room(scratch.local, mesh.vertices.size());
+  piece.vertices.clear();
+  for (const std::uint32_t v : used) {
+    local[v] = static_cast<std::uint32_t>(piece.vertices.size());
+    piece.vertices.push_back(mesh.vertices[v]);
+  }
+  piece.triangles.clear();
+  piece.faces.clear();
   for (const std::uint32_t t : triangles) {
     const Triangle& w = mesh.triangles[t];
-    piece.triangles.push_back({local(w[0]), local(w[1]), local(w[2])});
+    piece.triangles.push_back({local[w[0]], local[w[1]], local[w[2]]});
     if (!mesh.faces.empty()) piece.faces.push_back(mesh.faces[t]);
   }
-  return piece;
 }
 
-Part make_part(GridMesh mesh, PartKind kind, Topology topology, ShellLabels labels) {
+Part make_part(PartKind kind, PartSource source) {
+  const GridMesh& mesh = source.mesh;
   Part part;
   part.kind = kind;
   part.flags.open = kind == PartKind::sheet;
-  part.vertices = std::move(mesh.vertices);
-  part.triangles = std::move(mesh.triangles);
-  part.faces = std::move(mesh.faces);
-  part.edges = std::move(topology.edges);
-  part.edge_triangles = std::move(topology.edge_triangles);
-  part.shells = std::move(labels.shell);
-  part.shell_count = labels.count;
-  part.flags.non_manifold = has_crowded_edge(part);
-  for (const Vec3i& v : part.vertices) part.box.include(v);
+  part.vertices = mesh.vertices;
+  part.triangles = mesh.triangles;
+  part.faces = mesh.faces;
+  part.edges.assign(source.topology.edges.begin(), source.topology.edges.end());
+  part.edge_triangles.assign(source.topology.edge_triangles.begin(),
+                             source.topology.edge_triangles.end());
+  part.shells = std::move(source.labels.shell);
+  part.shell_count = source.labels.count;
+  part.flags.non_manifold = has_crowded_edge(source.topology);
+  part.box = box_of(mesh.vertices);
   double area = 0;
-  for (const Triangle& t : part.triangles)
-    area += double_area(part.vertices[t[0]], part.vertices[t[1]], part.vertices[t[2]]);
+  for (const Triangle& t : mesh.triangles)
+    area += double_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
   part.area = area / 2;
-  if (kind == PartKind::solid)
-    part.volume = static_cast<double>(signed_volume_6(part.vertices, part.triangles)) / 6;
+  part.volume = static_cast<double>(source.volume_6) / 6;
   return part;
 }
 
-Part make_part(GridMesh mesh, PartKind kind) {
-  Topology topology = make_topology(mesh.vertices.size(), mesh.triangles);
-  ShellLabels labels = label_shells(mesh.vertices, mesh.triangles, topology);
-  return make_part(std::move(mesh), kind, std::move(topology), std::move(labels));
+Part make_part(PartKind kind, __int128 volume_6, AnalyseScratch& scratch) {
+  const GridMesh& piece = scratch.piece;
+  const Topology topology = make_topology(piece.vertices.size(), piece.triangles, scratch.topology);
+  return make_part(
+      kind, {piece, topology,
+             label_shells(piece.vertices, piece.triangles, topology, scratch.topology), volume_6});
 }
 
 void turn(std::span<Triangle> triangles) {

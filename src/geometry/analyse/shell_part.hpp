@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/analyse/scratch.hpp"
 #include "geometry/analyse/topology.hpp"
 #include "strake/geometry/analyse.hpp"
 #include "strake/geometry/part.hpp"
@@ -13,15 +14,24 @@ namespace strake::geometry {
 
 /// Six times the exact signed volume under triangles whose edges balance.
 /// Fits: |coordinate| <= 2^30 makes a term at most 2^93, and there are below 2^32 of them.
-[[nodiscard]] __int128 signed_volume_6(std::span<const Vec3i> vertices,
-                                       std::span<const Triangle> triangles);
+[[nodiscard]] __int128 signed_volume_6(const GridMesh& mesh);
 
-/// The part made of some triangles of a welded mesh, in the mesh's order.
-[[nodiscard]] GridMesh extract(const GridMesh& mesh, std::span<const std::uint32_t> triangles);
+/// Fills scratch.piece: some triangles of scratch.welded, in its order, with the vertices that they
+/// use.
+void extract(std::span<const std::uint32_t> triangles, AnalyseScratch& scratch);
 
-/// A part of a welded mesh whose vertices are all used. `topology` and `labels` are of that mesh.
-[[nodiscard]] Part make_part(GridMesh mesh, PartKind kind, Topology topology, ShellLabels labels);
-[[nodiscard]] Part make_part(GridMesh mesh, PartKind kind);
+/// What a part is made of: a welded mesh whose vertices are all used, its topology and its shells,
+/// and six times the volume (0 for sheets).
+struct PartSource {
+  const GridMesh& mesh;
+  const Topology& topology;
+  ShellLabels labels;
+  __int128 volume_6 = 0;
+};
+[[nodiscard]] Part make_part(PartKind kind, PartSource source);
+
+/// The part made of scratch.piece.
+[[nodiscard]] Part make_part(PartKind kind, __int128 volume_6, AnalyseScratch& scratch);
 
 /// Turns every triangle over.
 void turn(std::span<Triangle> triangles);

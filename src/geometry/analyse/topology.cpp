@@ -8,23 +8,27 @@
 namespace strake::geometry {
 namespace {
 
-struct HalfEdge {
-  std::uint32_t high = 0;
-  std::uint32_t triangle = 0;
-};
+/// A triangle at an edge, in the bucket of the edge's lower vertex: sorts by higher vertex, then by
+/// triangle. Fits: three entries per triangle are numbered with 32 bits.
+constexpr std::uint64_t half_edge(std::uint32_t high, std::size_t triangle, bool back) {
+  return (std::uint64_t{high} << 32U) | (triangle << 1U) | (back ? 1U : 0U);
+}
+constexpr std::uint32_t high_of(std::uint64_t half) {
+  return static_cast<std::uint32_t>(half >> 32U);
+}
+constexpr std::uint32_t triangle_of(std::uint64_t half) {
+  return static_cast<std::uint32_t>(half) >> 1U;
+}
 
-/// Stable by higher vertex: entries arrive by triangle.
-void sort_bucket(std::span<HalfEdge> bucket) {
+void sort_bucket(std::span<std::uint64_t> bucket) {
   if (bucket.size() > 32) {
-    std::sort(bucket.begin(), bucket.end(), [](const HalfEdge& a, const HalfEdge& b) {
-      return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
-    });
+    std::sort(bucket.begin(), bucket.end());
     return;
   }
   for (std::size_t i = 1; i < bucket.size(); ++i) {
-    const HalfEdge moved = bucket[i];
+    const std::uint64_t moved = bucket[i];
     std::size_t k = i;
-    for (; k > 0 && bucket[k - 1].high > moved.high; --k) bucket[k] = bucket[k - 1];
+    for (; k > 0 && bucket[k - 1] > moved; --k) bucket[k] = bucket[k - 1];
     bucket[k] = moved;
   }
 }
@@ -32,7 +36,7 @@ void sort_bucket(std::span<HalfEdge> bucket) {
 /// Disjoint sets whose representative is their lowest member.
 class Sets {
  public:
-  explicit Sets(std::size_t count) : parent_(count) {
+  explicit Sets(std::span<std::uint32_t> memory) : parent_(memory), count_(memory.size()) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
   [[nodiscard]] std::uint32_t find(std::uint32_t i) {
@@ -42,14 +46,18 @@ class Sets {
     }
     return i;
   }
+  /// Without a branch: whether the two are joined already is as good as chance.
   void join(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    count_ -= a != b ? 1U : 0U;
+    parent_[std::max(a, b)] = std::min(a, b);
   }
+  [[nodiscard]] std::size_t count() const { return count_; }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  std::span<std::uint32_t> parent_;
+  std::size_t count_;
 };
 
 /// A triangle round an edge.
@@ -154,59 +162,69 @@ class Fan {
   std::vector<Spoke> spokes_;
 };
 
-}  // namespace
-
-Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles) {
-  std::vector<std::uint32_t> first(vertices + 1, 0);
+/// Half-edges by (lower vertex, higher vertex, triangle); scratch.first tells the buckets.
+std::span<const std::uint64_t> sorted_halves(std::size_t vertices,
+                                             std::span<const Triangle> triangles,
+                                             TopologyScratch& scratch) {
+  const std::span<std::uint32_t> first = room(scratch.first, vertices + 1);
+  std::fill(first.begin(), first.end(), 0U);
   const auto each = [&](auto&& visit) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t u = triangles[t][k], v = triangles[t][k == 2 ? 0 : k + 1];
-        visit(std::min(u, v), std::max(u, v), static_cast<std::uint32_t>(t));
-      }
+      for (std::size_t k = 0; k < 3; ++k)
+        visit(triangles[t][k], triangles[t][k == 2 ? 0 : k + 1], t);
   };
-  each([&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++first[low + 1]; });
-  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<HalfEdge> halves(triangles.size() * 3);
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  each([&](std::uint32_t low, std::uint32_t high, std::uint32_t t) {
-    halves[next[low]++] = {high, t};
+  each([&](std::uint32_t u, std::uint32_t v, std::size_t) { ++first[std::min(u, v) + 1]; });
+  const std::span<std::uint32_t> next = room(scratch.next, vertices + 1);
+  next[0] = 0;
+  for (std::size_t v = 1; v < first.size(); ++v) next[v] = first[v] += first[v - 1];
+  const std::span<std::uint64_t> halves = room(scratch.halves, triangles.size() * 3);
+  each([&](std::uint32_t u, std::uint32_t v, std::size_t t) {
+    halves[next[std::min(u, v)]++] = half_edge(std::max(u, v), t, u > v);
   });
+  for (std::size_t v = 0; v < vertices; ++v)
+    sort_bucket(halves.subspan(first[v], first[v + 1] - first[v]));
+  return halves;
+}
 
-  Topology topology;
-  topology.edges.reserve(halves.size() / 2 + 2);
-  topology.edge_triangles.reserve(halves.size());
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const std::span<HalfEdge> bucket = std::span(halves).subspan(first[v], first[v + 1] - first[v]);
-    sort_bucket(bucket);
-    for (std::size_t i = 0; i < bucket.size(); ++i) {
-      if (i == 0 || bucket[i].high != bucket[i - 1].high)
-        topology.edges.push_back({static_cast<std::uint32_t>(v), bucket[i].high,
-                                  static_cast<std::uint32_t>(topology.edge_triangles.size())});
-      topology.edge_triangles.push_back(bucket[i].triangle);
+}  // namespace
+
+Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles,
+                       TopologyScratch& scratch) {
+  const std::span<const std::uint64_t> halves = sorted_halves(vertices, triangles, scratch);
+  const std::span<PartEdge> edges = room(scratch.edges, halves.size() + 1);
+  const std::span<std::uint32_t> around = room(scratch.edge_triangles, halves.size());
+  scratch.uneven.clear();
+  std::uint32_t count = 0;
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    const std::uint32_t last = scratch.first[v + 1];
+    for (std::uint32_t i = scratch.first[v]; i < last;) {
+      const std::uint32_t begin = i, high = high_of(halves[begin]);
+      for (; i < last && high_of(halves[i]) == high; ++i) around[i] = triangle_of(halves[i]);
+      edges[count] = {v, high, begin};
+      const bool even = i - begin == 2 && ((halves[begin] ^ halves[begin + 1]) & 1U) != 0;
+      if (!even) scratch.uneven.push_back(count);
+      ++count;
     }
   }
-  topology.edges.push_back({0, 0, static_cast<std::uint32_t>(topology.edge_triangles.size())});
-  return topology;
+  edges[count] = {0, 0, static_cast<std::uint32_t>(halves.size())};
+  return {edges.first(count + 1), around, scratch.uneven};
 }
 
 ShellLabels label_shells(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
-                         const Topology& topology) {
-  Sets sets(triangles.size());
-  const std::size_t edge_count = topology.edges.size() - 1;
+                         const Topology& topology, TopologyScratch& scratch) {
+  Sets sets(room(scratch.parents, triangles.size()));
+  for (std::size_t e = 0; e + 1 < topology.edges.size(); ++e) {
+    const auto around = topology.triangles_of(e);
+    if (around.size() == 2) sets.join(around[0], around[1]);
+  }
   std::vector<std::uint32_t> open_at;  // a triangle of each edge that does not balance
   std::vector<std::size_t> crowded;    // edges with more than two triangles
-  for (std::size_t e = 0; e < edge_count; ++e) {
+  for (const std::uint32_t e : topology.uneven) {
     const auto around = topology.triangles_of(e);
-    if (around.size() == 2) {
-      sets.join(around[0], around[1]);
-      if (topology.sense(e, triangles[around[0]]) == topology.sense(e, triangles[around[1]]))
-        open_at.push_back(around[0]);
-    } else if (around.size() == 1) {
-      open_at.push_back(around[0]);
-    } else {
+    if (around.size() > 2)
       crowded.push_back(e);
-    }
+    else
+      open_at.push_back(around[0]);
   }
   Fan fan(vertices, triangles, topology);
   for (const std::size_t e : crowded) {
@@ -219,12 +237,17 @@ ShellLabels label_shells(std::span<const Vec3i> vertices, std::span<const Triang
   }
 
   ShellLabels labels;
+  labels.closed.assign(sets.count(), 1);
+  if (sets.count() == 1) {
+    labels.count = 1;
+    if (!open_at.empty()) labels.closed[0] = 0;
+    return labels;
+  }
   labels.shell.resize(triangles.size());
   for (std::uint32_t t = 0; t < labels.shell.size(); ++t) {
     const std::uint32_t root = sets.find(t);
     labels.shell[t] = root == t ? labels.count++ : labels.shell[root];
   }
-  labels.closed.assign(labels.count, 1);
   for (const std::uint32_t t : open_at) labels.closed[labels.shell[t]] = 0;
   return labels;
 }

@@ -2,6 +2,7 @@
 #include "geometry/analyse/weld.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 #include "geometry/analyse/topology.hpp"
@@ -9,21 +10,78 @@
 namespace strake::geometry {
 namespace {
 
-/// Sorts like (x, y, z): the sign bit is flipped so that unsigned order is signed order.
-struct VertexKey {
-  std::uint64_t xy = 0;
-  std::uint32_t z = 0;
-  std::uint32_t index = 0;
-};
-
 constexpr std::uint32_t ordered(std::int32_t value) {
   return static_cast<std::uint32_t>(value) ^ 0x80000000U;
 }
 
-/// Fills `welded.vertices`; returns the new index of every old vertex.
-std::vector<std::uint32_t> weld_vertices(const std::vector<Vec3i>& vertices,
-                                         std::vector<Vec3i>& welded) {
-  std::vector<VertexKey> keys(vertices.size());
+Box3i box_of(std::span<const Vec3i> vertices) {
+  Box3i box = empty_box<std::int32_t>();
+  for (const Vec3i& v : vertices) box.include(v);
+  return box;
+}
+
+std::uint64_t extent(const Box3i& box, int axis) {
+  return static_cast<std::uint64_t>(std::int64_t{box.hi[axis]} - box.lo[axis]);
+}
+
+/// Where the fields of a vertex lie in a word that sorts like (x, y, z, index).
+struct Packing {
+  Vec3i lo;
+  int y_bits = 0, z_bits = 0, index_bits = 0;
+  bool fits = false;
+
+  Packing(const Box3i& box, std::size_t count)
+      : lo(box.lo),
+        y_bits(static_cast<int>(std::bit_width(extent(box, 1)))),
+        z_bits(static_cast<int>(std::bit_width(extent(box, 2)))),
+        index_bits(static_cast<int>(std::bit_width(count))),
+        fits(static_cast<int>(std::bit_width(extent(box, 0))) + y_bits + z_bits + index_bits <=
+             64) {}
+
+  [[nodiscard]] std::uint64_t pack(const Vec3i& v, std::size_t index) const {
+    const auto field = [&](int axis) {
+      return static_cast<std::uint64_t>(std::int64_t{v[axis]} - lo[axis]);
+    };
+    return ((((field(0) << y_bits) | field(1)) << z_bits | field(2)) << index_bits) | index;
+  }
+  [[nodiscard]] std::uint32_t index(std::uint64_t word) const {
+    return static_cast<std::uint32_t>(word & ((std::uint64_t{1} << index_bits) - 1));
+  }
+};
+
+/// Gives equal neighbours of a sorted order one number: `index_of(i)` is the i-th vertex in order.
+template <class IndexOf>
+void number_in_order(std::span<const Vec3i> vertices, std::span<std::uint32_t> renumbered,
+                     std::vector<Vec3i>& welded, IndexOf&& index_of) {
+  welded.resize(vertices.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const std::uint32_t old = index_of(i);
+    if (count == 0 || welded[count - 1] != vertices[old]) welded[count++] = vertices[old];
+    renumbered[old] = static_cast<std::uint32_t>(count - 1);
+  }
+  welded.resize(count);
+}
+
+/// Fills `welded`; returns the new index of every old vertex.
+std::span<const std::uint32_t> weld_vertices(const std::vector<Vec3i>& vertices, const Box3i& box,
+                                             WeldScratch& scratch, std::vector<Vec3i>& welded) {
+  const std::span<std::uint32_t> renumbered = room(scratch.renumbered, vertices.size());
+  if (vertices.empty()) {
+    welded.clear();
+    return renumbered;
+  }
+  // Most meshes are small enough for a vertex to sort as one word.
+  const Packing packing(box, vertices.size());
+  if (packing.fits) {
+    const std::span<std::uint64_t> keys = room(scratch.packed_keys, vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) keys[i] = packing.pack(vertices[i], i);
+    std::sort(keys.begin(), keys.end());
+    number_in_order(vertices, renumbered, welded,
+                    [&](std::size_t i) { return packing.index(keys[i]); });
+    return renumbered;
+  }
+  const std::span<VertexKey> keys = room(scratch.keys, vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec3i& v = vertices[i];
     keys[i] = {(std::uint64_t{ordered(v.x)} << 32U) | ordered(v.y), ordered(v.z),
@@ -32,93 +90,126 @@ std::vector<std::uint32_t> weld_vertices(const std::vector<Vec3i>& vertices,
   std::sort(keys.begin(), keys.end(), [](const VertexKey& a, const VertexKey& b) {
     return a.xy != b.xy ? a.xy < b.xy : a.z < b.z;
   });
-  std::vector<std::uint32_t> renumbered(vertices.size());
-  welded.reserve(vertices.size());
-  for (const VertexKey& key : keys) {
-    const Vec3i& v = vertices[key.index];
-    if (welded.empty() || welded.back() != v) welded.push_back(v);
-    renumbered[key.index] = static_cast<std::uint32_t>(welded.size() - 1);
-  }
+  number_in_order(vertices, renumbered, welded, [&](std::size_t i) { return keys[i].index; });
   return renumbered;
 }
 
-/// Cross products of edge vectors; `Wide` holds the square of twice the extent.
+/// Cross products of edge vectors; `Wide` holds the square of twice the extent. No branches: in a
+/// plane of two axes some components are always zero, and no two of them alike.
 template <class Wide>
 bool collinear(const Vec3i& a, const Vec3i& b, const Vec3i& c) {
   const Wide ux = Wide{b.x} - a.x, uy = Wide{b.y} - a.y, uz = Wide{b.z} - a.z;
   const Wide vx = Wide{c.x} - a.x, vy = Wide{c.y} - a.y, vz = Wide{c.z} - a.z;
-  return uy * vz == uz * vy && uz * vx == ux * vz && ux * vy == uy * vx;
+  return ((uy * vz - uz * vy) | (uz * vx - ux * vz) | (ux * vy - uy * vx)) == 0;
 }
 
-/// A triangle on its way to its place: starts with its lowest vertex.
-struct Row {
-  std::uint32_t low = 0, mid = 0, high = 0;
-  std::uint32_t side = 0;  ///< 0: low, mid, high is its orientation; 1: low, high, mid
-  std::uint32_t face = kNoFace;
+/// The triangles of a mesh that have an area, in buckets by their lowest vertex.
+struct Rows {
+  std::span<const std::uint32_t> first;
+  std::span<Row> rows;
+  bool repeated = false;  ///< some triangle comes twice
 
-  friend auto operator<=>(const Row&, const Row&) = default;
-  [[nodiscard]] bool same_triangle(const Row& o) const {
-    return low == o.low && mid == o.mid && high == o.high && side == o.side;
-  }
-  [[nodiscard]] Triangle triangle() const {
-    return side == 0 ? Triangle{low, mid, high} : Triangle{low, high, mid};
+  [[nodiscard]] std::size_t buckets() const { return first.size() - 1; }
+  [[nodiscard]] std::span<Row> bucket(std::size_t low) const {
+    return rows.subspan(first[low], first[low + 1] - first[low]);
   }
 };
 
-Row make_row(const Triangle& t, std::uint32_t face) {
-  Triangle r = t;
-  if (r[1] < r[0] && r[1] < r[2])
-    r = {t[1], t[2], t[0]};
-  else if (r[2] < r[0] && r[2] < r[1])
-    r = {t[2], t[0], t[1]};
-  return r[1] < r[2] ? Row{r[0], r[1], r[2], 0, face} : Row{r[0], r[2], r[1], 1, face};
+bool same_triangle(const Row& a, const Row& b) {
+  return a.mid_high == b.mid_high && a.side == b.side;
 }
 
-/// Rows of all triangles that have an area, sorted.
-std::vector<Row> sorted_rows(const GridMesh& mesh, const std::vector<std::uint32_t>& renumbered,
-                             const std::vector<Vec3i>& vertices, MeshFindings& findings) {
-  Box3i box = empty_box<std::int32_t>();
-  for (const Vec3i& v : vertices) box.include(v);
-  bool narrow = true;  // differences below 2^30: 64-bit products suffice
-  for (int k = 0; k < 3; ++k)
-    narrow = narrow && (vertices.empty() || std::int64_t{box.hi[k]} - box.lo[k] < (1 << 30));
+Triangle triangle(std::size_t low, const Row& row) {
+  const auto v = static_cast<std::uint32_t>(low);
+  const auto mid = static_cast<std::uint32_t>(row.mid_high >> 32U);
+  const auto high = static_cast<std::uint32_t>(row.mid_high);
+  return row.side == 0 ? Triangle{v, mid, high} : Triangle{v, high, mid};
+}
 
-  std::vector<std::uint32_t> first(vertices.size() + 1, 0);
-  std::vector<Row> unsorted;
-  unsorted.reserve(mesh.triangles.size());
+/// Fills scratch.unsorted and scratch.lows with the triangles that have an area; returns their
+/// number and counts them in first[lowest vertex + 1].
+template <class Wide>
+std::size_t list_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
+                      std::span<const Vec3i> vertices, std::span<std::uint32_t> first,
+                      WeldScratch& scratch) {
+  const std::span<Row> unsorted = room(scratch.unsorted, mesh.triangles.size());
+  const std::span<std::uint32_t> lows = room(scratch.lows, mesh.triangles.size());
+  std::size_t count = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
-    const Triangle w{renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]};
-    const Vec3i &a = vertices[w[0]], &b = vertices[w[1]], &c = vertices[w[2]];
-    const bool flat = w[0] == w[1] || w[1] == w[2] || w[2] == w[0] ||
-                      (narrow ? collinear<std::int64_t>(a, b, c) : collinear<__int128>(a, b, c));
-    if (flat) {
-      ++findings.degenerate_triangles;
-      continue;
-    }
-    unsorted.push_back(make_row(w, mesh.faces.empty() ? kNoFace : mesh.faces[i]));
-    ++first[unsorted.back().low + 1];
+    const std::uint32_t a = renumbered[t[0]], b = renumbered[t[1]], c = renumbered[t[2]];
+    if (collinear<Wide>(vertices[a], vertices[b], vertices[c])) continue;
+    const std::uint32_t low = std::min({a, b, c}), high = std::max({a, b, c});
+    const std::uint32_t mid = a ^ b ^ c ^ low ^ high;
+    // Turning a triangle round keeps its side: it runs low, mid, high when one of its steps is
+    // from mid to high.
+    const bool along =
+        (a == mid && b == high) || (b == mid && c == high) || (c == mid && a == high);
+    unsorted[count] = {(std::uint64_t{mid} << 32U) | high, along ? 0U : 1U,
+                       mesh.faces.empty() ? kNoFace : mesh.faces[i]};
+    lows[count++] = low;
+    ++first[low + 1];
   }
-  // Buckets by lowest vertex hold a handful of triangles each: linear overall.
-  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<Row> rows(unsorted.size());
-  std::vector<std::uint32_t> next(first.begin(), first.end() - (first.empty() ? 0 : 1));
-  for (const Row& row : unsorted) rows[next[row.low]++] = row;
-  for (std::size_t v = 0; v + 1 < first.size(); ++v)
-    if (first[v + 1] - first[v] > 1)
-      std::sort(rows.begin() + first[v], rows.begin() + first[v + 1]);
-  return rows;
+  return count;
 }
 
-std::uint64_t unbalanced_edges(std::size_t vertices, const std::vector<Row>& rows) {
-  std::vector<Triangle> triangles;
-  triangles.reserve(rows.size());
-  for (const Row& row : rows) triangles.push_back(row.triangle());
-  const Topology topology = make_topology(vertices, triangles);
+/// Sorts a bucket, most of which hold a handful; true when a triangle comes twice.
+bool sort_bucket(std::span<Row> bucket) {
+  if (bucket.size() > 32) {
+    std::sort(bucket.begin(), bucket.end());
+  } else {
+    for (std::size_t i = 1; i < bucket.size(); ++i) {
+      const Row moved = bucket[i];
+      std::size_t k = i;
+      for (; k > 0 && moved < bucket[k - 1]; --k) bucket[k] = bucket[k - 1];
+      bucket[k] = moved;
+    }
+  }
+  return std::adjacent_find(bucket.begin(), bucket.end(), same_triangle) != bucket.end();
+}
+
+Rows sorted_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
+                 std::span<const Vec3i> vertices, const Box3i& box, WeldScratch& scratch) {
+  bool narrow = true;  // differences below 2^30: 64-bit products suffice
+  for (int k = 0; k < 3; ++k) narrow = narrow && (vertices.empty() || extent(box, k) < (1U << 30U));
+  const std::span<std::uint32_t> first = room(scratch.first, vertices.size() + 1);
+  std::fill(first.begin(), first.end(), 0U);
+  const std::size_t count =
+      narrow ? list_rows<std::int64_t>(mesh, renumbered, vertices, first, scratch)
+             : list_rows<__int128>(mesh, renumbered, vertices, first, scratch);
+  // Buckets by lowest vertex hold a handful of triangles each: linear overall.
+  const std::span<std::uint32_t> next = room(scratch.next, vertices.size() + 1);
+  next[0] = 0;
+  for (std::size_t v = 1; v < first.size(); ++v) next[v] = first[v] += first[v - 1];
+  const std::span<Row> rows = room(scratch.rows, count);
+  for (std::size_t i = 0; i < count; ++i) rows[next[scratch.lows[i]]++] = scratch.unsorted[i];
+  Rows sorted{first, rows};
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    if (first[v + 1] - first[v] > 1) sorted.repeated |= sort_bucket(sorted.bucket(v));
+  return sorted;
+}
+
+/// Sets the triangles and faces of a mesh, repetitions once only if so asked.
+void set_triangles(const Rows& rows, bool with_faces, bool once, GridMesh& mesh) {
+  mesh.triangles.clear();
+  mesh.faces.clear();
+  for (std::size_t low = 0; low < rows.buckets(); ++low) {
+    const std::span<const Row> bucket = rows.bucket(low);
+    for (std::size_t i = 0; i < bucket.size(); ++i) {
+      if (once && i > 0 && same_triangle(bucket[i - 1], bucket[i])) continue;
+      mesh.triangles.push_back(triangle(low, bucket[i]));
+      if (with_faces) mesh.faces.push_back(bucket[i].face);
+    }
+  }
+}
+
+std::uint64_t unbalanced_edges(const GridMesh& mesh, TopologyScratch& scratch) {
+  const Topology topology = make_topology(mesh.vertices.size(), mesh.triangles, scratch);
   std::uint64_t count = 0;
-  for (std::size_t e = 0; e + 1 < topology.edges.size(); ++e) {
+  for (const std::uint32_t e : topology.uneven) {
     int net = 0;
-    for (const std::uint32_t t : topology.triangles_of(e)) net += topology.sense(e, triangles[t]);
+    for (const std::uint32_t t : topology.triangles_of(e))
+      net += topology.sense(e, mesh.triangles[t]);
     count += net != 0 ? 1U : 0U;
   }
   return count;
@@ -126,20 +217,21 @@ std::uint64_t unbalanced_edges(std::size_t vertices, const std::vector<Row>& row
 
 /// Drops repetitions unless the balance of the edges needs them: two nested solids that share a
 /// face list its triangles twice with reason.
-void drop_duplicates(std::size_t vertices, std::vector<Row>& rows, MeshFindings& findings) {
-  const auto same = [](const Row& a, const Row& b) { return a.same_triangle(b); };
-  if (std::adjacent_find(rows.begin(), rows.end(), same) == rows.end()) return;
-  std::vector<Row> once = rows;
-  once.erase(std::unique(once.begin(), once.end(), same), once.end());
-  if (unbalanced_edges(vertices, once) > unbalanced_edges(vertices, rows)) return;
-  findings.duplicate_triangles += rows.size() - once.size();
-  rows = std::move(once);
+void drop_duplicates(const Rows& rows, bool with_faces, AnalyseScratch& scratch,
+                     MeshFindings& findings) {
+  GridMesh& mesh = scratch.welded;
+  const std::uint64_t unbalanced = unbalanced_edges(mesh, scratch.topology);
+  set_triangles(rows, with_faces, true, mesh);
+  if (unbalanced_edges(mesh, scratch.topology) > unbalanced)
+    set_triangles(rows, with_faces, false, mesh);
+  else
+    findings.duplicate_triangles += rows.rows.size() - mesh.triangles.size();
 }
 
-}  // namespace
-
-void drop_unused_vertices(GridMesh& mesh) {
-  std::vector<std::uint32_t> renumbered(mesh.vertices.size(), 0);
+/// Drops vertices that no triangle uses, keeping the order of the others.
+void drop_unused_vertices(GridMesh& mesh, std::vector<std::uint32_t>& memory) {
+  const std::span<std::uint32_t> renumbered = room(memory, mesh.vertices.size());
+  std::fill(renumbered.begin(), renumbered.end(), 0U);
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) renumbered[v] = 1;
   std::uint32_t used = 0;
@@ -154,19 +246,19 @@ void drop_unused_vertices(GridMesh& mesh) {
     for (std::uint32_t& v : t) v = renumbered[v];
 }
 
-GridMesh weld(const GridMesh& mesh, MeshFindings& findings) {
-  GridMesh welded;
-  const std::vector<std::uint32_t> renumbered = weld_vertices(mesh.vertices, welded.vertices);
-  std::vector<Row> rows = sorted_rows(mesh, renumbered, welded.vertices, findings);
-  drop_duplicates(welded.vertices.size(), rows, findings);
-  welded.triangles.reserve(rows.size());
-  for (const Row& row : rows) welded.triangles.push_back(row.triangle());
-  if (!mesh.faces.empty()) {
-    welded.faces.reserve(rows.size());
-    for (const Row& row : rows) welded.faces.push_back(row.face);
-  }
-  drop_unused_vertices(welded);
-  return welded;
+}  // namespace
+
+void weld(const GridMesh& mesh, AnalyseScratch& scratch, MeshFindings& findings) {
+  GridMesh& welded = scratch.welded;
+  const Box3i box = box_of(mesh.vertices);
+  const std::span<const std::uint32_t> renumbered =
+      weld_vertices(mesh.vertices, box, scratch.weld, welded.vertices);
+  const Rows rows = sorted_rows(mesh, renumbered, welded.vertices, box, scratch.weld);
+  findings.degenerate_triangles += mesh.triangles.size() - rows.rows.size();
+  const bool with_faces = !mesh.faces.empty();
+  set_triangles(rows, with_faces, false, welded);
+  if (rows.repeated) drop_duplicates(rows, with_faces, scratch, findings);
+  drop_unused_vertices(welded, scratch.weld.next);
 }
 
 }  // namespace strake::geometry

@@ -85,7 +85,10 @@ template <class Measured, class Room>
     if (to_room.lower > simplex.excess(cut))
       cut = moved(half_space(room.hull(), to_room.normal, 0), from);
     if (!(simplex.excess(cut) > kDepthTolerance / 8)) break;
-    if (!simplex.exchange(cut, static_cast<std::size_t>(result.steps) + 4)) break;
+    if (simplex.exchange(cut, static_cast<std::size_t>(result.steps) + 4)) continue;
+    // No point of the room lies where the measured body is measured: an arc beside it.
+    if (simplex.proves_empty(cut)) result.upper = std::min(result.upper, 0.0);
+    break;
   }
   return result;
 }

@@ -46,4 +46,23 @@ double inside_by(const ConvexBody& inner, const ConvexBody& outer, const InnerFi
   return least;
 }
 
+double inside_by(const PairSide& inner, const PairSide& outer) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Arc& arc : inner.arcs()) {
+    const ConvexBody hull = inner.hull(arc);
+    if (outer.field) {
+      least = std::min(least, inside_by(hull, *outer.convex, *outer.field));
+      continue;
+    }
+    if (!outer.torus) return -std::numeric_limits<double>::infinity();
+    for (int x = -2; x <= 2; ++x)
+      for (int y = -2; y <= 2; ++y)
+        for (int z = -2; z <= 2; ++z) {
+          const Vec3d n = outer.torus->turned({x * 1.0, y * 1.0, z * 1.0});
+          least = std::min(least, outer.torus->depth(inner.real(support(hull.shape, n))));
+        }
+  }
+  return least;
+}
+
 }  // namespace strake::geometry::analytic

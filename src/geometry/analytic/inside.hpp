@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/analytic/inner_field.hpp"
+#include "geometry/analytic/pair_side.hpp"
 
 namespace strake::geometry::analytic {
 
@@ -11,5 +12,9 @@ namespace strake::geometry::analytic {
 /// on its curved one from starts all round the inner body.
 [[nodiscard]] double inside_by(const ConvexBody& inner, const ConvexBody& outer,
                                const InnerField& outer_field);
+
+/// The same where either may be a torus: how deep the hulls of the inner one's arcs lie in the
+/// other.
+[[nodiscard]] double inside_by(const PairSide& inner, const PairSide& outer);
 
 }  // namespace strake::geometry::analytic

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "geometry/analytic/mesh_gap.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,13 +14,8 @@
 #include "geometry/pair_view.hpp"
 #include "strake/geometry/analytic_pair.hpp"
 
-namespace strake::geometry {
+namespace strake::geometry::analytic {
 namespace {
-
-using analytic::Arc;
-using analytic::ConvexBody;
-using analytic::ConvexGap;
-using analytic::PairSide;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -75,10 +72,10 @@ class Search {
     const double apart = std::sqrt(square) * (1 - 1e-14);
     if (apart > reach()) return apart;
     const Vec3d lo = box.lo.as<double>(), hi = box.hi.as<double>();
-    const ConvexBody block = analytic::block_body((lo + hi) * 0.5, (hi - lo) * 0.5);
+    const ConvexBody block = block_body((lo + hi) * 0.5, (hi - lo) * 0.5);
     double least = kNever;
     for (const ConvexBody& hull : hulls_)
-      least = std::min(least, analytic::convex_gap(hull, block, reach()).lower);
+      least = std::min(least, convex_gap(hull, block, reach()).lower);
     return std::max(least, apart);
   }
 
@@ -87,10 +84,10 @@ class Search {
     for (std::uint32_t i = 0; i < node.count; ++i) {
       const Triangle& t = part.triangles[mesh_.tree->order()[node.first + i]];
       PairSide triangle;
-      triangle.convex = analytic::triangle_body({part.vertices[t[0]].as<double>(),
-                                                 part.vertices[t[1]].as<double>(),
-                                                 part.vertices[t[2]].as<double>()});
-      const ConvexGap gap = analytic::GapSearch(primitive_, triangle, reach()).run();
+      triangle.convex =
+          triangle_body({part.vertices[t[0]].as<double>(), part.vertices[t[1]].as<double>(),
+                         part.vertices[t[2]].as<double>()});
+      const ConvexGap gap = GapSearch(primitive_, triangle, reach()).run();
       best_.lower = std::min(best_.lower, gap.lower);
       if (!(gap.upper < best_.upper)) continue;
       best_.upper = gap.upper;
@@ -109,11 +106,19 @@ class Search {
 
 }  // namespace
 
+AnalyticGap mesh_gap(const PairSide& side, const TreedPart& mesh, double enough) {
+  return Search(side, mesh, enough).run();
+}
+
+}  // namespace strake::geometry::analytic
+
+namespace strake::geometry {
+
 std::optional<AnalyticGap> analytic_gap(const PlacedPrimitive& primitive, const TreedPart& mesh,
                                         double enough) {
-  PairSide side;
+  analytic::PairSide side;
   if (!side.read(primitive, mesh.placed.origin)) return std::nullopt;
-  return Search(side, mesh, enough).run();
+  return analytic::mesh_gap(side, mesh, enough);
 }
 
 }  // namespace strake::geometry

@@ -23,6 +23,17 @@ struct PairSide {
     if (convex) field = InnerField::of(p, *convex, origin);
     return convex.has_value();
   }
+  /// A flat convex body, and the centre line of an arc.
+  [[nodiscard]] static PairSide of(const ConvexBody& flat) {
+    PairSide side;
+    side.convex = flat;
+    return side;
+  }
+  [[nodiscard]] static PairSide of(const Torus& line) {
+    PairSide side;
+    side.torus = line;
+    return side;
+  }
   [[nodiscard]] std::vector<Arc> arcs() const {
     return torus ? torus->arcs() : std::vector<Arc>(1);
   }

@@ -15,36 +15,6 @@ namespace {
 /// As in the tessellation: float32 sources write 2·pi a little short or long.
 bool is_full(double angle) { return angle >= 2 * kPi * (1 - 1e-6); }
 
-struct Shape {
-  Profile profile;
-  double angle = 0;
-  bool flat = false;
-};
-
-std::optional<Shape> read(const Primitive& primitive) {
-  Shape s;
-  if (const auto* t = std::get_if<CircularTorusPrimitive>(&primitive)) {
-    if (!(t->tube_radius > 0) || !(t->centre_radius >= t->tube_radius)) return std::nullopt;
-    s.profile.round = true;
-    s.profile.centre = t->centre_radius;
-    s.profile.radius = t->tube_radius;
-    s.angle = t->angle;
-  } else if (const auto* r = std::get_if<RectangularTorusPrimitive>(&primitive)) {
-    if (!(r->inner_radius >= 0) || !(r->outer_radius >= r->inner_radius) || !(r->height >= 0) ||
-        !(r->outer_radius > 0))
-      return std::nullopt;
-    s.profile.inner = r->inner_radius;
-    s.profile.outer = r->outer_radius;
-    s.profile.half_height = r->height / 2;
-    s.flat = !(r->height > 0) || !(r->outer_radius > r->inner_radius);
-    s.angle = r->angle;
-  } else {
-    return std::nullopt;
-  }
-  if (!(s.angle > 0) || !std::isfinite(s.angle)) return std::nullopt;
-  return s;
-}
-
 Profile scaled(const Profile& p, double by) {
   return {p.round, p.centre * by, p.radius * by, 0, p.inner * by, p.outer * by, p.half_height * by};
 }
@@ -55,6 +25,37 @@ double reach_of(const Profile& p) {
 
 }  // namespace
 
+/// The section and how far it is swept.
+struct Torus::Shape {
+  Profile profile;
+  double angle = 0;
+  bool flat = false;
+
+  [[nodiscard]] static std::optional<Shape> read(const Primitive& primitive) {
+    Shape s;
+    if (const auto* t = std::get_if<CircularTorusPrimitive>(&primitive)) {
+      if (!(t->tube_radius > 0) || !(t->centre_radius >= t->tube_radius)) return std::nullopt;
+      s.profile.round = true;
+      s.profile.centre = t->centre_radius;
+      s.profile.radius = t->tube_radius;
+      s.angle = t->angle;
+    } else if (const auto* r = std::get_if<RectangularTorusPrimitive>(&primitive)) {
+      if (!(r->inner_radius >= 0) || !(r->outer_radius >= r->inner_radius) || !(r->height >= 0) ||
+          !(r->outer_radius > 0))
+        return std::nullopt;
+      s.profile.inner = r->inner_radius;
+      s.profile.outer = r->outer_radius;
+      s.profile.half_height = r->height / 2;
+      s.flat = !(r->height > 0) || !(r->outer_radius > r->inner_radius);
+      s.angle = r->angle;
+    } else {
+      return std::nullopt;
+    }
+    if (!(s.angle > 0) || !std::isfinite(s.angle)) return std::nullopt;
+    return s;
+  }
+};
+
 /// A point as seen in the half-plane of the sweep that is nearest to it.
 struct Torus::Meridian {
   SinCos at;
@@ -62,22 +63,39 @@ struct Torus::Meridian {
 };
 
 std::optional<Torus> Torus::of(const PlacedPrimitive& p, const Vec3l& origin) {
-  const auto shape = read(*p.primitive);
-  const auto frame = grid_frame(*p.placement, origin);
-  if (!shape || !frame) return std::nullopt;
-  const double size = reach_of(shape->profile);
-  const auto square = squared_frame(p.placement->linear, size);
+  const auto shape = Shape::read(*p.primitive);
+  return shape ? place(*shape, *p.placement, origin) : std::nullopt;
+}
+
+std::optional<Torus> Torus::of(const ThinArc& arc, const Vec3l& origin) {
+  const bool sound = arc.radius_mm > 0 && std::isfinite(arc.radius_mm) && arc.angle > 0 &&
+                     std::isfinite(arc.angle);
+  if (!sound) return std::nullopt;
+  Shape shape;
+  shape.profile.round = true;
+  shape.profile.centre = arc.radius_mm;
+  shape.angle = arc.angle;
+  shape.flat = true;
+  return place(shape, arc.placement, origin);
+}
+
+std::optional<Torus> Torus::place(const Shape& shape, const Placement& placement,
+                                  const Vec3l& origin) {
+  const auto frame = grid_frame(placement, origin);
+  if (!frame) return std::nullopt;
+  const double size = reach_of(shape.profile);
+  const auto square = squared_frame(placement.linear, size);
   if (!square) return std::nullopt;
   Torus t;
   t.frame_ = *frame;
   t.axes_ = square->axes;
   t.centre_ = frame->centre;
-  t.profile_ = scaled(shape->profile, square->scale * kGridPerMm);
-  t.local_profile_ = shape->profile;
-  t.full_ = is_full(shape->angle);
-  t.angle_ = t.full_ ? 2 * kPi : shape->angle;
+  t.profile_ = scaled(shape.profile, square->scale * kGridPerMm);
+  t.local_profile_ = shape.profile;
+  t.full_ = is_full(shape.angle);
+  t.angle_ = t.full_ ? 2 * kPi : shape.angle;
   t.end_ = sin_cos(t.angle_);
-  t.flat_ = shape->flat;
+  t.flat_ = shape.flat;
   t.radius_ = reach_of(t.profile_);
   t.reach_ = 4 * (frame->reach + 2 * t.radius_);
   t.error_ = square->moved * kGridPerMm + kSupportRounding * t.reach_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/analytic/body.hpp"
+#include "strake/geometry/thin_body.hpp"
 #include "strake/geometry/trig.hpp"
 
 namespace strake::geometry::analytic {
@@ -27,6 +28,8 @@ class Torus {
   /// Nothing for other kinds, for tubes that reach beyond the axis, for lengths that make no body,
   /// and for placements that are no similarity to within kMaxMoved.
   [[nodiscard]] static std::optional<Torus> of(const PlacedPrimitive& p, const Vec3l& origin);
+  /// The centre line alone: a torus whose tube has no radius.
+  [[nodiscard]] static std::optional<Torus> of(const ThinArc& arc, const Vec3l& origin);
 
   [[nodiscard]] std::vector<Arc> arcs() const;
   /// The convex hull of what is swept through an arc, and of the tube's centre line there.
@@ -57,7 +60,10 @@ class Torus {
   [[nodiscard]] double error() const { return error_; }
 
  private:
+  struct Shape;
   struct Meridian;
+  [[nodiscard]] static std::optional<Torus> place(const Shape& shape, const Placement& placement,
+                                                  const Vec3l& origin);
   [[nodiscard]] Meridian meridian(const Vec3d& local) const;
   [[nodiscard]] double profile_depth(double out, double up) const;
   [[nodiscard]] double end_depth(const Vec3d& local) const;

@@ -2,15 +2,11 @@
 #include "geometry/analytic/torus_pair.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <limits>
-#include <queue>
-#include <vector>
 
-#include "geometry/analytic/convex_depth.hpp"
+#include "geometry/analytic/depth_search.hpp"
 #include "geometry/analytic/inside.hpp"
 #include "geometry/analytic/pair_side.hpp"
-#include "geometry/analytic/torus_depth.hpp"
 #include "geometry/analytic/torus_gap.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -18,97 +14,6 @@ namespace strake::geometry::analytic {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Work limit: the bracket is certain wherever it stops the search.
-constexpr std::size_t kMaxDepths = 300;
-/// Grid units: brackets this narrow are narrow enough.
-constexpr double kTorusDepth = 0.25;
-
-struct DeeperFirst {
-  bool operator()(const Cell& x, const Cell& y) const {
-    return x.bound != y.bound ? x.bound < y.bound : x.id > y.id;
-  }
-};
-
-/// Best first over pairs of arcs and both bodies: cutting planes bound each.
-class DepthSearch {
- public:
-  DepthSearch(const PairSide& a, const PairSide& b) : a_(a), b_(b) {}
-
-  DeepestPoint run() {
-    best_.upper = 0;
-    for (const Arc& a : a_.arcs())
-      for (const Arc& b : b_.arcs())
-        for (const bool in_a : {true, false})
-          if (!(in_a ? a_ : b_).flat()) evaluate({a, b, kNever, in_a, 0});
-    while (!open_.empty()) {
-      const Cell cell = open_.top();
-      best_.upper = std::max({best_.lower, cell.bound, settled_});
-      if (best_.upper - best_.lower <= kTorusDepth || count_ >= kMaxDepths) return best_;
-      open_.pop();
-      for (const Cell& half : halves(a_, b_, cell)) evaluate(half);
-    }
-    best_.upper = std::max(best_.lower, settled_);
-    return best_;
-  }
-  [[nodiscard]] bool deep_in_a() const { return deep_in_a_; }
-
- private:
-  [[nodiscard]] DeepestPoint measure(const Cell& cell) const {
-    const PairSide &in = cell.in_a ? a_ : b_, &other = cell.in_a ? b_ : a_;
-    const Arc &arc = cell.in_a ? cell.a : cell.b, &beside = cell.in_a ? cell.b : cell.a;
-    const auto from_room = [&](const auto& measured) {
-      if (other.torus) return deepest(measured, TorusRoom(*other.torus, beside), best_.lower);
-      return deepest(measured, ConvexRoom{*other.convex}, best_.lower);
-    };
-    if (in.torus) return from_room(TorusPiece(*in.torus, arc));
-    return from_room(DeepBody(*in.convex, *in.field));
-  }
-
-  void evaluate(Cell cell) {
-    ++count_;
-    const DeepestPoint found = measure(cell);
-    if (found.lower > best_.lower) {
-      best_.lower = found.lower;
-      best_.point = found.point;
-      deep_in_a_ = cell.in_a;
-    }
-    cell.bound = std::min(cell.bound, found.upper);
-    cell.id = count_;
-    // What is no deeper than the tolerance allows is done with.
-    if (cell.bound > best_.lower + kTorusDepth)
-      open_.push(cell);
-    else
-      settled_ = std::max(settled_, cell.bound);
-  }
-
-  const PairSide &a_, &b_;
-  DeepestPoint best_;
-  bool deep_in_a_ = true;
-  double settled_ = 0;  ///< the greatest bound of what is done with
-  std::size_t count_ = 0;
-  std::priority_queue<Cell, std::vector<Cell>, DeeperFirst> open_;
-};
-
-/// How deep the hulls of a body's arcs lie in the other; see inside_by.
-double inside(const PairSide& inner, const PairSide& outer) {
-  double least = kNever;
-  for (const Arc& arc : inner.arcs()) {
-    const ConvexBody hull = inner.hull(arc);
-    if (outer.field) {
-      least = std::min(least, inside_by(hull, *outer.convex, *outer.field));
-      continue;
-    }
-    if (!outer.torus) return -kNever;
-    for (int x = -2; x <= 2; ++x)
-      for (int y = -2; y <= 2; ++y)
-        for (int z = -2; z <= 2; ++z) {
-          const Vec3d n = outer.torus->turned({x * 1.0, y * 1.0, z * 1.0});
-          least = std::min(least, outer.torus->depth(inner.real(support(hull.shape, n))));
-        }
-  }
-  return least;
-}
-
 AnalyticSeparation bracket(double lower, double upper) {
   AnalyticSeparation s;
   s.d = (lower + upper) / 2;
@@ -138,8 +43,8 @@ AnalyticSeparation meeting(const PairSide& a, const PairSide& b, const ConvexGap
   const Vec3d out =
       in.torus ? in.torus->way_out(depth.point) : in.field->nearest(depth.point).normal;
   s.away = s.deep_in_a ? -out : out;
-  s.a_inside_b = inside(a, b);
-  s.b_inside_a = inside(b, a);
+  s.a_inside_b = inside_by(a, b);
+  s.b_inside_a = inside_by(b, a);
   if (!a.flat() && !b.flat()) s.difference = std::max(-s.a_inside_b, -s.b_inside_a);
   return s;
 }

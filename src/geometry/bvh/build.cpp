@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "strake/geometry/bvh.hpp"
+#include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::geometry {
@@ -227,34 +229,53 @@ Result<std::vector<Task>> top(std::vector<Node>& nodes, std::span<Ref> refs,
   return done;
 }
 
-/// Puts a subtree in place of its root task; children move behind the nodes there are.
-void attach(std::vector<Node>& nodes, const Task& task, std::span<const Node> piece) {
-  const auto shift = static_cast<std::uint32_t>(nodes.size()) - 1;
-  const auto moved = [shift](Node n) {
-    if (n.count == 0) n.first += shift;
-    return n;
-  };
-  nodes[task.node] = moved(piece[0]);
-  for (const Node& n : piece.subspan(1)) nodes.push_back(moved(n));
+/// Puts each subtree in place of its root task; children move behind the nodes there are.
+Status attach(std::vector<Node>& nodes, const std::vector<Task>& tasks,
+              const std::vector<std::vector<Node>>& pieces, const parallel::Context& context) {
+  std::vector<std::size_t> begin(pieces.size());  // where the nodes below the root go
+  std::size_t size = nodes.size();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    begin[i] = size;
+    size += pieces[i].size() - 1;
+  }
+  nodes.resize(size);
+  return parallel::for_each(
+      context, {.name = "box tree, joined", .n = pieces.size()}, [&](std::size_t i) {
+        const auto moved = [shift = static_cast<std::uint32_t>(begin[i]) - 1](Node n) {
+          if (n.count == 0) n.first += shift;
+          return n;
+        };
+        const std::vector<Node>& piece = pieces[i];
+        nodes[tasks[i].node] = moved(piece[0]);
+        for (std::size_t k = 1; k < piece.size(); ++k) nodes[begin[i] + k - 1] = moved(piece[k]);
+      });
 }
 
-std::vector<Ref> make_refs(std::span<const BoxItem> items) {
-  Box3l root = empty_box<std::int64_t>();
-  for (const BoxItem& item : items) root.include(item.box);
-  const Quantiser quantiser(root);
-  std::vector<Ref> refs;
-  refs.reserve(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-    if (!items[i].box.empty() && items[i].sets != 0)
-      refs.push_back({quantiser.box(items[i].box), static_cast<std::uint32_t>(i), items[i].sets});
-  return refs;
+Result<std::vector<Ref>> make_refs(std::span<const BoxItem> items,
+                                   const parallel::Context& context) {
+  const auto root = parallel::reduce(
+      context, {.name = "box of all", .n = items.size(), .grain = kSubtree},
+      empty_box<std::int64_t>(),
+      [&](Box3l& partial, std::size_t i) { partial.include(items[i].box); },
+      [](Box3l& into, const Box3l& partial) { into.include(partial); });
+  if (!root) return root.error();
+  const Quantiser quantiser(*root);
+  return parallel::collect<Ref>(context,
+                                {.name = "boxes on a grid", .n = items.size(), .grain = kSubtree},
+                                [&](std::size_t i, std::vector<Ref>& out) {
+                                  if (!items[i].box.empty() && items[i].sets != 0)
+                                    out.push_back({quantiser.box(items[i].box),
+                                                   static_cast<std::uint32_t>(i), items[i].sets});
+                                });
 }
 
 }  // namespace
 
 Result<BoxTree> BoxTree::build(std::span<const BoxItem> items, const parallel::Context& context) {
   BoxTree tree;
-  std::vector<Ref> refs = make_refs(items);
+  auto made = make_refs(items, context);
+  if (!made) return made.error();
+  std::vector<Ref>& refs = *made;
   if (refs.empty()) return tree;
   tree.nodes_.reserve(refs.size());
   tree.nodes_.resize(1);
@@ -264,7 +285,7 @@ Result<BoxTree> BoxTree::build(std::span<const BoxItem> items, const parallel::C
                                     [&](std::size_t i) { return subtree(refs, (*tasks)[i]); });
   if (!pieces) return pieces.error();
   const std::size_t inner = tree.nodes_.size();
-  for (std::size_t i = 0; i < tasks->size(); ++i) attach(tree.nodes_, (*tasks)[i], (*pieces)[i]);
+  if (const Status s = attach(tree.nodes_, *tasks, *pieces, context); !s) return s.error();
   fill_inner(std::span(tree.nodes_).first(inner));
   tree.items_.resize(refs.size());
   tree.order_.resize(refs.size());

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "strake/geometry/bvh.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -17,9 +22,6 @@ using Node = BoxTree::Node;
 /// Pieces of work that the self-join is expanded into before it is shared out: enough for any
 /// team, and the same for every team.
 constexpr std::size_t kSubtasks = 1024;
-
-/// First items whose pairs are sorted as one piece of work.
-constexpr std::size_t kItemsPerBlock = 4096;
 
 struct NodePair {
   std::uint32_t a = 0, b = 0;  ///< a == b: the pairs within one node
@@ -144,25 +146,86 @@ class SelfJoin {
   const std::vector<Node>& nodes_;
 };
 
-/// Ascending, by counting the first items and sorting the few seconds of each.
+/// Sorts pairs by counting: first into lots by ranges of their first item, then each lot by first
+/// item, and the few seconds of each. All of it in pieces that do not depend on the team.
+class PairSorter {
+ public:
+  static constexpr std::size_t kPairsPerPiece = 65536;
+
+  /// All first items are below `items`.
+  PairSorter(std::vector<IndexPair>& pairs, std::size_t items)
+      : pairs_(pairs),
+        range_(items / kLots + 1),
+        pieces_((pairs.size() + kPairsPerPiece - 1) / kPairsPerPiece) {}
+
+  Status run(const parallel::Context& context) {
+    auto counts = parallel::transform(context, {.name = "count pairs", .n = pieces_},
+                                      [&](std::size_t piece) { return count(piece); });
+    if (!counts) return counts.error();
+    // Where each piece's pairs of each lot go: lot by lot, piece by piece.
+    std::size_t at = 0;
+    for (std::size_t lot = 0; lot < kLots; ++lot) {
+      begin_[lot] = at;
+      for (std::array<std::size_t, kLots>& of : *counts) at += std::exchange(of[lot], at);
+    }
+    begin_[kLots] = at;
+    sorted_.resize(pairs_.size());
+    Status status = parallel::for_each(context, {.name = "deal pairs", .n = pieces_},
+                                       [&](std::size_t piece) { deal(piece, (*counts)[piece]); });
+    if (!status) return status;
+    return parallel::for_each(context, {.name = "sort pairs", .n = kLots},
+                              [&](std::size_t lot) { sort(lot); });
+  }
+
+ private:
+  static constexpr std::size_t kLots = 64;
+
+  [[nodiscard]] std::span<const IndexPair> piece(std::size_t number) const {
+    const std::size_t first = number * kPairsPerPiece;
+    return std::span<const IndexPair>(pairs_).subspan(
+        first, std::min(kPairsPerPiece, pairs_.size() - first));
+  }
+  [[nodiscard]] std::array<std::size_t, kLots> count(std::size_t number) const {
+    std::array<std::size_t, kLots> counts{};
+    for (const IndexPair& p : piece(number)) ++counts[p.first / range_];
+    return counts;
+  }
+  void deal(std::size_t number, std::array<std::size_t, kLots>& next) {
+    for (const IndexPair& p : piece(number)) sorted_[next[p.first / range_]++] = p;
+  }
+  /// Back from sorted_ into pairs_.
+  void sort(std::size_t lot) {
+    const std::size_t base = lot * range_, first = begin_[lot];
+    const auto from = std::span(sorted_).subspan(first, begin_[lot + 1] - first);
+    std::vector<std::size_t> begin(range_ + 1, first);
+    for (const IndexPair& p : from) ++begin[p.first - base + 1];
+    for (std::size_t i = 1; i <= range_; ++i) begin[i] += begin[i - 1] - first;
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for (const IndexPair& p : from) pairs_[next[p.first - base]++] = p;
+    const auto at = [&](std::size_t k) { return pairs_.begin() + static_cast<std::ptrdiff_t>(k); };
+    for (std::size_t i = 0; i < range_; ++i) std::sort(at(begin[i]), at(begin[i + 1]));
+  }
+
+  std::vector<IndexPair>& pairs_;
+  std::vector<IndexPair> sorted_;
+  std::size_t range_;  ///< first items of a lot
+  std::size_t pieces_;
+  std::array<std::size_t, kLots + 1> begin_{};  ///< of the lots
+};
+
 Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& context) {
-  std::uint32_t last = 0;
-  for (const IndexPair& p : pairs) last = std::max(last, p.first);
-  std::vector<std::size_t> begin(std::size_t{last} + 2, 0);
-  for (const IndexPair& p : pairs) ++begin[p.first + 1];
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  std::vector<IndexPair> sorted(pairs.size());
-  for (const IndexPair& p : pairs) sorted[next[p.first]++] = p;
-  pairs = std::move(sorted);
-  return parallel::for_each(context,
-                            {.name = "sort pairs", .n = begin.size() - 1, .grain = kItemsPerBlock},
-                            [&](std::size_t i) {
-                              const auto at = [&](std::size_t k) {
-                                return pairs.begin() + static_cast<std::ptrdiff_t>(begin[k]);
-                              };
-                              std::sort(at(i), at(i + 1));
-                            });
+  constexpr std::size_t kFew = 1024;
+  if (pairs.size() <= kFew) {
+    std::sort(pairs.begin(), pairs.end());
+    return {};
+  }
+  const auto last = parallel::reduce(
+      context, {.name = "last pair", .n = pairs.size(), .grain = PairSorter::kPairsPerPiece},
+      std::uint32_t{0},
+      [&](std::uint32_t& partial, std::size_t i) { partial = std::max(partial, pairs[i].first); },
+      [](std::uint32_t& into, std::uint32_t partial) { into = std::max(into, partial); });
+  if (!last) return last.error();
+  return PairSorter(pairs, std::size_t{*last} + 1).run(context);
 }
 
 }  // namespace

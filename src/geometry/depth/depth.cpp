@@ -30,11 +30,13 @@ Box3d box_of(const DepthField& f) {
 /// The half-spaces of both parts about a centre in their common box.
 class Halfspaces {
  public:
-  Halfspaces(const DepthPart& a, const DepthField& fa, const DepthPart& b, const DepthField& fb)
-      : a_(a), b_(b), fa_(fa), fb_(fb) {
-    const Box3d x = box_of(fa), y = box_of(fb);
+  Halfspaces(const DepthPart& a, const DepthField& fa, const DepthPart& b, const DepthField& fb,
+             const std::optional<Box3d>& within)
+      : a_(a), b_(b), fa_(fa), fb_(fb), within_(within) {
+    const Box3d x = box_of(fa), y = box_of(fb), room = within.value_or(x);
     for (int k = 0; k < 3; ++k) {
-      const double lo = std::max(x.lo[k], y.lo[k]), hi = std::min(x.hi[k], y.hi[k]);
+      const double lo = std::max({x.lo[k], y.lo[k], room.lo[k]});
+      const double hi = std::min({x.hi[k], y.hi[k], room.hi[k]});
       centre_[k] = std::nearbyint((lo + hi) / 2);
       extent_ = std::max({extent_, x.hi[k] - x.lo[k], y.hi[k] - y.lo[k]});
     }
@@ -49,6 +51,7 @@ class Halfspaces {
   [[nodiscard]] RadiusSolution largest_ball(bool ball_is_a) const {
     std::vector<RadiusConstraint> rows;
     start(rows, ball_is_a ? a_ : b_, ball_is_a ? fa_ : fb_, 0);
+    stay_within(rows);
     append(rows, a_, fa_, ball_is_a ? 1 : 0, 0);
     append(rows, b_, fb_, ball_is_a ? 0 : 1, 0);
     // A body that is not convex may face the other with none of its own planes: the other's planes,
@@ -80,6 +83,7 @@ class Halfspaces {
   [[nodiscard]] std::vector<RadiusConstraint> deep_rows(bool deep_in_a, double depth) const {
     std::vector<RadiusConstraint> rows;
     start(rows, a_, fa_, 0);
+    stay_within(rows);
     append(rows, deep_in_a ? a_ : b_, deep_in_a ? fa_ : fb_, 0, depth);
     return rows;
   }
@@ -135,6 +139,17 @@ class Halfspaces {
     }
   }
 
+  /// The centre is in the box that counts.
+  void stay_within(std::vector<RadiusConstraint>& rows) const {
+    if (!within_) return;
+    for (int k = 0; k < 3; ++k) {
+      Vec3d n;
+      n[k] = 1;
+      rows.push_back({n, 0, within_->hi[k] - centre_[k]});
+      rows.push_back({-n, 0, centre_[k] - within_->lo[k]});
+    }
+  }
+
   void append(std::vector<RadiusConstraint>& rows, const DepthPart& part, const DepthField& f,
               double weight, double inset) const {
     for (const SupportPlanes::Plane& p : part.planes->planes)
@@ -152,6 +167,7 @@ class Halfspaces {
 
   const DepthPart &a_, &b_;
   const DepthField &fa_, &fb_;
+  const std::optional<Box3d>& within_;
   Vec3d centre_;
   double extent_ = 0;
 };
@@ -159,12 +175,14 @@ class Halfspaces {
 /// Points tried for the lower bound, each judged exactly.
 class Candidates {
  public:
-  Candidates(const DepthField& a, const DepthField& b, double extent, PairWork& work)
-      : a_(a), b_(b), margin_(kFieldError * extent), work_(work) {}
+  Candidates(const DepthField& a, const DepthField& b, double extent,
+             const std::optional<Box3d>& within, PairWork& work)
+      : a_(a), b_(b), margin_(kFieldError * extent), within_(within), work_(work) {}
 
   /// The depth at a point, or nothing when it is not in both.
   std::optional<double> depth_at(const Vec3d& p) {
     const Vec3d q = on_field_grid(p);
+    if (within_ && !within_->contains({q, q})) return std::nullopt;
     if (!a_.contains(q, work_) || !b_.contains(q, work_)) return std::nullopt;
     const double depth = std::max(a_.nearest(q).distance, b_.nearest(q).distance);
     if (depth > best_) {
@@ -189,6 +207,7 @@ class Candidates {
  private:
   const DepthField &a_, &b_;
   double margin_;
+  const std::optional<Box3d>& within_;
   PairWork& work_;
   double best_ = 0;
   Vec3d point_;
@@ -285,8 +304,8 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
   if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};
   const DepthField fa(a.treed, {}), fb(b.treed, a.treed.placed.origin - b.treed.placed.origin);
-  const Halfspaces spaces(a, fa, b, fb);
-  Candidates candidates(fa, fb, spaces.extent(), work);
+  const Halfspaces spaces(a, fa, b, fb, goal.within);
+  Candidates candidates(fa, fb, spaces.extent(), goal.within, work);
   Depth depth;
   bracket_by_programs(spaces, candidates, depth);
   depth.upper = std::min(depth.upper, goal.known_upper);

@@ -29,13 +29,18 @@ class DepthField {
   /// `shift` = common origin minus the part's origin, grid units.
   DepthField(const TreedPart& part, const Vec3l& shift) : part_(&part), shift_(shift) {}
 
-  /// Closed solid: inside or on the boundary. Exact for points of on_field_grid().
-  [[nodiscard]] bool contains(const Vec3d& p, PairWork& work) const {
+  /// Exact for points of on_field_grid().
+  [[nodiscard]] PointSide side(const Vec3d& p, PairWork& work) const {
     constexpr double kSteps = static_cast<double>(kFieldDenominator);
     const Vec3l numerator{std::llround(p.x * kSteps) + shift_.x * kFieldDenominator,
                           std::llround(p.y * kSteps) + shift_.y * kFieldDenominator,
                           std::llround(p.z * kSteps) + shift_.z * kFieldDenominator};
-    return side_of(*part_, numerator, kFieldDenominator, work) != PointSide::outside;
+    return side_of(*part_, numerator, kFieldDenominator, work);
+  }
+
+  /// Closed solid: inside or on the boundary.
+  [[nodiscard]] bool contains(const Vec3d& p, PairWork& work) const {
+    return side(p, work) != PointSide::outside;
   }
 
   [[nodiscard]] NearestTriangle nearest(const Vec3d& p, std::uint32_t hint = kNoFace) const {

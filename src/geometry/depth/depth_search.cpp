@@ -43,6 +43,17 @@ struct Range {
   double hi = -std::numeric_limits<double>::infinity();
 };
 
+/// Of the corners of a box.
+Range range_along(const Box3d& box, const Vec3d& axis) {
+  Range r{0, 0};
+  for (int k = 0; k < 3; ++k) {
+    const double x = axis[k] * box.lo[k], y = axis[k] * box.hi[k];
+    r.lo += std::min(x, y);
+    r.hi += std::max(x, y);
+  }
+  return r;
+}
+
 Range range_along(const DepthField& f, const Vec3d& axis) {
   Range r;
   for (const Vec3i& v : f.part().vertices) {
@@ -125,8 +136,9 @@ class Search {
     double extent = 0;
     for (int k = 0; k < 3; ++k) {
       const Range x = range_along(a_, axes_[at(k)]), y = range_along(b_, axes_[at(k)]);
-      lo[k] = std::max(x.lo, y.lo) - 1;
-      size[k] = std::min(x.hi, y.hi) + 1 - lo[k];
+      const Range room = goal_.within ? range_along(*goal_.within, axes_[at(k)]) : x;
+      lo[k] = std::max({x.lo, y.lo, room.lo}) - 1;
+      size[k] = std::min({x.hi, y.hi, room.hi}) + 1 - lo[k];
       if (!(size[k] > 0)) return false;
       extent = std::max({extent, x.hi - x.lo, y.hi - y.lo});
     }
@@ -208,6 +220,7 @@ class Search {
 
   void improve(double depth, const Vec3d& at) {
     if (!(depth > depth_.value)) return;
+    if (goal_.within && !goal_.within->contains({at, at})) return;
     depth_.value = depth;
     depth_.lower = std::max(0.0, depth - margin_);
     depth_.point = at;

@@ -88,13 +88,38 @@ bool RadiusSimplex::holds(std::size_t id) const {
   return std::find(ids_.begin(), ids_.end(), id) != ids_.end();
 }
 
+/// How much of the i-th row is in another one.
+double RadiusSimplex::share(const RadiusConstraint& c, std::size_t i) const {
+  const Row a = row_of(c);
+  double w = 0;
+  for (std::size_t k = 0; k < 4; ++k) w += a[k] * inverse_[k][i];
+  return w;
+}
+
+/// With a the entering row and rest = a + sum w a_i, all z that satisfy the five constraints have
+/// rest·z <= b + sum w b_i: none has where that is less than rest can be for any z in the extent.
+bool RadiusSimplex::proves_empty(const RadiusConstraint& entering) const {
+  Row rest = row_of(entering);
+  double bound = entering.offset, magnitude = std::fabs(entering.offset), weight = 1;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double w = std::max(-share(entering, i), 0.0);
+    const Row a = row_of(rows_[i]);
+    for (std::size_t k = 0; k < 4; ++k) rest[k] += w * a[k];
+    bound += w * rows_[i].offset;
+    magnitude += w * std::fabs(rows_[i].offset);
+    weight += w;
+  }
+  double slack = 0;
+  for (const double v : rest) slack += std::fabs(v);
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  return bound < -(slack * extent_ * (1 + 16 * kEps) + 16 * kEps * (magnitude + weight * extent_));
+}
+
 bool RadiusSimplex::exchange(const RadiusConstraint& entering, std::size_t id) {
-  const Row a = row_of(entering);
   std::optional<std::size_t> leaving;
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 4; ++i) {
-    double w = 0;
-    for (std::size_t k = 0; k < 4; ++k) w += a[k] * inverse_[k][i];
+    const double w = share(entering, i);
     if (!(w > kPivot)) continue;
     const double ratio = std::max(y_[i], 0.0) / w;
     if (ratio < best || (ratio == best && leaving && ids_[i] < ids_[*leaving])) {

@@ -33,9 +33,14 @@ class RadiusSimplex {
   /// A violated constraint takes the place of one of the four; false when none gives way. `id`
   /// breaks ties; the first four have 0 to 3.
   [[nodiscard]] bool exchange(const RadiusConstraint& entering, std::size_t id);
+  /// Whether it provably leaves no point with 0 <= r beside the present four (Farkas), every
+  /// rounding counted. To be asked where exchange() found none to give way.
+  [[nodiscard]] bool proves_empty(const RadiusConstraint& entering) const;
 
  private:
   using Row = std::array<double, 4>;
+
+  [[nodiscard]] double share(const RadiusConstraint& c, std::size_t i) const;
 
   std::array<RadiusConstraint, 4> rows_;
   std::array<std::size_t, 4> ids_{0, 1, 2, 3};

@@ -9,16 +9,17 @@
 #include <queue>
 #include <vector>
 
+#include "geometry/depth/boundary_curve.hpp"
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
 #include "geometry/depth/radius_lp.hpp"
+#include "geometry/depth/sheet_search.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
 namespace {
 
-/// Work limits of the searches over pieces: cheaper per piece than a cell of two solids.
-constexpr std::uint32_t kPiecesPerCell = 2;
+/// Work limit of the search over common segments.
 constexpr std::size_t kMaxSegments = 20000;
 
 /// Upper bound of a sheet in a solid: half-spaces of the solid for the ball, of both for its
@@ -42,128 +43,6 @@ double hull_bound(const DepthPart& sheet, const DepthField& fs, const DepthPart&
     add(fs, -p.normal, opposite, 0);
   }
   return std::max(0.0, maximise_radius({rows, extent}).upper);
-}
-
-struct Piece {
-  Corners corners;
-  double upper = 0;
-  std::uint32_t nearest = kNoFace;
-  std::uint32_t id = 0;
-};
-
-struct LessPromising {
-  bool operator()(const Piece& x, const Piece& y) const {
-    return x.upper != y.upper ? x.upper < y.upper : x.id > y.id;
-  }
-};
-
-/// Branch and bound over the triangles of the sheet, halved at their longest edges.
-class SheetSearch {
- public:
-  SheetSearch(const DepthField& sheet, const DepthField& solid, const DepthGoal& goal, Depth& depth,
-              double margin, PairWork& work)
-      : sheet_(sheet), solid_(solid), goal_(goal), depth_(depth), margin_(margin), work_(work) {}
-
-  void run() {
-    const double ceiling = depth_.upper;
-    const Box3i& b = solid_.part().box;
-    const Box3d room{solid_.common(b.lo.as<double>()), solid_.common(b.hi.as<double>())};
-    for (std::uint32_t t = 0; t < sheet_.part().triangles.size(); ++t) {
-      const Corners c = corners_of(sheet_.part(), t);
-      Box3d box = empty_box<double>();
-      for (const Vec3d& v : c) box.include(v);
-      if (box.meets(room)) evaluate(c, kNoFace, ceiling);
-    }
-    while (!open_.empty()) {
-      depth_.upper = std::min(ceiling, std::max(open_.top().upper, depth_.value));
-      if (bracket_suffices(depth_, goal_) || exhausted()) return;
-      const Piece piece = open_.top();
-      open_.pop();
-      halve(piece);
-    }
-    depth_.upper = std::min(ceiling, depth_.value + margin_);
-  }
-
- private:
-  [[nodiscard]] bool exhausted() const {
-    const bool decided = depth_.lower > goal_.threshold || depth_.upper <= goal_.threshold;
-    const std::uint32_t cells = decided ? goal_.cells_decided : goal_.cells_undecided;
-    return depth_.cells >= std::uint64_t{kPiecesPerCell} * cells + sheet_.part().triangles.size();
-  }
-
-  void halve(const Piece& piece) {
-    std::size_t longest = 0;
-    double most = -1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double d = length(piece.corners[(i + 1) % 3] - piece.corners[i]);
-      if (d > most) {
-        most = d;
-        longest = i;
-      }
-    }
-    const std::size_t j = (longest + 1) % 3;
-    const Vec3d middle = (piece.corners[longest] + piece.corners[j]) * 0.5;
-    Corners left = piece.corners, right = piece.corners;
-    left[j] = middle;
-    right[longest] = middle;
-    evaluate(left, piece.nearest, piece.upper);
-    evaluate(right, piece.nearest, piece.upper);
-  }
-
-  void evaluate(const Corners& c, std::uint32_t hint, double ceiling) {
-    ++depth_.cells;
-    // A point of the field grid, within slack of the sheet: its side is exact, and it speaks for
-    // the point of the sheet next to it.
-    const double slack = 1.0 / 1024 + margin_;
-    const Vec3d at = on_field_grid((c[0] + c[1] + c[2]) * (1.0 / 3));
-    double radius = 0;
-    for (const Vec3d& v : c) radius = std::max(radius, length(v - at));
-    radius += slack;
-    const NearestTriangle near = solid_.nearest(at, hint);
-    const bool inside = solid_.contains(at, work_);
-    if (!inside && near.distance > radius) return;
-    if (inside && near.distance - slack > depth_.value) {
-      depth_.value = near.distance;
-      depth_.lower = near.distance - slack;
-      depth_.point = at;
-    }
-    const Corners face = corners_of(solid_.part(), near.triangle);
-    double upper = 0;
-    for (const Vec3d& v : c) {
-      const Vec3d p = solid_.local(v);
-      upper = std::max(upper, length(p - nearest_on_triangle(p, face)));
-    }
-    upper = std::min(
-        {ceiling, upper + slack, inside ? near.distance + radius : radius - near.distance});
-    if (upper > depth_.value + margin_) open_.push({c, upper, near.triangle, next_id_++});
-  }
-
-  const DepthField &sheet_, &solid_;
-  const DepthGoal& goal_;
-  Depth& depth_;
-  double margin_;
-  PairWork& work_;
-  std::priority_queue<Piece, std::vector<Piece>, LessPromising> open_;
-  std::uint32_t next_id_ = 0;
-};
-
-/// The edges of a sheet at which it ends: those whose triangles do not cancel in direction.
-std::vector<std::array<Vec3d, 2>> boundary_curve(const Part& part) {
-  std::vector<std::array<Vec3d, 2>> curve;
-  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e) {
-    int balance = 0;
-    const PartEdge& edge = part.edges[e];
-    for (std::uint32_t i = edge.first_triangle; i < part.edges[e + 1].first_triangle; ++i) {
-      const Triangle& t = part.triangles[part.edge_triangles[i]];
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (t[k] == edge.v0 && t[(k + 1) % 3] == edge.v1) ++balance;
-        if (t[k] == edge.v1 && t[(k + 1) % 3] == edge.v0) --balance;
-      }
-    }
-    if (balance != 0)
-      curve.push_back({part.vertices[edge.v0].as<double>(), part.vertices[edge.v1].as<double>()});
-  }
-  return curve;
 }
 
 struct Segment {
@@ -295,10 +174,12 @@ class CurveSearch {
   }
 
   void evaluate(const std::array<Vec3d, 2>& end) {
+    if (goal_.within && !box_of(end).meets(*goal_.within)) return;
     ++depth_.cells;
     const Vec3d middle = (end[0] + end[1]) * 0.5;
     const double d = depth_at(middle), radius = length(end[1] - end[0]) / 2;
-    if (d > depth_.value) {
+    const bool counts = !goal_.within || goal_.within->contains({middle, middle});
+    if (counts && d > depth_.value) {
       depth_.value = d;
       depth_.lower = std::max(0.0, d - kSlack);
       depth_.point = middle;
@@ -332,7 +213,11 @@ Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid, const
                                        static_cast<double>(part->box.lo[k])));
   Depth depth;
   depth.upper = hull_bound(sheet, fs, solid, fb, extent);
-  SheetSearch(fs, fb, goal, depth, kFieldError * extent, work).run();
+  std::vector<Corners> pieces;
+  pieces.reserve(fs.part().triangles.size());
+  for (std::uint32_t t = 0; t < fs.part().triangles.size(); ++t)
+    pieces.push_back(corners_of(fs.part(), t));
+  SheetSearch<3>(pieces, fb, goal, depth, kFieldError * extent, work).run();
   depth.upper = std::max(depth.upper, depth.value);
   return depth;
 }

@@ -6,10 +6,13 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "geometry/depth/nearest.hpp"
 #include "strake/geometry/depth.hpp"
+#include "strake/geometry/meeting_places.hpp"
+#include "strake/geometry/predicates.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -124,7 +127,7 @@ std::uint32_t apex(const Triangle& t, const PartEdge& edge) {
 }
 
 /// No neighbour stands above a face, over all edges; false at the first that does.
-bool convex_edges(const Part& part) {
+bool convex_edges(const Part& part, double slack) {
   if (part.kind != PartKind::solid || part.edges.empty()) return false;
   for (std::size_t e = 0; e + 1 < part.edges.size(); ++e) {
     const std::uint32_t first = part.edges[e].first_triangle;
@@ -134,9 +137,49 @@ bool convex_edges(const Part& part) {
     const Vec3d base = part.vertices[part.edges[e].v0].as<double>();
     const Vec3d tip = part.vertices[apex(part.triangles[u], part.edges[e])].as<double>();
     const double above = dot(n, tip - base);
-    if (above > 0 && above > kConvexSlack * length(n)) return false;
+    if (above > 0 && above > slack * length(n)) return false;
   }
   return true;
+}
+
+/// The same without any slack; two triangles round each edge, as convex_edges() found.
+bool exactly_convex_edges(const Part& part) {
+  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e) {
+    const std::uint32_t first = part.edges[e].first_triangle;
+    const Triangle &t = part.triangles[part.edge_triangles[first]],
+                   &u = part.triangles[part.edge_triangles[first + 1]];
+    const auto corner = [&](std::uint32_t v) { return part.vertices[v].as<std::int64_t>(); };
+    if (orient3d(corner(t[0]), corner(t[1]), corner(t[2]), corner(apex(u, part.edges[e]))) > 0)
+      return false;
+  }
+  return true;
+}
+
+/// No vertex stands above the plane of a face.
+bool below_its_faces(const Part& part, double slack) {
+  constexpr std::size_t kMostWalked = 64;  // vertices that are looked at one by one
+  const bool walk = part.vertices.size() <= kMostWalked;
+  const VertexTree tree = walk ? VertexTree() : VertexTree(part.vertices);
+  for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
+    const Vec3d n = normal_of(part, t);
+    const double base = dot(n, part.vertices[part.triangles[t][0]].as<double>());
+    double highest = base;
+    if (walk)
+      for (const Vec3i& v : part.vertices) highest = std::max(highest, dot(n, v.as<double>()));
+    else
+      highest = tree.greatest_along(n).value;
+    if (highest - base > slack * length(n)) return false;
+  }
+  return true;
+}
+
+/// Convex however it is placed, whatever its measures.
+bool of_convex_kind(const Primitive& primitive) {
+  return std::holds_alternative<BoxPrimitive>(primitive) ||
+         std::holds_alternative<CylinderPrimitive>(primitive) ||
+         std::holds_alternative<SpherePrimitive>(primitive) ||
+         std::holds_alternative<EllipticalDishPrimitive>(primitive) ||
+         std::holds_alternative<SphericalDishPrimitive>(primitive);
 }
 
 /// What rounding may leave out of a support.
@@ -159,9 +202,20 @@ const std::array<Vec3d, 4>& tetrahedral_directions() {
   return kDirections;
 }
 
+bool nearly_convex(const Part& part, double slack) {
+  constexpr std::size_t kSmall = 16;  // vertices: looking at all is as fast
+  if (part.kind != PartKind::solid) return false;
+  if (part.primitive && of_convex_kind(*part.primitive)) return true;
+  if (part.vertices.size() <= kSmall) return below_its_faces(part, slack);
+  if (!convex_edges(part, slack)) return false;
+  // A closed connected surface that is convex at every edge bounds a convex body (Tietze, Nakajima:
+  // what is convex round each of its points is convex).
+  return (part.shell_count == 1 && exactly_convex_edges(part)) || below_its_faces(part, slack);
+}
+
 SupportPlanes make_support_planes(const Part& part) {
   SupportPlanes result;
-  result.nearly_convex = convex_edges(part);
+  result.nearly_convex = convex_edges(part, kConvexSlack);
   result.vertices = VertexTree(part.vertices);
   const double rounding = rounding_of(part);
   const auto support = [&](const Vec3d& n) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small files cut off at every byte, with every byte changed, and with numbers replaced by hostile
 // ones: every answer must be a sound model or an error, under the sanitizers too.
+#include "fuzz/damage.hpp"
+
 #include <gtest/gtest.h>
 
-#include <array>
-#include <random>
 #include <string>
 
 #include "fuzz_reader.hpp"
@@ -18,56 +18,15 @@ void feed(const Reader& reader, const std::string& name, const std::string& byte
              bytes.size());
 }
 
-void truncate_everywhere(const Reader& reader, const test::Seed& seed) {
-  for (std::size_t length = 0; length <= seed.bytes.size(); ++length)
-    feed(reader, seed.name, seed.bytes.substr(0, length));
-}
-
-void flip_everywhere(const Reader& reader, const test::Seed& seed) {
-  constexpr std::array<unsigned char, 6> kMasks{0x01, 0x04, 0x10, 0x20, 0x80, 0xFF};
-  for (std::size_t at = 0; at < seed.bytes.size(); ++at)
-    for (const unsigned char mask : kMasks) {
-      std::string bytes = seed.bytes;
-      bytes[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ mask);
-      feed(reader, seed.name, bytes);
-    }
-}
-
-/// Runs of digits become numbers that no reader should trust.
-void replace_numbers(const Reader& reader, const test::Seed& seed) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  for (std::size_t at = 0; at < seed.bytes.size(); ++at) {
-    if (!is_digit(seed.bytes[at]) || (at > 0 && is_digit(seed.bytes[at - 1]))) continue;
-    std::size_t end = at;
-    while (end < seed.bytes.size() && is_digit(seed.bytes[end])) ++end;
-    for (const char* number : {"-1", "0", "4294967295", "4294967296", "9007199254740992",
-                               "18446744073709551616", "1e308", "1e999", "-0.5", "nan", ""}) {
-      std::string bytes = seed.bytes;
-      bytes.replace(at, end - at, number);
-      feed(reader, seed.name, bytes);
-    }
-  }
-}
-
-void splice(const Reader& reader, const std::vector<test::Seed>& seeds) {
-  const unsigned number = 99;
-  SCOPED_TRACE(number);
-  std::mt19937 random(number);
-  for (int i = 0; i < 3000; ++i) {
-    const std::string& a = seeds[random() % seeds.size()].bytes;
-    const std::string& b = seeds[random() % seeds.size()].bytes;
-    const std::size_t cut = random() % a.size(), from = random() % b.size();
-    feed(reader, seeds.front().name, a.substr(0, cut) + b.substr(from));
-  }
-}
-
 void damage(const Reader& reader, const std::vector<test::Seed>& seeds) {
   for (const test::Seed& seed : seeds) {
-    truncate_everywhere(reader, seed);
-    flip_everywhere(reader, seed);
-    replace_numbers(reader, seed);
+    const auto feed_it = [&](const std::string& bytes) { feed(reader, seed.name, bytes); };
+    test::truncate_everywhere(seed, feed_it);
+    test::flip_everywhere(seed, feed_it);
+    test::replace_numbers(seed, feed_it);
   }
-  splice(reader, seeds);
+  test::splice(seeds, 3000,
+               [&](const std::string& bytes) { feed(reader, seeds.front().name, bytes); });
 }
 
 TEST(Damage, ObjReaderSurvives) { damage(*make_obj_reader(), test::obj_seeds()); }

@@ -21,6 +21,7 @@ namespace {
 struct Golden {
   bool turned = false;
   const char* hash = "";
+  const char* without_regions = "";
 };
 
 class GoldenClash : public testing::TestWithParam<Golden> {
@@ -46,6 +47,10 @@ TEST_P(GoldenClash, IsThisOnEveryCompiler) {
   EXPECT_GT(report.count_hit, 0U);
   EXPECT_GT(report.count_contact, 100U);
   EXPECT_EQ(report.hash, GetParam().hash);
+  EXPECT_GT(report.regions.size(), 10U);
+  Options without = options();
+  without.most_regions = 0;
+  EXPECT_EQ(detect(scene, one_set(scene), without, {})->hash, GetParam().without_regions);
 }
 
 TEST_P(GoldenClash, IsTheSameForAnyTeamAndBroadPhase) {
@@ -87,8 +92,10 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
-                         testing::Values(Golden{false, "681e92bb01b8b1ec331483b3a986ad5c"},
-                                         Golden{true, "68fa8485d523179647626ea9e0c08c18"}),
+                         testing::Values(Golden{false, "dd4058366d769ed5efb4a3689a53ddb7",
+                                                "681e92bb01b8b1ec331483b3a986ad5c"},
+                                         Golden{true, "52a9998ef35bd82759612e3b65adf89e",
+                                                "68fa8485d523179647626ea9e0c08c18"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });

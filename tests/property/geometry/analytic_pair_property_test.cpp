@@ -122,6 +122,18 @@ TEST(AnalyticPairLaws, BracketsOfToriAreNarrow) {
   EXPECT_LT(wide, kTorusPairs / 50);
 }
 
+/// Arcs that lie wholly beside the room of the deepest point: where the linear program has no
+/// solution at all, its last bound must not stand.
+TEST(AnalyticPairLaws, ArcsWithNothingInThemBoundNothing) {
+  for (const std::uint64_t seed : {22015U, 25306U, 31100U, 31564U, 36252U, 48474U}) {
+    const Pair p = draw_pair(seed, Kinds::with_torus);
+    const auto s = solved(p.a, p.b);
+    ASSERT_TRUE(s) << p.what;
+    EXPECT_LT(s->d, 0) << p.what;
+    EXPECT_LE(s->error, 1) << p.what << " d " << s->d;
+  }
+}
+
 void swap_move_and_turn(Kinds kinds, std::uint64_t pairs) {
   for (std::uint64_t seed = 1; seed <= pairs; ++seed) {
     const Pair p = draw_pair(seed, kinds);
@@ -272,9 +284,11 @@ TEST(AnalyticPairLaws, BesideAMeshAsBesideTheBodyThatItIs) {
     EXPECT_LE(gap->lower, gap->upper) << p.what;
     EXPECT_LE(gap->lower, s->d + s->error + mesh->off) << p.what;
     EXPECT_GE(gap->upper, s->d - s->error - mesh->off) << p.what;
-    EXPECT_LE(gap->upper - gap->lower, 1) << p.what << ' ' << s->d;
+    // What single precision leaves of a torus's right angles is in its bracket.
+    const double slack = 1 + 3e-7 * gap->upper;
+    EXPECT_LE(gap->upper - gap->lower, slack) << p.what << ' ' << s->d;
     const Vec3d way = gap->on_primitive - gap->on_mesh;
-    EXPECT_NEAR(std::sqrt(dot(way, way)), gap->upper, 1) << p.what;
+    EXPECT_NEAR(std::sqrt(dot(way, way)), gap->upper, slack) << p.what;
     const auto early = analytic_gap(p.a.placed(), mesh->treed(), gap->lower / 2);
     EXPECT_GE(early->lower, gap->lower / 2) << p.what;
   }

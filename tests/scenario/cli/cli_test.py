@@ -347,6 +347,26 @@ class Clash(Scenario):
         self.assertEqual(report['results'], [])
         self.assertIn(('empty-set', 'set A, nobody'), [(m['code'], m['where']) for m in report['messages']])
 
+    def test_lines_are_judged_where_asked_for(self):
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + 'o wire\nv -50 50 40\nv 150 50 40\nl 9 10\n')
+        plain = json.loads(self.run_strake('clash', 'a.obj', '--json').stdout)
+        self.assertEqual((plain['results'], plain['tests'][0]['settings']['curves']), ([], False))
+        run = self.run_strake('clash', 'a.obj', '--curves', '--json', '--fail-on', 'hit')
+        self.assertEqual(run.returncode, 1, run.stderr)
+        document = json.loads(run.stdout)
+        self.assertEqual(document['tests'][0]['settings']['curves'], True)
+        (result,) = document['results']
+        self.assertEqual((result['class'], result['relation']), ('HIT', 'CROSS'))
+        self.assertAlmostEqual(result['d_mm'], -40, places=2)
+        run = self.run_strake('clash', 'a.obj', '--curves', '--narrow-phase', 'sphere-subdivision')
+        self.assertEqual(run.returncode, 2)
+        self.assertIn('--curves', run.stderr)
+        # Against a run without lines nothing can be said of theirs.
+        self.run_strake('clash', 'a.obj', '--curves', '-o', 'with.json')
+        self.run_strake('clash', 'a.obj', '-o', 'without.json')
+        diff = self.run_strake('clash', 'diff', 'with.json', 'without.json')
+        self.assertIn('settings differ: curves', diff.stdout)
+
     def test_the_limit_of_pairs_can_be_set(self):
         self.two_files()
         done = self.run_strake('clash', 'a.obj', '--most-pairs', 0)

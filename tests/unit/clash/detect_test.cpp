@@ -35,9 +35,10 @@ ClashModel two(const Vec3d& lo_a, const Vec3d& hi_a, const Vec3d& lo_b, const Ve
   return m;
 }
 
-/// Two walls 3000 x 200, the second `dx` along and `dy` beside the end of the first.
+/// Two walls 3,000 mm high and 200 thick, the second `dx` along and `dy` beside the end of the
+/// first.
 ClashModel walls(double dx, double dy) {
-  return two({0, 0, 0}, {3000, 200, 2500}, {3000 + dx, dy, 0}, {6000 + dx, 200 + dy, 2500});
+  return two({0, 0, 0}, {5000, 200, 3000}, {5000 + dx, dy, 0}, {10000 + dx, 200 + dy, 3000});
 }
 
 void expect(const Pair& p, Class cls, Relation relation, double d_mm) {
@@ -58,7 +59,7 @@ TEST(Detect, WallsEndToEnd) {
   expect(touch, Class::contact, Relation::abut_outside, 0);
   EXPECT_EQ(touch.d_lower_mm, 0);
   EXPECT_EQ(touch.flags, 0);
-  EXPECT_EQ(touch.point_mm.x, 3000);
+  EXPECT_EQ(touch.point_mm.x, 5000);
   EXPECT_EQ(only(walls(50, 0)).cls, Class::no_hit);
   expect(only(walls(0.5, 0)), Class::contact, Relation::separate, 0.5);
   expect(only(walls(-0.5, 0)), Class::contact, Relation::interfere, -0.5);
@@ -86,7 +87,7 @@ TEST(Detect, Clearance) {
   EXPECT_EQ(only(walls(25.1, 0), options).cls, Class::no_hit);
   EXPECT_EQ(only(walls(25.1, 0), options).d_mm, 0) << "NO_HIT pairs are not kept";
   const Pair p = only(walls(10, 0), options);
-  EXPECT_EQ(p.point_mm.x, 3005) << "midpoint of the closest pair";
+  EXPECT_EQ(p.point_mm.x, 5005) << "midpoint of the closest pair";
 }
 
 TEST(Detect, ThinCrossingPlatesAreAHit) {
@@ -111,6 +112,9 @@ TEST(Detect, NestedAndDuplicate) {
   const auto inside = two({0, 0, 0}, {100, 100, 100}, {0, 20, 20}, {10, 30, 30});
   EXPECT_EQ(only(inside).relation, Relation::abut_inside);
   EXPECT_EQ(only(inside).cls, Class::hit);
+  const auto clear = two({0, 0, 0}, {100, 100, 100}, {0.003, 20, 20}, {10, 30, 30});
+  EXPECT_EQ(only(clear).relation, Relation::abut_inside);
+  EXPECT_EQ(only(clear, {.contact_distance_mm = 0.0025}).relation, Relation::b_in_a);
 }
 
 TEST(Detect, AToleranceOfZeroIsTheStrictDefinition) {

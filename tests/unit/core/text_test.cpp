@@ -42,6 +42,16 @@ TEST(Text, json_strings) {
   };
   EXPECT_EQ(quoted("a\"b\\c\n\r\t\x01\x7Fä"), "\"a\\\"b\\\\c\\n\\r\\t\\u0001\\u007fä\"");
   EXPECT_EQ(quoted("\xC4"), "\"\xEF\xBF\xBD\"");
+  // Wherever a character stands among others: names are looked at eight bytes at a time.
+  for (int code = 0; code < 0x80; ++code) {
+    const std::string one(1, static_cast<char>(code));
+    std::string inner = quoted(one);
+    inner = inner.substr(1, inner.size() - 2);
+    for (std::size_t at = 0; at <= 20; ++at) {
+      const std::string before(at, '~'), after(20 - at, ' ');
+      EXPECT_EQ(quoted(before + one + after), '"' + before + inner + after + '"') << code;
+    }
+  }
 }
 
 }  // namespace

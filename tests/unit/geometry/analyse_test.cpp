@@ -120,7 +120,7 @@ TEST(Analyse, BlockOfCubesComesApartIntoCubes) {
   TriangleMesh mesh;
   for (int i = 0; i < 27; ++i) {
     const Vec3d lo{static_cast<double>(i % 3), static_cast<double>(i / 3 % 3),
-                   static_cast<double>(i / 9)};
+                   static_cast<double>(i / 9 % 3)};
     add_box(mesh, lo, lo + Vec3d{1, 1, 1});
   }
   const MeshAnalysis a = analysed(mesh);
@@ -345,6 +345,48 @@ TEST(Analyse, OrderOfTheSourceDoesNotMatter) {
     const MeshAnalysis a = analysed(mesh), b = analysed(shuffled);
     ASSERT_EQ(a.parts.size(), b.parts.size());
     for (std::size_t i = 0; i < a.parts.size(); ++i) EXPECT_TRUE(same(a.parts[i], b.parts[i]));
+  }
+}
+
+TEST(Analyse, MemoryOfEarlierMeshesLeavesNoTrace) {
+  std::vector<TriangleMesh> meshes;
+  TriangleMesh many = box_mesh({0, 0, 0}, {9, 9, 9});
+  for (int i = 0; i < 60; ++i) add_box(many, {20.0 * i, 0, 0}, {20.0 * i + 5, 5, 5}, i % 7 == 0);
+  meshes.push_back(many);                                  // many shells, one crossed
+  meshes.push_back(box_mesh({0, 0, 0}, {1, 2, 3}, true));  // small after large, inside out
+  TriangleMesh faced = box_mesh({0, 0, 0}, {1, 1, 1});
+  for (std::uint32_t t = 0; t < faced.triangles.size(); ++t) faced.faces.push_back(t / 2);
+  meshes.push_back(faced);                                                // faces, then none again
+  meshes.push_back(box_mesh({0, 0, 0}, {1, 1, 0}));                       // flat
+  meshes.emplace_back();                                                  // nothing at all
+  meshes.push_back(box_mesh({-2e6, -2e6, -2e6}, {1.2e5, 1.2e5, 1.2e5}));  // keys of two words
+  TriangleMesh open = box_mesh({0, 0, 0}, {2, 2, 2});
+  open.triangles.pop_back();
+  open.vertices.push_back({5e9, 0, 0});  // used by no triangle
+  meshes.push_back(open);
+  MeshPlacer placer;
+  MeshAnalyser analyser;
+  for (int round = 0; round < 2; ++round)
+    for (const TriangleMesh& mesh : meshes) {
+      const PlacedMesh* placed = placer.place(mesh, {});
+      ASSERT_NE(placed, nullptr);
+      const MeshAnalysis reused = analyser.analyse(placed->mesh), fresh = analysed(mesh);
+      ASSERT_EQ(reused.parts.size(), fresh.parts.size());
+      for (std::size_t p = 0; p < fresh.parts.size(); ++p) {
+        EXPECT_TRUE(same(reused.parts[p], fresh.parts[p]));
+        EXPECT_EQ(reused.parts[p].faces, fresh.parts[p].faces);
+      }
+    }
+}
+
+TEST(Analyse, VerticesAreInOrderHoweverWideTheMesh) {
+  // A word holds the first box's vertices as keys, not the second's.
+  for (const double size : {1.0, 2.1e6}) {
+    const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {size, size, size}));
+    ASSERT_EQ(a.parts.size(), 1U);
+    EXPECT_TRUE(std::is_sorted(a.parts[0].vertices.begin(), a.parts[0].vertices.end()));
+    const double side = size * 1000;
+    EXPECT_DOUBLE_EQ(a.parts[0].volume, side * side * side);
   }
 }
 

@@ -7,8 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "geometry/depth/radius_simplex.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
@@ -80,6 +83,24 @@ TEST(RadiusLp, ContradictionEndsWithoutAnOptimum) {
   add_box(rows, {{6, 0, 0}, {4, 10, 10}}, 0);
   const RadiusSolution s = maximise_radius({rows, 100});
   EXPECT_FALSE(s.optimal);
+}
+
+TEST(RadiusLp, AContradictionIsProvedAndNothingElse) {
+  const auto rows = ball_in_box({{0, 0, 0}, {10, 10, 10}});
+  const auto after = [&](double least_x) {
+    const std::span<const RadiusConstraint> all = rows;
+    RadiusSimplex simplex(all.first<4>(), 100);
+    EXPECT_TRUE(simplex.load());
+    EXPECT_TRUE(simplex.exchange({{1, 0, 0}, 0, 4}, 4));
+    EXPECT_TRUE(simplex.load());
+    const RadiusConstraint opposite{{-1, 0, 0}, 0, -least_x};
+    return std::pair(simplex.exchange(opposite, 5), simplex.proves_empty(opposite));
+  };
+  EXPECT_EQ(after(6), std::pair(false, true));
+  EXPECT_EQ(after(4.001), std::pair(false, true));
+  // One point is left, to within rounding; and a slab of them.
+  EXPECT_FALSE(after(4).second);
+  EXPECT_FALSE(after(3).second);
 }
 
 /// Random bounded problems against a search over all bases of four rows.

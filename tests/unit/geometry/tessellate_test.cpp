@@ -14,7 +14,7 @@
 #include "strake/geometry/grid.hpp"
 #include "strake/geometry/place.hpp"
 #include "strake/geometry/trig.hpp"
-#include "true_surface.hpp"
+#include "support/true_surface.hpp"
 
 namespace strake::geometry {
 namespace {

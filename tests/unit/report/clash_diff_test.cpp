@@ -55,7 +55,7 @@ class Folder {
 
 std::string text_of(const clash::Findings& findings, const model::Model& model) {
   std::string text;
-  write_clash_json({findings, model}, [&](std::string_view piece) { text += piece; });
+  EXPECT_TRUE(write_clash_json({findings, model}, [&](std::string_view piece) { text += piece; }));
   return text;
 }
 

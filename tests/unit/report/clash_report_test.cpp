@@ -2,13 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
+#include "report/text.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/core/atomic_file.hpp"
+#include "strake/core/number.hpp"
+#include "strake/parallel/team.hpp"
 #include "strake/report/clash.hpp"
 #include "support/clash_model.hpp"
 
@@ -20,13 +26,15 @@ using test::ClashModel;
 
 std::string as_json(const clash::Report& report, const model::Model& model) {
   std::string text;
-  write_clash_json({{{report}, {}}, model}, [&](std::string_view piece) { text += piece; });
+  EXPECT_TRUE(
+      write_clash_json({{{report}, {}}, model}, [&](std::string_view piece) { text += piece; }));
   return text;
 }
 
 std::string as_csv(const clash::Report& report, const model::Model& model) {
   std::string text;
-  write_clash_csv({{{report}, {}}, model}, [&](std::string_view piece) { text += piece; });
+  EXPECT_TRUE(
+      write_clash_csv({{{report}, {}}, model}, [&](std::string_view piece) { text += piece; }));
   return text;
 }
 
@@ -83,7 +91,7 @@ TEST(ClashJson, SettingsSayNothingOfTheRun) {
   const json doc = json::parse(as_json(m.detect(), m.model));
   for (const auto& [key, value] : doc["tests"][0]["settings"].items())
     EXPECT_TRUE(key == "clearance_mm" || key == "touch_gap_mm" || key == "touch_overlap_mm" ||
-                key == "thickness_cap" || key == "contact_distance_mm")
+                key == "thickness_cap" || key == "contact_distance_mm" || key == "curves")
         << key;
 }
 
@@ -107,8 +115,9 @@ TEST(ClashReports, NameTheTestOfEachResult) {
   findings.tests[1].exempted = {{"one skid", 3}, {"idle", 0}};
   findings.tests[1].diagnostics.add(Severity::warning, "empty-set", "nothing there", "set B, x");
   std::string text, csv;
-  write_clash_json({findings, m.model}, [&](std::string_view piece) { text += piece; });
-  write_clash_csv({findings, m.model}, [&](std::string_view piece) { csv += piece; });
+  EXPECT_TRUE(
+      write_clash_json({findings, m.model}, [&](std::string_view piece) { text += piece; }));
+  EXPECT_TRUE(write_clash_csv({findings, m.model}, [&](std::string_view piece) { csv += piece; }));
   const json doc = json::parse(text);
   ASSERT_EQ(doc["results"].size(), 5U);
   for (std::size_t r = 0; r < 5; ++r) EXPECT_EQ(doc["results"][r]["test"], r < 2 ? 0 : 1);
@@ -180,8 +189,8 @@ TEST(ClashReports, TellWhatRulesDid) {
   EXPECT_EQ(doc["exempted"][0]["rule"], "matrix");
   EXPECT_EQ(doc["exempted"][0]["a"]["id"], "deck \"1\", port\n");
   const std::string csv = as_csv(report, m.model);
-  EXPECT_NE(csv.find(",sleeve,,hard,soft,\"hull, port\",pipes,\r\n"), std::string::npos) << csv;
-  EXPECT_NE(csv.find(",EXEMPTED,,,,,,,,,,,,,,,,,,,,,,matrix,,,\"hull, port\",\"hull, port\",\r\n"),
+  EXPECT_NE(csv.find(",sleeve,,hard,soft,\"hull, port\",pipes,,1\r\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",EXEMPTED,,,,,,,,,,,,,,,,,,,,,,matrix,,,\"hull, port\",\"hull, port\",,\r\n"),
             std::string::npos)
       << csv;
   const std::string table = clash_table({{{report}, {}}, m.model}, {});
@@ -207,12 +216,73 @@ TEST(ClashJson, StreamsInPieces) {
     m.box("box number " + std::to_string(i), {i * 10.0, 0, 0}, {i * 10.0 + 10, 10, 10});
   const clash::Report report = m.detect();
   std::size_t pieces = 0, largest = 0;
-  write_clash_json({{{report}, {}}, m.model}, [&](std::string_view piece) {
+  EXPECT_TRUE(write_clash_json({{{report}, {}}, m.model}, [&](std::string_view piece) {
     ++pieces;
     largest = std::max(largest, piece.size());
-  });
+  }));
   EXPECT_GT(pieces, 1U);
   EXPECT_LT(largest, 100'000U);
+}
+
+TEST(ClashReports, BytesAreThoseOfOneThread) {
+  ClashModel m;
+  for (int i = 0; i < 900; ++i)
+    m.box("box number " + std::to_string(i), {i * 10.0, 0, 0}, {i * 10.0 + 10 + i * 1e-3, 10, 10});
+  clash::Findings findings;
+  findings.tests = {m.detect({.log_pairs = true}), clash::Report(), m.detect()};
+  const auto written = [&](auto&& write, const parallel::Context& context) {
+    std::string text;
+    EXPECT_TRUE(write(
+        ClashContents{findings, m.model}, [&](std::string_view piece) { text += piece; }, context));
+    return text;
+  };
+  for (const auto write : {write_clash_json, write_clash_csv, write_pair_log}) {
+    const std::string alone = written(write, {});
+    EXPECT_GT(alone.size(), 50'000U);
+    for (const unsigned workers : {2U, 7U}) {
+      parallel::Team team(workers);
+      EXPECT_EQ(written(write, {.team = &team}), alone);
+    }
+  }
+}
+
+TEST(ClashReports, CancelledIsAnError) {
+  const ClashModel m = row_of_boxes();
+  const clash::Report report = m.detect();
+  const std::stop_source stop;
+  stop.request_stop();
+  const Status status = write_clash_csv({{{report}, {}}, m.model}, [](std::string_view) {},
+                                        {.stop = stop.get_token()});
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::cancelled);
+}
+
+TEST(ClashReports, LengthsAreThoseOfExactRounding) {
+  // The fast way of a length against the C++ library's, ties and their neighbours among them.
+  std::mt19937_64 random(20);
+  const auto exact = [](double mm) {
+    std::string text = fixed(mm, 6);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
+  };
+  const auto holds = [&](double mm) {
+    std::string text;
+    append_mm(text, mm);
+    EXPECT_EQ(text, exact(mm));
+  };
+  for (const double mm : {0.0, -0.0, 5e-7, -5e-7, 4.9e-7, 0.0000015, 0.0000025, 1e9,
+                          999999999.9999995, 0.9999995, 123456.7890125, -1e22, 0.1, 1e-300})
+    holds(mm);
+  for (int i = 0; i < 200'000; ++i) {
+    const double size = std::ldexp(1.0, static_cast<int>(random() % 60) - 25);
+    const double mm = (static_cast<double>(random() >> 11U) * 0x1p-53 - 0.5) * size;
+    holds(mm);
+    const double tie = (std::floor(mm * 1e6) + 0.5) / 1e6;
+    for (const double near : {tie, std::nextafter(tie, 1e300), std::nextafter(tie, -1e300)})
+      holds(near);
+    holds(std::floor(mm * 1e3) / 1e3);
+  }
 }
 
 TEST(ClashCsv, OneLineAPairQuotedWhereNeeded) {

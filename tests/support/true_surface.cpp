@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "true_surface.hpp"
+#include "support/true_surface.hpp"
 
 #include <algorithm>
 #include <array>

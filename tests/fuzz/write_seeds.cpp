@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_seeds FOLDER: the seed files of each format into FOLDER/obj, FOLDER/stl, FOLDER/gltf,
-// FOLDER/rvm.
+// write_seeds FOLDER: the seed files of each fuzzer into a folder of its name.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
+#include "fuzz/report/feed_clash_document.hpp"
 #include "support/io_seeds.hpp"
+#include "support/rules_seeds.hpp"
 #include "support/rvm_writer.hpp"
 
 namespace {
@@ -42,5 +43,7 @@ int main(int argc, char** argv) {
   write("stl", strake::test::stl_seeds());
   write("gltf", strake::test::gltf_seeds());
   write("rvm", rvm_seeds());
+  write("rules", strake::test::rules_seeds());
+  write("clash_document", strake::test::clash_document_seeds());
   return 0;
 }

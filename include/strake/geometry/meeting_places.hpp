@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "strake/geometry/part_frame.hpp"
+#include "strake/geometry/part_pair.hpp"
+
+namespace strake::geometry {
+
+/// One of the places where two parts meet or come near. Coordinates are grid units relative to the
+/// first part's origin.
+struct MeetingPlace {
+  Box3d extent = empty_box<double>();  ///< holds the place
+  /// The nearest points of the two skins there; distance 0 where they meet.
+  Closest nearest;
+  double least = 0;  ///< a certain lower bound on that distance
+};
+
+struct PlacesQuestion {
+  double reach = 0;             ///< how near is near, grid units
+  bool interiors_meet = false;  ///< as meet() found
+  /// Whether a single place is to be described; otherwise the list then has one empty entry.
+  bool describe_one = true;
+  std::uint64_t most_pairs = std::uint64_t{1} << 22U;  ///< of near triangles, before it is given up
+};
+
+/// The separate places where two parts come within a reach of each other: the connected components
+/// of the set of pairs of points, one of each body, no farther apart than the reach. With reach 0
+/// these are the connected components of what the bodies have in common. For a solid the body is
+/// its volume, so that a pipe through a wall is one place and not two; for a sheet its surface.
+///
+/// The set of pairs of points of two skins is the union, over pairs of triangles, of convex sets
+/// that overlap exactly where a triangle of the one comes within reach of an edge of a triangle of
+/// the other. So the pairs of triangles are joined over their edges; and, where interiors meet,
+/// along the stretches of edges, and of lines across faces, that run through the other's inside.
+///
+/// Distances are compared in double arithmetic and sides a 4096th of a grid unit off the line, so
+/// places within a grid unit of being one may be either. Not joined: two skins of one body (its
+/// outside and a cavity) between which only its material lies. Nothing where there are more pairs
+/// of near triangles than asked for; an empty list where no skins are near: one body far inside
+/// the other.
+[[nodiscard]] std::optional<std::vector<MeetingPlace>> meeting_places(
+    const TreedPart& a, const TreedPart& b, const PlacesQuestion& question, PairWork& work);
+
+/// A box that holds all that two parts have in common, and where their skins come within reach of
+/// each other, relative to a's origin: what of either skin lies in the box along the other's faces.
+/// Both have frames; they do come within reach.
+[[nodiscard]] Box3d common_extent(const FramedPart& a, const FramedPart& b, double reach);
+
+/// Whether it is certain, from flat faces alone, that two parts that come within reach of each
+/// other do so in one place: a plane lies between them, and what of either reaches it is one convex
+/// face. Most contacts of a model are of this kind. The plane is a coordinate plane or, where
+/// frames are given, along one of theirs. What a twentieth of the reach could make of it does not
+/// count. False says nothing.
+[[nodiscard]] bool in_one_flat_place(const FramedPart& a, const FramedPart& b, double reach);
+
+/// Whether no vertex of a solid stands above the plane of a face by more than `slack` grid units.
+/// Two such parts come within a reach of each other that is well above the slack in one place.
+[[nodiscard]] bool nearly_convex(const Part& part, double slack);
+
+}  // namespace strake::geometry

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "clash/cases.hpp"
+#include "clash/narrow.hpp"
+#include "clash/parts.hpp"
+
+namespace strake::clash {
+
+/// One case of a pair of parts on its way through the engine.
+struct Candidate {
+  FirstLook look;
+  NarrowWork work;
+  bool separated = false;  ///< a coordinate plane lies between the two
+  bool done = false;
+  bool too_large = false;
+  bool too_near_to_tell = false;  ///< whether it has one place or several
+};
+
+/// The pairs that went to the detailed stage, and what it found.
+struct Judged {
+  const PartList& list;
+  std::span<const geometry::IndexPair> pairs;
+  const Cases& cases;
+  std::span<const Candidate> candidates;  ///< one per case
+
+  [[nodiscard]] const Candidate& of(std::size_t pair) const { return candidates[cases.of[pair]]; }
+  [[nodiscard]] const PartRef& a(std::size_t pair) const { return list.parts[pairs[pair].first]; }
+  [[nodiscard]] const PartRef& b(std::size_t pair) const { return list.parts[pairs[pair].second]; }
+};
+
+}  // namespace strake::clash

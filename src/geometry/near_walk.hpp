@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "geometry/pair_view.hpp"
+#include "geometry/triangle_distance.hpp"
+
+namespace strake::geometry {
+
+[[nodiscard]] inline double squared_gap(const Box3d& x, const Box3d& y) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double gap = std::max(std::max(x.lo[k] - y.hi[k], y.lo[k] - x.hi[k]), 0.0);
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+/// Two triangles and certain bounds on their squared distance.
+struct NearTriangles {
+  DistanceBounds squared;
+  std::uint32_t a = 0, b = 0;
+};
+
+/// Pairs of triangles of two parts that may be no farther apart than a reach, which may shrink on
+/// the way: depth first, the nearer of two children first.
+class NearWalk {
+ public:
+  NearWalk(const PartView& a, const PartView& b, PairWork& work) : a_(a), b_(b), work_(work) {}
+
+  /// `visit(NearTriangles)` tells whether to go on. `reach` is a square, and read anew before each
+  /// step.
+  template <class Visit>
+  void run(const double& reach, Visit&& visit) {
+    if (a_.tree().nodes().empty() || b_.tree().nodes().empty()) return;
+    push(0, 0, reach);
+    while (size_ > 0) {
+      const Entry entry = stack_[--size_];
+      if (entry.squared > reach) continue;
+      ++work_.node_pairs;
+      const PartTree::Node& na = a_.tree().nodes()[entry.pair.a];
+      const PartTree::Node& nb = b_.tree().nodes()[entry.pair.b];
+      if (na.count == 0 || nb.count == 0)
+        open(entry, reach);
+      else if (!leaves(entry.pair, reach, visit))
+        return;
+    }
+  }
+
+ private:
+  struct Entry {
+    NodePair pair;
+    double squared = 0;  ///< distance of the nodes' boxes
+  };
+
+  /// The triangles of a leaf, prepared; kept until another leaf is loaded.
+  struct LoadedLeaf {
+    std::uint32_t node = 0xffffffffU;
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, PartTree::kLeafSize> id{};
+    std::array<DoubleTriangle, PartTree::kLeafSize> triangle;
+
+    void load(const PartView& view, std::uint32_t index) {
+      if (node == index) return;
+      node = index;
+      const PartTree::Node& leaf = view.tree().nodes()[index];
+      count = leaf.count;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        id[i] = view.tree().order()[leaf.first + i];
+        triangle[i] = DoubleTriangle(view.corners(id[i]));
+      }
+    }
+  };
+
+  /// A node's box in the pair's coordinates; exact.
+  static Box3d box_of(const PartView& view, std::uint32_t node) {
+    const Box3i& box = view.tree().nodes()[node].box;
+    const Vec3d shift = view.shift().as<double>();
+    return {box.lo.as<double>() + shift, box.hi.as<double>() + shift};
+  }
+
+  void push(std::uint32_t a, std::uint32_t b, double reach) {
+    const double squared = squared_gap(box_of(a_, a), box_of(b_, b));
+    if (squared <= reach) stack_[size_++] = {{a, b}, squared};
+  }
+
+  void open(const Entry& entry, double reach) {
+    const PartTree::Node& na = a_.tree().nodes()[entry.pair.a];
+    const PartTree::Node& nb = b_.tree().nodes()[entry.pair.b];
+    const std::size_t before = size_;
+    if (open_first(na, nb)) {
+      push(na.first + 1, entry.pair.b, reach);
+      push(na.first, entry.pair.b, reach);
+    } else {
+      push(entry.pair.a, nb.first + 1, reach);
+      push(entry.pair.a, nb.first, reach);
+    }
+    if (size_ == before + 2 && stack_[size_ - 1].squared > stack_[size_ - 2].squared)
+      std::swap(stack_[size_ - 1], stack_[size_ - 2]);
+  }
+
+  template <class Visit>
+  bool leaves(const NodePair& pair, const double& reach, Visit& visit) {
+    leaf_a_.load(a_, pair.a);
+    leaf_b_.load(b_, pair.b);
+    const Box3d box_a = box_of(a_, pair.a);
+    for (std::uint32_t j = 0; j < leaf_b_.count; ++j) {
+      const DoubleTriangle& b = leaf_b_.triangle[j];
+      if (squared_gap(box_a, b.box) > reach) continue;
+      for (std::uint32_t i = 0; i < leaf_a_.count; ++i) {
+        const DoubleTriangle& a = leaf_a_.triangle[i];
+        if (squared_gap(a.box, b.box) > reach) continue;
+        ++work_.triangle_pairs;
+        const DistanceBounds bounds = distance_bounds(a, b, reach);
+        if (bounds.lower > reach) continue;
+        if (!visit(NearTriangles{bounds, leaf_a_.id[i], leaf_b_.id[j]})) return false;
+      }
+    }
+    return true;
+  }
+
+  const PartView &a_, &b_;
+  PairWork& work_;
+  std::array<Entry, 2 * kMaxTreeDepth + 2> stack_;
+  std::size_t size_ = 0;
+  LoadedLeaf leaf_a_, leaf_b_;
+};
+
+}  // namespace strake::geometry

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstddef>
+
+#include "geometry/places/clip.hpp"
+#include "strake/geometry/meeting_places.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// What of a part's skin lies in the box along another's faces; `shift` takes the part's
+/// coordinates to the other's. In the part's own coordinates.
+Box3d skin_within(const Part& part, const PartFrame& of_other, const Vec3d& shift, double reach) {
+  std::array<Slab, 3> room;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double base = dot(of_other.axis[i], shift);
+    room[i] = {of_other.axis[i], of_other.lo[i] - reach - base, of_other.hi[i] + reach - base};
+  }
+  Box3d box = empty_box<double>();
+  for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
+    const Corners c = corners_of(part, t);
+    bool adds = false;
+    for (const Vec3d& p : c) adds = adds || !box.contains({p, p});
+    if (adds) box.include(box_within(c, room));
+  }
+  return box;
+}
+
+Box3d moved(const Box3d& box, const Vec3d& by) { return {box.lo + by, box.hi + by}; }
+
+}  // namespace
+
+Box3d common_extent(const FramedPart& a, const FramedPart& b, double reach) {
+  // The extreme points of the common part lie on the skin of one within the other.
+  const double margin = reach + 1;
+  const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();
+  Box3d box = skin_within(*a.placed.part, *b.frame, -shift, margin);
+  const Box3d of_b = skin_within(*b.placed.part, *a.frame, shift, margin);
+  if (!of_b.empty()) box.include(moved(of_b, shift));
+  return box;
+}
+
+}  // namespace strake::geometry

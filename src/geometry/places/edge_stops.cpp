@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/places/edge_stops.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "geometry/part_edges.hpp"
+#include "geometry/places/segment_near.hpp"
+
+namespace strake::geometry {
+namespace {
+
+Corners corners_in_pair(const PartView& view, std::uint32_t triangle) {
+  const auto c = view.corners(triangle);
+  return {c[0].as<double>(), c[1].as<double>(), c[2].as<double>()};
+}
+
+SegmentNear near_edge(const PartView& view, std::uint32_t edge, const Corners& t) {
+  const PartEdge& e = view.part().edges[edge];
+  return nearest_along(view.vertex(e.v0).as<double>(), view.vertex(e.v1).as<double>(), t);
+}
+
+/// A feature of another triangle, and the pair that has it.
+struct Feature {
+  std::uint32_t id = 0, pair = 0;
+};
+
+/// Joins the pairs of each feature that passes; asks only where they are not joined yet.
+template <class Near>
+std::size_t join_features(std::vector<Feature>& features, DisjointSets& sets, const Near& near) {
+  std::size_t joins = 0;
+  std::ranges::sort(features, [](const Feature& x, const Feature& y) {
+    return std::tie(x.id, x.pair) < std::tie(y.id, y.pair);
+  });
+  for (std::size_t first = 0; first < features.size();) {
+    std::size_t last = first + 1;
+    bool apart = false;
+    for (; last < features.size() && features[last].id == features[first].id; ++last)
+      apart = apart || !sets.joined(features[first].pair, features[last].pair);
+    if (apart && near(features[first].id))
+      for (std::size_t i = first + 1; i < last; ++i)
+        joins += sets.join(features[first].pair, features[i].pair) ? 1U : 0U;
+    first = last;
+  }
+  return joins;
+}
+
+}  // namespace
+
+SidePairs grouped(const PlacesSide& side, std::span<const NearTriangles> pairs) {
+  SidePairs side_pairs;
+  side_pairs.order.resize(pairs.size());
+  side_pairs.row.resize(pairs.size());
+  std::iota(side_pairs.order.begin(), side_pairs.order.end(), std::uint32_t{0});
+  if (!side.is_a)  // the pairs are by (a, b)
+    std::ranges::sort(side_pairs.order, [&](std::uint32_t i, std::uint32_t j) {
+      return std::pair(pairs[i].b, i) < std::pair(pairs[j].b, j);
+    });
+  const Part& part = side.own.part();
+  for (std::uint32_t k = 0; k < side_pairs.order.size(); ++k) {
+    const std::uint32_t i = side_pairs.order[k], own = side.own_of(pairs[i]);
+    if (k == 0 || side.own_of(pairs[side_pairs.order[k - 1]]) != own) {
+      side_pairs.first.push_back(k);
+      const Triangle& t = part.triangles[own];
+      side_pairs.edges.push_back({edge_between(part, t[0], t[1]), edge_between(part, t[1], t[2]),
+                                  edge_between(part, t[2], t[0])});
+    }
+    side_pairs.row[i] = static_cast<std::uint32_t>(side_pairs.first.size() - 1);
+  }
+  side_pairs.first.push_back(static_cast<std::uint32_t>(pairs.size()));
+  return side_pairs;
+}
+
+std::size_t join_round_triangles(const PlacesSide& side, const SidePairs& own,
+                                 const SidePairs& other, std::span<const NearTriangles> pairs,
+                                 double reach, DisjointSets& sets) {
+  const double squared = reach * reach;
+  std::size_t joins = 0;
+  std::vector<Feature> features;
+  for (std::size_t r = 0; r + 1 < own.first.size(); ++r) {
+    const auto group = own.group(r);
+    const auto together = [&] {
+      return std::ranges::all_of(group, [&](std::uint32_t i) { return sets.joined(group[0], i); });
+    };
+    if (together()) continue;
+    const Corners t = corners_in_pair(side.own, side.own_of(pairs[group[0]]));
+    features.clear();
+    for (const std::uint32_t i : group)
+      for (const std::uint32_t edge : other.edges[other.row[i]])
+        if (edge != kNoFace) features.push_back({edge, i});
+    joins += join_features(features, sets, [&](std::uint32_t edge) {
+      return near_edge(side.other, edge, t).squared <= squared;
+    });
+    // Over edges all triangles round a corner hang together, but where two fans only touch.
+    if (together()) continue;
+    features.clear();
+    for (const std::uint32_t i : group)
+      for (const std::uint32_t v : side.other.part().triangles[side.other_of(pairs[i])])
+        features.push_back({v, i});
+    joins += join_features(features, sets, [&](std::uint32_t vertex) {
+      const Vec3d p = side.other.vertex(vertex).as<double>(), d = p - nearest_on_triangle(p, t);
+      return dot(d, d) <= squared;
+    });
+  }
+  return joins;
+}
+
+std::vector<EdgeStop> edge_stops(const PlacesSide& side, const SidePairs& own,
+                                 std::span<const NearTriangles> pairs, double reach) {
+  std::vector<EdgeStop> stops;
+  stops.reserve(3 * pairs.size());
+  for (std::uint32_t i = 0; i < pairs.size(); ++i)
+    for (const std::uint32_t edge : own.edges[own.row[i]])
+      if (edge != kNoFace) stops.push_back({edge, side.other_of(pairs[i]), i, 0});
+  std::ranges::sort(stops, [](const EdgeStop& x, const EdgeStop& y) {
+    return std::tie(x.edge, x.other, x.pair) < std::tie(y.edge, y.other, y.pair);
+  });
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < stops.size();) {
+    std::size_t last = first;
+    while (last < stops.size() && stops[last].edge == stops[first].edge &&
+           stops[last].other == stops[first].other)
+      ++last;
+    const SegmentNear near =
+        near_edge(side.own, stops[first].edge, corners_in_pair(side.other, stops[first].other));
+    if (near.squared <= reach * reach)
+      for (std::size_t i = first; i < last; ++i) {
+        stops[kept] = stops[i];
+        stops[kept++].along = near.along;
+      }
+    first = last;
+  }
+  stops.resize(kept);
+  return stops;
+}
+
+}  // namespace strake::geometry

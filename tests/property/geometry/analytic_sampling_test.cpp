@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// The solver of analytic pairs against points of the true bodies, over all pairs of kinds: no two
+// points of the skins are nearer than the bracket allows, no point of both bodies is deeper, and
+// the witnesses show that the bracket's other end is reached. Knows nothing of how the solver
+// works: distances come from the definitions of the primitives.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "strake/geometry/analytic_pair.hpp"
+#include "strake/geometry/grid.hpp"
+#include "support/body_depth.hpp"
+#include "support/random_primitives.hpp"
+#include "support/true_surface.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using test::PrimitiveDraw;
+
+#ifdef STRAKE_LONG_RUN
+constexpr std::uint64_t kPairs = 100'000;
+#else
+constexpr std::uint64_t kPairs = 1'620;  // twenty of each pair of kinds
+#endif
+constexpr std::uint64_t kKinds = PrimitiveDraw::kConvexKinds + 2;
+constexpr std::size_t kSkinPoints = 200, kInnerPoints = 300;
+constexpr double kSize = 100;
+/// Rounding of the definitions and of the frames here, mm.
+constexpr double kSlack = 1e-5;
+
+struct Body {
+  Primitive primitive;
+  Placement at;
+
+  [[nodiscard]] PlacedPrimitive placed() const { return {&primitive, &at}; }
+  [[nodiscard]] Vec3d world(const Vec3d& local) const { return at.linear * local + at.translation; }
+  /// The linear part is a rotation, maybe mirrored: its transpose takes back.
+  [[nodiscard]] double depth(const Vec3d& p) const {
+    const Vec3d v = p - at.translation;
+    const auto& m = at.linear.row;
+    return test::depth_in(primitive, m[0] * v.x + m[1] * v.y + m[2] * v.z);
+  }
+};
+
+Primitive of_kind(PrimitiveDraw& draw, std::uint64_t kind, double size) {
+  if (kind < PrimitiveDraw::kConvexKinds) return draw.convex(kind, size);
+  for (;;) {
+    const Primitive t = draw.torus(size);
+    const bool round = std::holds_alternative<CircularTorusPrimitive>(t);
+    if (round == (kind == PrimitiveDraw::kConvexKinds)) return t;
+  }
+}
+
+Body draw_body(PrimitiveDraw& draw, std::uint64_t kind, double size, double reach) {
+  Body b{of_kind(draw, kind, size), {draw.turn(), {}}};
+  if (draw.one_in(6)) b.at.linear.row[0] = -b.at.linear.row[0];
+  b.at.translation = to_mm(snap(draw.point(reach)).value_or(Vec3l{}));
+  return b;
+}
+
+struct Sampled {
+  double nearest = 1e300;  ///< from skin to skin
+  double deepest = 0;      ///< of points in both
+};
+
+Sampled sample(const Body& a, const Body& b, std::mt19937_64& random) {
+  std::array<std::vector<Vec3d>, 2> skin;
+  for (const std::size_t i : {0U, 1U}) {
+    const Body& body = i == 0 ? a : b;
+    for (const Vec3d& p : test::surface_points(body.primitive, kSkinPoints, random))
+      skin[i].push_back(body.world(p));
+  }
+  Sampled s;
+  const auto try_inside = [&](const Vec3d& p) {
+    const double in_a = a.depth(p), in_b = b.depth(p);
+    if (in_a >= 0 && in_b >= 0) s.deepest = std::max({s.deepest, in_a, in_b});
+  };
+  for (const Vec3d& p : skin[0])
+    for (const Vec3d& q : skin[1]) {
+      const Vec3d way = p - q;
+      s.nearest = std::min(s.nearest, std::sqrt(dot(way, way)));
+    }
+  // Between two points of a skin, one point in two or so lies in the body.
+  for (std::size_t i = 0; i < kInnerPoints; ++i) {
+    const auto& from = skin[i % 2];
+    const Vec3d &p = from[random() % kSkinPoints], &q = from[random() % kSkinPoints];
+    try_inside((p + q) * 0.5);
+  }
+  for (const auto& points : skin)
+    for (const Vec3d& p : points) try_inside(p);
+  return s;
+}
+
+void check_apart(const Body& a, const Body& b, const AnalyticSeparation& s, const Sampled& found) {
+  const double lower = (s.d - s.error) * kMmPerGrid, upper = (s.d + s.error) * kMmPerGrid;
+  EXPECT_GE(found.nearest, lower - kSlack);
+  EXPECT_EQ(found.deepest, 0) << "a point lies in both";
+  // The witnesses lie on the two skins, so that the bracket's upper end is reached.
+  const Vec3d middle = a.at.translation + s.point * kMmPerGrid;
+  const Vec3d half = s.away * (s.d * kMmPerGrid / 2);
+  const double off = s.error * kMmPerGrid + 1e-3;
+  EXPECT_NEAR(a.depth(middle + half), 0, off);
+  EXPECT_NEAR(b.depth(middle - half), 0, off);
+  EXPECT_LE(found.nearest - upper, 0.5 * kSize) << "the samples cover the skins";
+}
+
+void check_meeting(const Body& a, const Body& b, const AnalyticSeparation& s,
+                   const Sampled& found) {
+  const double least = (-s.d - s.error) * kMmPerGrid, most = (-s.d + s.error) * kMmPerGrid;
+  EXPECT_LE(found.deepest, most + kSlack);
+  // The deepest point lies in both and is as deep as it is said to be.
+  const Vec3d point = a.at.translation + s.point * kMmPerGrid;
+  const double in_a = a.depth(point), in_b = b.depth(point);
+  EXPECT_GE(in_a, -1e-3);
+  EXPECT_GE(in_b, -1e-3);
+  EXPECT_GE(s.deep_in_a ? in_a : in_b, least - kSlack);
+}
+
+TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
+  std::uint64_t answered = 0, apart = 0, meeting = 0, sampled_deep = 0;
+  std::array<std::uint64_t, kKinds * kKinds> of_kinds{};
+  for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
+    PrimitiveDraw draw(seed);
+    const std::uint64_t kind_a = seed % kKinds, kind_b = seed / kKinds % kKinds;
+    const Body a = draw_body(draw, kind_a, kSize, kSize / 4);
+    const Body b = draw_body(draw, kind_b, kSize * draw.between(0.3, 1.5), kSize * 0.6);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(a.primitive)) +
+                 " and " + std::string(kind_name(b.primitive)));
+    const auto s = analytic_separation(a.placed(), b.placed());
+    if (!s) continue;
+    ++answered;
+    ++of_kinds[kind_a * kKinds + kind_b];
+    std::mt19937_64 random(seed);
+    const Sampled found = sample(a, b, random);
+    if (s->d > s->error) {
+      ++apart;
+      check_apart(a, b, *s, found);
+    } else if (s->d < -s->error) {
+      ++meeting;
+      if (found.deepest > 0.5 * -s->d * kMmPerGrid) ++sampled_deep;
+      check_meeting(a, b, *s, found);
+    }
+  }
+  EXPECT_GT(answered, kPairs * 9 / 10);
+  EXPECT_GT(apart, kPairs / 4);
+  EXPECT_GT(meeting, kPairs / 4);
+  EXPECT_GT(sampled_deep, meeting / 2) << "the samples reach where it is deep";
+  for (const std::uint64_t count : of_kinds) EXPECT_GT(count, kPairs / (kKinds * kKinds) / 3);
+}
+
+}  // namespace
+}  // namespace strake::geometry

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "strake/clash/clash.hpp"
+#include "strake/clash/policy.hpp"
+#include "support/clash_model.hpp"
+#include "support/meshes.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Vec3d;
+using test::box_mesh;
+using test::ClashModel;
+
+/// One closed mesh: a square bar bent twice by right angles, up, across and down again.
+geometry::TriangleMesh bridge(double half, double span, double height) {
+  geometry::TriangleMesh mesh;
+  const auto ring = [&](double x, double z, double dx, double dz) {
+    mesh.vertices.insert(mesh.vertices.end(), {{x - dx * half, -half, z - dz * half},
+                                               {x + dx * half, -half, z + dz * half},
+                                               {x + dx * half, half, z + dz * half},
+                                               {x - dx * half, half, z - dz * half}});
+  };
+  ring(0, 0, 1, 0);
+  ring(0, height, 1, -1);
+  ring(span, height, -1, -1);
+  ring(span, 0, -1, 0);
+  for (std::uint32_t r = 0; r < 3; ++r)
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t p = 4 * r + i, q = 4 * r + (i + 1) % 4;
+      mesh.triangles.push_back({p, q, q + 4});
+      mesh.triangles.push_back({p, q + 4, p + 4});
+    }
+  for (std::uint32_t i = 1; i < 3; ++i) {
+    mesh.triangles.push_back({0, i + 1, i});
+    mesh.triangles.push_back({12, 12 + i, 13 + i});
+  }
+  return mesh;
+}
+
+/// Four legs and a top, each a part, or with `sunk` one leg 5 mm into the deck.
+ClashModel table_on_deck(double sunk) {
+  ClashModel made;
+  made.box("deck", {-500, -500, -10}, {2000, 2000, 0});
+  made.object("table").body(box_mesh({0, 0, 700}, {1000, 600, 720}));
+  for (const double x : {0.0, 940.0})
+    for (const double y : {0.0, 540.0})
+      made.body(box_mesh({x, y, x > 0 && y > 0 ? -sunk : 0}, {x + 60, y + 60, 700}));
+  model::finish(made.model);
+  return made;
+}
+
+TEST(RegionsTest, FourFeetAreFourContacts) {
+  const Report report = table_on_deck(0).detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].cls, Class::contact);
+  EXPECT_EQ(report.pairs[0].regions, 4U);
+  ASSERT_EQ(report.regions.size(), 4U);
+  for (const Region& r : report.regions) {
+    EXPECT_EQ(r.cls, Class::contact);
+    EXPECT_EQ(r.d_mm, 0);
+    EXPECT_NEAR(r.box_mm.hi.x - r.box_mm.lo.x, 62, 0.1);
+    EXPECT_NEAR(r.point_mm.z, 0, 1e-9);
+  }
+}
+
+TEST(RegionsTest, TheWorstComesFirstAndListsEndWhileCountsDoNot) {
+  Options options;
+  options.most_regions = 2;
+  const Report report = table_on_deck(5).detect(options);
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].cls, Class::hit);
+  EXPECT_EQ(report.pairs[0].regions, 4U);
+  ASSERT_EQ(report.regions.size(), 2U);
+  EXPECT_EQ(report.regions[0].cls, Class::hit);
+  EXPECT_NEAR(report.regions[0].d_mm, -5, 1e-6);
+  EXPECT_EQ(report.regions[0].d_mm, report.pairs[0].d_mm);
+  EXPECT_EQ(report.regions[0].point_mm, report.pairs[0].point_mm);
+  EXPECT_EQ(report.regions[1].cls, Class::contact);
+  options.most_regions = 0;
+  const Report without = table_on_deck(5).detect(options);
+  EXPECT_EQ(without.pairs[0].regions, 0U);
+  EXPECT_TRUE(without.regions.empty());
+  EXPECT_EQ(without.pairs[0].d_mm, report.pairs[0].d_mm);
+}
+
+/// A count that is no count would be worse than none.
+TEST(RegionsTest, TheBaselineTellsNoPlacesApart) {
+  Options options;
+  options.narrow_phase = NarrowPhase::sphere_subdivision;
+  const Report report = table_on_deck(5).detect(options);
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].regions, 0U);
+  EXPECT_EQ(report.options.most_regions, 0U);
+}
+
+TEST(RegionsTest, OneMeshThatMeetsTwoBarsHasADepthAtEach) {
+  ClashModel made;
+  made.object("pipe").body(bridge(40, 800, 600));
+  made.object("wall").body(box_mesh({-20, -200, 100}, {30, 200, 110}));
+  made.body(box_mesh({820, -200, 100}, {836, 200, 110}));
+  model::finish(made.model);
+  const Report report = made.detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  ASSERT_EQ(report.pairs[0].regions, 2U);
+  ASSERT_EQ(report.regions.size(), 2U);
+  // Deepest is what lies farthest from the pipe's sides: the middle of the one leg, and 20 mm off
+  // the side of the other.
+  EXPECT_NEAR(report.regions[0].d_mm, -40, 0.01);
+  EXPECT_NEAR(report.regions[1].d_mm, -20, 0.01);
+  EXPECT_LT(report.regions[0].point_mm.x, 100);
+  EXPECT_GT(report.regions[1].point_mm.x, 700);
+}
+
+TEST(RegionsTest, OneMeshThatMeetsOnePlateTwiceHasADepthAtEach) {
+  ClashModel made;
+  made.object("pipe").body(bridge(40, 800, 600));
+  made.object("wall").body(box_mesh({-200, -200, 100}, {1200, 200, 110}));
+  model::finish(made.model);
+  const Report report = made.detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  ASSERT_EQ(report.pairs[0].regions, 2U);
+  for (const Region& r : report.regions) {
+    EXPECT_EQ(r.cls, Class::hit);
+    EXPECT_NEAR(r.d_mm, -40, 1);
+    EXPECT_LE(r.d_lower_mm, r.d_mm);
+    EXPECT_GE(r.d_upper_mm, r.d_mm);
+    EXPECT_TRUE(r.box_mm.contains({r.point_mm, r.point_mm}));
+  }
+  EXPECT_GT(std::fabs(report.regions[0].point_mm.x - report.regions[1].point_mm.x), 700);
+}
+
+/// Parts that hang together meet in one place, however many they are.
+TEST(RegionsTest, PartsOfOneObjectThatHangTogetherAreOnePlace) {
+  ClashModel made;
+  made.box("deck", {0, 0, 0}, {1000, 1000, 10});
+  made.object("bar");
+  for (const double x : {100.0, 200.0, 300.0})
+    made.body(box_mesh({x, 100, -50}, {x + 100, 150, 50}));
+  model::finish(made.model);
+  const Report report = made.detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].regions, 1U);
+  EXPECT_TRUE(report.regions.empty());
+}
+
+TEST(RegionsTest, ClearanceHasPlacesToo) {
+  ClashModel made;
+  made.box("deck", {0, 0, 0}, {1000, 1000, 10});
+  made.object("feet");
+  made.body(box_mesh({100, 100, 20}, {150, 150, 500}));
+  made.body(box_mesh({700, 100, 25}, {750, 150, 500}));
+  model::finish(made.model);
+  Options options;
+  options.clearance_mm = 30;
+  const Report report = made.detect(options);
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].cls, Class::clearance_violation);
+  ASSERT_EQ(report.pairs[0].regions, 2U);
+  EXPECT_EQ(report.regions[0].d_mm, 10);
+  EXPECT_EQ(report.regions[1].d_mm, 15);
+}
+
+/// A rule that allows the one foot does not hide the other.
+TEST(RegionsTest, AnAllowedContactIsAllowedAtItsPlaceAlone) {
+  ClashModel made;
+  made.object("pipe").body(bridge(40, 800, 600));
+  made.object("wall").body(box_mesh({-200, -200, 100}, {1200, 200, 110}));
+  model::finish(made.model);
+  const model::Scene scene =
+      make_scene(made.model, scene_options(Options{}), parallel::Context{}).value();
+  const auto check = [&](const geometry::Box3d& region) {
+    Policy policy;
+    policy.allowed = {{"sleeve", {true, true}, {true, true}, region, {}, 100}};
+    return detect(scene, one_set(scene), {}, policy, {}).value();
+  };
+  const Report one = check({{-200, -200, 0}, {200, 200, 200}});
+  EXPECT_EQ(one.count_hit, 1U);
+  ASSERT_EQ(one.pairs.size(), 1U);
+  EXPECT_LT(one.pairs[0].allowed, 0);
+  EXPECT_GT(one.pairs[0].point_mm.x, 700);
+  EXPECT_EQ(one.pairs[0].regions, 1U);
+  const Report both = check({{-200, -200, 0}, {1200, 200, 200}});
+  EXPECT_EQ(both.count_hit, 0U);
+  EXPECT_EQ(both.count_allowed, 1U);
+  EXPECT_EQ(both.pairs[0].regions, 2U);
+  // The places are known to lie within: nothing is uncertain.
+  EXPECT_EQ(both.pairs[0].flags & kUncertain, 0);
+}
+
+}  // namespace
+}  // namespace strake::clash
