@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/clash/identity.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <tuple>
 
 #include "strake/core/hash.hpp"
@@ -9,6 +12,18 @@
 namespace strake::clash {
 namespace {
 
+constexpr std::string_view kDigits = "0123456789abcdefghjkmnpqrstvwxyz";
+constexpr int kLength = 26, kBits = 5;
+constexpr std::uint8_t kNoDigit = 255;
+
+constexpr std::array<std::uint8_t, 256> kValues = [] {
+  std::array<std::uint8_t, 256> values{};
+  values.fill(kNoDigit);
+  for (std::size_t i = 0; i < kDigits.size(); ++i)
+    values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::uint8_t>(i);
+  return values;
+}();
+
 ElementName element(const model::Model& model, model::ObjectId id) {
   const model::Object& object = model.object(id);
   return {model.files[object.file].label, object.id};
@@ -16,16 +31,27 @@ ElementName element(const model::Model& model, model::ObjectId id) {
 
 }  // namespace
 
-std::string key_text(std::uint64_t high, std::uint64_t low) {
-  constexpr std::string_view kDigits = "0123456789abcdefghjkmnpqrstvwxyz";
-  constexpr int kLength = 26, kBits = 5;
+std::string key_text(Hash128 hash) {
   std::string text(kLength, '0');
   for (int i = kLength; i-- > 0;) {
-    text[static_cast<std::size_t>(i)] = kDigits[low & 31U];
-    low = (low >> kBits) | (high << (64 - kBits));
-    high >>= kBits;
+    text[static_cast<std::size_t>(i)] = kDigits[hash.low & 31U];
+    hash.low = (hash.low >> kBits) | (hash.high << (64 - kBits));
+    hash.high >>= kBits;
   }
   return text;
+}
+
+std::optional<Hash128> parse_key(std::string_view text) {
+  // 26 digits are two bits more than a hash has.
+  if (text.size() != kLength || text.front() > '7') return std::nullopt;
+  Hash128 hash;
+  for (const char c : text) {
+    const std::uint8_t digit = kValues[static_cast<unsigned char>(c)];
+    if (digit == kNoDigit) return std::nullopt;
+    hash.high = (hash.high << kBits) | (hash.low >> (64 - kBits));
+    hash.low = (hash.low << kBits) | digit;
+  }
+  return hash;
 }
 
 std::uint64_t element_hash(std::string_view file_label, std::string_view id) {
@@ -41,20 +67,19 @@ std::uint64_t element_hash(const model::Model& model, model::ObjectId id) {
   return element_hash(e.file_label, e.id);
 }
 
-std::string pair_key(std::string_view test, const ElementName& a, const ElementName& b) {
+Hash128 pair_hash(std::string_view test, const ElementName& a, const ElementName& b) {
   const bool ordered = std::tie(a.file_label, a.id) <= std::tie(b.file_label, b.id);
   Hasher hasher;
   hasher.add(test);
   for (const ElementName& e : {ordered ? a : b, ordered ? b : a})
     for (const std::string_view text : {e.file_label, e.id})
       hasher.add(std::string_view(valid_utf8(text)));
-  const Hash128 hash = hasher.value();
-  return key_text(hash.high, hash.low);
+  return hasher.value();
 }
 
 std::string pair_key(std::string_view test, const model::Model& model, model::ObjectId a,
                      model::ObjectId b) {
-  return pair_key(test, element(model, a), element(model, b));
+  return key_text(pair_hash(test, element(model, a), element(model, b)));
 }
 
 }  // namespace strake::clash

@@ -79,7 +79,8 @@ bool plain_word(std::uint64_t word) {
          !has(0x7F);
 }
 
-/// Characters at the front that stand for themselves in a JSON string: most of every name.
+}  // namespace
+
 std::size_t plain_run(std::string_view text) {
   std::size_t n = 0;
   for (std::uint64_t word = 0; n + sizeof(word) <= text.size(); n += sizeof(word)) {
@@ -90,6 +91,37 @@ std::size_t plain_run(std::string_view text) {
     ++n;
   return n;
 }
+
+bool is_utf8(std::string_view text) {
+  for (text.remove_prefix(plain_run(text)); !text.empty(); text.remove_prefix(plain_run(text))) {
+    const std::size_t length = first_character(text).length;
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+void append_utf8(std::string& out, std::uint32_t code) {
+  const auto put = [&](std::uint32_t byte) { out += static_cast<char>(byte); };
+  const auto rest = [&](unsigned shift) { put(0x80U | ((code >> shift) & 0x3FU)); };
+  if (code < 0x80) {
+    put(code);
+    return;
+  }
+  if (code < 0x800) {
+    put(0xC0U | (code >> 6U));
+  } else if (code < 0x10000) {
+    put(0xE0U | (code >> 12U));
+    rest(6);
+  } else {
+    put(0xF0U | (code >> 18U));
+    rest(12);
+    rest(6);
+  }
+  rest(0);
+}
+
+namespace {
 
 void move_run(std::string& out, std::string_view& text) {
   const std::size_t n = plain_run(text);

@@ -6,8 +6,9 @@
 #include <map>
 #include <string_view>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
+
+#include "strake/clash/identity.hpp"
 
 namespace strake::report {
 namespace {
@@ -15,27 +16,27 @@ namespace {
 /// Below this a difference of d is that of the grid.
 constexpr double kSameMm = 1e-3;
 
-int severity(std::string_view cls) {
-  if (cls == "HIT") return 2;
-  return cls == "CONTACT" ? 1 : 0;
+int severity(clash::Class cls) {
+  if (cls == clash::Class::hit) return 2;
+  return cls == clash::Class::contact ? 1 : 0;
 }
 
 /// The order in which results want to be looked at.
 int attention(const DocumentResult& r) {
-  const int rank = r.cls == "HIT" ? 0 : r.cls == "CLEARANCE_VIOLATION" ? 1 : 2;
-  return r.allowed.empty() ? rank : rank + 3;
+  using enum clash::Class;
+  const int rank = r.cls == hit ? 0 : r.cls == clearance_violation ? 1 : 2;
+  return r.rule == 0 ? rank : rank + 3;
 }
 
 void sort_entries(std::vector<DiffEntry>& entries) {
   std::ranges::sort(entries, [](const DiffEntry& x, const DiffEntry& y) {
     const DocumentResult &p = x.either(), &q = y.either();
-    return std::tuple(attention(p), p.d_mm, std::string_view(p.key)) <
-           std::tuple(attention(q), q.d_mm, std::string_view(q.key));
+    return std::tuple(attention(p), p.d_mm, p.key) < std::tuple(attention(q), q.d_mm, q.key);
   });
 }
 
 std::string named(const DocumentObject& o) {
-  return "'" + (o.name.empty() ? o.id : o.name) + "' of " + o.file;
+  return "'" + std::string(o.name.empty() ? o.id : o.name) + "' of " + std::string(o.file);
 }
 
 std::string of_test(const DocumentTest& test) {
@@ -54,16 +55,18 @@ class Looks {
     return it == tests_.end() ? nullptr : it->second;
   }
 
-  /// Why a result that the other run has under `other` may be missing here; empty: it is not so.
-  [[nodiscard]] std::string reason(const DocumentResult& r, const DocumentTest& other) const {
+  /// Why a result that the other run has may be missing here; empty: it is not so.
+  [[nodiscard]] std::string reason(const DocumentResult& r, const ClashDocument& other_run) const {
+    const DocumentTest& other = other_run.tests[r.test];
     const DocumentTest* const here = test(other.name);
     if (here == nullptr) return "there is no test '" + other.name + "'";
-    for (const DocumentObject* o : {&r.a, &r.b})
-      if (!std::ranges::binary_search(run_.elements, o->hash))
-        return named(*o) + " is not in the model";
-    if (std::string why = not_tested(r, *here); !why.empty()) return why;
-    if (const auto rule = run_.exempted.find(r.key); rule != run_.exempted.end())
-      return "exempted by " + rule->second;
+    const Side a = side(other_run.a(r), *here), b = side(other_run.b(r), *here);
+    for (const Side* s : {&a, &b})
+      if (!s->there) return named(s->object) + " is not in the model";
+    if (std::string why = not_tested(a, b, *here); !why.empty()) return why;
+    const auto rule = std::ranges::lower_bound(run_.exempted, r.key, {}, &DocumentExempted::key);
+    if (rule != run_.exempted.end() && rule->key == r.key)
+      return "exempted by " + run_.rules[rule->rule];
     if (!run_.lists_exempted && here->exempted_pairs > 0)
       return "may be among the " + std::to_string(here->exempted_pairs) +
              " exempted pairs, which are not listed";
@@ -71,21 +74,31 @@ class Looks {
   }
 
  private:
-  [[nodiscard]] std::string not_tested(const DocumentResult& r, const DocumentTest& here) const {
-    if (!here.within_files && r.a.file == r.b.file)
-      return "pairs within a file are not looked at" + of_test(here);
-    for (const DocumentObject* o : {&r.a, &r.b})
-      if (!in(here.in_a, o->hash) && !in(here.in_b, o->hash))
-        return named(*o) + " is in neither set" + of_test(here);
-    const bool opposite = (in(here.in_a, r.a.hash) && in(here.in_b, r.b.hash)) ||
-                          (in(here.in_a, r.b.hash) && in(here.in_b, r.a.hash));
-    return opposite ? std::string() : "both are in the same set" + of_test(here);
+  /// An object of the other run as this one knows it.
+  struct Side {
+    const DocumentObject& object;
+    bool there = false, in_a = false, in_b = false;
+  };
+
+  [[nodiscard]] Side side(const DocumentObject& object, const DocumentTest& here) const {
+    const std::uint64_t hash = clash::element_hash(object.file, object.id);
+    const auto at = std::ranges::lower_bound(run_.elements, hash);
+    if (at == run_.elements.end() || *at != hash) return {object};
+    const auto i = static_cast<std::size_t>(at - run_.elements.begin());
+    const auto in = [i](const std::vector<std::uint8_t>& set) {
+      return ((set[i / 8] >> (i % 8)) & 1U) != 0;
+    };
+    return {object, true, in(here.in_a), in(here.in_b)};
   }
 
-  [[nodiscard]] bool in(const std::vector<std::uint8_t>& set, std::uint64_t hash) const {
-    const auto it = std::ranges::lower_bound(run_.elements, hash);
-    const auto i = static_cast<std::size_t>(it - run_.elements.begin());
-    return ((set[i / 8] >> (i % 8)) & 1U) != 0;
+  [[nodiscard]] static std::string not_tested(const Side& a, const Side& b,
+                                              const DocumentTest& here) {
+    if (!here.within_files && a.object.file == b.object.file)
+      return "pairs within a file are not looked at" + of_test(here);
+    for (const Side* s : {&a, &b})
+      if (!s->in_a && !s->in_b) return named(s->object) + " is in neither set" + of_test(here);
+    const bool opposite = (a.in_a && b.in_b) || (b.in_a && a.in_b);
+    return opposite ? std::string() : "both are in the same set" + of_test(here);
   }
 
   /// A pair as far apart as the other run found it would be no result here.
@@ -112,19 +125,6 @@ class Looks {
   std::map<std::string, const DocumentTest*> tests_;
 };
 
-bool still_the_same(const DocumentResult& x, const DocumentResult& y) {
-  return x.cls == y.cls && x.allowed == y.allowed && std::fabs(x.d_mm - y.d_mm) <= kSameMm;
-}
-
-using ByKey = std::unordered_map<std::string_view, const DocumentResult*>;
-
-ByKey by_key(const ClashDocument& run) {
-  ByKey map;
-  map.reserve(run.results.size());
-  for (const DocumentResult& r : run.results) map.emplace(r.key, &r);
-  return map;
-}
-
 void compare_settings(const Looks& before, const Looks& after, ClashDiff& diff) {
   for (const DocumentTest& test : diff.before->tests) {
     const DocumentTest* const other = after.test(test.name);
@@ -145,17 +145,24 @@ void compare_settings(const Looks& before, const Looks& after, ClashDiff& diff) 
 
 }  // namespace
 
+int more_places(const DocumentResult& before, const DocumentResult& after) {
+  const bool counted = before.regions > 0 && after.regions > 0;
+  if (!counted || before.regions == after.regions) return 0;
+  return before.regions < after.regions ? 1 : -1;
+}
+
 bool ClashDiff::has_new(bool hits_only) const {
   return std::ranges::any_of(added, [&](const DiffEntry& e) {
-    return e.after->allowed.empty() && (!hits_only || e.after->cls == "HIT");
+    return e.after->rule == 0 && (!hits_only || e.after->cls == clash::Class::hit);
   });
 }
 
 bool ClashDiff::has_worse() const {
   return has_new(false) || std::ranges::any_of(changed, [](const DiffEntry& e) {
-           if (!e.after->allowed.empty()) return false;
-           return !e.before->allowed.empty() || severity(e.after->cls) > severity(e.before->cls) ||
-                  (e.after->cls == e.before->cls && e.after->d_mm < e.before->d_mm - kSameMm);
+           const DocumentResult &was = *e.before, &is = *e.after;
+           if (is.rule != 0) return false;
+           if (was.rule != 0 || severity(is.cls) > severity(was.cls)) return true;
+           return is.cls == was.cls && (is.d_mm < was.d_mm - kSameMm || more_places(was, is) > 0);
          });
 }
 
@@ -165,18 +172,26 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
   diff.after = &after;
   const Looks looks_before(before), looks_after(after);
   compare_settings(looks_before, looks_after, diff);
-  const ByKey old_results = by_key(before), new_results = by_key(after);
-  for (const DocumentResult& r : after.results) {
-    const auto was = old_results.find(r.key);
-    if (was == old_results.end())
-      diff.added.push_back({nullptr, &r, looks_before.reason(r, after.tests[r.test])});
-    else
-      (still_the_same(*was->second, r) ? diff.same : diff.changed).push_back({was->second, &r, {}});
-  }
-  for (const DocumentResult& r : before.results) {
-    if (new_results.contains(r.key)) continue;
-    std::string why = looks_after.reason(r, before.tests[r.test]);
-    (why.empty() ? diff.gone : diff.cannot_tell).push_back({&r, nullptr, std::move(why)});
+  const auto still_the_same = [&](const DocumentResult& x, const DocumentResult& y) {
+    return x.cls == y.cls && std::fabs(x.d_mm - y.d_mm) <= kSameMm && more_places(x, y) == 0 &&
+           before.allowed(x) == after.allowed(y);
+  };
+  diff.same.reserve(std::min(before.results.size(), after.results.size()));
+  auto x = before.results.begin();
+  auto y = after.results.begin();
+  while (x != before.results.end() || y != after.results.end()) {
+    const bool is = y != after.results.end() && (x == before.results.end() || y->key <= x->key);
+    const bool was = x != before.results.end() && (y == after.results.end() || x->key <= y->key);
+    if (is && was) {
+      (still_the_same(*x, *y) ? diff.same : diff.changed).push_back({&*x, &*y, {}});
+    } else if (is) {
+      diff.added.push_back({nullptr, &*y, looks_before.reason(*y, after)});
+    } else {
+      std::string why = looks_after.reason(*x, before);
+      (why.empty() ? diff.gone : diff.cannot_tell).push_back({&*x, nullptr, std::move(why)});
+    }
+    if (was) ++x;
+    if (is) ++y;
   }
   for (std::vector<DiffEntry>* list :
        {&diff.added, &diff.changed, &diff.same, &diff.gone, &diff.cannot_tell})

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "report/text.hpp"
+#include "strake/clash/identity.hpp"
 #include "strake/core/number.hpp"
 #include "strake/core/text.hpp"
 #include "strake/report/clash_diff.hpp"
@@ -25,33 +26,32 @@ void object(std::string& out, const DocumentObject& o) {
   out += "}";
 }
 
-void measured(std::string& out, const DocumentResult& r) {
+void measured(std::string& out, const ClashDocument& run, const DocumentResult& r) {
   out += "\"class\": ";
-  append_json(out, r.cls);
-  if (!r.allowed.empty()) {
+  append_json(out, clash::name(r.cls));
+  if (!run.allowed(r).empty()) {
     out += ", \"allowed\": ";
-    append_json(out, r.allowed);
+    append_json(out, run.allowed(r));
   }
   out += ", \"d_mm\": ";
   append_mm(out, r.d_mm);
+  if (r.regions > 0) out += ", \"region_count\": " + std::to_string(r.regions);
 }
 
 void entry(std::string& out, const ClashDiff& diff, const DiffEntry& e) {
   const DocumentResult& r = e.either();
-  const ClashDocument& run = e.after != nullptr ? *diff.after : *diff.before;
-  out += "{\"key\": ";
-  append_json(out, r.key);
-  out += ", \"test\": ";
+  const ClashDocument& run = diff.run_of(e);
+  out += "{\"key\": \"" + clash::key_text(r.key) + "\", \"test\": ";
   append_json(out, run.tests[r.test].name);
   out += ", \"a\": ";
-  object(out, r.a);
+  object(out, run.a(r));
   out += ", \"b\": ";
-  object(out, r.b);
+  object(out, run.b(r));
   out += ", ";
-  measured(out, r);
+  measured(out, run, r);
   if (e.before != nullptr && e.after != nullptr) {
     out += ", \"was\": {";
-    measured(out, *e.before);
+    measured(out, *diff.before, *e.before);
     out += "}";
   }
   if (!e.why.empty()) {
@@ -119,23 +119,31 @@ void counts(std::string& out, const ClashDiff& diff) {
          ", \"cannot_tell\": " + std::to_string(diff.cannot_tell.size()) + "}";
 }
 
-std::string_view short_name(std::string_view cls) {
-  return cls == "CLEARANCE_VIOLATION" ? std::string_view("CLEARANCE") : cls;
+std::string_view short_name(clash::Class cls) {
+  return cls == clash::Class::clearance_violation ? std::string_view("CLEARANCE")
+                                                  : clash::name(cls);
 }
 
-/// "HIT -12.000", "HIT -12.000 (was CONTACT 0.000)".
-std::string change(const DiffEntry& e) {
-  const auto told = [](const DocumentResult& r) {
-    return std::string(short_name(r.cls)) + " " + fixed(r.d_mm, 3) +
-           (r.allowed.empty() ? "" : ", allowed by " + printable(r.allowed));
-  };
-  if (e.before == nullptr || e.after == nullptr) return told(e.either());
-  return told(*e.after) + " (was " + told(*e.before) + ")";
+std::string told(const ClashDocument& run, const DocumentResult& r, bool with_places) {
+  std::string out = std::string(short_name(r.cls)) + " " + fixed(r.d_mm, 3);
+  if (with_places)
+    out += " at " + std::to_string(r.regions) + (r.regions == 1 ? " place" : " places");
+  if (const std::string& rule = run.allowed(r); !rule.empty())
+    out += ", allowed by " + printable(rule);
+  return out;
+}
+
+/// "HIT -12.000", "HIT -12.000 (was CONTACT 0.000)"; with the number of places where that changed.
+std::string change(const ClashDiff& diff, const DiffEntry& e) {
+  const bool both = e.before != nullptr && e.after != nullptr;
+  const bool places = both && more_places(*e.before, *e.after) != 0;
+  const std::string is = told(diff.run_of(e), e.either(), places);
+  return both ? is + " (was " + told(*diff.before, *e.before, places) + ")" : is;
 }
 
 std::string_view label(const DocumentObject& o) { return o.name.empty() ? o.id : o.name; }
 
-std::string block(std::string_view title, const std::vector<DiffEntry>& list,
+std::string block(std::string_view title, const ClashDiff& diff, const std::vector<DiffEntry>& list,
                   const TableOptions& options) {
   if (list.empty()) return {};
   constexpr std::size_t kLeast = 8, kChange = 34;
@@ -144,9 +152,10 @@ std::string block(std::string_view title, const std::vector<DiffEntry>& list,
   std::string out = std::string(title) + " (" + std::to_string(list.size()) + ")\n";
   const std::size_t shown = std::min(options.rows, list.size());
   for (std::size_t i = 0; i < shown; ++i) {
+    const ClashDocument& run = diff.run_of(list[i]);
     const DocumentResult& r = list[i].either();
-    out += "  " + fitted(label(r.a), names) + "  " + fitted(label(r.b), names) + "  " +
-           change(list[i]) + "\n";
+    out += "  " + fitted(label(run.a(r)), names) + "  " + fitted(label(run.b(r)), names) + "  " +
+           change(diff, list[i]) + "\n";
     const bool told = i > 0 && list[i].why == list[i - 1].why;
     if (!list[i].why.empty() && !told) out += "      " + printable(list[i].why) + "\n";
   }
@@ -195,10 +204,11 @@ void write_clash_diff_json(const ClashDiff& diff, Sink sink) {
 }
 
 std::string clash_diff_table(const ClashDiff& diff, const TableOptions& options) {
-  const std::string out = settings_text(diff) + block("new", diff.added, options) +
-                          block("still there, changed", diff.changed, options) +
-                          block("gone", diff.gone, options) +
-                          block("cannot tell: not looked at again", diff.cannot_tell, options);
+  const std::string out =
+      settings_text(diff) + block("new", diff, diff.added, options) +
+      block("still there, changed", diff, diff.changed, options) +
+      block("gone", diff, diff.gone, options) +
+      block("cannot tell: not looked at again", diff, diff.cannot_tell, options);
   return out + std::to_string(diff.added.size()) + " new, " + std::to_string(diff.changed.size()) +
          " changed, " + std::to_string(diff.same.size()) + " unchanged, " +
          std::to_string(diff.gone.size()) + " gone, " + std::to_string(diff.cannot_tell.size()) +

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "strake/core/hash.hpp"
 #include "strake/model/model.hpp"
 
 /// Names that stay the same from run to run, so that what was decided about a clash is found again.
@@ -26,11 +28,12 @@ struct ElementName {
   std::string_view file_label, id;
 };
 
-/// The same of two objects that are known by name.
-[[nodiscard]] std::string pair_key(std::string_view test, const ElementName& a,
-                                   const ElementName& b);
+/// The same of two objects that are known by name, as the hash that it is.
+[[nodiscard]] Hash128 pair_hash(std::string_view test, const ElementName& a, const ElementName& b);
 
-/// A hash as such a text.
-[[nodiscard]] std::string key_text(std::uint64_t high, std::uint64_t low);
+/// A hash as such a text, and back; nothing for any other text. Texts are ordered as the hashes
+/// are.
+[[nodiscard]] std::string key_text(Hash128 hash);
+[[nodiscard]] std::optional<Hash128> parse_key(std::string_view text);
 
 }  // namespace strake::clash

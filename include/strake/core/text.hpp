@@ -21,6 +21,15 @@ struct Character {
 /// The well-formed UTF-8 character at the front of a text that is not empty.
 [[nodiscard]] Character first_character(std::string_view text);
 
+/// Whether all of it is well-formed UTF-8: no overlong forms, no surrogates.
+[[nodiscard]] bool is_utf8(std::string_view text);
+
+/// Appends the character; `code` is at most 0x10FFFF.
+void append_utf8(std::string& out, std::uint32_t code);
+
+/// How many characters at the front stand for themselves in a JSON string: most of every name.
+[[nodiscard]] std::size_t plain_run(std::string_view text);
+
 /// Control characters, line breaks included, and code points that are no characters.
 [[nodiscard]] bool is_control(std::uint32_t code);
 

@@ -21,6 +21,10 @@ struct DiffEntry {
   [[nodiscard]] const DocumentResult& either() const { return after != nullptr ? *after : *before; }
 };
 
+/// 1 where a result has more separate places than before, -1 where fewer; 0 where as many, or where
+/// a run did not count them.
+[[nodiscard]] int more_places(const DocumentResult& before, const DocumentResult& after);
+
 struct SettingChange {
   std::string test, setting;
   std::string before, after;  ///< as in the documents; empty: absent
@@ -31,16 +35,22 @@ struct SettingChange {
 struct ClashDiff {
   const ClashDocument* before = nullptr;
   const ClashDocument* after = nullptr;
-  std::vector<DiffEntry> added;    ///< new
-  std::vector<DiffEntry> changed;  ///< still there: another class, rule or d (by over a micrometre)
-  std::vector<DiffEntry> same;     ///< still there
-  std::vector<DiffEntry> gone;     ///< looked at again, and no result any more
+  std::vector<DiffEntry> added;  ///< new
+  /// Still there: another class, rule, d (by over a micrometre) or number of places.
+  std::vector<DiffEntry> changed;
+  std::vector<DiffEntry> same;         ///< still there
+  std::vector<DiffEntry> gone;         ///< looked at again, and no result any more
   std::vector<DiffEntry> cannot_tell;  ///< no result any more, but it was not looked at again
   std::vector<SettingChange> settings;
   std::vector<std::string> tests_added, tests_gone;
 
-  /// Whether a result is new, or still there and worse: of a severer class, or deeper or nearer by
-  /// over a micrometre. What a rule allows in the new run is neither.
+  /// The run that either() of an entry is of.
+  [[nodiscard]] const ClashDocument& run_of(const DiffEntry& entry) const {
+    return entry.after != nullptr ? *after : *before;
+  }
+
+  /// Whether a result is new, or still there and worse: of a severer class, deeper or nearer by
+  /// over a micrometre, or at more places. What a rule allows in the new run is neither.
   [[nodiscard]] bool has_new(bool hits_only) const;
   [[nodiscard]] bool has_worse() const;
 };

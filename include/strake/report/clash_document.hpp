@@ -5,9 +5,13 @@
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "strake/clash/clash.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 
 /// Results of clash runs read back, and what changed from one to the other.
@@ -17,19 +21,19 @@
 ///     const report::ClashDiff diff = report::compare(*old_run, *new_run);
 namespace strake::report {
 
-/// An object as a document names it.
+/// An object as a document names it; its texts are the document's.
 struct DocumentObject {
-  std::string id, name, file;
-  std::uint64_t hash = 0;  ///< clash::element_hash of file and id
+  std::string_view id, name, file;
 };
 
 struct DocumentResult {
-  std::string key;
-  std::uint32_t test = 0;
-  DocumentObject a, b;
-  std::string cls;      ///< "HIT" …
-  std::string allowed;  ///< the rule that allows it, or empty
+  Hash128 key;  ///< clash::parse_key of its text
   double d_mm = 0;
+  std::uint32_t test = 0;
+  std::uint32_t a = 0, b = 0;  ///< of ClashDocument::objects
+  std::uint32_t rule = 0;      ///< that allows it, of ClashDocument::rules
+  std::uint32_t regions = 0;   ///< separate places; 0: not counted
+  clash::Class cls = clash::Class::no_hit;
 };
 
 struct DocumentTest {
@@ -43,22 +47,37 @@ struct DocumentTest {
   std::vector<std::uint8_t> in_a, in_b;  ///< bits, as in the document
 };
 
-/// What a comparison needs of a document of schemas/clash.schema.json.
+/// A pair that a rule left out.
+struct DocumentExempted {
+  Hash128 key;  ///< that its result would have
+  std::uint32_t rule = 0;
+};
+
+/// What a comparison needs of a document of schemas/clash.schema.json: of a result some fifty
+/// bytes, of an object its texts once.
 struct ClashDocument {
   std::string name;  ///< of the file, as given
   std::string hash;
   std::vector<DocumentTest> tests;
   std::vector<std::uint64_t> elements;  ///< ascending
-  std::vector<DocumentResult> results;  ///< in the document's order
+  std::vector<DocumentObject> objects;  ///< those that are named, each once
+  std::vector<std::string> rules{{}};   ///< the first, without a name, stands for none
+  std::vector<DocumentResult> results;  ///< by key
   bool lists_exempted = false;
-  std::map<std::string, std::string> exempted;  ///< rule, by key of the pair
+  std::vector<DocumentExempted> exempted;      ///< by key
+  std::vector<std::unique_ptr<char[]>> texts;  ///< what `objects` point into
+
+  [[nodiscard]] const DocumentObject& a(const DocumentResult& r) const { return objects[r.a]; }
+  [[nodiscard]] const DocumentObject& b(const DocumentResult& r) const { return objects[r.b]; }
+  /// The rule that allows a result; empty: none does.
+  [[nodiscard]] const std::string& allowed(const DocumentResult& r) const { return rules[r.rule]; }
 };
 
 /// Errors: input for a file that cannot be read, is cut off, is no such document, is of another
 /// version of the schema, or contradicts itself; each names the line or the result.
 [[nodiscard]] Result<ClashDocument> read_clash_document(const std::filesystem::path& file);
 
-/// The same from a stream that can be rewound; `name` is what errors call it.
+/// The same from a stream, in one pass; `name` is what errors call it.
 [[nodiscard]] Result<ClashDocument> parse_clash_document(std::istream& in, const std::string& name);
 
 }  // namespace strake::report

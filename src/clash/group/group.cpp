@@ -109,8 +109,7 @@ class Namer {
       hasher.add(lowest_key(group));
       group.name = place_of(group.box_mm);
     }
-    const Hash128 hash = hasher.value();
-    group.id = key_text(hash.high, hash.low);
+    group.id = key_text(hasher.value());
   }
 
  private:

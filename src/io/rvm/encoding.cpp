@@ -7,55 +7,9 @@
 #include <cerrno>
 #include <cstdint>
 
+#include "strake/core/text.hpp"
+
 namespace strake::io::rvm {
-
-namespace {
-
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
-
-/// Length of the well-formed UTF-8 sequence at the front (Unicode table 3-7), 0 when ill-formed.
-std::size_t sequence_length(std::string_view s) {
-  const auto byte = [&](std::size_t i) {
-    return i < s.size() ? static_cast<unsigned>(static_cast<unsigned char>(s[i])) : 0U;
-  };
-  const auto tail = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
-  const unsigned b0 = byte(0), b1 = byte(1);
-  if (b0 < 0x80) return 1;
-  if (b0 < 0xC2) return 0;
-  if (b0 < 0xE0) return tail(1) ? 2 : 0;
-  if (b0 < 0xF0) {
-    if (!tail(1) || !tail(2) || (b0 == 0xE0 && b1 < 0xA0) || (b0 == 0xED && b1 > 0x9F)) return 0;
-    return 3;
-  }
-  if (b0 > 0xF4 || !tail(1) || !tail(2) || !tail(3)) return 0;
-  if ((b0 == 0xF0 && b1 < 0x90) || (b0 == 0xF4 && b1 > 0x8F)) return 0;
-  return 4;
-}
-
-void append_utf8(std::string& out, std::uint32_t code) {
-  const auto put = [&](std::uint32_t byte) { out.push_back(static_cast<char>(byte)); };
-  if (code < 0x80) {
-    put(code);
-  } else if (code < 0x800) {
-    put(0xC0U | code >> 6);
-    put(0x80U | (code & 0x3FU));
-  } else {
-    put(0xE0U | code >> 12);
-    put(0x80U | (code >> 6 & 0x3FU));
-    put(0x80U | (code & 0x3FU));
-  }
-}
-
-}  // namespace
-
-bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t n = sequence_length(text);
-    if (n == 0) return false;
-    text.remove_prefix(n);
-  }
-  return true;
-}
 
 std::string from_windows_1252(std::string_view text) {
   // 0x80 to 0x9F; the five holes keep their C1 code as the WHATWG encoding standard has it.

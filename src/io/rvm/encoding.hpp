@@ -10,9 +10,6 @@
 
 namespace strake::io::rvm {
 
-/// True when the bytes are well-formed UTF-8 (no overlong forms, no surrogates).
-[[nodiscard]] bool is_utf8(std::string_view text);
-
 /// Windows-1252 bytes (a superset of printable ISO-8859-1) as UTF-8.
 [[nodiscard]] std::string from_windows_1252(std::string_view text);
 

@@ -201,8 +201,19 @@ TEST(Keys, StayTheSameInEveryVersion) {
   const model::Model model = named_objects(2);
   EXPECT_EQ(pair_key("", model, model::ObjectId{0}, model::ObjectId{1}),
             "7njcejt3bndfg5ht315pa9v4p0");
-  EXPECT_EQ(key_text(0, 0), std::string(26, '0'));
-  EXPECT_EQ(key_text(~std::uint64_t{0}, ~std::uint64_t{0}), "7" + std::string(25, 'z'));
+  EXPECT_EQ(key_text({}), std::string(26, '0'));
+  EXPECT_EQ(key_text({~std::uint64_t{0}, ~std::uint64_t{0}}), "7" + std::string(25, 'z'));
+}
+
+TEST(Keys, AreReadBack) {
+  for (const Hash128 hash : {Hash128{}, Hash128{1, 2}, Hash128{~std::uint64_t{0}, 3}})
+    EXPECT_EQ(parse_key(key_text(hash)), hash);
+  EXPECT_LT(key_text({1, 0}), key_text({2, 0}));
+  const std::string good = key_text({7, 9});
+  for (const std::string& bad :
+       {std::string(), good + "0", good.substr(1), "8" + good.substr(1), "i" + good.substr(1)})
+    EXPECT_EQ(parse_key(bad), std::nullopt) << bad;
+  EXPECT_EQ(parse_key(good.substr(0, 25) + "U"), std::nullopt) << "one text for each hash";
 }
 
 }  // namespace

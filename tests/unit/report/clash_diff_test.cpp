@@ -76,9 +76,12 @@ ClashModel row(double c_from = 180) {
   return m;
 }
 
-std::vector<std::string> names(const std::vector<DiffEntry>& entries) {
+std::vector<std::string> names(const ClashDiff& diff, const std::vector<DiffEntry>& entries) {
   std::vector<std::string> all;
-  for (const DiffEntry& e : entries) all.push_back(e.either().a.id + "-" + e.either().b.id);
+  for (const DiffEntry& e : entries) {
+    const ClashDocument& run = diff.run_of(e);
+    all.push_back(std::string(run.a(e.either()).id) + "-" + std::string(run.b(e.either()).id));
+  }
   return all;
 }
 
@@ -108,18 +111,53 @@ TEST(ClashDiff, NewChangedAndGone) {
   const ClashDocument& x = document(folder, "x.json", run(before), before.model);
   const ClashDocument& y = document(folder, "y.json", run(after), after.model);
   const ClashDiff diff = compare(x, y);
-  EXPECT_EQ(names(diff.added), Names{"c-d"});
+  EXPECT_EQ(names(diff, diff.added), Names{"c-d"});
   EXPECT_EQ(diff.added[0].why, "");
-  EXPECT_EQ(names(diff.changed), Names{"b-c"});
+  EXPECT_EQ(names(diff, diff.changed), Names{"b-c"});
   EXPECT_EQ(diff.changed[0].before->d_mm, -20);
   EXPECT_EQ(diff.changed[0].after->d_mm, -10);
-  EXPECT_EQ(names(diff.gone), Names{"a-b"});
+  EXPECT_EQ(names(diff, diff.gone), Names{"a-b"});
   EXPECT_TRUE(diff.cannot_tell.empty());
   EXPECT_TRUE(diff.has_new(true));
   EXPECT_TRUE(diff.has_worse());
   const ClashDiff back = compare(y, x);
-  EXPECT_EQ(names(back.added), Names{"a-b"});
-  EXPECT_EQ(names(back.gone), Names{"c-d"});
+  EXPECT_EQ(names(back, back.added), Names{"a-b"});
+  EXPECT_EQ(names(back, back.gone), Names{"c-d"});
+}
+
+/// A table on four feet, of which `feet` reach the floor.
+ClashModel table(int feet) {
+  ClashModel m;
+  m.box("floor", {0, 0, -100}, {2000, 2000, 0}).object("table");
+  for (int i = 0; i < 4; ++i) {
+    const double x = i % 2 == 0 ? 100 : 1800, y = i < 2 ? 100 : 1800;
+    m.body(test::box_mesh({x, y, i < feet ? 0.0 : 50.0}, {x + 100, y + 100, 700}));
+  }
+  return m;
+}
+
+TEST(ClashDiff, MoreOrFewerPlacesAreAChange) {
+  Folder folder;
+  const ClashModel before = table(2), after = table(3);
+  const ClashDocument& x = document(folder, "x.json", run(before), before.model);
+  const ClashDocument& y = document(folder, "y.json", run(after), after.model);
+  const ClashDiff diff = compare(x, y);
+  ASSERT_EQ(diff.changed.size(), 1U);
+  EXPECT_EQ(diff.changed[0].before->regions, 2U);
+  EXPECT_EQ(diff.changed[0].after->regions, 3U);
+  EXPECT_TRUE(diff.has_worse());
+  EXPECT_FALSE(compare(y, x).has_worse());
+  EXPECT_NE(
+      clash_diff_table(diff, {}).find("CONTACT 0.000 at 3 places (was CONTACT 0.000 at 2 places)"),
+      std::string::npos);
+  std::string text;
+  write_clash_diff_json(diff, [&](std::string_view piece) { text += piece; });
+  const json entry = json::parse(text)["changed"][0];
+  EXPECT_EQ(entry["region_count"], 3);
+  EXPECT_EQ(entry["was"]["region_count"], 2);
+  const ClashDocument& uncounted =
+      document(folder, "z.json", run(after, {.most_regions = 0}), after.model);
+  EXPECT_EQ(compare(x, uncounted).same.size(), 1U) << "what was not counted is no change";
 }
 
 TEST(ClashDiff, AMissingElementIsNotAMendedClash) {
@@ -131,7 +169,7 @@ TEST(ClashDiff, AMissingElementIsNotAMendedClash) {
   const ClashDocument& y = document(folder, "y.json", run(after), after.model);
   const ClashDiff diff = compare(x, y);
   EXPECT_TRUE(diff.gone.empty());
-  EXPECT_EQ(names(diff.cannot_tell), (Names{"b-c", "a-b"}));
+  EXPECT_EQ(names(diff, diff.cannot_tell), (Names{"b-c", "a-b"}));
   EXPECT_EQ(diff.cannot_tell[0].why, "'b' of t.obj is not in the model");
   const ClashDiff back = compare(y, x);
   ASSERT_EQ(back.added.size(), 2U);
@@ -175,7 +213,7 @@ TEST(ClashDiff, SettingsThatWouldNotReportIt) {
   ASSERT_EQ(diff.settings.size(), 1U);
   EXPECT_EQ(diff.settings[0].setting, "clearance_mm");
   EXPECT_EQ(diff.settings[0].before, "25");
-  EXPECT_EQ(names(diff.cannot_tell), Names{"c-d"});
+  EXPECT_EQ(names(diff, diff.cannot_tell), Names{"c-d"});
   EXPECT_EQ(diff.cannot_tell[0].why, "settings differ: clearance_mm");
   EXPECT_EQ(diff.same.size(), 2U);
   EXPECT_EQ(compare(tight, wide).added[0].why, "settings differ: clearance_mm");
@@ -201,10 +239,10 @@ TEST(ClashDiff, ExemptedAndAllowed) {
   const ClashDocument& listed = document(folder, "l.json", under(true), m.model);
   const ClashDocument& counted = document(folder, "c.json", under(false), m.model);
   const ClashDiff told = compare(plain, listed);
-  EXPECT_EQ(names(told.cannot_tell), Names{"a-b"});
+  EXPECT_EQ(names(told, told.cannot_tell), Names{"a-b"});
   EXPECT_EQ(told.cannot_tell[0].why, "exempted by one unit");
-  EXPECT_EQ(names(told.changed), Names{"b-c"});
-  EXPECT_EQ(told.changed[0].after->allowed, "sleeve");
+  EXPECT_EQ(names(told, told.changed), Names{"b-c"});
+  EXPECT_EQ(listed.allowed(*told.changed[0].after), "sleeve");
   EXPECT_FALSE(told.has_worse());
   EXPECT_TRUE(compare(listed, plain).has_worse()) << "allowed no more";
   EXPECT_EQ(compare(plain, counted).cannot_tell[0].why,
@@ -269,6 +307,13 @@ TEST(ClashDocument, SaysWhatIsWrongAndWhere) {
   expect("{\"results\": []}", "no result of a clash run");
   expect("{\"schema_version\": 1, \"results\": [{}]}", "it says version 1");
   expect("{\"results\": [{\"key\": 5}]}", "results[0] \"key\" is no text");
+  expect("\"\\ud800\"", "bad.json:1: this is no JSON");
+  expect("{\"a\": \"\xFF\"}", "bad.json:1: this is no JSON");
+  expect("{\"results\": [\n{\"key\": \"x\"}]}", "results[0] \"key\" is no key of a pair");
+  expect("{\"results\": [5]}", "results[0] is no object");
+  expect("{\"results\": [{\"class\": \"MISS\"}]}", "\"class\" is no class of a result");
+  expect("{\"schema_version\": 2} {", "bad.json:1: this is no JSON");
+  expect("{\"schema_version\": 2}", "has no \"elements\"");
   expect(std::string(100'000, '['), "nested too deeply");
   std::string objects;
   for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";

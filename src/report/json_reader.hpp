@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strake::report {
+
+/// Takes a JSON text (RFC 8259) from a stream value by value, in one pass: memory does not grow
+/// with the text. The caller says what it wants of each value and skips the rest, which is checked
+/// all the same.
+///
+/// Throws Fault, and is of no use after that.
+class JsonReader {
+ public:
+  enum class Kind : std::uint8_t { object, array, string, number, boolean, null };
+  struct Fault {
+    enum class What : std::uint8_t { broken, cut, deep };
+    What what = What::broken;
+    std::uint64_t line = 0;  ///< counted from 1
+  };
+
+  /// Values may be nested this deep.
+  JsonReader(std::istream& in, int most_depth);
+
+  /// Of the value that comes next.
+  [[nodiscard]] Kind kind();
+
+  /// Of an object, which must come next: member(key) is called for each and takes its value; `key`
+  /// is valid until it begins to.
+  template <class Member>
+  void members(Member&& member) {
+    for (bool more = open('{', '}'); more; more = next('}')) {
+      take_key();
+      member(std::string_view(key_));
+    }
+  }
+  /// Of an array, which must come next: item() is called for each and takes it.
+  template <class Item>
+  void items(Item&& item) {
+    for (bool more = open('[', ']'); more; more = next(']')) item();
+  }
+
+  /// The string that must come next, decoded; valid until anything else is taken.
+  [[nodiscard]] std::string_view text();
+  /// The number that must come next; infinite where no double comes near it.
+  [[nodiscard]] double number();
+  void skip();
+  /// Appends the value as it stands, without blanks between.
+  void copy(std::string& out);
+
+  /// Nothing but blanks may follow.
+  void end();
+
+ private:
+  [[nodiscard]] bool refill();
+  [[nodiscard]] int peek();  ///< the next character, or kEnd
+  [[nodiscard]] int peek_behind_blanks();
+  [[nodiscard]] bool open(char bracket, char closing);
+  [[nodiscard]] bool next(char closing);
+  void expect(char c);
+  void take_key();
+  void take_escape();
+  [[nodiscard]] std::uint32_t take_hex();
+  [[nodiscard]] std::string_view take_number();
+  [[nodiscard]] std::string_view take_word();
+  /// Line ends of the buffer up to there.
+  [[nodiscard]] std::uint64_t lines_up_to(const char* at) const;
+  [[noreturn]] void fail(Fault::What what) const;
+  /// Broken, or cut off where the text ends here.
+  [[noreturn]] void fail_at_next();
+
+  static constexpr int kEnd = -1;
+
+  std::istream& in_;
+  std::vector<char> buffer_;
+  const char* at_ = nullptr;
+  const char* end_ = nullptr;
+  std::uint64_t lines_before_ = 0;  ///< line ends before the buffer
+  std::string spilled_;             ///< a value that the buffer does not hold as it is meant
+  std::string key_;
+  int depth_ = 0, most_depth_;
+};
+
+}  // namespace strake::report
