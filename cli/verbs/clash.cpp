@@ -233,8 +233,12 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   const Result<std::optional<clash::Grouping>> grouping =
       group(session, given.result, *findings, *loaded->model);
   if (!grouping) return grouping.error();
-  if (const Status status = write_report(
-          session, given, {*findings, *loaded->model, *grouping ? &**grouping : nullptr});
+  std::optional<report::RulesSource> source;
+  if (request->rules) source = {request->rules->file(), request->rules->hash()};
+  if (const Status status =
+          write_report(session, given,
+                       {*findings, *loaded->model, *grouping ? &**grouping : nullptr,
+                        source ? &*source : nullptr});
       !status)
     return status.error();
   for (const clash::Report& test : findings->tests)

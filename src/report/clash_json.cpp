@@ -455,6 +455,12 @@ Status write_clash_json(const ClashContents& contents, Sink sink,
   out += ",\n";
   files(out, contents.model);
   out += ",\n";
+  if (contents.rules != nullptr) {
+    key(out, "rules");
+    out += "{\"file\": ";
+    append_json(out, contents.rules->file);
+    out += ", \"hash\": \"" + contents.rules->hash.text() + "\"},\n";
+  }
   const Elements elements(contents.model);
   out += "\"elements\": \"";
   elements.append_list(out);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -232,8 +233,13 @@ class Planner {
 Result<Rules> Rules::parse(std::string_view text, std::string_view file) {
   Result<RuleFile> parsed = parse_rules(text, file);
   if (!parsed) return parsed.error();
+  parsed->hash = hash_bytes(std::as_bytes(std::span(text)));
   return Rules(std::make_shared<const RuleFile>(std::move(*parsed)));
 }
+
+const std::string& Rules::file() const { return file_->file; }
+
+Hash128 Rules::hash() const { return file_->hash; }
 
 Result<Rules> Rules::read(const std::filesystem::path& file) {
   std::error_code error;

@@ -10,6 +10,7 @@
 
 #include "rules/document.hpp"
 #include "strake/clash/policy.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/model/selection.hpp"
 
 namespace strake::rules {
@@ -110,6 +111,7 @@ struct AllowedRule {
 /// What a rules file says.
 struct RuleFile {
   std::string file;
+  Hash128 hash;  ///< of its bytes
   std::vector<NamedSet> sets, disciplines;
   std::optional<MatrixRule> matrix;
   std::vector<TestRule> tests;

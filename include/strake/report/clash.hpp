@@ -7,6 +7,7 @@
 
 #include "strake/clash/clash.hpp"
 #include "strake/clash/group.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
@@ -26,11 +27,18 @@ namespace strake::report {
 /// Takes text piece by piece; pieces end anywhere.
 using Sink = parallel::FunctionRef<void(std::string_view)>;
 
+/// The rules that findings were made by.
+struct RulesSource {
+  std::string file;  ///< its name, without folders
+  Hash128 hash;      ///< of its bytes
+};
+
 /// What there is to tell.
 struct ClashContents {
   const clash::Findings& findings;
   const model::Model& model;
   const clash::Grouping* grouping = nullptr;  ///< of these findings, if asked for
+  const RulesSource* rules = nullptr;         ///< if there were any
 };
 
 /// The document of schemas/clash.schema.json, one result a line, streamed: memory does not grow

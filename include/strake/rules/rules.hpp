@@ -9,6 +9,7 @@
 
 #include "strake/clash/policy.hpp"
 #include "strake/core/diagnostics.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
@@ -50,6 +51,10 @@ class Rules {
   /// known, wrong types, names given twice and sets that need themselves are errors.
   [[nodiscard]] static Result<Rules> parse(std::string_view text, std::string_view file);
   [[nodiscard]] static Result<Rules> read(const std::filesystem::path& file);
+
+  /// What parse() was told to call the file, and the hash of its bytes: what a result names it by.
+  [[nodiscard]] const std::string& file() const;
+  [[nodiscard]] Hash128 hash() const;
 
   /// What the scene must hold for all tests: the finest tessellation that one of them asks for, and
   /// the categories of bodies that a rule speaks of.

@@ -165,6 +165,19 @@ max_depth = "any"
         self.assertEqual([test['name'] for test in report['tests']], ['disciplines', 'hvac against steel'])
         self.assertEqual(report['tests'][1]['settings']['clearance_mm'], 50)
 
+    def test_a_result_names_its_rules_file(self):
+        self.write('m.obj', cubes(0, 90))
+        plain = self.report('m.obj', *self.SETTINGS)
+        self.assertNotIn('rules', plain)
+        self.write('r.toml', '[[test]]\nname = "t"\n')
+        first = self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')
+        self.assertEqual(first['rules']['file'], 'r.toml')
+        self.write('r.toml', '# nothing more\n[[test]]\nname = "t"\n')
+        second = self.report('m.obj', *self.SETTINGS, '--rules', str(self.folder / 'r.toml'))
+        self.assertEqual(second['rules']['file'], 'r.toml', 'without folders')
+        self.assertNotEqual(first['rules']['hash'], second['rules']['hash'])
+        self.assertEqual(first['hash'], second['hash'], 'the hash is that of the results')
+
     def test_a_rule_that_matches_nothing_is_named_in_both_places(self):
         self.write('m.obj', cubes(0))
         self.write('r.toml', '[[exempt]]\nname = "old"\na = "new*"\nb = "ghost*"\n[[test]]\nname = "t"\na = "x"\n')
