@@ -10,6 +10,7 @@
 #include <string_view>
 #include <tuple>
 #include <unordered_set>
+#include <utility>
 
 #include "model/text_order.hpp"
 
@@ -159,7 +160,31 @@ std::string Model::path(const Object& object) const {
   return joined;
 }
 
+Model::Stated Model::stated(const Object& object, std::string_view attribute) const {
+  const auto states = [attribute](const Attributes& attributes) {
+    return std::ranges::any_of(attributes, [&](const auto& a) { return a.first == attribute; });
+  };
+  if (states(object.attributes)) return {&object.attributes, GroupId::none};
+  if (group_attributes.empty()) return {};
+  GroupId at = object.parent;
+  // A chain longer than the number of groups runs in a circle.
+  for (std::size_t steps = 0; index(at) < groups.size() && steps < groups.size(); ++steps) {
+    const Group& group = groups[index(at)];
+    if (group.attributes < group_attributes.size() && states(group_attributes[group.attributes]))
+      return {&group_attributes[group.attributes], at};
+    at = group.parent;
+  }
+  return {};
+}
+
+void Model::set_attributes(GroupId group, Attributes attributes) {
+  if (attributes.empty()) return;
+  groups[index(group)].attributes = static_cast<std::uint32_t>(group_attributes.size());
+  group_attributes.push_back(std::move(attributes));
+}
+
 void finish(Model& model) {
+  for (std::uint32_t place = 0; Object & o : model.objects) o.place = place++;
   const Order renumbered = order_files(model);
   for (Object& o : model.objects)
     if (o.file < renumbered.size()) o.file = renumbered[o.file];
@@ -179,7 +204,11 @@ void append(Model& model, Model&& other) {
   const auto shifted = [groups](GroupId id) {
     return id == GroupId::none ? id : GroupId{index(id) + groups};
   };
-  for (Group& g : other.groups) g.parent = shifted(g.parent);
+  const auto attributes = static_cast<std::uint32_t>(model.group_attributes.size());
+  for (Group& g : other.groups) {
+    g.parent = shifted(g.parent);
+    if (g.attributes != Group::kNoAttributes) g.attributes += attributes;
+  }
   for (Object& o : other.objects) {
     o.file += files;
     o.parent = shifted(o.parent);
@@ -196,6 +225,7 @@ void append(Model& model, Model&& other) {
   };
   move_all(other.files, model.files);
   move_all(other.groups, model.groups);
+  move_all(other.group_attributes, model.group_attributes);
   move_all(other.shapes, model.shapes);
   move_all(other.objects, model.objects);
   move_all(other.bodies, model.bodies);

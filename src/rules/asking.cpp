@@ -96,9 +96,16 @@ std::vector<const Chooser*> choosers_of(const RuleFile& rules) {
   return all;
 }
 
-std::vector<std::string_view> values_of(const model::Object& object, std::string_view attribute) {
+std::vector<std::string_view> values_of(const model::Model& model, const model::Object& object,
+                                        std::string_view attribute) {
+  const model::Attributes* const stated = model.stated(object, attribute).attributes;
+  return stated == nullptr ? std::vector<std::string_view>() : values_of(*stated, attribute);
+}
+
+std::vector<std::string_view> values_of(const model::Attributes& attributes,
+                                        std::string_view attribute) {
   std::vector<std::string_view> values;
-  for (const auto& [name, value] : object.attributes) {
+  for (const auto& [name, value] : attributes) {
     if (name != attribute) continue;
     const std::string_view text = bare(value);
     if (!says_none(text)) values.push_back(text);

@@ -60,6 +60,11 @@ class Hierarchy {
   [[nodiscard]] const std::string& name(GroupId group) const {
     return model_.groups[index(group)].name;
   }
+  /// What a group states; null: nothing.
+  [[nodiscard]] const model::Attributes* attributes(GroupId group) const {
+    const std::uint32_t own = model_.groups[index(group)].attributes;
+    return own < model_.group_attributes.size() ? &model_.group_attributes[own] : nullptr;
+  }
 
  private:
   [[nodiscard]] bool known(GroupId g) const {
@@ -67,6 +72,53 @@ class Hierarchy {
   }
   const Model& model_;
   std::map<std::pair<GroupId, std::string_view>, GroupId> own_;
+};
+
+/// Who speaks for the references that groups state: a branch names what it connects its ends to,
+/// and its components inherit that.
+class References {
+ public:
+  References(const Model& model, const ConnectedRule& rule) : model_(model), rule_(rule) {
+    if (rule.heirs != Heirs::ends || model.group_attributes.empty()) return;
+    ends_.resize(rule.attributes.size());
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o)
+      for (std::size_t a = 0; a < ends_.size(); ++a) {
+        const Model::Stated stated = model.stated(model.objects[o], rule.attributes[a]);
+        if (stated.group == GroupId::none) continue;
+        Ends& ends = ends_[a].try_emplace(stated.group, Ends{o, o}).first->second;
+        if (place(o) < place(ends.first)) ends.first = o;
+        if (place(o) >= place(ends.last)) ends.last = o;
+      }
+  }
+
+  /// What object `o` refers to.
+  [[nodiscard]] std::vector<std::string_view> of(std::uint32_t o) const {
+    std::vector<std::string_view> values;
+    for (std::size_t a = 0; a < rule_.attributes.size(); ++a) {
+      const std::string& attribute = rule_.attributes[a];
+      const Model::Stated stated = model_.stated(model_.objects[o], attribute);
+      if (stated.attributes == nullptr) continue;
+      if (stated.group != GroupId::none && !speaks(o, a, stated.group)) continue;
+      const auto more = values_of(*stated.attributes, attribute);
+      values.insert(values.end(), more.begin(), more.end());
+    }
+    return values;
+  }
+
+ private:
+  struct Ends {
+    std::uint32_t first = 0, last = 0;
+  };
+  [[nodiscard]] std::uint32_t place(std::uint32_t o) const { return model_.objects[o].place; }
+  [[nodiscard]] bool speaks(std::uint32_t o, std::size_t attribute, GroupId group) const {
+    if (rule_.heirs != Heirs::ends) return rule_.heirs == Heirs::all;
+    const Ends& ends = ends_[attribute].at(group);
+    return o == ends.first || o == ends.last;
+  }
+
+  const Model& model_;
+  const ConnectedRule& rule_;
+  std::vector<std::map<GroupId, Ends>> ends_;  ///< by attribute
 };
 
 SameLabel unlabelled(const Asking& asking) {
@@ -95,7 +147,7 @@ struct Labelling {
     }
     for (std::size_t o = 0; o < objects.size() && !units.attribute.empty(); ++o) {
       if (said[o]) continue;
-      for (const std::string_view value : values_of(objects[o], units.attribute)) {
+      for (const std::string_view value : values_of(asking.model(), objects[o], units.attribute)) {
         if (const auto number = parse_integer(value))
           unit[o] = *number;
         else
@@ -158,7 +210,7 @@ struct Labelling {
     Numbers values;
     bool some = false;
     for (std::size_t o = 0; o < test.label.size(); ++o) {
-      const auto found = values_of(asking.model().objects[o], same.attribute);
+      const auto found = values_of(asking.model(), asking.model().objects[o], same.attribute);
       if (found.empty() || !among[o]) continue;
       test.label[o] = values.of(found.front());
       some = true;
@@ -180,15 +232,15 @@ struct Labelling {
 
   Test operator()(const ConnectedRule& connected) const {
     const Hierarchy hierarchy(asking.model());
+    const References references(asking.model(), connected);
     Numbers texts;
     clash::Linked test{{{0}, {}}, {{0}, {}}};
-    for (std::size_t o = 0; o < asking.objects(); ++o) {
+    for (std::uint32_t o = 0; o < asking.objects(); ++o) {
       const Object& object = asking.model().objects[o];
       std::vector<std::uint32_t> refers, answers;
       if (among[o]) {
-        for (const std::string& attribute : connected.attributes)
-          for (const std::string_view value : values_of(object, attribute))
-            split(value, connected.separator, texts, refers);
+        for (const std::string_view value : references.of(o))
+          split(value, connected.separator, texts, refers);
         answers = connected.node ? refers : names(object, connected, hierarchy, texts);
       }
       append(test.refers_to, std::move(refers));
@@ -220,11 +272,17 @@ struct Labelling {
     std::vector<std::uint32_t> numbers;
     for (const std::string& text : {object.id, object.name})
       if (!text.empty()) numbers.push_back(texts.of(text));
-    for (const std::string_view value : values_of(object, "Name"))
+    for (const std::string_view value : values_of(object.attributes, "Name"))
       numbers.push_back(texts.of(value));
-    if (connected.groups)
-      for (const GroupId group : hierarchy.path(object))
-        if (!hierarchy.name(group).empty()) numbers.push_back(texts.of(hierarchy.name(group)));
+    if (!connected.groups) return numbers;
+    for (const GroupId group : hierarchy.path(object)) {
+      if (!hierarchy.name(group).empty()) numbers.push_back(texts.of(hierarchy.name(group)));
+      const model::Attributes* const stated = hierarchy.attributes(group);
+      if (stated == nullptr) continue;
+      for (const char* const attribute : {"Name", "RefNo"})
+        for (const std::string_view value : values_of(*stated, attribute))
+          numbers.push_back(texts.of(value));
+    }
     return numbers;
   }
 

@@ -276,6 +276,9 @@ class Parser {
                      "write attributes = [\"HREF\", \"TREF\"]");
     constexpr std::array<std::string_view, 2> kWords{"partner", "node"};
     connected.node = table.word("by", kWords).value_or("partner") == "node";
+    constexpr std::array<std::string_view, 3> kHeirs{"none", "ends", "all"};
+    const std::string heirs = table.word("inherited", kHeirs).value_or("ends");
+    connected.heirs = heirs == "none" ? Heirs::none : heirs == "all" ? Heirs::all : Heirs::ends;
     connected.groups = table.flag("groups").value_or(false);
     connected.separator = table.text("separator").value_or("");
     rule.rule = std::move(connected);

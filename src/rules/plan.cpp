@@ -93,7 +93,10 @@ class Planner {
       for (const model::Body& body :
            std::span(asking_.model().bodies).subspan(object.first_body, object.body_count))
         some = some || body.category == model::Category::obstruction;
-      for (const auto& [name, text] : object.attributes) {
+      const model::Attributes* const stated =
+          asking_.model().stated(object, rule.attribute).attributes;
+      if (stated == nullptr) continue;
+      for (const auto& [name, text] : *stated) {
         if (name != rule.attribute) continue;
         some = true;
         // "none" is a level here, which values_of() takes for no value.

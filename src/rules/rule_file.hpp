@@ -65,9 +65,13 @@ struct AssemblyRule {
   bool across_files = false;
 };
 
+/// Whom an attribute of a group speaks for, among the objects that inherit it.
+enum class Heirs : std::uint8_t { none, ends, all };
+
 /// Objects whose attributes name each other, or a common node, are no pair.
 struct ConnectedRule {
   std::vector<std::string> attributes;
+  Heirs heirs = Heirs::ends;  ///< ends: the first and the last in the order of the source
   bool node = false;    ///< equal values connect; otherwise a value is the partner's name or id
   bool groups = false;  ///< the names of a partner's groups count as its own
   std::string separator;

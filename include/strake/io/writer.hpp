@@ -18,8 +18,8 @@ struct WriteOptions {
 };
 
 /// Writes a model as binary glTF 2.0: an object is a node with a mesh, a name and extras
-/// {id, path, attributes}; groups are parent nodes; bodies of equal shape and colour share a mesh;
-/// colours are materials; polylines are LINES.
+/// {id, path, attributes}; groups are parent nodes with their attributes; bodies of equal shape and
+/// colour share a mesh; colours are materials; polylines are LINES.
 ///
 /// 1. The file appears whole or not at all; the same model gives the same bytes.
 /// 2. Coordinates are float32 in the shape's own frame, node matrices are doubles.

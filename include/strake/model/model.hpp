@@ -52,13 +52,16 @@ struct Body {
   Category category = Category::physical;
 };
 
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
 /// A node of the source's hierarchy that is not itself an object (or also is one).
 struct Group {
+  static constexpr std::uint32_t kNoAttributes = 0xffffffffU;
+
   std::string name;
   GroupId parent = GroupId::none;
+  std::uint32_t attributes = kNoAttributes;  ///< index into Model::group_attributes
 };
-
-using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 /// What a user would point at: an RVM group that directly holds primitives, a glTF node with a
 /// mesh, an OBJ o/g group, an STL file.
@@ -70,7 +73,8 @@ struct Object {
   GroupId parent = GroupId::none;  ///< hierarchy path, outermost group last reached
   std::uint32_t first_body = 0;    ///< bodies [first_body, first_body + body_count)
   std::uint32_t body_count = 0;
-  Attributes attributes;
+  std::uint32_t place = 0;  ///< in the order of the source, counted over the model
+  Attributes attributes;    ///< its own; Model::stated() has what it inherits
 };
 
 /// Where a part of the model came from.
@@ -93,6 +97,8 @@ struct SourceFile {
 struct Model {
   std::vector<SourceFile> files;
   std::vector<Group> groups;
+  /// What groups state: kept once, for all objects below.
+  std::vector<Attributes> group_attributes;
   std::vector<Shape> shapes;
   std::vector<Object> objects;
   std::vector<Body> bodies;
@@ -101,11 +107,21 @@ struct Model {
   [[nodiscard]] const Object& object(ObjectId id) const { return objects[index(id)]; }
   /// Names from the outermost group to the object's own parent, joined by '/'.
   [[nodiscard]] std::string path(const Object& object) const;
+
+  /// Where an attribute of an object is stated.
+  struct Stated {
+    const Attributes* attributes = nullptr;  ///< null: nowhere
+    GroupId group = GroupId::none;           ///< none: by the object itself
+  };
+  /// An object inherits what it does not state itself from the nearest group above that does.
+  [[nodiscard]] Stated stated(const Object& object, std::string_view attribute) const;
+  /// Gives a group attributes, if there are any.
+  void set_attributes(GroupId group, Attributes attributes);
 };
 
 /// Makes file labels and object ids unique (a repeated id gains "#2", "#3", … and a diagnostic),
-/// and orders objects by (file label, id) and bodies by object. Readers' output is not a Model
-/// until this ran; io::read_models calls it.
+/// notes the objects' places, and orders objects by (file label, id) and bodies by object. Readers'
+/// output is not a Model until this ran; io::read_models calls it.
 void finish(Model& model);
 
 /// Appends the files, groups, shapes, objects, bodies and diagnostics of `other`.

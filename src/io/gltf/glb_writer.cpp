@@ -48,6 +48,7 @@ class JsonChunk {
   void object_node(std::size_t object);
   void matrix(const geometry::Placement& placement);
   void extras(const model::Object& object);
+  void attributes(const model::Attributes& attributes);
   void child_list(const char* name, const std::vector<std::uint32_t>& children);
   void meshes();
   void materials();
@@ -82,17 +83,22 @@ void JsonChunk::extras(const model::Object& object) {
   out_ += R"(,"path":)";
   append_json_string(out_, model_.path(object));
   if (!object.attributes.empty()) {
-    out_ += R"(,"attributes":{)";
-    std::set<std::string> used;
-    for (const auto& [key, value] : object.attributes) {
-      std::string name = key;
-      for (int i = 2; !used.insert(name).second; ++i) name = fmt::format("{}#{}", key, i);
-      if (used.size() > 1) out_.push_back(',');
-      append_json_string(out_, name);
-      out_.push_back(':');
-      append_json_string(out_, value);
-    }
-    out_ += "}";
+    out_ += ',';
+    attributes(object.attributes);
+  }
+  out_ += "}";
+}
+
+void JsonChunk::attributes(const model::Attributes& attributes) {
+  out_ += R"("attributes":{)";
+  std::set<std::string> used;
+  for (const auto& [key, value] : attributes) {
+    std::string name = key;
+    for (int i = 2; !used.insert(name).second; ++i) name = fmt::format("{}#{}", key, i);
+    if (used.size() > 1) out_.push_back(',');
+    append_json_string(out_, name);
+    out_.push_back(':');
+    append_json_string(out_, value);
   }
   out_ += "}";
 }
@@ -135,8 +141,14 @@ void JsonChunk::nodes() {
   for (std::size_t i = 0; i < model_.groups.size(); ++i) {
     separator(first);
     out_ += R"({"name":)";
-    append_json_string(out_, model_.groups[i].name);
+    const model::Group& group = model_.groups[i];
+    append_json_string(out_, group.name);
     child_list("children", children[i]);
+    if (group.attributes != model::Group::kNoAttributes) {
+      out_ += R"(,"extras":{)";
+      attributes(model_.group_attributes[group.attributes]);
+      out_ += "}";
+    }
     out_ += "}";
   }
   for (std::size_t i = 0; i < model_.objects.size(); ++i) {

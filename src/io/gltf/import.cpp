@@ -335,6 +335,7 @@ void Importer::place(const Visit& visit, std::size_t self) {
   if (!node.children.empty()) {
     here.group = static_cast<model::GroupId>(model_.groups.size());
     model_.groups.push_back({node.name, above.group});
+    model_.set_attributes(here.group, node.mesh ? node.attributes : std::move(node.attributes));
   }
   if (!node.mesh) return;
   if (here.fault != nullptr) return skip(node, *here.fault);

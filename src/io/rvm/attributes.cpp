@@ -212,13 +212,21 @@ void attach_attributes(Built& built, const AttributeFile& file, const TextDecode
   names.reserve(file.nodes.size());
   for (const AttributeNode& node : file.nodes) names.push_back(decode(node.name));
   const std::vector<std::uint32_t> matched = match(built, names, file);
-  for (std::size_t o = 0; o < built.model.objects.size(); ++o) {
-    const std::uint32_t group = built.group_of[o];
-    if (group == kNoGroup || matched[group] == kNoGroup) continue;
-    model::Attributes& attributes = built.model.objects[o].attributes;
-    for (const auto& [key, value] : file.nodes[matched[group]].values)
-      attributes.emplace_back(decode(key), decode(value));
-  }
+  const auto attributes_of = [&](std::uint32_t group) {
+    model::Attributes attributes;
+    if (group == kNoGroup || matched[group] == kNoGroup) return attributes;
+    const auto& values = file.nodes[matched[group]].values;
+    attributes.reserve(values.size());
+    for (const auto& [key, value] : values) attributes.emplace_back(decode(key), decode(value));
+    return attributes;
+  };
+  for (std::size_t o = 0; o < built.model.objects.size(); ++o)
+    built.model.objects[o].attributes = attributes_of(built.group_of[o]);
+  std::vector<bool> has_heirs(built.groups.size(), false);
+  for (const GroupRecord& group : built.groups)
+    if (group.parent != kNoGroup) has_heirs[group.parent] = true;
+  for (std::uint32_t g = 0; g < built.groups.size(); ++g)
+    if (has_heirs[g]) built.model.set_attributes(model::GroupId{g}, attributes_of(g));
   std::vector<bool> used(file.nodes.size(), false);
   std::size_t bare = 0;
   for (const std::uint32_t node : matched) {

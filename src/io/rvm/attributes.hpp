@@ -40,9 +40,9 @@ struct AttributeFile {
 [[nodiscard]] std::optional<std::filesystem::path> find_attribute_file(
     const std::filesystem::path& model_path);
 
-/// Gives the objects the attributes of the elements they are, by path from the root where that
-/// matches, otherwise by a name that occurs once on both sides; an ambiguous name matches nothing.
-/// What stays without a partner is counted in a note.
+/// Gives the objects, and the groups that hold others, the attributes of the elements they are, by
+/// path from the root where that matches, otherwise by a name that occurs once on both sides; an
+/// ambiguous name matches nothing. What stays without a partner is counted in a note.
 void attach_attributes(Built& built, const AttributeFile& file, const TextDecoder& decode,
                        std::string_view where, Diagnostics& diagnostics);
 

@@ -149,7 +149,9 @@ class Asker {
 
   /// A name may be carried several times; one that passes is enough.
   [[nodiscard]] bool attribute_passes(const Test& test) const {
-    for (const auto& [name, value] : object_.attributes)
+    const Attributes* const stated = model_.stated(object_, test.attribute).attributes;
+    if (stated == nullptr) return false;
+    for (const auto& [name, value] : *stated)
       if (name == test.attribute &&
           (test.op == Operator::exists || text_passes(test, value) || quantity_passes(test, value)))
         return true;

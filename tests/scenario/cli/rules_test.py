@@ -340,6 +340,27 @@ class RealModels(Rules):
         self.assertEqual(seen, len(report['results']))
         self.assertGreater(seen, 300)
 
+    def test_components_at_the_ends_of_real_branches_are_connected(self):
+        model = self.data / 'benvautrin_pmuc' / 'plm-sample_11072013.rvm'
+
+        def exempted(inherited):
+            self.write('r.toml', '[[connected]]\nname = "joints"\nattributes = ["Href", "Tref"]\n'
+                       f'inherited = "{inherited}"\n')
+            report = self.report(model, '--rules', 'r.toml', '--list-exempted')
+            return {frozenset((pair['a']['name'], pair['b']['name'])) for pair in report['exempted']}
+
+        own, ends = exempted('none'), exempted('ends')
+        self.assertEqual(len(own), 7, 'branches that have tubes are objects with references of their own')
+        self.assertEqual(ends - own, {frozenset(pair) for pair in (
+            ('/-ART1010TYB0001', '/-ART1106RT-'),
+            ('/-ART1010TYB0002', 'WELD 2 of BRANCH /-ART1010TYB0001'),
+            ('/DVX1201GLB0001T001', 'GASKET 1 of BRANCH /DVX1201GLB0002'),
+            ('TEE 1 of BRANCH /-ART1010TYB0002', 'WELD 1 of BRANCH /-ARTXXXTYB0001'),
+            ('FLANGE 1 of BRANCH /-ART1010TYB0002', 'NOZZLE 2 of SUBEQUIPMENT 3 of EQUIPMENT /-ART1101PO-'),
+            ('FLANGE 1 of BRANCH /-ARTXXXTYB0001', 'NOZZLE 1 of SUBEQUIPMENT 3 of EQUIPMENT /-ART1111PO-'),
+            ('TEE 1 of BRANCH /-HZ-0501CAA1A--', 'REDUCER 1 of BRANCH /-HZ-0501CAA2A--'))})
+        self.assertLessEqual(own, ends)
+
     def test_obstruction_levels_of_a_real_attribute_file(self):
         model = self.data / 'equinor_rvmsharp' / 'WD1-PSUP.RVM'
         levels, name = {}, None

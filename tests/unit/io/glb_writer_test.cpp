@@ -95,6 +95,15 @@ TEST(GlbWriter, WritesObjectsAsNodesThatShareMeshes) {
   EXPECT_EQ(glb.document["scenes"][0]["nodes"], json::parse("[0, 4, 6]"));
 }
 
+TEST(GlbWriter, GroupsKeepTheirAttributes) {
+  model::Model model = test::sample_model();
+  model.set_attributes(model::GroupId{0}, {{"AREA", "7"}, {"AREA", "\"8\""}});
+  const Glb glb = write_and_split(model);
+  EXPECT_EQ(glb.document["nodes"][0]["extras"],
+            json::parse(R"({"attributes": {"AREA": "7", "AREA#2": "\"8\""}})"));
+  EXPECT_FALSE(glb.document["nodes"][1].contains("extras"));
+}
+
 TEST(GlbWriter, TurnsToMetresWithYUp) {
   const Glb glb = write_and_split(test::sample_model());
   EXPECT_EQ(node(glb, "one")["matrix"],

@@ -72,6 +72,18 @@ TEST(GltfReader, LetsTheUserOverrideUnitAndUpAxis) {
   EXPECT_EQ(model.files[0].unit, "mm (given)");
 }
 
+TEST(GltfReader, NodesAboveGiveTheirAttributes) {
+  const model::Model model = read_ok(triangle_glb(
+      R"("nodes":[{"name":"deck","children":[1],"extras":{"area":7}},)"
+      R"({"name":"pump","mesh":0,"children":[2],"extras":{"tag":"P-1"}},{"name":"bolt","mesh":0}])"));
+  ASSERT_EQ(model.objects.size(), 2U);
+  const model::Object& bolt = model.objects[1];
+  EXPECT_EQ(*model.stated(bolt, "area").attributes, (model::Attributes{{"area", "7"}}));
+  EXPECT_EQ(*model.stated(bolt, "tag").attributes, (model::Attributes{{"tag", "P-1"}}));
+  EXPECT_EQ(model.objects[0].attributes, (model::Attributes{{"tag", "P-1"}}));
+  EXPECT_TRUE(bolt.attributes.empty());
+}
+
 TEST(GltfReader, FollowsTheHierarchy) {
   const model::Model model = read_ok(triangle_glb(
       R"("nodes":[{"name":"deck","children":[2,1],"translation":[10,0,0]},)"

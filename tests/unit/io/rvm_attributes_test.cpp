@@ -95,6 +95,38 @@ TEST(RvmAttributes, MatchesByPathThenByUniqueNameAndNeverAmbiguously) {
             "model");
 }
 
+/// A branch without primitives of its own, and an equipment that has some and holds a nozzle.
+TEST(RvmAttributes, GroupsThatHoldOthersHaveTheirs) {
+  const test::TemporaryFolder folder;
+  RvmWriter w;
+  w.head().modl();
+  w.cntb("/B1").cntb("ELBOW 1").prim(9, {1}).cnte().cntb("FLANGE 1").prim(9, {2}).cnte().cnte();
+  w.cntb("/E1").prim(9, {3}).cntb("NOZZLE 1").prim(9, {4}).cnte().cnte();
+  w.finish();
+  static_cast<void>(folder.write(
+      "m.att", attributes_of("NEW /B1\n Tref:= =7/8\n Area:= 3\n"
+                             "NEW ELBOW 1\n Area:= 4\n END\nNEW FLANGE 1\n k:= 1\n END\nEND\n"
+                             "NEW /E1\n Area:= 5\nNEW NOZZLE 1\n Name:= =7/8\n END\nEND\n")));
+  const std::string_view bytes(reinterpret_cast<const char*>(w.bytes().data()), w.bytes().size());
+  const auto model = test::read_bytes(*make_rvm_reader(), bytes, folder.path() / "m.rvm");
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->group_attributes.size(), 2U) << "once for all objects below";
+  const auto value = [&](const std::string& name, std::string_view attribute) {
+    for (const model::Object& o : model->objects) {
+      const model::Attributes* const stated = model->stated(o, attribute).attributes;
+      if (o.name != name || stated == nullptr) continue;
+      for (const auto& [key, text] : *stated)
+        if (key == attribute) return text;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(value("FLANGE 1", "Tref"), "=7/8");
+  EXPECT_EQ(value("FLANGE 1", "Area"), "3");
+  EXPECT_EQ(value("ELBOW 1", "Area"), "4");
+  EXPECT_EQ(value("NOZZLE 1", "Area"), "5") << "from an object";
+  EXPECT_EQ(value("NOZZLE 1", "Tref"), "");
+}
+
 TEST(RvmAttributes, ABadAttributeFileDoesNotCostTheModel) {
   const test::TemporaryFolder folder;
   RvmWriter w;

@@ -47,6 +47,30 @@ TEST(Model, FinishOrdersByFileAndIdWhateverTheOrderOfFiles) {
   EXPECT_EQ(ba.path(ba.objects[3]), "root b.obj/deck");
 }
 
+TEST(Model, FinishNotesTheOrderOfTheSource) {
+  Model m = one_file("a.obj", {"z", "m", "k"});
+  finish(m);
+  EXPECT_EQ(m.objects[0].id, "k");
+  EXPECT_EQ(m.objects[0].place, 2U);
+  EXPECT_EQ(m.objects[2].place, 0U);
+}
+
+TEST(Model, AppendKeepsTheAttributesOfGroups) {
+  Model a = one_file("a.obj", {"x"}), b = one_file("b.obj", {"y"});
+  a.set_attributes(GroupId{1}, {{"AREA", "1"}});
+  b.set_attributes(GroupId{0}, {{"AREA", "2"}});
+  append(a, std::move(b));
+  finish(a);
+  const auto area = [&](std::size_t o) {
+    const Model::Stated stated = a.stated(a.objects[o], "AREA");
+    return stated.attributes == nullptr ? std::string() : stated.attributes->front().second;
+  };
+  EXPECT_EQ(area(0), "1");
+  EXPECT_EQ(area(1), "2");
+  EXPECT_EQ(a.stated(a.objects[1], "AREA").group, GroupId{2});
+  EXPECT_EQ(a.stated(a.objects[1], "TREF").attributes, nullptr);
+}
+
 TEST(Model, FinishKeepsBodiesWithTheirObjects) {
   Model m = one_file("a.obj", {"z", "m", "k"});
   finish(m);

@@ -218,5 +218,18 @@ TEST_F(SelectionTest, TheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(SelectionTest, AttributesOfGroupsAreThoseOfTheObjectsBelow) {
+  model_.set_attributes(GroupId{0}, {{"Area", "7"}, {"Spec", "S-40"}, {"DN", "1"}});
+  model_.set_attributes(GroupId{1}, {{"Area", "8"}, {"Tref", "/N1"}, {"Tref", "/N2"}});
+  EXPECT_EQ(picked("@Tref = /N2"), "p1 p2 v1");
+  EXPECT_EQ(picked("@Area = 8"), "p1 p2 v1");
+  EXPECT_EQ(picked("@Area = 7"), "") << "the nearest group that states it";
+  EXPECT_EQ(picked("@Spec = S-40"), "v1") << "what an object states itself it does not inherit";
+  EXPECT_EQ(picked("@DN = 1"), "");
+  EXPECT_EQ(picked("@Area != 8"), "w1 c1");
+  model_.groups[0].parent = GroupId{1};
+  EXPECT_EQ(picked("@Nobody"), "") << "groups that run in a circle";
+}
+
 }  // namespace
 }  // namespace strake::model

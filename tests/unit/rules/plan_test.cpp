@@ -41,6 +41,11 @@ class Row {
     m_.model.groups.push_back({name, parent});
     return model::GroupId{static_cast<std::uint32_t>(m_.model.groups.size() - 1)};
   }
+  model::GroupId group(const std::string& name, model::Attributes attributes) {
+    const model::GroupId made = group(name);
+    m_.model.set_attributes(made, std::move(attributes));
+    return made;
+  }
 
   struct Outcome {
     std::vector<clash::Report> reports;
@@ -233,6 +238,31 @@ TEST(RulesPlan, ConnectedToAGroupOfThePartner) {
   const std::string rule = "[[connected]]\nname = \"x\"\nattributes = [\"CREF\"]\n";
   EXPECT_EQ(row.hits(rule), (Told{"nozzle-elbow HIT", "elbow-tee HIT"}));
   EXPECT_EQ(row.hits(rule + "groups = true"), (Told{"elbow-tee HIT"}));
+}
+
+TEST(RulesPlan, WhatABranchIsConnectedToItsEndsAre) {
+  Row row;
+  const auto branch = row.group("/100-B-1", {{"HREF", "=7/1"}, {"TREF", "pump"}});
+  const auto equipment = row.group("/E-1", {{"Name", "=7/1"}});
+  row.cube("tank", {}, equipment).cube("flange", {}, branch).cube("elbow", {}, branch);
+  row.cube("strainer", {{"Name", "pump"}}).cube("tee", {}, branch).cube("cap", {}, branch);
+  row.cube("pump");
+  const std::string rule =
+      "[[connected]]\nname = \"x\"\nattributes = [\"HREF\", \"TREF\"]\ngroups = true\n";
+  EXPECT_EQ(row.hits(rule),
+            (Told{"flange-elbow HIT", "elbow-strainer HIT", "strainer-tee HIT", "tee-cap HIT"}));
+  EXPECT_EQ(row.hits(rule + "inherited = \"all\""), (Told{"flange-elbow HIT", "tee-cap HIT"}));
+  EXPECT_EQ(row.hits(rule + "inherited = \"none\"").size(), 6U);
+  EXPECT_EQ(row.hits("[[connected]]\nname = \"x\"\nattributes = \"TREF\"").size(), 5U);
+}
+
+TEST(RulesPlan, AttributesOfGroupsCountForTheObjectsBelow) {
+  Row row;
+  const auto skid = row.group("skid", {{"UNIT", "7"}, {"SYSTEM", "oil"}, {"OBST", "0"}});
+  row.cube("a", {}, skid).cube("b", {{"UNIT", "8"}}, skid).cube("c", {{"OBST", "2"}}, skid);
+  EXPECT_EQ(row.hits("[unit_groups]\nattribute = \"UNIT\""), (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits("[[same_attribute]]\nname = \"s\"\nattribute = \"SYSTEM\""), Told{});
+  EXPECT_EQ(row.hits("[obstruction]\n[[test]]\nname = \"t\"\na = \"@OBST = 2\""), Told{});
 }
 
 TEST(RulesPlan, SameAttributeSameFileAndPairsOfSets) {
