@@ -246,6 +246,8 @@ Hash128 Rules::hash() const { return file_->hash; }
 
 Result<Rules> Rules::read(const std::filesystem::path& file) {
   std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    return Error{ErrorCode::input, "cannot be opened", file.string(), "does it exist?"};
   const auto size = std::filesystem::file_size(file, error);
   if (error || !std::filesystem::is_regular_file(file))
     return Error{ErrorCode::input, "cannot be read: it is no file", file.string(),

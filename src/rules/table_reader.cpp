@@ -34,6 +34,13 @@ std::string listed(const std::vector<std::string>& words) {
   return list;
 }
 
+/// What a key of a table is written behind: "unit_groups." for "[unit_groups]".
+std::string within(std::string_view table) {
+  const std::size_t first = table.find_first_not_of('['), end = table.find(']');
+  if (!table.starts_with('[') || end == std::string_view::npos) return {};
+  return std::string(table.substr(first, end - first)) + ".";
+}
+
 }  // namespace
 
 TableReader::TableReader(Reading& reading, const Value& table, std::string what)
@@ -227,8 +234,9 @@ std::vector<const Value*> TableReader::tables(std::string_view key) {
     return std::holds_alternative<Table>(v->held);
   });
   if (list != nullptr && tables) return all;
-  reading_.fault(found->at, "'" + std::string(key) + "' is not a list of tables",
-                 "write [[" + std::string(key) + "]] with double brackets, and its keys below");
+  reading_.fault(found->at, quoted(key) + " is not a list of tables",
+                 "write [[" + within(what_) + std::string(key) +
+                     "]] with double brackets, and its keys below");
   return {};
 }
 

@@ -137,6 +137,8 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
       {"[defaults]\nthickness_cap = \"yes\"",
        "'thickness_cap' of [defaults] is a text, not true or false"},
       {"defaults = 3", "'defaults' is a whole number, not a table (write [defaults] with single"},
+      {"[unit_groups]\ngroup = 3",
+       "'group' is not a list of tables (write [[unit_groups.group]] with double brackets"},
       {"[test]\nname = \"x\"",
        "'test' is not a list of tables (write [[test]] with double brackets"},
       {"test = [1]", "'test' is not a list of tables"},
