@@ -93,6 +93,13 @@ void run(std::string& out, std::string_view name, const ClashDocument& document)
   append_json(out, document.name);
   out += ", \"hash\": ";
   append_json(out, document.hash);
+  if (!document.made_by.file.empty()) {
+    out += ", \"rules\": {\"file\": ";
+    append_json(out, document.made_by.file);
+    out += ", \"hash\": ";
+    append_json(out, document.made_by.hash);
+    out += "}";
+  }
   out += ", \"results\": " + std::to_string(document.results.size()) + "}";
 }
 
@@ -167,8 +174,18 @@ std::string in_test(const std::string& name) {
   return name.empty() ? std::string() : " of test '" + printable(name) + "'";
 }
 
+/// Where the two runs were not made by the same rules.
+std::string rules_text(const DocumentRules& before, const DocumentRules& after) {
+  if (before == after) return {};
+  const auto name = [](const DocumentRules& rules) {
+    return rules.file.empty() ? std::string("none") : printable(rules.file);
+  };
+  if (before.file == after.file) return "rules file " + name(after) + " is not what it was\n";
+  return "rules file: was " + name(before) + ", is " + name(after) + "\n";
+}
+
 std::string settings_text(const ClashDiff& diff) {
-  std::string out;
+  std::string out = rules_text(diff.before->made_by, diff.after->made_by);
   for (const SettingChange& s : diff.settings)
     out += "setting " + printable(s.setting) + in_test(s.test) + ": was " +
            (s.before.empty() ? "absent" : printable(s.before)) + ", is " +

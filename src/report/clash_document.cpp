@@ -287,6 +287,8 @@ class Reader {
       json_.copy(tests_.emplace());
     else if (key == "hash")
       document_.hash = text("hash"), has_hash_ = true;
+    else if (key == "rules")
+      made_by();
     else if (key == "results")
       take_results();
     else if (key == "exempted")
@@ -308,6 +310,18 @@ class Reader {
       throw Fault{"the document", "is no clash result of schema version " +
                                       std::string(kSchemaVersion) + ": it says version " + said};
     has_version_ = true;
+  }
+
+  void made_by() {
+    if (json_.kind() != Kind::object) throw is_not("the document", "rules", "object");
+    json_.members([this](std::string_view key) {
+      if (key == "file")
+        document_.made_by.file = text("file");
+      else if (key == "hash")
+        document_.made_by.hash = text("hash");
+      else
+        json_.skip();
+    });
   }
 
   void take_results() {

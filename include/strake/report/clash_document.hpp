@@ -47,6 +47,12 @@ struct DocumentTest {
   std::vector<std::uint8_t> in_a, in_b;  ///< bits, as in the document
 };
 
+/// The rules file that made a result; both empty: there was none.
+struct DocumentRules {
+  std::string file, hash;
+  friend bool operator==(const DocumentRules&, const DocumentRules&) = default;
+};
+
 /// A pair that a rule left out.
 struct DocumentExempted {
   Hash128 key;  ///< that its result would have
@@ -58,6 +64,7 @@ struct DocumentExempted {
 struct ClashDocument {
   std::string name;  ///< of the file, as given
   std::string hash;
+  DocumentRules made_by;
   std::vector<DocumentTest> tests;
   std::vector<std::uint64_t> elements;  ///< ascending
   std::vector<DocumentObject> objects;  ///< those that are named, each once

@@ -134,6 +134,10 @@ class Schemas(unittest.TestCase):
         self.assertEqual(wider['counts']['new'], tighter['counts']['cannot_tell'])
         self.assertEqual([(s['setting'], s['old'], s['new']) for s in wider['settings_changed']],
                          [('clearance_mm', 0, 25)])
+        (self.folder / 'd.toml').write_text('[defaults]\nclearance = "25mm"\n', encoding='utf-8')
+        self.run_strake('clash', 'ship.glb', '--rules', 'd.toml', '-o', 'ruled.json')
+        ruled = self.follows(self.run_strake('clash', 'diff', 'wide.json', 'ruled.json', '--json'), 'clash-diff')
+        self.assertEqual(ruled['new']['rules']['file'], 'd.toml')
 
     def test_view(self):
         self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json')

@@ -219,6 +219,34 @@ TEST(ClashDiff, SettingsThatWouldNotReportIt) {
   EXPECT_EQ(compare(tight, wide).added[0].why, "settings differ: clearance_mm");
 }
 
+TEST(ClashDiff, RulesThatAreNotTheSameAreTold) {
+  Folder folder;
+  const ClashModel m = row();
+  const clash::Findings findings = run(m);
+  const auto made_by = [&](const std::string& name, const RulesSource& rules) -> auto& {
+    std::string text;
+    EXPECT_TRUE(write_clash_json({findings, m.model, nullptr, &rules},
+                                 [&](std::string_view piece) { text += piece; }));
+    return folder.keep(read_clash_document(folder.write(name, text)).value());
+  };
+  const ClashDocument& plain = document(folder, "p.json", findings, m.model);
+  const ClashDocument& one = made_by("1.json", {"a.toml", {1, 1}});
+  const ClashDocument& changed = made_by("2.json", {"a.toml", {1, 2}});
+  const ClashDocument& other = made_by("3.json", {"b.toml", {1, 1}});
+  const auto told = [](const ClashDocument& x, const ClashDocument& y) {
+    const std::string table = clash_diff_table(compare(x, y), {});
+    return table.substr(0, table.find('\n'));
+  };
+  EXPECT_EQ(told(one, one), "0 new, 0 changed, 2 unchanged, 0 gone, 0 cannot tell");
+  EXPECT_EQ(told(one, changed), "rules file a.toml is not what it was");
+  EXPECT_EQ(told(one, other), "rules file: was a.toml, is b.toml");
+  EXPECT_EQ(told(plain, one), "rules file: was none, is a.toml");
+  std::string text;
+  write_clash_diff_json(compare(plain, one), [&](std::string_view piece) { text += piece; });
+  EXPECT_FALSE(json::parse(text)["old"].contains("rules"));
+  EXPECT_EQ(json::parse(text)["new"]["rules"]["file"], "a.toml");
+}
+
 TEST(ClashDiff, ExemptedAndAllowed) {
   Folder folder;
   const ClashModel m = row();
