@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geometry/feature_gap.hpp"
+#include "geometry/segment_pair.hpp"
 #include "strake/geometry/predicates.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
@@ -70,23 +71,8 @@ struct Near {
   }
 };
 
-double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
-
-/// Near points of two segments p + s·d, q + t·e by clamped minimisation; any points of the segments
-/// are an upper bound, so rounding does no harm.
 void offer_segments(const Vec3d& p, const Vec3d& d, const Vec3d& q, const Vec3d& e, Near& near) {
-  const Vec3d r = p - q;
-  const double dd = dot(d, d), ee = dot(e, e), de = dot(d, e), dr = dot(d, r), er = dot(e, r);
-  const double denominator = dd * ee - de * de;
-  double s = denominator > 0 ? clamp01((de * er - dr * ee) / denominator) : 0;
-  double t = (de * s + er) / ee;
-  if (t < 0) {
-    t = 0;
-    s = clamp01(-dr / dd);
-  } else if (t > 1) {
-    t = 1;
-    s = clamp01((de - dr) / dd);
-  }
+  const auto [s, t] = nearest_on_segments(p, d, q, e);
   near.offer(p + d * s, q + e * t);
 }
 
