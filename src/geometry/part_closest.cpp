@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/corners.hpp"
 #include "geometry/near_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/triangle_distance.hpp"
@@ -99,7 +100,7 @@ std::optional<Closest> ClosestSearch::run_until_near() {
 }
 
 /// Squared distance of a point to a triangle, in doubles.
-double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t) {
+double squared_distance(const Vec3d& p, const Corners& t) {
   const Vec3d u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
   double least = std::numeric_limits<double>::infinity();
   bool inside = true;
@@ -156,11 +157,8 @@ double distance_to_surface(const TreedPart& part, const Vec3d& point, double lim
       continue;
     }
     for (std::uint32_t i = 0; i < node.count; ++i) {
-      const Triangle& t = part.placed.part->triangles[part.tree->order()[node.first + i]];
-      const auto corner = [&](std::size_t k) {
-        return part.placed.part->vertices[t[k]].as<double>();
-      };
-      best = std::min(best, squared_distance(point, {corner(0), corner(1), corner(2)}));
+      const Corners t = corners_of(*part.placed.part, part.tree->order()[node.first + i]);
+      best = std::min(best, squared_distance(point, t));
     }
   }
   return std::sqrt(best);

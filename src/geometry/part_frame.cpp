@@ -6,16 +6,14 @@
 #include <cstddef>
 #include <limits>
 
+#include "geometry/corners.hpp"
+#include "geometry/directions.hpp"
+
 namespace strake::geometry {
 namespace {
 
 /// The cosine below which two faces count as square to each other.
 constexpr double kSquare = 0.1;
-
-Vec3d normal_of(const Part& part, const Triangle& t) {
-  const Vec3d p = part.vertices[t[0]].as<double>();
-  return cross(part.vertices[t[1]].as<double>() - p, part.vertices[t[2]].as<double>() - p);
-}
 
 /// The normal of the largest triangle among those that pass.
 template <class Pass>
@@ -23,7 +21,7 @@ Vec3d largest(const Part& part, Pass&& pass) {
   Vec3d best;
   double most = 0;
   for (const Triangle& t : part.triangles) {
-    const Vec3d n = normal_of(part, t);
+    const Vec3d n = normal_of(corners_of(part, t));
     const double squared = dot(n, n);
     if (squared > most && pass(n, squared)) {
       most = squared;
@@ -31,14 +29,6 @@ Vec3d largest(const Part& part, Pass&& pass) {
     }
   }
   return most > 0 ? best * (1 / std::sqrt(most)) : Vec3d{};
-}
-
-/// Any unit vector square to a unit vector.
-Vec3d square_to(const Vec3d& n) {
-  const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
-  const Vec3d other = x <= y && x <= z ? Vec3d{1, 0, 0} : y <= z ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
-  const Vec3d v = cross(n, other);
-  return v * (1 / std::sqrt(dot(v, v)));
 }
 
 struct Range {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/corners.hpp"
 #include "geometry/feature_gap.hpp"
 #include "geometry/segment_pair.hpp"
 #include "strake/geometry/predicates.hpp"
@@ -16,15 +17,13 @@ namespace {
 
 constexpr std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
-using Points = std::array<Vec3d, 3>;
-
 double square(double x) { return x * x; }
 double squared_length(const Vec3d& v) { return dot(v, v); }
 double largest(const Vec3d& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
 }
 
-Points relative(const TriangleCorners& t, const Vec3l& base) {
+Corners relative(const TriangleCorners& t, const Vec3l& base) {
   return {(t[0] - base).as<double>(), (t[1] - base).as<double>(), (t[2] - base).as<double>()};
 }
 
@@ -39,7 +38,7 @@ struct Extent {
   double low, high;
 };
 
-Extent extent(const Vec3d& w, const Points& t) {
+Extent extent(const Vec3d& w, const Corners& t) {
   const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]);
   return {std::min(std::min(x, y), z), std::max(std::max(x, y), z)};
 }
@@ -79,7 +78,7 @@ void offer_segments(const Vec3d& p, const Vec3d& d, const Vec3d& q, const Vec3d&
 /// The foot of a corner on a triangle, where it falls inside: a convex combination of the corners,
 /// so that it lies in the triangle even where a sliver's normal is mostly rounding.
 template <class Offer>
-void offer_foot(const Vec3d& corner, const Points& t, const Vec3d& n, const Offer& offer) {
+void offer_foot(const Vec3d& corner, const Corners& t, const Vec3d& n, const Offer& offer) {
   const double w2 = dot(cross(t[1] - t[0], corner - t[0]), n);
   const double w0 = dot(cross(t[2] - t[1], corner - t[1]), n);
   const double w1 = dot(cross(t[0] - t[2], corner - t[2]), n);
@@ -135,7 +134,7 @@ class ExactSearch {
 
   const TriangleCorners& a_;
   const TriangleCorners& b_;
-  Points near_a_, near_b_;  ///< in doubles, relative to the first corner of a: exact
+  Corners near_a_, near_b_;  ///< in doubles, relative to the first corner of a: exact
   double reach_;
   bool any_ = false;
   NearestPoints best_;
@@ -186,11 +185,11 @@ void ExactSearch::corners_edges() {
 
 void ExactSearch::corners_faces() {
   FeatureGap s;
-  const auto foot = [](const Vec3d& p, const Points& t) {
-    const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+  const auto foot = [](const Vec3d& p, const Corners& t) {
+    const Vec3d n = normal_of(t);
     return p - n * (dot(n, p - t[0]) / squared_length(n));
   };
-  const auto near = [this](const Vec3d& p, const Points& t) {
+  const auto near = [this](const Vec3d& p, const Corners& t) {
     const Vec3d u = t[1] - t[0], v = t[2] - t[0];
     return within_reach(u, v, cross(u, v), p - t[0]);
   };
@@ -249,9 +248,9 @@ NearestPoints ExactSearch::run() {
 }  // namespace
 
 DoubleTriangle::DoubleTriangle(const TriangleCorners& t)
-    : corner{t[0].as<double>(), t[1].as<double>(), t[2].as<double>()},
+    : corner(as_doubles(t)),
       box{corner[0], corner[0]},
-      normal(cross(corner[1] - corner[0], corner[2] - corner[0])),
+      normal(normal_of(corner)),
       normal_squared(squared_length(normal)) {
   box.include(corner[1]);
   box.include(corner[2]);
@@ -267,7 +266,7 @@ DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
   if (lower > enough) return {lower, kUnknown};
   lower = std::max(lower, normal_slab(b, a));
   if (lower > enough) return {lower, kUnknown};
-  const Points &p = a.corner, &q = b.corner;
+  const Corners &p = a.corner, &q = b.corner;
   Near near;
   for (std::size_t i = 0; i < 3; ++i) {
     near.offer(p[i], q[i]);

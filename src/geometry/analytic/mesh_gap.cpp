@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/analytic/torus_gap.hpp"
+#include "geometry/corners.hpp"
 #include "geometry/pair_view.hpp"
 #include "strake/geometry/analytic_pair.hpp"
 
@@ -82,11 +83,8 @@ class Search {
   void leaf(const PartTree::Node& node) {
     const Part& part = *mesh_.placed.part;
     for (std::uint32_t i = 0; i < node.count; ++i) {
-      const Triangle& t = part.triangles[mesh_.tree->order()[node.first + i]];
       PairSide triangle;
-      triangle.convex =
-          triangle_body({part.vertices[t[0]].as<double>(), part.vertices[t[1]].as<double>(),
-                         part.vertices[t[2]].as<double>()});
+      triangle.convex = triangle_body(corners_of(part, mesh_.tree->order()[node.first + i]));
       const ConvexGap gap = GapSearch(primitive_, triangle, reach()).run();
       best_.lower = std::min(best_.lower, gap.lower);
       if (!(gap.upper < best_.upper)) continue;

@@ -256,7 +256,7 @@ void try_vertices(const DepthField& of, const DepthField& in, Candidates& candid
 std::optional<Vec3d> outward(const Part& part, std::uint32_t triangle) {
   if (triangle >= part.triangles.size()) return std::nullopt;
   const Corners c = corners_of(part, triangle);
-  const Vec3d n = cross(c[1] - c[0], c[2] - c[0]);
+  const Vec3d n = normal_of(c);
   const double size = length(n);
   if (!(size > 0)) return std::nullopt;
   return n * (1 / size);

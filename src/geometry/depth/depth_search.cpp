@@ -29,7 +29,7 @@ Axes frame_of(const Part& part, std::uint32_t triangle) {
     const Vec3d e = c[(i + 1) % 3] - c[i];
     if (dot(e, e) > dot(edge, edge)) edge = e;
   }
-  const Vec3d n = cross(c[1] - c[0], c[2] - c[0]);
+  const Vec3d n = normal_of(c);
   const double ln = length(n), le = length(edge);
   if (!(ln > 0) || !(le > 0)) return world;
   const Vec3d z = n * (1 / ln), x = edge * (1 / le);

@@ -85,13 +85,8 @@ Vec3d nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
 }
 
 Vec3d nearest_on_triangle(const Vec3d& p, const Corners& t) {
-  const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
-  bool within = true;
-  for (std::size_t i = 0; i < 3 && within; ++i) {
-    const Vec3d& a = t[i];
-    within = dot(cross(t[(i + 1) % 3] - a, p - a), normal) >= 0;
-  }
-  if (within && dot(normal, normal) > 0)
+  const Vec3d normal = normal_of(t);
+  if (stands_over(p, t, normal) && dot(normal, normal) > 0)
     return p - normal * (dot(p - t[0], normal) / dot(normal, normal));
   Vec3d best = nearest_on_segment(p, t[0], t[1]);
   for (std::size_t i = 1; i < 3; ++i) {
@@ -110,7 +105,7 @@ SkinPoint nearest_on_skin(const TreedPart& part, const Vec3d& p) {
   const NearestTriangle nearest = nearest_triangle(*part.placed.part, *part.tree, p);
   if (nearest.triangle == kNoFace) return {p, 0, {}};
   const Corners c = corners_of(*part.placed.part, nearest.triangle);
-  const Vec3d n = cross(c[1] - c[0], c[2] - c[0]);
+  const Vec3d n = normal_of(c);
   return {nearest_on_triangle(p, c), nearest.distance, n * (1 / length(n))};
 }
 

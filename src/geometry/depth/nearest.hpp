@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "geometry/corners.hpp"
+#include "geometry/directions.hpp"
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/part_tree.hpp"
 
 namespace strake::geometry {
-
-[[nodiscard]] inline double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
-
-using Corners = std::array<Vec3d, 3>;
-
-[[nodiscard]] inline Corners corners_of(const Part& part, std::uint32_t triangle) {
-  const Triangle& t = part.triangles[triangle];
-  return {part.vertices[t[0]].as<double>(), part.vertices[t[1]].as<double>(),
-          part.vertices[t[2]].as<double>()};
-}
 
 [[nodiscard]] Vec3d nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b);
 

@@ -60,7 +60,7 @@ struct LessPromisingSegment {
 /// The part of segment p-q within a triangle's plane slab is a point: where it pierces the
 /// triangle, if it does.
 std::optional<Vec3d> pierce(const Vec3d& p, const Vec3d& q, const Corners& t) {
-  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+  const Vec3d n = normal_of(t);
   const double sp = dot(n, p - t[0]), sq = dot(n, q - t[0]);
   if ((sp > 0) == (sq > 0) || sp == sq) return std::nullopt;
   const Vec3d x = p + (q - p) * (sp / (sp - sq));

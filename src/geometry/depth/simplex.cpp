@@ -50,7 +50,7 @@ std::vector<HalfSpace> faces_of(const Simplex& s) {
 /// The plane of a triangle, outward; none for one without area.
 std::optional<HalfSpace> plane_of(const DepthField& field, std::uint32_t triangle) {
   const Corners c = corners_of(field.part(), triangle);
-  const Vec3d n = cross(c[1] - c[0], c[2] - c[0]);
+  const Vec3d n = normal_of(c);
   const double size = length(n);
   if (!(size > 0)) return std::nullopt;
   const Vec3d unit = n * (1 / size);
@@ -62,7 +62,7 @@ Box3d inflated(const Box3d& box, double by) {
   return {box.lo - more, box.hi + more};
 }
 
-std::array<Vec3d, 3> placed(const DepthField& field, std::uint32_t triangle) {
+Corners placed(const DepthField& field, std::uint32_t triangle) {
   const Corners c = corners_of(field.part(), triangle);
   return {field.common(c[0]), field.common(c[1]), field.common(c[2])};
 }
@@ -88,7 +88,7 @@ bool on_one_side(std::span<const Vec3d> points, const HalfSpace& plane, double b
 /// the shadow's sides, seen along the normal, or has the shadow on one side of it.
 bool beside(const DepthField& field, std::uint32_t t, const std::array<Vec3d, 4>& shadow,
             const Vec3d& normal, double slack) {
-  const std::array<Vec3d, 3> triangle = placed(field, t);
+  const Corners triangle = placed(field, t);
   const auto plane = plane_of(field, t);
   if (plane && on_one_side(shadow, *plane, kSnapLift + 4 * slack)) return true;
   for (std::size_t i = 0; i < 4; ++i)
@@ -155,7 +155,7 @@ std::optional<HalfSpace> lid(const DepthField& field, const Simplex& s, std::uin
   if (!near) return std::nullopt;
   double top = own->offset;
   for (const std::uint32_t t : *near) {
-    const std::array<Vec3d, 3> c = placed(field, t);
+    const Corners c = placed(field, t);
     const double highest =
         std::max({dot(own->normal, c[0]), dot(own->normal, c[1]), dot(own->normal, c[2])});
     if (highest <= own->offset + kSnapLift)
@@ -227,7 +227,7 @@ class Skin {
 
   /// A face of the simplex has all of the triangle beyond it, or the other way round.
   [[nodiscard]] bool apart(const Simplex& s, std::uint32_t t) const {
-    const std::array<Vec3d, 3> c = placed(field_, t);
+    const Corners c = placed(field_, t);
     const bool beyond = std::any_of(faces_.begin(), faces_.end(), [&](const HalfSpace& f) {
       return std::all_of(c.begin(), c.end(),
                          [&](const Vec3d& p) { return dot(f.normal, p) > f.offset + 2 * slack_; });

@@ -9,7 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/depth/nearest.hpp"
+#include "geometry/corners.hpp"
+#include "geometry/directions.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/meeting_places.hpp"
 #include "strake/geometry/predicates.hpp"
@@ -33,14 +34,8 @@ struct Face {
   double area = 0;  ///< twice
 };
 
-/// The normal times twice the area.
-Vec3d normal_of(const Part& part, std::uint32_t t) {
-  const Corners c = corners_of(part, t);
-  return cross(c[1] - c[0], c[2] - c[0]);
-}
-
 Face face_of(const Part& part, std::uint32_t t) {
-  const Vec3d n = normal_of(part, t);
+  const Vec3d n = normal_of(corners_of(part, t));
   Face face;
   face.area = length(n);
   if (!(face.area > 0)) return face;
@@ -133,7 +128,7 @@ bool convex_edges(const Part& part, double slack) {
     const std::uint32_t first = part.edges[e].first_triangle;
     if (part.edges[e + 1].first_triangle - first != 2) return false;
     const std::uint32_t t = part.edge_triangles[first], u = part.edge_triangles[first + 1];
-    const Vec3d n = normal_of(part, t);
+    const Vec3d n = normal_of(corners_of(part, t));
     const Vec3d base = part.vertices[part.edges[e].v0].as<double>();
     const Vec3d tip = part.vertices[apex(part.triangles[u], part.edges[e])].as<double>();
     const double above = dot(n, tip - base);
@@ -161,7 +156,7 @@ bool below_its_faces(const Part& part, double slack) {
   const bool walk = part.vertices.size() <= kMostWalked;
   const VertexTree tree = walk ? VertexTree() : VertexTree(part.vertices);
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
-    const Vec3d n = normal_of(part, t);
+    const Vec3d n = normal_of(corners_of(part, t));
     const double base = dot(n, part.vertices[part.triangles[t][0]].as<double>());
     double highest = base;
     if (walk)

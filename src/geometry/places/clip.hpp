@@ -3,9 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
-#include "geometry/depth/nearest.hpp"
+#include "geometry/corners.hpp"
 #include "strake/geometry/vec.hpp"
 
 namespace strake::geometry {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/depth/nearest.hpp"
 #include "geometry/part_edges.hpp"
 #include "geometry/places/segment_near.hpp"
 
@@ -14,8 +15,7 @@ namespace strake::geometry {
 namespace {
 
 Corners corners_in_pair(const PartView& view, std::uint32_t triangle) {
-  const auto c = view.corners(triangle);
-  return {c[0].as<double>(), c[1].as<double>(), c[2].as<double>()};
+  return as_doubles(view.corners(triangle));
 }
 
 SegmentNear near_edge(const PartView& view, std::uint32_t edge, const Corners& t) {

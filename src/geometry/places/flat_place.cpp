@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "geometry/corners.hpp"
+#include "geometry/directions.hpp"
 #include "strake/geometry/meeting_places.hpp"
 
 // Two convex faces in one plane have one convex polygon in common. What else of either body comes
@@ -30,15 +32,6 @@ struct Flat {
 
 double turn(const Flat& o, const Flat& p, const Flat& q) {
   return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
-}
-
-/// Two unit vectors square to a unit vector and to each other.
-std::array<Vec3d, 2> plane_axes(const Vec3d& n) {
-  const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
-  const Vec3d other = x <= y && x <= z ? Vec3d{1, 0, 0} : y <= z ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
-  Vec3d u = cross(n, other);
-  u = u * (1 / std::sqrt(dot(u, u)));
-  return {u, cross(n, u)};
 }
 
 struct Hull {
@@ -82,7 +75,7 @@ struct Side {
 
   /// Whether what of the part is within `reach` of its top is one convex face, and a steep collar.
   [[nodiscard]] bool ends_in_one_face(double reach, double band) const {
-    const auto [u, w] = plane_axes(way);
+    const Vec3d u = square_to(way), w = cross(way, u);
     std::array<Flat, kMostCorners> corners;
     std::size_t count = 0;
     for (const Vec3i& v : part.vertices) {
@@ -110,9 +103,7 @@ struct Side {
       int at_top = 0;
       for (const std::uint32_t v : t) at_top += height(v) >= top - band ? 1 : 0;
       if (at_top == 0) continue;
-      const Vec3d p = part.vertices[t[0]].as<double>();
-      const Vec3d n =
-          cross(part.vertices[t[1]].as<double>() - p, part.vertices[t[2]].as<double>() - p);
+      const Vec3d n = normal_of(corners_of(part, t));
       if (at_top == 3)
         area += dot(n, way);
       else if (std::fabs(dot(n, way)) > kSteep * std::sqrt(dot(n, n)))

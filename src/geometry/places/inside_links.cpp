@@ -136,9 +136,8 @@ class InsideLinks {
     const Vec3d to = place(corner);
     std::vector<EdgeStop> stops;
     for (const std::uint32_t i : pairs) {
-      const auto c = side_.other.corners(side_.other_of(pairs_[i]));
       const SegmentNear near =
-          nearest_along(from, to, {c[0].as<double>(), c[1].as<double>(), c[2].as<double>()});
+          nearest_along(from, to, as_doubles(side_.other.corners(side_.other_of(pairs_[i]))));
       if (near.squared <= squared_) stops.push_back({0, 0, i, near.along});
     }
     std::ranges::sort(stops, [](const EdgeStop& x, const EdgeStop& y) {

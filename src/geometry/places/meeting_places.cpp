@@ -40,10 +40,6 @@ std::array<Slab, 3> slabs_of(const Box3d& box) {
           Slab{{0, 0, 1}, box.lo.z, box.hi.z}};
 }
 
-Corners as_doubles(const TriangleCorners& t) {
-  return {t[0].as<double>(), t[1].as<double>(), t[2].as<double>()};
-}
-
 Box3d box_of(const TriangleCorners& t) {
   Box3d box = empty_box<double>();
   for (const Vec3l& p : t) box.include(p.as<double>());

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "geometry/depth/nearest.hpp"
 #include "geometry/segment_pair.hpp"
 
 namespace strake::geometry {
@@ -12,20 +13,14 @@ namespace {
 
 double squared(const Vec3d& v) { return dot(v, v); }
 
-bool within(const Vec3d& x, const Corners& t, const Vec3d& n) {
-  for (std::size_t i = 0; i < 3; ++i)
-    if (dot(cross(t[(i + 1) % 3] - t[i], x - t[i]), n) < 0) return false;
-  return true;
-}
-
 }  // namespace
 
 SegmentNear nearest_along(const Vec3d& from, const Vec3d& to, const Corners& t) {
-  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]), d = to - from;
+  const Vec3d n = normal_of(t), d = to - from;
   const std::array<double, 2> height{dot(n, from - t[0]), dot(n, to - t[0])};
   if ((height[0] <= 0 && height[1] >= 0) || (height[0] >= 0 && height[1] <= 0)) {
     const double s = height[0] == height[1] ? 0 : height[0] / (height[0] - height[1]);
-    if (within(from + d * s, t, n)) return {0, s};
+    if (stands_over(from + d * s, t, n)) return {0, s};
   }
   SegmentNear best{std::numeric_limits<double>::infinity(), 0};
   // Of a segment without length only the ends count: what is no number is not less.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "geometry/depth/nearest.hpp"
+#include "geometry/corners.hpp"
 #include "strake/geometry/vec.hpp"
 
 namespace strake::geometry {
