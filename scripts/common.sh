@@ -50,11 +50,13 @@ configure_and_build() {
   cmake --build "build/$preset" -j "$jobs" ${1:+--target "$@"}
 }
 
-# sources PATTERN...: those of git's files, and files not yet added, that match; in a release, which
-# is no checkout, all that do outside build.
+# sources PATTERN...: those of git's files, and files not yet added, that match and were not removed;
+# in a release, which is no checkout, all that do outside build.
 sources() {
   if [ -e .git ]; then
-    git ls-files --cached --others --exclude-standard -- "$@"
+    git ls-files --cached --others --exclude-standard -- "$@" | while IFS= read -r file; do
+      if [ -e "$file" ]; then printf '%s\n' "$file"; fi
+    done
     return
   fi
   local pattern

@@ -7,47 +7,25 @@ import json
 import os
 import re
 import struct
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-STRAKE = EXAMPLES = None
+from scenario import Scenario, cube, main
+
+EXAMPLES = None
 
 
 def cubes(*places):
     """An OBJ file: cubes of side 100 at places along x, named c0, c1 ..."""
-    faces = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
-    lines = []
-    for number, at in enumerate(places):
-        lines.append(f'o c{number}')
-        lines += [f'v {at + dx * 100} {dy * 100} {dz * 100}'
-                  for dz in (0, 1) for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))]
-        lines += ['f ' + ' '.join(str(corner + 8 * number) for corner in face) for face in faces]
-    return '\n'.join(lines) + '\n'
+    return ''.join(cube(f'c{number}', number, (at, 0, 0), 100) for number, at in enumerate(places))
 
 
-class Rules(unittest.TestCase):
-    def setUp(self):
-        self.keep = tempfile.TemporaryDirectory(prefix='strake-rules-')
-        self.folder = Path(self.keep.name)
-
-    def tearDown(self):
-        self.keep.cleanup()
-
-    def run_strake(self, *arguments):
-        return subprocess.run([STRAKE, *map(str, arguments)], capture_output=True, text=True, timeout=200,
-                              cwd=self.folder, check=False)
-
+class Rules(Scenario):
     def report(self, *arguments):
         done = self.run_strake('clash', *arguments, '--json')
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text, encoding='utf-8')
-        return name
 
 
 class Small(Rules):
@@ -391,6 +369,5 @@ class RealModels(Rules):
 
 
 if __name__ == '__main__':
-    STRAKE = Path(sys.argv.pop(1)).resolve()
-    EXAMPLES = Path(sys.argv.pop(1)).resolve()
-    unittest.main(verbosity=1)
+    EXAMPLES = Path(sys.argv.pop(2)).resolve()
+    main()

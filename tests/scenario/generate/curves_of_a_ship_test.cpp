@@ -57,8 +57,7 @@ class CurvesOfAShip : public testing::TestWithParam<bool> {
   void look(std::uint32_t object, const Vec3l& p) {
     for (const Solid& solid : solids_) {
       const Vec3l at = p - solid.placed.origin;
-      const geometry::Box3l box{solid.placed.part->box.lo.as<std::int64_t>(),
-                                solid.placed.part->box.hi.as<std::int64_t>()};
+      const auto box = solid.placed.part->box.as<std::int64_t>();
       if (solid.object == object || !box.contains({at, at})) continue;
       geometry::PairWork work;
       const geometry::TreedPart treed{solid.placed, &solid.tree};

@@ -126,27 +126,30 @@ using Draw = std::function<double(int, int)>;
 
 /// A body of any kind that can clash.
 model::Shape any_shape(std::mt19937_64& random, const Draw& draw) {
-  using namespace geometry;  // NOLINT(google-build-using-namespace): the kinds of primitives
+  using geometry::Primitive;
   switch (random() % 10) {
     case 0:
-      return Primitive{SpherePrimitive{draw(20, 90)}};
+      return Primitive{geometry::SpherePrimitive{draw(20, 90)}};
     case 1:
-      return Primitive{CylinderPrimitive{draw(10, 60), draw(20, 150)}};
+      return Primitive{geometry::CylinderPrimitive{draw(10, 60), draw(20, 150)}};
     case 2:
-      return Primitive{BoxPrimitive{draw(20, 90), draw(20, 90), draw(9, 90)}};
+      return Primitive{geometry::BoxPrimitive{draw(20, 90), draw(20, 90), draw(9, 90)}};
     case 3:
-      return Primitive{PyramidPrimitive{draw(30, 90), draw(30, 90), draw(0, 60), draw(5, 60),
-                                        draw(-20, 20), draw(-20, 20), draw(20, 90)}};
+      return Primitive{geometry::PyramidPrimitive{draw(30, 90), draw(30, 90), draw(0, 60),
+                                                  draw(5, 60), draw(-20, 20), draw(-20, 20),
+                                                  draw(20, 90)}};
     case 4:
-      return Primitive{SnoutPrimitive{draw(20, 60), draw(5, 40), draw(30, 90), draw(-20, 20), 0}};
+      return Primitive{
+          geometry::SnoutPrimitive{draw(20, 60), draw(5, 40), draw(30, 90), draw(-20, 20), 0}};
     case 5:
-      return Primitive{EllipticalDishPrimitive{draw(20, 60), draw(10, 50)}};
+      return Primitive{geometry::EllipticalDishPrimitive{draw(20, 60), draw(10, 50)}};
     case 6:
-      return Primitive{SphericalDishPrimitive{draw(30, 60), draw(5, 28)}};
+      return Primitive{geometry::SphericalDishPrimitive{draw(30, 60), draw(5, 28)}};
     case 7:
-      return Primitive{CircularTorusPrimitive{draw(40, 70), draw(8, 30), 1.5}};
+      return Primitive{geometry::CircularTorusPrimitive{draw(40, 70), draw(8, 30), 1.5}};
     case 8:
-      return Primitive{RectangularTorusPrimitive{draw(20, 40), draw(50, 90), draw(10, 60), 2.5}};
+      return Primitive{
+          geometry::RectangularTorusPrimitive{draw(20, 40), draw(50, 90), draw(10, 60), 2.5}};
     default: {
       const Vec3d half{draw(10, 50), draw(10, 50), draw(10, 50)};
       return test::box_mesh(-half, half);

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""clash_diff_test.py STRAKE: two results of clash compared."""
+import json
+
+from scenario import Scenario, main
+
+
+class ClashDiff(Scenario):
+    def generate(self, name, *more):
+        done = self.run_strake('generate', 'ship', '--objects', 300, '--seed', 7, '-o', name, *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def diff(self, *arguments, exit_code=0):
+        done = self.run_strake('clash', 'diff', 'old.json', 'new.json', '--json', *arguments)
+        self.assertEqual(done.returncode, exit_code, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_a_run_is_compared_with_an_older_one(self):
+        """A ship, and the same with one object removed, one moved away and one renamed."""
+        self.generate('ship.obj')
+        run = ['clash', 'ship.obj', '-o']
+        self.assertEqual(self.run_strake(*run, 'old.json').returncode, 0)
+        self.assertEqual(self.run_strake(*run, 'new.json').returncode, 0)
+        same = self.diff('--fail-on', 'worse')
+        results = json.loads((self.folder / 'old.json').read_text())['results']
+        self.assertEqual(same['counts'], {'new': 0, 'changed': 0, 'same': len(results), 'gone': 0, 'cannot_tell': 0})
+        hits = [r for r in results if r['class'] == 'HIT']
+        removed, moved = hits[0]['a']['id'], hits[-1]['b']['id']
+        touched = {id for r in results for id in (r['a']['id'], r['b']['id'])}
+        renamed = next(id for id in sorted(touched, reverse=True)
+                       if not any({id, other} <= {r['a']['id'], r['b']['id']} for r in results
+                                  for other in (removed, moved)))
+        self.rewrite_obj('ship.obj', removed, moved, renamed)
+        self.assertEqual(self.run_strake(*run, 'new.json').returncode, 0)
+        told = self.diff('-o', 'changes.json', '--fail-on', 'cannot-tell', exit_code=1)
+        self.assertEqual(told, json.loads((self.folder / 'changes.json').read_text()))
+        self.assertEqual(told['counts']['changed'], 0)
+
+        def of(entries):
+            return {frozenset((e['a']['id'], e['b']['id'])) for e in entries}
+
+        def having(id):
+            return {frozenset((r['a']['id'], r['b']['id'])) for r in results if id in (r['a']['id'], r['b']['id'])}
+        missing = having(removed) | having(renamed)
+        self.assertEqual(of(told['cannot_tell']), missing)
+        self.assertEqual(of(told['gone']), having(moved) - missing)
+        self.assertTrue(all('is not in the model' in e['why'] for e in told['cannot_tell']))
+        self.assertEqual(of(told['added']),
+                         {frozenset(i.replace(renamed, 'renamed') for i in pair)
+                          for pair in having(renamed) - having(removed) - having(moved)})
+        self.assertTrue(all("'renamed' of ship.obj is not in the model" == e['why'] for e in told['added']))
+        done = self.run_strake('clash', 'diff', 'old.json', 'new.json')
+        self.assertIn(f"{len(told['gone'])} gone, {len(missing)} cannot tell", done.stdout)
+
+    def rewrite_obj(self, name, removed, moved, renamed):
+        """Vertices are numbered through the file, so a removed object keeps them."""
+        lines, keep, far = [], True, False
+        for line in (self.folder / name).read_text().splitlines():
+            word, _, rest = line.partition(' ')
+            if word in ('o', 'g'):
+                keep, far = rest != removed, rest == moved
+                if rest == renamed:
+                    line = f'{word} renamed'
+            elif word == 'v' and far:
+                x, y, z = rest.split()[:3]
+                line = f'v {float(x) + 1e4} {y} {z}'
+            if keep or word == 'v':
+                lines.append(line)
+        self.write(name, '\n'.join(lines) + '\n')
+
+    def test_what_cannot_be_compared_is_named(self):
+        self.two_files()
+        self.run_strake('clash', 'a.obj', '-o', 'good.json')
+        good = (self.folder / 'good.json').read_text()
+        self.write('cut.json', good[:-40])
+        self.write('first.json', good.replace('"schema_version": 2', '"schema_version": 1'))
+        for file, word in (('cut.json', 'ends too soon'), ('first.json', 'version 1'), ('a.obj', 'no JSON'),
+                           ('nowhere.json', 'cannot be opened'), ('.', 'folder')):
+            with self.subTest(file):
+                done = self.run_strake('clash', 'diff', 'good.json', file)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertIn(word, done.stderr)
+                self.assertIn(file, done.stderr)
+        self.assertEqual(self.run_strake('clash', 'diff', 'good.json').returncode, 2)
+        self.assertEqual(self.run_strake('clash', 'diff', 'good.json', 'good.json', '-o', 'good.json').returncode, 2)
+        self.assertEqual((self.folder / 'good.json').read_text(), good)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""clash_test.py STRAKE: sets, options, exit codes and outputs of a clash run."""
+import csv
+import io
+import json
+
+from scenario import Scenario, cube, main
+
+
+class Clash(Scenario):
+    SETTINGS = ['--unit', 'mm', '--up-axis', 'z']
+
+    def pairs(self, *arguments):
+        done = self.run_strake('clash', *arguments, *self.SETTINGS, '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [(r['a']['name'], r['b']['name'], r['class']) for r in json.loads(done.stdout)['results']]
+
+    def test_one_file_against_itself_several_against_each_other(self):
+        self.two_files()
+        self.write('c.obj', cube('c0', 0, (140, 140, 140), 100))
+        self.assertEqual(self.pairs('a.obj'), [('a0', 'a1', 'HIT')])
+        self.assertEqual(self.pairs('a.obj', 'b.obj'), [])
+        near = ('a0', 'b0', 'CLEARANCE_VIOLATION')
+        self.assertEqual(self.pairs('a.obj', 'b.obj', '--clearance', '0.99cm'), [])
+        self.assertEqual(self.pairs('a.obj', 'b.obj', '--clearance', '10.1mm'), [near])
+        self.assertEqual(self.pairs('a.obj', 'b.obj', 'c.obj', '--clearance', '10.1mm'),
+                         [near, ('a1', 'c0', 'HIT')])
+        self.assertEqual(self.pairs('a.obj', 'b.obj', 'c.obj', '--clearance', '10.1mm', '--self'),
+                         [('a0', 'a1', 'HIT'), near, ('a1', 'c0', 'HIT')])
+
+    def test_files_and_twins_give_the_same_bytes(self):
+        self.two_files()
+        arguments = ['clash', 'a.obj', 'b.obj', '--self', '--clearance', '25mm', *self.SETTINGS]
+        self.assertEqual(self.run_strake(*arguments, '-o', 'x.json', '-o', 'x.csv').returncode, 0)
+        expected = (self.folder / 'x.json').read_bytes()
+        for more in (['--threads', 1], ['--threads', 3], ['--threads', 64], ['--broad-phase', 'all-pairs']):
+            with self.subTest(more):
+                self.assertEqual(self.run_strake(*arguments, *more, '-o', 'y.json').returncode, 0)
+                self.assertEqual((self.folder / 'y.json').read_bytes(), expected)
+        self.assertEqual(self.run_strake('clash', 'b.obj', 'a.obj', *arguments[3:], '-o', 'y.json').returncode, 0)
+        self.assertEqual((self.folder / 'y.json').read_bytes(), expected, 'the order of files shows')
+        self.assertEqual(len((self.folder / 'x.csv').read_text().splitlines()), 3)
+
+    def test_sets_by_selection(self):
+        self.two_files()
+        both = ['a.obj', 'b.obj', '--clearance', '25mm']
+        hit, near = ('a0', 'a1', 'HIT'), ('a0', 'b0', 'CLEARANCE_VIOLATION')
+        self.assertEqual(self.pairs(*both), [near])
+        self.assertEqual(self.pairs(*both, '--a', 'a0'), [hit, near], 'one set alone is against everything')
+        self.assertEqual(self.pairs(*both, '--b', 'a1'), [hit])
+        self.assertEqual(self.pairs(*both, '--a', 'a1', '--b', 'a0', '--b', 'b0'), [hit])
+        self.assertEqual(self.pairs(*both, '--a', 'a0', '--a', 'a1', '--b', 'name ~ "^a"'), [hit])
+        self.assertEqual(self.pairs(*both, '--a', "file = 'b.obj'"), [near])
+        done = self.run_strake('clash', *both, *self.SETTINGS, '--a', 'a0', '--a', 'a9', '--b', 'b?', '--json')
+        test, = json.loads(done.stdout)['tests']
+        self.assertEqual(test['sets'], {'a': '(a0) or (a9)', 'b': 'b?'})
+        self.assertEqual(test['objects'], {'a': 1, 'b': 1})
+        self.assertIn("selection-picks-nothing: --a: 'a9' picks no object", done.stderr)
+        self.assertEqual([m['where'] for m in json.loads(done.stdout)['messages']
+                          if m['code'] == 'selection-picks-nothing'], ['--a'])
+
+    def test_sets_by_file_are_named_as_selections(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', 'b.obj', *self.SETTINGS, '--clearance', '25mm', '--json')
+        by_file = json.loads(done.stdout)
+        sets = by_file['tests'][0]['sets']
+        self.assertEqual(sets, {'a': "file = 'a.obj'", 'b': "file = 'b.obj'"})
+        done = self.run_strake('clash', 'a.obj', 'b.obj', *self.SETTINGS, '--clearance', '25mm', '--json',
+                               '--a', sets['a'], '--b', sets['b'])
+        self.assertEqual(json.loads(done.stdout), by_file)
+
+    def test_an_empty_set_is_a_warning_in_both_places(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', '--a', 'nobody', '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('empty-set: set A, nobody', done.stderr)
+        report = json.loads(done.stdout)
+        self.assertEqual(report['results'], [])
+        self.assertIn(('empty-set', 'set A, nobody'), [(m['code'], m['where']) for m in report['messages']])
+
+    def test_lines_are_judged_where_asked_for(self):
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + 'o wire\nv -50 50 40\nv 150 50 40\nl 9 10\n')
+        plain = json.loads(self.run_strake('clash', 'a.obj', '--json').stdout)
+        self.assertEqual((plain['results'], plain['tests'][0]['settings']['curves']), ([], False))
+        run = self.run_strake('clash', 'a.obj', '--curves', '--json', '--fail-on', 'hit')
+        self.assertEqual(run.returncode, 1, run.stderr)
+        document = json.loads(run.stdout)
+        self.assertEqual(document['tests'][0]['settings']['curves'], True)
+        (result,) = document['results']
+        self.assertEqual((result['class'], result['relation']), ('HIT', 'CROSS'))
+        self.assertAlmostEqual(result['d_mm'], -40, places=2)
+        run = self.run_strake('clash', 'a.obj', '--curves', '--narrow-phase', 'sphere-subdivision')
+        self.assertEqual(run.returncode, 2)
+        self.assertIn('--curves', run.stderr)
+        # Against a run without lines nothing can be said of theirs.
+        self.run_strake('clash', 'a.obj', '--curves', '-o', 'with.json')
+        self.run_strake('clash', 'a.obj', '-o', 'without.json')
+        diff = self.run_strake('clash', 'diff', 'with.json', 'without.json')
+        self.assertIn('settings differ: curves', diff.stdout)
+
+    def test_the_limit_of_pairs_can_be_set(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', '--most-pairs', 0)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn('more than 0 pairs', done.stderr)
+        self.assertIn('--most-pairs', done.stderr)
+        self.assertEqual(self.run_strake('clash', 'a.obj', '--most-pairs', 1).returncode, 0)
+
+    def test_fail_on_is_an_exit_code(self):
+        self.two_files()
+        self.assertEqual(self.run_strake('clash', 'a.obj', *self.SETTINGS).returncode, 0)
+        self.assertEqual(self.run_strake('clash', 'a.obj', *self.SETTINGS, '--fail-on', 'hit').returncode, 1)
+        far = ['clash', 'a.obj', 'b.obj', *self.SETTINGS, '--clearance', '25mm', '--fail-on']
+        self.assertEqual(self.run_strake(*far, 'hit').returncode, 0)
+        self.assertEqual(self.run_strake(*far, 'contact').returncode, 0)
+        self.assertEqual(self.run_strake(*far, 'clearance_violation').returncode, 1)
+
+
+    def test_groups_say_which_options_belong_together(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', *self.SETTINGS, '--group-by', 'element')
+        self.assertIn('element', done.stdout)
+        self.assertIn('1 hit, 0 contacts', done.stdout)
+        for wrong, word in ((['--sort', 'size'], '--group-by'), (['--group-contacts'], '--group-by'),
+                            (['--group-distance', '2m'], 'proximity'),
+                            (['--group-by', 'proximity', '--group-distance', '0.1mm'], 'distance'),
+                            (['--group-by', 'colour'], 'colour')):
+            with self.subTest(wrong):
+                done = self.run_strake('clash', 'a.obj', *wrong)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(word, done.stderr)
+
+    def test_the_log_of_pairs_is_the_same_for_any_number_of_threads(self):
+        self.two_files()
+        arguments = ['clash', 'a.obj', 'b.obj', '--self', '--clearance', '25mm', *self.SETTINGS, '--log-pairs']
+        self.assertEqual(self.run_strake(*arguments, 'x.csv', '--threads', 1).returncode, 0)
+        expected = (self.folder / 'x.csv').read_bytes()
+        rows = list(csv.DictReader(io.StringIO(expected.decode())))
+        self.assertEqual([(r['a_id'], r['b_id'], r['class']) for r in rows],
+                         [('a0', 'a1', 'HIT'), ('a0', 'b0', 'CLEARANCE_VIOLATION')])
+        self.assertTrue(all(int(r['cost']) > 0 for r in rows))
+        for threads in 2, 64:
+            self.assertEqual(self.run_strake(*arguments, 'y.csv', '--threads', threads).returncode, 0)
+            self.assertEqual((self.folder / 'y.csv').read_bytes(), expected)
+        done = self.run_strake(*arguments, 'a.obj')
+        self.assertEqual(done.returncode, 2, 'a model is never overwritten')
+        done = self.run_strake(*arguments, 'z.csv', '-o', 'z.csv')
+        self.assertEqual(done.returncode, 2, 'two results in one file')
+        self.assertIn('costly pair', self.run_strake('clash', 'a.obj', '--stats').stderr)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""files_test.py STRAKE: what cannot be read or written, and what is left behind."""
+import json
+import os
+import subprocess
+
+from scenario import Scenario, cube, main
+
+
+class Files(Scenario):
+    def test_input_that_cannot_be_read_names_the_file(self):
+        self.write('empty.obj', '')
+        self.write('noise.xyz', 'neither fish nor fowl\n')
+        for verb in (['info'], ['clash', '-o', 'x.json'], ['draw', '-o', 'x.svg']):
+            for name in ('missing.rvm', 'empty.obj', 'noise.xyz'):
+                with self.subTest(verb=verb, name=name):
+                    done = self.run_strake(*verb, name)
+                    self.assertEqual(done.returncode, 3, done.stderr)
+                    self.assertIn(name, done.stderr)
+        self.assertEqual(self.files(), ['empty.obj', 'noise.xyz'])
+
+    def test_output_that_cannot_be_written_leaves_nothing(self):
+        self.two_files()
+        done = self.run_strake('clash', 'a.obj', '-o', 'no/such/folder/x.json')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('no/such/folder', done.stderr)
+        done = self.run_strake('info', 'a.obj', stdin=None)
+        self.assertEqual(done.returncode, 0)
+        with open('/dev/full', 'w', encoding='utf-8') as full:
+            done = subprocess.run([self.STRAKE, 'info', 'a.obj'], stdout=full, stderr=subprocess.PIPE,
+                                  text=True, cwd=self.folder, timeout=100, check=False)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('standard output', done.stderr)
+        self.assertEqual(self.files(), ['a.obj', 'b.obj'])
+
+    def test_an_old_result_survives_a_failed_run(self):
+        self.write('x.json', 'old')
+        self.assertEqual(self.run_strake('clash', 'missing.obj', '-o', 'x.json').returncode, 3)
+        self.assertEqual((self.folder / 'x.json').read_text(), 'old')
+
+
+    def test_a_model_is_never_overwritten(self):
+        self.two_files()
+        model = (self.folder / 'a.obj').read_text()
+        self.write('model.json', model)
+        os.symlink('model.json', self.folder / 'link.json')
+        os.mkdir(self.folder / 'sub')
+        for arguments in (['clash', 'model.json', '-o', 'model.json'], ['clash', 'model.json', '-o', 'link.json'],
+                          ['draw', 'link.json', '-o', 'x.svg', '-o', './sub/../model.json']):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn('overwritten', done.stderr)
+                self.assertEqual((self.folder / 'model.json').read_text(), model)
+
+    def test_outputs_that_cannot_be_are_said_at_once(self):
+        self.two_files()
+        done = self.run_strake('draw', 'missing.obj', '-o', 'x.svg', '-o', './x.svg')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('twice', done.stderr)
+        os.mkdir(self.folder / 'dir.svg')
+        done = self.run_strake('draw', 'missing.obj', '-o', 'dir.svg')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('it is a folder', done.stderr)
+
+    def test_a_pipe_that_nobody_writes_to_is_refused_at_once(self):
+        os.mkfifo(self.folder / 'pipe')
+        done = self.run_strake('info', 'pipe')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('not a regular file', done.stderr)
+
+    def test_closed_standard_streams_do_not_end_in_a_result(self):
+        self.two_files()
+        done = subprocess.run(['/bin/sh', '-c', '"$0" clash a.obj -o x.json >&- 2>&- <&-', self.STRAKE],
+                              cwd=self.folder, timeout=100, check=False)
+        self.assertEqual(done.returncode, 3)
+        json.loads((self.folder / 'x.json').read_text())
+
+    def test_names_cannot_command_the_terminal(self):
+        self.write('evil.obj', cube('\x1b[2J\u202egpj', 0, (0, 0, 0), 1).replace('f 4 1 5 8\n', ''))
+        for arguments in (['info', 'evil.obj'], ['clash', 'evil.obj'], ['info', 'a\x1b[2J.obj']):
+            done = self.run_strake(*arguments)
+            for text in (done.stdout, done.stderr):
+                self.assertNotIn('\x1b', text)
+                self.assertNotIn('\u202e', text)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""models_test.py STRAKE: models that it makes, and what it says that models hold."""
+import json
+
+from scenario import Scenario, cube, main
+
+
+class Generate(Scenario):
+    def test_json_is_the_truth(self):
+        done = self.run_strake('generate', 'ship', '--objects', 100, '-o', 'x.glb', '--truth', 'x.json', '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, (self.folder / 'x.json').read_text())
+        self.assertIn('pairs', json.loads(done.stdout))
+
+
+class Info(Scenario):
+    def test_data_on_stdout_narration_on_stderr(self):
+        self.two_files()
+        done = self.run_strake('info', 'a.obj', 'b.obj', '--unit', 'mm', '--up-axis', 'z', '--json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        self.assertEqual([file['objects'] for file in told['files']], [2, 1])
+        self.assertEqual(told['total']['objects'], 3)
+        self.assertEqual(told['total']['triangles'], 36)
+        self.assertEqual(told['total']['solids'], 3)
+        self.assertEqual(told['total']['extents_mm'], {'lo': [-110, 0, 0], 'hi': [150, 150, 150]})
+        self.assertEqual(told['skipped'], 0)
+        self.assertIn('a.obj: OBJ', done.stderr)
+        quiet = self.run_strake('info', 'a.obj', '--quiet')
+        self.assertEqual((quiet.returncode, quiet.stderr), (0, ''))
+        self.assertIn('objects', quiet.stdout)
+
+    def test_the_unit_and_the_axis_are_obeyed(self):
+        self.two_files()
+        done = self.run_strake('info', 'b.obj', '--unit', 'm', '--up-axis', 'z', '--json')
+        self.assertEqual(json.loads(done.stdout)['total']['extents_mm'],
+                         {'lo': [-110000, 0, 0], 'hi': [-10000, 100000, 100000]})
+        done = self.run_strake('info', 'b.obj', '--unit', 'mm', '--up-axis', 'y', '--json')
+        self.assertEqual(json.loads(done.stdout)['total']['extents_mm'],
+                         {'lo': [-110, -100, 0], 'hi': [-10, 0, 100]})
+
+    def test_stats_say_where_the_time_went(self):
+        self.two_files()
+        done = self.run_strake('info', 'a.obj', '--stats', '--quiet', '--json')
+        self.assertEqual(done.returncode, 0)
+        stats = json.loads(done.stderr)
+        self.assertEqual(stats['phases'][0]['name'], 'load')
+        self.assertGreater(stats['peak_memory_bytes'], 1 << 20)
+        plain = self.run_strake('info', 'a.obj', '--stats')
+        self.assertIn('peak memory', plain.stderr)
+
+    def test_strict_tells_a_partial_result_by_its_exit_code(self):
+        self.write('bad.obj', cube('good', 0, (0, 0, 0), 1) + 'o bad\nv nan 0 0\nf 9 9 9\n')
+        self.assertEqual(self.run_strake('info', 'bad.obj').returncode, 0)
+        strict = self.run_strake('info', 'bad.obj', '--strict', '--json')
+        self.assertEqual(strict.returncode, 4, strict.stderr)
+        self.assertGreater(json.loads(strict.stdout)['skipped'], 0)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""usage_test.py STRAKE: what it says of itself, and of command lines that make no sense."""
+import json
+
+from scenario import Scenario, main
+
+
+class Usage(Scenario):
+    def test_version_and_help_go_to_stdout(self):
+        version = self.run_strake('--version')
+        self.assertEqual(version.returncode, 0)
+        self.assertRegex(version.stdout, r'^strake \d+\.\d+\.\d+\n$')
+        for arguments in (['--help'], ['info', '--help'], ['clash', '--help'], ['draw', '--help'],
+                          ['generate', '--help'], ['generate', 'ship', '--help']):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual(done.returncode, 0)
+                self.assertIn('Usage: strake', done.stdout)
+                self.assertEqual(done.stderr, '')
+
+    def test_wrong_command_lines_are_usage_errors_that_say_what(self):
+        self.two_files()
+        for arguments, said in (
+                ([], 'no verb is given'),
+                (['frobnicate'], 'frobnicate'),
+                (['info'], 'no model file'),
+                (['generate'], 'no verb is given'),
+                (['generate', 'ship', '--frob'], 'generate ship --help'),
+                (['clash', 'a.obj', '--clearance'], '--clearance wants a value'),
+                (['clash', 'a.obj', '--clearance', '1mm', '--clearance', '2mm'], 'more than once'),
+                (['info', 'a.obj', '--colour'], '--colour'),
+                (['clash', 'a.obj', '--clearence', '25mm'], '--clearence'),
+                (['info', 'a.obj', '--threads', '0'], '1 to'),
+                (['info', 'a.obj', '--threads', 'many'], 'many'),
+                (['info', 'a.obj', '--unit', 'cubit'], 'um, mm'),
+                (['info', 'a.obj', '--up-axis', 'q'], 'x|y|z'),
+                (['info', 'a.obj', '--sag', '0'], 'positive'),
+                (['clash', 'a.obj', '--clearance', '25'], '25mm'),
+                (['clash', 'a.obj', '--clearance', '-1mm'], 'negative'),
+                (['clash', 'a.obj', '--touch-gap', 'nan'], 'nan'),
+                (['clash', 'a.obj', '--clearance', ''], '--clearance: the value is empty'),
+                (['info', 'a.obj', '--threads', ''], '--threads: the value is empty'),
+                (['info', ''], 'FILE: the value is empty'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--limits', ''], '--limits: the value is empty'),
+                (['info', 'a.obj', '--sag', '1e-30mm'], '1um or more'),
+                (['clash', 'a.obj', '--fail-on', 'sometimes'], 'hit|contact'),
+                (['clash', 'a.obj', '-o', 'report.doc'], '.json or .csv'),
+                (['clash', 'a.obj', '--a', 'name ='], '--a, selection, column 7'),
+                (['clash', 'a.obj', '--b', 'x', '--self'], '--b excludes --self'),
+                (['clash', 'a.obj', '--most-pairs', 'all'], '--most-pairs'),
+                (['draw', 'a.obj'], '-o FILE.svg'),
+                (['draw', 'a.obj', '-o', 'a.dwg'], '.svg or .json'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--view', 'askew'], 'top|bottom'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--view', 'top', '--direction', '1,1,1'], 'exclude'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--direction', '0,0,0'], '--direction'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--direction', '1,1'], '--direction'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--limits', '1,2,3'], '--limits'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--limits', '1,1,1,0,0,0'], 'empty'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--scale', '50'], '1:50'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--scale', '1:5e-324'], '1:50'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--select', 'nobody*'], 'nobody*'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--select', 'type = '], '--select, selection, column 8'),
+                (['draw', 'a.obj', '-o', 'a.svg', '--sharp-angle', '20mm'], '20deg'),
+                (['generate', 'ship'], '--output'),
+                (['generate', 'ship', '-o', 'x.glb', '--objects', '3'], 'objects'),
+                (['generate', 'ship', '-o', 'x.glb', '--objects', '1e3'], 'digits'),
+                (['generate', 'ship', '-o', 'x.step'], '.glb or .obj')):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(said, done.stderr)
+                self.assertIn('strake: error: ', done.stderr)
+                self.assertEqual(done.stdout, '')
+        self.assertEqual(self.files(), ['a.obj', 'b.obj'])
+
+
+    def test_what_makes_no_sense_is_said_before_a_model_is_read(self):
+        for arguments, said in (
+                (['clash', 'missing.obj', '--clearance', '1e300mm'], '--clearance: '),
+                (['clash', 'missing.obj', '--contact-distance', '2km'], '--contact-distance: '),
+                (['draw', 'missing.obj', '-o', 'a.svg', '--direction', '1,1,1', '--up', '2,2,2'], '--up: '),
+                (['draw', 'missing.obj', '-o', 'a.svg', '--view', 'top', '--up', '0,0,-5'], 'parallel')):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(said, done.stderr)
+                self.assertNotIn('missing.obj', done.stderr)
+
+    def test_an_option_takes_one_value_and_leaves_the_next_word_alone(self):
+        self.two_files()
+        done = self.run_strake('clash', '-o', 'x.json', 'a.obj', 'b.obj')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([f['label'] for f in json.loads((self.folder / 'x.json').read_text())['files']],
+                         ['a.obj', 'b.obj'])
+        done = self.run_strake('draw', '--select', 'a0', 'a.obj', '-o', 'x.svg')
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == '__main__':
+    main()
