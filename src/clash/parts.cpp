@@ -90,10 +90,7 @@ Error too_many(const Options& options) {
 
 geometry::Box3l inflated_box(const PartRef& ref, double reach) {
   const auto inflation = static_cast<std::int64_t>(std::ceil(reach / 2 + ref.placed.part->sag));
-  const geometry::Vec3l more{inflation, inflation, inflation};
-  const geometry::Box3i& box = ref.placed.part->box;
-  return {box.lo.as<std::int64_t>() + ref.placed.origin - more,
-          box.hi.as<std::int64_t>() + ref.placed.origin + more};
+  return ref.placed.part->box.as<std::int64_t>().moved(ref.placed.origin).inflated(inflation);
 }
 
 Result<PartList> list_parts(const model::Scene& scene, const Sets& sets, Curves curves,
@@ -143,13 +140,8 @@ Result<PartList> list_parts(const model::Scene& scene, const Sets& sets, Curves 
 }
 
 geometry::Box3d common_box_mm(const PartRef& a, const PartRef& b, double reach) {
-  const geometry::Box3l x = inflated_box(a, reach), y = inflated_box(b, reach);
-  geometry::Box3d common;
-  for (int k = 0; k < 3; ++k) {
-    common.lo[k] = static_cast<double>(std::max(x.lo[k], y.lo[k])) / geometry::kGridPerMm;
-    common.hi[k] = static_cast<double>(std::min(x.hi[k], y.hi[k])) / geometry::kGridPerMm;
-  }
-  return common;
+  const geometry::Box3l common = inflated_box(a, reach).common(inflated_box(b, reach));
+  return {geometry::to_mm(common.lo), geometry::to_mm(common.hi)};
 }
 
 Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list, const Sets& sets,

@@ -23,8 +23,6 @@ using geometry::Vec3d;
 /// when they lie face to face is a dozen for each triangle.
 constexpr std::uint64_t kPairsPerTriangle = 32, kLeastPairs = 1U << 12U;
 
-Box3d moved(const Box3d& box, const Vec3d& by) { return {box.lo + by, box.hi + by}; }
-
 /// Two parts in canonical order.
 class PairPlaces {
  public:
@@ -171,7 +169,7 @@ std::optional<std::vector<PartPlace>> places_of(const NarrowPart& a, const Narro
   const Vec3d shift = (b.treed.placed.origin - a.treed.placed.origin).as<double>();
   for (PartPlace& place : *places) {
     turn(place.answer, a, b);
-    place.extent = moved(place.extent, shift);
+    place.extent = place.extent.moved(shift);
   }
   return places;
 }

@@ -17,8 +17,7 @@ using geometry::Vec3d;
 
 /// A point relative to a part's origin.
 Vec3d place_mm(const PartRef& part, const Vec3d& p) {
-  const Vec3d at = part.placed.origin.as<double>() + p;
-  return {at.x / geometry::kGridPerMm, at.y / geometry::kGridPerMm, at.z / geometry::kGridPerMm};
+  return geometry::to_mm(part.placed.origin.as<double>() + p);
 }
 
 /// The d of two objects is the least of their parts': so is either end of its bracket, over the

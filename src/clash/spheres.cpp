@@ -32,9 +32,7 @@ struct Field {
   [[nodiscard]] bool solid() const { return treed.placed.part->kind == PartKind::solid; }
 
   [[nodiscard]] Box3d box() const {
-    const geometry::Box3i& b = treed.placed.part->box;
-    return {(b.lo.as<std::int64_t>() + shift).as<double>(),
-            (b.hi.as<std::int64_t>() + shift).as<double>()};
+    return treed.placed.part->box.as<std::int64_t>().moved(shift).as<double>();
   }
 
   /// Distance of a point to the part's skin; negative inside a solid.
@@ -70,15 +68,9 @@ class SphereSearch {
     // Something to begin with: a corner of one is as far from the other as that.
     point_ = part_a_.vertices.front().as<double>();
     best_ = std::max(b_.signed_distance(point_, work_.pair), 0.0);
-    Box3d root = a_.box();
-    const Box3d other = b_.box();
     // Half the reach from either: the middle of the closest pair of points lies in both.
-    const double half = reach_of(options_) / 2;
-    for (int k = 0; k < 3; ++k) {
-      root.lo[k] = std::max(root.lo[k], other.lo[k]) - half;
-      root.hi[k] = std::min(root.hi[k], other.hi[k]) + half;
-      if (!(root.lo[k] <= root.hi[k])) return concluded();
-    }
+    const Box3d root = a_.box().common(b_.box()).inflated(reach_of(options_) / 2);
+    if (root.empty()) return concluded();
     stack_.push_back(root);
     while (!stack_.empty() && !done_) {
       const Box3d cell = stack_.back();

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
+#include "geometry/box.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/triangle_distance.hpp"
 
 namespace strake::geometry {
-
-[[nodiscard]] inline double squared_gap(const Box3d& x, const Box3d& y) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double gap = std::max(std::max(x.lo[k] - y.hi[k], y.lo[k] - x.hi[k]), 0.0);
-    sum += gap * gap;
-  }
-  return sum;
-}
 
 /// Two triangles and certain bounds on their squared distance.
 struct NearTriangles {
@@ -79,9 +70,7 @@ class NearWalk {
 
   /// A node's box in the pair's coordinates; exact.
   static Box3d box_of(const PartView& view, std::uint32_t node) {
-    const Box3i& box = view.tree().nodes()[node].box;
-    const Vec3d shift = view.shift().as<double>();
-    return {box.lo.as<double>() + shift, box.hi.as<double>() + shift};
+    return view.tree().nodes()[node].box.as<double>().moved(view.shift().as<double>());
   }
 
   void push(std::uint32_t a, std::uint32_t b, double reach) {

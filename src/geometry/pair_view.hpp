@@ -30,9 +30,7 @@ class PartView {
     return {vertex(t[0]), vertex(t[1]), vertex(t[2])};
   }
   [[nodiscard]] ExactTriangle triangle(std::uint32_t i) const { return ExactTriangle(corners(i)); }
-  [[nodiscard]] Box3l box(const Box3i& b) const {
-    return {b.lo.as<std::int64_t>() + shift_, b.hi.as<std::int64_t>() + shift_};
-  }
+  [[nodiscard]] Box3l box(const Box3i& b) const { return b.as<std::int64_t>().moved(shift_); }
 
  private:
   const Part* part_;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "geometry/corners.hpp"
 #include "geometry/near_walk.hpp"
 #include "geometry/pair_view.hpp"
@@ -116,15 +117,6 @@ double squared_distance(const Vec3d& p, const Corners& t) {
   return std::min(least, height * height / dot(n, n));
 }
 
-double squared_gap(const Vec3d& p, const Box3i& box) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double gap = std::max({box.lo[k] - p[k], p[k] - box.hi[k], 0.0});
-    sum += gap * gap;
-  }
-  return sum;
-}
-
 }  // namespace
 
 std::optional<Closest> closest(const TreedPart& a, const TreedPart& b, double limit,
@@ -142,15 +134,16 @@ double distance_to_surface(const TreedPart& part, const Vec3d& point, double lim
   double best = limit * limit;
   std::array<std::pair<std::uint32_t, double>, kMaxTreeDepth + 2> stack;
   std::size_t size = 0;
-  if (!nodes.empty()) stack[size++] = {0, squared_gap(point, nodes.front().box)};
+  if (!nodes.empty()) stack[size++] = {0, squared_gap(point, nodes.front().box.as<double>())};
   while (size > 0) {
     const auto [index, gap] = stack[--size];
     if (gap > best) continue;
     const PartTree::Node& node = nodes[index];
     if (node.count == 0) {
-      std::pair<std::uint32_t, double> near{node.first, squared_gap(point, nodes[node.first].box)};
-      std::pair<std::uint32_t, double> far{node.first + 1,
-                                           squared_gap(point, nodes[node.first + 1].box)};
+      std::pair<std::uint32_t, double> near{node.first,
+                                            squared_gap(point, nodes[node.first].box.as<double>())};
+      std::pair<std::uint32_t, double> far{
+          node.first + 1, squared_gap(point, nodes[node.first + 1].box.as<double>())};
       if (far.second < near.second) std::swap(near, far);
       stack[size++] = far;
       stack[size++] = near;

@@ -150,12 +150,9 @@ double point_distance(const WorldObject& object, const Vec3d& point) {
 }
 
 double sampled_depth(const WorldObject& a, const WorldObject& b, int steps) {
-  Box3d common = a.box;
-  for (int k = 0; k < 3; ++k) {
-    common.lo[k] = std::max(common.lo[k], b.box.lo[k]);
-    common.hi[k] = std::min(common.hi[k], b.box.hi[k]);
+  const Box3d common = a.box.common(b.box);
+  for (int k = 0; k < 3; ++k)
     if (common.lo[k] >= common.hi[k]) return 0;
-  }
   const auto depth_at = [&](const Vec3d& p) {
     if (!inside(a, p) || !inside(b, p)) return 0.0;
     return std::max(point_distance(a, p), point_distance(b, p));

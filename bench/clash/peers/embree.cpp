@@ -119,11 +119,7 @@ std::vector<WorldTriangle> within(const PeerObject& o, const Box3d& box) {
 }
 
 bool small_ones_meet(const PeerObject& a, const PeerObject& b) {
-  Box3d common = a.box;
-  for (int k = 0; k < 3; ++k) {
-    common.lo[k] = std::max(a.box.lo[k], b.box.lo[k]);
-    common.hi[k] = std::min(a.box.hi[k], b.box.hi[k]);
-  }
+  const Box3d common = a.box.common(b.box);
   const auto in_a = within(a, common), in_b = within(b, common);
   for (const WorldTriangle& t : in_a)
     for (const WorldTriangle& u : in_b)

@@ -34,9 +34,9 @@ inline constexpr double kMaxGridMm = 1125899906842624.0 / kGridPerMm;
 }
 
 /// Back to millimetres (for output only, never for a decision).
-[[nodiscard]] constexpr Vec3d to_mm(const Vec3l& grid) {
-  return {static_cast<double>(grid.x) / kGridPerMm, static_cast<double>(grid.y) / kGridPerMm,
-          static_cast<double>(grid.z) / kGridPerMm};
+[[nodiscard]] constexpr Vec3d to_mm(const Vec3d& grid) {
+  return {grid.x / kGridPerMm, grid.y / kGridPerMm, grid.z / kGridPerMm};
 }
+[[nodiscard]] constexpr Vec3d to_mm(const Vec3l& grid) { return to_mm(grid.as<double>()); }
 
 }  // namespace strake::geometry

@@ -110,6 +110,24 @@ struct Box3 {
     return lo.x <= b.lo.x && b.hi.x <= hi.x && lo.y <= b.lo.y && b.hi.y <= hi.y && lo.z <= b.lo.z &&
            b.hi.z <= hi.z;
   }
+  [[nodiscard]] constexpr Box3 moved(const Vec3<T>& by) const { return {lo + by, hi + by}; }
+  /// With all that is no farther along any axis.
+  [[nodiscard]] constexpr Box3 inflated(T by) const {
+    return {lo - Vec3<T>{by, by, by}, hi + Vec3<T>{by, by, by}};
+  }
+  /// What two boxes have in common; empty where they do not meet.
+  [[nodiscard]] constexpr Box3 common(const Box3& b) const {
+    Box3 both = *this;
+    for (int k = 0; k < 3; ++k) {
+      if (both.lo[k] < b.lo[k]) both.lo[k] = b.lo[k];
+      if (b.hi[k] < both.hi[k]) both.hi[k] = b.hi[k];
+    }
+    return both;
+  }
+  template <class U>
+  [[nodiscard]] constexpr Box3<U> as() const {
+    return {lo.template as<U>(), hi.template as<U>()};
+  }
   friend constexpr bool operator==(const Box3&, const Box3&) = default;
 };
 

@@ -38,7 +38,7 @@ struct GridBody {
   geometry::Vec3l origin;  ///< snap(translation) + GridShape::base
 
   [[nodiscard]] geometry::Box3l box(const GridShape& shape) const {
-    return {shape.box.lo.as<std::int64_t>() + origin, shape.box.hi.as<std::int64_t>() + origin};
+    return shape.box.as<std::int64_t>().moved(origin);
   }
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/analytic/torus_gap.hpp"
+#include "geometry/box.hpp"
 #include "geometry/corners.hpp"
 #include "geometry/pair_view.hpp"
 #include "strake/geometry/analytic_pair.hpp"
@@ -64,16 +65,10 @@ class Search {
 
   /// No triangle of the node is nearer.
   [[nodiscard]] double bound(std::uint32_t index) const {
-    const Box3i& box = nodes()[index].box;
-    double square = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double gap = std::max({box.lo[k] - box_.hi[k], box_.lo[k] - box.hi[k], 0.0});
-      square += gap * gap;
-    }
-    const double apart = std::sqrt(square) * (1 - 1e-14);
+    const Box3d box = nodes()[index].box.as<double>();
+    const double apart = std::sqrt(squared_gap(box, box_)) * (1 - 1e-14);
     if (apart > reach()) return apart;
-    const Vec3d lo = box.lo.as<double>(), hi = box.hi.as<double>();
-    const ConvexBody block = block_body((lo + hi) * 0.5, (hi - lo) * 0.5);
+    const ConvexBody block = block_body((box.lo + box.hi) * 0.5, (box.hi - box.lo) * 0.5);
     double least = kNever;
     for (const ConvexBody& hull : hulls_)
       least = std::min(least, convex_gap(hull, block, reach()).lower);

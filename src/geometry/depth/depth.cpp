@@ -22,18 +22,13 @@ constexpr std::size_t kMaxVerticesTried = 128;
 /// A step off a skin that the exact test of a side can see.
 constexpr double kLeastMove = 1.0 / 64;
 
-Box3d box_of(const DepthField& f) {
-  const Box3i& b = f.part().box;
-  return {f.common(b.lo.as<double>()), f.common(b.hi.as<double>())};
-}
-
 /// The half-spaces of both parts about a centre in their common box.
 class Halfspaces {
  public:
   Halfspaces(const DepthPart& a, const DepthField& fa, const DepthPart& b, const DepthField& fb,
              const std::optional<Box3d>& within)
       : a_(a), b_(b), fa_(fa), fb_(fb), within_(within) {
-    const Box3d x = box_of(fa), y = box_of(fb), room = within.value_or(x);
+    const Box3d x = fa.box(), y = fb.box(), room = within.value_or(x);
     for (int k = 0; k < 3; ++k) {
       const double lo = std::max({x.lo[k], y.lo[k], room.lo[k]});
       const double hi = std::min({x.hi[k], y.hi[k], room.hi[k]});
@@ -243,7 +238,7 @@ void bracket_by_programs(const Halfspaces& spaces, Candidates& candidates, Depth
 
 /// The corners of one body in the other: where shallow and broken overlaps are deepest.
 void try_vertices(const DepthField& of, const DepthField& in, Candidates& candidates) {
-  const Box3d room = box_of(in);
+  const Box3d room = in.box();
   std::size_t tried = 0;
   for (const Vec3i& v : of.part().vertices) {
     const Vec3d p = of.common(v.as<double>());

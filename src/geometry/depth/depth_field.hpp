@@ -50,6 +50,7 @@ class DepthField {
   [[nodiscard]] Vec3d local(const Vec3d& p) const { return p + shift_.as<double>(); }
   [[nodiscard]] Vec3d common(const Vec3d& p) const { return p - shift_.as<double>(); }
   [[nodiscard]] const Part& part() const { return *part_->placed.part; }
+  [[nodiscard]] Box3d box() const { return part().box.as<double>().moved(-shift_.as<double>()); }
   [[nodiscard]] const PartTree& tree() const { return *part_->tree; }
 
  private:

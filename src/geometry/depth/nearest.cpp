@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/depth/nearest.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
 namespace {
-
-double squared_to_box(const Vec3d& p, const Box3i& box) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double below = static_cast<double>(box.lo[k]) - p[k];
-    const double above = p[k] - static_cast<double>(box.hi[k]);
-    const double d = std::max({below, above, 0.0});
-    sum += d * d;
-  }
-  return sum;
-}
 
 double squared(const Vec3d& v) { return dot(v, v); }
 
@@ -35,7 +23,7 @@ class Search {
   NearestTriangle run(std::uint32_t hint, double limit) {
     best_ = limit * limit;
     if (hint != kNoFace) test(hint);
-    if (!tree_.nodes().empty()) descend(0, squared_to_box(p_, tree_.nodes()[0].box));
+    if (!tree_.nodes().empty()) descend(0, squared_gap(p_, tree_.nodes()[0].box.as<double>()));
     if (triangle_ == kNoFace) return {};
     return {std::sqrt(best_), triangle_};
   }
@@ -56,8 +44,8 @@ class Search {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) test(tree_.order()[i]);
       return;
     }
-    const double left = squared_to_box(p_, tree_.nodes()[node.first].box);
-    const double right = squared_to_box(p_, tree_.nodes()[node.first + 1].box);
+    const double left = squared_gap(p_, tree_.nodes()[node.first].box.as<double>());
+    const double right = squared_gap(p_, tree_.nodes()[node.first + 1].box.as<double>());
     if (left <= right) {
       descend(node.first, left);
       descend(node.first + 1, right);

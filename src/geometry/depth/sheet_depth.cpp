@@ -133,8 +133,7 @@ class CurveSearch {
       const auto [i, j] = stack.back();
       stack.pop_back();
       const PartTree::Node &x = tree_a_.nodes()[i], &y = tree_b_.nodes()[j];
-      const Box3d bx{x.box.lo.as<double>(), x.box.hi.as<double>()};
-      const Box3d by{y.box.lo.as<double>() + shift_, y.box.hi.as<double>() + shift_};
+      const Box3d bx = x.box.as<double>(), by = y.box.as<double>().moved(shift_);
       if (!bx.meets(by)) continue;
       if (x.count > 0 && y.count > 0) {
         leaf_pair(x, y);

@@ -9,18 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
-
-template <std::size_t N>
-[[nodiscard]] Box3d box_of(const std::array<Vec3d, N>& points) {
-  Box3d box = empty_box<double>();
-  for (const Vec3d& p : points) box.include(p);
-  return box;
-}
 
 /// Work limit: pieces are cheaper than the cells of two solids.
 inline constexpr std::uint32_t kPiecesPerCell = 2;
@@ -39,8 +33,7 @@ class SheetSearch {
 
   void run() {
     const double ceiling = depth_.upper;
-    const Box3i& b = solid_.part().box;
-    const Box3d room{solid_.common(b.lo.as<double>()), solid_.common(b.hi.as<double>())};
+    const Box3d room = solid_.box();
     for (const Shape& c : pieces_)
       if (box_of(c).meets(room)) evaluate(c, kNoFace, ceiling);
     while (!open_.empty()) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "geometry/depth/radius_lp.hpp"
 
 namespace strake::geometry {
@@ -57,20 +58,9 @@ std::optional<HalfSpace> plane_of(const DepthField& field, std::uint32_t triangl
   return HalfSpace{unit, dot(unit, field.common(c[0]))};
 }
 
-Box3d inflated(const Box3d& box, double by) {
-  const Vec3d more{by, by, by};
-  return {box.lo - more, box.hi + more};
-}
-
 Corners placed(const DepthField& field, std::uint32_t triangle) {
   const Corners c = corners_of(field.part(), triangle);
   return {field.common(c[0]), field.common(c[1]), field.common(c[2])};
-}
-
-Box3d box_of(std::span<const Vec3d> points) {
-  Box3d box = empty_box<double>();
-  for (const Vec3d& p : points) box.include(p);
-  return box;
 }
 
 /// All points lie on one side of a plane, farther than `by` from it.
@@ -125,7 +115,7 @@ std::optional<std::vector<std::uint32_t>> triangles_in(const DepthField& field, 
   while (!stack.empty()) {
     const PartTree::Node& node = nodes[stack.back()];
     stack.pop_back();
-    if (!Box3d{node.box.lo.as<double>(), node.box.hi.as<double>()}.meets(local)) continue;
+    if (!node.box.as<double>().meets(local)) continue;
     if (node.count == 0) {
       stack.push_back(node.first);
       stack.push_back(node.first + 1);
@@ -151,7 +141,7 @@ std::optional<HalfSpace> lid(const DepthField& field, const Simplex& s, std::uin
   std::array<Vec3d, 4> shadow;
   for (std::size_t i = 0; i < 4; ++i)
     shadow[i] = corner(s, i) + own->normal * (own->offset - dot(own->normal, corner(s, i)));
-  const auto near = triangles_in(field, inflated(box_of(shadow), kSnapLift + 2 * slack));
+  const auto near = triangles_in(field, box_of(shadow).inflated(kSnapLift + 2 * slack));
   if (!near) return std::nullopt;
   double top = own->offset;
   for (const std::uint32_t t : *near) {
@@ -179,7 +169,7 @@ class Skin {
       : field_(field), slack_(slack), faces_(faces_of(s)) {
     Box3d box = empty_box<double>();
     for (const SimplexCorner& c : s.corner) box.include(c.at);
-    const auto in_box = triangles_in(field, inflated(box, 2 * slack));
+    const auto in_box = triangles_in(field, box.inflated(2 * slack));
     complete_ = in_box.has_value();
     if (!complete_) return;
     for (const std::uint32_t t : *in_box)

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/box.hpp"
+
 namespace strake::geometry {
 namespace {
 
@@ -26,12 +28,6 @@ double along(const Vec3d& n, const Vec3i& v) {
 double along(const Vec3d& n, const Box3i& box) {
   return along(n, Vec3i{n.x < 0 ? box.lo.x : box.hi.x, n.y < 0 ? box.lo.y : box.hi.y,
                         n.z < 0 ? box.lo.z : box.hi.z});
-}
-
-Box3i box_of(std::span<const Vec3i> points) {
-  Box3i box = empty_box<std::int32_t>();
-  for (const Vec3i& p : points) box.include(p);
-  return box;
 }
 
 int longest_axis(const Box3i& box) {

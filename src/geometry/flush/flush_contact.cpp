@@ -174,9 +174,8 @@ class FlushPlane {
 FlushContact flush_contact(const PlacedPart& a, const PlacedPart& b) {
   FlushContact result;
   const Vec3l shift = b.origin - a.origin;
-  const Box3l x{a.part->box.lo.as<std::int64_t>(), a.part->box.hi.as<std::int64_t>()};
-  const Box3l y{b.part->box.lo.as<std::int64_t>() + shift,
-                b.part->box.hi.as<std::int64_t>() + shift};
+  const Box3l x = a.part->box.as<std::int64_t>();
+  const Box3l y = b.part->box.as<std::int64_t>().moved(shift);
   int axis = -1;
   for (int k = 0; k < 3; ++k) {
     if (x.hi[k] <= y.lo[k] || y.hi[k] <= x.lo[k]) axis = k;
@@ -187,10 +186,9 @@ FlushContact flush_contact(const PlacedPart& a, const PlacedPart& b) {
   result.separated = true;
   Plane plane{
       .axis = axis, .at = x.hi[axis] == y.lo[axis] ? x.hi[axis] : x.lo[axis], .lo = {}, .hi = {}};
-  const Vec3l lo{std::max(x.lo.x, y.lo.x), std::max(x.lo.y, y.lo.y), std::max(x.lo.z, y.lo.z)};
-  const Vec3l hi{std::min(x.hi.x, y.hi.x), std::min(x.hi.y, y.hi.y), std::min(x.hi.z, y.hi.z)};
-  plane.lo = plane.project(lo);
-  plane.hi = plane.project(hi);
+  const Box3l common = x.common(y);
+  plane.lo = plane.project(common.lo);
+  plane.hi = plane.project(common.hi);
   const auto point = FlushPlane(a, b, plane).find();
   if (!point) return result;
   result.touching = true;

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
+#include "geometry/box.hpp"
 #include "geometry/corners.hpp"
 #include "strake/geometry/vec.hpp"
 
@@ -39,9 +41,7 @@ struct Slab {
       }
       polygon = cut;
     }
-  Box3d box = empty_box<double>();
-  for (std::size_t i = 0; i < polygon.size; ++i) box.include(polygon.corner[i]);
-  return box;
+  return box_of(std::span(polygon.corner).first(polygon.size));
 }
 
 }  // namespace strake::geometry

@@ -26,8 +26,6 @@ Box3d skin_within(const Part& part, const PartFrame& of_other, const Vec3d& shif
   return box;
 }
 
-Box3d moved(const Box3d& box, const Vec3d& by) { return {box.lo + by, box.hi + by}; }
-
 }  // namespace
 
 Box3d common_extent(const FramedPart& a, const FramedPart& b, double reach) {
@@ -36,7 +34,7 @@ Box3d common_extent(const FramedPart& a, const FramedPart& b, double reach) {
   const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();
   Box3d box = skin_within(*a.placed.part, *b.frame, -shift, margin);
   const Box3d of_b = skin_within(*b.placed.part, *a.frame, shift, margin);
-  if (!of_b.empty()) box.include(moved(of_b, shift));
+  if (!of_b.empty()) box.include(of_b.moved(shift));
   return box;
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "geometry/box.hpp"
 #include "geometry/places/clip.hpp"
 #include "geometry/places/edge_stops.hpp"
 #include "geometry/places/inside_links.hpp"
@@ -21,29 +22,9 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 /// Added to the reach, grid units: far above what double arithmetic makes of a touch.
 constexpr double kTouch = 1.0 / 256;
 
-Box3d inflated(Box3d box, double by) {
-  const Vec3d d{by, by, by};
-  return {box.lo - d, box.hi + d};
-}
-
-Box3d common(const Box3d& x, const Box3d& y) {
-  Box3d box;
-  for (int k = 0; k < 3; ++k) {
-    box.lo[k] = std::max(x.lo[k], y.lo[k]);
-    box.hi[k] = std::min(x.hi[k], y.hi[k]);
-  }
-  return box;
-}
-
 std::array<Slab, 3> slabs_of(const Box3d& box) {
   return {Slab{{1, 0, 0}, box.lo.x, box.hi.x}, Slab{{0, 1, 0}, box.lo.y, box.hi.y},
           Slab{{0, 0, 1}, box.lo.z, box.hi.z}};
-}
-
-Box3d box_of(const TriangleCorners& t) {
-  Box3d box = empty_box<double>();
-  for (const Vec3l& p : t) box.include(p.as<double>());
-  return box;
 }
 
 /// Adds what of two triangles lies within reach of the other to a box.
@@ -51,13 +32,14 @@ void include_common(const TriangleCorners& a, const TriangleCorners& b, double r
                     Box3d& extent) {
   // What rounding may have cut off.
   const double margin = reach + 1;
-  const Box3d box_a = box_of(a), box_b = box_of(b);
-  const Box3d room_a = inflated(box_b, margin), room_b = inflated(box_a, margin);
-  if (extent.contains(common(room_a, room_b))) return;
-  const Box3d of_a = room_a.contains(box_a) ? box_a : box_within(as_doubles(a), slabs_of(room_a));
-  const Box3d of_b = room_b.contains(box_b) ? box_b : box_within(as_doubles(b), slabs_of(room_b));
-  const Box3d both = common(inflated(of_a, margin), inflated(of_b, margin));
-  extent.include(both.empty() ? common(room_a, room_b) : both);
+  const Corners corners_a = as_doubles(a), corners_b = as_doubles(b);
+  const Box3d box_a = box_of(corners_a), box_b = box_of(corners_b);
+  const Box3d room_a = box_b.inflated(margin), room_b = box_a.inflated(margin);
+  if (extent.contains(room_a.common(room_b))) return;
+  const Box3d of_a = room_a.contains(box_a) ? box_a : box_within(corners_a, slabs_of(room_a));
+  const Box3d of_b = room_b.contains(box_b) ? box_b : box_within(corners_b, slabs_of(room_b));
+  const Box3d both = of_a.inflated(margin).common(of_b.inflated(margin));
+  extent.include(both.empty() ? room_a.common(room_b) : both);
 }
 
 class Places {

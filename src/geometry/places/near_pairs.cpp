@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "geometry/box.hpp"
+#include "geometry/corners.hpp"
 #include "strake/geometry/wide_int.hpp"
 
 namespace strake::geometry {
@@ -15,13 +17,10 @@ struct Listed {
   std::vector<DoubleTriangle> triangle;
 
   Listed(const PartView& of, const PartView& other, double squared) {
-    const Box3l room = other.box(other.part().box);
-    const Box3d box{room.lo.as<double>(), room.hi.as<double>()};
+    const Box3d box = other.box(other.part().box).as<double>();
     for (std::uint32_t t = 0; t < of.part().triangles.size(); ++t) {
       const TriangleCorners c = of.corners(t);
-      Box3d own = empty_box<double>();
-      for (const Vec3l& p : c) own.include(p.as<double>());
-      if (squared_gap(own, box) > squared) continue;
+      if (squared_gap(box_of(as_doubles(c)), box) > squared) continue;
       id.push_back(t);
       triangle.emplace_back(c);
     }

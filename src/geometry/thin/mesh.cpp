@@ -24,21 +24,20 @@ using thin::ExactLeast;
 using thin::LeastGap;
 using thin::Piece;
 using thin::Pieces;
-using thin::squared_gap;
 
 /// Grid units: farther from the skin than this, the grid point next to a point is on its side.
 constexpr double kSnap = 2;
 /// Chords of a quarter turn, at most.
 constexpr int kMostChords = 1024;
 
-Box3d as_double(const Box3i& box) { return {box.lo.as<double>(), box.hi.as<double>()}; }
-
 /// Depth first over the mesh's tree, the nearer child first; the decisions are exact.
 void add_piece(const Piece& piece, const TreedPart& mesh, double enough, ExactLeast& least) {
   const auto& nodes = mesh.tree->nodes();
   std::array<std::pair<std::uint32_t, double>, kMaxTreeDepth + 2> stack;
   std::size_t size = 0;
-  const auto gap = [&](std::uint32_t i) { return squared_gap(piece.box, as_double(nodes[i].box)); };
+  const auto gap = [&](std::uint32_t i) {
+    return squared_gap(piece.box, nodes[i].box.as<double>());
+  };
   if (!nodes.empty()) stack[size++] = {0, gap(0)};
   while (size > 0 && !least.touching()) {
     const auto [index, squared] = stack[--size];

@@ -18,7 +18,6 @@ using thin::ExactLeast;
 using thin::LeastGap;
 using thin::Piece;
 using thin::Pieces;
-using thin::squared_gap;
 
 /// Adds the distance of two sides unless it is certainly not the least.
 void add_gap(const PairSide& a, const PairSide& b, double enough, LeastGap& least) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/analytic/pair_side.hpp"
+#include "geometry/box.hpp"
 #include "strake/geometry/closest.hpp"
 #include "strake/geometry/thin_body.hpp"
 
@@ -56,16 +57,6 @@ struct Pieces {
         arcs.push_back(analytic::PairSide::of(*line));
   }
 };
-
-/// Squared distance of two boxes; exact but for the rounding of squares.
-[[nodiscard]] inline double squared_gap(const Box3d& x, const Box3d& y) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double gap = std::max({x.lo[k] - y.hi[k], y.lo[k] - x.hi[k], 0.0});
-    sum += gap * gap;
-  }
-  return sum;
-}
 
 /// The least of exact squared distances; the first among equals.
 class ExactLeast {

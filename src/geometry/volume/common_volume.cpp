@@ -13,16 +13,6 @@
 namespace strake::geometry {
 namespace {
 
-Box3l common_box(const PartView& a, const PartView& b) {
-  const Box3l x = a.box(a.part().box), y = b.box(b.part().box);
-  Box3l common;
-  for (int k = 0; k < 3; ++k) {
-    common.lo[k] = std::max(x.lo[k], y.lo[k]);
-    common.hi[k] = std::min(x.hi[k], y.hi[k]);
-  }
-  return common;
-}
-
 bool empty(const Box3l& box) {
   return box.lo.x >= box.hi.x || box.lo.y >= box.hi.y || box.lo.z >= box.hi.z;
 }
@@ -212,7 +202,7 @@ std::optional<CommonVolume> common_volume(const TreedPart& a, const TreedPart& b
                                           std::uint64_t most_work) {
   const PartView view_a(a, {}), view_b(b, b.placed.origin - a.placed.origin);
   if (!view_a.solid() || !view_b.solid()) return std::nullopt;
-  const Box3l common = common_box(view_a, view_b);
+  const Box3l common = view_a.box(a.placed.part->box).common(view_b.box(b.placed.part->box));
   if (empty(common)) return CommonVolume{};
   return VolumeSum(view_a, view_b, common, most_work).run();
 }
