@@ -36,3 +36,17 @@ function(strake_test name)
     add_dependencies(strake_tests_${label} ${name})
   endforeach()
 endfunction()
+
+# strake_rounds_test(NAME SOURCES... MODULES modules... [LIBS ...] [TIMEOUT s])
+# A fast test with few rounds; among the slow tests, as ..._long_test, the same with many
+# (STRAKE_LONG_RUN).
+function(strake_rounds_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;MODULES;LIBS" ${ARGN})
+  set(what SOURCES ${arg_SOURCES} MODULES ${arg_MODULES} LIBS ${arg_LIBS})
+  strake_test(${name} ${what} LABELS fast TIMEOUT ${arg_TIMEOUT})
+  if(STRAKE_SLOW_TESTS)
+    string(REGEX REPLACE "(_property)?_test$" "_long_test" long ${name})
+    strake_test(${long} ${what} LABELS slow TIMEOUT 7200)
+    target_compile_definitions(${long} PRIVATE STRAKE_LONG_RUN)
+  endif()
+endfunction()

@@ -10,6 +10,7 @@
 #include "geometry/corners.hpp"
 #include "geometry/near_walk.hpp"
 #include "geometry/pair_view.hpp"
+#include "geometry/tree_walk.hpp"
 #include "geometry/triangle_distance.hpp"
 #include "strake/geometry/part_pair.hpp"
 
@@ -132,28 +133,12 @@ std::optional<Closest> any_within(const TreedPart& a, const TreedPart& b, double
 double distance_to_surface(const TreedPart& part, const Vec3d& point, double limit) {
   const auto& nodes = part.tree->nodes();
   double best = limit * limit;
-  std::array<std::pair<std::uint32_t, double>, kMaxTreeDepth + 2> stack;
-  std::size_t size = 0;
-  if (!nodes.empty()) stack[size++] = {0, squared_gap(point, nodes.front().box.as<double>())};
-  while (size > 0) {
-    const auto [index, gap] = stack[--size];
-    if (gap > best) continue;
-    const PartTree::Node& node = nodes[index];
-    if (node.count == 0) {
-      std::pair<std::uint32_t, double> near{node.first,
-                                            squared_gap(point, nodes[node.first].box.as<double>())};
-      std::pair<std::uint32_t, double> far{
-          node.first + 1, squared_gap(point, nodes[node.first + 1].box.as<double>())};
-      if (far.second < near.second) std::swap(near, far);
-      stack[size++] = far;
-      stack[size++] = near;
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const Corners t = corners_of(*part.placed.part, part.tree->order()[node.first + i]);
-      best = std::min(best, squared_distance(point, t));
-    }
-  }
+  walk_nearer_first(
+      *part.tree, [&](std::uint32_t i) { return squared_gap(point, nodes[i].box.as<double>()); },
+      [&](double gap) { return gap > best; },
+      [&](std::uint32_t t) {
+        best = std::min(best, squared_distance(point, corners_of(*part.placed.part, t)));
+      });
   return std::sqrt(best);
 }
 

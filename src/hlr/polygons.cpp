@@ -2,9 +2,9 @@
 // Merges exactly coplanar triangles into convex polygons, and certifies convex solids.
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 
 #include "hlr/shape_view.hpp"
+#include "strake/core/disjoint_sets.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -107,8 +107,7 @@ class PartMerger {
 
   // Groups coplanar neighbours; true when every edge is manifold, consistent and not concave.
   bool walk_edges() {
-    group_.resize(part_.triangles.size());
-    std::iota(group_.begin(), group_.end(), 0U);
+    DisjointSets groups(part_.triangles.size());
     bool convex = part_.kind == geometry::PartKind::solid && part_.shell_count == 1;
     for (std::size_t k = 0; k + 1 < part_.edges.size(); ++k) {
       const geometry::PartEdge& e = part_.edges[k];
@@ -129,9 +128,11 @@ class PartMerger {
       if (is_folded(s, t)) {
         convex = false;
       } else {
-        unite(s, t);
+        groups.join(s, t);
       }
     }
+    group_.resize(part_.triangles.size());
+    for (std::uint32_t t = 0; t < group_.size(); ++t) group_[t] = groups.root(t);
     return convex;
   }
 
@@ -141,16 +142,6 @@ class PartMerger {
     for (std::size_t k = 0; k < 3; ++k)
       if (m[k] != 0) return (m[k] > 0) != (n[k] > 0);
     return true;
-  }
-
-  std::uint32_t root(std::uint32_t t) {
-    while (group_[t] != t) t = group_[t] = group_[group_[t]];
-    return t;
-  }
-  void unite(std::uint32_t s, std::uint32_t t) {
-    s = root(s);
-    t = root(t);
-    group_[std::max(s, t)] = std::min(s, t);
   }
 
   // A locally convex closed surface of one shell is the boundary of a convex body when some point
@@ -282,10 +273,8 @@ class PartMerger {
   void add_groups() {
     std::vector<std::uint32_t> order;
     order.reserve(planes_.size());
-    for (std::uint32_t t = 0; t < planes_.size(); ++t) {
-      group_[t] = root(t);
+    for (std::uint32_t t = 0; t < planes_.size(); ++t)
       if (planes_[t].facing != 0) order.push_back(t);
-    }
     const auto by_group = [&](std::uint32_t s, std::uint32_t t) {
       return group_[s] < group_[t] || (group_[s] == group_[t] && s < t);
     };

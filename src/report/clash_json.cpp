@@ -320,6 +320,16 @@ void groups(Buffered& buffer, const clash::Grouping& grouping) {
   out += "]},\n";
 }
 
+/// The d of a result or of one of its regions.
+template <class Found>
+void measured(std::string& out, const Found& found) {
+  out += ", \"d_mm\": ";
+  append_mm(out, found.d_mm);
+  out += ", \"d_range_mm\": [";
+  append_range(out, found.d_lower_mm, found.d_upper_mm, ", ");
+  out += ']';
+}
+
 /// How many separate places the two meet in, and the worst of several.
 void regions(std::string& out, const Report& test, const Pair& p) {
   out += ", \"region_count\": ";
@@ -331,11 +341,8 @@ void regions(std::string& out, const Report& test, const Pair& p) {
     const clash::Region& r = test.regions[p.first_region + i];
     out += i == 0 ? "{\"class\": \"" : ", {\"class\": \"";
     out += name(r.cls);
-    out += "\", \"d_mm\": ";
-    append_mm(out, r.d_mm);
-    out += ", \"d_range_mm\": [";
-    append_range(out, r.d_lower_mm, r.d_upper_mm, ", ");
-    out += "]";
+    out += '"';
+    measured(out, r);
     point(out, "point_mm", r.point_mm);
     out += ", \"box_mm\": ";
     box(out, r.box_mm);
@@ -375,11 +382,8 @@ void result(std::string& out, const ClashContents& contents, const Numbered& num
     out += "\", \"relation\": \"";
   }
   out += name(p.relation);
-  out += "\", \"d_mm\": ";
-  append_mm(out, p.d_mm);
-  out += ", \"d_range_mm\": [";
-  append_range(out, p.d_lower_mm, p.d_upper_mm, ", ");
-  out += "]";
+  out += '"';
+  measured(out, p);
   witness(out, p);
   if (p.cls == clash::Class::hit && test.options.volumes == clash::Volumes::on) {
     out += ", \"volume_mm3\": ";

@@ -13,7 +13,7 @@
 #include "geometry/analytic/torus_gap.hpp"
 #include "geometry/box.hpp"
 #include "geometry/corners.hpp"
-#include "geometry/pair_view.hpp"
+#include "geometry/tree_walk.hpp"
 #include "strake/geometry/analytic_pair.hpp"
 
 namespace strake::geometry::analytic {
@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Depth first over the mesh's tree, the nearer child first; only what is certainly farther than
-/// the nearest pair of points so far is left out, so the answer does not depend on the way.
+/// Only what is certainly farther than the nearest pair of points so far is left out, so the answer
+/// does not depend on the way.
 class Search {
  public:
   Search(const PairSide& primitive, const TreedPart& mesh, double enough)
@@ -39,33 +39,19 @@ class Search {
   }
 
   AnalyticGap run() {
-    std::array<std::pair<std::uint32_t, double>, kMaxTreeDepth + 2> stack;
-    std::size_t size = 0;
-    if (!nodes().empty()) stack[size++] = {0, bound(0)};
-    while (size > 0) {
-      const auto [index, lower] = stack[--size];
-      if (lower > reach()) continue;
-      const PartTree::Node& node = nodes()[index];
-      if (node.count != 0) {
-        leaf(node);
-        continue;
-      }
-      std::pair near{node.first, bound(node.first)}, far{node.first + 1, bound(node.first + 1)};
-      if (far.second < near.second) std::swap(near, far);
-      stack[size++] = far;
-      stack[size++] = near;
-    }
+    walk_nearer_first(
+        *mesh_.tree, [&](std::uint32_t i) { return bound(mesh_.tree->nodes()[i]); },
+        [&](double lower) { return lower > reach(); }, [&](std::uint32_t t) { offer(t); });
     best_.lower = std::min(best_.lower, best_.upper);
     return best_;
   }
 
  private:
-  [[nodiscard]] const std::vector<PartTree::Node>& nodes() const { return mesh_.tree->nodes(); }
   [[nodiscard]] double reach() const { return std::min(best_.upper, enough_); }
 
   /// No triangle of the node is nearer.
-  [[nodiscard]] double bound(std::uint32_t index) const {
-    const Box3d box = nodes()[index].box.as<double>();
+  [[nodiscard]] double bound(const PartTree::Node& node) const {
+    const Box3d box = node.box.as<double>();
     const double apart = std::sqrt(squared_gap(box, box_)) * (1 - 1e-14);
     if (apart > reach()) return apart;
     const ConvexBody block = block_body((box.lo + box.hi) * 0.5, (box.hi - box.lo) * 0.5);
@@ -75,18 +61,15 @@ class Search {
     return std::max(least, apart);
   }
 
-  void leaf(const PartTree::Node& node) {
-    const Part& part = *mesh_.placed.part;
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      PairSide triangle;
-      triangle.convex = triangle_body(corners_of(part, mesh_.tree->order()[node.first + i]));
-      const ConvexGap gap = GapSearch(primitive_, triangle, reach()).run();
-      best_.lower = std::min(best_.lower, gap.lower);
-      if (!(gap.upper < best_.upper)) continue;
-      best_.upper = gap.upper;
-      best_.on_primitive = gap.on_a;
-      best_.on_mesh = gap.on_b;
-    }
+  void offer(std::uint32_t t) {
+    PairSide triangle;
+    triangle.convex = triangle_body(corners_of(*mesh_.placed.part, t));
+    const ConvexGap gap = GapSearch(primitive_, triangle, reach()).run();
+    best_.lower = std::min(best_.lower, gap.lower);
+    if (!(gap.upper < best_.upper)) return;
+    best_.upper = gap.upper;
+    best_.on_primitive = gap.on_a;
+    best_.on_mesh = gap.on_b;
   }
 
   const PairSide& primitive_;

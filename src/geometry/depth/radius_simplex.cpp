@@ -14,6 +14,7 @@ using Row = std::array<double, 4>;
 using Matrix = std::array<Row, 4>;
 
 constexpr double kPivot = 1e-11;
+constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 Row row_of(const RadiusConstraint& c) { return {c.normal.x, c.normal.y, c.normal.z, c.weight}; }
 
@@ -44,6 +45,31 @@ std::optional<Matrix> inverse(Matrix m) {
   return inv;
 }
 
+/// A sum of constraints, none times less than nothing.
+struct Combination {
+  Row row{};
+  double bound = 0;
+  double magnitude = 0, weight = 0;  ///< of what was added
+
+  void add(const RadiusConstraint& c, double times) {
+    const Row a = row_of(c);
+    for (std::size_t k = 0; k < 4; ++k) row[k] += times * a[k];
+    bound += times * c.offset;
+    magnitude += times * std::fabs(c.offset);
+    weight += times;
+  }
+  /// The most that the row gives for any point in the extent.
+  [[nodiscard]] double reach(double extent) const {
+    double most = 0;
+    for (const double v : row) most += std::fabs(v);
+    return most * extent * (1 + 16 * kEps);
+  }
+  /// What rounding may have changed.
+  [[nodiscard]] double error(double extent) const {
+    return 16 * kEps * (magnitude + weight * extent);
+  }
+};
+
 }  // namespace
 
 RadiusSimplex::RadiusSimplex(std::span<const RadiusConstraint, 4> first, double extent)
@@ -65,23 +91,11 @@ bool RadiusSimplex::load() {
   return true;
 }
 
-/// r = e·z for feasible z = (x, r); with e = sum y a + rest, r <= sum y b + |rest|·extent.
+/// r = e·z for feasible z = (x, r); with rest = sum y a - e, r <= sum y b + |rest|·extent.
 double RadiusSimplex::proven_upper() const {
-  double bound = 0, magnitude = 0, weight = 0;
-  Row rest{0, 0, 0, 1};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double yi = std::max(y_[i], 0.0);
-    const Row a = row_of(rows_[i]);
-    for (std::size_t k = 0; k < 4; ++k) rest[k] -= yi * a[k];
-    bound += yi * rows_[i].offset;
-    magnitude += yi * std::fabs(rows_[i].offset);
-    weight += yi;
-  }
-  double slack = 0;
-  for (const double v : rest) slack += std::fabs(v);
-  constexpr double kEps = std::numeric_limits<double>::epsilon();
-  return bound + slack * extent_ * (1 + 16 * kEps) + 16 * kEps * (magnitude + weight * extent_) +
-         16 * kEps * extent_;
+  Combination sum{.row = {0, 0, 0, -1}};
+  for (std::size_t i = 0; i < 4; ++i) sum.add(rows_[i], std::max(y_[i], 0.0));
+  return sum.bound + sum.reach(extent_) + sum.error(extent_) + 16 * kEps * extent_;
 }
 
 bool RadiusSimplex::holds(std::size_t id) const {
@@ -99,20 +113,10 @@ double RadiusSimplex::share(const RadiusConstraint& c, std::size_t i) const {
 /// With a the entering row and rest = a + sum w a_i, all z that satisfy the five constraints have
 /// rest·z <= b + sum w b_i: none has where that is less than rest can be for any z in the extent.
 bool RadiusSimplex::proves_empty(const RadiusConstraint& entering) const {
-  Row rest = row_of(entering);
-  double bound = entering.offset, magnitude = std::fabs(entering.offset), weight = 1;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double w = std::max(-share(entering, i), 0.0);
-    const Row a = row_of(rows_[i]);
-    for (std::size_t k = 0; k < 4; ++k) rest[k] += w * a[k];
-    bound += w * rows_[i].offset;
-    magnitude += w * std::fabs(rows_[i].offset);
-    weight += w;
-  }
-  double slack = 0;
-  for (const double v : rest) slack += std::fabs(v);
-  constexpr double kEps = std::numeric_limits<double>::epsilon();
-  return bound < -(slack * extent_ * (1 + 16 * kEps) + 16 * kEps * (magnitude + weight * extent_));
+  Combination sum;
+  sum.add(entering, 1);
+  for (std::size_t i = 0; i < 4; ++i) sum.add(rows_[i], std::max(-share(entering, i), 0.0));
+  return sum.bound < -(sum.reach(extent_) + sum.error(extent_));
 }
 
 bool RadiusSimplex::exchange(const RadiusConstraint& entering, std::size_t id) {

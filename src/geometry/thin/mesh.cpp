@@ -13,6 +13,7 @@
 #include "geometry/pair_view.hpp"
 #include "geometry/thin/crossing.hpp"
 #include "geometry/thin/pieces.hpp"
+#include "geometry/tree_walk.hpp"
 #include "strake/geometry/thin_pair.hpp"
 
 namespace strake::geometry {
@@ -30,35 +31,18 @@ constexpr double kSnap = 2;
 /// Chords of a quarter turn, at most.
 constexpr int kMostChords = 1024;
 
-/// Depth first over the mesh's tree, the nearer child first; the decisions are exact.
+/// The decisions are exact.
 void add_piece(const Piece& piece, const TreedPart& mesh, double enough, ExactLeast& least) {
   const auto& nodes = mesh.tree->nodes();
-  std::array<std::pair<std::uint32_t, double>, kMaxTreeDepth + 2> stack;
-  std::size_t size = 0;
-  const auto gap = [&](std::uint32_t i) {
-    return squared_gap(piece.box, nodes[i].box.as<double>());
-  };
-  if (!nodes.empty()) stack[size++] = {0, gap(0)};
-  while (size > 0 && !least.touching()) {
-    const auto [index, squared] = stack[--size];
-    if (least.beyond(squared) || std::sqrt(squared) * (1 - 1e-14) > enough) continue;
-    const PartTree::Node& node = nodes[index];
-    if (node.count == 0) {
-      std::pair near{node.first, gap(node.first)}, far{node.first + 1, gap(node.first + 1)};
-      if (far.second < near.second) std::swap(near, far);
-      stack[size++] = far;
-      stack[size++] = near;
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const Triangle& t = mesh.placed.part->triangles[mesh.tree->order()[node.first + i]];
-      const auto at = [&](std::size_t k) {
-        return mesh.placed.part->vertices[t[k]].as<std::int64_t>();
-      };
-      const TriangleCorners corners{at(0), at(1), at(2)};
-      least.offer(piece.corners(), corners);
-    }
-  }
+  const PartView view(mesh, {});
+  walk_nearer_first(
+      *mesh.tree,
+      [&](std::uint32_t i) { return squared_gap(piece.box, nodes[i].box.as<double>()); },
+      [&](double squared) {
+        return least.touching() || least.beyond(squared) ||
+               std::sqrt(squared) * (1 - 1e-14) > enough;
+      },
+      [&](std::uint32_t t) { least.offer(piece.corners(), view.corners(t)); });
 }
 
 /// Chords of an arc, and how far it stands off them.

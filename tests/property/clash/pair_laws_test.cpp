@@ -17,6 +17,7 @@
 #include "support/clash_model.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/random_primitives.hpp"
+#include "support/rounds.hpp"
 #include "support/solid_pairs.hpp"
 
 namespace strake::clash {
@@ -31,11 +32,7 @@ using test::PrimitiveDraw;
 using test::SolidPair;
 using testing::IndexedMesh;
 
-#ifdef STRAKE_LONG_RUN
-constexpr std::uint64_t kPairs = 10'000;
-#else
-constexpr std::uint64_t kPairs = 150;
-#endif
+constexpr auto kPairs = test::rounds<std::uint64_t>(150, 10'000);
 
 Pair judged(const ClashModel& m) {
   const Report report = m.detect(test::exact_options());

@@ -17,6 +17,7 @@
 #include "strake/geometry/grid.hpp"
 #include "support/body_depth.hpp"
 #include "support/random_primitives.hpp"
+#include "support/rounds.hpp"
 #include "support/true_surface.hpp"
 
 namespace strake::geometry {
@@ -24,11 +25,8 @@ namespace {
 
 using test::PrimitiveDraw;
 
-#ifdef STRAKE_LONG_RUN
-constexpr std::uint64_t kPairs = 100'000;
-#else
-constexpr std::uint64_t kPairs = 1'620;  // twenty of each pair of kinds
-#endif
+/// In the fast set twenty of each pair of kinds.
+constexpr auto kPairs = test::rounds<std::uint64_t>(1'620, 100'000);
 constexpr std::uint64_t kKinds = PrimitiveDraw::kConvexKinds + 2;
 constexpr std::size_t kSkinPoints = 200, kInnerPoints = 300;
 constexpr double kSize = 100;

@@ -9,6 +9,7 @@
 
 #include "strake/geometry/closest.hpp"
 #include "support/exact_place.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -17,11 +18,7 @@ using testing::as_mesh;
 using testing::exact;
 using testing::Lattice;
 
-#ifdef STRAKE_LONG_RUN
-constexpr int kRounds = 60'000;
-#else
-constexpr int kRounds = 700;
-#endif
+constexpr int kRounds = test::rounds(700, 60'000);
 
 using Point = std::array<Vec3l, 1>;
 

@@ -9,6 +9,7 @@
 #include "strake/geometry/common_volume.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/rational_oracle.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -24,11 +25,7 @@ using strake::testing::mapped;
 using strake::testing::random_pair;
 using strake::testing::Subject;
 
-#ifdef STRAKE_LONG_RUN
-constexpr int kRounds = 4000;
-#else
-constexpr int kRounds = 60;
-#endif
+constexpr int kRounds = test::rounds(60, 4000);
 
 constexpr std::uint64_t kPlenty = 1'000'000;
 

@@ -10,6 +10,7 @@
 #include "strake/geometry/part_pair.hpp"
 #include "support/exact_place.hpp"
 #include "support/lattice_solids.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -18,11 +19,7 @@ using testing::exact;
 using testing::Lattice;
 using testing::RationalPoint;
 
-#ifdef STRAKE_LONG_RUN
-constexpr int kRounds = 100'000;
-#else
-constexpr int kRounds = 1500;
-#endif
+constexpr int kRounds = test::rounds(1500, 100'000);
 
 RationalPoint exact(const ScaledPoint& p) {
   RationalPoint r = testing::exact(p.numerator);

@@ -8,6 +8,7 @@
 
 #include "strake/geometry/intersect.hpp"
 #include "support/exact_place.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -17,11 +18,7 @@ using testing::exact;
 using testing::Lattice;
 using testing::RationalPoint;
 
-#ifdef STRAKE_LONG_RUN
-constexpr int kRounds = 150'000;
-#else
-constexpr int kRounds = 1000;
-#endif
+constexpr int kRounds = test::rounds(1000, 150'000);
 
 /// Farther than any end of a stretch on the lattice, and nearer than any two different ones.
 const mpq_class kFar(1'000'000);

@@ -13,6 +13,7 @@
 #include "strake/geometry/meeting_places.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/part_builder.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -21,11 +22,7 @@ using testing::IndexedMesh;
 using testing::mapped;
 using testing::Subject;
 
-#ifdef STRAKE_LONG_RUN
-constexpr int kRounds = 20000;
-#else
-constexpr int kRounds = 200;
-#endif
+constexpr int kRounds = test::rounds(200, 20000);
 
 /// Cells of side 1 in a cube of kSize cells.
 constexpr int kSize = 8;

@@ -10,6 +10,7 @@
 #include "strake/geometry/part_pair.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/rational_oracle.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -25,11 +26,7 @@ using strake::testing::SheetCover;
 using strake::testing::Subject;
 using strake::testing::Tetrahedron;
 
-#ifdef STRAKE_LONG_RUN
-constexpr int kRounds = 6000;
-#else
-constexpr int kRounds = 80;
-#endif
+constexpr int kRounds = test::rounds(80, 6000);
 
 /// What must come out, from the oracle.
 struct Truth {

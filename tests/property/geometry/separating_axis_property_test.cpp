@@ -10,6 +10,7 @@
 #include "strake/geometry/triangle_contact.hpp"
 #include "support/exact_place.hpp"
 #include "support/lattice_solids.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -18,11 +19,7 @@ using testing::as_mesh;
 using testing::big;
 using testing::Lattice;
 
-#ifdef STRAKE_LONG_RUN
-constexpr int kRounds = 60'000;
-#else
-constexpr int kRounds = 400;
-#endif
+constexpr int kRounds = test::rounds(400, 60'000);
 
 using Points = std::vector<Vec3l>;
 

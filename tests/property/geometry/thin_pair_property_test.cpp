@@ -15,6 +15,7 @@
 #include "support/exact_place.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/random_primitives.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -22,11 +23,7 @@ namespace {
 using test::PrimitiveDraw;
 using testing::Lattice;
 
-#ifdef STRAKE_LONG_RUN
-constexpr int kRounds = 20'000;
-#else
-constexpr int kRounds = 300;
-#endif
+constexpr int kRounds = test::rounds(300, 20'000);
 
 /// What a bracket may be off by beside the oracle's own arithmetic, grid units.
 constexpr double kRounding = 1e-3;
