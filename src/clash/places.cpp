@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "clash/witness.hpp"
 #include "strake/geometry/depth.hpp"

@@ -12,24 +12,20 @@ namespace {
 
 constexpr std::size_t kGrain = 16384;
 
-void add(const NarrowWork& work, Counters& counters) {
-  counters.triangle_pairs += work.pair.triangle_pairs;
-  counters.exact_fallbacks += work.pair.exact_fallbacks;
-  counters.depth_cells += work.depth_cells;
+void add(const NarrowWork& work, NarrowWork& sum) {
+  sum.pair.triangle_pairs += work.pair.triangle_pairs;
+  sum.pair.exact_fallbacks += work.pair.exact_fallbacks;
+  sum.depth_cells += work.depth_cells;
 }
 
 Status count_work(const Judged& judged, const parallel::Context& context, Counters& counters) {
   const auto sum = parallel::reduce(
-      context, {.name = "count work", .n = judged.candidates.size(), .grain = kGrain}, Counters{},
-      [&](Counters& partial, std::size_t i) { add(judged.candidates[i].work, partial); },
-      [](Counters& into, const Counters& partial) {
-        into.triangle_pairs += partial.triangle_pairs;
-        into.exact_fallbacks += partial.exact_fallbacks;
-        into.depth_cells += partial.depth_cells;
-      });
+      context, {.name = "count work", .n = judged.candidates.size(), .grain = kGrain}, NarrowWork{},
+      [&](NarrowWork& partial, std::size_t i) { add(judged.candidates[i].work, partial); },
+      [](NarrowWork& into, const NarrowWork& partial) { add(partial, into); });
   if (!sum) return sum.error();
-  counters.triangle_pairs = sum->triangle_pairs;
-  counters.exact_fallbacks = sum->exact_fallbacks;
+  counters.triangle_pairs = sum->pair.triangle_pairs;
+  counters.exact_fallbacks = sum->pair.exact_fallbacks;
   counters.depth_cells = sum->depth_cells;
   return {};
 }

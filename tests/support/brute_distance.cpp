@@ -173,9 +173,10 @@ double sampled_depth(const WorldObject& a, const WorldObject& b, int steps) {
                                    size.z * (k + 0.5) / steps});
   for (double scale = 0.5 / steps; best > 0 && scale > 1e-4; scale *= 0.5) {
     const Vec3d centre = at;
-    for (int code = 0; code < 27; ++code)
-      consider(centre + Vec3d{size.x * scale * (code % 3 - 1), size.y * scale * (code / 3 % 3 - 1),
-                              size.z * scale * (code / 9 - 1)});
+    for (int k = -1; k <= 1; ++k)
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i)
+          consider(centre + Vec3d{size.x * scale * i, size.y * scale * j, size.z * scale * k});
   }
   return best;
 }

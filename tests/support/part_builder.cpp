@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "strake/core/disjoint_sets.hpp"
 #include "strake/geometry/predicates.hpp"
 
 namespace strake::testing {
@@ -55,21 +55,13 @@ std::map<EdgeKey, std::vector<std::uint32_t>> edge_map(const Part& part, bool& b
 }
 
 void number_shells(Part& part, const std::map<EdgeKey, std::vector<std::uint32_t>>& edges) {
-  std::vector<std::uint32_t> parent(part.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&parent](std::uint32_t t) {
-    while (parent[t] != t) t = parent[t];
-    return t;
-  };
+  DisjointSets sets(part.triangles.size());
   for (const auto& [key, triangles] : edges)
-    for (const std::uint32_t t : triangles) {
-      const std::uint32_t x = root(t), y = root(triangles.front());
-      parent[std::max(x, y)] = std::min(x, y);
-    }
+    for (const std::uint32_t t : triangles) sets.join(t, triangles.front());
   std::map<std::uint32_t, std::uint32_t> number;
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
     part.shells.push_back(
-        number.emplace(root(t), static_cast<std::uint32_t>(number.size())).first->second);
+        number.emplace(sets.root(t), static_cast<std::uint32_t>(number.size())).first->second);
   part.shell_count = static_cast<std::uint32_t>(number.size());
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <string_view>
 #include <vector>
@@ -207,8 +208,7 @@ std::optional<StrakeAnswer> strake_answer(const SolidPair& pair) {
   ClashModel m;
   m.object("a").body(in_mm(pair.a));
   m.object("b").body(in_mm(pair.b));
-  const clash::Options options{
-      .clearance_mm = 1e6, .touch_gap_mm = 0, .touch_overlap_mm = 0, .contact_distance_mm = 0};
+  const clash::Options options = exact_options();
   const model::Scene scene = make_scene(m.model, clash::scene_options(options), {}).value();
   if (scene.bodies.size() != 2 || !one_solid(scene.shapes[scene.bodies[0].grid_shape]) ||
       !one_solid(scene.shapes[scene.bodies[1].grid_shape]))

@@ -2,12 +2,10 @@
 #include "geometry/analytic/mesh_gap.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "geometry/analytic/torus_gap.hpp"

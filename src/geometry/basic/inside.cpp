@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "geometry/basic/triangle_places.hpp"
 #include "geometry/basic/winding.hpp"
 #include "strake/geometry/predicates.hpp"
 
 namespace strake::geometry {
 namespace {
-
-int sign_of(Int128 v) { return (v > 0) - (v < 0); }
-constexpr std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
 /// Sign of the 2D orientation of a, b and the point, seen along `axis`.
 int turn2d(const Vec3l& a, const Vec3l& b, const ScaledPoint& p, int axis) {
@@ -33,15 +31,16 @@ int moved_turn2d(const Vec3l& a, const Vec3l& b, const ScaledPoint& p, int axis)
 /// The place of a point of the triangle's plane, given the triangle's normal.
 PlaceMask place_in_plane(const TriangleCorners& t, const Vec3<Int128>& normal,
                          const ScaledPoint& p) {
-  const int seen = normal.x != 0 ? 0 : normal.y != 0 ? 1 : 2;
+  const int seen = any_axis(normal);
+  if (seen < 0) return 0;
   const int facing = sign_of(normal[seen]);
-  PlaceMask place = 7;
+  unsigned on_edges = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const int turn = facing * turn2d(t[i], t[next(i)], p, seen);
     if (turn < 0) return 0;
-    if (turn == 0) place &= static_cast<PlaceMask>((1U << i) | (1U << next(i)));
+    if (turn == 0) on_edges |= 1U << i;
   }
-  return place;
+  return place_of(on_edges);
 }
 
 int side_of_plane(const TriangleCorners& t, const Vec3<Int128>& normal, const ScaledPoint& p) {

@@ -7,27 +7,16 @@
 #include <utility>
 
 #include "geometry/basic/line_clip.hpp"
+#include "geometry/basic/triangle_places.hpp"
 #include "strake/geometry/predicates.hpp"
 
 namespace strake::geometry {
 namespace {
 
-int sign_of(Int128 v) { return (v > 0) - (v < 0); }
-constexpr std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
-
 /// How far the line's points are off a plane, times the length of its normal.
 LinearAlong height(const GridLine& line, const Vec3<Int128>& normal, const Vec3l& on_plane) {
   return {dot(normal, (line.from - on_plane).as<Int128>()),
           dot(normal, (line.to - on_plane).as<Int128>())};
-}
-
-/// The corner or edge of a triangle on whose lines a point of it lies, or its inside: bit i of
-/// `on_edges` is set when it is on edge i.
-PlaceMask place_of(unsigned on_edges) {
-  PlaceMask place = 7;
-  for (unsigned i = 0; i < 3; ++i)
-    if ((on_edges >> i & 1U) != 0) place &= static_cast<PlaceMask>((1U << i) | (1U << next(i)));
-  return place;
 }
 
 /// Inside of the triangle's edges, seen along an axis along which the triangle does not vanish.
@@ -62,9 +51,6 @@ void in_triangles_plane(const GridLine& line, const TriangleCorners& t, int axis
   r.place_first = place(r.at.first);
   r.place_last = place(r.at.last);
 }
-
-/// An axis along which a vector does not vanish, or -1.
-int any_axis(const Vec3<Int128>& v) { return v.x != 0 ? 0 : v.y != 0 ? 1 : v.z != 0 ? 2 : -1; }
 
 /// num / den with a positive denominator.
 Rational fraction(Int128 num, Int128 den) {

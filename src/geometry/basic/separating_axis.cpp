@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/basic/triangle_places.hpp"
 #include "geometry/feature_gap.hpp"
 #include "strake/geometry/predicates.hpp"
 
@@ -157,7 +158,7 @@ void Search::offer(const Axis& axis) {
 
 /// The normals of the edges in the plane that both shapes are parallel to.
 void Search::offer_edges_seen_along(const Axis& normal) {
-  const int drop = normal.x != 0 ? 0 : normal.y != 0 ? 1 : 2;
+  const int drop = any_axis(normal);
   for (const Hull* hull : {&a_, &b_})
     for (const Vec3l& e : hull->edges) {
       Axis across;
@@ -182,7 +183,7 @@ void Search::offer_flat() {
     return;
   }
   // All on one line: along it, and square to it, where there is no gap.
-  const int main = way.x != 0 ? 0 : way.y != 0 ? 1 : way.z != 0 ? 2 : 0;
+  const int main = std::max(any_axis(way.as<Int128>()), 0);
   Axis unit, other;
   unit[main] = 1;
   other[(main + 1) % 3] = 1;

@@ -2,8 +2,6 @@
 #include "geometry/depth/nearest.hpp"
 
 #include <cstddef>
-#include <utility>
-#include <vector>
 
 #include "geometry/box.hpp"
 #include "strake/geometry/depth.hpp"

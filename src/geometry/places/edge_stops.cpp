@@ -14,10 +14,6 @@
 namespace strake::geometry {
 namespace {
 
-Corners corners_in_pair(const PartView& view, std::uint32_t triangle) {
-  return as_doubles(view.corners(triangle));
-}
-
 SegmentNear near_edge(const PartView& view, std::uint32_t edge, const Corners& t) {
   const PartEdge& e = view.part().edges[edge];
   return nearest_along(view.vertex(e.v0).as<double>(), view.vertex(e.v1).as<double>(), t);
@@ -86,7 +82,7 @@ std::size_t join_round_triangles(const PlacesSide& side, const SidePairs& own,
       return std::ranges::all_of(group, [&](std::uint32_t i) { return sets.joined(group[0], i); });
     };
     if (together()) continue;
-    const Corners t = corners_in_pair(side.own, side.own_of(pairs[group[0]]));
+    const Corners t = as_doubles(side.own.corners(side.own_of(pairs[group[0]])));
     features.clear();
     for (const std::uint32_t i : group)
       for (const std::uint32_t edge : other.edges[other.row[i]])
@@ -125,7 +121,7 @@ std::vector<EdgeStop> edge_stops(const PlacesSide& side, const SidePairs& own,
            stops[last].other == stops[first].other)
       ++last;
     const SegmentNear near =
-        near_edge(side.own, stops[first].edge, corners_in_pair(side.other, stops[first].other));
+        near_edge(side.own, stops[first].edge, as_doubles(side.other.corners(stops[first].other)));
     if (near.squared <= reach * reach)
       for (std::size_t i = first; i < last; ++i) {
         stops[kept] = stops[i];

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/places/segment_near.hpp"

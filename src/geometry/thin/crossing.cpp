@@ -27,8 +27,8 @@ class Search {
         neighbours_(line.vertices.size(), {kNone, kNone}),
         degree_(line.vertices.size(), 0) {
     for (const auto& [u, v] : line.segments) {
-      meet(u, v);
-      meet(v, u);
+      add_neighbour(u, v);
+      add_neighbour(v, u);
     }
     const Box3i& box = sheet.placed.part->box;
     size_ = length((box.hi - box.lo).as<double>());
@@ -40,7 +40,7 @@ class Search {
   }
 
  private:
-  void meet(std::uint32_t at, std::uint32_t other) {
+  void add_neighbour(std::uint32_t at, std::uint32_t other) {
     if (degree_[at] < 2) neighbours_[at][degree_[at]] = other;
     ++degree_[at];
   }
