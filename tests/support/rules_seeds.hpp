@@ -61,6 +61,7 @@ level = 3
 [[connected]]
 name = "joints"
 attributes = ["HREF", "TREF"]
+inherited = "ends"
 by = "partner"
 separator = ","
 [[same_attribute]]

@@ -16,6 +16,9 @@ inline void feed_rules(std::string_view bytes) {
     ClashModel m;
     m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {90, 0, 0}, {200, 100, 100});
     m.model.objects[0].attributes.push_back({"UNIT", "7"});
+    m.model.groups.push_back({"branch", model::GroupId::none});
+    m.model.set_attributes(model::GroupId{0}, {{"HREF", "b"}, {"OBST", "1"}});
+    m.model.objects[0].parent = model::GroupId{0};
     return m;
   }();
   const auto stop = [](const char* what) {
