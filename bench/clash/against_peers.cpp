@@ -21,6 +21,7 @@
 #include "clocks.hpp"
 #include "peers/peer.hpp"
 #include "ship_truth.hpp"
+#include "strake/clash/overlaps.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/team.hpp"
 
@@ -120,6 +121,20 @@ std::size_t count_in(const std::vector<geometry::IndexPair>& found,
       std::count_if(found.begin(), found.end(), [&](const auto& p) { return known.contains(p); }));
 }
 
+/// The same question as the peers', of parts that stand on the grid already.
+PeerAnswer strake_overlaps(const model::Scene& scene, const parallel::Context& context) {
+  const clash::Sets sets = clash::one_set(scene);
+  bench::Lap lap;
+  bench::CpuLap cpu;
+  const auto overlaps = clash::overlapping_pairs(scene, sets, kOptions, context).value();
+  PeerAnswer answer;
+  answer.query_s = cpu();
+  answer.wall_s = lap();
+  for (const clash::ObjectPair& p : overlaps)
+    answer.pairs.push_back({model::index(p.a), model::index(p.b)});
+  return answer;
+}
+
 struct Peer {
   std::string name;
   bool distances = false;
@@ -212,7 +227,9 @@ bool measure(const Wanted& wanted) {
       "Strake, all", bench.strake_cpu_s, bench.strake_wall_s, report.pairs.size(), report.count_hit,
       report.count_contact, report.count_clearance, kOptions.clearance_mm);
   std::fflush(stdout);
+  const auto scene = model::make_scene(model, clash::scene_options(kOptions), context).value();
   const std::vector<Peer> peers{
+      {"Strake overlap", false, [&] { return strake_overlaps(scene, context); }},
       {"Embree overlap", false, [&] { return bench::embree_overlaps(objects, context); }},
       {"CGAL overlap", false, [&] { return bench::cgal_overlaps(objects, context); }},
       {"FCL overlap", false, [&] { return bench::fcl_overlaps(objects); }},

@@ -8,7 +8,6 @@
 
 #include "strake/geometry/common_volume.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -17,7 +16,6 @@ namespace {
 
 using geometry::Part;
 using geometry::PartKind;
-using geometry::PartTree;
 
 /// What the volume of one pair may cost, in triangle pairs and tree nodes: what it takes where each
 /// triangle lies over a few of the other part, as skins of like fineness do, and some.
@@ -34,15 +32,16 @@ std::uint64_t most_work(const Part& a, const Part& b) {
   return kLeastWork + kWorkPerTriangle * (a.triangles.size() + b.triangles.size());
 }
 
-std::vector<Overlap> overlaps_of_hits(const PartAnswers& answers, const std::vector<Pair>& pairs) {
+std::vector<Overlap> overlaps_of_hits(const PartFindings& findings,
+                                      const std::vector<Pair>& pairs) {
   std::vector<Overlap> overlaps;
   std::size_t pair = 0, last = std::numeric_limits<std::size_t>::max();
-  for (const Found& f : answers.found) {
+  for (std::size_t i = 0; i < findings.found.size(); ++i) {
+    const Found& f = findings.found[i];
     if (!f.answer->witness.interiors_meet) continue;
     if (f.candidate == last) continue;  // another place of the same parts
     last = f.candidate;
-    const geometry::IndexPair& c = answers.candidates[f.candidate];
-    const PartRef &a = answers.list.parts[c.first], &b = answers.list.parts[c.second];
+    const PartRef &a = findings.a(i), &b = findings.b(i);
     const auto before = [&](const Pair& p) {
       return index(p.a) != a.object ? index(p.a) < a.object : index(p.b) < b.object;
     };
@@ -56,35 +55,12 @@ std::vector<Overlap> overlaps_of_hits(const PartAnswers& answers, const std::vec
   return overlaps;
 }
 
-/// Trees of parts that were judged without one.
-class Trees {
- public:
-  explicit Trees(const PartAnswers& answers) : answers_(answers) {}
-
-  Status plant(const std::vector<Overlap>& overlaps, const parallel::Context& context) {
-    std::vector<bool> wanted(answers_.list.unique.size(), false);
-    for (const Overlap& o : overlaps)
-      for (const PartRef* part : {o.a, o.b}) wanted[part->unique] = !planted(part->unique);
-    std::vector<std::uint32_t> indices;
-    for (std::uint32_t u = 0; u < wanted.size(); ++u)
-      if (wanted[u]) indices.push_back(u);
-    own_.resize(wanted.size());
-    return parallel::for_each(
-        context, {.name = "trees for volumes", .n = indices.size()},
-        [&](std::size_t i) { own_[indices[i]] = PartTree(*answers_.list.unique[indices[i]]); });
-  }
-
-  [[nodiscard]] geometry::TreedPart treed(const PartRef& part) const {
-    return {part.placed, planted(part.unique) ? &answers_.trees[part.unique] : &own_[part.unique]};
-  }
-
- private:
-  [[nodiscard]] bool planted(std::uint32_t unique) const {
-    return unique < answers_.trees.size() && !answers_.trees[unique].nodes().empty();
-  }
-  const PartAnswers& answers_;
-  std::vector<PartTree> own_;
-};
+/// Which unique parts the overlaps are of.
+std::vector<bool> parts_of(const std::vector<Overlap>& overlaps, std::size_t unique) {
+  std::vector<bool> parts(unique, false);
+  for (const Overlap& o : overlaps) parts[o.a->unique] = parts[o.b->unique] = true;
+  return parts;
+}
 
 struct Measured {
   std::optional<double> volume;  ///< cubic grid units
@@ -93,11 +69,11 @@ struct Measured {
 
 }  // namespace
 
-Status measure_volumes(const PartAnswers& answers, const parallel::Context& context,
-                       Report& report) {
-  const std::vector<Overlap> overlaps = overlaps_of_hits(answers, report.pairs);
-  Trees trees(answers);
-  if (const Status s = trees.plant(overlaps, context); !s) return s;
+Status measure_volumes(const PartFindings& findings, PartAids& aids,
+                       const parallel::Context& context, Report& report) {
+  const std::vector<Overlap> overlaps = overlaps_of_hits(findings, report.pairs);
+  const Status planted = aids.want_trees(parts_of(overlaps, findings.list.unique.size()), context);
+  if (!planted) return planted;
   const auto order = parallel::longest_first(overlaps.size(), [&](std::size_t i) {
     return most_work(*overlaps[i].a->placed.part, *overlaps[i].b->placed.part);
   });
@@ -105,8 +81,9 @@ Status measure_volumes(const PartAnswers& answers, const parallel::Context& cont
       context, {.name = "common volumes", .n = overlaps.size(), .order = order},
       [&](std::size_t i) {
         const Overlap& o = overlaps[i];
-        const auto common = geometry::common_volume(
-            trees.treed(*o.a), trees.treed(*o.b), most_work(*o.a->placed.part, *o.b->placed.part));
+        const auto common =
+            geometry::common_volume(aids.treed(*o.a).treed, aids.treed(*o.b).treed,
+                                    most_work(*o.a->placed.part, *o.b->placed.part));
         return common ? Measured{common->volume, common->triangle_pairs} : Measured{};
       });
   if (!measured) return measured.error();

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/pair_options.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "clash/options.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::clash {
+
+PairOptions::PairOptions(const PairRules& rules, const Options& options, const model::Model& model)
+    : rules_(rules), model_(model) {
+  for (const Tolerances& t : rules.all())
+    narrow_.push_back({.touch_overlap = t.touch_overlap_mm * geometry::kGridPerMm,
+                       .touch_gap = t.touch_gap_mm * geometry::kGridPerMm,
+                       .clearance = t.clearance_mm * geometry::kGridPerMm,
+                       .thickness_cap = t.thickness_cap == ThicknessCap::on});
+  for (const model::SourceFile& file : model.files)
+    bands_.push_back(contact_distance(options, file.precision_mm));
+}
+
+NarrowOptions PairOptions::of(const PartRef& a, const PartRef& b) const {
+  NarrowOptions options = narrow_[rules_.tolerances(a.object, b.object)];
+  options.contact_distance = std::max(band(a), band(b));
+  return options;
+}
+
+CaseSettings PairOptions::settings(const PartRef& a, const PartRef& b) const {
+  return {static_cast<std::uint32_t>(rules_.tolerances(a.object, b.object)),
+          std::max(band(a), band(b))};
+}
+
+double PairOptions::widest_band() const {
+  double widest = 0;
+  for (const double b : bands_) widest = std::max(widest, b);
+  return widest;
+}
+
+double PairOptions::least_touch_gap() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const NarrowOptions& n : narrow_) least = std::min(least, n.touch_gap);
+  return least;
+}
+
+double PairOptions::band(const PartRef& part) const {
+  return bands_[model_.objects[part.object].file];
+}
+
+}  // namespace strake::clash

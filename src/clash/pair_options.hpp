@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "clash/cases.hpp"
+#include "clash/narrow.hpp"
+#include "clash/pair_rules.hpp"
+
+namespace strake::clash {
+
+/// What each pair of parts is judged by: the tolerances that the rules give it, and the precision
+/// of the files that its objects come from.
+class PairOptions {
+ public:
+  /// `rules` and `model` must outlive this.
+  PairOptions(const PairRules& rules, const Options& options, const model::Model& model);
+
+  [[nodiscard]] NarrowOptions of(const PartRef& a, const PartRef& b) const;
+  /// The same, to compare pairs by.
+  [[nodiscard]] CaseSettings settings(const PartRef& a, const PartRef& b) const;
+
+  /// The largest contact distance of a file, grid units.
+  [[nodiscard]] double widest_band() const;
+  /// The smallest touch gap of any pair, grid units.
+  [[nodiscard]] double least_touch_gap() const;
+
+ private:
+  [[nodiscard]] double band(const PartRef& part) const;
+
+  const PairRules& rules_;
+  const model::Model& model_;
+  std::vector<NarrowOptions> narrow_;  ///< by number of tolerances
+  std::vector<double> bands_;          ///< contact distance by file
+};
+
+}  // namespace strake::clash

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "clash/narrow.hpp"
+#include "clash/parts.hpp"
+
+namespace strake::clash {
+
+/// What is worked out about a part once for all pairs that it is in, as far as they asked for it:
+/// its frame, its tree, its support planes. Made by the team between stages, only read within them.
+class PartAids {
+ public:
+  /// `list` and `model` must outlive this.
+  PartAids(const PartList& list, const model::Model& model) : list_(list), model_(model) {}
+
+  /// Make those that are wanted, by unique part, and not there yet. Errors: cancelled.
+  [[nodiscard]] Status want_frames(const std::vector<bool>& wanted,
+                                   const parallel::Context& context);
+  [[nodiscard]] Status want_trees(const std::vector<bool>& wanted,
+                                  const parallel::Context& context);
+  [[nodiscard]] Status want_planes(const std::vector<bool>& wanted,
+                                   const parallel::Context& context);
+
+  /// The part with nothing, with its frame, with its tree too, and with its planes too. What was
+  /// not made is null; a tree, empty.
+  [[nodiscard]] NarrowPart bare(const PartRef& part) const;
+  [[nodiscard]] NarrowPart framed(const PartRef& part) const;
+  [[nodiscard]] NarrowPart treed(const PartRef& part) const;
+  [[nodiscard]] NarrowPart planed(const PartRef& part) const;
+
+ private:
+  /// One kind of aid, by unique part.
+  template <class T>
+  struct Kind {
+    std::vector<T> all;
+    std::vector<bool> made;
+
+    [[nodiscard]] const T* of(const PartRef& part) const {
+      return made.empty() || !made[part.unique] ? nullptr : &all[part.unique];
+    }
+  };
+  template <class T, class Make>
+  Status add(Kind<T>& kind, const std::vector<bool>& wanted, std::string_view name,
+             const parallel::Context& context, Make&& make);
+
+  const PartList& list_;
+  const model::Model& model_;
+  Kind<geometry::PartFrame> frames_;
+  Kind<geometry::PartTree> trees_;
+  Kind<geometry::SupportPlanes> planes_;
+};
+
+}  // namespace strake::clash
