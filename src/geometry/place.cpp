@@ -138,7 +138,6 @@ std::optional<PlacedWire> place(const Polylines& lines, const Mat3d& linear) {
   if (!base) return std::nullopt;
   wire.base = *base;
   wire.part.kind = PartKind::wire;
-  wire.part.edges.clear();
   for (const Vec3l& p : kept) {
     wire.part.vertices.push_back((p - *base).as<std::int32_t>());
     wire.part.box.include(wire.part.vertices.back());

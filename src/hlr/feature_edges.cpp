@@ -60,7 +60,7 @@ struct Faces {
 Faces faces_of(const Part& part) {
   Faces result{face_vectors(part), {}};
   if (!is_round(part) || part.faces.empty()) return result;
-  std::vector<std::uint32_t> sorted = part.faces;
+  std::vector<std::uint32_t> sorted = part.faces.to_vector();
   std::sort(sorted.begin(), sorted.end());
   result.facet.reserve(part.faces.size());
   for (const std::uint32_t face : part.faces) {

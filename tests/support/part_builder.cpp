@@ -30,14 +30,16 @@ void weld(const IndexedMesh& mesh, Part& part) {
     to.push_back(it->second);
     part.box.include(v);
   }
+  std::vector<Triangle> triangles;
   for (const Triangle& t : mesh.triangles) {
     const Triangle w{to[t[0]], to[t[1]], to[t[2]]};
     const Vec3l a = part.vertices[w[0]].as<std::int64_t>();
     const Vec3l u = part.vertices[w[1]].as<std::int64_t>() - a;
     const Vec3l v = part.vertices[w[2]].as<std::int64_t>() - a;
     const auto n = geometry::cross_exact(u, v);
-    if (n.x != 0 || n.y != 0 || n.z != 0) part.triangles.push_back(w);
+    if (n.x != 0 || n.y != 0 || n.z != 0) triangles.push_back(w);
   }
+  part.triangles = std::move(triangles);
 }
 
 std::map<EdgeKey, std::vector<std::uint32_t>> edge_map(const Part& part, bool& balanced) {
@@ -59,9 +61,11 @@ void number_shells(Part& part, const std::map<EdgeKey, std::vector<std::uint32_t
   for (const auto& [key, triangles] : edges)
     for (const std::uint32_t t : triangles) sets.join(t, triangles.front());
   std::map<std::uint32_t, std::uint32_t> number;
+  std::vector<std::uint32_t> shells;
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
-    part.shells.push_back(
+    shells.push_back(
         number.emplace(sets.root(t), static_cast<std::uint32_t>(number.size())).first->second);
+  part.shells = std::move(shells);
   part.shell_count = static_cast<std::uint32_t>(number.size());
 }
 
@@ -87,12 +91,16 @@ Part build_part(const IndexedMesh& mesh) {
   const auto edges = edge_map(part, balanced);
   part.kind = balanced ? PartKind::solid : PartKind::sheet;
   part.flags.open = !balanced;
+  std::vector<geometry::PartEdge> part_edges;
+  std::vector<std::uint32_t> edge_triangles;
   for (const auto& [key, triangles] : edges) {
-    part.edges.push_back(
-        {key.first, key.second, static_cast<std::uint32_t>(part.edge_triangles.size())});
-    part.edge_triangles.insert(part.edge_triangles.end(), triangles.begin(), triangles.end());
+    part_edges.push_back(
+        {key.first, key.second, static_cast<std::uint32_t>(edge_triangles.size())});
+    edge_triangles.insert(edge_triangles.end(), triangles.begin(), triangles.end());
   }
-  part.edges.push_back({0, 0, static_cast<std::uint32_t>(part.edge_triangles.size())});
+  part_edges.push_back({0, 0, static_cast<std::uint32_t>(edge_triangles.size())});
+  part.edges = std::move(part_edges);
+  part.edge_triangles = std::move(edge_triangles);
   number_shells(part, edges);
   return part;
 }

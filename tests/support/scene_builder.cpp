@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace strake::test {
 
@@ -22,23 +24,27 @@ void add_edges(Part& part) {
       edges[{std::min(a, b), std::max(a, b)}].push_back(t);
       balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
     }
+  std::vector<geometry::PartEdge> part_edges;
+  std::vector<std::uint32_t> edge_triangles;
   for (auto& [ends, triangles] : edges) {
     std::sort(triangles.begin(), triangles.end());
-    part.edges.push_back(
-        {ends.first, ends.second, static_cast<std::uint32_t>(part.edge_triangles.size())});
-    part.edge_triangles.insert(part.edge_triangles.end(), triangles.begin(), triangles.end());
+    part_edges.push_back(
+        {ends.first, ends.second, static_cast<std::uint32_t>(edge_triangles.size())});
+    edge_triangles.insert(edge_triangles.end(), triangles.begin(), triangles.end());
     if (triangles.size() == 1) part.flags.open = true;
     if (triangles.size() != 2) part.flags.non_manifold = true;
     if (balance[ends] != 0) part.kind = geometry::PartKind::sheet;
   }
-  part.edges.push_back({0, 0, static_cast<std::uint32_t>(part.edge_triangles.size())});
+  part_edges.push_back({0, 0, static_cast<std::uint32_t>(edge_triangles.size())});
+  part.edges = std::move(part_edges);
+  part.edge_triangles = std::move(edge_triangles);
 }
 
 void add_shells(Part& part) {
-  part.shells.assign(part.triangles.size(), geometry::kNoFace);
+  std::vector<std::uint32_t> shells(part.triangles.size(), geometry::kNoFace);
   for (std::uint32_t seed = 0; seed < part.triangles.size(); ++seed) {
-    if (part.shells[seed] != geometry::kNoFace) continue;
-    part.shells[seed] = part.shell_count;
+    if (shells[seed] != geometry::kNoFace) continue;
+    shells[seed] = part.shell_count;
     for (bool grown = true; grown;) {
       grown = false;
       for (std::size_t e = 0; e + 1 < part.edges.size(); ++e) {
@@ -46,16 +52,17 @@ void add_shells(Part& part) {
         const std::uint32_t last = part.edges[e + 1].first_triangle;
         bool in = false;
         for (std::uint32_t i = first; i < last; ++i)
-          in = in || part.shells[part.edge_triangles[i]] == part.shell_count;
+          in = in || shells[part.edge_triangles[i]] == part.shell_count;
         for (std::uint32_t i = first; in && i < last; ++i)
-          if (part.shells[part.edge_triangles[i]] == geometry::kNoFace) {
-            part.shells[part.edge_triangles[i]] = part.shell_count;
+          if (shells[part.edge_triangles[i]] == geometry::kNoFace) {
+            shells[part.edge_triangles[i]] = part.shell_count;
             grown = true;
           }
       }
     }
     ++part.shell_count;
   }
+  part.shells = std::move(shells);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "strake/core/shared_array.hpp"
 #include "strake/geometry/mesh.hpp"
 #include "strake/geometry/primitive.hpp"
 #include "strake/geometry/vec.hpp"
@@ -40,16 +41,19 @@ struct PartEdge {
 ///
 /// Coordinates are grid units relative to the origin of the body that places the part, within
 /// ±2^30. Everything exact (clash signs, hidden-line decisions) is decided on these integers.
+///
+/// How the vertices hang together may be shared with other parts: a plant has its pipes, flanges
+/// and profiles in a hundred sizes and a few connectivities.
 struct Part {
   PartKind kind = PartKind::solid;
   PartFlags flags;
   std::vector<Vec3i> vertices;       ///< no two equal
-  std::vector<Triangle> triangles;   ///< none degenerate; outward counter-clockwise for solids
-  std::vector<std::uint32_t> faces;  ///< source face of each triangle; empty: each its own
-  std::vector<PartEdge> edges;       ///< by (v0, v1); one sentinel at the end
-  std::vector<std::uint32_t> edge_triangles;
+  SharedArray<Triangle> triangles;   ///< none degenerate; outward counter-clockwise for solids
+  SharedArray<std::uint32_t> faces;  ///< source face of each triangle; empty: each its own
+  SharedArray<PartEdge> edges;       ///< by (v0, v1); one sentinel at the end
+  SharedArray<std::uint32_t> edge_triangles;
   /// Shell (connected through edges) of each triangle, 0-based; empty: one shell.
-  std::vector<std::uint32_t> shells;
+  SharedArray<std::uint32_t> shells;
   std::uint32_t shell_count = 0;
   std::vector<std::uint32_t> chain_first;  ///< wires: chain i is vertices[chain_first[i]..[i+1])
   Box3i box = empty_box<std::int32_t>();

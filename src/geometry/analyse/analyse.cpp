@@ -79,7 +79,8 @@ Part merge_nest(const Grouped& grouped, const std::vector<Shell>& shells,
   std::sort(triangles.begin(), triangles.end());
   extract(triangles, scratch);
   if (inverted) turn(scratch.piece.triangles);
-  return make_part(PartKind::solid, signed_volume_6(scratch.piece), scratch);
+  return make_part(PartKind::solid,
+                   signed_volume_6(scratch.piece.vertices, scratch.piece.triangles), scratch);
 }
 
 /// Solids from the closed shells: one part per nest, in the order of their outermost shells.
@@ -109,7 +110,7 @@ void add_solids(const Grouped& grouped, const std::vector<Shell>& shells,
 Part whole(const Topology& topology, ShellLabels labels, AnalyseScratch& scratch) {
   GridMesh& mesh = scratch.welded;
   const bool closed = labels.closed[0] != 0;
-  const __int128 volume = closed ? signed_volume_6(mesh) : 0;
+  const __int128 volume = closed ? signed_volume_6(mesh.vertices, mesh.triangles) : 0;
   if (closed && volume == 0) {
     std::vector<std::uint32_t> all(mesh.triangles.size());
     std::iota(all.begin(), all.end(), 0U);
@@ -133,7 +134,7 @@ void split(const ShellLabels& labels, AnalyseScratch& scratch, MeshAnalysis& ana
     __int128 volume = 0;
     if (labels.closed[s] != 0) {
       extract(of, scratch);
-      volume = signed_volume_6(scratch.piece);
+      volume = signed_volume_6(scratch.piece.vertices, scratch.piece.triangles);
     }
     if (volume == 0) {
       const std::vector<std::uint32_t> layer =
@@ -163,16 +164,33 @@ MeshAnalyser& MeshAnalyser::operator=(MeshAnalyser&&) noexcept = default;
 MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh) {
   AnalyseScratch& scratch = *scratch_;
   MeshAnalysis analysis;
-  weld(mesh, scratch, analysis.findings);
+  const MeshKey key{mesh.triangles, mesh.faces, weld_vertices(mesh, scratch)};
   const GridMesh& welded = scratch.welded;
+  if (const Connectivity* known = scratch.known.find(key))
+    if (auto part = make_known_part(*known, scratch.box, welded.vertices)) {
+      analysis.parts.push_back(std::move(*part));
+      return analysis;
+    }
+  const std::size_t vertices = welded.vertices.size();
+  weld_triangles(mesh, key.renumbered, scratch, analysis.findings);
   if (welded.triangles.empty()) return analysis;
   const Topology topology =
       make_topology(welded.vertices.size(), welded.triangles, scratch.topology);
   ShellLabels labels = label_shells(welded.vertices, welded.triangles, topology, scratch.topology);
-  if (labels.count == 1)
-    analysis.parts.push_back(whole(topology, std::move(labels), scratch));
-  else
+  if (labels.count > 1) {
     split(labels, scratch, analysis);
+    return analysis;
+  }
+  // Only what does not depend on coordinates may be said of other meshes with this key.
+  const bool plain = welded.vertices.size() == vertices &&
+                     welded.triangles.size() == mesh.triangles.size() &&
+                     !has_crowded_edge(topology);
+  const bool closed = labels.closed[0] != 0;
+  analysis.parts.push_back(whole(topology, std::move(labels), scratch));
+  const Part& part = analysis.parts.front();
+  if (plain && closed == (part.kind == PartKind::solid) && scratch.known.wants_last())
+    scratch.known.remember(key, {part.triangles, part.faces, part.edges, part.edge_triangles,
+                                 closed, part.flags.inverted});
   return analysis;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/analyse/known_meshes.hpp"
 #include "strake/geometry/analyse.hpp"
 #include "strake/geometry/part.hpp"
 
@@ -56,9 +57,11 @@ struct TopologyScratch {
 struct AnalyseScratch {
   WeldScratch weld;
   TopologyScratch topology;
+  Box3i box;                         ///< of the mesh at hand
   GridMesh welded;                   ///< the mesh at hand
   GridMesh piece;                    ///< some triangles of it
   std::vector<std::uint32_t> local;  ///< number in `piece` of each vertex of `welded`
+  KnownMeshes known;
 };
 
 }  // namespace strake::geometry

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/analyse/degenerate.hpp"
+
 namespace strake::geometry {
 namespace {
 
@@ -13,17 +15,6 @@ double double_area(const Vec3i& a, const Vec3i& b, const Vec3i& c) {
   const Vec3d v = c.as<double>() - a.as<double>();
   const Vec3d n = cross(u, v);
   return std::sqrt(dot(n, n));
-}
-
-bool has_crowded_edge(const Topology& topology) {
-  return std::any_of(topology.uneven.begin(), topology.uneven.end(),
-                     [&](std::uint32_t e) { return topology.triangles_of(e).size() > 2; });
-}
-
-Box3i box_of(std::span<const Vec3i> vertices) {
-  Box3i box = empty_box<std::int32_t>();
-  for (const Vec3i& v : vertices) box.include(v);
-  return box;
 }
 
 /// Whether a determinant of points relative to the low corner of a box fits 64 bits: it has three
@@ -35,10 +26,11 @@ bool is_small(const Box3i& box) {
 
 /// Sum of the determinants of the corners; `Wide` holds one of them.
 template <class Wide>
-__int128 sum_of_determinants(const GridMesh& mesh, const Vec3l& origin) {
+__int128 sum_of_determinants(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
+                             const Vec3l& origin) {
   __int128 sum = 0;
-  const auto corner = [&](std::uint32_t v) { return mesh.vertices[v].as<std::int64_t>() - origin; };
-  for (const Triangle& t : mesh.triangles) {
+  const auto corner = [&](std::uint32_t v) { return vertices[v].as<std::int64_t>() - origin; };
+  for (const Triangle& t : triangles) {
     const Vec3l a = corner(t[0]);
     const Vec3l n = cross(corner(t[1]), corner(t[2]));
     sum +=
@@ -47,13 +39,41 @@ __int128 sum_of_determinants(const GridMesh& mesh, const Vec3l& origin) {
   return sum;
 }
 
+double area_of(std::span<const Vec3i> vertices, std::span<const Triangle> triangles) {
+  double area = 0;
+  for (const Triangle& t : triangles)
+    area += double_area(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+  return area / 2;
+}
+
+/// A part but for its connectivity.
+Part measured_part(PartKind kind, const std::vector<Vec3i>& vertices,
+                   std::span<const Triangle> triangles, __int128 volume_6) {
+  Part part;
+  part.kind = kind;
+  part.flags.open = kind == PartKind::sheet;
+  part.vertices = vertices;
+  part.box = box_of(vertices);
+  part.area = area_of(vertices, triangles);
+  part.volume = static_cast<double>(volume_6) / 6;
+  return part;
+}
+
+template <class Wide>
+bool any_collinear(std::span<const Vec3i> vertices, std::span<const Triangle> triangles) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    return collinear<Wide>(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+  });
+}
+
 }  // namespace
 
-__int128 signed_volume_6(const GridMesh& mesh) {
+__int128 signed_volume_6(std::span<const Vec3i> vertices, std::span<const Triangle> triangles) {
   // Where the edges balance, any origin gives the same sum.
-  const Box3i box = box_of(mesh.vertices);
-  if (is_small(box)) return sum_of_determinants<std::int64_t>(mesh, box.lo.as<std::int64_t>());
-  return sum_of_determinants<__int128>(mesh, {});
+  const Box3i box = box_of(vertices);
+  if (is_small(box))
+    return sum_of_determinants<std::int64_t>(vertices, triangles, box.lo.as<std::int64_t>());
+  return sum_of_determinants<__int128>(vertices, triangles, {});
 }
 
 void extract(std::span<const std::uint32_t> triangles, AnalyseScratch& scratch) {
@@ -82,24 +102,33 @@ void extract(std::span<const std::uint32_t> triangles, AnalyseScratch& scratch) 
 
 Part make_part(PartKind kind, PartSource source) {
   const GridMesh& mesh = source.mesh;
-  Part part;
-  part.kind = kind;
-  part.flags.open = kind == PartKind::sheet;
-  part.vertices = mesh.vertices;
+  Part part = measured_part(kind, mesh.vertices, mesh.triangles, source.volume_6);
   part.triangles = mesh.triangles;
   part.faces = mesh.faces;
-  part.edges.assign(source.topology.edges.begin(), source.topology.edges.end());
-  part.edge_triangles.assign(source.topology.edge_triangles.begin(),
-                             source.topology.edge_triangles.end());
+  part.edges = SharedArray(source.topology.edges);
+  part.edge_triangles = SharedArray(source.topology.edge_triangles);
   part.shells = std::move(source.labels.shell);
   part.shell_count = source.labels.count;
   part.flags.non_manifold = has_crowded_edge(source.topology);
-  part.box = box_of(mesh.vertices);
-  double area = 0;
-  for (const Triangle& t : mesh.triangles)
-    area += double_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-  part.area = area / 2;
-  part.volume = static_cast<double>(source.volume_6) / 6;
+  return part;
+}
+
+std::optional<Part> make_known_part(const Connectivity& known, const Box3i& box,
+                                    const std::vector<Vec3i>& vertices) {
+  const std::span<const Triangle> triangles = known.triangles;
+  const bool degenerate = is_narrow(box) ? any_collinear<std::int64_t>(vertices, triangles)
+                                         : any_collinear<__int128>(vertices, triangles);
+  if (degenerate) return std::nullopt;
+  const __int128 volume = known.closed ? signed_volume_6(vertices, triangles) : 0;
+  if (known.closed && volume <= 0) return std::nullopt;
+  Part part =
+      measured_part(known.closed ? PartKind::solid : PartKind::sheet, vertices, triangles, volume);
+  part.triangles = known.triangles;
+  part.faces = known.faces;
+  part.edges = known.edges;
+  part.edge_triangles = known.edge_triangles;
+  part.shell_count = 1;
+  part.flags.inverted = known.inverted;
   return part;
 }
 
@@ -109,6 +138,11 @@ Part make_part(PartKind kind, __int128 volume_6, AnalyseScratch& scratch) {
   return make_part(
       kind, {piece, topology,
              label_shells(piece.vertices, piece.triangles, topology, scratch.topology), volume_6});
+}
+
+bool has_crowded_edge(const Topology& topology) {
+  return std::any_of(topology.uneven.begin(), topology.uneven.end(),
+                     [&](std::uint32_t e) { return topology.triangles_of(e).size() > 2; });
 }
 
 void turn(std::span<Triangle> triangles) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace strake::geometry {
 
 /// Six times the exact signed volume under triangles whose edges balance.
 /// Fits: |coordinate| <= 2^30 makes a term at most 2^93, and there are below 2^32 of them.
-[[nodiscard]] __int128 signed_volume_6(const GridMesh& mesh);
+[[nodiscard]] __int128 signed_volume_6(std::span<const Vec3i> vertices,
+                                       std::span<const Triangle> triangles);
 
 /// Fills scratch.piece: some triangles of scratch.welded, in its order, with the vertices that they
 /// use.
@@ -32,6 +34,14 @@ struct PartSource {
 
 /// The part made of scratch.piece.
 [[nodiscard]] Part make_part(PartKind kind, __int128 volume_6, AnalyseScratch& scratch);
+
+/// The part of a welded mesh in this box that hangs together like one before, if it is as plain as
+/// that one: no triangle is degenerate, and a closed one is as outward.
+[[nodiscard]] std::optional<Part> make_known_part(const Connectivity& known, const Box3i& box,
+                                                  const std::vector<Vec3i>& vertices);
+
+/// Whether an edge has more than two triangles.
+[[nodiscard]] bool has_crowded_edge(const Topology& topology);
 
 /// Turns every triangle over.
 void turn(std::span<Triangle> triangles);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 
+#include "geometry/analyse/degenerate.hpp"
 #include "geometry/analyse/topology.hpp"
 
 namespace strake::geometry {
@@ -12,12 +13,6 @@ namespace {
 
 constexpr std::uint32_t ordered(std::int32_t value) {
   return static_cast<std::uint32_t>(value) ^ 0x80000000U;
-}
-
-Box3i box_of(std::span<const Vec3i> vertices) {
-  Box3i box = empty_box<std::int32_t>();
-  for (const Vec3i& v : vertices) box.include(v);
-  return box;
 }
 
 std::uint64_t extent(const Box3i& box, int axis) {
@@ -64,8 +59,8 @@ void number_in_order(std::span<const Vec3i> vertices, std::span<std::uint32_t> r
 }
 
 /// Fills `welded`; returns the new index of every old vertex.
-std::span<const std::uint32_t> weld_vertices(const std::vector<Vec3i>& vertices, const Box3i& box,
-                                             WeldScratch& scratch, std::vector<Vec3i>& welded) {
+std::span<const std::uint32_t> number_vertices(const std::vector<Vec3i>& vertices, const Box3i& box,
+                                               WeldScratch& scratch, std::vector<Vec3i>& welded) {
   const std::span<std::uint32_t> renumbered = room(scratch.renumbered, vertices.size());
   if (vertices.empty()) {
     welded.clear();
@@ -92,15 +87,6 @@ std::span<const std::uint32_t> weld_vertices(const std::vector<Vec3i>& vertices,
   });
   number_in_order(vertices, renumbered, welded, [&](std::size_t i) { return keys[i].index; });
   return renumbered;
-}
-
-/// Cross products of edge vectors; `Wide` holds the square of twice the extent. No branches: in a
-/// plane of two axes some components are always zero, and no two of them alike.
-template <class Wide>
-bool collinear(const Vec3i& a, const Vec3i& b, const Vec3i& c) {
-  const Wide ux = Wide{b.x} - a.x, uy = Wide{b.y} - a.y, uz = Wide{b.z} - a.z;
-  const Wide vx = Wide{c.x} - a.x, vy = Wide{c.y} - a.y, vz = Wide{c.z} - a.z;
-  return ((uy * vz - uz * vy) | (uz * vx - ux * vz) | (ux * vy - uy * vx)) == 0;
 }
 
 /// The triangles of a mesh that have an area, in buckets by their lowest vertex.
@@ -170,8 +156,7 @@ bool sort_bucket(std::span<Row> bucket) {
 
 Rows sorted_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
                  std::span<const Vec3i> vertices, const Box3i& box, WeldScratch& scratch) {
-  bool narrow = true;  // differences below 2^30: 64-bit products suffice
-  for (int k = 0; k < 3; ++k) narrow = narrow && (vertices.empty() || extent(box, k) < (1U << 30U));
+  const bool narrow = vertices.empty() || is_narrow(box);
   const std::span<std::uint32_t> first = room(scratch.first, vertices.size() + 1);
   std::fill(first.begin(), first.end(), 0U);
   const std::size_t count =
@@ -248,12 +233,15 @@ void drop_unused_vertices(GridMesh& mesh, std::vector<std::uint32_t>& memory) {
 
 }  // namespace
 
-void weld(const GridMesh& mesh, AnalyseScratch& scratch, MeshFindings& findings) {
+std::span<const std::uint32_t> weld_vertices(const GridMesh& mesh, AnalyseScratch& scratch) {
+  scratch.box = box_of(mesh.vertices);
+  return number_vertices(mesh.vertices, scratch.box, scratch.weld, scratch.welded.vertices);
+}
+
+void weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
+                    AnalyseScratch& scratch, MeshFindings& findings) {
   GridMesh& welded = scratch.welded;
-  const Box3i box = box_of(mesh.vertices);
-  const std::span<const std::uint32_t> renumbered =
-      weld_vertices(mesh.vertices, box, scratch.weld, welded.vertices);
-  const Rows rows = sorted_rows(mesh, renumbered, welded.vertices, box, scratch.weld);
+  const Rows rows = sorted_rows(mesh, renumbered, welded.vertices, scratch.box, scratch.weld);
   findings.degenerate_triangles += mesh.triangles.size() - rows.rows.size();
   const bool with_faces = !mesh.faces.empty();
   set_triangles(rows, with_faces, false, welded);

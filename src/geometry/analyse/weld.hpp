@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "geometry/analyse/scratch.hpp"
 #include "strake/geometry/analyse.hpp"
 
 namespace strake::geometry {
 
-/// Fills scratch.welded: the mesh with equal vertices made one, vertices sorted by (x, y, z),
-/// unused ones dropped, degenerate and duplicate triangles dropped and counted, every triangle
-/// starting with its lowest vertex and triangles sorted by (lowest vertex, the other two ascending,
-/// side, face).
-void weld(const GridMesh& mesh, AnalyseScratch& scratch, MeshFindings& findings);
+/// Fills scratch.box and the vertices of scratch.welded: those of the mesh, equal ones made one,
+/// sorted by (x, y, z). Returns the new number of each old one, which lives in the scratch.
+[[nodiscard]] std::span<const std::uint32_t> weld_vertices(const GridMesh& mesh,
+                                                           AnalyseScratch& scratch);
+
+/// Fills the rest of scratch.welded: degenerate and duplicate triangles dropped and counted, every
+/// triangle starting with its lowest vertex and triangles sorted by (lowest vertex, the other two
+/// ascending, side, face); drops vertices that none of them uses.
+void weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
+                    AnalyseScratch& scratch, MeshFindings& findings);
 
 }  // namespace strake::geometry

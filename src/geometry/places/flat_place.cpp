@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
@@ -69,27 +71,25 @@ struct Side {
   Vec3d way;
   double top = 0;
 
-  [[nodiscard]] double height(std::uint32_t v) const {
-    return dot(way, part.vertices[v].as<double>());
-  }
-
   /// Whether what of the part is within `reach` of its top is one convex face, and a steep collar.
   [[nodiscard]] bool ends_in_one_face(double reach, double band) const {
     const Vec3d u = square_to(way), w = cross(way, u);
     std::array<Flat, kMostCorners> corners;
     std::size_t count = 0;
-    for (const Vec3i& v : part.vertices) {
-      const Vec3d p = v.as<double>();
+    std::vector<std::uint8_t> at_top(part.vertices.size(), 0);
+    for (std::size_t v = 0; v < part.vertices.size(); ++v) {
+      const Vec3d p = part.vertices[v].as<double>();
       const double at = dot(way, p);
       if (at >= top - band) {
         if (count == kMostCorners) return false;
         corners[count++] = {dot(u, p), dot(w, p)};
+        at_top[v] = 1;
       } else if (at >= top - reach - 2 * band) {
         return false;
       }
     }
     if (count < 3) return false;
-    const std::optional<double> area = face_area(band);
+    const std::optional<double> area = face_area(at_top);
     if (!area) return false;
     const Hull hull = hull_of(std::span(corners).first(count));
     return *area >= hull.area - 2 * band * hull.rim;
@@ -97,14 +97,14 @@ struct Side {
 
  private:
   /// Twice the area of the triangles at the top; nothing where others leave it at a flat angle.
-  [[nodiscard]] std::optional<double> face_area(double band) const {
+  /// `at_top`: by vertex.
+  [[nodiscard]] std::optional<double> face_area(const std::vector<std::uint8_t>& at_top) const {
     double area = 0;
     for (const Triangle& t : part.triangles) {
-      int at_top = 0;
-      for (const std::uint32_t v : t) at_top += height(v) >= top - band ? 1 : 0;
-      if (at_top == 0) continue;
+      const int at_the_top = at_top[t[0]] + at_top[t[1]] + at_top[t[2]];
+      if (at_the_top == 0) continue;
       const Vec3d n = normal_of(corners_of(part, t));
-      if (at_top == 3)
+      if (at_the_top == 3)
         area += dot(n, way);
       else if (std::fabs(dot(n, way)) > kSteep * std::sqrt(dot(n, n)))
         return std::nullopt;

@@ -154,7 +154,7 @@ test::SceneBuilder copy(const model::Scene& scene, const std::vector<std::uint32
                           .origin = body.origin + offset,
                           .alpha = scene.model->bodies[body.body].color.alpha};
       for (const geometry::Part& part : scene.shapes[body.grid_shape].parts) {
-        test::HandPart one{part.vertices, part.triangles, part.faces, {}};
+        test::HandPart one{part.vertices, part.triangles.to_vector(), part.faces.to_vector(), {}};
         for (std::size_t c = 0; c + 1 < part.chain_first.size(); ++c)
           one.chains.emplace_back(part.vertices.begin() + part.chain_first[c],
                                   part.vertices.begin() + part.chain_first[c + 1]);
