@@ -77,10 +77,9 @@ class PlaceStage {
     const double slack = std::max(1.0, stage_.pair_options.least_touch_gap() / 4);
     const std::vector<bool> wanted = work_.parts_of(some);
     return parallel::transform(
-        work_.context(), {.name = "convex parts", .n = wanted.size(), .grain = CaseWork::kGrain},
-        [&](std::size_t u) {
-          return static_cast<std::uint8_t>(wanted[u] &&
-                                           geometry::nearly_convex(*judged_.list.unique[u], slack));
+        work_.context(), {.name = "convex parts", .n = wanted.size()}, [&](std::size_t u) {
+          return static_cast<std::uint8_t>(
+              wanted[u] && geometry::nearly_convex(*judged_.list.unique[u], slack));
         });
   }
 

@@ -30,6 +30,10 @@ class VertexTree {
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] Extreme greatest_along(const Vec3d& n) const;
 
+  /// Whether n·v <= level for all points. False too where that takes a look at more than `boxes`
+  /// boxes; takes off those that it looked at.
+  [[nodiscard]] bool none_above(const Vec3d& n, double level, std::uint64_t& boxes) const;
+
  private:
   struct Node {
     Box3i box;

@@ -100,4 +100,28 @@ VertexTree::Extreme VertexTree::greatest_along(const Vec3d& n) const {
   return best;
 }
 
+bool VertexTree::none_above(const Vec3d& n, double level, std::uint64_t& boxes) const {
+  const auto none_of = [&](std::span<const Vec3i> points) {
+    return std::none_of(points.begin(), points.end(),
+                        [&](const Vec3i& p) { return along(n, p) > level; });
+  };
+  if (nodes_.empty()) return none_of(points_);
+  std::array<std::uint32_t, kDepth> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
+    if (boxes == 0) return false;
+    --boxes;
+    if (!(along(n, node.box) > level)) continue;
+    if (node.count == 0) {
+      stack[size++] = node.first + 1;
+      stack[size++] = node.first;
+    } else if (!none_of(std::span(points_).subspan(node.first, node.count))) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace strake::geometry
