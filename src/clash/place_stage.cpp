@@ -78,8 +78,8 @@ class PlaceStage {
     const std::vector<bool> wanted = work_.parts_of(some);
     return parallel::transform(
         work_.context(), {.name = "convex parts", .n = wanted.size()}, [&](std::size_t u) {
-          return static_cast<std::uint8_t>(
-              wanted[u] && geometry::nearly_convex(*judged_.list.unique[u], slack));
+          return static_cast<std::uint8_t>(wanted[u] &&
+                                           geometry::nearly_convex(*judged_.list.unique[u], slack));
         });
   }
 

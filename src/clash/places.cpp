@@ -18,9 +18,10 @@ using geometry::Part;
 using geometry::PartKind;
 using geometry::Vec3d;
 
-/// Pairs of near triangles beyond which places are not told apart: what parts of like fineness have
-/// when they lie face to face is a dozen for each triangle.
-constexpr std::uint64_t kPairsPerTriangle = 32, kLeastPairs = 1U << 12U;
+/// Pairs of near triangles beyond which places are not told apart. Parts of some thousand triangles
+/// may have them all near each other; of finer parts no pair of parts may take more than
+/// microseconds a triangle, and a dozen a triangle is what lies face to face.
+constexpr std::uint64_t kPairsPerTriangle = 4, kLeastPairs = 1U << 14U;
 
 /// Two parts in canonical order.
 class PairPlaces {

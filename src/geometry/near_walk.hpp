@@ -22,7 +22,9 @@ struct NearTriangles {
 /// the way: depth first, the nearer of two children first.
 class NearWalk {
  public:
-  NearWalk(const PartView& a, const PartView& b, PairWork& work) : a_(a), b_(b), work_(work) {}
+  /// `near_enough`: see distance_bounds().
+  NearWalk(const PartView& a, const PartView& b, PairWork& work, double near_enough = -1)
+      : a_(a), b_(b), work_(work), near_enough_(near_enough) {}
 
   /// `visit(NearTriangles)` tells whether to go on. `reach` is a square, and read anew before each
   /// step.
@@ -105,7 +107,7 @@ class NearWalk {
         const DoubleTriangle& a = leaf_a_.triangle[i];
         if (squared_gap(a.box, b.box) > reach) continue;
         ++work_.triangle_pairs;
-        const DistanceBounds bounds = distance_bounds(a, b, reach);
+        const DistanceBounds bounds = distance_bounds(a, b, reach, near_enough_);
         if (bounds.lower > reach) continue;
         if (!visit(NearTriangles{bounds, leaf_a_.id[i], leaf_b_.id[j]})) return false;
       }
@@ -115,6 +117,7 @@ class NearWalk {
 
   const PartView &a_, &b_;
   PairWork& work_;
+  double near_enough_;
   std::array<Entry, 2 * kMaxTreeDepth + 2> stack_;
   std::size_t size_ = 0;
   LoadedLeaf leaf_a_, leaf_b_;

@@ -260,7 +260,12 @@ DoubleTriangle::DoubleTriangle(const TriangleCorners& t)
   high = own.high;
 }
 
-DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b, double enough) {
+DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b, double enough,
+                               double near_enough) {
+  // The points are off the triangles by a few roundings of the coordinates.
+  const auto rounded_up = [&](double squared) {
+    return square(std::sqrt(squared) + 0x1p-46 * std::max(a.size, b.size));
+  };
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   double lower = normal_slab(a, b);
   if (lower > enough) return {lower, kUnknown};
@@ -275,13 +280,12 @@ DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
   }
   lower = std::max(lower, slab(near.on_b - near.on_a, a, b));
   if (lower > enough) return {lower, kUnknown};
+  if (rounded_up(near.squared) <= near_enough) return {lower, rounded_up(near.squared)};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       offer_segments(p[i], p[next(i)] - p[i], q[j], q[next(j)] - q[j], near);
   lower = std::max(lower, slab(near.on_b - near.on_a, a, b));
-  // The points are off the triangles by a few roundings of the coordinates.
-  const double upper = square(std::sqrt(near.squared) + 0x1p-46 * std::max(a.size, b.size));
-  return {lower, upper};
+  return {lower, rounded_up(near.squared)};
 }
 
 bool not_nearer(const TriangleCorners& a, const TriangleCorners& b, const NearestPoints& than) {

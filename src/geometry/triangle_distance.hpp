@@ -29,9 +29,10 @@ struct DoubleTriangle {
 
 /// Bounds in double arithmetic. The lower one comes from a slab between the triangles, so it holds
 /// however wrongly the nearest features were guessed. Once the lower bound is above `enough` the
-/// upper one is not worked out and is infinite.
+/// upper one is not worked out and is infinite; once the upper one is at most `near_enough`,
+/// neither is sharpened.
 [[nodiscard]] DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
-                                             double enough);
+                                             double enough, double near_enough = -1);
 
 /// The nearest points of two triangles; among equal distances the pair of features that comes
 /// first: corner-corner, corner-edge, edge-corner, corner-face, face-corner, edge-edge.

@@ -58,8 +58,8 @@ struct PlacesQuestion {
 [[nodiscard]] bool in_one_flat_place(const FramedPart& a, const FramedPart& b, double reach);
 
 /// Whether no vertex of a solid stands above the plane of a face by more than `slack` grid units.
-/// Two such parts come within a reach of each other that is well above the slack in one place. False
-/// says nothing: not where it would take long to see.
+/// Two such parts come within a reach of each other that is well above the slack in one place.
+/// False says nothing: not where it would take long to see.
 [[nodiscard]] bool nearly_convex(const Part& part, double slack);
 
 }  // namespace strake::geometry

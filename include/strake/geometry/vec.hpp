@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <type_traits>
 
 namespace strake::geometry {
@@ -147,13 +146,6 @@ template <class T>
     return {{kLow, kLow, kLow},
             {static_cast<T>(-kLow), static_cast<T>(-kLow), static_cast<T>(-kLow)}};
   }
-}
-
-/// The smallest box that holds some points.
-[[nodiscard]] inline Box3i box_of(std::span<const Vec3i> points) {
-  Box3i box = empty_box<std::int32_t>();
-  for (const Vec3i& p : points) box.include(p);
-  return box;
 }
 
 }  // namespace strake::geometry

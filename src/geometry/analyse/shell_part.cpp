@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/analyse/degenerate.hpp"
+#include "geometry/box.hpp"
 
 namespace strake::geometry {
 namespace {

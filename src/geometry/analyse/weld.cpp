@@ -7,6 +7,7 @@
 
 #include "geometry/analyse/degenerate.hpp"
 #include "geometry/analyse/topology.hpp"
+#include "geometry/box.hpp"
 
 namespace strake::geometry {
 namespace {

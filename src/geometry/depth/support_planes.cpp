@@ -163,11 +163,10 @@ bool below_its_faces(const Part& part, double slack) {
     const double base = dot(n, part.vertices[part.triangles[t][0]].as<double>());
     const double level = base + slack * length(n);
     boxes += kBoxesPerFace;
-    const bool below = walk ? std::ranges::none_of(part.vertices,
-                                                   [&](const Vec3i& v) {
-                                                     return dot(n, v.as<double>()) > level;
-                                                   })
-                            : tree.none_above(n, level, boxes);
+    const bool below =
+        walk ? std::ranges::none_of(part.vertices,
+                                    [&](const Vec3i& v) { return dot(n, v.as<double>()) > level; })
+             : tree.none_above(n, level, boxes);
     if (!below) return false;
   }
   return true;

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "geometry/depth/nearest.hpp"
 #include "geometry/part_edges.hpp"
+#include "geometry/places/bucket_order.hpp"
 #include "geometry/places/segment_near.hpp"
 
 namespace strake::geometry {
@@ -48,14 +48,12 @@ std::size_t join_features(std::vector<Feature>& features, DisjointSets& sets, co
 
 SidePairs grouped(const PlacesSide& side, std::span<const NearTriangles> pairs) {
   SidePairs side_pairs;
-  side_pairs.order.resize(pairs.size());
+  side_pairs.order = first_numbers(pairs.size());
   side_pairs.row.resize(pairs.size());
-  std::iota(side_pairs.order.begin(), side_pairs.order.end(), std::uint32_t{0});
-  if (!side.is_a)  // the pairs are by (a, b)
-    std::ranges::sort(side_pairs.order, [&](std::uint32_t i, std::uint32_t j) {
-      return std::pair(pairs[i].b, i) < std::pair(pairs[j].b, j);
-    });
   const Part& part = side.own.part();
+  if (!side.is_a)  // the pairs are by (a, b)
+    bucket_order(side_pairs.order, part.triangles.size(),
+                 [&](std::uint32_t i) { return pairs[i].b; });
   for (std::uint32_t k = 0; k < side_pairs.order.size(); ++k) {
     const std::uint32_t i = side_pairs.order[k], own = side.own_of(pairs[i]);
     if (k == 0 || side.own_of(pairs[side_pairs.order[k - 1]]) != own) {

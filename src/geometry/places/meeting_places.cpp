@@ -53,11 +53,15 @@ class Places {
         work_(work) {}
 
   std::optional<std::vector<MeetingPlace>> run() {
-    auto pairs = near_triangles(a_, b_, reach_, question_.most_pairs, work_);
+    // Who has one place only is not asked where it is nearest.
+    const bool sharp = question_.describe_one;
+    auto pairs = near_triangles(
+        a_, b_, {.reach = reach_, .most = question_.most_pairs, .sharp = sharp}, work_);
     if (!pairs) return std::nullopt;
     pairs_ = std::move(*pairs);
     DisjointSets sets(pairs_.size() + a_.part().vertices.size() + b_.part().vertices.size());
     if (join_all(sets) == 1 && !question_.describe_one) return std::vector<MeetingPlace>(1);
+    if (!sharp) sharpen(a_, b_, pairs_);
     return describe(sets);
   }
 

@@ -2,10 +2,12 @@
 #include "geometry/places/near_pairs.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <cstddef>
+#include <limits>
 
 #include "geometry/box.hpp"
 #include "geometry/corners.hpp"
+#include "geometry/places/bucket_order.hpp"
 #include "strake/geometry/wide_int.hpp"
 
 namespace strake::geometry {
@@ -29,24 +31,37 @@ struct Listed {
 
 /// Small parts are walked triangle by triangle.
 template <class Visit>
-void walk_lists(const PartView& a, const PartView& b, double squared, PairWork& work,
-                Visit&& visit) {
+void walk_lists(const PartView& a, const PartView& b, double squared, double near_enough,
+                PairWork& work, Visit&& visit) {
   const Listed x(a, b, squared), y(b, a, squared);
   for (std::size_t i = 0; i < x.id.size(); ++i)
     for (std::size_t j = 0; j < y.id.size(); ++j) {
       if (squared_gap(x.triangle[i].box, y.triangle[j].box) > squared) continue;
       ++work.triangle_pairs;
-      const DistanceBounds bounds = distance_bounds(x.triangle[i], y.triangle[j], squared);
+      const DistanceBounds bounds =
+          distance_bounds(x.triangle[i], y.triangle[j], squared, near_enough);
       if (bounds.lower <= squared && !visit(NearTriangles{bounds, x.id[i], y.id[j]})) return;
     }
+}
+
+std::vector<NearTriangles> by_triangles(const std::vector<NearTriangles>& pairs, const Part& a,
+                                        const Part& b) {
+  std::vector<std::uint32_t> order = first_numbers(pairs.size());
+  bucket_order(order, b.triangles.size(), [&](std::uint32_t i) { return pairs[i].b; });
+  bucket_order(order, a.triangles.size(), [&](std::uint32_t i) { return pairs[i].a; });
+  std::vector<NearTriangles> sorted;
+  sorted.reserve(pairs.size());
+  for (const std::uint32_t i : order) sorted.push_back(pairs[i]);
+  return sorted;
 }
 
 }  // namespace
 
 std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a, const PartView& b,
-                                                         double reach, std::uint64_t most,
+                                                         const NearQuestion& question,
                                                          PairWork& work) {
-  const double squared = reach * reach;
+  const double squared = question.reach * question.reach;
+  const double near_enough = question.sharp ? -1 : squared;
   std::vector<NearTriangles> pairs;
   bool too_many = false;
   const auto visit = [&](NearTriangles pair) {
@@ -56,21 +71,28 @@ std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a, cons
           exact_distance(a.corners(pair.a), b.corners(pair.b), pair.squared.upper).squared;
       const double s = ratio_to_double(exact.numerator, exact.denominator);
       if (s > squared) return true;
-      pair.squared = {s, s};
+      pair.squared = {s * (1 - 0x1p-52), s * (1 + 0x1p-52)};
     }
-    too_many = pairs.size() == most;
+    too_many = pairs.size() == question.most;
     if (!too_many) pairs.push_back(pair);
     return !too_many;
   };
   if (a.planted() && b.planted())
-    NearWalk(a, b, work).run(squared, visit);
+    NearWalk(a, b, work, near_enough).run(squared, visit);
   else
-    walk_lists(a, b, squared, work, visit);
+    walk_lists(a, b, squared, near_enough, work, visit);
   if (too_many) return std::nullopt;
-  std::ranges::sort(pairs, [](const NearTriangles& x, const NearTriangles& y) {
-    return std::tie(x.a, x.b) < std::tie(y.a, y.b);
-  });
-  return pairs;
+  return by_triangles(pairs, a.part(), b.part());
+}
+
+void sharpen(const PartView& a, const PartView& b, std::vector<NearTriangles>& pairs) {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  for (NearTriangles& pair : pairs) {
+    const DistanceBounds sharp =
+        distance_bounds(DoubleTriangle(a.corners(pair.a)), DoubleTriangle(b.corners(pair.b)), kAll);
+    pair.squared = {std::max(pair.squared.lower, sharp.lower),
+                    std::min(pair.squared.upper, sharp.upper)};
+  }
 }
 
 }  // namespace strake::geometry

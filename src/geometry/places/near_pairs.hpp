@@ -9,10 +9,21 @@
 
 namespace strake::geometry {
 
-/// All pairs of triangles no farther apart than `reach` grid units, by (a, b), with certain bounds
-/// on their distances; nothing where there are more than `most`. Parts without trees, which should
-/// be small, are walked triangle by triangle.
-[[nodiscard]] std::optional<std::vector<NearTriangles>> near_triangles(
-    const PartView& a, const PartView& b, double reach, std::uint64_t most, PairWork& work);
+struct NearQuestion {
+  double reach = 0;        ///< grid units
+  std::uint64_t most = 0;  ///< pairs
+  bool sharp = false;      ///< whether the distances matter, or only who is near whom
+};
+
+/// All pairs of triangles no farther apart than the reach, by (a, b), with certain bounds on their
+/// distances, as tight as doubles give them where `sharp`; nothing where there are too many. Parts
+/// without trees, which should be small, are walked triangle by triangle.
+[[nodiscard]] std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a,
+                                                                       const PartView& b,
+                                                                       const NearQuestion& question,
+                                                                       PairWork& work);
+
+/// Makes the bounds as tight as those of a sharp question.
+void sharpen(const PartView& a, const PartView& b, std::vector<NearTriangles>& pairs);
 
 }  // namespace strake::geometry
