@@ -342,6 +342,7 @@ geometry::Depth depth_of(const NarrowPart& a, const NarrowPart& b, const DepthGo
     const Vec3d shift = (b.treed.placed.origin - a.treed.placed.origin).as<double>();
     DepthGoal of_sheet = goal;
     if (goal.within) of_sheet.within = {goal.within->lo - shift, goal.within->hi - shift};
+    if (goal.belongs) of_sheet.belongs = [&](const Vec3d& p) { return goal.belongs(p + shift); };
     geometry::Depth depth = geometry::sheet_in_solid_depth(y, x, of_sheet, work.pair);
     depth.point = depth.point + shift;
     return depth;

@@ -2,6 +2,7 @@
 #include "clash/places.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,7 +22,7 @@ using geometry::Vec3d;
 /// Pairs of near triangles beyond which places are not told apart. Parts of some thousand triangles
 /// may have them all near each other; of finer parts no pair of parts may take more than
 /// microseconds a triangle, and a dozen a triangle is what lies face to face.
-constexpr std::uint64_t kPairsPerTriangle = 4, kLeastPairs = 1U << 14U;
+constexpr std::uint64_t kPairsPerTriangle = 2, kLeastPairs = 1U << 14U;
 
 /// Two parts in canonical order.
 class PairPlaces {
@@ -35,28 +36,31 @@ class PairPlaces {
         work_(work),
         part_a_(*a.treed.placed.part),
         part_b_(*b.treed.placed.part),
+        shift_((b.treed.placed.origin - a.treed.placed.origin).as<double>()),
         thresholds_(thresholds(part_a_, part_b_, options)) {}
 
   std::optional<std::vector<PartPlace>> run(bool describe_one) {
-    const auto found = geometry::meeting_places(
+    auto found = geometry::find_meeting_places(
         a_.treed, b_.treed,
         {.reach = place_reach(a_, b_, whole_, options_),
          .interiors_meet = whole_.separation.interiors_meet,
          .describe_one = describe_one,
-         .most_pairs = kLeastPairs +
-                       kPairsPerTriangle * (part_a_.triangles.size() + part_b_.triangles.size())},
+         .most_pairs = std::max(kLeastPairs, kPairsPerTriangle * (part_a_.triangles.size() +
+                                                                  part_b_.triangles.size()))},
         work_.pair);
     if (!found) return std::nullopt;
+    found_ = std::move(*found);
+    const std::vector<MeetingPlace>& all = found_.all;
     std::vector<PartPlace> places;
-    if (found->size() < 2 && !describe_one) return places;
-    if (found->size() < 2) {
+    if (all.size() < 2 && !describe_one) return places;
+    if (all.size() < 2) {
       // What is common reaches farther than the skins that are near each other.
-      const bool deep = found->empty() || whole_.separation.interiors_meet;
-      places.push_back({whole_, deep ? extent_in_common() : found->front().extent});
+      const bool deep = all.empty() || whole_.separation.interiors_meet;
+      places.push_back({whole_, deep ? extent_in_common() : all.front().extent});
       return places;
     }
     if (whole_.separation.interiors_meet) make_planes();
-    for (const MeetingPlace& place : *found) places.push_back({answer_at(place), place.extent});
+    for (std::size_t n = 0; n < all.size(); ++n) places.push_back({answer_at(n), all[n].extent});
     give_whole(places);
     return places;
   }
@@ -75,7 +79,8 @@ class PairPlaces {
     b_.planes = &planes_b_;
   }
 
-  PartAnswer answer_at(const MeetingPlace& place) {
+  PartAnswer answer_at(std::size_t number) {
+    const MeetingPlace& place = found_.all[number];
     PartAnswer answer;
     answer.separation = {
         .d = place.nearest.distance, .lower = place.least, .upper = place.nearest.distance};
@@ -83,15 +88,43 @@ class PairPlaces {
                                                 : witness_of_touch(place.nearest.on_a);
     answer.relation = place.nearest.distance <= options_.contact_distance ? Relation::abut_outside
                                                                           : Relation::separate;
-    if (whole_.separation.interiors_meet) go_deep(place, answer);
+    if (whole_.separation.interiors_meet && !is_gap(place)) go_deep(number, answer);
     answer.separation.sag = part_a_.sag + part_b_.sag;
     answer.judgement = judge(answer.separation, thresholds_);
     answer.judgement.flags |= part_flags(part_a_, part_b_);
     return answer;
   }
 
+  /// Whether the skins do not touch in a place, and what is between them is outside of both bodies:
+  /// then these have nothing in common there.
+  [[nodiscard]] bool is_gap(const MeetingPlace& place) {
+    if (!(place.least > 0)) return false;
+    constexpr double kSteps = 4096;
+    const Vec3d middle = (place.nearest.on_a + place.nearest.on_b) * 0.5;
+    const auto outside = [&](const geometry::TreedPart& part, const Vec3d& p) {
+      if (part.placed.part->kind != PartKind::solid) return true;
+      const geometry::Vec3l numerator{std::llround(p.x * kSteps), std::llround(p.y * kSteps),
+                                      std::llround(p.z * kSteps)};
+      return geometry::side_of(part, numerator, static_cast<std::int64_t>(kSteps), work_.pair) ==
+             geometry::PointSide::outside;
+    };
+    return outside(a_.treed, middle) && outside(b_.treed, middle - shift_);
+  }
+
+  /// The place of a point of both bodies: that of the skin nearest to it, since no skin lies
+  /// between.
+  [[nodiscard]] std::optional<std::uint32_t> place_of(const Vec3d& p) const {
+    const geometry::SkinPoint on_a = nearest_on_skin(a_.treed, p);
+    const geometry::SkinPoint on_b = nearest_on_skin(b_.treed, p - shift_);
+    if (on_a.distance <= on_b.distance)
+      return found_.place_of({.of_a = true, .triangle = on_a.triangle, .point = on_a.point});
+    return found_.place_of(
+        {.of_a = false, .triangle = on_b.triangle, .point = on_b.point + shift_});
+  }
+
   /// The depth there; none that can be found is a touch that may be as deep as the bound.
-  void go_deep(const MeetingPlace& place, PartAnswer& answer) {
+  void go_deep(std::size_t number, PartAnswer& answer) {
+    const MeetingPlace& place = found_.all[number];
     geometry::DepthGoal goal;
     goal.threshold = thresholds_.overlap;
     goal.known_upper = -whole_.separation.lower;
@@ -99,6 +132,9 @@ class PairPlaces {
     goal.triangle_b = place.nearest.triangle_b;
     goal.meeting_point = place.nearest.on_a;
     goal.within = place.extent;
+    goal.belongs = [this, number](const Vec3d& p) {
+      return place_of(p).value_or(number) == number;
+    };
     const geometry::Depth depth = depth_of(a_, b_, goal, work_);
     work_.depth_cells += depth.cells;
     answer.separation.lower = -depth.upper;
@@ -113,12 +149,15 @@ class PairPlaces {
   /// The answer as a whole is that of the worst place, which holds its witness.
   void give_whole(std::vector<PartPlace>& places) const {
     const Vec3d at = whole_.witness.point();
+    std::optional<std::uint32_t> deepest;
+    if (whole_.witness.interiors_meet) deepest = place_of(at);
     const auto less_likely = [&](const PartPlace& x, const PartPlace& y) {
       const bool in_x = x.extent.contains({at, at}), in_y = y.extent.contains({at, at});
       if (in_x != in_y) return in_y;
       return x.answer.separation.d > y.answer.separation.d;
     };
-    const auto worst = std::ranges::max_element(places, less_likely);
+    const auto worst = deepest ? places.begin() + static_cast<std::ptrdiff_t>(*deepest)
+                               : std::ranges::max_element(places, less_likely);
     worst->answer = whole_;
     for (PartPlace& place : places) {
       if (&place == &*worst) continue;
@@ -142,6 +181,8 @@ class PairPlaces {
   const NarrowOptions& options_;
   NarrowWork& work_;
   const Part &part_a_, &part_b_;
+  Vec3d shift_;
+  geometry::MeetingPlaces found_;
   Thresholds thresholds_;
   geometry::SupportPlanes planes_a_, planes_b_;
 };

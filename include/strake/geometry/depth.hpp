@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -61,6 +62,13 @@ struct DepthGoal {
   Vec3d meeting_point{};  ///< and a point there, relative to a's origin
   /// Only points in this box, relative to a's origin, count.
   std::optional<Box3d> within = {};
+  /// And of those, where there are several places: whether a point of both belongs to the one asked
+  /// about. A connected part of what is common belongs as a whole.
+  std::function<bool(const Vec3d&)> belongs = {};
+
+  [[nodiscard]] bool counts(const Vec3d& p) const {
+    return (!within || within->contains({p, p})) && (!belongs || belongs(p));
+  }
 };
 
 /// Depth D of an interpenetrating pair, grid units: lower <= D <= upper is certain.
@@ -77,6 +85,7 @@ struct SkinPoint {
   Vec3d point;
   double distance = 0;
   Vec3d normal;  ///< unit, outward where the part is a solid
+  std::uint32_t triangle = kNoFace;
 };
 
 /// Relative error about 1e-12; of triangles equally near, the lowest.

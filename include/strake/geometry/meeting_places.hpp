@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,25 @@ struct PlacesQuestion {
 /// the other.
 [[nodiscard]] std::optional<std::vector<MeetingPlace>> meeting_places(
     const TreedPart& a, const TreedPart& b, const PlacesQuestion& question, PairWork& work);
+
+/// A spot of a skin.
+struct SkinSpot {
+  bool of_a = true;            ///< whose skin
+  std::uint32_t triangle = 0;  ///< its triangle there
+  Vec3d point;                 ///< grid units relative to a's origin
+};
+
+/// The same with a way to tell places apart that lie in each other's boxes.
+struct MeetingPlaces {
+  std::vector<MeetingPlace> all;
+  /// The number of the place that a spot of one skin, in the other body or near its skin, belongs
+  /// to; none where that is not known. The parts and their trees must live.
+  std::function<std::optional<std::uint32_t>(const SkinSpot&)> place_of;
+};
+[[nodiscard]] std::optional<MeetingPlaces> find_meeting_places(const TreedPart& a,
+                                                               const TreedPart& b,
+                                                               const PlacesQuestion& question,
+                                                               PairWork& work);
 
 /// A box that holds all that two parts have in common, and where their skins come within reach of
 /// each other, relative to a's origin: what of either skin lies in the box along the other's faces.

@@ -170,15 +170,16 @@ class Halfspaces {
 /// Points tried for the lower bound, each judged exactly.
 class Candidates {
  public:
-  Candidates(const DepthField& a, const DepthField& b, double extent,
-             const std::optional<Box3d>& within, PairWork& work)
-      : a_(a), b_(b), margin_(kFieldError * extent), within_(within), work_(work) {}
+  Candidates(const DepthField& a, const DepthField& b, double extent, const DepthGoal& goal,
+             PairWork& work)
+      : a_(a), b_(b), margin_(kFieldError * extent), goal_(goal), work_(work) {}
 
   /// The depth at a point, or nothing when it is not in both.
   std::optional<double> depth_at(const Vec3d& p) {
     const Vec3d q = on_field_grid(p);
-    if (within_ && !within_->contains({q, q})) return std::nullopt;
+    if (goal_.within && !goal_.within->contains({q, q})) return std::nullopt;
     if (!a_.contains(q, work_) || !b_.contains(q, work_)) return std::nullopt;
+    if (!goal_.counts(q)) return std::nullopt;
     const double depth = std::max(a_.nearest(q).distance, b_.nearest(q).distance);
     if (depth > best_) {
       best_ = depth;
@@ -187,7 +188,7 @@ class Candidates {
     return depth;
   }
 
-  /// All but as deep as the best, and a better place to point at.
+  /// All but as deep as the best, and a better place to point at: it counts, as depth_at() found.
   void prefer(const Vec3d& p, double depth) {
     if (depth >= best_ * (1 - 1e-6) - 4 * kLeastMove) point_ = on_field_grid(p);
   }
@@ -202,7 +203,7 @@ class Candidates {
  private:
   const DepthField &a_, &b_;
   double margin_;
-  const std::optional<Box3d>& within_;
+  const DepthGoal& goal_;
   PairWork& work_;
   double best_ = 0;
   Vec3d point_;
@@ -300,7 +301,7 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};
   const DepthField fa(a.treed, {}), fb(b.treed, a.treed.placed.origin - b.treed.placed.origin);
   const Halfspaces spaces(a, fa, b, fb, goal.within);
-  Candidates candidates(fa, fb, spaces.extent(), goal.within, work);
+  Candidates candidates(fa, fb, spaces.extent(), goal, work);
   Depth depth;
   bracket_by_programs(spaces, candidates, depth);
   depth.upper = std::min(depth.upper, goal.known_upper);

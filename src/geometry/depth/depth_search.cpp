@@ -199,6 +199,7 @@ class Search {
   /// parent.
   void bound(Cell cell) {
     ++depth_.cells;
+    if (lies_elsewhere(cell.simplex)) return;
     const auto bounds = bound_depth(a_, b_, cell.simplex, slack_, depth_.value + margin_, work_);
     if (!bounds) return;
     double most = 0;
@@ -212,6 +213,20 @@ class Search {
     open_.push(cell);
   }
 
+  /// Whether all of a simplex lies in one part of what is common, and that does not count.
+  [[nodiscard]] bool lies_elsewhere(const Simplex& s) const {
+    if (!goal_.belongs) return false;
+    for (const SimplexCorner& c : s.corner) {
+      if (!c.a.inside || !c.b.inside) continue;
+      double radius = 0;
+      for (const SimplexCorner& other : s.corner)
+        radius = std::max(radius, length(other.at - c.sampled));
+      // No skin within that radius.
+      if (std::min(c.a.distance, c.b.distance) > radius + slack_) return !goal_.belongs(c.sampled);
+    }
+    return false;
+  }
+
   void try_point(const Vec3d& p) {
     const Vec3d q = on_field_grid(p);
     const double depth = std::max(a_.nearest(q).distance, b_.nearest(q).distance);
@@ -220,7 +235,7 @@ class Search {
 
   void improve(double depth, const Vec3d& at) {
     if (!(depth > depth_.value)) return;
-    if (goal_.within && !goal_.within->contains({at, at})) return;
+    if (!goal_.counts(at)) return;
     depth_.value = depth;
     depth_.lower = std::max(0.0, depth - margin_);
     depth_.point = at;

@@ -89,10 +89,10 @@ NearestTriangle nearest_triangle(const Part& part, const PartTree& tree, const V
 
 SkinPoint nearest_on_skin(const TreedPart& part, const Vec3d& p) {
   const NearestTriangle nearest = nearest_triangle(*part.placed.part, *part.tree, p);
-  if (nearest.triangle == kNoFace) return {p, 0, {}};
+  if (nearest.triangle == kNoFace) return {p, 0, {}, kNoFace};
   const Corners c = corners_of(*part.placed.part, nearest.triangle);
   const Vec3d n = normal_of(c);
-  return {nearest_on_triangle(p, c), nearest.distance, n * (1 / length(n))};
+  return {nearest_on_triangle(p, c), nearest.distance, n * (1 / length(n)), nearest.triangle};
 }
 
 }  // namespace strake::geometry

@@ -177,8 +177,7 @@ class CurveSearch {
     ++depth_.cells;
     const Vec3d middle = (end[0] + end[1]) * 0.5;
     const double d = depth_at(middle), radius = length(end[1] - end[0]) / 2;
-    const bool counts = !goal_.within || goal_.within->contains({middle, middle});
-    if (counts && d > depth_.value) {
+    if (d > depth_.value && goal_.counts(middle)) {
       depth_.value = d;
       depth_.lower = std::max(0.0, d - kSlack);
       depth_.point = middle;

@@ -99,8 +99,7 @@ class SheetSearch {
     const NearestTriangle near = solid_.nearest(at, hint);
     const bool inside = solid_.contains(at, work_);
     if (!inside && near.distance > radius) return;
-    const bool counts = !goal_.within || goal_.within->contains({at, at});
-    if (inside && counts && near.distance - slack > depth_.value) {
+    if (inside && near.distance - slack > depth_.value && goal_.counts(at)) {
       depth_.value = near.distance;
       depth_.lower = near.distance - slack;
       depth_.point = at;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/box.hpp"
+#include "geometry/depth/nearest.hpp"
 #include "geometry/places/clip.hpp"
 #include "geometry/places/edge_stops.hpp"
 #include "geometry/places/inside_links.hpp"
@@ -43,26 +44,48 @@ void include_common(const TriangleCorners& a, const TriangleCorners& b, double r
 
 class Places {
  public:
-  Places(const TreedPart& a, const TreedPart& b, const PlacesQuestion& question, PairWork& work)
+  Places(const TreedPart& a, const TreedPart& b, const PlacesQuestion& question)
       : treed_a_(a),
         treed_b_(b),
         a_(a, {}),
         b_(b, b.placed.origin - a.placed.origin),
         question_(question),
-        reach_(question.reach + kTouch),
-        work_(work) {}
+        reach_(question.reach + kTouch) {}
 
-  std::optional<std::vector<MeetingPlace>> run() {
+  std::optional<std::vector<MeetingPlace>> find(PairWork& work) {
     // Who has one place only is not asked where it is nearest.
     const bool sharp = question_.describe_one;
     auto pairs = near_triangles(
-        a_, b_, {.reach = reach_, .most = question_.most_pairs, .sharp = sharp}, work_);
+        a_, b_, {.reach = reach_, .most = question_.most_pairs, .sharp = sharp}, work);
     if (!pairs) return std::nullopt;
     pairs_ = std::move(*pairs);
     DisjointSets sets(pairs_.size() + a_.part().vertices.size() + b_.part().vertices.size());
-    if (join_all(sets) == 1 && !question_.describe_one) return std::vector<MeetingPlace>(1);
+    if (join_all(sets, work) == 1 && !question_.describe_one) return std::vector<MeetingPlace>(1);
     if (!sharp) sharpen(a_, b_, pairs_);
-    return describe(sets);
+    return describe(sets, work);
+  }
+
+  /// Of those that find() described. Of several places on a triangle it is the one whose other
+  /// triangle is nearest: nothing parts the spot from it.
+  [[nodiscard]] std::optional<std::uint32_t> place_of(const SkinSpot& spot) const {
+    const PlacesSide side = spot.of_a ? side_a() : side_b();
+    const std::span<const std::uint32_t> group = pairs_on(side, spot.triangle);
+    if (group.empty()) {
+      const std::vector<std::uint32_t>& vertices = spot.of_a ? vertices_a_ : vertices_b_;
+      for (const std::uint32_t v : side.own.part().triangles[spot.triangle])
+        if (vertices[v] != kNone) return vertices[v];
+      return std::nullopt;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t place = number_[group.front()];
+    for (const std::uint32_t i : group) {
+      const Corners other = as_doubles(side.other.corners(side.other_of(pairs_[i])));
+      const Vec3d d = spot.point - nearest_on_triangle(spot.point, other);
+      if (!(dot(d, d) < least)) continue;
+      least = dot(d, d);
+      place = number_[i];
+    }
+    return place;
   }
 
  private:
@@ -70,60 +93,81 @@ class Places {
     return static_cast<std::uint32_t>(pairs_.size() + (of_a ? 0 : a_.part().vertices.size()));
   }
 
+  [[nodiscard]] PlacesSide side_a() const { return {a_, b_, true}; }
+  [[nodiscard]] PlacesSide side_b() const { return {b_, a_, false}; }
+
+  /// The pairs that a triangle of a side is in.
+  [[nodiscard]] std::span<const std::uint32_t> pairs_on(const PlacesSide& side,
+                                                        std::uint32_t triangle) const {
+    const SidePairs& rows = side.is_a ? of_a_ : of_b_;
+    const auto own = [&](std::uint32_t first) { return side.own_of(pairs_[rows.order[first]]); };
+    const auto end = rows.first.end() - 1;
+    const auto row =
+        std::lower_bound(rows.first.begin(), end, triangle,
+                         [&](std::uint32_t first, std::uint32_t t) { return own(first) < t; });
+    if (row == end || own(*row) != triangle) return {};
+    return rows.group(static_cast<std::size_t>(row - rows.first.begin()));
+  }
+
   /// Returns how many sets of pairs there are.
-  std::size_t join_all(DisjointSets& sets) {
-    const PlacesSide side_a{a_, b_, true}, side_b{b_, a_, false};
-    const SidePairs of_a = grouped(side_a, pairs_), of_b = grouped(side_b, pairs_);
+  std::size_t join_all(DisjointSets& sets, PairWork& work) {
+    of_a_ = grouped(side_a(), pairs_);
+    of_b_ = grouped(side_b(), pairs_);
     std::size_t left = pairs_.size();
-    left -= join_round_triangles(side_a, of_a, of_b, pairs_, reach_, sets);
-    if (left > 1) left -= join_round_triangles(side_b, of_b, of_a, pairs_, reach_, sets);
+    left -= join_round_triangles(side_a(), of_a_, of_b_, pairs_, reach_, sets);
+    if (left > 1) left -= join_round_triangles(side_b(), of_b_, of_a_, pairs_, reach_, sets);
     if (left <= 1 || !question_.interiors_meet) return left;
     if (b_.solid())
-      link_inside(side_a, treed_b_, pairs_, edge_stops(side_a, of_a, pairs_, reach_), reach_,
-                  {sets, first_vertex(true)}, work_);
+      link_inside(side_a(), treed_b_, pairs_, edge_stops(side_a(), of_a_, pairs_, reach_), reach_,
+                  {sets, first_vertex(true)}, work);
     if (a_.solid())
-      link_inside(side_b, treed_a_, pairs_, edge_stops(side_b, of_b, pairs_, reach_), reach_,
-                  {sets, first_vertex(false)}, work_);
+      link_inside(side_b(), treed_a_, pairs_, edge_stops(side_b(), of_b_, pairs_, reach_), reach_,
+                  {sets, first_vertex(false)}, work);
     left = 0;
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) left += sets.root(i) == i ? 1U : 0U;
     return left;
   }
 
-  std::vector<MeetingPlace> describe(DisjointSets& sets) {
+  std::vector<MeetingPlace> describe(DisjointSets& sets, PairWork& work) {
     std::vector<MeetingPlace> places;
-    std::vector<std::uint32_t> nearest, number(pairs_.size(), kNone);
+    std::vector<std::uint32_t> nearest;
+    number_.assign(pairs_.size(), kNone);
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
       const std::uint32_t root = sets.root(i);  // the lowest: met before the others
       if (root == i) {
-        number[i] = static_cast<std::uint32_t>(places.size());
+        number_[i] = static_cast<std::uint32_t>(places.size());
         places.emplace_back();
         places.back().least = std::sqrt(pairs_[i].squared.lower);
         nearest.push_back(i);
       }
-      const std::uint32_t n = number[i] = number[root];
+      const std::uint32_t n = number_[i] = number_[root];
       MeetingPlace& place = places[n];
       include_common(a_.corners(pairs_[i].a), b_.corners(pairs_[i].b), reach_, place.extent);
       place.least = std::min(place.least, std::sqrt(pairs_[i].squared.lower));
       if (pairs_[i].squared.upper < pairs_[nearest[n]].squared.upper) nearest[n] = i;
     }
-    include_vertices(a_, first_vertex(true), sets, number, places);
-    include_vertices(b_, first_vertex(false), sets, number, places);
-    for (std::size_t n = 0; n < places.size(); ++n) measure(pairs_[nearest[n]], places[n]);
+    vertices_a_ = include_vertices(a_, first_vertex(true), sets, places);
+    vertices_b_ = include_vertices(b_, first_vertex(false), sets, places);
+    for (std::size_t n = 0; n < places.size(); ++n) measure(pairs_[nearest[n]], places[n], work);
     return places;
   }
 
-  /// Those inside the other body that belong to a place.
-  static void include_vertices(const PartView& view, std::uint32_t first, DisjointSets& sets,
-                               const std::vector<std::uint32_t>& number,
-                               std::vector<MeetingPlace>& places) {
-    for (std::uint32_t v = 0; v < view.part().vertices.size(); ++v) {
+  /// Those inside the other body that belong to a place; returns which, by vertex.
+  std::vector<std::uint32_t> include_vertices(const PartView& view, std::uint32_t first,
+                                              DisjointSets& sets,
+                                              std::vector<MeetingPlace>& places) const {
+    std::vector<std::uint32_t> place(view.part().vertices.size(), kNone);
+    for (std::uint32_t v = 0; v < place.size(); ++v) {
       const std::uint32_t root = sets.root(first + v);
-      if (root < number.size()) places[number[root]].extent.include(view.vertex(v).as<double>());
+      if (root >= number_.size()) continue;
+      place[v] = number_[root];
+      places[place[v]].extent.include(view.vertex(v).as<double>());
     }
+    return place;
   }
 
-  void measure(const NearTriangles& pair, MeetingPlace& place) {
-    ++work_.exact_fallbacks;
+  void measure(const NearTriangles& pair, MeetingPlace& place, PairWork& work) const {
+    ++work.exact_fallbacks;
     const NearestPoints p =
         exact_distance(a_.corners(pair.a), b_.corners(pair.b), pair.squared.upper);
     place.nearest = {.squared = ratio_to_double(p.squared.numerator, p.squared.denominator),
@@ -135,20 +179,31 @@ class Places {
     place.least = std::min(place.least, place.nearest.distance);
   }
 
-  const TreedPart &treed_a_, &treed_b_;
+  TreedPart treed_a_, treed_b_;
   PartView a_, b_;
-  const PlacesQuestion& question_;
+  PlacesQuestion question_;
   double reach_;
-  PairWork& work_;
   std::vector<NearTriangles> pairs_;
+  SidePairs of_a_, of_b_;
+  std::vector<std::uint32_t> number_;                   ///< of its place, by pair
+  std::vector<std::uint32_t> vertices_a_, vertices_b_;  ///< likewise, kNone for none
 };
 
 }  // namespace
 
+std::optional<MeetingPlaces> find_meeting_places(const TreedPart& a, const TreedPart& b,
+                                                 const PlacesQuestion& question, PairWork& work) {
+  const auto places = std::make_shared<Places>(a, b, question);
+  auto all = places->find(work);
+  if (!all) return std::nullopt;
+  return MeetingPlaces{std::move(*all),
+                       [places](const SkinSpot& spot) { return places->place_of(spot); }};
+}
+
 std::optional<std::vector<MeetingPlace>> meeting_places(const TreedPart& a, const TreedPart& b,
                                                         const PlacesQuestion& question,
                                                         PairWork& work) {
-  return Places(a, b, question, work).run();
+  return Places(a, b, question).find(work);
 }
 
 }  // namespace strake::geometry

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "strake/clash/policy.hpp"
 #include "support/clash_model.hpp"
 #include "support/meshes.hpp"
+#include "support/voxels.hpp"
 
 namespace strake::clash {
 namespace {
@@ -193,6 +195,68 @@ TEST(RegionsTest, AnAllowedContactIsAllowedAtItsPlaceAlone) {
   EXPECT_EQ(both.pairs[0].regions, 2U);
   // The places are known to lie within: nothing is uncertain.
   EXPECT_EQ(both.pairs[0].flags & kUncertain, 0);
+}
+
+/// One shell of 5 mm cubes: a square ring round a pin that is 30 mm long below the plane z = 0,
+/// both under one cap. The box of the ring holds the pin.
+geometry::TriangleMesh ring_and_pin(int ring_bottom) {
+  std::vector<geometry::Vec3i> cubes;
+  for (int x = -4; x <= 4; ++x)
+    for (int y = -4; y <= 4; ++y)
+      for (int z = -6; z <= 3; ++z) {
+        const bool ring = std::max(std::abs(x), std::abs(y)) == 4 && z >= ring_bottom;
+        const bool pin = std::max(std::abs(x), std::abs(y)) <= 1;
+        if (ring || pin || z >= 2) cubes.push_back({x, y, z});
+      }
+  return test::voxel_mesh(cubes, 5);
+}
+
+/// Turned about an odd axis, so that nothing is flush with the coordinate planes.
+geometry::TriangleMesh askew(geometry::TriangleMesh mesh) {
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (Vec3d& v : mesh.vertices) {
+    v = {v.x * c - v.y * s, v.x * s + v.y * c, v.z};
+    v = {v.x, v.y * c - v.z * s, v.y * s + v.z * c};
+  }
+  return mesh;
+}
+
+Report ring_and_pin_in_plate(int ring_bottom, double top, bool turned) {
+  ClashModel made;
+  geometry::TriangleMesh plate = box_mesh({-100, -100, -200}, {100, 100, top});
+  geometry::TriangleMesh stamp = ring_and_pin(ring_bottom);
+  made.object("plate").body(turned ? askew(plate) : plate);
+  made.object("stamp").body(turned ? askew(stamp) : stamp);
+  model::finish(made.model);
+  return made.detect();
+}
+
+TEST(RegionsTest, APlaceRoundAnotherHasItsOwnDepth) {
+  for (const bool turned : {false, true}) {
+    SCOPED_TRACE(turned);
+    const Report report = ring_and_pin_in_plate(-1, 0, turned);
+    ASSERT_EQ(report.pairs.size(), 1U);
+    ASSERT_EQ(report.pairs[0].regions, 2U);
+    EXPECT_NEAR(report.regions[0].d_mm, -30, 0.01);
+    EXPECT_NEAR(report.regions[1].d_mm, -5, 0.01);
+    EXPECT_EQ(report.regions[1].cls, Class::hit);
+    EXPECT_LE(report.regions[1].d_lower_mm, -4.99);
+  }
+}
+
+TEST(RegionsTest, AGapRoundAHitIsAGap) {
+  for (const bool turned : {false, true}) {
+    SCOPED_TRACE(turned);
+    const Report report = ring_and_pin_in_plate(0, -0.5, turned);
+    ASSERT_EQ(report.pairs.size(), 1U);
+    ASSERT_EQ(report.pairs[0].regions, 2U);
+    EXPECT_NEAR(report.regions[0].d_mm, -29.5, 0.01);
+    const Region& gap = report.regions[1];
+    EXPECT_EQ(gap.cls, Class::contact);
+    EXPECT_NEAR(gap.d_mm, 0.5, 0.01);
+    EXPECT_NEAR(gap.d_lower_mm, 0.5, 0.01);
+    EXPECT_EQ(gap.flags & kUncertain, 0);
+  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Meshes that hang together alike share their connectivity, and nothing else.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "strake/geometry/analyse.hpp"
+#include "support/voxels.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -116,30 +116,8 @@ TEST(KnownMeshes, CoordinatesAreAskedEachTime) {
 
 // Five cubes round a corner: the first and the last touch along an edge.
 TEST(KnownMeshes, PinchedSolidsStayFlagged) {
-  const std::vector<Vec3i> cubes{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}};
-  GridMesh mesh;
-  const auto vertex = [&](const Vec3i& at) {
-    const auto found = std::find(mesh.vertices.begin(), mesh.vertices.end(), at);
-    if (found != mesh.vertices.end())
-      return static_cast<std::uint32_t>(found - mesh.vertices.begin());
-    mesh.vertices.push_back(at);
-    return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-  };
-  for (const Vec3i& cube : cubes)
-    for (int axis = 0; axis < 3; ++axis)
-      for (const int side : {0, 1}) {
-        Vec3i beside = cube, u{}, v{};
-        beside[axis] += side == 0 ? -1 : 1;
-        if (std::find(cubes.begin(), cubes.end(), beside) != cubes.end()) continue;
-        u[(axis + 1) % 3] = v[(axis + 2) % 3] = 1;
-        if (side == 0) std::swap(u, v);
-        Vec3i at = cube;
-        at[axis] += side;
-        const std::uint32_t a = vertex(at), b = vertex(at + u), c = vertex(at + u + v),
-                            d = vertex(at + v);
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-      }
+  test::VoxelSkin skin = test::voxel_skin({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}});
+  const GridMesh mesh{std::move(skin.vertices), std::move(skin.triangles), {}};
   MeshAnalyser analyser;
   for (int round = 0; round < 3; ++round) {
     const MeshAnalysis analysis = analyser.analyse(mesh);
