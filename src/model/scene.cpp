@@ -126,6 +126,9 @@ void report_findings(const GridShapeResult& made, const Model& model, ObjectId i
   counted(Severity::warning, "mesh-nested", made.findings.nested_shells,
           "a closed shell inside solid material was left out",
           "{} closed shells inside solid material were left out");
+  counted(Severity::warning, "mesh-two-sided", made.findings.two_sided_shells,
+          "a closed skin is drawn from both sides and counts as the solid inside it",
+          "{} closed skins are drawn from both sides and count as the solids inside them");
   counted(Severity::skipped, "mesh-bad-triangle", made.bad_triangles,
           "a triangle with a vertex that is missing or has no place was left out",
           "{} triangles with a vertex that is missing or has no place were left out");

@@ -23,6 +23,7 @@ struct MeshFindings {
   std::uint64_t degenerate_triangles = 0;  ///< of exactly zero area after the snap
   std::uint64_t duplicate_triangles = 0;   ///< same vertices, same side
   std::uint64_t nested_shells = 0;         ///< closed shells that bound nothing: a solid in a solid
+  std::uint64_t two_sided_shells = 0;      ///< closed skins that were drawn from both sides
 };
 
 struct MeshAnalysis {
@@ -41,6 +42,8 @@ struct MeshAnalysis {
 /// 3. A closed shell whose outermost shell has negative exact volume is turned with all that lies
 ///    inside it (PartFlags::inverted). Shells that do not bound {winding number >= 1} are left out
 ///    and counted.
+///    A skin that is drawn from both sides is the solid in it, whatever the triangles of either
+///    side; the far side is left out and counted.
 /// 4. A closed shell of no volume that is covered twice, once from each side, becomes a sheet.
 ///
 /// Every decision is exact. Cost: O(n log n) for one shell; nesting tests only shells whose boxes

@@ -2,6 +2,7 @@
 #include "strake/geometry/analyse.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "geometry/analyse/scratch.hpp"
 #include "geometry/analyse/shell_part.hpp"
 #include "geometry/analyse/topology.hpp"
+#include "geometry/analyse/two_sided.hpp"
 #include "geometry/analyse/weld.hpp"
 
 namespace strake::geometry {
@@ -37,15 +39,9 @@ Grouped group_by_shell(const ShellLabels& labels) {
   return grouped;
 }
 
-/// A closed shell, turned so that its volume is positive.
-struct Shell {
-  std::uint32_t label = 0;
-  int sign = 1;  ///< of the volume before the turn
-};
-
 /// For each shell whether it bounds {winding number >= 1} of its nest, the nest having been turned
 /// so that its outermost shell counts +1.
-std::vector<bool> bounding(const std::vector<Shell>& shells,
+std::vector<bool> bounding(const std::vector<ClosedShell>& shells,
                            const std::vector<std::uint32_t>& parents,
                            const std::vector<std::uint32_t>& roots) {
   std::vector<bool> bounds(shells.size());
@@ -69,7 +65,7 @@ std::vector<std::uint32_t> find_roots(const std::vector<std::uint32_t>& parents)
 }
 
 /// The solid bounded by the chosen shells of a nest.
-Part merge_nest(const Grouped& grouped, const std::vector<Shell>& shells,
+Part merge_nest(const Grouped& grouped, const std::vector<ClosedShell>& shells,
                 const std::vector<std::uint32_t>& members, bool inverted, AnalyseScratch& scratch) {
   std::vector<std::uint32_t> triangles;
   for (const std::uint32_t m : members) {
@@ -83,21 +79,52 @@ Part merge_nest(const Grouped& grouped, const std::vector<Shell>& shells,
                    signed_volume_6(scratch.piece.vertices, scratch.piece.triangles), scratch);
 }
 
+/// Whether the shells of a nest leave nothing of it but its skin.
+bool cancel(const std::vector<ClosedShell>& shells, const std::vector<Part>& parts,
+            std::uint32_t root, const std::vector<std::uint32_t>& members) {
+  double volume = 0;
+  for (const std::uint32_t m : members) volume += shells[m].sign * parts[m].volume;
+  return members.size() > 1 && is_hollow(std::fabs(volume), parts[root].area);
+}
+
+/// Leaves far sides out of the nests, their fins to the sheet.
+std::vector<bool> take_off_far_sides(const ShellLabels& labels, const AnalyseScratch& scratch,
+                                     const std::vector<ClosedShell>& shells,
+                                     const std::vector<Part>& parts,
+                                     std::vector<std::uint32_t>& parents,
+                                     std::vector<std::uint32_t>& open) {
+  FarSides far = find_far_sides(scratch.welded, labels, shells, parts, parents);
+  for (std::uint32_t& p : parents)
+    while (p != kNoShell && far.shells[p]) p = parents[p];
+  open.insert(open.end(), far.fins.begin(), far.fins.end());
+  return std::move(far.shells);
+}
+
 /// Solids from the closed shells: one part per nest, in the order of their outermost shells.
-void add_solids(const Grouped& grouped, const std::vector<Shell>& shells,
-                std::vector<Part> shell_parts, AnalyseScratch& scratch, MeshAnalysis& analysis) {
-  const std::vector<std::uint32_t> parents = find_parents(shell_parts);
+/// Adds triangles that belong to none to the open ones.
+void add_solids(const ShellLabels& labels, const Grouped& grouped,
+                const std::vector<ClosedShell>& shells, std::vector<Part> shell_parts,
+                std::vector<std::uint32_t>& open, AnalyseScratch& scratch, MeshAnalysis& analysis) {
+  std::vector<std::uint32_t> parents = find_parents(shell_parts);
+  const std::vector<bool> far =
+      take_off_far_sides(labels, scratch, shells, shell_parts, parents, open);
   const std::vector<std::uint32_t> roots = find_roots(parents);
   const std::vector<bool> bounds = bounding(shells, parents, roots);
   std::vector<std::vector<std::uint32_t>> members(shells.size());
   for (std::uint32_t i = 0; i < shells.size(); ++i) {
-    if (bounds[i])
+    if (far[i])
+      ++analysis.findings.two_sided_shells;
+    else if (bounds[i])
       members[roots[i]].push_back(i);
     else
       ++analysis.findings.nested_shells;
   }
   for (std::uint32_t i = 0; i < shells.size(); ++i) {
     if (members[i].empty()) continue;
+    if (cancel(shells, shell_parts, i, members[i])) {
+      members[i] = {i};
+      ++analysis.findings.two_sided_shells;
+    }
     const bool inverted = shells[i].sign < 0;
     Part part = members[i].size() == 1 ? std::move(shell_parts[i])
                                        : merge_nest(grouped, shells, members[i], inverted, scratch);
@@ -126,7 +153,7 @@ Part whole(const Topology& topology, ShellLabels labels, AnalyseScratch& scratch
 
 void split(const ShellLabels& labels, AnalyseScratch& scratch, MeshAnalysis& analysis) {
   const Grouped grouped = group_by_shell(labels);
-  std::vector<Shell> shells;
+  std::vector<ClosedShell> shells;
   std::vector<Part> shell_parts;
   std::vector<std::uint32_t> open;
   for (std::uint32_t s = 0; s < labels.count; ++s) {
@@ -147,7 +174,7 @@ void split(const ShellLabels& labels, AnalyseScratch& scratch, MeshAnalysis& ana
     shells.push_back({s, volume < 0 ? -1 : 1});
     shell_parts.push_back(make_part(PartKind::solid, volume < 0 ? -volume : volume, scratch));
   }
-  add_solids(grouped, shells, std::move(shell_parts), scratch, analysis);
+  add_solids(labels, grouped, shells, std::move(shell_parts), open, scratch, analysis);
   if (open.empty()) return;
   std::sort(open.begin(), open.end());
   extract(open, scratch);

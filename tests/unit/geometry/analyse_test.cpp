@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "strake/geometry/place.hpp"
 #include "strake/geometry/triangulate.hpp"
@@ -232,6 +234,170 @@ TEST(Analyse, CavityThatTouchesTheSkinIsStillInside) {
   const MeshAnalysis a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_DOUBLE_EQ(a.parts[0].volume, 62e9);
+}
+
+/// Adds the sides of a quadrilateral: its front, and its back where asked, that with the other
+/// diagonal where asked too.
+void add_quad(TriangleMesh& mesh, const std::array<Vec3d, 4>& corners, bool back = false,
+              bool other_diagonal = false) {
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh.triangles.push_back({base + a, base + b, base + c});
+  };
+  add(0, 1, 2);
+  add(0, 2, 3);
+  if (!back) return;
+  if (other_diagonal) {
+    add(0, 3, 1);
+    add(1, 3, 2);
+  } else {
+    add(0, 2, 1);
+    add(0, 3, 2);
+  }
+}
+
+/// The same box, every face cut along its other diagonal.
+void add_recut_box(TriangleMesh& mesh, const Vec3d& lo, const Vec3d& hi, bool inside_out = false) {
+  TriangleMesh box = box_mesh(lo, hi, inside_out);
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), box.vertices.begin(), box.vertices.end());
+  for (std::size_t i = 0; i < box.triangles.size(); i += 2) {
+    // A quad (a, b, c, d) comes as (a, b, c) and (a, c, d), inside out as (a, c, b) and (a, d, c).
+    const Triangle &s = box.triangles[i], &t = box.triangles[i + 1];
+    const std::uint32_t a = base + s[0], b = base + (inside_out ? s[2] : s[1]),
+                        c = base + (inside_out ? s[1] : s[2]),
+                        d = base + (inside_out ? t[1] : t[2]);
+    mesh.triangles.push_back(inside_out ? Triangle{b, a, d} : Triangle{a, b, d});
+    mesh.triangles.push_back(inside_out ? Triangle{c, b, d} : Triangle{b, c, d});
+  }
+}
+
+void add_two_sided_box(TriangleMesh& mesh, const Vec3d& lo, const Vec3d& hi) {
+  add_box(mesh, lo, hi);
+  add_box(mesh, lo, hi, true);
+}
+
+void expect_solids(const MeshAnalysis& a, const std::vector<double>& cubic_millimetres) {
+  ASSERT_EQ(a.parts.size(), cubic_millimetres.size());
+  for (std::size_t i = 0; i < a.parts.size(); ++i) {
+    EXPECT_EQ(a.parts[i].kind, PartKind::solid);
+    EXPECT_DOUBLE_EQ(a.parts[i].volume, cubic_millimetres[i] * 1e9);
+    EXPECT_FALSE(a.parts[i].flags.inverted);
+  }
+}
+
+TEST(Analyse, SkinDrawnFromBothSidesIsTheSolidInIt) {
+  TriangleMesh mesh;
+  add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
+  const MeshAnalysis a = analysed(mesh);
+  expect_solids(a, {64});
+  EXPECT_TRUE(same(a.parts.at(0), analysed(box_mesh({0, 0, 0}, {4, 4, 4})).parts.at(0)));
+  EXPECT_EQ(a.findings.two_sided_shells, 1U);
+  EXPECT_EQ(a.findings.nested_shells, 0U);
+}
+
+TEST(Analyse, SidesMayBeCutDifferently) {
+  for (const bool front_first : {true, false}) {
+    TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4}, !front_first);
+    add_recut_box(mesh, {0, 0, 0}, {4, 4, 4}, front_first);
+    const MeshAnalysis a = analysed(mesh);
+    expect_solids(a, {64});
+    EXPECT_EQ(a.parts.at(0).triangles.size(), 12U);
+    EXPECT_EQ(a.findings.two_sided_shells, 1U);
+  }
+}
+
+TEST(Analyse, CavityInASkinDrawnFromBothSidesStays) {
+  TriangleMesh mesh;
+  add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
+  add_box(mesh, {1, 1, 1}, {2, 2, 2}, true);
+  const MeshAnalysis a = analysed(mesh);
+  expect_solids(a, {63});
+  EXPECT_EQ(a.findings.two_sided_shells, 1U);
+}
+
+TEST(Analyse, IslandDrawnFromBothSidesIsSolid) {
+  for (const bool inverted : {false, true}) {
+    TriangleMesh mesh = box_mesh({0, 0, 0}, {8, 8, 8}, inverted);
+    add_box(mesh, {1, 1, 1}, {7, 7, 7}, !inverted);
+    add_two_sided_box(mesh, {2, 2, 2}, {6, 6, 6});
+    const MeshAnalysis a = analysed(mesh);
+    ASSERT_EQ(a.parts.size(), 1U);
+    EXPECT_DOUBLE_EQ(a.parts[0].volume, (512 - 216 + 64) * 1e9);
+    EXPECT_EQ(a.parts[0].flags.inverted, inverted);
+    EXPECT_EQ(a.findings.two_sided_shells, 1U);
+  }
+}
+
+TEST(Analyse, CavityThatAHollowBodyFillsStaysACavity) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {8, 8, 8});
+  add_two_sided_box(mesh, {1, 1, 1}, {7, 7, 7});
+  add_box(mesh, {2, 2, 2}, {6, 6, 6}, true);
+  const MeshAnalysis a = analysed(mesh);
+  expect_solids(a, {512 - 64});
+  EXPECT_EQ(a.findings.two_sided_shells, 0U);
+}
+
+TEST(Analyse, BoxesDrawnFromBothSidesMayShareAnEdgeOrAFace) {
+  for (const Vec3d& shift : {Vec3d{4, 0, 0}, Vec3d{4, 4, 0}, Vec3d{4, 4, 4}, Vec3d{9, 0, 0}}) {
+    TriangleMesh mesh;
+    add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
+    add_two_sided_box(mesh, shift, Vec3d{4, 4, 4} + shift);
+    const MeshAnalysis a = analysed(mesh);
+    expect_solids(a, {64, 64});
+    EXPECT_GE(a.findings.two_sided_shells, 1U);
+  }
+}
+
+TEST(Analyse, ShellsThatCancelLeaveTheirSkin) {
+  // At the common edge the far sides of the two boxes join, and cut otherwise than their fronts.
+  TriangleMesh mesh;
+  for (const Vec3d& shift : {Vec3d{0, 0, 0}, Vec3d{4, 4, 0}}) {
+    add_box(mesh, shift, Vec3d{4, 4, 4} + shift);
+    add_recut_box(mesh, shift, Vec3d{4, 4, 4} + shift, true);
+  }
+  const MeshAnalysis a = analysed(mesh);
+  double volume = 0;
+  for (const Part& p : a.parts) volume += p.volume;
+  EXPECT_DOUBLE_EQ(volume, 128e9);
+  EXPECT_GE(a.findings.two_sided_shells, 1U);
+}
+
+TEST(Analyse, FlapOnASkinDrawnFromBothSidesStays) {
+  TriangleMesh mesh;
+  add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
+  add_quad(mesh, {{{4, 0, 4}, {6, 0, 4}, {6, 4, 4}, {4, 4, 4}}}, true);
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 2U);
+  EXPECT_DOUBLE_EQ(a.parts[0].volume, 64e9);
+  EXPECT_EQ(a.parts[1].kind, PartKind::sheet);
+  EXPECT_DOUBLE_EQ(a.parts[1].area, 8e6);
+}
+
+TEST(Analyse, SheetCutDifferentlyOnItsTwoSidesIsASheet) {
+  TriangleMesh mesh;
+  add_quad(mesh, {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}}, true, true);
+  const MeshAnalysis a = analysed(mesh);
+  ASSERT_EQ(a.parts.size(), 1U);
+  EXPECT_EQ(a.parts[0].kind, PartKind::sheet);
+}
+
+TEST(Analyse, CubesInsideOutStandSideBySide) {
+  // The middle one has another's triangle on each of its own: nothing of it is a far side.
+  for (const bool inside_out : {false, true}) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 27; ++i) {
+      const Vec3d lo{static_cast<double>(i % 3), static_cast<double>(i / 3 % 3),
+                     static_cast<double>(i / 9 % 3)};
+      add_box(mesh, lo, lo + Vec3d{1, 1, 1}, inside_out);
+    }
+    const MeshAnalysis a = analysed(mesh);
+    double volume = 0;
+    for (const Part& p : a.parts) volume += p.volume;
+    EXPECT_DOUBLE_EQ(volume, 27e9);
+    EXPECT_EQ(a.findings.two_sided_shells, 0U);
+  }
 }
 
 TEST(Analyse, OpenBoxIsASheet) {

@@ -139,6 +139,16 @@ TEST(Scene, InvertedSolidsAreReported) {
   EXPECT_EQ(b.scene().diagnostics.count("mesh-inverted"), 1U);
 }
 
+TEST(Scene, SkinsDrawnFromBothSidesAreReported) {
+  Builder b;
+  geometry::TriangleMesh mesh = test::box_mesh({0, 0, 0}, {1, 1, 1});
+  test::add_box(mesh, {0, 0, 0}, {1, 1, 1}, true);
+  b.object(b.shape(mesh));
+  const Scene scene = b.scene();
+  EXPECT_EQ(scene.diagnostics.count("mesh-two-sided"), 1U);
+  EXPECT_EQ(scene.diagnostics.count("mesh-inverted"), 0U);
+}
+
 TEST(Scene, ASagThatIsNoLengthIsAnError) {
   const Builder b;
   SceneOptions options;
