@@ -51,8 +51,8 @@ void bench_pair(const Kind& a, const Kind& b) {
   const double far = 1e300;
   const auto beside = run(10, far), meeting = run(-5, far), away = run(200, 1000);
   const bool right = beside && meeting && away &&
-                     std::fabs(beside->d - 10'000) <= beside->error + 2 && meeting->d < 0 &&
-                     meeting->d <= -5'000 + meeting->error + 2 && away->d >= 1000;
+                     std::fabs(beside->d - 10'000) <= beside->error() + 2 && meeting->d < 0 &&
+                     meeting->d <= -5'000 + meeting->error() + 2 && away->d >= 1000;
   if (!right) {
     fmt::print("{:<44}  ERROR: wrong result\n", name);
     return;

@@ -69,7 +69,7 @@ std::optional<ClosedForm> closed_form(const NarrowPart& a, const NarrowPart& b, 
   if (s->sheet_a != (x.kind == PartKind::sheet) || s->sheet_b != (y.kind == PartKind::sheet))
     return std::nullopt;
   return ClosedForm{*s, s->point + (*centre - a.treed.placed.origin).as<double>(),
-                    !(std::fabs(s->d) > 1 + s->error)};
+                    !(s->lower > 1 || s->upper < -1)};
 }
 
 /// Two parts in canonical order.
@@ -88,11 +88,8 @@ class PairOfParts {
   PartAnswer analytic(const ClosedForm& form) const {
     const geometry::AnalyticSeparation& s = form.separation;
     PartAnswer answer;
-    answer.separation = {.d = s.d,
-                         .lower = s.d - s.error,
-                         .upper = s.d + s.error,
-                         .sag = 0,
-                         .interiors_meet = s.d < -s.error};
+    answer.separation = {
+        .d = s.d, .lower = s.lower, .upper = s.upper, .sag = 0, .interiors_meet = s.upper < 0};
     answer.witness = witness_of(s, form.point);
     answer.relation = analytic_relation(s, options_.contact_distance);
     conclude(answer, 0);
@@ -271,7 +268,8 @@ class PairOfParts {
   /// How far the true separation of two that touch as tessellated may be from 0.
   [[nodiscard]] double sag_beside(const std::optional<ClosedForm>& form) const {
     if (!form) return sag();
-    return std::min(sag(), std::fabs(form->separation.d) + form->separation.error);
+    return std::min(sag(),
+                    std::max(std::fabs(form->separation.lower), std::fabs(form->separation.upper)));
   }
 
   void conclude(PartAnswer& answer) const { conclude(answer, sag()); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -18,18 +19,24 @@ struct PlacedPrimitive {
 
 /// Signed separation of two true surfaces, no tessellation between. All lengths are grid units.
 struct AnalyticSeparation {
-  double d = 0;      ///< distance, or minus the depth D of docs/clash.md
-  double error = 0;  ///< certain bound on the error of d
+  double d = 0;                 ///< distance, or minus the depth D of docs/clash.md
+  double lower = 0, upper = 0;  ///< certain bracket of d
   Vec3d point;  ///< midpoint of the closest pair or deepest point, relative to a's snapped centre
   /// Unit: the way along which a moves away from b. Apart, the closest points are point ± away·d/2,
   /// a's first. Otherwise the deepest point comes out when a moves d this way: the nearest point of
   /// the skin that d is measured to is point - away·D where `deep_in_a`, else point + away·D.
   Vec3d away{1, 0, 0};
   bool deep_in_a = false;
-  /// How deep one lies wholly inside the other; negative: it sticks out by that much.
-  double a_inside_b = 0, b_inside_a = 0;
-  double difference = 0;  ///< bound on how far the two surfaces lie apart: 0 for duplicates
+  /// How deep one lies wholly inside the other; negative: it sticks out by that much, or is not
+  /// known to lie inside.
+  double a_inside_b = -std::numeric_limits<double>::infinity();
+  double b_inside_a = -std::numeric_limits<double>::infinity();
+  /// Bound on how far the two surfaces lie apart: 0 for duplicates.
+  double difference = std::numeric_limits<double>::infinity();
   bool sheet_a = false, sheet_b = false;  ///< without thickness: depth is measured in the other
+
+  /// Certain bound on the error of d.
+  [[nodiscard]] double error() const { return std::max(d - lower, upper - d); }
 };
 
 /// Signed separation of two true surfaces within a certain bracket: boxes, pyramids, cylinders,
@@ -39,12 +46,13 @@ struct AnalyticSeparation {
 /// triangles speak for them.
 ///
 /// Closed forms where there are any (a sphere and a sphere, cylinder or box; cylinders with
-/// parallel axes), otherwise solved_separation(). `error` is a fraction of a grid unit, but for
-/// bodies that a closed form or a torus takes as what rounded matrices meant, and for rings that
-/// run along the other body for long.
+/// parallel axes), otherwise solved_separation(). The bracket is a fraction of a grid unit wide,
+/// but for bodies that a closed form or a torus takes as what rounded matrices meant, and for rings
+/// that run along the other body for long: d is then what its points show, a touch where they show
+/// no overlap.
 ///
 /// Where the two are at least `enough` apart the answer may be any certain lower bound from
-/// `enough` up, with an `error` of 0.
+/// `enough` up, with a bracket of no width.
 [[nodiscard]] std::optional<AnalyticSeparation> analytic_separation(
     const PlacedPrimitive& a, const PlacedPrimitive& b,
     double enough = std::numeric_limits<double>::infinity());

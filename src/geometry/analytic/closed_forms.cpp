@@ -240,7 +240,10 @@ std::optional<AnalyticSeparation> closed_form(const PlacedPrimitive& a, const Pl
   // The sine of a tilt this small is the angle, and the chord, but for a part in 10^4.
   const double turned = 1.001 * tilt * size_of(*y);
   if (!(tilt < 0.01) || !(turned < kMaxMoved)) return std::nullopt;
-  s->error = x->error + y->error + turned + 64 * std::numeric_limits<double>::epsilon() * reach;
+  const double error =
+      x->error + y->error + turned + 64 * std::numeric_limits<double>::epsilon() * reach;
+  s->lower = s->d - error;
+  s->upper = s->d + error;
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/analytic/bracket.hpp"
 #include "geometry/analytic/convex_depth.hpp"
 #include "geometry/analytic/convex_gap.hpp"
 #include "geometry/analytic/inside.hpp"
@@ -13,25 +14,6 @@ namespace strake::geometry::analytic {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-AnalyticSeparation between(double lower, double upper, const Vec3d& point) {
-  AnalyticSeparation s;
-  s.d = (lower + upper) / 2;
-  s.error = (upper - lower) / 2;
-  s.point = point;
-  s.a_inside_b = s.b_inside_a = -s.d;
-  s.difference = kNever;
-  return s;
-}
-
-/// Two that are not known to meet.
-AnalyticSeparation apart(const ConvexGap& gap, double lower, double upper) {
-  AnalyticSeparation s = between(lower, upper, (gap.on_a + gap.on_b) * 0.5);
-  const Vec3d way = gap.on_a - gap.on_b;
-  const double length = norm(way);
-  s.away = length > gap.upper / 2 ? way * (1 / length) : gap.normal;
-  return s;
-}
 
 /// Grid units: two that overlap by no more along some direction, and are no farther apart, touch as
 /// far as this can tell.
@@ -54,7 +36,8 @@ class Meeting {
   [[nodiscard]] AnalyticSeparation separation(ConvexGap gap) const {
     look_along_faces(gap, field_a_, 1);
     look_along_faces(gap, field_b_, -1);
-    if (gap.lower >= -kTouch && gap.upper <= kTouch) return apart(gap, gap.lower, gap.upper);
+    if (gap.lower >= -kTouch && gap.upper <= kTouch)
+      return not_overlapping(gap, gap.lower, gap.upper);
     DeepestPoint depth;
     bool deep_in_a = true;
     depth.upper = -kNever;
@@ -88,8 +71,8 @@ class Meeting {
   [[nodiscard]] AnalyticSeparation summary(const ConvexGap& gap, const DeepestPoint& depth,
                                            bool deep_in_a) const {
     const double lower = std::max(-depth.upper, gap.lower);
-    if (!(depth.lower > 0)) return apart(gap, lower, std::max(gap.upper, -depth.upper));
-    AnalyticSeparation s = between(lower, -depth.lower, depth.point);
+    if (!(depth.lower > 0)) return not_overlapping(gap, lower, std::max(gap.upper, -depth.upper));
+    AnalyticSeparation s = overlapping(depth, lower, kDepthTolerance);
     s.deep_in_a = deep_in_a;
     const Vec3d out = (deep_in_a ? field_a_ : field_b_)->nearest(depth.point).normal;
     s.away = deep_in_a ? -out : out;
@@ -111,7 +94,7 @@ std::optional<AnalyticSeparation> convex_separation(const PlacedPrimitive& a,
   const ConvexGap gap = convex_gap(*x, *y, enough);
   AnalyticSeparation s;
   if (gap.lower > 0) {
-    s = apart(gap, gap.lower, gap.lower >= enough ? gap.lower : gap.upper);
+    s = not_overlapping(gap, gap.lower, gap.lower >= enough ? gap.lower : gap.upper);
   } else {
     const Meeting meeting(a, *x, b, *y, *origin);
     if (!meeting.measurable()) return std::nullopt;

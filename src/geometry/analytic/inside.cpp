@@ -28,6 +28,28 @@ double descend(const ConvexBody& inner, const ConvexBody& outer, const InnerFiel
   return least;
 }
 
+/// A torus is not convex: a body may have its ends in it and its middle in the hole. So beside its
+/// extremes its place nearest to the axis is looked at, and those half way through it.
+double inside_ring(const PairSide& inner, const ConvexBody& hull, const Torus& ring) {
+  const auto depth = [&](const Vec3d& p) { return ring.depth(inner.real(p)); };
+  double least = depth(convex_gap(ring.axis(), hull).on_b);
+  for (int x = -2; x <= 2; ++x)
+    for (int y = -2; y <= 2; ++y)
+      for (int z = -2; z <= 2; ++z) {
+        Vec3d n = ring.turned({x * 1.0, y * 1.0, z * 1.0});
+        const Vec3d middle = (support(hull.shape, n) + support(hull.shape, -n)) * 0.5;
+        least = std::min(least, depth(middle));
+        for (int step = 0; step < kMaxDescents; ++step) {
+          const Vec3d at = inner.real(support(hull.shape, n));
+          const double next = ring.depth(at);
+          if (step > 0 && !(next < least)) break;
+          least = std::min(least, next);
+          n = ring.way_out(at);
+        }
+      }
+  return least;
+}
+
 }  // namespace
 
 double inside_by(const ConvexBody& inner, const ConvexBody& outer, const InnerField& field) {
@@ -55,12 +77,7 @@ double inside_by(const PairSide& inner, const PairSide& outer) {
       continue;
     }
     if (!outer.torus) return -std::numeric_limits<double>::infinity();
-    for (int x = -2; x <= 2; ++x)
-      for (int y = -2; y <= 2; ++y)
-        for (int z = -2; z <= 2; ++z) {
-          const Vec3d n = outer.torus->turned({x * 1.0, y * 1.0, z * 1.0});
-          least = std::min(least, outer.torus->depth(inner.real(support(hull.shape, n))));
-        }
+    least = std::min(least, inside_ring(inner, hull, *outer.torus));
   }
   return least;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/analytic/convex_gap.hpp"
 #include "geometry/analytic/inner_field.hpp"
 #include "geometry/analytic/torus.hpp"
 
@@ -40,6 +41,10 @@ struct PairSide {
   [[nodiscard]] ConvexBody hull(const Arc& arc) const { return torus ? torus->hull(arc) : *convex; }
   /// A point of a hull taken into the body.
   [[nodiscard]] Vec3d real(const Vec3d& p) const { return torus ? torus->nearest(p) : p; }
+  /// Of the body's points the nearest one, as Torus::nearest() and convex_gap() tell it.
+  [[nodiscard]] Vec3d nearest(const Vec3d& p) const {
+    return torus ? torus->nearest(p) : convex_gap(point_body(p), *convex).on_b;
+  }
   [[nodiscard]] double error() const { return torus ? torus->error() : convex->error; }
   [[nodiscard]] bool flat() const { return torus ? torus->flat() : convex->flat; }
   /// How far the hull of an arc may stand off the body, at most: what splitting it lessens.

@@ -133,6 +133,18 @@ ConvexBody Torus::spine(const Arc& arc) const {
   return body;
 }
 
+ConvexBody Torus::axis() const {
+  ConvexBody body;
+  const Vec3d half = axes_[2] * radius_;
+  body.shape = Prismoid{{centre_ - half, {}, {}}, {centre_ + half, {}, {}}};
+  body.middle = centre_;
+  body.radius = radius_;
+  body.reach = reach_;
+  body.error = kSupportRounding * reach_;
+  body.flat = true;
+  return body;
+}
+
 Vec3d Torus::local(const Vec3d& p) const {
   const Vec3d v = p - centre_;
   return {dot(v, axes_[0]), dot(v, axes_[1]), dot(v, axes_[2])};

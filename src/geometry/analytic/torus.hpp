@@ -35,6 +35,8 @@ class Torus {
   /// The convex hull of what is swept through an arc, and of the tube's centre line there.
   [[nodiscard]] ConvexBody hull(const Arc& arc) const;
   [[nodiscard]] ConvexBody spine(const Arc& arc) const;
+  /// The axis, as far as the torus reaches.
+  [[nodiscard]] ConvexBody axis() const;
 
   /// A point of the body, the nearest one up to rounding for points that are not far beyond both
   /// ends of the sweep.

@@ -2,8 +2,8 @@
 #include "geometry/analytic/torus_pair.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "geometry/analytic/bracket.hpp"
 #include "geometry/analytic/depth_search.hpp"
 #include "geometry/analytic/inside.hpp"
 #include "geometry/analytic/pair_side.hpp"
@@ -13,31 +13,28 @@
 namespace strake::geometry::analytic {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-AnalyticSeparation bracket(double lower, double upper) {
-  AnalyticSeparation s;
-  s.d = (lower + upper) / 2;
-  s.error = (upper - lower) / 2;
-  s.a_inside_b = s.b_inside_a = -s.d;
-  s.difference = kNever;
-  return s;
+/// Nearest points to and fro: each step can only bring the two nearer, and of two that touch it
+/// takes them onto the skins.
+void draw_together(const PairSide& a, const PairSide& b, ConvexGap& gap) {
+  constexpr int kMaxSteps = 8;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Vec3d p = a.nearest(gap.on_b), q = b.nearest(p);
+    const double apart = norm(p - q) + a.error() + b.error();
+    if (!(apart < gap.upper)) return;
+    gap.upper = apart;
+    gap.on_a = p;
+    gap.on_b = q;
+  }
 }
 
-AnalyticSeparation apart(const ConvexGap& gap, double lower, double upper) {
-  AnalyticSeparation s = bracket(lower, upper);
-  s.point = (gap.on_a + gap.on_b) * 0.5;
-  const Vec3d way = gap.on_a - gap.on_b;
-  const double length = norm(way);
-  s.away = length > gap.upper / 2 ? way * (1 / length) : gap.normal;
-  return s;
-}
-
-AnalyticSeparation meeting(const PairSide& a, const PairSide& b, const ConvexGap& gap) {
+AnalyticSeparation meeting(const PairSide& a, const PairSide& b, ConvexGap gap) {
   DepthSearch search(a, b);
   const DeepestPoint depth = search.run();
-  if (!(depth.lower > 0)) return apart(gap, -depth.upper, std::max(gap.upper, -depth.upper));
-  AnalyticSeparation s = bracket(-depth.upper, -depth.lower);
-  s.point = depth.point;
+  if (!(depth.lower > 0)) {
+    draw_together(a, b, gap);
+    return not_overlapping(gap, -depth.upper, gap.upper);
+  }
+  AnalyticSeparation s = overlapping(depth, -depth.upper, kTorusDepth);
   s.deep_in_a = search.deep_in_a();
   const PairSide& in = s.deep_in_a ? a : b;
   const Vec3d out =
@@ -60,7 +57,8 @@ std::optional<AnalyticSeparation> torus_separation(const PlacedPrimitive& a,
   GapSearch search(x, y, enough);
   const ConvexGap gap = search.run();
   if (gap.lower > 0) {
-    AnalyticSeparation s = apart(gap, gap.lower, gap.lower >= enough ? gap.lower : gap.upper);
+    AnalyticSeparation s =
+        not_overlapping(gap, gap.lower, gap.lower >= enough ? gap.lower : gap.upper);
     s.sheet_a = x.flat();
     s.sheet_b = y.flat();
     return s;
@@ -68,7 +66,7 @@ std::optional<AnalyticSeparation> torus_separation(const PlacedPrimitive& a,
   if (x.flat() || y.flat() || (x.convex && !x.field) || (y.convex && !y.field)) return std::nullopt;
   if (gap.upper <= kTouch) {
     const double touch = search.touch_bound();
-    if (touch >= -kTouch) return apart(gap, std::min(touch, gap.upper), gap.upper);
+    if (touch >= -kTouch) return not_overlapping(gap, std::min(touch, gap.upper), gap.upper);
   }
   return meeting(x, y, gap);
 }

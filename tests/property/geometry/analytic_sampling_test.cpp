@@ -97,13 +97,13 @@ Sampled sample(const Body& a, const Body& b, std::mt19937_64& random) {
 }
 
 void check_apart(const Body& a, const Body& b, const AnalyticSeparation& s, const Sampled& found) {
-  const double lower = (s.d - s.error) * kMmPerGrid, upper = (s.d + s.error) * kMmPerGrid;
+  const double lower = s.lower * kMmPerGrid, upper = s.upper * kMmPerGrid;
   EXPECT_GE(found.nearest, lower - kSlack);
   EXPECT_EQ(found.deepest, 0) << "a point lies in both";
   // The witnesses lie on the two skins, so that the bracket's upper end is reached.
   const Vec3d middle = a.at.translation + s.point * kMmPerGrid;
   const Vec3d half = s.away * (s.d * kMmPerGrid / 2);
-  const double off = s.error * kMmPerGrid + 1e-3;
+  const double off = s.error() * kMmPerGrid + 1e-3;
   EXPECT_NEAR(a.depth(middle + half), 0, off);
   EXPECT_NEAR(b.depth(middle - half), 0, off);
   EXPECT_LE(found.nearest - upper, 0.5 * kSize) << "the samples cover the skins";
@@ -111,7 +111,7 @@ void check_apart(const Body& a, const Body& b, const AnalyticSeparation& s, cons
 
 void check_meeting(const Body& a, const Body& b, const AnalyticSeparation& s,
                    const Sampled& found) {
-  const double least = (-s.d - s.error) * kMmPerGrid, most = (-s.d + s.error) * kMmPerGrid;
+  const double least = -s.upper * kMmPerGrid, most = -s.lower * kMmPerGrid;
   EXPECT_LE(found.deepest, most + kSlack);
   // The deepest point lies in both and is as deep as it is said to be.
   const Vec3d point = a.at.translation + s.point * kMmPerGrid;
@@ -137,10 +137,10 @@ TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
     ++of_kinds[kind_a * kKinds + kind_b];
     std::mt19937_64 random(seed);
     const Sampled found = sample(a, b, random);
-    if (s->d > s->error) {
+    if (s->lower > 0) {
       ++apart;
       check_apart(a, b, *s, found);
-    } else if (s->d < -s->error) {
+    } else if (s->upper < 0) {
       ++meeting;
       if (found.deepest > 0.5 * -s->d * kMmPerGrid) ++sampled_deep;
       check_meeting(a, b, *s, found);

@@ -222,7 +222,7 @@ TEST_P(ThinPair, LinesAndRectanglesAsSheetsThatTheSolverKnows) {
     ASSERT_EQ(s.has_value(), truth.has_value());
     if (!s) continue;
     // Halves of lengths may fall between grid points.
-    expect_within(*s, truth->d - truth->error, truth->d + truth->error, 2);
+    expect_within(*s, truth->lower, truth->upper, 2);
     if (HasFatalFailure()) return;
   }
 }

@@ -139,13 +139,13 @@ TEST(AnalyticPair, RoundingOfMatricesIsPartOfTheError) {
   const Placement p{rough, {}}, q{kTurn, kTurn * Vec3d{215, 0, 4000}}, r{rough, {350, 0, 0}};
   const auto pipes = analytic_separation({&pipe, &p}, {&pipe, &q});
   ASSERT_TRUE(pipes);
-  EXPECT_NEAR(pipes->d, 15'000, pipes->error + 2);
-  EXPECT_GT(pipes->error, 0);
-  EXPECT_LT(pipes->error, 4);
+  EXPECT_NEAR(pipes->d, 15'000, pipes->error() + 2);
+  EXPECT_GT(pipes->error(), 0);
+  EXPECT_LT(pipes->error(), 4);
   const auto balls = analytic_separation({&ball, &p}, {&ball, &r});
   ASSERT_TRUE(balls);
-  EXPECT_NEAR(balls->d, 150'000, balls->error);
-  EXPECT_LT(balls->error, 0.1);
+  EXPECT_NEAR(balls->d, 150'000, balls->error());
+  EXPECT_LT(balls->error(), 0.1);
 }
 
 TEST(AnalyticPair, ScalesThatLeaveTheKindAsItIs) {

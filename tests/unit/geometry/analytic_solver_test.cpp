@@ -27,13 +27,13 @@ AnalyticSeparation of(const Primitive& a, const Primitive& b, const Placement& b
   const auto swapped = solved_separation({&b, &placed}, {&a, &frame});
   EXPECT_TRUE(s && swapped);
   if (!s || !swapped) return {};
-  EXPECT_NEAR(s->d, swapped->d, s->error + swapped->error);
+  EXPECT_NEAR(s->d, swapped->d, s->error() + swapped->error());
   return *s;
 }
 
 void expect_d(const AnalyticSeparation& s, double mm, const std::string& what, double width = 0.5) {
-  EXPECT_NEAR(s.d, mm * kPerMm, s.error + 2) << what;
-  EXPECT_LE(s.error, width) << what;
+  EXPECT_NEAR(s.d, mm * kPerMm, s.error() + 2) << what;
+  EXPECT_LE((s.upper - s.lower) / 2, width) << what;
 }
 
 const Mat3d kUpsideDown{{Vec3d{1, 0, 0}, Vec3d{0, -1, 0}, Vec3d{0, 0, -1}}};
