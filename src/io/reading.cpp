@@ -2,9 +2,23 @@
 #include "io/reading.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace strake::io {
+
+namespace {
+
+/// The folders from the root to a file, a '/' behind each.
+std::string folders_of(const std::filesystem::path& path) {
+  std::error_code failed;
+  const std::filesystem::path whole = std::filesystem::absolute(path, failed).lexically_normal();
+  const std::string folders = whole.parent_path().relative_path().generic_string();
+  return failed || folders.empty() ? std::string() : folders + '/';
+}
+
+}  // namespace
 
 model::Model start_model(const FileBytes& file, std::string format, const ReadOptions& options,
                          const FrameDefault& fallback) {
@@ -14,6 +28,7 @@ model::Model start_model(const FileBytes& file, std::string format, const ReadOp
   source.unit = unit_text(options, fallback);
   source.up_axis = up_axis_text(options.up_axis.value_or(fallback.up));
   source.bytes = file.bytes.size();
+  source.folders = folders_of(file.path);
   model::Model model;
   model.files.push_back(std::move(source));
   return model;

@@ -8,10 +8,10 @@
 #include <numeric>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <unordered_set>
 #include <utility>
 
+#include "model/file_order.hpp"
 #include "model/text_order.hpp"
 
 namespace strake::model {
@@ -23,42 +23,6 @@ Order identity(std::size_t count) {
   Order order(count);
   std::iota(order.begin(), order.end(), 0U);
   return order;
-}
-
-/// Sorts the files and gives those of equal label a suffix; returns the new index of each old one.
-Order order_files(Model& model) {
-  Order order = identity(model.files.size());
-  const auto key = [&](std::uint32_t i) {
-    const SourceFile& f = model.files[i];
-    return std::tie(f.label, f.format, f.bytes, f.unit, f.up_axis);
-  };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const auto p = key(a), q = key(b);
-    return p != q ? p < q : a < b;
-  });
-  std::unordered_set<std::string> taken;
-  for (const SourceFile& f : model.files) taken.insert(f.label);
-  std::vector<SourceFile> files;
-  Order renumbered(order.size());
-  std::string previous;
-  std::uint32_t repeat = 1;
-  for (const std::uint32_t old : order) {
-    renumbered[old] = static_cast<std::uint32_t>(files.size());
-    SourceFile file = std::move(model.files[old]);
-    if (!files.empty() && file.label == previous) {
-      std::string label;
-      do label = fmt::format("{}#{}", previous, ++repeat);
-      while (taken.contains(label));
-      taken.insert(label);
-      file.label = std::move(label);
-    } else {
-      previous = file.label;
-      repeat = 1;
-    }
-    files.push_back(std::move(file));
-  }
-  model.files = std::move(files);
-  return renumbered;
 }
 
 /// Puts the indices of all objects in the order of (file, id), equal ones as the source has them.

@@ -79,7 +79,8 @@ struct Object {
 
 /// Where a part of the model came from.
 struct SourceFile {
-  std::string label;    ///< what results call it: the file name without folders, made unique
+  /// What results call it: the file name, with as many folders as tell it from its namesakes.
+  std::string label;
   std::string format;   ///< "RVM 2", "GLB", "OBJ", "STL binary" …
   std::string unit;     ///< the length unit applied, "mm" …, and whether stated, assumed or given
   std::string up_axis;  ///< "z", "y", …
@@ -87,6 +88,8 @@ struct SourceFile {
   /// Half the spacing of the source's numbers at its largest world coordinate, in mm: what the
   /// contact distance of its geometry is derived from.
   double precision_mm = 0;
+  std::string folders =
+      {};  ///< it lies in, the outermost first, a '/' behind each; empty: not known
 };
 
 /// Objects read from one or several files, as the sources describe them (doubles, not yet on the

@@ -69,6 +69,35 @@ class ClashDiff(Scenario):
                 lines.append(line)
         self.write(name, '\n'.join(lines) + '\n')
 
+    def write_box(self, name, boxes):
+        """OBJ boxes of (object, low corner, high corner)."""
+        lines = []
+        for n, (object, low, high) in enumerate(boxes):
+            lines.append(f'o {object}')
+            lines += [f'v {x} {y} {z}' for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])]
+            faces = ('1 3 4 2', '5 6 8 7', '1 2 6 5', '3 7 8 4', '1 5 7 3', '2 4 8 6')
+            lines += ['f ' + ' '.join(str(int(v) + 8 * n) for v in face.split()) for face in faces]
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text('\n'.join(lines) + '\n')
+
+    def test_files_of_one_name_are_told_apart_by_their_folders(self):
+        """Neither the size of a file nor the order on the command line says which is which."""
+        self.write_box('hull/model.obj', [('P', (0, 0, 0), (100, 100, 100))])
+        self.write_box('outfit/model.obj', [('Q', (50, 0, 0), (150, 100, 100))])
+        files = ['hull/model.obj', 'outfit/model.obj']
+        self.assertEqual(self.run_strake('clash', *files, '-o', 'old.json').returncode, 0)
+        old = json.loads((self.folder / 'old.json').read_text())
+        self.assertEqual([f['label'] for f in old['files']], files)
+        for longer in files:
+            with open(self.folder / longer, 'a') as file:
+                file.write('# ' + 'x' * 900 + '\n')
+            for order in (files, files[::-1]):
+                self.assertEqual(self.run_strake('clash', *order, '-o', 'new.json').returncode, 0)
+                self.assertEqual(self.diff()['counts'],
+                                 {'new': 0, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 0})
+                self.assertEqual(json.loads((self.folder / 'new.json').read_text())['hash'], old['hash'])
+
     def test_what_cannot_be_compared_is_named(self):
         self.two_files()
         self.run_strake('clash', 'a.obj', '-o', 'good.json')

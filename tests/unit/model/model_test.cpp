@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
 namespace strake::model {
 namespace {
 
@@ -100,6 +105,42 @@ TEST(Model, EqualFileLabelsGainNumbers) {
   append(m, one_file("a.obj", {"x"}));
   finish(m);
   EXPECT_EQ(keys(m), (std::vector<std::string>{"a.obj:x", "a.obj#2:x"}));
+}
+
+/// The labels and what lies in each file, for files given as (folders, label, id of an object).
+std::vector<std::string> keys_of_files(
+    const std::vector<std::tuple<std::string, std::string, std::string>>& files) {
+  Model m;
+  for (const auto& [folders, label, id] : files) {
+    Model one = one_file(label, {id});
+    one.files[0].folders = folders;
+    one.files[0].bytes = 1000 - m.files.size();
+    append(m, std::move(one));
+  }
+  finish(m);
+  return keys(m);
+}
+
+TEST(Model, NamesakesGainTheFoldersThatTellThemApart) {
+  const std::vector<std::string> two{"hull/m.obj:h", "outfit/m.obj:o"};
+  EXPECT_EQ(keys_of_files({{"p/hull/", "m.obj", "h"}, {"p/outfit/", "m.obj", "o"}}), two);
+  EXPECT_EQ(keys_of_files({{"p/outfit/", "m.obj", "o"}, {"p/hull/", "m.obj", "h"}}), two);
+  // Each as few as it takes, whole names of folders, and none for a name of its own.
+  EXPECT_EQ(keys_of_files({{"x/hull/", "m.obj", "1"},
+                           {"y/hull/", "m.obj", "2"},
+                           {"y/xhull/", "m.obj", "3"},
+                           {"y/hull/", "n.obj", "4"},
+                           {"hull/", "m.obj", "5"}}),
+            (std::vector<std::string>{"hull/m.obj:5", "n.obj:4", "x/hull/m.obj:1", "xhull/m.obj:3",
+                                      "y/hull/m.obj:2"}));
+  EXPECT_EQ(keys_of_files({{"", "m.obj", "1"}, {"a/", "m.obj", "2"}}),
+            (std::vector<std::string>{"a/m.obj:2", "m.obj:1"}));
+}
+
+TEST(Model, NamesakesOfOneFolderAreNumberedByWhatTheyHold) {
+  const std::vector<std::string> two{"m.obj:a", "m.obj#2:b"};
+  EXPECT_EQ(keys_of_files({{"p/", "m.obj", "b"}, {"p/", "m.obj", "a"}}), two);
+  EXPECT_EQ(keys_of_files({{"p/", "m.obj", "a"}, {"p/", "m.obj", "b"}}), two);
 }
 
 TEST(Model, PathSurvivesACircleOfGroups) {
