@@ -5,10 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "geometry/axis_rays.hpp"
 #include "geometry/pair_view.hpp"
-#include "geometry/part_edges.hpp"
 #include "geometry/plane_sides.hpp"
 #include "geometry/sectors.hpp"
+#include "geometry/sheet_curve.hpp"
 #include "strake/geometry/part_pair.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
@@ -60,19 +61,6 @@ std::uint32_t shell_of(const Part& part, std::uint32_t triangle) {
   return part.shells.empty() ? 0 : part.shells[triangle];
 }
 
-/// The triangles round the edge between two vertices.
-std::span<const std::uint32_t> star(const Part& part, std::uint32_t u, std::uint32_t v) {
-  const std::uint32_t edge = edge_between(part, u, v);
-  return edge == kNoFace ? std::span<const std::uint32_t>{} : triangles_round(part, edge);
-}
-
-/// Whether two parallel directions point the same way.
-bool same_way(const Vec3l& d, const Vec3l& e) {
-  for (int k = 0; k < 3; ++k)
-    if (d[k] != 0) return (d[k] > 0) == (e[k] > 0);
-  return true;
-}
-
 class Meeter {
  public:
   Meeter(const TreedPart& a, const TreedPart& b, PairWork& work)
@@ -104,9 +92,6 @@ class Meeter {
   void judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
   void judge_crossing(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
   void judge_coplanar(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
-  void start_axis(const PartView& view, std::uint32_t triangle, int edge);
-  void add_star(const PartView& view, std::uint32_t triangle, int edge, bool of_b);
-  void add_face(const PartView& view, std::uint32_t triangle, bool of_b);
   void edge_in_face_of_b(std::uint32_t ta, int edge, std::uint32_t tb);
   void edge_in_face_of_a(std::uint32_t ta, std::uint32_t tb, int edge);
   void edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t tb, int edge_b);
@@ -123,6 +108,7 @@ class Meeter {
   MeetingResult result_;
   LoadedLeaf leaf_;
   int separation_tries_ = 0, parting_tries_ = 0;
+  bool flush_ = false;            ///< some triangles lie on each other
   bool separated_ = false;        ///< a plane decided: neither part has a point inside the other
   ShellSet linear_a_, linear_b_;  ///< shells with contact along a segment or an area
   Sectors sectors_;
@@ -283,6 +269,7 @@ void Meeter::judge_crossing(std::uint32_t ta, std::uint32_t tb, const TriangleCo
 }
 
 void Meeter::judge_coplanar(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
+  flush_ |= c.touch == Touch::area;
   if (c.touch == Touch::area && a_.solid() && b_.solid()) {
     overlap_.interiors |= c.same_normal;
     overlap_.a_leaves_b |= !c.same_normal;
@@ -296,64 +283,24 @@ void Meeter::judge_coplanar(std::uint32_t ta, std::uint32_t tb, const TriangleCo
   }
 }
 
-void Meeter::start_axis(const PartView& view, std::uint32_t triangle, int edge) {
-  const Triangle& t = view.part().triangles[triangle];
-  sectors_.start(view.vertex(t[at(edge)]), view.vertex(t[at(next(edge))]));
-}
-
-/// The half-planes of the triangles round an edge that lies on the axis.
-void Meeter::add_star(const PartView& view, std::uint32_t triangle, int edge, bool of_b) {
-  const Part& part = view.part();
-  const Triangle& t = part.triangles[triangle];
-  std::uint32_t u = t[at(edge)], v = t[at(next(edge))];
-  if (!same_way(sectors_.to() - sectors_.from(), view.vertex(v) - view.vertex(u))) std::swap(u, v);
-  for (const std::uint32_t other : star(part, u, v)) {
-    const Triangle& o = part.triangles[other];
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t p = o[at(i)], q = o[at(next(i))];
-      if (!((p == u && q == v) || (p == v && q == u))) continue;
-      // A triangle that runs along the axis has its outside counter-clockwise of it.
-      sectors_.add({view.vertex(o[at(next(next(i)))]), p == u ? -1 : 1, of_b});
-    }
-  }
-}
-
-/// The two half-planes of a triangle through whose interior the axis runs.
-void Meeter::add_face(const PartView& view, std::uint32_t triangle, bool of_b) {
-  const std::array<Vec3l, 3> t = view.corners(triangle);
-  for (int axis = 0; axis < 3; ++axis) {
-    const int facing = orient2d(t[0], t[1], t[2], axis);
-    if (facing == 0) continue;
-    bool left = false, right = false;
-    for (const Vec3l& corner : t) {
-      const int turn = orient2d(sectors_.from(), sectors_.to(), corner, axis);
-      bool& done = turn > 0 ? left : right;
-      if (turn == 0 || done) continue;
-      done = true;
-      sectors_.add({corner, turn == facing ? -1 : 1, of_b});
-    }
-    return;
-  }
-}
-
 void Meeter::edge_in_face_of_b(std::uint32_t ta, int edge, std::uint32_t tb) {
-  start_axis(a_, ta, edge);
-  add_star(a_, ta, edge, false);
-  add_face(b_, tb, true);
+  start_axis(sectors_, a_, ta, edge);
+  add_star(sectors_, a_, ta, edge, false);
+  add_face(sectors_, b_, tb, true);
   sectors_.judge(a_.solid(), b_.solid(), overlap_);
 }
 
 void Meeter::edge_in_face_of_a(std::uint32_t ta, std::uint32_t tb, int edge) {
-  start_axis(b_, tb, edge);
-  add_face(a_, ta, false);
-  add_star(b_, tb, edge, true);
+  start_axis(sectors_, b_, tb, edge);
+  add_face(sectors_, a_, ta, false);
+  add_star(sectors_, b_, tb, edge, true);
   sectors_.judge(a_.solid(), b_.solid(), overlap_);
 }
 
 void Meeter::edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t tb, int edge_b) {
-  start_axis(a_, ta, edge_a);
-  add_star(a_, ta, edge_a, false);
-  add_star(b_, tb, edge_b, true);
+  start_axis(sectors_, a_, ta, edge_a);
+  add_star(sectors_, a_, ta, edge_a, false);
+  add_star(sectors_, b_, tb, edge_b, true);
   sectors_.judge(a_.solid(), b_.solid(), overlap_);
 }
 
@@ -438,6 +385,9 @@ MeetingResult Meeter::run() {
       boxes_meet(a_, a_.tree().nodes().front().box, b_, b_.tree().nodes().front().box);
   if (!near) return result_;
   if (walk() == State::go_on) {
+    // Where they lie on each other, one may go on to the other side elsewhere.
+    if (flush_ && !overlap_.interiors && !a_.solid() && !b_.solid())
+      overlap_.interiors = !crossing_curve(treed_a_, treed_b_, 1, work_).segments.empty();
     if (!overlap_.complete()) probe_shells(false);
     if (!overlap_.complete()) probe_shells(true);
   }

@@ -47,9 +47,11 @@ void Sectors::sort() {
 void Sectors::gather() {
   directions_.clear();
   int a = 0, b = 0;
-  for (const Sorted& s : sorted_) {
-    if (s.opens) directions_.emplace_back();
+  for (std::size_t i = 0; i < sorted_.size(); ++i) {
+    const Sorted& s = sorted_[i];
+    if (s.opens) directions_.push_back({.first = i});
     Direction& d = directions_.back();
+    d.end = i + 1;
     (s.ray.of_b ? d.has_b : d.has_a) = true;
     (s.ray.of_b ? b : a) += s.ray.step;
     d.after_a = a;
@@ -82,6 +84,41 @@ void Sectors::judge_sheets(Overlap& overlap) const {
   }
   if (previous != nullptr && previous->has_a != first->has_a) ++changes;
   if (changes >= 4) overlap.interiors = true;
+}
+
+/// Whether one sheet has a half-plane of its own between direction `from` and the next of the
+/// other, going on by `step`; -1 where the other has no next one: there it ends.
+int Sectors::other_leaves(std::size_t from, std::size_t step, bool b_leaves) const {
+  const std::size_t count = directions_.size();
+  bool leaves = false;
+  for (std::size_t i = (from + step) % count; i != from; i = (i + step) % count) {
+    const Direction& d = directions_[i];
+    if (b_leaves ? d.has_a : d.has_b) return leaves ? 1 : 0;
+    leaves = true;
+  }
+  return -1;
+}
+
+int Sectors::find_flush(std::vector<Flush>& flush) const {
+  flush.clear();
+  int count = 0;
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const Direction& d = directions_[i];
+    if (!d.has_a || !d.has_b) continue;
+    // Where b goes on clockwise of a, a is counter-clockwise of b.
+    const std::size_t back = directions_.size() - 1;
+    const bool after = other_leaves(i, 1, false) == 1 || other_leaves(i, back, true) == 1;
+    const bool before = other_leaves(i, back, false) == 1 || other_leaves(i, 1, true) == 1;
+    for (std::size_t j = d.first; j < d.end; ++j)
+      for (std::size_t k = d.first; k < d.end; ++k) {
+        const Ray &a = sorted_[j].ray, &b = sorted_[k].ray;
+        if (a.of_b || !b.of_b) continue;
+        flush.push_back({a.triangle, b.triangle, count, b.step, b.step < 0 ? after : before,
+                         b.step < 0 ? before : after});
+      }
+    ++count;
+  }
+  return count;
 }
 
 void Sectors::judge(bool a_solid, bool b_solid, Overlap& overlap) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,17 @@ struct Ray {
   Vec3l point;
   int step = 0;
   bool of_b = false;
+  std::uint32_t triangle = 0;  ///< whose half-plane it is
+};
+
+/// Two triangles of two sheets that lie on each other beside the axis.
+struct Flush {
+  std::uint32_t a = 0, b = 0;
+  int direction = 0;  ///< a number for each direction in which there are such
+  int step = 0;       ///< that of b's half-plane
+  /// The sheets part at the axis, and a goes on along the outer side of b's triangle, or along the
+  /// inner one.
+  bool outer = false, inner = false;
 };
 
 /// What two parts' point sets have in common, gathered from places where their surfaces meet.
@@ -42,6 +54,10 @@ class Sectors {
   /// are compared by orientation signs only.
   void judge(bool a_solid, bool b_solid, Overlap& overlap);
 
+  /// After judge() of two sheets: those of their triangles that lie on each other, by direction;
+  /// `flush` is emptied before. Returns in how many directions that is.
+  int find_flush(std::vector<Flush>& flush) const;
+
  private:
   struct Sorted {
     Ray ray;
@@ -50,12 +66,14 @@ class Sectors {
   };
   struct Direction {
     bool has_a = false, has_b = false;
-    int after_a = 0, after_b = 0;  ///< winding numbers just past it
+    int after_a = 0, after_b = 0;    ///< winding numbers just past it
+    std::size_t first = 0, end = 0;  ///< of sorted_
   };
 
   void sort();
   void gather();
   void judge_sheets(Overlap& overlap) const;
+  [[nodiscard]] int other_leaves(std::size_t from, std::size_t step, bool b_leaves) const;
 
   Vec3l from_, to_;
   std::vector<Ray> rays_;

@@ -14,6 +14,7 @@
 #include "geometry/depth/depth_search.hpp"
 #include "geometry/depth/radius_lp.hpp"
 #include "geometry/depth/sheet_search.hpp"
+#include "geometry/sheet_curve.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
@@ -57,61 +58,32 @@ struct LessPromisingSegment {
   }
 };
 
-/// The part of segment p-q within a triangle's plane slab is a point: where it pierces the
-/// triangle, if it does.
-std::optional<Vec3d> pierce(const Vec3d& p, const Vec3d& q, const Corners& t) {
-  const Vec3d n = normal_of(t);
-  const double sp = dot(n, p - t[0]), sq = dot(n, q - t[0]);
-  if ((sp > 0) == (sq > 0) || sp == sq) return std::nullopt;
-  const Vec3d x = p + (q - p) * (sp / (sp - sq));
-  const double slack = -1e-9 * dot(n, n);
-  for (std::size_t i = 0; i < 3; ++i)
-    if (dot(cross(t[(i + 1) % 3] - t[i], x - t[i]), n) < slack) return std::nullopt;
-  return x;
-}
-
-std::optional<std::array<Vec3d, 2>> common_segment(const Corners& x, const Corners& y) {
-  std::array<Vec3d, 6> points;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (const auto p = pierce(x[i], x[(i + 1) % 3], y)) points[count++] = *p;
-    if (const auto p = pierce(y[i], y[(i + 1) % 3], x)) points[count++] = *p;
-  }
-  if (count == 0) return std::nullopt;
-  std::array<Vec3d, 2> best{points[0], points[0]};
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = i + 1; j < count; ++j)
-      if (length(points[j] - points[i]) > length(best[1] - best[0])) best = {points[i], points[j]};
-  return best;
-}
-
 class CurveSearch {
  public:
-  CurveSearch(const TreedPart& a, const TreedPart& b, const DepthGoal& goal)
+  CurveSearch(const TreedPart& a, const TreedPart& b, const DepthGoal& goal, PairWork& work)
       : a_(*a.placed.part),
         b_(*b.placed.part),
-        tree_a_(*a.tree),
-        tree_b_(*b.tree),
         goal_(goal),
+        crossing_(crossing_curve(a, b, kMaxSegments, work)),
         shift_((b.placed.origin - a.placed.origin).as<double>()),
         curve_a_(boundary_curve(a_)),
         curve_b_(boundary_curve(b_)) {}
 
   Depth run() {
-    gather();
+    for (const auto& segment : crossing_.segments) evaluate(segment);
     // Beyond the limit on segments nothing is known but the size of the smaller sheet.
     const double ceiling = std::min(size(a_), size(b_));
-    if (truncated_) depth_.upper = ceiling;
+    if (crossing_.truncated) depth_.upper = ceiling;
     while (!open_.empty()) {
       const Segment s = open_.top();
-      depth_.upper = std::max(truncated_ ? ceiling : s.upper, depth_.value);
+      depth_.upper = std::max(crossing_.truncated ? ceiling : s.upper, depth_.value);
       if (bracket_suffices(depth_, goal_) || depth_.cells >= limit()) return depth_;
       open_.pop();
       const Vec3d middle = (s.end[0] + s.end[1]) * 0.5;
       evaluate({s.end[0], middle});
       evaluate({middle, s.end[1]});
     }
-    if (!truncated_) depth_.upper = depth_.value + kSlack;
+    if (!crossing_.truncated) depth_.upper = depth_.value + kSlack;
     return depth_;
   }
 
@@ -120,48 +92,10 @@ class CurveSearch {
 
   [[nodiscard]] std::uint64_t limit() const {
     const bool decided = depth_.lower > goal_.threshold || depth_.upper <= goal_.threshold;
-    return found_ + (decided ? goal_.cells_decided : goal_.cells_undecided);
+    return crossing_.segments.size() + (decided ? goal_.cells_decided : goal_.cells_undecided);
   }
   static double size(const Part& p) {
     return length(p.box.hi.as<double>() - p.box.lo.as<double>());
-  }
-
-  void gather() {
-    std::vector<std::array<std::uint32_t, 2>> stack;
-    if (!tree_a_.nodes().empty() && !tree_b_.nodes().empty()) stack.push_back({0, 0});
-    while (!stack.empty() && !truncated_) {
-      const auto [i, j] = stack.back();
-      stack.pop_back();
-      const PartTree::Node &x = tree_a_.nodes()[i], &y = tree_b_.nodes()[j];
-      const Box3d bx = x.box.as<double>(), by = y.box.as<double>().moved(shift_);
-      if (!bx.meets(by)) continue;
-      if (x.count > 0 && y.count > 0) {
-        leaf_pair(x, y);
-      } else if (y.count > 0 || (x.count == 0 && length(bx.hi - bx.lo) >= length(by.hi - by.lo))) {
-        stack.push_back({x.first + 1, j});
-        stack.push_back({x.first, j});
-      } else {
-        stack.push_back({i, y.first + 1});
-        stack.push_back({i, y.first});
-      }
-    }
-  }
-
-  void leaf_pair(const PartTree::Node& x, const PartTree::Node& y) {
-    for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
-      const Corners s = corners_of(a_, tree_a_.order()[i]);
-      for (std::uint32_t j = y.first; j < y.first + y.count; ++j) {
-        Corners t = corners_of(b_, tree_b_.order()[j]);
-        for (Vec3d& v : t) v = v + shift_;
-        if (const auto segment = common_segment(s, t)) {
-          if (++found_ > kMaxSegments) {
-            truncated_ = true;
-            return;
-          }
-          evaluate(*segment);
-        }
-      }
-    }
   }
 
   [[nodiscard]] double depth_at(const Vec3d& p) const {
@@ -187,15 +121,13 @@ class CurveSearch {
   }
 
   const Part &a_, &b_;
-  const PartTree &tree_a_, &tree_b_;
   const DepthGoal& goal_;
+  CrossingCurve crossing_;
   Vec3d shift_;
   std::vector<std::array<Vec3d, 2>> curve_a_, curve_b_;
   std::priority_queue<Segment, std::vector<Segment>, LessPromisingSegment> open_;
   Depth depth_;
-  std::uint64_t found_ = 0;
   std::uint32_t next_id_ = 0;
-  bool truncated_ = false;
 };
 
 }  // namespace
@@ -222,7 +154,7 @@ Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid, const
 
 Depth sheet_crossing_depth(const TreedPart& a, const TreedPart& b, const DepthGoal& goal,
                            PairWork& work) {
-  Depth depth = CurveSearch(a, b, goal).run();
+  Depth depth = CurveSearch(a, b, goal, work).run();
   work.triangle_pairs += depth.cells;
   depth.upper = std::max(depth.upper, depth.value);
   return depth;

@@ -393,5 +393,47 @@ TEST(SheetDepth, SheetsThatCross) {
   EXPECT_LE(d.upper - d.lower, 700);
 }
 
+/// A strip drawn out along x from 0 to 100 mm over the points of a profile in y and z.
+IndexedMesh profile(const std::vector<Vec3i>& points) {
+  IndexedMesh mesh;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    mesh.append(testing::quad_mesh(points[i], {100'000, 0, 0}, points[i + 1] - points[i]));
+  return mesh;
+}
+
+Depth crossing_depth(const IndexedMesh& a, const IndexedMesh& b) {
+  const Subject x(a), y(b);
+  PairWork work;
+  DepthGoal goal;
+  goal.relative = 0;
+  return sheet_crossing_depth(x.treed(), y.treed(), goal, work);
+}
+
+TEST(SheetDepth, AFlangeInTheSheetsPlaneIsAsDeepAsOneBesideIt) {
+  const IndexedMesh floor =
+      testing::quad_mesh({-100'000, -100'000, 0}, {300'000, 0, 0}, {0, 300'000, 0});
+  for (const std::int32_t z : {-10, 0, 10}) {
+    const IndexedMesh web =
+        profile({{0, 0, z + 50'000}, {0, 0, z}, {0, 60'000, z}, {0, 60'000, z - 50'000}});
+    for (const Depth& d : {crossing_depth(web, floor), crossing_depth(floor, web)}) {
+      EXPECT_NEAR(d.value, 50'000, 18) << z;
+      EXPECT_LE(d.lower, 50'000);
+      EXPECT_GE(d.upper, 49'990);
+    }
+  }
+}
+
+TEST(SheetDepth, ATouchAlongAFoldDoesNotCount) {
+  IndexedMesh fold = profile({{0, -50'000, 50'000}, {0, 0, 0}, {0, 50'000, 50'000}});
+  const IndexedMesh floor =
+      testing::quad_mesh({-100'000, -100'000, 0}, {300'000, 0, 0}, {0, 300'000, 0});
+  // A tip that hangs from one rim and goes 0.3 mm through the floor.
+  fold.append(
+      {{{0, -50'000, 50'000}, {100'000, -50'000, 50'000}, {50'000, -60'000, -300}}, {{0, 1, 2}}});
+  const Depth d = crossing_depth(fold, floor);
+  EXPECT_GT(d.value, 100);
+  EXPECT_LT(d.upper, 310);
+}
+
 }  // namespace
 }  // namespace strake::geometry
