@@ -18,7 +18,8 @@ namespace strake::geometry {
 /// d = -D, with D the greatest distance to the solid's skin of a point that it has there. Where a
 /// line or polyline passes through a sheet from one side to the other, D is the distance of that
 /// place to the sheet's rim or to the line's own ends, whichever is smaller. All else that meets
-/// sheets, and thin bodies that meet each other, touch: d is 0.
+/// sheets, and thin bodies that meet each other, touch: d is 0. Where a work limit leaves the
+/// bracket wide, d is as deep as the points show.
 struct ThinSeparation {
   double d = 0, lower = 0, upper = std::numeric_limits<double>::infinity();
   /// Apart: the closest points, `upper` apart. In a solid, the deepest point found and the nearest

@@ -4,20 +4,18 @@
 #include <algorithm>
 
 namespace strake::geometry::analytic {
-namespace {
 
-AnalyticSeparation bracketed(double lower, double d, double upper) {
-  AnalyticSeparation s;
-  s.lower = lower;
-  s.d = d;
-  s.upper = upper;
-  return s;
+double shown(double lower, double upper, double tolerance) {
+  const double middle = (lower + upper) / 2;
+  if (!(upper < 0)) return std::max(middle, 0.0);
+  return upper - lower <= tolerance ? middle : upper;
 }
 
-}  // namespace
-
 AnalyticSeparation not_overlapping(const ConvexGap& gap, double lower, double upper) {
-  AnalyticSeparation s = bracketed(lower, std::max((lower + upper) / 2, 0.0), upper);
+  AnalyticSeparation s;
+  s.lower = lower;
+  s.upper = upper;
+  s.d = shown(lower, upper, 0);
   s.point = (gap.on_a + gap.on_b) * 0.5;
   const Vec3d way = gap.on_a - gap.on_b;
   const double length = norm(way);
@@ -26,9 +24,10 @@ AnalyticSeparation not_overlapping(const ConvexGap& gap, double lower, double up
 }
 
 AnalyticSeparation overlapping(const DeepestPoint& depth, double lower, double tolerance) {
-  const double upper = -depth.lower;
-  const bool closed = upper - lower <= tolerance;
-  AnalyticSeparation s = bracketed(lower, closed ? (lower + upper) / 2 : upper, upper);
+  AnalyticSeparation s;
+  s.lower = lower;
+  s.upper = -depth.lower;
+  s.d = shown(s.lower, s.upper, tolerance);
   s.point = depth.point;
   return s;
 }

@@ -7,13 +7,16 @@
 
 namespace strake::geometry::analytic {
 
-/// Two that are not known to overlap, by the points of `gap`: d is the middle of the certain
-/// bracket, but no depth, which nothing has shown.
+/// d in a certain bracket. Where no overlap is shown (upper >= 0), it is the middle, but no depth;
+/// otherwise the middle of a bracket as narrow as `tolerance`, and where the search could not close
+/// it the depth that its points show.
+[[nodiscard]] double shown(double lower, double upper, double tolerance);
+
+/// Two that are not known to overlap, by the points of `gap`.
 [[nodiscard]] AnalyticSeparation not_overlapping(const ConvexGap& gap, double lower, double upper);
 
-/// Two that overlap at `depth.point`, certainly no deeper than `-lower`: d is the middle of a
-/// bracket as narrow as `tolerance`, and what the point shows where the search could not close it.
-/// Which way is out is for the caller to say.
+/// Two that overlap at `depth.point`, certainly no deeper than `-lower`; d as shown(). Which way is
+/// out is for the caller to say.
 [[nodiscard]] AnalyticSeparation overlapping(const DeepestPoint& depth, double lower,
                                              double tolerance);
 

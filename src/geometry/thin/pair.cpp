@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/analytic/bracket.hpp"
 #include "geometry/analytic/depth_search.hpp"
 #include "geometry/analytic/inside.hpp"
 #include "geometry/analytic/torus_gap.hpp"
@@ -29,7 +30,7 @@ ThinSeparation apart(const LeastGap& gap, double lower, double enough) {
   ThinSeparation s;
   s.lower = lower;
   s.upper = gap.lower >= enough ? gap.lower : gap.upper;
-  s.d = (s.lower + s.upper) / 2;
+  s.d = analytic::shown(s.lower, s.upper, 0);
   s.on_thin = gap.on_a;
   s.on_other = gap.on_b;
   return s;
@@ -52,7 +53,7 @@ ThinSeparation meeting(const Deepest& deepest, const PairSide& primitive) {
   ThinSeparation s;
   s.lower = -deepest.upper;
   s.upper = -deepest.lower;
-  s.d = (s.lower + s.upper) / 2;
+  s.d = analytic::shown(s.lower, s.upper, analytic::kTorusDepth);
   s.inside = true;
   s.on_thin = deepest.point;
   const Vec3d out = primitive.torus ? primitive.torus->way_out(deepest.point)

@@ -32,6 +32,8 @@ constexpr std::size_t kSkinPoints = 200, kInnerPoints = 300;
 constexpr double kSize = 100;
 /// Rounding of the definitions and of the frames here, mm.
 constexpr double kSlack = 1e-5;
+/// How closely a body's extremes in a curved one are looked for, mm.
+constexpr double kInsideSlack = 0.01;
 
 struct Body {
   Primitive primitive;
@@ -66,6 +68,8 @@ Body draw_body(PrimitiveDraw& draw, std::uint64_t kind, double size, double reac
 struct Sampled {
   double nearest = 1e300;  ///< from skin to skin
   double deepest = 0;      ///< of points in both
+  /// The least depth of one's skin in the other: negative where it sticks out.
+  double a_in_b = 1e300, b_in_a = 1e300;
 };
 
 Sampled sample(const Body& a, const Body& b, std::mt19937_64& random) {
@@ -93,6 +97,8 @@ Sampled sample(const Body& a, const Body& b, std::mt19937_64& random) {
   }
   for (const auto& points : skin)
     for (const Vec3d& p : points) try_inside(p);
+  for (const Vec3d& p : skin[0]) s.a_in_b = std::min(s.a_in_b, b.depth(p));
+  for (const Vec3d& q : skin[1]) s.b_in_a = std::min(s.b_in_a, a.depth(q));
   return s;
 }
 
@@ -121,8 +127,18 @@ void check_meeting(const Body& a, const Body& b, const AnalyticSeparation& s,
   EXPECT_GE(s.deep_in_a ? in_a : in_b, least - kSlack);
 }
 
+/// Whoever is said to lie in the other does so with all of its skin.
+void check_inside(const AnalyticSeparation& s, const Sampled& found) {
+  if (s.a_inside_b > 0) {
+    EXPECT_GE(found.a_in_b, s.a_inside_b * kMmPerGrid - kInsideSlack);
+  }
+  if (s.b_inside_a > 0) {
+    EXPECT_GE(found.b_in_a, s.b_inside_a * kMmPerGrid - kInsideSlack);
+  }
+}
+
 TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
-  std::uint64_t answered = 0, apart = 0, meeting = 0, sampled_deep = 0;
+  std::uint64_t answered = 0, apart = 0, meeting = 0, sampled_deep = 0, held = 0;
   std::array<std::uint64_t, kKinds * kKinds> of_kinds{};
   for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
     PrimitiveDraw draw(seed);
@@ -137,6 +153,8 @@ TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
     ++of_kinds[kind_a * kKinds + kind_b];
     std::mt19937_64 random(seed);
     const Sampled found = sample(a, b, random);
+    check_inside(*s, found);
+    if (s->a_inside_b > 0 || s->b_inside_a > 0) ++held;
     if (s->lower > 0) {
       ++apart;
       check_apart(a, b, *s, found);
@@ -149,6 +167,7 @@ TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
   EXPECT_GT(answered, kPairs * 9 / 10);
   EXPECT_GT(apart, kPairs / 4);
   EXPECT_GT(meeting, kPairs / 4);
+  EXPECT_GT(held, kPairs / 200);
   EXPECT_GT(sampled_deep, meeting / 2) << "the samples reach where it is deep";
   for (const std::uint64_t count : of_kinds) EXPECT_GT(count, kPairs / (kKinds * kKinds) / 3);
 }

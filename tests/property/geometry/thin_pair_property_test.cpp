@@ -227,6 +227,23 @@ TEST_P(ThinPair, LinesAndRectanglesAsSheetsThatTheSolverKnows) {
   }
 }
 
+TEST_P(ThinPair, AHoopRoundARodIsAsDeepAsItsPointsShow) {
+  for (const double press : {0.0, 0.3, 5.0}) {
+    SCOPED_TRACE(press);
+    const double radius = 1500;
+    const Placement at{draw.turn(), on_grid(draw.point(500))};
+    const Primitive rod = CylinderPrimitive{radius + press, 4 * radius};
+    const auto s = thin_separation(*thin_arc({radius, 2 * M_PI, at}), {&rod, &at});
+    ASSERT_TRUE(s);
+    // A work limit ends the search, and points that hardly lie inside may be all that it found.
+    EXPECT_LE(s->lower, -press * kGridPerMm + 5);
+    EXPECT_GE(s->upper, -press * kGridPerMm - 5);
+    EXPECT_NEAR(s->d, -press * kGridPerMm, 30) << s->lower << ' ' << s->upper;
+    const Vec3d way = s->on_thin - s->on_other;
+    EXPECT_NEAR(std::sqrt(dot(way, way)), std::fabs(s->d), 30);
+  }
+}
+
 TEST_P(ThinPair, ThinBodiesAgainstEachOtherBySamples) {
   for (int round = 0; round < kRounds; ++round) {
     const double size = std::pow(10, draw.between(0.5, 4));
