@@ -109,6 +109,12 @@ Result<model::Scene> place_model(Session& session, const model::Model& model,
 
 }  // namespace
 
+Diagnostics Loaded::diagnostics() const {
+  Diagnostics all = model->diagnostics;
+  all.append(scene.diagnostics);
+  return all;
+}
+
 Result<Loaded> load(Session& session, const InputOptions& input,
                     const model::SceneOptions& options) {
   Result<model::Model> model = read_model(session, input);
@@ -122,8 +128,7 @@ Result<Loaded> load(Session& session, const InputOptions& input,
 }
 
 ExitCode outcome(const InputOptions& input, const Loaded& loaded) {
-  const bool partial = loaded.model->diagnostics.skipped() + loaded.scene.diagnostics.skipped() > 0;
-  return input.strict && partial ? ExitCode::partial : ExitCode::done;
+  return input.strict && loaded.diagnostics().skipped() > 0 ? ExitCode::partial : ExitCode::done;
 }
 
 }  // namespace strake::cli

@@ -31,6 +31,9 @@ void add_scene_options(CLI::App& command, SceneInput& options, const std::string
 struct Loaded {
   std::unique_ptr<const model::Model> model;  ///< what the scene refers to
   model::Scene scene;
+
+  /// What reading and placing noticed.
+  [[nodiscard]] Diagnostics diagnostics() const;
 };
 
 /// Reads the files of the command line, puts them on the grid, and tells what was noticed.

@@ -234,11 +234,12 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
       group(session, given.result, *findings, *loaded->model);
   if (!grouping) return grouping.error();
   std::optional<report::RulesSource> source;
+  const Diagnostics loading = loaded->diagnostics();
   if (request->rules) source = {request->rules->file(), request->rules->hash()};
   if (const Status status =
           write_report(session, given,
                        {*findings, *loaded->model, *grouping ? &**grouping : nullptr,
-                        source ? &*source : nullptr});
+                        source ? &*source : nullptr, &loading});
       !status)
     return status.error();
   for (const clash::Report& test : findings->tests)

@@ -110,11 +110,10 @@ class Engine {
     return {};
   }
 
-  /// The answers that can show in a report; tells of the pairs that were skipped.
+  /// The answers that can show in a report; tells of what was not compared.
   Result<std::vector<Found>> answers(Report& report) const {
     const Judged all = judged();
-    if (const Status s = note_too_large(all, *scene_.model, context_, report.diagnostics); !s)
-      return s.error();
+    if (const Status s = note_not_compared(all, scene_, context_, report); !s) return s.error();
     return parallel::collect<Found>(
         context_, {.name = "answers", .n = pairs_.size(), .grain = CaseWork::kBlock},
         [&](std::size_t i, std::vector<Found>& out) {

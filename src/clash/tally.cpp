@@ -2,6 +2,7 @@
 #include "clash/tally.hpp"
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "strake/parallel/collect.hpp"
@@ -32,19 +33,28 @@ Status count_work(const Judged& judged, const parallel::Context& context, Counte
 
 }  // namespace
 
-Status note_too_large(const Judged& judged, const model::Model& model,
-                      const parallel::Context& context, Diagnostics& diagnostics) {
-  const auto pairs = parallel::collect<std::size_t>(
+Status note_not_compared(const Judged& judged, const model::Scene& scene,
+                         const parallel::Context& context, Report& report) {
+  for (const model::Lacking& lacking : scene.lacking)
+    if (report.in_a[index(lacking.object)] || report.in_b[index(lacking.object)])
+      report.not_compared.push_back({lacking.object, {}, lacking.code});
+  const auto too_large = parallel::collect<std::size_t>(
       context, {.name = "pairs too large", .n = judged.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<std::size_t>& out) {
         if (judged.of(i).too_large) out.push_back(i);
       });
-  if (!pairs) return pairs.error();
-  for (const std::size_t i : *pairs)
-    diagnostics.add(
-        Severity::skipped, "pair-too-large",
-        "the pair spans more than a kilometre and was not compared",
-        model.objects[judged.a(i).object].id + " and " + model.objects[judged.b(i).object].id);
+  if (!too_large) return too_large.error();
+  constexpr std::string_view kCode = "pair-too-large";
+  for (const std::size_t i : *too_large) {
+    const model::ObjectId a{judged.a(i).object}, b{judged.b(i).object};
+    // All pairs of parts of two objects stand side by side.
+    const auto& last = report.not_compared;
+    if (!last.empty() && last.back().a == a && last.back().b == b) continue;
+    report.not_compared.push_back({a, b, kCode});
+    report.diagnostics.add(Severity::skipped, kCode,
+                           "the pair spans more than 2.1 km and was not compared",
+                           scene.model->object(a).id + " and " + scene.model->object(b).id);
+  }
   return {};
 }
 

@@ -7,9 +7,10 @@
 
 namespace strake::clash {
 
-/// "pair-too-large", for each. Errors here and below: cancelled.
-[[nodiscard]] Status note_too_large(const Judged& judged, const model::Model& model,
-                                    const parallel::Context& context, Diagnostics& diagnostics);
+/// Report::not_compared: the objects of the sets that lack geometry, and the pairs that are too
+/// large, which "pair-too-large" tells of as well. Errors here and below: cancelled.
+[[nodiscard]] Status note_not_compared(const Judged& judged, const model::Scene& scene,
+                                       const parallel::Context& context, Report& report);
 
 /// "unknown-sag", once per file.
 [[nodiscard]] Status note_unknown_sag(const PartList& list, const model::Model& model,

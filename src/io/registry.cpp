@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <map>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -62,13 +63,18 @@ Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
                  "give a unit such as mm, m or in"};
   const Readers readers = all_readers();
   model::Model all;
+  // Told in the order of the files' names, whatever the order in which they were given.
+  std::map<std::pair<std::string, std::string>, Diagnostics> diagnostics;
   for (const std::filesystem::path& path : paths) {
     if (context.stop.stop_requested())
       return Error{ErrorCode::cancelled, "reading was cancelled", path.string(), ""};
     Result<model::Model> one = read_one(readers, path, options, context);
     if (!one) return one.error();
+    diagnostics[{path.filename().string(), path.string()}].append(
+        std::exchange(one->diagnostics, Diagnostics()));
     model::append(all, std::move(*one));
   }
+  for (const auto& [name, of_file] : diagnostics) all.diagnostics.append(of_file);
   model::finish(all);
   return all;
 }

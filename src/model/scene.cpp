@@ -164,10 +164,12 @@ std::vector<Use> list_bodies(Assembly& assembly) {
   scene.bodies.reserve(model.bodies.size());
   for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
     const Object& object = model.objects[o];
+    if (object.incomplete) scene.lacking.push_back({ObjectId{o}, "object-incomplete"});
     for (std::uint32_t b = object.first_body; b - object.first_body < object.body_count; ++b) {
       if (b >= model.bodies.size() || index(model.bodies[b].shape) >= model.shapes.size()) {
         report(scene.diagnostics, Severity::skipped, "body-without-shape", model, ObjectId{o},
                [] { return std::string("a body refers to a shape that does not exist"); });
+        scene.lacking.push_back({ObjectId{o}, "body-without-shape"});
         continue;
       }
       if (!wanted(model.bodies[b].category, assembly.options)) {
@@ -226,16 +228,17 @@ void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made) 
     if (!told[body.grid_shape]) report_findings(shape, model, body.object, scene.diagnostics);
     told[body.grid_shape] = true;
     const auto origin = geometry::snap(model.bodies[body.body].placement.translation);
+    if (shape.bad_triangles > 0) scene.lacking.push_back({body.object, "mesh-bad-triangle"});
+    if (shape.bad_points > 0) scene.lacking.push_back({body.object, "polyline-bad-point"});
     if (!shape.fault.empty() || !origin) {
-      report(scene.diagnostics, Severity::skipped,
-             shape.fault.empty() ? "body-unplaceable" : "shape-unplaceable", model, body.object,
-             [&] {
-               return shape.fault.empty()
-                          ? std::string(
-                                "a body has no place: its translation is not finite or "
-                                "beyond a million kilometres")
-                          : fmt::format("a body has no place: {}", shape.fault);
-             });
+      const std::string_view code = shape.fault.empty() ? "body-unplaceable" : "shape-unplaceable";
+      scene.lacking.push_back({body.object, code});
+      report(scene.diagnostics, Severity::skipped, code, model, body.object, [&] {
+        return shape.fault.empty() ? std::string(
+                                         "a body has no place: its translation is not finite or "
+                                         "beyond a million kilometres")
+                                   : fmt::format("a body has no place: {}", shape.fault);
+      });
       continue;
     }
     body.origin = *origin + shape.shape.base;
@@ -245,6 +248,9 @@ void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made) 
   scene.bodies.resize(kept);
   for (std::size_t o = 1; o < scene.first_body.size(); ++o)
     scene.first_body[o] += scene.first_body[o - 1];
+  std::ranges::sort(scene.lacking);
+  const auto repeated = std::ranges::unique(scene.lacking);
+  scene.lacking.erase(repeated.begin(), repeated.end());
 }
 
 }  // namespace

@@ -64,9 +64,12 @@ class Looks {
     for (const Side* s : {&a, &b})
       if (!s->there) return named(s->object) + " is not in the model";
     if (std::string why = not_tested(a, b, *here); !why.empty()) return why;
-    const auto rule = std::ranges::lower_bound(run_.exempted, r.key, {}, &DocumentExempted::key);
-    if (rule != run_.exempted.end() && rule->key == r.key)
-      return "exempted by " + run_.rules[rule->rule];
+    for (const Side* s : {&a, &b})
+      if (const std::string* why = lacks(*s, *here))
+        return named(s->object) + " could not be compared whole (" + *why + ")";
+    if (const std::string* why = listed(run_.not_compared, r))
+      return "the pair could not be compared (" + *why + ")";
+    if (const std::string* rule = listed(run_.exempted, r)) return "exempted by " + *rule;
     if (!run_.lists_exempted && here->exempted_pairs > 0)
       return "may be among the " + std::to_string(here->exempted_pairs) +
              " exempted pairs, which are not listed";
@@ -77,18 +80,35 @@ class Looks {
   /// An object of the other run as this one knows it.
   struct Side {
     const DocumentObject& object;
+    std::uint64_t element = 0;
     bool there = false, in_a = false, in_b = false;
   };
+
+  /// Why an object could not be compared whole; null: it was.
+  [[nodiscard]] const std::string* lacks(const Side& side, const DocumentTest& here) const {
+    const auto test = static_cast<std::uint32_t>(&here - run_.tests.data());
+    const auto wanted = std::pair(side.element, test);
+    const auto key = [](const DocumentLacking& l) { return std::pair(l.element, l.test); };
+    const auto at = std::ranges::lower_bound(run_.lacking, wanted, {}, key);
+    return at != run_.lacking.end() && key(*at) == wanted ? &run_.rules[at->code] : nullptr;
+  }
+
+  /// The rule, or the reason, by which a list has a pair; null: it does not have it.
+  [[nodiscard]] const std::string* listed(const std::vector<DocumentExempted>& list,
+                                          const DocumentResult& r) const {
+    const auto at = std::ranges::lower_bound(list, r.key, {}, &DocumentExempted::key);
+    return at != list.end() && at->key == r.key ? &run_.rules[at->rule] : nullptr;
+  }
 
   [[nodiscard]] Side side(const DocumentObject& object, const DocumentTest& here) const {
     const std::uint64_t hash = clash::element_hash(object.file, object.id);
     const auto at = std::ranges::lower_bound(run_.elements, hash);
-    if (at == run_.elements.end() || *at != hash) return {object};
+    if (at == run_.elements.end() || *at != hash) return {object, hash};
     const auto i = static_cast<std::size_t>(at - run_.elements.begin());
     const auto in = [i](const std::vector<std::uint8_t>& set) {
       return ((set[i / 8] >> (i % 8)) & 1U) != 0;
     };
-    return {object, true, in(here.in_a), in(here.in_b)};
+    return {object, hash, true, in(here.in_a), in(here.in_b)};
   }
 
   [[nodiscard]] static std::string not_tested(const Side& a, const Side& b,

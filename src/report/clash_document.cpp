@@ -12,6 +12,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "report/json_reader.hpp"
@@ -274,10 +275,16 @@ class Reader {
     document_.elements = read_elements(*elements_);
     tests();
     results();
-    exempted();
+    document_.exempted = by_key(exempted_);
+    not_compared();
   }
 
  private:
+  /// A pair of a list that is no result, or of what was not compared an object alone.
+  struct Listed {
+    std::uint32_t test = 0, a = 0, b = 0, rule = 0;
+  };
+
   void section(std::string_view key) {
     if (key == "schema_version")
       version();
@@ -293,6 +300,8 @@ class Reader {
       take_results();
     else if (key == "exempted")
       take_exempted();
+    else if (key == "not_compared")
+      take_not_compared();
     else
       json_.skip();
   }
@@ -348,6 +357,14 @@ class Reader {
     });
   }
 
+  void take_not_compared() {
+    entries_.each("not_compared", "code", [this](const Entry& e) {
+      const Listed pair{entries_.must(e.test, "test"), entries_.must(e.a, "a"), e.b.value_or(0),
+                        entries_.must(e.rule, "code")};
+      (e.b ? pairs_not_compared_ : lacking_).push_back(pair);
+    });
+  }
+
   void tests() {
     const Json list = Json::parse(*tests_);
     if (!list.is_array()) throw is_not("the document", "tests", "list");
@@ -366,28 +383,43 @@ class Reader {
     }
   }
 
-  /// Exempted pairs by the keys that their results would have.
-  void exempted() {
-    document_.exempted.reserve(exempted_.size());
-    for (const Exempted& e : exempted_) {
-      if (e.test >= document_.tests.size()) throw Fault{"an exempted pair", "is of no test"};
+  /// Pairs of a list by the keys that their results would have.
+  [[nodiscard]] std::vector<DocumentExempted> by_key(const std::vector<Listed>& list) const {
+    std::vector<DocumentExempted> pairs;
+    pairs.reserve(list.size());
+    for (const Listed& e : list) {
+      const DocumentTest& test = test_of(e);
       const DocumentObject &a = document_.objects[e.a], &b = document_.objects[e.b];
-      document_.exempted.push_back(
-          {clash::pair_hash(document_.tests[e.test].name, {a.file, a.id}, {b.file, b.id}), e.rule});
+      pairs.push_back({clash::pair_hash(test.name, {a.file, a.id}, {b.file, b.id}), e.rule});
     }
-    std::ranges::sort(document_.exempted, {},
+    std::ranges::sort(pairs, {},
                       [](const DocumentExempted& e) { return std::pair(e.key, e.rule); });
+    return pairs;
   }
 
-  struct Exempted {
-    std::uint32_t test = 0, a = 0, b = 0, rule = 0;
-  };
+  void not_compared() {
+    document_.not_compared = by_key(pairs_not_compared_);
+    for (const Listed& e : lacking_) {
+      static_cast<void>(test_of(e));
+      const DocumentObject& a = document_.objects[e.a];
+      document_.lacking.push_back({clash::element_hash(a.file, a.id), e.test, e.rule});
+    }
+    std::ranges::sort(document_.lacking, {}, [](const DocumentLacking& l) {
+      return std::tuple(l.element, l.test, l.code);
+    });
+  }
+
+  [[nodiscard]] const DocumentTest& test_of(const Listed& e) const {
+    if (e.test >= document_.tests.size())
+      throw Fault{"an exempted pair or what was not compared", "is of no test"};
+    return document_.tests[e.test];
+  }
 
   JsonReader json_;
   EntryReader entries_;
   ClashDocument& document_;
   std::optional<std::string> elements_, tests_;
-  std::vector<Exempted> exempted_;
+  std::vector<Listed> exempted_, pairs_not_compared_, lacking_;
   bool has_version_ = false, has_results_ = false, has_hash_ = false;
 };
 

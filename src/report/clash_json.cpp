@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -409,21 +410,38 @@ void exempted_pair(std::string& out, const model::Model& model, const Report& re
   out += "}}";
 }
 
-Status exempted_pairs(Buffered& buffer, const model::Model& model, const Findings& findings,
-                      const parallel::Context& context) {
-  bool listed = false, first = true;
-  for (const Report& test : findings.tests) listed = listed || test.lists_exempted;
-  if (!listed) return {};
-  buffer.text() += ",\n\"exempted\": [";
+void not_compared(std::string& out, const model::Model& model, std::size_t test,
+                  const clash::NotCompared& what) {
+  out += "{\"test\": " + std::to_string(test) + ", \"code\": ";
+  append_json(out, what.code);
+  out += ", \"a\": ";
+  object(out, model, what.a);
+  out += '}';
+  if (what.b) {
+    out += ", \"b\": ";
+    object(out, model, *what.b);
+    out += '}';
+  }
+  out += '}';
+}
+
+/// The list `name` of what items(test) are, one a line: write(text, number of the test, number of
+/// the item in it, item).
+template <class Items, class Write>
+Status list(Buffered& buffer, std::string_view name, const Findings& findings,
+            const parallel::Context& context, Items&& items, Write&& write) {
+  key(buffer.text(), name);
+  buffer.text() += '[';
+  bool first = true;
   for (std::size_t t = 0; t < findings.tests.size(); ++t) {
-    const Report& test = findings.tests[t];
-    const Status status = write_lines(context, test.exempted_pairs.size(), buffer,
-                                      [&](std::size_t p, std::string& out) {
-                                        out += first && p == 0 ? "\n" : ",\n";
-                                        exempted_pair(out, model, test, t, test.exempted_pairs[p]);
-                                      });
+    const auto& of_test = items(findings.tests[t]);
+    const Status status =
+        write_lines(context, of_test.size(), buffer, [&](std::size_t i, std::string& out) {
+          out += first && i == 0 ? "\n" : ",\n";
+          write(out, t, i, of_test[i]);
+        });
     if (!status) return status;
-    first = first && test.exempted_pairs.empty();
+    first = first && of_test.empty();
   }
   buffer.text() += "\n]";
   return {};
@@ -431,20 +449,35 @@ Status exempted_pairs(Buffered& buffer, const model::Model& model, const Finding
 
 Status results(Buffered& buffer, const ClashContents& contents, const parallel::Context& context) {
   const GroupNumbers numbers(contents);
-  bool first = true;
-  buffer.text() += "\"results\": [";
-  for (std::size_t t = 0; t < contents.findings.tests.size(); ++t) {
-    const std::vector<Pair>& pairs = contents.findings.tests[t].pairs;
-    const Status status =
-        write_lines(context, pairs.size(), buffer, [&](std::size_t p, std::string& out) {
-          out += first && p == 0 ? "\n" : ",\n";
-          result(out, contents, {t, pairs[p], numbers.of(t, p)});
-        });
-    if (!status) return status;
-    first = first && pairs.empty();
-  }
-  buffer.text() += "\n]";
-  return {};
+  return list(
+      buffer, "results", contents.findings, context,
+      [](const Report& test) -> const auto& { return test.pairs; },
+      [&](std::string& out, std::size_t test, std::size_t p, const Pair& pair) {
+        result(out, contents, {test, pair, numbers.of(test, p)});
+      });
+}
+
+Status not_compared(Buffered& buffer, const ClashContents& contents,
+                    const parallel::Context& context) {
+  return list(
+      buffer, "not_compared", contents.findings, context,
+      [](const Report& test) -> const auto& { return test.not_compared; },
+      [&](std::string& out, std::size_t test, std::size_t, const clash::NotCompared& what) {
+        not_compared(out, contents.model, test, what);
+      });
+}
+
+Status exempted_pairs(Buffered& buffer, const ClashContents& contents,
+                      const parallel::Context& context) {
+  const Findings& findings = contents.findings;
+  if (std::ranges::none_of(findings.tests, &Report::lists_exempted)) return {};
+  buffer.text() += ",\n";
+  return list(
+      buffer, "exempted", findings, context,
+      [](const Report& test) -> const auto& { return test.exempted_pairs; },
+      [&](std::string& out, std::size_t test, std::size_t, const clash::ExemptedPair& pair) {
+        exempted_pair(out, contents.model, findings.tests[test], test, pair);
+      });
 }
 
 }  // namespace
@@ -473,14 +506,18 @@ Status write_clash_json(const ClashContents& contents, Sink sink,
   out += ",\n\"hash\": ";
   append_json(out, hash_of(findings));
   out += ",\n";
-  const Diagnostics all = findings.all_diagnostics();
+  Diagnostics all;
+  if (contents.loading != nullptr) all = *contents.loading;
+  all.append(findings.all_diagnostics());
   diagnostics(out, all);
   out += ",\n";
   messages(out, all);
   out += ",\n";
+  if (const Status s = not_compared(buffer, contents, context); !s) return s;
+  out += ",\n";
   if (contents.grouping != nullptr) groups(buffer, *contents.grouping);
   if (const Status s = results(buffer, contents, context); !s) return s;
-  if (const Status s = exempted_pairs(buffer, contents.model, findings, context); !s) return s;
+  if (const Status s = exempted_pairs(buffer, contents, context); !s) return s;
   out += "\n}\n";
   return {};
 }

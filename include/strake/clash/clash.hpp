@@ -201,6 +201,14 @@ struct CellReport {
   std::uint64_t hit = 0, contact = 0, clearance_violation = 0, allowed = 0;
 };
 
+/// What a test would have compared, but could not or not whole: a clash that it does not report may
+/// be there all the same.
+struct NotCompared {
+  model::ObjectId a{};
+  std::optional<model::ObjectId> b = {};  ///< none: a lacks geometry, so any pair of it
+  std::string_view code;                  ///< of the diagnostic that tells why; a literal
+};
+
 /// What one test found.
 struct Report {
   std::string name;          ///< of the test; empty where a run has only one
@@ -221,7 +229,9 @@ struct Report {
   std::vector<CellReport> cells;             ///< by (a, b)
   std::vector<std::uint32_t> discipline;     ///< per object, kNoLabel: in none
   std::vector<bool> in_a, in_b;              ///< the sets, an entry per object
-  bool within_files = true;     ///< whether pairs of objects of one file were looked at
+  bool within_files = true;  ///< whether pairs of objects of one file were looked at
+  /// Objects of the sets in their order, then pairs by (a, b).
+  std::vector<NotCompared> not_compared;
   std::vector<LoggedPair> log;  ///< where asked for: by (a, b)
   Counters counters;
   double contact_distance_mm = 0;  ///< the largest δ that was applied

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "strake/core/diagnostics.hpp"
@@ -42,6 +43,13 @@ struct GridBody {
   }
 };
 
+/// An object of which a scene has not all geometry, and so finds less than there is.
+struct Lacking {
+  ObjectId object{};
+  std::string_view code;  ///< of the diagnostic that tells why, or "object-incomplete"; a literal
+  friend auto operator<=>(const Lacking&, const Lacking&) = default;
+};
+
 /// A model on the grid: what clash detection and hidden-line removal work on.
 ///
 /// Vertices are snap(linear·v) + snap(translation), so equal shapes with equal linear parts share
@@ -51,9 +59,10 @@ struct Scene {
   std::vector<GridShape> shapes;
   std::vector<GridBody> bodies;  ///< by object, then in the model's order
   std::vector<std::uint32_t>
-      first_body;              ///< per object, one more at the end; objects may have none
-  std::uint64_t left_out = 0;  ///< bodies of categories that were not asked for
-  Diagnostics diagnostics;     ///< inverted, open, degenerate, unplaceable …
+      first_body;                     ///< per object, one more at the end; objects may have none
+  std::uint64_t left_out = 0;         ///< bodies of categories that were not asked for
+  Diagnostics diagnostics;            ///< inverted, open, degenerate, unplaceable …
+  std::vector<Lacking> lacking = {};  ///< ascending; of what was asked for
 
   [[nodiscard]] std::span<const GridBody> bodies_of(ObjectId id) const {
     return std::span(bodies).subspan(first_body[index(id)],

@@ -7,6 +7,7 @@
 
 #include "strake/clash/clash.hpp"
 #include "strake/clash/group.hpp"
+#include "strake/core/diagnostics.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
@@ -39,6 +40,7 @@ struct ClashContents {
   const model::Model& model;
   const clash::Grouping* grouping = nullptr;  ///< of these findings, if asked for
   const RulesSource* rules = nullptr;         ///< if there were any
+  const Diagnostics* loading = nullptr;       ///< what reading and placing the model noticed
 };
 
 /// The document of schemas/clash.schema.json, one result a line, streamed: memory does not grow

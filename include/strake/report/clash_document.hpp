@@ -59,6 +59,13 @@ struct DocumentExempted {
   std::uint32_t rule = 0;
 };
 
+/// An object that a test could not compare whole.
+struct DocumentLacking {
+  std::uint64_t element = 0;  ///< clash::element_hash
+  std::uint32_t test = 0;
+  std::uint32_t code = 0;  ///< of ClashDocument::rules
+};
+
 /// What a comparison needs of a document of schemas/clash.schema.json: of a result some fifty
 /// bytes, of an object its texts once.
 struct ClashDocument {
@@ -68,10 +75,14 @@ struct ClashDocument {
   std::vector<DocumentTest> tests;
   std::vector<std::uint64_t> elements;  ///< ascending
   std::vector<DocumentObject> objects;  ///< those that are named, each once
-  std::vector<std::string> rules{{}};   ///< the first, without a name, stands for none
+  /// Names of rules, and codes of why something was not compared; the first, empty, stands for
+  /// none.
+  std::vector<std::string> rules{{}};
   std::vector<DocumentResult> results;  ///< by key
   bool lists_exempted = false;
   std::vector<DocumentExempted> exempted;      ///< by key
+  std::vector<DocumentExempted> not_compared;  ///< pairs by key; "rule" is the code of why
+  std::vector<DocumentLacking> lacking;        ///< by element and test
   std::vector<std::unique_ptr<char[]>> texts;  ///< what `objects` point into
 
   [[nodiscard]] const DocumentObject& a(const DocumentResult& r) const { return objects[r.a]; }

@@ -162,6 +162,7 @@ void BinaryReader::read_chunk() {
     leave_chunk(in.at(), next);
     return;
   }
+  builder_->note_loss();
   log_->skip(
       "rvm-damaged-chunk",
       fmt::format("a {} chunk holds less than its counts state", letters(id_at(bytes_, at_))), at_);
@@ -214,6 +215,7 @@ std::size_t BinaryReader::next_chunk(std::size_t from) const {
 
 void BinaryReader::resynchronise(std::size_t from) {
   const std::size_t found = next_chunk(from);
+  builder_->note_loss();
   log_->skip("rvm-lost-bytes", fmt::format("{} bytes are not readable as chunks", found - from),
              from);
   at_ = found;
@@ -351,6 +353,7 @@ bool BinaryReader::read_primitive(Chunk chunk, Cursor& in) {
   } else {
     const std::size_t count = parameter_count(primitive.kind);
     if (count == 0) {
+      builder_->note_loss();
       log_->skip("rvm-unknown-kind",
                  fmt::format("primitives of kind {} are not known", primitive.kind), at_);
       if (bounded_) in.skip(in.left());

@@ -64,11 +64,15 @@ void Builder::add(const PrimitiveChunk& chunk) {
                            kind_with_article(chunk.kind)),
                chunk.offset);
   const auto shape = placement ? shape_of(chunk) : std::nullopt;
-  record.dropped = !shape;
+  record.dropped = record.incomplete = !shape;
   if (!shape) return;
   record.body.shape = *shape;
   record.body.placement = *placement;
   measure(chunk);
+}
+
+void Builder::note_loss() {
+  if (!open_.empty()) groups_[open_.back()].incomplete = true;
 }
 
 void Builder::measure(const PrimitiveChunk& chunk) {
@@ -128,8 +132,8 @@ model::ShapeId Builder::facet_shape(const PrimitiveChunk& chunk) {
   return at->second;
 }
 
-Result<std::vector<bool>> Builder::triangulate(const parallel::Context& context) {
-  std::vector<bool> usable(shapes_.size(), true);
+Result<std::vector<Builder::Facets>> Builder::triangulate(const parallel::Context& context) {
+  std::vector<Facets> facets(shapes_.size(), Facets::complete);
   auto meshes = parallel::transform(
       context, {.name = "triangulate RVM facet groups", .n = facets_.size(), .grain = 8},
       [&](std::size_t i) { return build_facets(facets_[i].payload); });
@@ -140,16 +144,20 @@ Result<std::vector<bool>> Builder::triangulate(const parallel::Context& context)
     if (built.nonfinite + built.degenerate + built.untriangulated + built.short_contours > 0)
       log_->warn("rvm-facet-polygon", "a facet group is incomplete: " + facet_problem(built),
                  job.offset);
-    usable[job.shape] = !built.mesh.triangles.empty();
+    if (built.nonfinite + built.untriangulated > 0) facets[job.shape] = Facets::incomplete;
+    if (built.mesh.triangles.empty()) facets[job.shape] = Facets::empty;
     largest_local_ = std::max(largest_local_, built.largest);
     shapes_[job.shape] = std::move(built.mesh);
   }
-  return usable;
+  return facets;
 }
 
-void Builder::drop_empty(const std::vector<bool>& usable) {
+void Builder::note_facets(const std::vector<Facets>& facets) {
   for (BodyRecord& record : bodies_) {
-    if (record.dropped || usable[model::index(record.body.shape)]) continue;
+    if (record.dropped) continue;
+    const Facets there = facets[model::index(record.body.shape)];
+    record.incomplete = there != Facets::complete;
+    if (there != Facets::empty) continue;
     record.dropped = true;
     log_->skip("rvm-empty-facets", "a facet group holds no usable polygon", record.offset);
   }
@@ -188,9 +196,11 @@ void Builder::emit_objects(Built& built) {
       object.name = grouped ? names_[record.group].name : root_name_;
       object.parent = grouped ? names_[record.group].parent : model::GroupId::none;
       object.first_body = static_cast<std::uint32_t>(built.model.bodies.size());
+      object.incomplete = grouped && groups_[record.group].incomplete;
       built.model.objects.push_back(std::move(object));
       built.group_of.push_back(record.group);
     }
+    if (record.incomplete) built.model.objects.back().incomplete = true;
     if (record.dropped) continue;
     ++built.model.objects.back().body_count;
     built.model.bodies.push_back(record.body);
@@ -199,9 +209,9 @@ void Builder::emit_objects(Built& built) {
 }
 
 Result<Built> Builder::build(const parallel::Context& context) {
-  auto usable = triangulate(context);
-  if (!usable) return usable.error();
-  drop_empty(*usable);
+  const auto facets = triangulate(context);
+  if (!facets) return facets.error();
+  note_facets(*facets);
   Built built;
   emit_objects(built);
   built.model.groups = std::move(names_);

@@ -25,6 +25,7 @@ struct GroupRecord {
   std::uint32_t material = 0;
   std::uint8_t transparency = 0;  ///< percent, own or inherited
   std::uint64_t offset = 0;
+  bool incomplete = false;  ///< something that it holds could not be read
 };
 
 /// A model under construction with what only this format's later steps need.
@@ -44,6 +45,8 @@ class Builder {
   /// False when no group is open.
   [[nodiscard]] bool end_group();
   void add(const PrimitiveChunk& chunk);
+  /// Something of the group that is open cannot be read.
+  void note_loss();
   void redefine_color(std::uint32_t index, model::Color color) { palette_.redefine(index, color); }
   void set_root_name(std::string name) { root_name_ = std::move(name); }
 
@@ -61,6 +64,7 @@ class Builder {
     model::Body body;
     std::uint64_t offset = 0;
     bool dropped = false;  ///< unusable: its object stays, so that it can be listed, without a body
+    bool incomplete = false;  ///< dropped, or lacks some of its polygons
   };
   struct FacetJob {
     std::uint32_t shape = 0;
@@ -70,8 +74,10 @@ class Builder {
 
   [[nodiscard]] std::optional<model::ShapeId> shape_of(const PrimitiveChunk& chunk);
   [[nodiscard]] model::ShapeId facet_shape(const PrimitiveChunk& chunk);
-  [[nodiscard]] Result<std::vector<bool>> triangulate(const parallel::Context& context);
-  void drop_empty(const std::vector<bool>& usable);
+  enum class Facets : std::uint8_t { complete, incomplete, empty };
+  /// How much of each shape there is.
+  [[nodiscard]] Result<std::vector<Facets>> triangulate(const parallel::Context& context);
+  void note_facets(const std::vector<Facets>& facets);
   void check_stored_box(const PrimitiveChunk& chunk, const geometry::Primitive& primitive);
   void emit_objects(Built& built);
   [[nodiscard]] model::Color color_of(const BodyRecord& record);

@@ -98,6 +98,34 @@ class ClashDiff(Scenario):
                                  {'new': 0, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 0})
                 self.assertEqual(json.loads((self.folder / 'new.json').read_text())['hash'], old['hash'])
 
+    def test_what_was_not_compared_is_listed_and_not_gone(self):
+        """Objects too wide for the grid, pairs too far for one frame, and objects that cannot be read."""
+        beam = ('B', (90, 20, 20), (200, 50, 50))
+        self.write_box('m.obj', [('A', (0, 0, 0), (100, 100, 100)), beam])
+        self.assertEqual(self.run_strake('clash', 'm.obj', '--unit', 'mm', '-o', 'old.json').returncode, 0)
+        self.assertEqual(json.loads((self.folder / 'old.json').read_text())['not_compared'], [])
+        named = {name: {'id': name, 'name': name, 'file': 'm.obj'} for name in 'AB'}
+        wide = ('A', (-2.2e6, 0, 0), (100, 100, 100))
+        long = ('A', (-1.5e6, 0, 0), (100, 100, 100)), ('B', (90, 20, 20), (1.5e6, 50, 50))
+        for boxes, listed in (([wide, beam], {'test': 0, 'code': 'shape-unplaceable', 'a': named['A']}),
+                              (long, {'test': 0, 'code': 'pair-too-large', 'a': named['A'], 'b': named['B']})):
+            with self.subTest(listed['code']):
+                self.write_box('m.obj', boxes)
+                run = self.run_strake('clash', 'm.obj', '--unit', 'mm', '--quiet', '-o', 'new.json')
+                self.assertEqual((run.returncode, run.stderr), (0, ''))
+                new = json.loads((self.folder / 'new.json').read_text())
+                self.assertEqual(new['not_compared'], [listed])
+                self.assertIn({'code': listed['code'], 'severity': 'skipped', 'count': 1}, new['diagnostics'])
+                told = self.diff('--fail-on', 'cannot-tell', exit_code=1)
+                self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 1})
+                self.assertIn(listed['code'], told['cannot_tell'][0]['why'])
+        self.write_box('m.obj', [('A', (0, 0, 0), (100, 100, 100)), beam])
+        with open(self.folder / 'm.obj', 'a') as file:
+            file.write('o C\nf 1 2 999\n')
+        self.assertEqual(self.run_strake('clash', 'm.obj', '--quiet', '-o', 'new.json').returncode, 0)
+        new = json.loads((self.folder / 'new.json').read_text())
+        self.assertIn(('obj-damaged-object', 'skipped'), [(m['code'], m['severity']) for m in new['messages']])
+
     def test_what_cannot_be_compared_is_named(self):
         self.two_files()
         self.run_strake('clash', 'a.obj', '-o', 'good.json')

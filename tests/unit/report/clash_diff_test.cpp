@@ -277,6 +277,32 @@ TEST(ClashDiff, ExemptedAndAllowed) {
             "may be among the 1 exempted pairs, which are not listed");
 }
 
+TEST(ClashDiff, WhatCouldNotBeComparedIsNotMended) {
+  const auto two = [](double a_from, double b_from, double b_to) {
+    ClashModel m;
+    m.box("a", {a_from, 0, 0}, {100, 100, 100}).box("b", {b_from, 20, 20}, {b_to, 50, 50});
+    return m;
+  };
+  const ClashModel near = two(0, 90, 200), unplaceable = two(-2.2e6, 90, 200),
+                   apart = two(-1.5e6, 90, 1.5e6);
+  ClashModel incomplete = two(0, 150, 200);
+  incomplete.model.objects[1].incomplete = true;
+  Folder folder;
+  const auto& old_run = document(folder, "old.json", run(near), near.model);
+  const auto why = [&](const ClashModel& m) {
+    const auto& new_run = document(folder, "new.json", run(m), m.model);
+    const ClashDiff diff = compare(old_run, new_run);
+    EXPECT_TRUE(diff.gone.empty());
+    // The other way round the clash is new for the same reason.
+    const ClashDiff back = compare(new_run, old_run);
+    EXPECT_EQ(back.added.at(0).why, diff.cannot_tell.at(0).why);
+    return diff.cannot_tell.at(0).why;
+  };
+  EXPECT_EQ(why(unplaceable), "'a' of t.obj could not be compared whole (shape-unplaceable)");
+  EXPECT_EQ(why(incomplete), "'b' of t.obj could not be compared whole (object-incomplete)");
+  EXPECT_EQ(why(apart), "the pair could not be compared (pair-too-large)");
+}
+
 TEST(ClashDiff, TestsGoTogetherByName) {
   Folder folder;
   const ClashModel m = row();
