@@ -96,7 +96,7 @@ class PairOfParts {
     return answer;
   }
 
-  PartAnswer flush(const Vec3d& point) const {
+  PartAnswer flush(const Vec3d& point) {
     PartAnswer answer;
     MeetingResult meeting;
     meeting.point = point;
@@ -162,8 +162,9 @@ class PairOfParts {
     }
     answer.separation = separated_by(near->distance);
     answer.witness = witness_of_gap(*near);
-    answer.relation =
-        near->distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;
+    answer.relation = near->distance <= options_.contact_distance
+                          ? relation_beside(a_, b_, {}, options_.contact_distance, work_.pair)
+                          : Relation::separate;
     return sag();
   }
 
@@ -212,9 +213,9 @@ class PairOfParts {
             .triangle_b = 0};
   }
 
-  void touching(const MeetingResult& meeting, PartAnswer& answer) const {
+  void touching(const MeetingResult& meeting, PartAnswer& answer) {
     answer.witness = witness_of_touch(meeting.point);
-    answer.relation = Relation::abut_outside;
+    answer.relation = relation_beside(a_, b_, meeting, options_.contact_distance, work_.pair);
   }
 
   /// Flush faces of a model that stands askew are what the snap has made of them: a little apart,
@@ -367,6 +368,11 @@ std::optional<PartAnswer> judge_flush(const NarrowPart& a, const NarrowPart& b,
   const geometry::FlushContact contact = geometry::flush_contact(x.treed.placed, y.treed.placed);
   separated = contact.separated;
   if (!contact.touching) return std::nullopt;
+  if (may_be_one_sheet(x.treed, y.treed, options.contact_distance)) {
+    // How much of them lies on the other is for their trees to say.
+    separated = false;
+    return std::nullopt;
+  }
   NarrowWork work;
   PartAnswer answer = PairOfParts(x, y, options, work).flush(contact.point);
   if (!ordered) turn(answer, a, b);

@@ -10,6 +10,7 @@ namespace {
 
 using geometry::Box3i;
 using geometry::Meeting;
+using geometry::MeetingResult;
 using geometry::PartKind;
 using geometry::PointSide;
 using geometry::TreedPart;
@@ -50,14 +51,34 @@ bool skins_meet(const TreedPart& a, const TreedPart& b, double band, geometry::P
   return near && near->distance <= band;
 }
 
+/// Two sheets that are the same one: exactly, or each within the band of the other.
+bool one_sheet(const TreedPart& a, const TreedPart& b, const MeetingResult& meeting, double band,
+               geometry::PairWork& work) {
+  if (!may_be_one_sheet(a, b, band)) return false;
+  if (meeting.a_within_b && meeting.b_within_a) return true;
+  bool a_on_b = false, b_on_a = false;
+  return within_band(a, b, band, a_on_b, work) && a_on_b && within_band(b, a, band, b_on_a, work) &&
+         b_on_a;
+}
+
 }  // namespace
+
+bool may_be_one_sheet(const TreedPart& a, const TreedPart& b, double band) {
+  return a.placed.part->kind == PartKind::sheet && b.placed.part->kind == PartKind::sheet &&
+         box_within(a, b, band) && box_within(b, a, band);
+}
+
+Relation relation_beside(const TreedPart& a, const TreedPart& b, const MeetingResult& meeting,
+                         double band, geometry::PairWork& work) {
+  return one_sheet(a, b, meeting, band, work) ? Relation::duplicate : Relation::abut_outside;
+}
 
 Relation relation_of(const TreedPart& a, const TreedPart& b, const geometry::MeetingResult& meeting,
                      const geometry::Depth& depth, double band, geometry::PairWork& work) {
   if (a.placed.part->kind == PartKind::sheet || b.placed.part->kind == PartKind::sheet) {
     if (meeting.meeting == Meeting::a_inside_b) return Relation::a_in_b;
     if (meeting.meeting == Meeting::b_inside_a) return Relation::b_in_a;
-    return Relation::cross;
+    return one_sheet(a, b, meeting, band, work) ? Relation::duplicate : Relation::cross;
   }
   if (meeting.meeting == Meeting::a_inside_b)
     return skins_meet(a, b, band, work) ? Relation::abut_inside : Relation::a_in_b;

@@ -12,4 +12,14 @@ namespace strake::clash {
                                    const geometry::Depth& depth, double band,
                                    geometry::PairWork& work);
 
+/// The relation of two parts that are within the band of each other and whose interiors do not
+/// meet. `meeting` says what is known of how they touch.
+[[nodiscard]] Relation relation_beside(const geometry::TreedPart& a, const geometry::TreedPart& b,
+                                       const geometry::MeetingResult& meeting, double band,
+                                       geometry::PairWork& work);
+
+/// Whether two parts are sheets whose boxes agree within the band: they may be the same one.
+[[nodiscard]] bool may_be_one_sheet(const geometry::TreedPart& a, const geometry::TreedPart& b,
+                                    double band);
+
 }  // namespace strake::clash

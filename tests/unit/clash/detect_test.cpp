@@ -166,6 +166,45 @@ TEST(Detect, Sheets) {
   EXPECT_EQ(only(laid).cls, Class::contact);
 }
 
+TEST(Detect, ASheetInTheSamePlaceIsADuplicate) {
+  geometry::TriangleMesh tray = test::box_mesh({0, 0, 0}, {100, 100, 100});
+  tray.triangles.resize(8);
+  const geometry::TriangleMesh flat = sheet({0, 0, 0}, {100, 0, 0}, {0, 100, 0});
+  for (const geometry::TriangleMesh& mesh : {tray, flat})
+    for (const double aside : {0.0, 0.001}) {
+      ClashModel m;
+      m.object("a").body(mesh).object("b").body(mesh, {{}, {0, 0, aside}});
+      const Pair p = only(m);
+      EXPECT_EQ(p.relation, Relation::duplicate) << aside;
+      if (aside == 0) expect(p, Class::contact, Relation::duplicate, 0);
+    }
+  ClashModel other;
+  other.object("a").body(flat).object("b").body(sheet({0, 100, 0}, {0, -100, 0}, {100, 0, 0}));
+  expect(only(other), Class::contact, Relation::duplicate, 0);
+  ClashModel smaller;
+  smaller.object("a").body(flat).object("b").body(sheet({0, 0, 0}, {100, 0, 0}, {0, 99, 0}));
+  expect(only(smaller), Class::contact, Relation::abut_outside, 0);
+}
+
+TEST(Detect, ASheetThatRunsAlongAnotherMayGoThroughIt) {
+  ClashModel m;
+  geometry::TriangleMesh mesh = sheet({0, 0, 0}, {100, 0, 0}, {0, 60, 0});
+  for (const auto& [y, z] : {std::pair{0.0, 50.0}, std::pair{60.0, -50.0}}) {
+    const geometry::TriangleMesh web = sheet({0, y, 0}, {100, 0, 0}, {0, 0, z});
+    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), web.vertices.begin(), web.vertices.end());
+    for (const geometry::Triangle& t : web.triangles)
+      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
+  m.object("a").body(mesh);
+  m.object("b").body(sheet({-100, -100, 0}, {300, 0, 0}, {0, 300, 0}));
+  const Pair p = only(m);
+  EXPECT_EQ(p.cls, Class::hit);
+  EXPECT_EQ(p.relation, Relation::cross);
+  EXPECT_LE(p.d_lower_mm, -50);
+  EXPECT_GE(p.d_upper_mm, -50);
+}
+
 TEST(Detect, PrimitivesWithAClosedFormHaveNoSag) {
   ClashModel m;
   m.object("a").body(geometry::CylinderPrimitive{100, 3000}, {{}, {0, 0, 0}});
