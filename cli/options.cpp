@@ -161,7 +161,7 @@ Status check_outputs(const std::vector<std::string>& files,
       return usage("the format of '" + file + "' is not known", "-o", "end its name in " + list);
     for (const std::string& input : inputs)
       if (same_file(file, input))
-        return usage("'" + file + "' is one of the models and would be overwritten", "-o",
+        return usage("'" + file + "' is one of the inputs and would be overwritten", "-o",
                      "give another name");
     for (std::size_t g = 0; g < f; ++g)
       if (same_file(file, files[g]))

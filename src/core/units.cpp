@@ -46,8 +46,12 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   text = trimmed(text);
   // The longest prefix that is a number: "1e3m" is a thousand metres, "1em" no number at all.
   for (std::size_t length = std::min(text.size(), kLongest); length > 0; --length)
-    if (const auto number = parse_number(trimmed(text.substr(0, length))))
-      return Quantity{*number, std::string(trimmed(text.substr(length)))};
+    if (const auto number = parse_number(trimmed(text.substr(0, length)))) {
+      const std::string_view unit = trimmed(text.substr(length));
+      // What is left of a number that is too large or too small, as 1e400, is no unit.
+      if (!unit.empty() && unit.front() >= '0' && unit.front() <= '9') return std::nullopt;
+      return Quantity{*number, std::string(unit)};
+    }
   return std::nullopt;
 }
 

@@ -208,9 +208,10 @@ std::optional<geometry::Vec3d> TableReader::direction(std::string_view key) {
     way[k] = whole != nullptr ? static_cast<double>(*whole) : *number;
   }
   const double longest = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
-  if (longest > 0) return way * (1 / longest);
+  // Of a subnormal number too few digits are left to scale it.
+  if (std::isnormal(longest)) return way * (1 / longest);
   reading_.fault(value(key)->at, quoted(key) + " of " + what_ + " has no direction",
-                 "write a list with a number that is not 0");
+                 "write a list with a number that is not 0, as [0, 0, 1]");
   return std::nullopt;
 }
 

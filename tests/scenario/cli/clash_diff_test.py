@@ -140,7 +140,9 @@ class ClashDiff(Scenario):
                 self.assertIn(word, done.stderr)
                 self.assertIn(file, done.stderr)
         self.assertEqual(self.run_strake('clash', 'diff', 'good.json').returncode, 2)
-        self.assertEqual(self.run_strake('clash', 'diff', 'good.json', 'good.json', '-o', 'good.json').returncode, 2)
+        done = self.run_strake('clash', 'diff', 'good.json', 'good.json', '-o', 'good.json')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("'good.json' is one of the inputs and would be overwritten", done.stderr)
         self.assertEqual((self.folder / 'good.json').read_text(), good)
 
 

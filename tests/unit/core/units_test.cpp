@@ -30,9 +30,10 @@ TEST(Units, a_bad_length_names_the_mend) {
        {Case{"25", "write 25mm"}, Case{"", "as 25mm"}, Case{"mm", "as 25mm"},
         Case{"25 parsec", "um, mm, cm"}, Case{"nan", "as 25mm"}, Case{"inf mm", "as 25mm"},
         Case{"25mmm", "um, mm, cm"}, Case{"1e308km", "smaller"}, Case{"2,5mm", "um, mm"},
-        Case{"1em", "um, mm"}}) {
+        Case{"1em", "um, mm"}, Case{"1e400", "as 25mm"}, Case{"1e-400mm", "as 25mm"}}) {
     const Result<double> got = parse_length_mm(one.text);
     ASSERT_FALSE(got) << one.text;
+    EXPECT_EQ(got.error().text().find("unit '0"), std::string::npos) << got.error().text();
     EXPECT_EQ(got.error().code, ErrorCode::usage);
     EXPECT_NE(got.error().text().find(one.mend), std::string::npos) << got.error().text();
   }

@@ -207,6 +207,9 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
        "[0, 0, 0] } ]",
        "has no direction"},
       {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0], normal = "
+       "[1e-320, 0, 0] } ]",
+       "has no direction"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0], normal = "
        "[inf, 0, 0] } ]",
        "not a list of three numbers"},
       {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0] } ]",
