@@ -110,6 +110,14 @@ void report(Diagnostics& diagnostics, Severity severity, std::string_view code, 
                   file.empty() ? name : fmt::format("{}: {}", file, name));
 }
 
+/// Whether a surface ends somewhere: an edge has an odd number of triangles. One that does not end
+/// is a sheet only because its triangles do not all face the same way.
+bool ends_somewhere(const geometry::Part& part) {
+  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e)
+    if ((part.edges[e + 1].first_triangle - part.edges[e].first_triangle) % 2 != 0) return true;
+  return false;
+}
+
 /// What is worth telling about a shape, said of the first object that uses it.
 void report_findings(const GridShapeResult& made, const Model& model, ObjectId id,
                      Diagnostics& diagnostics) {
@@ -134,16 +142,20 @@ void report_findings(const GridShapeResult& made, const Model& model, ObjectId i
           "{} triangles with a vertex that is missing or has no place were left out");
   counted(Severity::skipped, "polyline-bad-point", made.bad_points,
           "a point that has no place was left out", "{} points that have no place were left out");
-  std::uint64_t inverted = 0, open = 0, non_manifold = 0;
+  std::uint64_t inverted = 0, open = 0, mixed = 0, non_manifold = 0;
   for (const geometry::Part& part : made.shape.parts) {
     inverted += part.flags.inverted ? 1U : 0U;
-    open += part.flags.open ? 1U : 0U;
+    if (part.flags.open) ++(ends_somewhere(part) ? open : mixed);
     non_manifold += part.flags.non_manifold ? 1U : 0U;
   }
   counted(Severity::warning, "mesh-inverted", inverted, "a solid was inside out and is turned",
           "{} solids were inside out and are turned");
   counted(Severity::note, "mesh-open", open, "a surface does not close and counts as a sheet",
           "{} surfaces do not close and count as sheets");
+  counted(Severity::warning, "mesh-mixed-winding", mixed,
+          "a surface closes, but its triangles do not all face the same way: it counts as a sheet",
+          "{} surfaces close, but their triangles do not all face the same way: they count as "
+          "sheets");
   counted(Severity::note, "mesh-non-manifold", non_manifold,
           "a part has edges with more than two triangles",
           "{} parts have edges with more than two triangles");

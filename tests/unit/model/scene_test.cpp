@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "support/meshes.hpp"
 
@@ -118,6 +123,14 @@ TEST(Scene, WhatCannotBePlacedIsSkippedByName) {
   ASSERT_FALSE(s.diagnostics.kept().empty());
   EXPECT_EQ(s.diagnostics.kept().back().where, "t.obj: 4");
   EXPECT_EQ(s.first_body.back(), 1U);
+  std::vector<std::pair<std::uint32_t, std::string_view>> lacking;
+  for (const Lacking& l : s.lacking) lacking.emplace_back(index(l.object), l.code);
+  EXPECT_EQ(lacking, (decltype(lacking){{1, "body-unplaceable"},
+                                        {2, "mesh-bad-triangle"},
+                                        {2, "shape-unplaceable"},
+                                        {3, "shape-unplaceable"},
+                                        {4, "shape-unplaceable"},
+                                        {5, "body-without-shape"}}));
 }
 
 TEST(Scene, PolylinesBecomeWires) {
@@ -137,6 +150,19 @@ TEST(Scene, InvertedSolidsAreReported) {
   Builder b;
   b.object(b.shape(test::box_mesh({0, 0, 0}, {1, 1, 1}, true)));
   EXPECT_EQ(b.scene().diagnostics.count("mesh-inverted"), 1U);
+}
+
+TEST(Scene, SurfacesThatDoNotCloseAreToldFromThoseThatFaceBothWays) {
+  geometry::TriangleMesh mixed = test::box_mesh({0, 0, 0}, {1, 1, 1}), open = mixed;
+  std::swap(mixed.triangles[3][0], mixed.triangles[3][1]);
+  open.triangles.pop_back();
+  Builder b;
+  b.object(b.shape(mixed));
+  EXPECT_EQ(b.scene().diagnostics.count("mesh-mixed-winding"), 1U);
+  EXPECT_EQ(b.scene().diagnostics.count("mesh-open"), 0U);
+  b.object(b.shape(open));
+  EXPECT_EQ(b.scene().diagnostics.count("mesh-mixed-winding"), 1U);
+  EXPECT_EQ(b.scene().diagnostics.count("mesh-open"), 1U);
 }
 
 TEST(Scene, SkinsDrawnFromBothSidesAreReported) {
