@@ -248,6 +248,8 @@ TEST(RvmReader, LeavesOutBadPolygonsAndSaysSo) {
   ASSERT_EQ(model->objects.size(), 2U);
   EXPECT_EQ(model->objects[1].name, "/B");
   EXPECT_EQ(model->objects[1].body_count, 0U);
+  EXPECT_TRUE(model->objects[0].incomplete);
+  EXPECT_TRUE(model->objects[1].incomplete);
 }
 
 TEST(RvmReader, SkipsBadPrimitivesWithTheirOffset) {
