@@ -95,6 +95,7 @@ class Fan {
   /// the edge has its material at smaller angles, seen along the edge.
   void join_wedges(std::size_t edge, Sets& sets) {
     sort_by_angle(edge);
+    end_before_beginning(edge);
     std::vector<std::uint32_t> opened, unmatched;
     for (const Spoke& s : spokes_) {
       if (s.sense < 0) {
@@ -153,6 +154,36 @@ class Fan {
       if (order != 0) return order > 0;
       return a.sense != b.sense ? a.sense > b.sense : a.triangle < b.triangle;
     });
+  }
+
+  /// Whether two half-planes are one but for what the snap has made of it: two triangles of one
+  /// flat face, cut along different diagonals.
+  [[nodiscard]] static bool coincide(const Vec3d& axis, const Vec3d& a, const Vec3d& b) {
+    constexpr double kSnap = 4;          // grid units
+    constexpr double kSmall = 1.0 / 64;  // of an angle
+    const Vec3d n = cross(axis, a), m = cross(axis, b), sine = cross(n, m);
+    const double nn = dot(n, n), mm = dot(m, m), off_a = dot(m, a), off_b = dot(n, b);
+    return dot(n, m) > 0 && dot(sine, sine) <= kSmall * kSmall * nn * mm &&
+           (off_a * off_a <= kSnap * kSnap * mm || off_b * off_b <= kSnap * kSnap * nn);
+  }
+
+  /// Skins drawn from both sides: where material begins and ends at one angle but for the snap, it
+  /// ends first, or else each face would be a sliver of its own.
+  void end_before_beginning(std::size_t edge) {
+    const PartEdge& e = topology_.edges[edge];
+    const Vec3d axis = vertices_[e.v1].as<double>() - vertices_[e.v0].as<double>();
+    const auto one = [&](const Spoke& a, const Spoke& b) {
+      return coincide(axis, a.arm.as<double>(), b.arm.as<double>());
+    };
+    // Round the edge any start is as good, but for one amid such spokes.
+    for (std::size_t i = 0; i < spokes_.size() && one(spokes_.back(), spokes_.front()); ++i)
+      std::rotate(spokes_.begin(), spokes_.begin() + 1, spokes_.end());
+    for (std::size_t i = 1; i < spokes_.size(); ++i)
+      for (std::size_t j = i; j > 0; --j) {
+        if (spokes_[j - 1].sense > 0 || spokes_[j].sense < 0 || !one(spokes_[j - 1], spokes_[j]))
+          break;
+        std::swap(spokes_[j - 1], spokes_[j]);
+      }
   }
 
   std::span<const Vec3i> vertices_;

@@ -308,6 +308,27 @@ TEST(Analyse, SidesMayBeCutDifferently) {
   }
 }
 
+TEST(Analyse, SidesCutDifferentlyAskewDoNotFallIntoSlivers) {
+  // The snap takes each face off its plane: its two sides no longer coincide.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int round = 0; round < 40; ++round) {
+    const double w = any(random), x = any(random), y = any(random), z = any(random);
+    const double s = 2 / (w * w + x * x + y * y + z * z);
+    const Mat3d turn{{{{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
+                       {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
+                       {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}}};
+    TriangleMesh mesh = box_mesh({0, 0, 0}, {40, 50, 60});
+    add_recut_box(mesh, {0, 0, 0}, {40, 50, 60}, true);
+    const MeshAnalysis a = analysed(mesh, turn);
+    ASSERT_FALSE(a.parts.empty()) << round;
+    for (const Part& p : a.parts) {
+      EXPECT_EQ(p.kind, PartKind::solid) << round;
+      EXPECT_NEAR(p.volume, 120'000e9, 1e11) << round;
+    }
+  }
+}
+
 TEST(Analyse, CavityInASkinDrawnFromBothSidesStays) {
   TriangleMesh mesh;
   add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
