@@ -130,8 +130,10 @@ class Engine {
       found.push_back({pair, &c.look.answer, nullptr, c.too_near_to_tell});
       return;
     }
+    const Judged all = judged();
+    const bool each = rules_.may_allow(all.a(pair).object, all.b(pair).object);
     for (const PartPlace& place : places_[number])
-      found.push_back({pair, &place.answer, &place.extent, false});
+      found.push_back({pair, &place.answer, &place.extent, false, each || place.is_whole});
   }
 
   /// Tells of objects what was found about parts.

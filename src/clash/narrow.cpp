@@ -261,7 +261,8 @@ class PairOfParts {
     answer.separation = {
         .d = -depth.value, .lower = -depth.upper, .upper = -depth.lower, .interiors_meet = true};
     answer.witness = witness_of_depth(a_, b_, depth.point);
-    answer.relation = relation_of(a_, b_, meeting, depth, options_.contact_distance, work_.pair);
+    answer.relation = relation_of({a_, part_a_.planes}, {b_, part_b_.planes}, meeting, depth,
+                                  options_.contact_distance, work_.pair);
   }
 
   [[nodiscard]] double sag() const { return a_.placed.part->sag + b_.placed.part->sag; }

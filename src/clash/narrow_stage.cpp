@@ -12,8 +12,6 @@
 namespace strake::clash {
 namespace {
 
-using geometry::Part;
-
 bool is_too_large(const PartRef& a, const PartRef& b) {
   return !geometry::fits_pair(a.placed, b.placed);
 }
@@ -138,27 +136,25 @@ class ExactStage {
 
   /// How far the distances of one pair of objects' parts may show in its answer. Parts that meet
   /// are more severe than parts that are apart, unless the sag of those hides that they meet too.
+  /// Whether regions are listed makes no difference: the answer is the same without them.
   void want_distances(std::size_t objects, std::vector<Wanted>& wanted) const {
     const std::size_t first = stage_.objects.begin(objects), end = stage_.objects.end(objects);
-    bool hit = false, meeting = false;
+    bool meeting = false;
     // Where a rule may allow the worst of them, every other one counts.
     const bool all = stage_.rules.may_allow(judged_.a(first).object, judged_.b(first).object);
     for (std::size_t i = first; i < end && !all; ++i) {
       const PartAnswer& answer = judged_.of(i).look.answer;
-      hit = hit || answer.judgement.cls == Class::hit;
-      meeting = meeting || (answer.judgement.cls >= Class::contact && answer.separation.d <= 0);
+      meeting = meeting || answer.judgement.cls == Class::hit ||
+                (answer.judgement.cls >= Class::contact && answer.separation.d <= 0);
     }
-    const bool regions = stage_.options.most_regions > 0;
-    for (std::size_t i = first; i < end && (!hit || regions); ++i) {
+    for (std::size_t i = first; i < end; ++i) {
       if (judged_.of(i).look.next != FirstLook::Next::distance) continue;
       double far = std::numeric_limits<double>::infinity();
-      if (hit || meeting) {
+      if (meeting) {
         const PartRef &a = judged_.a(i), &b = judged_.b(i);
-        const Part &x = *a.placed.part, &y = *b.placed.part;
-        const Thresholds limits = thresholds(x, y, stage_.pair_options.of(a, b));
-        far = x.sag + y.sag - limits.overlap;
-        // Contacts elsewhere are regions of their own.
-        if (regions) far = std::max(far, x.sag + y.sag + limits.gap + 1);
+        const double sag = a.placed.part->sag + b.placed.part->sag;
+        // As near as that it may be a contact elsewhere, or as deep as what is worst.
+        far = sag + stage_.pair_options.of(a, b).touch_gap + 1;
       }
       wanted.push_back({judged_.cases.of[i], far});
     }

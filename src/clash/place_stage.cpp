@@ -92,8 +92,9 @@ class PlaceStage {
           const NarrowPart x = aids_.framed(a), y = aids_.framed(b);
           const PartAnswer& answer = candidates_[i].look.answer;
           const double reach = place_reach(x, y, answer, stage_.pair_options.of(a, b));
-          places_[i] = {
-              {answer, geometry::common_extent({a.placed, x.frame}, {b.placed, y.frame}, reach)}};
+          places_[i] = {{answer,
+                         geometry::common_extent({a.placed, x.frame}, {b.placed, y.frame}, reach),
+                         true}};
         });
   }
 

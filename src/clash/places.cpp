@@ -56,11 +56,12 @@ class PairPlaces {
     if (all.size() < 2) {
       // What is common reaches farther than the skins that are near each other.
       const bool deep = all.empty() || whole_.separation.interiors_meet;
-      places.push_back({whole_, deep ? extent_in_common() : all.front().extent});
+      places.push_back({whole_, deep ? extent_in_common() : all.front().extent, true});
       return places;
     }
     if (whole_.separation.interiors_meet) make_planes();
-    for (std::size_t n = 0; n < all.size(); ++n) places.push_back({answer_at(n), all[n].extent});
+    for (std::size_t n = 0; n < all.size(); ++n)
+      places.push_back({answer_at(n), all[n].extent, false});
     give_whole(places);
     return places;
   }
@@ -159,6 +160,7 @@ class PairPlaces {
     const auto worst = deepest ? places.begin() + static_cast<std::ptrdiff_t>(*deepest)
                                : std::ranges::max_element(places, less_likely);
     worst->answer = whole_;
+    worst->is_whole = true;
     for (PartPlace& place : places) {
       if (&place == &*worst) continue;
       // No place is worse than the whole; the two searches stop at different brackets.
@@ -166,12 +168,16 @@ class PairPlaces {
     }
   }
 
+  /// The whole may be known from the true surfaces, where places are told by triangles.
   void keep_within_whole(PartAnswer& answer) const {
     Separation& s = answer.separation;
-    if (s.d >= whole_.separation.d && s.lower >= whole_.separation.lower) return;
-    s.lower = std::max(s.lower, whole_.separation.lower);
+    const double least = whole_.separation.lower - whole_.separation.sag;
+    if (s.d >= whole_.separation.d && s.lower - s.sag >= least) return;
+    const double most = s.upper + s.sag;
     s.d = std::max(s.d, whole_.separation.d);
-    s.upper = std::max(s.upper, s.d);
+    s.sag = std::clamp(s.d - least, 0.0, s.sag);
+    s.lower = std::max(s.lower, least + s.sag);
+    s.upper = std::max(s.d, most - s.sag);
     answer.judgement = judge(s, thresholds_);
     answer.judgement.flags |= part_flags(part_a_, part_b_);
   }

@@ -12,6 +12,7 @@ namespace strake::clash {
 struct PartPlace {
   PartAnswer answer;
   geometry::Box3d extent;  ///< holds the place; grid units relative to a's origin
+  bool is_whole = false;   ///< the answer is that of the parts as a whole, to the bit
 };
 
 /// The places of two parts whose answer as a whole is known and not NO_HIT: those within the touch

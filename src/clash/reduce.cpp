@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -49,21 +50,23 @@ bool begins(const PartFindings& findings, std::size_t i) {
 
 /// The pair of objects whose answers begin at `first`.
 Pair join(const PartFindings& findings, std::size_t first) {
-  Pair worst = findings.pair(first);
-  Class severest = severest_open(findings.found[first], worst);
-  std::size_t last = first + 1;
+  std::size_t last = first;
+  std::optional<Pair> worst;
+  Class severest = Class::no_hit;
   for (; last < findings.found.size() && findings.same_objects(first, last); ++last) {
+    if (!findings.found[last].decides) continue;
     const Pair next = findings.pair(last);
-    if (more_severe(next, worst)) worst = next;
+    if (!worst || more_severe(next, *worst)) worst = next;
     severest = std::max(severest, severest_open(findings.found[last], next));
   }
-  if (last - first > 1)
-    for (std::size_t i = first; i < last; ++i) widen_bracket(worst, findings.pair(i));
+  Pair pair = worst.value_or(Pair{});  // of the places of two parts one decides
+  for (std::size_t i = first; i < last && last - first > 1; ++i)
+    if (findings.found[i].decides) widen_bracket(pair, findings.pair(i));
   // Other parts of the two may turn out worse than the deciding ones.
-  const Class known = worst.allowed < 0 ? worst.cls : Class::no_hit;
-  if (severest > known) worst.flags |= kUncertain;
-  worst.first_region = static_cast<std::uint32_t>(first);
-  return worst;
+  const Class known = pair.allowed < 0 ? pair.cls : Class::no_hit;
+  if (severest > known) pair.flags |= kUncertain;
+  pair.first_region = static_cast<std::uint32_t>(first);
+  return pair;
 }
 
 }  // namespace

@@ -19,6 +19,9 @@ struct Found {
   const PartAnswer* answer = nullptr;
   const geometry::Box3d* extent = nullptr;  ///< of the place, if known: relative to a's origin
   bool too_near_to_tell = false;            ///< whether there is one place or several
+  /// Whether the result of the two objects depends on it: on other places of two parts than their
+  /// worst one only where a rule may allow that.
+  bool decides = true;
 };
 
 /// What was found about parts, and what is needed to tell it of objects.
@@ -48,7 +51,8 @@ struct PartFindings {
 
 /// The pairs of objects that are not NO_HIT: the join of the answers of their parts by whether a
 /// rule allows them, class, level, d, witness and part numbers, which is associative and
-/// commutative. Pair::first_region is the number of the pair's first answer. Errors: cancelled.
+/// commutative. Whether places were told apart shows in it only through rules. Pair::first_region
+/// is the number of the pair's first answer. Errors: cancelled.
 [[nodiscard]] Result<std::vector<Pair>> join_by_objects(const PartFindings& findings,
                                                         const parallel::Context& context);
 

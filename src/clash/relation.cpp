@@ -9,6 +9,7 @@ namespace strake::clash {
 namespace {
 
 using geometry::Box3i;
+using geometry::DepthPart;
 using geometry::Meeting;
 using geometry::MeetingResult;
 using geometry::PartKind;
@@ -46,6 +47,14 @@ bool within_band(const TreedPart& a, const TreedPart& b, double band, bool& on_s
   return true;
 }
 
+/// Whether a bridges a gap of b: the skin of b runs deep inside a, though the corners of a lie in b
+/// or on it. Only what is certain counts, and b's corners say it all where b is convex.
+bool bridges_gap(const DepthPart& a, const DepthPart& b, double band, geometry::PairWork& work) {
+  if (b.planes->nearly_convex) return false;
+  const geometry::DepthGoal goal{.threshold = band + 1, .cells_undecided = 256, .cells_decided = 0};
+  return geometry::sheet_in_solid_depth(b, a, goal, work).lower > goal.threshold;
+}
+
 bool skins_meet(const TreedPart& a, const TreedPart& b, double band, geometry::PairWork& work) {
   const auto near = geometry::closest(a, b, band + 1, work);
   return near && near->distance <= band;
@@ -73,8 +82,10 @@ Relation relation_beside(const TreedPart& a, const TreedPart& b, const MeetingRe
   return one_sheet(a, b, meeting, band, work) ? Relation::duplicate : Relation::abut_outside;
 }
 
-Relation relation_of(const TreedPart& a, const TreedPart& b, const geometry::MeetingResult& meeting,
-                     const geometry::Depth& depth, double band, geometry::PairWork& work) {
+Relation relation_of(const DepthPart& deep_a, const DepthPart& deep_b,
+                     const geometry::MeetingResult& meeting, const geometry::Depth& depth,
+                     double band, geometry::PairWork& work) {
+  const TreedPart &a = deep_a.treed, &b = deep_b.treed;
   if (a.placed.part->kind == PartKind::sheet || b.placed.part->kind == PartKind::sheet) {
     if (meeting.meeting == Meeting::a_inside_b) return Relation::a_in_b;
     if (meeting.meeting == Meeting::b_inside_a) return Relation::b_in_a;
@@ -86,8 +97,10 @@ Relation relation_of(const TreedPart& a, const TreedPart& b, const geometry::Mee
     return skins_meet(a, b, band, work) ? Relation::abut_inside : Relation::b_in_a;
   if (meeting.a_within_b && meeting.b_within_a) return Relation::duplicate;
   bool a_on_b = false, b_on_a = false;
-  const bool a_in = within_band(a, b, band, a_on_b, work);
-  const bool b_in = within_band(b, a, band, b_on_a, work);
+  const bool a_in =
+      within_band(a, b, band, a_on_b, work) && !bridges_gap(deep_a, deep_b, band, work);
+  const bool b_in =
+      within_band(b, a, band, b_on_a, work) && !bridges_gap(deep_b, deep_a, band, work);
   if (a_in && b_in && a_on_b && b_on_a) return Relation::duplicate;
   if (depth.upper <= band) return Relation::abut_outside;
   if (a_in || b_in || meeting.a_within_b || meeting.b_within_a) return Relation::abut_inside;

@@ -6,8 +6,9 @@
 
 namespace strake::clash {
 
-/// The relation of two parts whose interiors meet; `band` is δ in grid units.
-[[nodiscard]] Relation relation_of(const geometry::TreedPart& a, const geometry::TreedPart& b,
+/// The relation of two parts whose interiors meet; `band` is δ in grid units. Solids have planes.
+[[nodiscard]] Relation relation_of(const geometry::DepthPart& deep_a,
+                                   const geometry::DepthPart& deep_b,
                                    const geometry::MeetingResult& meeting,
                                    const geometry::Depth& depth, double band,
                                    geometry::PairWork& work);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <random>
 #include <stop_token>
@@ -13,6 +14,7 @@
 #include "strake/clash/clash.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
+#include "support/voxels.hpp"
 
 namespace strake::clash {
 namespace {
@@ -401,6 +403,25 @@ TEST(Detect, SeparationChangesByNoMoreThanTheMove) {
     before = d;
   }
   EXPECT_GT(before, 0);
+}
+
+// All corners of the bar lie in the legs of the channel; its middle does not.
+TEST(Detect, ABarAcrossASlotInterferes) {
+  std::vector<geometry::Vec3i> channel, bar;
+  for (int x = -3; x <= 3; ++x)
+    for (int y = 0; y < 4; ++y)
+      for (int z = 0; z < 5; ++z) {
+        if (std::abs(x) >= 2 || z == 0) channel.push_back({x, y, z});
+        if (std::abs(x) <= 2 && (y == 1 || y == 2) && (z == 2 || z == 3)) bar.push_back({x, y, z});
+      }
+  ClashModel made;
+  made.object("channel").body(test::voxel_mesh(channel, 10));
+  made.object("bar").body(test::voxel_mesh(bar, 10));
+  model::finish(made.model);
+  const Report report = made.detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].cls, Class::hit);
+  EXPECT_EQ(report.pairs[0].relation, Relation::interfere);
 }
 
 }  // namespace
