@@ -24,20 +24,21 @@ class PlaceStage {
         places_(candidates.size()) {}
 
   Result<std::vector<std::vector<PartPlace>>> run() {
-    const auto telling =
+    auto telling =
         how_to_tell(judged_, stage_.objects, stage_.rules, stage_.options, work_.context());
     if (!telling) return telling.error();
+    telling_ = std::move(*telling);
     std::vector<std::size_t> alone, asking;
-    for (std::size_t i = 0; i < telling->size(); ++i) {
-      if ((*telling)[i] == Telling::if_several) alone.push_back(i);
-      if ((*telling)[i] == Telling::each) asking.push_back(i);
+    for (std::size_t i = 0; i < telling_.size(); ++i) {
+      if (telling_[i] == Telling::if_several) alone.push_back(i);
+      if (telling_[i] >= Telling::each) asking.push_back(i);
     }
     if (const auto taken = take_simple(alone); !taken) return taken.error();
     const auto simple = take_simple(asking);
     if (!simple) return simple.error();
     if (const Status s = measure_simple(*simple); !s) return s.error();
     asking.insert(asking.end(), alone.begin(), alone.end());
-    if (const Status s = tell(asking, *telling); !s) return s.error();
+    if (const Status s = tell(asking); !s) return s.error();
     return std::move(places_);
   }
 
@@ -67,8 +68,10 @@ class PlaceStage {
     if (answer.separation.interiors_meet || answer.judgement.cls != Class::contact) return false;
     const PartRef &a = work_.a(i), &b = work_.b(i);
     const NarrowPart x = aids_.framed(a), y = aids_.framed(b);
-    return geometry::in_one_flat_place({x.treed.placed, x.frame}, {y.treed.placed, y.frame},
-                                       place_reach(x, y, answer, stage_.pair_options.of(a, b)));
+    const NarrowOptions options = stage_.pair_options.of(a, b);
+    double reach = place_reach(x, y, answer, options);
+    if (telling_[i] == Telling::all) reach = std::max(reach, reach_of(options));
+    return geometry::in_one_flat_place({x.treed.placed, x.frame}, {y.treed.placed, y.frame}, reach);
   }
 
   /// By unique part, of those that some of the cases are about.
@@ -98,7 +101,7 @@ class PlaceStage {
         });
   }
 
-  Status tell(const std::vector<std::size_t>& some, const std::vector<Telling>& telling) {
+  Status tell(const std::vector<std::size_t>& some) {
     std::vector<std::size_t> treed;
     for (const std::size_t i : some)
       if (wants_trees(i)) treed.push_back(i);
@@ -106,7 +109,7 @@ class PlaceStage {
     return work_.over(some, "places", 1, [&](std::size_t i, const PartRef& a, const PartRef& b) {
       Candidate& c = candidates_[i];
       auto found = places_of(aids_.treed(a), aids_.treed(b), c.look.answer,
-                             stage_.pair_options.of(a, b), telling[i] == Telling::each, c.work);
+                             stage_.pair_options.of(a, b), telling_[i], c.work);
       c.too_near_to_tell = !found;
       if (found) places_[i] = std::move(*found);
     });
@@ -123,6 +126,7 @@ class PlaceStage {
   PartAids& aids_;
   const Judged& judged_;
   std::vector<Candidate>& candidates_;
+  std::vector<Telling> telling_;
   std::vector<std::vector<PartPlace>> places_;
 };
 

@@ -39,34 +39,61 @@ class PairPlaces {
         shift_((b.treed.placed.origin - a.treed.placed.origin).as<double>()),
         thresholds_(thresholds(part_a_, part_b_, options)) {}
 
-  std::optional<std::vector<PartPlace>> run(bool describe_one) {
+  std::optional<std::vector<PartPlace>> run(Telling telling) {
+    const double reach = place_reach(a_, b_, whole_, options_);
+    const double clearance = options_.clearance + part_a_.sag + part_b_.sag;
+    const bool beyond = telling == Telling::all && clearance > reach;
+    const bool describe_one = telling >= Telling::each;
+    if (!find(reach, describe_one)) return std::nullopt;
+    std::vector<PartPlace> places;
+    if (found_.all.size() > 1)
+      places = several();
+    else if (describe_one)
+      places.push_back(only());
+    if (!beyond) return places;
+    if (!find(clearance, true)) return std::nullopt;
+    add_gaps(places);
+    return places;
+  }
+
+ private:
+  bool find(double reach, bool describe_one) {
     auto found = geometry::find_meeting_places(
         a_.treed, b_.treed,
-        {.reach = place_reach(a_, b_, whole_, options_),
+        {.reach = reach,
          .interiors_meet = whole_.separation.interiors_meet,
          .describe_one = describe_one,
          .most_pairs = std::max(kLeastPairs, kPairsPerTriangle * (part_a_.triangles.size() +
                                                                   part_b_.triangles.size()))},
         work_.pair);
-    if (!found) return std::nullopt;
-    found_ = std::move(*found);
-    const std::vector<MeetingPlace>& all = found_.all;
-    std::vector<PartPlace> places;
-    if (all.size() < 2 && !describe_one) return places;
-    if (all.size() < 2) {
-      // What is common reaches farther than the skins that are near each other.
-      const bool deep = all.empty() || whole_.separation.interiors_meet;
-      places.push_back({whole_, deep ? extent_in_common() : all.front().extent, true});
-      return places;
-    }
+    if (found) found_ = std::move(*found);
+    return found.has_value();
+  }
+
+  std::vector<PartPlace> several() {
     if (whole_.separation.interiors_meet) make_planes();
-    for (std::size_t n = 0; n < all.size(); ++n)
-      places.push_back({answer_at(n), all[n].extent, false});
+    std::vector<PartPlace> places;
+    for (std::size_t n = 0; n < found_.all.size(); ++n)
+      places.push_back({answer_at(n), found_.all[n].extent, false});
     give_whole(places);
     return places;
   }
 
- private:
+  PartPlace only() const {
+    // What is common reaches farther than the skins that are near each other.
+    const bool deep = found_.all.empty() || whole_.separation.interiors_meet;
+    return {whole_, deep ? extent_in_common() : found_.all.front().extent, true};
+  }
+
+  /// Of the places within the clearance those that hold none within the touch gap.
+  void add_gaps(std::vector<PartPlace>& places) {
+    for (std::size_t n = 0; n < found_.all.size(); ++n) {
+      const MeetingPlace& place = found_.all[n];
+      if (place.nearest.distance > options_.touch_gap && is_gap(place))
+        places.push_back({answer_at(n), place.extent, false});
+    }
+  }
+
   [[nodiscard]] Box3d extent_in_common() const {
     const geometry::PartFrame f = geometry::make_frame(part_a_), g = geometry::make_frame(part_b_);
     return geometry::common_extent({a_.treed.placed, &f}, {b_.treed.placed, &g},
@@ -205,13 +232,13 @@ double place_reach(const NarrowPart& a, const NarrowPart& b, const PartAnswer& w
 
 std::optional<std::vector<PartPlace>> places_of(const NarrowPart& a, const NarrowPart& b,
                                                 const PartAnswer& whole,
-                                                const NarrowOptions& options, bool describe_one,
+                                                const NarrowOptions& options, Telling telling,
                                                 NarrowWork& work) {
   if (in_canonical_order(a.treed, b.treed))
-    return PairPlaces(a, b, whole, options, work).run(describe_one);
+    return PairPlaces(a, b, whole, options, work).run(telling);
   PartAnswer turned = whole;
   turn(turned, b, a);
-  auto places = PairPlaces(b, a, turned, options, work).run(describe_one);
+  auto places = PairPlaces(b, a, turned, options, work).run(telling);
   if (!places) return places;
   const Vec3d shift = (b.treed.placed.origin - a.treed.placed.origin).as<double>();
   for (PartPlace& place : *places) {

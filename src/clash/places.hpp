@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "clash/narrow.hpp"
+#include "clash/telling.hpp"
 
 namespace strake::clash {
 
@@ -16,15 +17,15 @@ struct PartPlace {
 };
 
 /// The places of two parts whose answer as a whole is known and not NO_HIT: those within the touch
-/// gap where they touch or meet, those within the clearance otherwise. One of them has the answer
-/// as a whole. Where there is only one, an empty list unless it is to be described. Nothing where
-/// there are too many triangles near each other to tell. Parts have trees unless they only touch
-/// and are small.
+/// gap where they touch or meet, those within the clearance otherwise, or too where all are asked
+/// for. One of them has the answer as a whole. Where there is only one, an empty list unless it is
+/// to be described. Nothing where there are too many triangles near each other to tell. Parts have
+/// trees unless they only touch and are small.
 [[nodiscard]] std::optional<std::vector<PartPlace>> places_of(const NarrowPart& a,
                                                               const NarrowPart& b,
                                                               const PartAnswer& whole,
                                                               const NarrowOptions& options,
-                                                              bool describe_one, NarrowWork& work);
+                                                              Telling telling, NarrowWork& work);
 
 /// How near counts as meeting in a place, for two parts with this answer, grid units.
 [[nodiscard]] double place_reach(const NarrowPart& a, const NarrowPart& b, const PartAnswer& whole,

@@ -31,7 +31,8 @@ void ask(const Judged& judged, const ObjectPairs& objects, std::size_t k, bool m
     out.push_back({judged.cases.of[i], copies ? Telling::whole : Telling::if_several});
   }
   if (may_allow || out.size() - before > 1)
-    for (std::size_t i = before; i < out.size(); ++i) out[i].telling = Telling::each;
+    for (std::size_t i = before; i < out.size(); ++i)
+      out[i].telling = may_allow ? Telling::all : Telling::each;
 }
 
 }  // namespace

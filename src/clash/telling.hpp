@@ -15,6 +15,7 @@ enum class Telling : std::uint8_t {
   whole,       ///< not at all: nobody asks, or there can be only one
   if_several,  ///< where there are several
   each,        ///< even if there is only one: it stands beside those of other parts
+  all,         ///< and those within the clearance too: a rule may allow what is worse
 };
 
 /// For each case: what lists of regions ask about it, and rules that may allow one place and not

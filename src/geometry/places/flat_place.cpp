@@ -11,6 +11,7 @@
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
+#include "geometry/part_edges.hpp"
 #include "strake/geometry/meeting_places.hpp"
 
 // Two convex faces in one plane have one convex polygon in common. What else of either body comes
@@ -92,7 +93,9 @@ struct Side {
     const std::optional<double> area = face_area(at_top);
     if (!area) return false;
     const Hull hull = hull_of(std::span(corners).first(count));
-    return *area >= hull.area - 2 * band * hull.rim;
+    // Neither area nor rim alone tells: a hole is small beside what the rim of a large plate leaves
+    // open, and a notch adds little to the rim.
+    return *area >= hull.area - 2 * band * hull.rim && face_rim(at_top) <= hull.rim + reach;
   }
 
  private:
@@ -110,6 +113,23 @@ struct Side {
         return std::nullopt;
     }
     return std::fabs(area);
+  }
+
+  /// The length of all edges that bound the triangles at the top, round holes too.
+  [[nodiscard]] double face_rim(const std::vector<std::uint8_t>& at_top) const {
+    double rim = 0;
+    for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e) {
+      const PartEdge& edge = part.edges[e];
+      if (at_top[edge.v0] == 0 || at_top[edge.v1] == 0) continue;
+      int faces = 0;
+      for (const std::uint32_t t : triangles_round(part, e)) {
+        const Triangle& c = part.triangles[t];
+        faces += at_top[c[0]] + at_top[c[1]] + at_top[c[2]] == 3 ? 1 : 0;
+      }
+      if (faces == 1)
+        rim += length(part.vertices[edge.v1].as<double>() - part.vertices[edge.v0].as<double>());
+    }
+    return rim;
   }
 };
 

@@ -11,6 +11,7 @@
 
 #include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
+#include "support/voxels.hpp"
 
 namespace strake::clash {
 namespace {
@@ -439,6 +440,28 @@ TEST(ClashPolicy, WhatIsMeantHidesNothingElseOfThePair) {
   EXPECT_EQ(run({500, 500, 30}, {600, 600, 80}), (Told{"deck-pipe CLEARANCE_VIOLATION"}));
   EXPECT_EQ(run({500, 500, 60}, {600, 600, 80}), (Told{"deck-pipe HIT by meant"}));
   EXPECT_EQ(run({150, 150, 15}, {160, 160, 80}), (Told{"deck-pipe HIT by meant"}));
+}
+
+// The same of one part with two legs: the left one is meant, the right one near the bar or in it.
+TEST(ClashPolicy, WhatIsMeantInOnePlaceHidesNoOther) {
+  Policy policy;
+  policy.allowed = {meant(2)};
+  policy.allowed[0].max_depth_mm = 50;
+  policy.allowed[0].region_mm = {{0, 0, -100}, {60, 200, 100}};
+  const Options options{.clearance_mm = 5};
+  const auto run = [&](double end) {
+    std::vector<geometry::Vec3i> u{{1, 0, 0}, {2, 0, 0}};
+    for (int y = 0; y < 4; ++y) u.insert(u.end(), {{0, y, 0}, {3, y, 0}});
+    ClashModel m;
+    m.object("u").body(test::voxel_mesh(u, 50));
+    m.box("bar", {40, 100, 10}, {end, 120, 30});
+    model::finish(m.model);
+    return told(m, report_of(m, {{}, options, policy}));
+  };
+  EXPECT_EQ(run(120), (Told{"bar-u HIT by meant"}));
+  EXPECT_EQ(run(148.5), (Told{"bar-u CLEARANCE_VIOLATION"}));
+  EXPECT_EQ(run(149.5), (Told{"bar-u CONTACT"}));
+  EXPECT_EQ(run(158), (Told{"bar-u HIT"}));
 }
 
 TEST(ClashPolicy, PartsThatMayMeetBeyondWhatIsAllowedAreUncertain) {

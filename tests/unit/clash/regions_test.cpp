@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "strake/clash/clash.hpp"
@@ -195,6 +196,59 @@ TEST(RegionsTest, AnAllowedContactIsAllowedAtItsPlaceAlone) {
   EXPECT_EQ(both.pairs[0].regions, 2U);
   // The places are known to lie within: nothing is uncertain.
   EXPECT_EQ(both.pairs[0].flags & kUncertain, 0);
+}
+
+// A hole or a groove is small beside a large plate, and parts the contact all the same.
+TEST(RegionsTest, AHoleInALargePlatePartsAContact) {
+  const double a = 2500, h = 10;
+  geometry::TriangleMesh plate;
+  const auto ring = [&](double lo, double hi) {
+    for (const double z : {0.0, 10.0})
+      plate.vertices.insert(plate.vertices.end(),
+                            {{lo, lo, z}, {hi, lo, z}, {hi, hi, z}, {lo, hi, z}});
+  };
+  ring(0, a);                  // 0 to 3 below, 4 to 7 above
+  ring(a / 2 - h, a / 2 + h);  // the hole: 8 to 11 and 12 to 15
+  const auto quad = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t t) {
+    plate.triangles.push_back({p, q, r});
+    plate.triangles.push_back({p, r, t});
+  };
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    quad(i, j, 4 + j, 4 + i);            // outer side
+    quad(8 + i, 12 + i, 12 + j, 8 + j);  // of the hole
+    quad(4 + i, 4 + j, 12 + j, 12 + i);  // above
+    quad(i, 8 + i, 8 + j, j);            // below
+  }
+  for (const double gap : {0.0, 0.5}) {
+    SCOPED_TRACE(gap);
+    ClashModel made;
+    made.object("plate").body(plate);
+    made.box("strip", {a / 2 - 5, 1000, 10 + gap}, {a / 2 + 5, 1500, 30});
+    model::finish(made.model);
+    const Report report = made.detect();
+    ASSERT_EQ(report.pairs.size(), 1U);
+    EXPECT_EQ(report.pairs[0].cls, Class::contact);
+    EXPECT_EQ(report.pairs[0].regions, 2U);
+  }
+}
+
+/// What listing regions must not change.
+auto answers(const Report& report) {
+  std::vector<std::tuple<Class, Relation, std::uint16_t, double, double, double, Vec3d, Vec3d>> all;
+  for (const Pair& p : report.pairs)
+    all.emplace_back(p.cls, p.relation, p.flags, p.d_mm, p.d_lower_mm, p.d_upper_mm, p.point_mm,
+                     p.away);
+  return all;
+}
+
+TEST(RegionsTest, ListingPlacesChangesNoAnswer) {
+  Options without;
+  without.most_regions = 0;
+  for (const double sunk : {0.0, 5.0}) {
+    const ClashModel table = table_on_deck(sunk);
+    EXPECT_EQ(answers(table.detect()), answers(table.detect(without)));
+  }
 }
 
 /// One shell of 5 mm cubes: a square ring round a pin that is 30 mm long below the plane z = 0,
