@@ -176,10 +176,14 @@ TEST(HiddenLineLaws, OrderOfObjectsDoesNotMatter) {
     for (std::uint32_t i = 0; i < options.objects; ++i) order[i] = options.objects - 1 - i;
     const test::SceneBuilder reversed = copy(plain.scene(), order, {});
     const hlr::View view = view_of(seed, options);
-    std::vector<Piece> back = pieces(reversed.scene(), view);
-    for (Piece& p : back) p.object = model::ObjectId{order[model::index(p.object)]};
-    std::stable_sort(back.begin(), back.end(),
-                     [](const Piece& x, const Piece& y) { return x.object < y.object; });
+    const std::vector<Piece> drawn = pieces(reversed.scene(), view);
+    std::vector<Piece> back;
+    for (std::uint32_t object = 0; object < options.objects; ++object)
+      for (Piece p : drawn) {
+        if (order[model::index(p.object)] != object) continue;
+        p.object = model::ObjectId{object};
+        back.push_back(p);
+      }
     ASSERT_EQ(test::difference(pieces(plain.scene(), view), back), "") << "seed " << seed;
   }
 }

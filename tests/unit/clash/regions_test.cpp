@@ -277,8 +277,8 @@ geometry::TriangleMesh askew(geometry::TriangleMesh mesh) {
 
 Report ring_and_pin_in_plate(int ring_bottom, double top, bool turned) {
   ClashModel made;
-  geometry::TriangleMesh plate = box_mesh({-100, -100, -200}, {100, 100, top});
-  geometry::TriangleMesh stamp = ring_and_pin(ring_bottom);
+  const geometry::TriangleMesh plate = box_mesh({-100, -100, -200}, {100, 100, top});
+  const geometry::TriangleMesh stamp = ring_and_pin(ring_bottom);
   made.object("plate").body(turned ? askew(plate) : plate);
   made.object("stamp").body(turned ? askew(stamp) : stamp);
   model::finish(made.model);

@@ -359,7 +359,7 @@ TEST(RvmReader, RefusesWhatIsNoRvmWithAReason) {
   EXPECT_NE(refused("", "a.rvm").message.find("empty"), std::string::npos);
   EXPECT_NE(refused("solid x", "a.rvm").message.find("HEAD"), std::string::npos);
   EXPECT_NE(refused("x", "a.rvs").message.find("Review state"), std::string::npos);
-  std::string swapped("H\0\0\0E\0\0\0A\0\0\0D\0\0\0", 16);
+  const std::string swapped("H\0\0\0E\0\0\0A\0\0\0D\0\0\0", 16);
   EXPECT_NE(refused(swapped, "a.rvm").message.find("low byte first"), std::string::npos);
   RvmWriter empty;
   empty.head().modl().cntb("/A").cnte().finish();
