@@ -43,8 +43,8 @@ class PlaceStage {
   }
 
  private:
-  /// Takes those cases out that certainly have one place: where one flat face of each meets, and of
-  /// two convex parts.
+  /// Takes those cases out that certainly have one place: where one flat face of each meets, where
+  /// one body lies in the other, and of two convex parts.
   Result<std::vector<std::size_t>> take_simple(std::vector<std::size_t>& some) const {
     const auto flat = parallel::transform(
         work_.context(), {.name = "flat places", .n = some.size(), .grain = CaseWork::kGrain},
@@ -52,7 +52,7 @@ class PlaceStage {
     if (!flat) return flat.error();
     std::vector<std::size_t> taken, others;
     for (std::size_t k = 0; k < some.size(); ++k)
-      ((*flat)[k] != 0 ? taken : others).push_back(some[k]);
+      ((*flat)[k] != 0 || is_contained(some[k]) ? taken : others).push_back(some[k]);
     const auto convex = convex_parts(others);
     if (!convex) return convex.error();
     some.clear();
@@ -61,6 +61,15 @@ class PlaceStage {
       (both ? taken : some).push_back(i);
     }
     return taken;
+  }
+
+  /// A solid that lies in another: a connected body of which every point is common.
+  [[nodiscard]] bool is_contained(std::size_t i) const {
+    const Relation relation = candidates_[i].look.answer.relation;
+    return work_.a(i).placed.part->kind == geometry::PartKind::solid &&
+           work_.b(i).placed.part->kind == geometry::PartKind::solid &&
+           (relation == Relation::a_in_b || relation == Relation::b_in_a ||
+            relation == Relation::abut_inside || relation == Relation::duplicate);
   }
 
   [[nodiscard]] bool in_flat_place(std::size_t i) const {

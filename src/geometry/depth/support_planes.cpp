@@ -154,7 +154,7 @@ bool exactly_convex_edges(const Part& part) {
 /// tessellated round body has thousands of vertices just below each of its faces.
 bool below_its_faces(const Part& part, double slack) {
   constexpr std::size_t kMostWalked = 64;  // vertices that are looked at one by one
-  constexpr std::uint64_t kFirstBoxes = 4096, kBoxesPerFace = 256;
+  constexpr std::uint64_t kFirstBoxes = 4096, kBoxesPerFace = 64;
   const bool walk = part.vertices.size() <= kMostWalked;
   const VertexTree tree = walk ? VertexTree() : VertexTree(part.vertices);
   std::uint64_t boxes = kFirstBoxes;
