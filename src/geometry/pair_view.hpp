@@ -45,18 +45,6 @@ struct NodePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// A stack for walking two trees at once, one side a step.
-class NodePairStack {
- public:
-  [[nodiscard]] bool empty() const { return size_ == 0; }
-  void push(std::uint32_t a, std::uint32_t b) { pairs_[size_++] = {a, b}; }
-  NodePair pop() { return pairs_[--size_]; }
-
- private:
-  std::array<NodePair, 2 * kMaxTreeDepth + 2> pairs_;
-  std::size_t size_ = 0;
-};
-
 /// True when the first of two nodes is the one to open: the larger, unless it is a leaf.
 [[nodiscard]] inline bool open_first(const PartTree::Node& a, const PartTree::Node& b) {
   if (a.count != 0) return false;

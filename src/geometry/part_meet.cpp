@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "geometry/axis_rays.hpp"
+#include "geometry/box.hpp"
+#include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/plane_sides.hpp"
 #include "geometry/sectors.hpp"
@@ -120,34 +122,16 @@ bool boxes_meet(const PartView& a, const Box3i& box_a, const PartView& b, const 
 }
 
 Meeter::State Meeter::walk() {
-  NodePairStack stack;
-  stack.push(0, 0);
-  while (!stack.empty()) {
-    const NodePair pair = stack.pop();
-    const PartTree::Node& na = a_.tree().nodes()[pair.a];
-    const PartTree::Node& nb = b_.tree().nodes()[pair.b];
-    ++work_.node_pairs;
-    if (!boxes_meet(a_, na.box, b_, nb.box)) continue;
-    if (na.count != 0 && nb.count != 0) {
-      if (leaves(na, nb) == State::decided) return State::decided;
-    } else if (open_first(na, nb)) {
-      stack.push(na.first + 1, pair.b);
-      stack.push(na.first, pair.b);
-    } else {
-      stack.push(pair.a, nb.first + 1);
-      stack.push(pair.a, nb.first);
-    }
-  }
-  return State::go_on;
-}
-
-Box3l box_of(const std::array<Vec3l, 3>& t) {
-  Box3l box;
-  for (int k = 0; k < 3; ++k) {
-    box.lo[k] = std::min(std::min(t[0][k], t[1][k]), t[2][k]);
-    box.hi[k] = std::max(std::max(t[0][k], t[1][k]), t[2][k]);
-  }
-  return box;
+  const bool to_the_end = walk_both(
+      a_.tree(), b_.tree(),
+      [&](const PartTree::Node& na, const PartTree::Node& nb) {
+        ++work_.node_pairs;
+        return boxes_meet(a_, na.box, b_, nb.box);
+      },
+      [&](const PartTree::Node& na, const PartTree::Node& nb) {
+        return leaves(na, nb) == State::go_on;
+      });
+  return to_the_end ? State::go_on : State::decided;
 }
 
 void Meeter::load(const PartTree::Node& leaf) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <cstdint>
 
 #include "geometry/basic/winding.hpp"
 #include "geometry/pair_view.hpp"
+#include "geometry/tree_walk.hpp"
 #include "strake/geometry/part_pair.hpp"
 
 namespace strake::geometry {
@@ -40,23 +40,16 @@ bool ray_meets(const Winding& ray, const Box3i& box) {
 
 PointSide probe(const TreedPart& part, const ScaledPoint& p, PairWork& work) {
   const PartView view(part, {});
-  const auto& nodes = view.tree().nodes();
-  Winding ray = shortest_ray(nodes.front().box, p);
-  std::array<std::uint32_t, kMaxTreeDepth + 2> stack{};
-  std::size_t size = 1;
-  while (size > 0) {
-    const PartTree::Node& node = nodes[stack[--size]];
-    if (!ray_meets(ray, node.box)) continue;
-    ++work.node_pairs;
-    if (node.count == 0) {
-      stack[size++] = node.first;
-      stack[size++] = node.first + 1;
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i)
-      if (!ray.pass(view.corners(view.tree().order()[node.first + i])))
-        return PointSide::on_boundary;
-  }
+  Winding ray = shortest_ray(view.tree().nodes().front().box, p);
+  const bool off_boundary = walk_tree(
+      view.tree(),
+      [&](const PartTree::Node& node) {
+        const bool met = ray_meets(ray, node.box);
+        if (met) ++work.node_pairs;
+        return met;
+      },
+      [&](std::uint32_t triangle) { return ray.pass(view.corners(triangle)); });
+  if (!off_boundary) return PointSide::on_boundary;
   return view.solid() && ray.number() >= 1 ? PointSide::inside : PointSide::outside;
 }
 

@@ -2,8 +2,9 @@
 #include "geometry/plane_sides.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "geometry/tree_walk.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -60,24 +61,17 @@ bool SideWalk::all_on_side(const PartView& view) {
 }
 
 bool SideWalk::walk(const PartView& view) {
-  std::array<std::uint32_t, kMaxTreeDepth + 2> stack{};
-  std::size_t size = 1;
-  while (size > 0) {
-    const PartTree::Node& node = view.tree().nodes()[stack[--size]];
-    if (clear(view.box(node.box))) {
-      leaves_plane_ = true;
-      continue;
-    }
-    if (node.count == 0) {
-      stack[size++] = node.first;
-      stack[size++] = node.first + 1;
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i)
-      for (const Vec3l& p : view.corners(view.tree().order()[node.first + i]))
-        if (!accept(p)) return false;
-  }
-  return true;
+  return walk_tree(
+      view.tree(),
+      [&](const PartTree::Node& node) {
+        const bool all_beyond = clear(view.box(node.box));
+        leaves_plane_ |= all_beyond;
+        return !all_beyond;
+      },
+      [&](std::uint32_t triangle) {
+        return std::ranges::all_of(view.corners(triangle),
+                                   [&](const Vec3l& p) { return accept(p); });
+      });
 }
 
 bool keeps_to(const ExactTriangle& triangle, int side, const PartView& view) {

@@ -10,6 +10,7 @@
 #include "geometry/axis_rays.hpp"
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
+#include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/sectors.hpp"
 #include "strake/geometry/triangle_contact.hpp"
@@ -178,26 +179,16 @@ class Finder {
  private:
   void walk() {
     if (!a_.planted() || !b_.planted()) return;
-    NodePairStack stack;
-    stack.push(0, 0);
-    while (!stack.empty() && !curve_.truncated) {
-      const NodePair pair = stack.pop();
-      const PartTree::Node &x = a_.tree().nodes()[pair.a], &y = b_.tree().nodes()[pair.b];
-      ++work_.node_pairs;
-      if (!a_.box(x.box).meets(b_.box(y.box))) continue;
-      if (x.count > 0 && y.count > 0) {
-        leaves(x, y);
-      } else if (open_first(x, y)) {
-        stack.push(x.first + 1, pair.b);
-        stack.push(x.first, pair.b);
-      } else {
-        stack.push(pair.a, y.first + 1);
-        stack.push(pair.a, y.first);
-      }
-    }
+    walk_both(
+        a_.tree(), b_.tree(),
+        [&](const PartTree::Node& x, const PartTree::Node& y) {
+          ++work_.node_pairs;
+          return a_.box(x.box).meets(b_.box(y.box));
+        },
+        [&](const PartTree::Node& x, const PartTree::Node& y) { return leaves(x, y); });
   }
 
-  void leaves(const PartTree::Node& x, const PartTree::Node& y) {
+  bool leaves(const PartTree::Node& x, const PartTree::Node& y) {
     for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
       const std::uint32_t ta = a_.tree().order()[i];
       const ExactTriangle s = a_.triangle(ta);
@@ -205,9 +196,10 @@ class Finder {
         const std::uint32_t tb = b_.tree().order()[j];
         ++work_.triangle_pairs;
         judge(ta, tb, contact(s, b_.triangle(tb)));
-        if (curve_.truncated) return;
+        if (curve_.truncated) return false;
       }
     }
+    return true;
   }
 
   void judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {

@@ -10,6 +10,7 @@
 #include "geometry/depth/boundary_curve.hpp"
 #include "geometry/depth/nearest.hpp"
 #include "geometry/pair_view.hpp"
+#include "geometry/tree_walk.hpp"
 #include "strake/geometry/intersect.hpp"
 
 namespace strake::geometry::thin {
@@ -50,22 +51,14 @@ class Search {
   }
 
   void walk(std::uint32_t u, std::uint32_t v) {
-    const auto& nodes = sheet_.tree().nodes();
     Box3l box{place(u), place(u)};
     box.include(place(v));
-    std::array<std::uint32_t, kMaxTreeDepth + 2> stack{};
-    std::size_t size = nodes.empty() ? 0 : 1;
-    while (size > 0) {
-      const PartTree::Node& node = nodes[stack[--size]];
-      if (!sheet_.box(node.box).meets(box)) continue;
-      if (node.count == 0) {
-        stack[size++] = node.first;
-        stack[size++] = node.first + 1;
-        continue;
-      }
-      for (std::uint32_t i = 0; i < node.count; ++i)
-        visit(u, v, sheet_.corners(sheet_.tree().order()[node.first + i]));
-    }
+    walk_tree(
+        sheet_.tree(), [&](const PartTree::Node& node) { return sheet_.box(node.box).meets(box); },
+        [&](std::uint32_t triangle) {
+          visit(u, v, sheet_.corners(triangle));
+          return true;
+        });
   }
 
   void visit(std::uint32_t u, std::uint32_t v, const TriangleCorners& t) {

@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <limits>
 
+#include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
+#include "geometry/tree_walk.hpp"
 #include "geometry/volume/column.hpp"
 
 namespace strake::geometry {
@@ -60,15 +62,14 @@ class Sum {
 
 /// The facets of a leaf, prepared; kept until another leaf is loaded.
 struct LoadedFacets {
-  std::uint32_t node = 0xffffffffU;
+  const PartTree::Node* node = nullptr;
   std::size_t count = 0;
   std::array<Facet, PartTree::kLeafSize> facet;
 
-  void load(const PartView& view, std::uint32_t index, const Frame& frame) {
-    if (node == index) return;
-    node = index;
+  void load(const PartView& view, const PartTree::Node& leaf, const Frame& frame) {
+    if (node == &leaf) return;
+    node = &leaf;
     count = 0;
-    const PartTree::Node& leaf = view.tree().nodes()[index];
     for (std::uint32_t i = 0; i < leaf.count; ++i) {
       const std::array<Vec3l, 3> c = view.corners(view.tree().order()[leaf.first + i]);
       const Facet made({frame(c[0]), frame(c[1]), frame(c[2])});
@@ -118,24 +119,20 @@ class VolumeSum {
   }
 
   std::optional<std::uint64_t> facets_seen(const PartView& view) {
-    std::array<std::uint32_t, kMaxTreeDepth + 2> stack;
-    std::size_t size = 0;
     std::uint64_t seen = 0;
-    stack[size++] = 0;
-    while (size > 0) {
-      const PartTree::Node& node = view.tree().nodes()[stack[--size]];
-      if (++work_ > most_work_) return std::nullopt;
-      if (out_of_sight(view.box(node.box), common_)) continue;
-      if (node.count == 0) {
-        stack[size++] = node.first + 1;
-        stack[size++] = node.first;
-        continue;
-      }
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const std::array<Vec3l, 3> c = view.corners(view.tree().order()[i]);
-        if (orient2d(c[0], c[1], c[2], frame_.axis) != 0) ++seen;
-      }
-    }
+    bool afforded = true;
+    walk_tree(
+        view.tree(),
+        [&](const PartTree::Node& node) {
+          afforded = ++work_ <= most_work_;
+          return afforded && !out_of_sight(view.box(node.box), common_);
+        },
+        [&](std::uint32_t triangle) {
+          const std::array<Vec3l, 3> c = view.corners(triangle);
+          if (orient2d(c[0], c[1], c[2], frame_.axis) != 0) ++seen;
+          return true;
+        });
+    if (!afforded) return std::nullopt;
     return seen;
   }
 
@@ -144,31 +141,24 @@ class VolumeSum {
   }
 
   bool walk() {
-    NodePairStack stack;
-    stack.push(0, 0);
-    while (!stack.empty()) {
-      const NodePair pair = stack.pop();
-      if (++work_ > most_work_) return false;
-      const PartTree::Node& na = a_.tree().nodes()[pair.a];
-      const PartTree::Node& nb = b_.tree().nodes()[pair.b];
-      const Box3l box_a = a_.box(na.box), box_b = b_.box(nb.box);
-      if (out_of_sight(box_a, box_b) || out_of_sight(box_b, box_a)) continue;
-      if (na.count != 0 && nb.count != 0) {
-        leaves(pair);
-      } else if (open_first(na, nb)) {
-        stack.push(na.first + 1, pair.b);
-        stack.push(na.first, pair.b);
-      } else {
-        stack.push(pair.a, nb.first + 1);
-        stack.push(pair.a, nb.first);
-      }
-    }
-    return true;
+    bool afforded = true;
+    walk_both(
+        a_.tree(), b_.tree(),
+        [&](const PartTree::Node& na, const PartTree::Node& nb) {
+          afforded = ++work_ <= most_work_;
+          const Box3l box_a = a_.box(na.box), box_b = b_.box(nb.box);
+          return afforded && !out_of_sight(box_a, box_b) && !out_of_sight(box_b, box_a);
+        },
+        [&](const PartTree::Node& na, const PartTree::Node& nb) {
+          leaves(na, nb);
+          return true;
+        });
+    return afforded;
   }
 
-  void leaves(const NodePair& pair) {
-    leaf_a_.load(a_, pair.a, frame_);
-    leaf_b_.load(b_, pair.b, frame_);
+  void leaves(const PartTree::Node& na, const PartTree::Node& nb) {
+    leaf_a_.load(a_, na, frame_);
+    leaf_b_.load(b_, nb, frame_);
     for (std::size_t i = 0; i < leaf_a_.count; ++i)
       for (std::size_t j = 0; j < leaf_b_.count; ++j) {
         const Facet &a = leaf_a_.facet[i], &b = leaf_b_.facet[j];
