@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clash/case_work.hpp"
+#include "clash/hash.hpp"
 #include "clash/narrow_stage.hpp"
 #include "clash/options.hpp"
 #include "clash/pair_log.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/core/hash.hpp"
+#include "clash/hash.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clash/reduce.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "clash/runs.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
@@ -64,14 +65,11 @@ Status gather_by_objects(std::vector<geometry::IndexPair>& pairs, const PartList
                std::tuple{object(y.second), y.first, y.second};
       });
   };
-  auto begin = parallel::collect<std::size_t>(
-      context, {.name = "pairs by first object", .n = pairs.size(), .grain = kGrain},
-      [&](std::size_t i, std::vector<std::size_t>& out) {
-        if (i == 0 || object(pairs[i - 1].first) != object(pairs[i].first)) out.push_back(i);
-      });
-  if (!begin) return begin.error();
-  begin->push_back(pairs.size());
-  const std::vector<std::size_t>& at = *begin;
+  const auto runs = find_runs(
+      pairs, "pairs by first object",
+      [&](const auto& x, const auto& y) { return object(x.first) == object(y.first); }, context);
+  if (!runs) return runs.error();
+  const std::vector<std::size_t>& at = *runs;
   return parallel::for_each(
       context, {.name = "gather by objects", .n = at.size() - 1, .grain = kGrain},
       [&](std::size_t k) { gather(std::span(pairs).subspan(at[k], at[k + 1] - at[k])); });

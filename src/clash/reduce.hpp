@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "clash/narrow.hpp"
@@ -55,10 +54,5 @@ struct PartFindings {
 /// is the number of the pair's first answer. Errors: cancelled.
 [[nodiscard]] Result<std::vector<Pair>> join_by_objects(const PartFindings& findings,
                                                         const parallel::Context& context);
-
-/// Hexadecimal hash of the pairs by durable ids: classes, relations, d, witnesses, and the rules
-/// that allow them. Errors: cancelled.
-[[nodiscard]] Result<std::string> hash_of(const Report& report, const model::Model& model,
-                                          const parallel::Context& context);
 
 }  // namespace strake::clash
