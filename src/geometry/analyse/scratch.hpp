@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/analyse/known_meshes.hpp"
+#include "strake/core/disjoint_sets.hpp"
 #include "strake/geometry/analyse.hpp"
 #include "strake/geometry/part.hpp"
 
@@ -50,7 +51,7 @@ struct TopologyScratch {
   std::vector<PartEdge> edges;
   std::vector<std::uint32_t> edge_triangles;
   std::vector<std::uint32_t> uneven;
-  std::vector<std::uint32_t> parents;  ///< of disjoint sets of triangles
+  DisjointSets sets;  ///< of triangles
 };
 
 /// What analysing a mesh needs besides its result.

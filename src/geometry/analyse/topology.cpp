@@ -2,7 +2,6 @@
 #include "geometry/analyse/topology.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace strake::geometry {
@@ -33,33 +32,6 @@ void sort_bucket(std::span<std::uint64_t> bucket) {
   }
 }
 
-/// Disjoint sets whose representative is their lowest member.
-class Sets {
- public:
-  explicit Sets(std::span<std::uint32_t> memory) : parent_(memory), count_(memory.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  [[nodiscard]] std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  /// Without a branch: whether the two are joined already is as good as chance.
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    count_ -= a != b ? 1U : 0U;
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  [[nodiscard]] std::size_t count() const { return count_; }
-
- private:
-  std::span<std::uint32_t> parent_;
-  std::size_t count_;
-};
-
 /// A triangle round an edge.
 struct Spoke {
   std::uint32_t triangle = 0;
@@ -75,10 +47,10 @@ class Fan {
       const Topology& topology)
       : vertices_(vertices), triangles_(triangles), topology_(topology) {}
 
-  void gather(std::size_t edge, Sets& sets) {
+  void gather(std::size_t edge, DisjointSets& sets) {
     nets_.clear();
     for (const std::uint32_t t : topology_.triangles_of(edge))
-      nets_.push_back({sets.find(t), topology_.sense(edge, triangles_[t]), t});
+      nets_.push_back({sets.root(t), topology_.sense(edge, triangles_[t]), t});
     std::sort(nets_.begin(), nets_.end());
     spokes_.clear();
     for (std::size_t i = 0; i < nets_.size();) {
@@ -93,7 +65,7 @@ class Fan {
 
   /// Joins the two triangles on either side of each wedge of material. A triangle that runs along
   /// the edge has its material at smaller angles, seen along the edge.
-  void join_wedges(std::size_t edge, Sets& sets) {
+  void join_wedges(std::size_t edge, DisjointSets& sets) {
     sort_by_angle(edge);
     end_before_beginning(edge);
     std::vector<std::uint32_t> opened, unmatched;
@@ -243,7 +215,8 @@ Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles
 
 ShellLabels label_shells(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
                          const Topology& topology, TopologyScratch& scratch) {
-  Sets sets(room(scratch.parents, triangles.size()));
+  DisjointSets& sets = scratch.sets;
+  sets.reset(triangles.size());
   for (std::size_t e = 0; e + 1 < topology.edges.size(); ++e) {
     const auto around = topology.triangles_of(e);
     if (around.size() == 2) sets.join(around[0], around[1]);
@@ -276,7 +249,7 @@ ShellLabels label_shells(std::span<const Vec3i> vertices, std::span<const Triang
   }
   labels.shell.resize(triangles.size());
   for (std::uint32_t t = 0; t < labels.shell.size(); ++t) {
-    const std::uint32_t root = sets.find(t);
+    const std::uint32_t root = sets.root(t);
     labels.shell[t] = root == t ? labels.count++ : labels.shell[root];
   }
   for (const std::uint32_t t : open_at) labels.closed[labels.shell[t]] = 0;
