@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/count_fill.hpp"
@@ -21,21 +23,84 @@ Vec3d place_mm(const PartRef& part, const Vec3d& p) {
   return geometry::to_mm(part.placed.origin.as<double>() + p);
 }
 
-/// The d of two objects is the least of their parts': so is either end of its bracket, over the
-/// parts that stand as the deciding ones do.
-void widen_bracket(Pair& worst, const Pair& other) {
-  const auto standing = [](const Pair& p) {
-    return std::tuple(p.allowed < 0, p.cls, std::max(p.level_a, p.level_b),
-                      std::min(p.level_a, p.level_b));
-  };
-  if (standing(worst) != standing(other)) return;
-  worst.d_lower_mm = std::min(worst.d_lower_mm, other.d_lower_mm);
-  worst.d_upper_mm = std::max(worst.d_mm, std::min(worst.d_upper_mm, other.d_upper_mm));
+/// The answer of two parts or of one place of theirs, told of their objects.
+struct Answer {
+  Pair pair;
+  const PartAnswer* of_parts = nullptr;
+};
+
+/// What stands differently is worse or less bad whatever its d.
+auto standing(const Pair& p) {
+  return std::tuple(p.allowed < 0, p.cls, std::max(p.level_a, p.level_b),
+                    std::min(p.level_a, p.level_b));
 }
 
-/// What the bracket of an answer permits, where no rule allows it.
-Class severest_open(const Found& found, const Pair& pair) {
-  return pair.allowed < 0 ? found.answer->judgement.severest : Class::no_hit;
+/// How much a relation says, the same for either order of the two: of parts that are equally deep,
+/// what lies inside says less than what passes through.
+int weight(Relation relation) {
+  switch (relation) {
+    case Relation::separate:
+      return 0;
+    case Relation::abut_outside:
+      return 1;
+    case Relation::abut_inside:
+      return 2;
+    case Relation::a_in_b:
+    case Relation::b_in_a:
+      return 3;
+    case Relation::cross:
+      return 4;
+    case Relation::interfere:
+      return 5;
+    case Relation::duplicate:
+      return 6;
+  }
+  return 0;
+}
+
+/// One answer of those that stand as the worst one does. Where brackets leave open which of them is
+/// the deepest, as between equal depths that were rounded differently, d does not choose among
+/// them: the weightiest relation counts, and the witness is of it wherever that is as deep to a
+/// grid unit.
+Pair decisive(const Pair& worst, const std::vector<Answer>& peers) {
+  // The least d is no more than this. Without sag: relations too are those of the tessellated.
+  double least_d = std::numeric_limits<double>::infinity();
+  for (const Answer& peer : peers) least_d = std::min(least_d, peer.of_parts->separation.upper);
+  Pair pair = worst;
+  Relation relation = worst.relation;
+  bool a_in_b = false, b_in_a = false;
+  for (const Answer& peer : peers) {
+    if (peer.of_parts->separation.lower > least_d) continue;
+    const Pair& p = peer.pair;
+    a_in_b = a_in_b || p.relation == Relation::a_in_b;
+    b_in_a = b_in_a || p.relation == Relation::b_in_a;
+    if (weight(p.relation) > weight(relation)) relation = p.relation;
+    const int gain = weight(p.relation) - weight(pair.relation);
+    if (p.d_mm <= worst.d_mm + geometry::kMmPerGrid &&
+        (gain > 0 || (gain == 0 && more_severe(p, pair))))
+      pair = p;
+  }
+  // Neither object lies in the other where each has a part that does.
+  const bool nested = weight(relation) == weight(Relation::a_in_b);
+  pair.relation = nested && a_in_b && b_in_a ? Relation::interfere : relation;
+  return pair;
+}
+
+/// The d of two objects is the least of their parts': so is either end of its bracket.
+void widen_bracket(Pair& pair, const std::vector<Answer>& peers) {
+  for (const Answer& peer : peers) {
+    pair.d_lower_mm = std::min(pair.d_lower_mm, peer.pair.d_lower_mm);
+    pair.d_upper_mm = std::min(pair.d_upper_mm, peer.pair.d_upper_mm);
+  }
+  pair.d_upper_mm = std::max(pair.d_mm, pair.d_upper_mm);
+}
+
+/// What the brackets of the answers permit, where no rule allows it.
+Class severest_open(const std::vector<Answer>& answers) {
+  Class severest = Class::no_hit;
+  for (const Answer& answer : answers)
+    if (answer.pair.allowed < 0) severest = std::max(severest, answer.of_parts->judgement.severest);
+  return severest;
 }
 
 /// Whether the answers of a pair of objects begin at `i` and it is not NO_HIT: any answer that is
@@ -48,20 +113,20 @@ bool begins(const PartFindings& findings, std::size_t i) {
   return false;
 }
 
-/// The pair of objects whose answers begin at `first`.
+/// The pair of objects whose answers begin at `first`; of the places of two parts one decides.
 Pair join(const PartFindings& findings, std::size_t first) {
-  std::size_t last = first;
-  std::optional<Pair> worst;
-  Class severest = Class::no_hit;
-  for (; last < findings.found.size() && findings.same_objects(first, last); ++last) {
-    if (!findings.found[last].decides) continue;
-    const Pair next = findings.pair(last);
-    if (!worst || more_severe(next, *worst)) worst = next;
-    severest = std::max(severest, severest_open(findings.found[last], next));
+  std::vector<Answer> answers;
+  for (std::size_t i = first; i < findings.found.size() && findings.same_objects(first, i); ++i)
+    if (findings.found[i].decides) answers.push_back({findings.pair(i), findings.found[i].answer});
+  const Class severest = severest_open(answers);
+  Pair pair = std::ranges::min_element(answers, more_severe, &Answer::pair)->pair;
+  if (answers.size() > 1) {
+    std::erase_if(answers, [at = standing(pair)](const Answer& answer) {
+      return standing(answer.pair) != at;
+    });
+    pair = decisive(pair, answers);
+    widen_bracket(pair, answers);
   }
-  Pair pair = worst.value_or(Pair{});  // of the places of two parts one decides
-  for (std::size_t i = first; i < last && last - first > 1; ++i)
-    if (findings.found[i].decides) widen_bracket(pair, findings.pair(i));
   // Other parts of the two may turn out worse than the deciding ones.
   const Class known = pair.allowed < 0 ? pair.cls : Class::no_hit;
   if (severest > known) pair.flags |= kUncertain;

@@ -49,9 +49,10 @@ struct PartFindings {
 [[nodiscard]] bool more_severe(const Pair& x, const Pair& y);
 
 /// The pairs of objects that are not NO_HIT: the join of the answers of their parts by whether a
-/// rule allows them, class, level, d, witness and part numbers, which is associative and
-/// commutative. Whether places were told apart shows in it only through rules. Pair::first_region
-/// is the number of the pair's first answer. Errors: cancelled.
+/// rule allows them, class, level and d. Where brackets leave open which of them is the worst, the
+/// weightiest relation counts; then d, witness and part numbers: a function of the set of answers.
+/// Whether places were told apart shows in it only through rules. Pair::first_region is the number
+/// of the pair's first answer. Errors: cancelled.
 [[nodiscard]] Result<std::vector<Pair>> join_by_objects(const PartFindings& findings,
                                                         const parallel::Context& context);
 

@@ -48,6 +48,16 @@ bool counts(const Pair& place, const Pair& whole) {
   return place.cls >= Class::contact;
 }
 
+/// Of places that are as bad as each other, that of the pair's own witness counts as the worst.
+bool worse(const Place& x, const Place& y, const Pair& whole) {
+  const auto is_witness = [&](const Pair& p) {
+    return p.part_a == whole.part_a && p.part_b == whole.part_b && p.d_mm == whole.d_mm &&
+           p.point_mm == whole.point_mm;
+  };
+  if (is_witness(x.result) != is_witness(y.result)) return is_witness(x.result);
+  return more_severe(x.result, y.result);
+}
+
 /// Places of different pairs of parts whose boxes meet are joined, in one sweep along x.
 DisjointSets joined(const std::vector<Place>& places) {
   DisjointSets sets(places.size());
@@ -87,11 +97,11 @@ class RegionsOfPairs {
       places.push_back(std::move(place));
     }
     if (places.size() < 2) return {.count = 1, .worst = {}};
-    return together(places);
+    return together(places, pair);
   }
 
  private:
-  [[nodiscard]] Regions together(const std::vector<Place>& places) const {
+  [[nodiscard]] Regions together(const std::vector<Place>& places, const Pair& whole) const {
     DisjointSets sets = joined(places);
     std::vector<Place> worst;
     std::vector<std::size_t> number(places.size());
@@ -105,13 +115,12 @@ class RegionsOfPairs {
       Place& known = worst[number[root]];
       Box3d box = known.box_mm;
       box.include(places[i].box_mm);
-      if (more_severe(places[i].result, known.result)) known = places[i];
+      if (worse(places[i], known, whole)) known = places[i];
       known.box_mm = box;
     }
     Regions regions{.count = static_cast<std::uint32_t>(worst.size()), .worst = {}};
     if (regions.count < 2) return regions;
-    std::ranges::sort(
-        worst, [](const Place& x, const Place& y) { return more_severe(x.result, y.result); });
+    std::ranges::sort(worst, [&](const Place& x, const Place& y) { return worse(x, y, whole); });
     worst.resize(std::min<std::uint64_t>(worst.size(), most_));
     for (const Place& place : worst) regions.worst.push_back(region_of(place));
     return regions;

@@ -167,6 +167,19 @@ TEST(PairLaws, TheBracketIsThatOfAllParts) {
   for (int i = 1; i < 48; ++i) expect_same_answer(base, image(i));
 }
 
+/// One part in the other body, one across its skin, both as deep but for rounding: which of the two
+/// came out deeper is not what the two objects are to each other.
+TEST(PairLaws, RoundingDoesNotChooseTheRelation) {
+  const SolidPair pair = test::draw_solid_pair(6316);
+  ASSERT_EQ(pair.recipe, "seed 6316 lattice solid and lattice solid, contained, aligned");
+  for (int i = 0; i < 48; ++i) {
+    const auto symmetry = testing::axis_symmetry(i);
+    const Pair image = judged(mapped(pair.a, symmetry), mapped(pair.b, symmetry));
+    EXPECT_EQ(name(image.relation), name(Relation::interfere)) << i;
+    EXPECT_NEAR(image.d_mm, -20.064154916, 1e-5) << i;
+  }
+}
+
 /// What is added can only come nearer or reach deeper.
 void expect_no_rise(const Pair& before, const Pair& after) {
   EXPECT_LE(after.d_lower_mm, before.d_upper_mm);

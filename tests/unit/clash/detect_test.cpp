@@ -249,6 +249,33 @@ TEST(Detect, AnObjectIsAsBadAsItsWorstPart) {
   EXPECT_NEAR(p.d_mm, -20, 1e-6);
 }
 
+TEST(Detect, OfPartsThatAreEquallyDeepTheWeightiestRelationCounts) {
+  // All 100 mm deep in the block.
+  const auto within = test::box_mesh({10, 810, 810}, {100, 900, 900});
+  const auto through = test::box_mesh({-100, 100, 100}, {100, 300, 300});
+  const auto turned = test::box_mesh({800, 900, 100}, {900, 1100, 300});
+  using Parts = std::vector<geometry::TriangleMesh>;
+  for (const Parts& parts : {Parts{within, through}, {through, within}, {turned, within}}) {
+    ClashModel m;
+    m.box("block", {0, 0, 0}, {1000, 1000, 1000}).object("parts");
+    for (const auto& part : parts) m.body(part);
+    const Report report = m.detect();
+    ASSERT_EQ(report.pairs.size(), 1U);
+    expect(report.pairs[0], Class::hit, Relation::interfere, -100);
+    ASSERT_EQ(report.regions.size(), 2U);
+    EXPECT_EQ(report.regions[0].point_mm, report.pairs[0].point_mm);
+  }
+}
+
+TEST(Detect, NeitherLiesInTheOtherWhereEachHoldsAPartOfTheOther) {
+  ClashModel m;
+  m.object("a").body(test::box_mesh({0, 0, 0}, {100, 100, 100}));
+  m.body(test::box_mesh({1040, 40, 40}, {1060, 60, 60}));
+  m.object("b").body(test::box_mesh({40, 40, 40}, {60, 60, 60}));
+  m.body(test::box_mesh({1000, 0, 0}, {1100, 100, 100}));
+  expect(only(m), Class::hit, Relation::interfere, -50);
+}
+
 TEST(Detect, TolerancesThatMakeNoSenseAreErrors) {
   const ClashModel m = walls(0, 0);
   const model::Scene scene = make_scene(m.model, {}, {}).value();
