@@ -14,15 +14,6 @@
 namespace strake::report {
 namespace {
 
-void object(std::string& out, const model::Model& model, model::ObjectId id) {
-  const model::Object& o = model.object(id);
-  for (const std::string_view text : {std::string_view(o.id), std::string_view(o.name),
-                                      std::string_view(model.files[o.file].label)}) {
-    append_csv(out, text);
-    out += ',';
-  }
-}
-
 void discipline(std::string& out, const clash::Report& test, model::ObjectId id) {
   out += ',';
   if (test.disciplines.empty()) return;
@@ -37,8 +28,8 @@ void level(std::string& out, const clash::Report& test, clash::Level of_part) {
 
 void line(std::string& out, const model::Model& model, const clash::Report& test,
           const clash::Pair& p, std::string_view group) {
-  object(out, model, p.a);
-  object(out, model, p.b);
+  append_csv_identity(out, model, p.a);
+  append_csv_identity(out, model, p.b);
   out += name(p.cls);
   out += ',';
   out += name(p.relation);
@@ -77,8 +68,8 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
 /// A pair that was left out: of the class EXEMPTED, with nothing measured.
 void exempted_line(std::string& out, const model::Model& model, const clash::Report& test,
                    const clash::ExemptedPair& p) {
-  object(out, model, p.a);
-  object(out, model, p.b);
+  append_csv_identity(out, model, p.a);
+  append_csv_identity(out, model, p.b);
   out += "EXEMPTED,,,,,,,,,";
   append_csv(out, test.name);
   out += ",,,,,,,,,,,,,";

@@ -18,15 +18,10 @@ void number(std::string& out, std::uint64_t value) {
 void line(std::string& out, const ClashContents& contents, const clash::Report& test,
           const clash::LoggedPair& p) {
   append_csv(out, test.name);
-  for (const model::ObjectId id : {p.a, p.b}) {
-    const model::Object& object = contents.model.object(id);
-    for (const std::string* text :
-         {&object.id, &object.name, &contents.model.files[object.file].label}) {
-      out += ',';
-      append_csv(out, *text);
-    }
-  }
-  out += p.may_be_allowed ? ",1," : ",0,";
+  out += ',';
+  append_csv_identity(out, contents.model, p.a);
+  append_csv_identity(out, contents.model, p.b);
+  out += p.may_be_allowed ? "1," : "0,";
   out += name(p.cls);
   number(out, p.cost());
   for (const std::uint64_t n : {p.part_pairs, p.repeated_part_pairs, p.node_pairs, p.triangle_pairs,

@@ -27,4 +27,12 @@ void append_csv(std::string& out, std::string_view raw) {
   out += '"';
 }
 
+void append_csv_identity(std::string& out, const model::Model& model, model::ObjectId id) {
+  const model::Object& o = model.object(id);
+  for (const std::string* text : {&o.id, &o.name, &model.files[o.file].label}) {
+    append_csv(out, *text);
+    out += ',';
+  }
+}
+
 }  // namespace strake::report
