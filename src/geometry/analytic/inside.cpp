@@ -28,11 +28,25 @@ double descend(const ConvexBody& inner, const ConvexBody& outer, const InnerFiel
   return least;
 }
 
+/// Its ends in the sweep, a body may have its middle in what the sweep leaves out. `shift` keeps
+/// the common point that is found off the axis, where the two may only touch.
+double beside_notch(const PairSide& inner, const ConvexBody& hull, const Torus& ring) {
+  constexpr double kFirstShift = 4, kGrowth = 4;
+  double least = std::numeric_limits<double>::infinity();
+  for (double shift = kFirstShift; shift < ring.radius(); shift *= kGrowth) {
+    const ConvexGap gap = convex_gap(ring.notch(shift), hull);
+    least = std::min(least, ring.depth(inner.real(gap.on_b)));
+    if (gap.lower > 0) break;
+  }
+  return least;
+}
+
 /// A torus is not convex: a body may have its ends in it and its middle in the hole. So beside its
 /// extremes its place nearest to the axis is looked at, and those half way through it.
 double inside_ring(const PairSide& inner, const ConvexBody& hull, const Torus& ring) {
   const auto depth = [&](const Vec3d& p) { return ring.depth(inner.real(p)); };
   double least = depth(convex_gap(ring.axis(), hull).on_b);
+  if (ring.notched()) least = std::min(least, beside_notch(inner, hull, ring));
   for (int x = -2; x <= 2; ++x)
     for (int y = -2; y <= 2; ++y)
       for (int z = -2; z <= 2; ++z) {

@@ -145,6 +145,20 @@ ConvexBody Torus::axis() const {
   return body;
 }
 
+ConvexBody Torus::notch(double shift) const {
+  const SinCos mid = sin_cos(angle_ / 2 + kPi);
+  const Vec3d out = turned({mid.cos, mid.sin, 0}), centre = centre_ + out * shift;
+  Profile all;
+  all.outer = all.half_height = radius_;
+  ConvexBody body;
+  body.shape = Sweep{centre, axes_[0], axes_[1], axes_[2], end_, {0, 1}, all};
+  body.middle = centre + out * (radius_ / 2);
+  body.radius = 2 * radius_;
+  body.reach = reach_ + shift;
+  body.error = kSupportRounding * body.reach;
+  return body;
+}
+
 Vec3d Torus::local(const Vec3d& p) const {
   const Vec3d v = p - centre_;
   return {dot(v, axes_[0]), dot(v, axes_[1]), dot(v, axes_[2])};

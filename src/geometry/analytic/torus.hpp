@@ -37,6 +37,10 @@ class Torus {
   [[nodiscard]] ConvexBody spine(const Arc& arc) const;
   /// The axis, as far as the torus reaches.
   [[nodiscard]] ConvexBody axis() const;
+  /// Whether a sweep of more than half a turn leaves a notch, which then is convex.
+  [[nodiscard]] bool notched() const { return !full_ && angle_ > kPi; }
+  /// The notch as far as the torus reaches, moved by `shift` away from the axis.
+  [[nodiscard]] ConvexBody notch(double shift) const;
 
   /// A point of the body, the nearest one up to rounding for points that are not far beyond both
   /// ends of the sweep.
