@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "geometry/part_edges.hpp"
+#include "strake/geometry/part_edges.hpp"
 #include "strake/geometry/predicates.hpp"
 
 namespace strake::geometry {

@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <variant>
+
+#include "strake/geometry/part_edges.hpp"
 
 namespace strake::hlr {
 namespace {
 
 using geometry::Part;
+using geometry::runs_along;
 using geometry::Triangle;
 using geometry::Vec3i;
 using geometry::Vec3l;
@@ -18,11 +22,6 @@ using geometry::Vec3l;
 bool is_zero(const NormalVector& n) { return n[0] == 0 && n[1] == 0 && n[2] == 0; }
 
 NormalVector negated(const NormalVector& n) { return {-n[0], -n[1], -n[2]}; }
-
-// Whether the triangle runs through the edge from v0 to v1.
-bool runs_along(const Triangle& t, std::uint32_t v0, std::uint32_t v1) {
-  return (t[0] == v0 && t[1] == v1) || (t[1] == v0 && t[2] == v1) || (t[2] == v0 && t[0] == v1);
-}
 
 // A fixed expression of doubles: the normals are rounded once each, so the decision depends on
 // the shape alone and survives translation, reordering and scaling by powers of two.
@@ -73,20 +72,19 @@ Faces faces_of(const Part& part) {
 std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Faces& faces,
                                 const FeatureOptions& options) {
   const geometry::PartEdge& e = part.edges[edge];
-  const std::uint32_t first = e.first_triangle;
-  const std::uint32_t count = part.edges[edge + 1].first_triangle - first;
-  if (count == 0) return std::nullopt;
-  if (count == 1) return EdgeKind::boundary;
-  const auto face = [&](std::uint32_t k) {
-    const std::uint32_t t = part.edge_triangles[first + k];
+  const std::span<const std::uint32_t> round = geometry::triangles_round(part, edge);
+  if (round.empty()) return std::nullopt;
+  if (round.size() == 1) return EdgeKind::boundary;
+  const auto face = [&](std::uint32_t t) {
     return part.faces.empty() ? geometry::kNoFace : part.faces[t];
   };
-  bool one_face = face(0) != geometry::kNoFace;
-  for (std::uint32_t k = 1; k < count && one_face; ++k) one_face = face(k) == face(0);
+  const std::uint32_t first = face(round[0]);
+  const bool one_face = first != geometry::kNoFace &&
+                        std::ranges::all_of(round, [&](auto t) { return face(t) == first; });
   if (one_face) return std::nullopt;
-  if (count > 2) return EdgeKind::non_manifold;
+  if (round.size() > 2) return EdgeKind::non_manifold;
 
-  const std::uint32_t s = part.edge_triangles[first], t = part.edge_triangles[first + 1];
+  const std::uint32_t s = round[0], t = round[1];
   const bool consistent =
       runs_along(part.triangles[s], e.v0, e.v1) != runs_along(part.triangles[t], e.v0, e.v1);
   const NormalVector& m = faces.vectors[s];

@@ -4,17 +4,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <span>
 #include <vector>
 
 #include "hlr/job.hpp"
 #include "hlr/occlusion.hpp"
-#include "hlr/shape_view.hpp"
 #include "hlr/stretches.hpp"
-#include "hlr/view_tree.hpp"
+#include "hlr/world.hpp"
 #include "strake/parallel/collect.hpp"
-#include "strake/parallel/for_each.hpp"
-#include "strake/parallel/order.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -22,41 +18,12 @@ namespace {
 using geometry::Box3l;
 using geometry::Vec3l;
 
-constexpr std::uint32_t kEdgesPerItem = 32;
 constexpr std::uint32_t kFewBodies = 16;
 // Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
 constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
 
-/// A body as the gathering sees it.
-struct Placed {
-  const ShapeView* view = nullptr;  ///< null: not drawn
-  Vec3l offset;
-  ViewPoint at;
-  std::uint32_t object = 0;
-  std::int64_t contact = 0;
-  bool opaque = false;  ///< and, where there are limits, not wholly outside them
-  bool cut = false;     ///< by the limits
-};
-
-/// A run of edges of one body: the item of work.
-struct Item {
-  std::uint32_t body = 0, first = 0, last = 0;
-  std::uint32_t number = 0;  ///< of its first edge within the object
-};
-
 struct Work {
   std::uint64_t edges = 0, tests = 0, wide_tests = 0;
-};
-
-struct World {
-  explicit World(const Job& j) : job(j), frame(j.direction()) {}
-
-  const Job& job;
-  Frame frame;
-  std::vector<ShapeView> views;  ///< per grid shape; empty where not drawn
-  std::vector<Placed> placed;    ///< per body
-  ViewTree tree;                 ///< over the bodies that may hide
-  std::vector<Item> items;
 };
 
 class Gatherer {
@@ -306,84 +273,12 @@ class Gatherer {
   StretchMaker maker_;
 };
 
-bool within(const Box3l& inner, const Box3l& outer) {
-  for (int k = 0; k < 3; ++k)
-    if (inner.lo[k] < outer.lo[k] || inner.hi[k] > outer.hi[k]) return false;
-  return true;
-}
-
-Status make_views(World& world, const parallel::Context& context) {
-  const model::Scene& scene = *world.job.scene;
-  std::vector<std::uint32_t> used;
-  std::vector<bool> seen(scene.shapes.size());
-  for (const model::GridBody& body : scene.bodies) {
-    if (seen[body.grid_shape] || !world.job.drawn[model::index(body.object)]) continue;
-    seen[body.grid_shape] = true;
-    used.push_back(body.grid_shape);
-  }
-  const auto order = parallel::longest_first(used.size(), [&](std::size_t i) {
-    std::size_t triangles = 0;
-    for (const geometry::Part& part : scene.shapes[used[i]].parts) triangles += part.edges.size();
-    return triangles;
-  });
-  world.views.resize(scene.shapes.size());
-  return parallel::for_each(
-      context, {.name = "hidden lines: shapes", .n = used.size(), .order = order},
-      [&](std::size_t i) {
-        world.views[used[i]] = view_of(scene.shapes[used[i]], world.frame, world.job.features);
-      });
-}
-
-void place_bodies(World& world) {
-  const Job& job = world.job;
-  const model::Scene& scene = *job.scene;
-  world.placed.resize(scene.bodies.size());
-  std::vector<ViewBox> boxes(scene.bodies.size());
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    const model::GridBody& body = scene.bodies[b];
-    const std::uint32_t object = model::index(body.object);
-    if (!job.drawn[object]) continue;
-    const model::GridShape& shape = scene.shapes[body.grid_shape];
-    Placed& placed = world.placed[b];
-    placed = {&world.views[body.grid_shape],
-              job.offset(body),
-              world.frame(job.offset(body)),
-              object,
-              job.contact[b],
-              job.opaque[b],
-              false};
-    if (job.limits && !shape.box.empty()) {
-      Box3l box = body.box(shape);
-      box = {box.lo - job.origin, box.hi - job.origin};
-      placed.cut = !within(box, *job.limits);
-      placed.opaque = placed.opaque && box.meets(*job.limits);
-    }
-    if (placed.opaque && !placed.view->box.empty()) boxes[b] = placed.view->box.moved(placed.at);
-  }
-  world.tree = ViewTree(boxes);
-}
-
-void make_items(World& world) {
-  const model::Scene& scene = *world.job.scene;
-  std::uint32_t number = 0;
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    if (world.placed[b].view == nullptr) continue;
-    const std::uint32_t object = world.placed[b].object;
-    if (b == scene.first_body[object]) number = 0;
-    const auto edges = static_cast<std::uint32_t>(world.placed[b].view->edges.size());
-    for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
-      world.items.push_back({b, first, std::min(edges, first + kEdgesPerItem), number + first});
-    number += edges;
-  }
-}
-
 }  // namespace
 
 Status solve_gather(const Job& job, const parallel::Context& context, Drawing& drawing) {
-  World world(job);
-  if (const Status status = make_views(world, context); !status) return status;
-  place_bodies(world);
-  make_items(world);
+  const Result<World> made = make_world(job, context);
+  if (!made) return made.error();
+  const World& world = *made;
   std::vector<Work> work(world.items.size());
   Result<std::vector<Piece>> pieces = parallel::collect_with<Piece>(
       context, {.name = "hidden lines: edges", .n = world.items.size()},

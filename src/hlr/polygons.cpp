@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Merges exactly coplanar triangles into convex polygons, and certifies convex solids.
+// Merges exactly coplanar triangles into convex polygons.
 #include <algorithm>
 #include <cstdlib>
 
+#include "hlr/convexity.hpp"
 #include "hlr/shape_view.hpp"
 #include "strake/core/disjoint_sets.hpp"
+#include "strake/geometry/part_edges.hpp"
 
 namespace strake::hlr {
 namespace {
 
+using geometry::corner_off;
 using geometry::Part;
+using geometry::runs_along;
 using geometry::Triangle;
 using geometry::Vec3i;
 using geometry::Vec3l;
@@ -20,11 +24,6 @@ constexpr std::uint32_t kTreeFrom = 12;
 constexpr std::uint32_t kTreeFromIfConvex = 64;
 // Parts up to this size have normals of 62 bits.
 constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
-
-struct Plane {
-  std::array<std::int64_t, 3> n{};
-  Int128 facing = 0;
-};
 
 // The sign and value of n · (p - q).
 Int128 height(const std::array<std::int64_t, 3>& n, const Vec3i& p, const Vec3i& q) {
@@ -48,7 +47,7 @@ class PartMerger {
       return false;
     }
     find_planes();
-    const bool convex = walk_edges() && is_star_shaped();
+    const bool convex = walk_edges() && bounds_convex_body(part_, planes_);
     add_groups();
     PartView part = finished(convex ? kTreeFromIfConvex : kTreeFrom);
     if (convex) add_outline(part);
@@ -94,15 +93,8 @@ class PartMerger {
     }
   }
 
-  [[nodiscard]] bool runs(std::uint32_t t, std::uint32_t v0, std::uint32_t v1) const {
-    const Triangle& i = part_.triangles[t];
-    return (i[0] == v0 && i[1] == v1) || (i[1] == v0 && i[2] == v1) || (i[2] == v0 && i[0] == v1);
-  }
-
-  [[nodiscard]] std::uint32_t opposite(std::uint32_t t, const geometry::PartEdge& e) const {
-    for (const std::uint32_t v : part_.triangles[t])
-      if (v != e.v0 && v != e.v1) return v;
-    return e.v0;
+  [[nodiscard]] bool runs(std::uint32_t t, const geometry::PartEdge& e) const {
+    return runs_along(part_.triangles[t], e.v0, e.v1);
   }
 
   // Groups coplanar neighbours; true when every edge is manifold, consistent and not concave.
@@ -117,12 +109,12 @@ class PartMerger {
       }
       const std::uint32_t s = part_.edge_triangles[e.first_triangle];
       const std::uint32_t t = part_.edge_triangles[e.first_triangle + 1];
-      if (runs(s, e.v0, e.v1) == runs(t, e.v0, e.v1)) {
+      if (runs(s, e) == runs(t, e)) {
         convex = false;
         continue;
       }
-      const Int128 bend =
-          height(planes_[s].n, part_.vertices[opposite(t, e)], part_.vertices[e.v0]);
+      const Int128 bend = height(planes_[s].n, part_.vertices[corner_off(part_.triangles[t], e)],
+                                 part_.vertices[e.v0]);
       if (bend > 0) convex = false;
       if (bend != 0) continue;
       if (is_folded(s, t)) {
@@ -142,50 +134,6 @@ class PartMerger {
     for (std::size_t k = 0; k < 3; ++k)
       if (m[k] != 0) return (m[k] > 0) != (n[k] > 0);
     return true;
-  }
-
-  // A locally convex closed surface of one shell is the boundary of a convex body when some point
-  // lies strictly inside all its planes and a ray from there meets it once (Mehlhorn et al.,
-  // Checking geometric programs, 1996).
-  [[nodiscard]] bool is_star_shaped() const {
-    Vec3l sum{0, 0, 0};
-    for (const Vec3i& v : part_.vertices) sum = sum + v.as<std::int64_t>();
-    const auto count = static_cast<std::int64_t>(part_.vertices.size());
-    if (count < 4 || count > (1 << 20)) return false;
-    // All heights are taken times the number of vertices, so that the middle is integer.
-    const auto inside = [&](const std::array<std::int64_t, 3>& n, const Vec3i& v) {
-      const Vec3l q = v.as<std::int64_t>() * count - sum;
-      return static_cast<Int128>(n[0]) * q.x + static_cast<Int128>(n[1]) * q.y +
-                 static_cast<Int128>(n[2]) * q.z >
-             0;
-    };
-    for (std::size_t t = 0; t < planes_.size(); ++t)
-      if (!inside(planes_[t].n, part_.vertices[part_.triangles[t][0]])) return false;
-    return ray_meets_once(sum, count);
-  }
-
-  // The ray from the middle m through the centre of triangle 0: the triangle that it leaves by
-  // has the ray's direction inside the cone of its corners.
-  [[nodiscard]] bool ray_meets_once(const Vec3l& sum, std::int64_t count) const {
-    const Triangle& first = part_.triangles[0];
-    const auto from_middle = [&](std::uint32_t v) {
-      const Vec3l q = part_.vertices[v].as<std::int64_t>() * count - sum;
-      return q.as<double>();
-    };
-    const geometry::Vec3d ray =
-        from_middle(first[0]) + from_middle(first[1]) + from_middle(first[2]);
-    std::size_t hits = 0;
-    for (const Triangle& t : part_.triangles) {
-      const geometry::Vec3d a = from_middle(t[0]), b = from_middle(t[1]), c = from_middle(t[2]);
-      // Doubt counts as a hit: the certificate is refused, never forged.
-      const double size = (std::abs(ray.x) + std::abs(ray.y) + std::abs(ray.z)) * 1e-9;
-      const auto within = [&](const geometry::Vec3d& p, const geometry::Vec3d& q) {
-        const geometry::Vec3d n = cross(p, q);
-        return dot(n, ray) >= -size * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-      };
-      if (within(a, b) && within(b, c) && within(c, a)) ++hits;
-    }
-    return hits == 1;
   }
 
   void add_wide(std::uint32_t t) {
@@ -230,7 +178,7 @@ class PartMerger {
       const std::uint32_t t = part_.edge_triangles[e.first_triangle + 1];
       if ((planes_[s].facing > 0) == (planes_[t].facing > 0)) continue;
       if (planes_[t].facing > 0) s = t;
-      const bool along_edge = runs(s, e.v0, e.v1);
+      const bool along_edge = runs(s, e);
       from = along_edge ? e.v0 : e.v1;
       if (next_[from] != geometry::kNoFace) return false;
       next_[from] = along_edge ? e.v1 : e.v0;
@@ -386,7 +334,7 @@ class PartMerger {
   const Frame& frame_;
   ShapeView& view_;
   std::vector<ViewPoint> points_;
-  std::vector<Plane> planes_;
+  std::vector<TrianglePlane> planes_;
   std::vector<std::uint32_t> group_, next_, loop_, corners_, touched_;
   std::vector<std::array<std::uint32_t, 2>> directed_;
 };

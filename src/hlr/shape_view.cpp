@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "strake/geometry/part_edges.hpp"
+
 namespace strake::hlr {
 namespace {
 
@@ -14,9 +16,8 @@ void judge_edges(const geometry::Part& part, const geometry::Vec3l& direction,
                  std::span<EdgeView> edges) {
   for (EdgeView& e : edges) {
     bool away = true, towards = false;
-    for (std::uint32_t i = part.edges[e.edge.part_edge].first_triangle;
-         i < part.edges[e.edge.part_edge + 1].first_triangle; ++i) {
-      const Int128 facing = along(triangle_normal(part, part.edge_triangles[i]), direction);
+    for (const std::uint32_t t : geometry::triangles_round(part, e.edge.part_edge)) {
+      const Int128 facing = along(triangle_normal(part, t), direction);
       away = away && facing < 0;
       towards = towards || facing > 0;
     }

@@ -109,8 +109,7 @@ class Fan {
     const Vec3l from = vertices_[e.v0].as<std::int64_t>();
     const Vec3l axis = vertices_[e.v1].as<std::int64_t>() - from;
     for (Spoke& s : spokes_)
-      for (const std::uint32_t v : triangles_[s.triangle])
-        if (v != e.v0 && v != e.v1) s.arm = vertices_[v].as<std::int64_t>() - from;
+      s.arm = vertices_[corner_off(triangles_[s.triangle], e)].as<std::int64_t>() - from;
     const Vec3d first = cross(axis.as<double>(), spokes_[0].arm.as<double>());
     for (Spoke& s : spokes_) {
       const int side = turn(axis, spokes_[0].arm, s.arm);

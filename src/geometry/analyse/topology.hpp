@@ -7,6 +7,7 @@
 
 #include "geometry/analyse/scratch.hpp"
 #include "strake/geometry/part.hpp"
+#include "strake/geometry/part_edges.hpp"
 
 namespace strake::geometry {
 
@@ -24,10 +25,7 @@ struct Topology {
   }
   /// +1 when the triangle runs from v0 to v1 of the edge, -1 when it runs back.
   [[nodiscard]] int sense(std::size_t edge, const Triangle& t) const {
-    const std::uint32_t v0 = edges[edge].v0, v1 = edges[edge].v1;
-    const bool along =
-        (t[0] == v0 && t[1] == v1) || (t[1] == v0 && t[2] == v1) || (t[2] == v0 && t[0] == v1);
-    return along ? 1 : -1;
+    return runs_along(t, edges[edge].v0, edges[edge].v1) ? 1 : -1;
   }
 };
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "geometry/depth/nearest.hpp"
-#include "geometry/part_edges.hpp"
 #include "geometry/places/bucket_order.hpp"
 #include "geometry/places/segment_near.hpp"
+#include "strake/geometry/part_edges.hpp"
 
 namespace strake::geometry {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
-#include "geometry/part_edges.hpp"
 #include "strake/geometry/meeting_places.hpp"
+#include "strake/geometry/part_edges.hpp"
 
 // Two convex faces in one plane have one convex polygon in common. What else of either body comes
 // within reach of the plane is a collar round its face; it leaves the plane steeply, so that it

@@ -11,6 +11,8 @@
 
 namespace strake::geometry {
 
+// How the edges of a part and its triangles lie to each other.
+
 /// The number of the edge between two vertices; kNoFace where there is none.
 [[nodiscard]] inline std::uint32_t edge_between(const Part& part, std::uint32_t u,
                                                 std::uint32_t v) {
@@ -29,6 +31,18 @@ namespace strake::geometry {
   const PartEdge &e = part.edges[edge], &next = part.edges[std::size_t{edge} + 1];
   return std::span(part.edge_triangles)
       .subspan(e.first_triangle, next.first_triangle - e.first_triangle);
+}
+
+/// Whether a triangle with both vertices runs from the first to the second, not back.
+[[nodiscard]] constexpr bool runs_along(const Triangle& t, std::uint32_t u, std::uint32_t v) {
+  return (t[0] == u && t[1] == v) || (t[1] == u && t[2] == v) || (t[2] == u && t[0] == v);
+}
+
+/// The corner of a triangle round an edge that is not on it.
+[[nodiscard]] constexpr std::uint32_t corner_off(const Triangle& t, const PartEdge& edge) {
+  for (const std::uint32_t v : t)
+    if (v != edge.v0 && v != edge.v1) return v;
+  return edge.v0;
 }
 
 }  // namespace strake::geometry

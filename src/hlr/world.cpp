@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/world.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/order.hpp"
+
+namespace strake::hlr {
+namespace {
+
+using geometry::Box3l;
+
+constexpr std::uint32_t kEdgesPerItem = 32;
+
+bool within(const Box3l& inner, const Box3l& outer) {
+  for (int k = 0; k < 3; ++k)
+    if (inner.lo[k] < outer.lo[k] || inner.hi[k] > outer.hi[k]) return false;
+  return true;
+}
+
+Status make_views(World& world, const parallel::Context& context) {
+  const model::Scene& scene = *world.job.scene;
+  std::vector<std::uint32_t> used;
+  std::vector<bool> seen(scene.shapes.size());
+  for (const model::GridBody& body : scene.bodies) {
+    if (seen[body.grid_shape] || !world.job.drawn[model::index(body.object)]) continue;
+    seen[body.grid_shape] = true;
+    used.push_back(body.grid_shape);
+  }
+  const auto order = parallel::longest_first(used.size(), [&](std::size_t i) {
+    std::size_t triangles = 0;
+    for (const geometry::Part& part : scene.shapes[used[i]].parts) triangles += part.edges.size();
+    return triangles;
+  });
+  world.views.resize(scene.shapes.size());
+  return parallel::for_each(
+      context, {.name = "hidden lines: shapes", .n = used.size(), .order = order},
+      [&](std::size_t i) {
+        world.views[used[i]] = view_of(scene.shapes[used[i]], world.frame, world.job.features);
+      });
+}
+
+void place_bodies(World& world) {
+  const Job& job = world.job;
+  const model::Scene& scene = *job.scene;
+  world.placed.resize(scene.bodies.size());
+  std::vector<ViewBox> boxes(scene.bodies.size());
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    const model::GridBody& body = scene.bodies[b];
+    const std::uint32_t object = model::index(body.object);
+    if (!job.drawn[object]) continue;
+    const model::GridShape& shape = scene.shapes[body.grid_shape];
+    Placed& placed = world.placed[b];
+    placed = {&world.views[body.grid_shape],
+              job.offset(body),
+              world.frame(job.offset(body)),
+              object,
+              job.contact[b],
+              job.opaque[b],
+              false};
+    if (job.limits && !shape.box.empty()) {
+      Box3l box = body.box(shape);
+      box = {box.lo - job.origin, box.hi - job.origin};
+      placed.cut = !within(box, *job.limits);
+      placed.opaque = placed.opaque && box.meets(*job.limits);
+    }
+    if (placed.opaque && !placed.view->box.empty()) boxes[b] = placed.view->box.moved(placed.at);
+  }
+  world.tree = ViewTree(boxes);
+}
+
+void make_items(World& world) {
+  const model::Scene& scene = *world.job.scene;
+  std::uint32_t number = 0;
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    if (world.placed[b].view == nullptr) continue;
+    const std::uint32_t object = world.placed[b].object;
+    if (b == scene.first_body[object]) number = 0;
+    const auto edges = static_cast<std::uint32_t>(world.placed[b].view->edges.size());
+    for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
+      world.items.push_back({b, first, std::min(edges, first + kEdgesPerItem), number + first});
+    number += edges;
+  }
+}
+
+}  // namespace
+
+Result<World> make_world(const Job& job, const parallel::Context& context) {
+  World world(job);
+  if (const Status status = make_views(world, context); !status) return status.error();
+  place_bodies(world);
+  make_items(world);
+  return world;
+}
+
+}  // namespace strake::hlr
