@@ -12,6 +12,7 @@
 #include "clash/options.hpp"
 #include "clash/pair_log.hpp"
 #include "clash/place_stage.hpp"
+#include "clash/policy.hpp"
 #include "clash/reduce.hpp"
 #include "clash/regions.hpp"
 #include "clash/tally.hpp"

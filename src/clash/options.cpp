@@ -37,6 +37,10 @@ Status check(const Tolerances& t) {
   return {};
 }
 
+Tolerances tolerances_of(const Options& o) {
+  return {o.clearance_mm, o.touch_gap_mm, o.touch_overlap_mm, o.thickness_cap};
+}
+
 Status check(const Options& o, const Sets& sets, std::size_t objects) {
   if (Status s = check(tolerances_of(o)); !s) return s;
   if (std::isnan(o.contact_distance_mm) || o.contact_distance_mm > kMaxToleranceMm)

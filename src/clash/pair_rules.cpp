@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "clash/class_totals.hpp"
+#include "clash/policy.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
@@ -31,125 +33,7 @@ std::size_t count_between(const Policy& policy) {
                     [](const Exemption& e) { return std::holds_alternative<Between>(e.test); }));
 }
 
-/// Whether two ascending lists share a number.
-bool share(const Linked::Lists& x, std::uint32_t a, const Linked::Lists& y, std::uint32_t b) {
-  std::uint32_t i = x.first[a], j = y.first[b];
-  while (i < x.first[a + 1] && j < y.first[b + 1]) {
-    if (x.numbers[i] == y.numbers[j]) return true;
-    ++(x.numbers[i] < y.numbers[j] ? i : j);
-  }
-  return false;
-}
-
-bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b) {
-  return test.label[a] == test.label[b] && test.label[a] != kNoLabel;
-}
-
-bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b) {
-  return share(test.refers_to, a, test.answers_to, b) ||
-         share(test.refers_to, b, test.answers_to, a);
-}
-
-bool within(const HalfSpace& side, const geometry::Vec3d& p) {
-  return dot(p - side.point_mm, side.normal) >= 0;
-}
-
-/// Whether a rule allows every place of a box.
-bool holds_all(const Allowed& rule, const geometry::Box3d& box) {
-  if (rule.region_mm && !rule.region_mm->contains(box)) return false;
-  return std::all_of(rule.cavity.begin(), rule.cavity.end(), [&](const HalfSpace& side) {
-    geometry::Vec3d outermost;
-    for (int k = 0; k < 3; ++k) outermost[k] = side.normal[k] > 0 ? box.lo[k] : box.hi[k];
-    return within(side, outermost);
-  });
-}
-
-/// Pairs of each class, those apart that a rule allows.
-struct ByClass {
-  std::uint64_t hit = 0, contact = 0, clearance_violation = 0, allowed = 0;
-
-  void add(const Pair& pair) {
-    if (pair.allowed >= 0)
-      ++allowed;
-    else if (pair.cls == Class::hit)
-      ++hit;
-    else if (pair.cls == Class::contact)
-      ++contact;
-    else if (pair.cls == Class::clearance_violation)
-      ++clearance_violation;
-  }
-  void add(const ByClass& o) {
-    hit += o.hit;
-    contact += o.contact;
-    clearance_violation += o.clearance_violation;
-    allowed += o.allowed;
-  }
-};
-
-/// What is counted over the pairs of a report.
-struct Totals {
-  ByClass all;
-  std::vector<std::uint64_t> by_rule;  ///< pairs that it allows
-  std::vector<ByClass> by_cell;
-
-  Totals(std::size_t rules, std::size_t cells) : by_rule(rules, 0), by_cell(cells) {}
-  Totals() = default;
-
-  void add(const Pair& pair, std::size_t cell) {
-    all.add(pair);
-    if (pair.allowed >= 0) ++by_rule[static_cast<std::size_t>(pair.allowed)];
-    if (cell < by_cell.size()) by_cell[cell].add(pair);
-  }
-  void add(const Totals& o) {
-    all.add(o.all);
-    for (std::size_t r = 0; r < by_rule.size(); ++r) by_rule[r] += o.by_rule[r];
-    for (std::size_t c = 0; c < by_cell.size(); ++c) by_cell[c].add(o.by_cell[c]);
-  }
-};
-
-bool allows(const Allowed& rule, const Pair& pair) {
-  if (rule.max_depth_mm ? pair.d_lower_mm < -*rule.max_depth_mm : pair.cls == Class::hit)
-    return false;
-  const geometry::Vec3d& at = pair.point_mm;
-  if (rule.region_mm && !rule.region_mm->contains({at, at})) return false;
-  return std::all_of(rule.cavity.begin(), rule.cavity.end(),
-                     [&](const HalfSpace& side) { return within(side, at); });
-}
-
 }  // namespace
-
-Status check(const Policy& policy, std::size_t objects) {
-  const auto fits = [&](const auto&... lists) { return ((lists.size() == objects) && ...); };
-  const auto listed = [&](const Linked::Lists& lists) {
-    return lists.first.size() == objects + 1 && lists.first.back() <= lists.numbers.size();
-  };
-  bool good = true;
-  for (const Exemption& e : policy.exemptions) {
-    if (const auto* const same = std::get_if<SameLabel>(&e.test)) good &= fits(same->label);
-    if (const auto* const linked = std::get_if<Linked>(&e.test))
-      good &= listed(linked->answers_to) && listed(linked->refers_to);
-    if (const auto* const between = std::get_if<Between>(&e.test))
-      good &= fits(between->a, between->b);
-  }
-  if (policy.matrix) {
-    const std::size_t n = policy.matrix->disciplines.size();
-    good &= fits(policy.matrix->discipline) && policy.matrix->cells.size() == n * n;
-    for (const std::uint32_t d : policy.matrix->discipline) good &= d < n || d == kNoLabel;
-    for (const std::uint32_t c : policy.matrix->cells)
-      good &= c < policy.tolerances.size() || c >= Matrix::kDefault;
-  }
-  if (policy.levels) good &= fits(policy.levels->object);
-  for (const Allowed& a : policy.allowed) good &= fits(a.a, a.b);
-  if (good) return {};
-  return Error{
-      ErrorCode::usage,
-      "the rules do not have one entry per object of the scene, or refer to what is not there",
-      "rules", "build them from the same scene"};
-}
-
-Tolerances tolerances_of(const Options& o) {
-  return {o.clearance_mm, o.touch_gap_mm, o.touch_overlap_mm, o.thickness_cap};
-}
 
 PairRules::PairRules(const Policy& policy, const Options& options, const model::Model& model)
     : policy_(policy),
@@ -337,7 +221,7 @@ Status PairRules::count_candidates(const Judged& judged, const ObjectPairs& obje
 void PairRules::allow(const PartRef& a, const PartRef& b,
                       const std::optional<geometry::Box3d>& extent_mm, Pair& pair) const {
   allowed_.each(a.object, b.object, [&](std::size_t rule) {
-    if (!clash::allows(policy_.allowed[rule], pair)) return false;
+    if (!allows(policy_.allowed[rule], pair)) return false;
     pair.allowed = static_cast<std::int32_t>(rule);
     return true;
   });
@@ -376,11 +260,11 @@ void PairRules::open(const Sets& sets, Report& report) const {
 Status PairRules::close(const parallel::Context& context, Report& report) const {
   const auto totals = parallel::reduce(
       context, {.name = "count by class", .n = report.pairs.size(), .grain = kGrain},
-      Totals(policy_.allowed.size(), report.cells.size()),
-      [&](Totals& partial, std::size_t i) {
+      ClassTotals(policy_.allowed.size(), report.cells.size()),
+      [&](ClassTotals& partial, std::size_t i) {
         partial.add(report.pairs[i], cell_number(report.pairs[i]));
       },
-      [](Totals& into, const Totals& partial) { into.add(partial); });
+      [](ClassTotals& into, const ClassTotals& partial) { into.add(partial); });
   if (!totals) return totals.error();
   report.count_hit = totals->all.hit;
   report.count_contact = totals->all.contact;

@@ -16,9 +16,6 @@
 
 namespace strake::clash {
 
-/// A usage error for a policy whose lists do not have one entry per object.
-[[nodiscard]] Status check(const Policy& policy, std::size_t objects);
-
 /// The rules of a policy as a pair of objects is asked about them.
 class PairRules {
  public:
