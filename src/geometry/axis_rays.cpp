@@ -2,17 +2,14 @@
 #include "geometry/axis_rays.hpp"
 
 #include <array>
-#include <cstddef>
 #include <utility>
 
+#include "geometry/corner_index.hpp"
 #include "strake/geometry/part_edges.hpp"
 #include "strake/geometry/predicates.hpp"
 
 namespace strake::geometry {
 namespace {
-
-constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::span<const std::uint32_t> star_between(const Part& part, std::uint32_t u, std::uint32_t v) {
   const std::uint32_t edge = edge_between(part, u, v);
@@ -30,26 +27,26 @@ bool same_way(const Vec3l& d, const Vec3l& e) {
 
 std::span<const std::uint32_t> star(const Part& part, std::uint32_t triangle, int edge) {
   const Triangle& t = part.triangles[triangle];
-  return star_between(part, t[at(edge)], t[at(next(edge))]);
+  return star_between(part, t[at(edge)], t[at(next_corner(edge))]);
 }
 
 void start_axis(Sectors& sectors, const PartView& view, std::uint32_t triangle, int edge) {
   const Triangle& t = view.part().triangles[triangle];
-  sectors.start(view.vertex(t[at(edge)]), view.vertex(t[at(next(edge))]));
+  sectors.start(view.vertex(t[at(edge)]), view.vertex(t[at(next_corner(edge))]));
 }
 
 void add_star(Sectors& sectors, const PartView& view, std::uint32_t triangle, int edge, bool of_b) {
   const Part& part = view.part();
   const Triangle& t = part.triangles[triangle];
-  std::uint32_t u = t[at(edge)], v = t[at(next(edge))];
+  std::uint32_t u = t[at(edge)], v = t[at(next_corner(edge))];
   if (!same_way(sectors.to() - sectors.from(), view.vertex(v) - view.vertex(u))) std::swap(u, v);
   for (const std::uint32_t other : star_between(part, u, v)) {
     const Triangle& o = part.triangles[other];
     for (int i = 0; i < 3; ++i) {
-      const std::uint32_t p = o[at(i)], q = o[at(next(i))];
+      const std::uint32_t p = o[at(i)], q = o[at(next_corner(i))];
       if (!((p == u && q == v) || (p == v && q == u))) continue;
       // A triangle that runs along the axis has its outside counter-clockwise of it.
-      sectors.add({view.vertex(o[at(next(next(i)))]), p == u ? -1 : 1, of_b, other});
+      sectors.add({view.vertex(o[at(next_corner(next_corner(i)))]), p == u ? -1 : 1, of_b, other});
     }
   }
 }

@@ -7,11 +7,13 @@
 
 #include "geometry/axis_rays.hpp"
 #include "geometry/box.hpp"
+#include "geometry/corner_index.hpp"
 #include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/plane_sides.hpp"
 #include "geometry/sectors.hpp"
 #include "geometry/sheet_curve.hpp"
+#include "geometry/shell_set.hpp"
 #include "strake/geometry/part_pair.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
@@ -28,36 +30,12 @@
 namespace strake::geometry {
 namespace {
 
-constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Planes of triangles in contact, and of triangles apart, that are tried for separating the parts.
 constexpr int kSeparationTries = 4;
 constexpr int kPartingTries = 16;
 /// Corners tried on a shell that already has contact along a segment: only meshes that overlap
 /// themselves can still surprise there.
 constexpr int kExtraProbes = 3;
-
-/// A set of shell numbers; parts with more than 64 shells are rare.
-class ShellSet {
- public:
-  void insert(std::uint32_t shell) {
-    if (shell < 64) {
-      low_ |= std::uint64_t{1} << shell;
-      return;
-    }
-    if (high_.size() <= shell - 64) high_.resize(shell - 63, false);
-    high_[shell - 64] = true;
-  }
-  [[nodiscard]] bool contains(std::uint32_t shell) const {
-    if (shell < 64) return ((low_ >> shell) & 1) != 0;
-    return shell - 64 < high_.size() && high_[shell - 64];
-  }
-
- private:
-  std::uint64_t low_ = 0;
-  std::vector<bool> high_;
-};
 
 std::uint32_t shell_of(const Part& part, std::uint32_t triangle) {
   return part.shells.empty() ? 0 : part.shells[triangle];
@@ -316,7 +294,7 @@ bool Meeter::probe_triangle(bool of_b, std::uint32_t triangle, bool thorough) {
     if (probe(of_b, p, 1)) return true;
   if (!thorough) return false;
   for (int i = 0; i < 3; ++i)
-    if (probe(of_b, t[at(i)] + t[at(next(i))], 2)) return true;
+    if (probe(of_b, t[at(i)] + t[at(next_corner(i))], 2)) return true;
   for (const std::int64_t d : {3, 7, 31, 127, 509, 2039})
     for (std::int64_t i = 1; i <= 3 && i + 1 < d; ++i)
       if (probe(of_b, t[0] * i + t[1] + t[2] * (d - i - 1), d)) return true;

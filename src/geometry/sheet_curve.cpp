@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/axis_rays.hpp"
+#include "geometry/corner_index.hpp"
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
 #include "geometry/dual_walk.hpp"
@@ -19,8 +20,6 @@ namespace strake::geometry {
 namespace {
 
 using Segment = std::array<Vec3d, 2>;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Where segment p-q pierces a triangle or ends on it.
 std::optional<Vec3d> pierce(const Vec3d& p, const Vec3d& q, const Corners& t) {
@@ -268,12 +267,11 @@ class Finder {
   }
 
   static Corners corners(const PartView& view, std::uint32_t triangle) {
-    const std::array<Vec3l, 3> t = view.corners(triangle);
-    return {t[0].as<double>(), t[1].as<double>(), t[2].as<double>()};
+    return as_doubles(view.corners(triangle));
   }
   static Segment edge_of(const PartView& view, std::uint32_t triangle, int edge) {
     const Corners t = corners(view, triangle);
-    return {t[at(edge)], t[at(edge == 2 ? 0 : edge + 1)]};
+    return {t[at(edge)], t[at(next_corner(edge))]};
   }
 
   PartView a_, b_;

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "geometry/corner_index.hpp"
+
 namespace strake::geometry {
 namespace {
-
-constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// An end of the segment in which a triangle meets a plane: where the directed edge from -> to,
 /// which leads from the plane's closed negative to its closed positive side, meets the plane.
@@ -29,7 +28,7 @@ constexpr Section section_of(const CornerSides& side) {
   Section s;
   const int zeros = (side[0] == 0) + (side[1] == 0) + (side[2] == 0);
   for (int i = 0; i < 3; ++i) {
-    const int j = next(i), k = next(j);
+    const int j = next_corner(i), k = next_corner(j);
     const int si = side[at(i)], sj = side[at(j)], sk = side[at(k)];
     if (zeros == 2) {
       if (sk == 0) continue;
@@ -111,7 +110,7 @@ EdgeSides edge_sides(const ExactTriangle& edges, const ExactTriangle& corners, i
   const int turn = orient2d(edges.corner[0], edges.corner[1], edges.corner[2], axis);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      r[at(i)][at(j)] = turn * orient2d(edges.corner[at(i)], edges.corner[at(next(i))],
+      r[at(i)][at(j)] = turn * orient2d(edges.corner[at(i)], edges.corner[at(next_corner(i))],
                                         corners.corner[at(j)], axis);
   return r;
 }
@@ -138,7 +137,7 @@ unsigned edges_inside(const EdgeSides& corner_sides, const EdgeSides& other_side
     if (!above || !below) continue;
     bool separated = false;
     for (const CornerSides& edge : corner_sides)
-      separated |= edge[at(i)] <= 0 && edge[at(next(i))] <= 0;
+      separated |= edge[at(i)] <= 0 && edge[at(next_corner(i))] <= 0;
     if (!separated) mask |= 1U << i;
   }
   return mask;
@@ -149,7 +148,7 @@ unsigned edges_inside(const EdgeSides& corner_sides, const EdgeSides& other_side
 bool touch_on_line(const ExactTriangle& a, int edge, const ExactTriangle& b,
                    const CornerSides& line) {
   const Vec3l& p = a.corner[at(edge)];
-  const Vec3l& q = a.corner[at(next(edge))];
+  const Vec3l& q = a.corner[at(next_corner(edge))];
   const Vec3l *first = nullptr, *last = nullptr;
   for (int j = 0; j < 3; ++j) {
     if (line[at(j)] != 0) continue;
@@ -174,9 +173,9 @@ void common_plane(const ExactTriangle& a, const ExactTriangle& b, TriangleContac
   }
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      if (b_to_a[at(i)][at(j)] == 0 && b_to_a[at(i)][at(next(j))] == 0 &&
-          collinear_overlap(a.corner[at(i)], a.corner[at(next(i))], b.corner[at(j)],
-                            b.corner[at(next(j))]) > 0)
+      if (b_to_a[at(i)][at(j)] == 0 && b_to_a[at(i)][at(next_corner(j))] == 0 &&
+          collinear_overlap(a.corner[at(i)], a.corner[at(next_corner(i))], b.corner[at(j)],
+                            b.corner[at(next_corner(j))]) > 0)
         c.shared_edges |= 1U << (3 * i + j);
   if (separated) {
     c.touch = c.shared_edges != 0 ? Touch::segment : Touch::point;
@@ -212,16 +211,16 @@ Vec3d coplanar_point(const ExactTriangle& a, const ExactTriangle& b) {
     if (inside_projected(b_to_a, i)) return b.corner[at(i)].as<double>();
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      const bool a_crosses = a_to_b[at(j)][at(i)] * a_to_b[at(j)][at(next(i))] < 0;
-      const bool b_crosses = b_to_a[at(i)][at(j)] * b_to_a[at(i)][at(next(j))] < 0;
+      const bool a_crosses = a_to_b[at(j)][at(i)] * a_to_b[at(j)][at(next_corner(i))] < 0;
+      const bool b_crosses = b_to_a[at(i)][at(j)] * b_to_a[at(i)][at(next_corner(j))] < 0;
       if (!a_crosses || !b_crosses) continue;
-      const Vec3l p = b.corner[at(j)], d = drop_axis(b.corner[at(next(j))] - p, axis);
+      const Vec3l p = b.corner[at(j)], d = drop_axis(b.corner[at(next_corner(j))] - p, axis);
       const auto height = [&](int corner) {
         const Vec3d v = drop_axis(a.corner[at(corner)] - p, axis).as<double>();
         return std::fabs(static_cast<double>(d.x) * v.y - static_cast<double>(d.y) * v.x);
       };
-      const double from = height(i), to = height(next(i));
-      return lerp(a.corner[at(i)].as<double>(), a.corner[at(next(i))].as<double>(),
+      const double from = height(i), to = height(next_corner(i));
+      return lerp(a.corner[at(i)].as<double>(), a.corner[at(next_corner(i))].as<double>(),
                   from / (from + to));
     }
   return a.corner[0].as<double>();

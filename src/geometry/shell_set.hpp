@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace strake::geometry {
+
+/// A set of shell numbers; parts with more than 64 shells are rare.
+class ShellSet {
+ public:
+  void insert(std::uint32_t shell) {
+    if (shell < 64) {
+      low_ |= std::uint64_t{1} << shell;
+      return;
+    }
+    if (high_.size() <= shell - 64) high_.resize(shell - 63, false);
+    high_[shell - 64] = true;
+  }
+  [[nodiscard]] bool contains(std::uint32_t shell) const {
+    if (shell < 64) return ((low_ >> shell) & 1) != 0;
+    return shell - 64 < high_.size() && high_[shell - 64];
+  }
+
+ private:
+  std::uint64_t low_ = 0;
+  std::vector<bool> high_;
+};
+
+}  // namespace strake::geometry
