@@ -328,14 +328,4 @@ mpq_class squared_distance(const IndexedMesh& a, const IndexedMesh& b) {
   return *least;
 }
 
-double nearest_double(const mpq_class& q) {
-  // mpq_get_d truncates: look at the neighbour as well.
-  const double down = q.get_d();
-  const double up = std::nextafter(down, q < 0 ? -INFINITY : INFINITY);
-  const mpq_class to_down = abs(q - mpq_class(down)), to_up = abs(mpq_class(up) - q);
-  if (to_down != to_up) return to_down < to_up ? down : up;
-  int exponent = 0;
-  return std::fmod(std::ldexp(std::frexp(down, &exponent), 53), 2) == 0 ? down : up;
-}
-
 }  // namespace strake::testing

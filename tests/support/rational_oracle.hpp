@@ -31,7 +31,4 @@ struct SheetCover {
 /// Least squared distance between two surfaces.
 [[nodiscard]] mpq_class squared_distance(const IndexedMesh& a, const IndexedMesh& b);
 
-/// The nearest double, ties to even.
-[[nodiscard]] double nearest_double(const mpq_class& q);
-
 }  // namespace strake::testing

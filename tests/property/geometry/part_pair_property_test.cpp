@@ -9,6 +9,7 @@
 
 #include "strake/geometry/part_pair.hpp"
 #include "support/lattice_solids.hpp"
+#include "support/nearest_double.hpp"
 #include "support/rational_oracle.hpp"
 #include "support/rounds.hpp"
 
@@ -21,7 +22,7 @@ using strake::testing::LatticeMap;
 using strake::testing::LatticePair;
 using strake::testing::LatticeSolid;
 using strake::testing::mapped;
-using strake::testing::nearest_double;
+using strake::test::nearest_double;
 using strake::testing::SheetCover;
 using strake::testing::Subject;
 using strake::testing::Tetrahedron;

@@ -9,6 +9,7 @@
 #include "strake/clash/clash.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
+#include "support/expect_pair.hpp"
 
 namespace strake::clash {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 using geometry::Placement;
 using geometry::Vec3d;
 using test::ClashModel;
+using test::expect;
 
 constexpr Options kCurves{.curves = Curves::on};
 
@@ -33,19 +35,7 @@ ClashModel cube_and_line(const std::vector<Vec3d>& points) {
   return m;
 }
 
-Pair only(const ClashModel& m, const Options& options = kCurves) {
-  const Report report = m.detect(options);
-  EXPECT_LE(report.pairs.size(), 1U);
-  return report.pairs.empty() ? Pair{} : report.pairs.front();
-}
-
-void expect(const Pair& p, Class cls, Relation relation, double d_mm, double within = 1e-6) {
-  EXPECT_EQ(name(p.cls), name(cls));
-  EXPECT_EQ(name(p.relation), name(relation));
-  EXPECT_NEAR(p.d_mm, d_mm, within);
-  EXPECT_LE(p.d_lower_mm, p.d_mm);
-  EXPECT_GE(p.d_upper_mm, p.d_mm);
-}
+Pair judged(const ClashModel& m) { return test::only(m, kCurves); }
 
 TEST(Curves, AreOffUnlessAskedFor) {
   const ClashModel m = cube_and_line({{-500, 500, 500}, {1500, 500, 500}});
@@ -54,7 +44,7 @@ TEST(Curves, AreOffUnlessAskedFor) {
 }
 
 TEST(Curves, ALineThroughACubeIsAsDeepAsItsMiddle) {
-  const Pair p = only(cube_and_line({{-500, 500, 300}, {1500, 500, 300}}));
+  const Pair p = judged(cube_and_line({{-500, 500, 300}, {1500, 500, 300}}));
   expect(p, Class::hit, Relation::cross, -300, 0.01);
   // The deepest point, and out through the nearest face.
   EXPECT_NEAR(p.point_mm.z, 300, 0.01);
@@ -63,34 +53,34 @@ TEST(Curves, ALineThroughACubeIsAsDeepAsItsMiddle) {
 }
 
 TEST(Curves, ClassesFollowTheThresholds) {
-  expect(only(cube_and_line({{200, 200, 1000}, {800, 200, 1000}})), Class::contact,
+  expect(judged(cube_and_line({{200, 200, 1000}, {800, 200, 1000}})), Class::contact,
          Relation::abut_outside, 0, 0.002);
-  expect(only(cube_and_line({{200, 200, 1000.7}, {800, 200, 1000.7}})), Class::contact,
+  expect(judged(cube_and_line({{200, 200, 1000.7}, {800, 200, 1000.7}})), Class::contact,
          Relation::separate, 0.7);
-  expect(only(cube_and_line({{200, 200, 999.5}, {800, 200, 999.5}})), Class::contact,
+  expect(judged(cube_and_line({{200, 200, 999.5}, {800, 200, 999.5}})), Class::contact,
          Relation::b_in_a, -0.5, 0.01);
   const ClashModel near = cube_and_line({{200, 200, 1020}, {800, 200, 1020}});
-  EXPECT_EQ(only(near).cls, Class::no_hit);
+  EXPECT_EQ(judged(near).cls, Class::no_hit);
   Options clearance = kCurves;
   clearance.clearance_mm = 25;
-  const Pair p = only(near, clearance);
+  const Pair p = test::only(near, clearance);
   expect(p, Class::clearance_violation, Relation::separate, 20);
   EXPECT_NEAR(p.on_a_mm.z, 1000, 1e-6);
   EXPECT_NEAR(p.on_b_mm.z, 1020, 1e-6);
 }
 
 TEST(Curves, ALineInsideIsInside) {
-  expect(only(cube_and_line({{300, 500, 500}, {700, 500, 500}, {700, 600, 500}})), Class::hit,
+  expect(judged(cube_and_line({{300, 500, 500}, {700, 500, 500}, {700, 600, 500}})), Class::hit,
          Relation::b_in_a, -500, 10.1);
   // Ending on the skin it is not wholly inside.
-  EXPECT_EQ(only(cube_and_line({{0, 500, 500}, {700, 500, 500}})).relation, Relation::cross);
+  EXPECT_EQ(judged(cube_and_line({{0, 500, 500}, {700, 500, 500}})).relation, Relation::cross);
 }
 
 TEST(Curves, APipesOwnCentreLineInAnotherObject) {
   ClashModel m;
   m.object("pipe").body(geometry::Primitive{geometry::CylinderPrimitive{50, 2000}});
   m.object("line").body(geometry::Primitive{geometry::LinePrimitive{1, 2000}});
-  const Pair p = only(m);
+  const Pair p = judged(m);
   expect(p, Class::hit, Relation::cross, -50, 0.001);
   EXPECT_EQ(p.flags, 0);
   EXPECT_LE(p.d_upper_mm - p.d_lower_mm, 0.001);
@@ -101,7 +91,7 @@ TEST(Curves, ThinPlatesAreHitByTheCapLikeAnythingElse) {
   m.box("plate", {0, 0, 0}, {1000, 1000, 1.5})
       .object("line")
       .body(chain({{500, 500, -100}, {500, 500, 100}}));
-  expect(only(m), Class::hit, Relation::cross, -0.75, 0.01);
+  expect(judged(m), Class::hit, Relation::cross, -0.75, 0.01);
 }
 
 /// Two triangles without thickness.
@@ -113,7 +103,7 @@ TEST(Curves, ALineThroughASheetCountsToTheNearestRimOrEnd) {
   const auto through = [](const std::vector<Vec3d>& points) {
     ClashModel m;
     m.object("sheet").body(sheet()).object("line").body(chain(points));
-    return only(m);
+    return judged(m);
   };
   const Pair rim = through({{300, 200, -500}, {300, 200, 900}});
   expect(rim, Class::hit, Relation::cross, -200);
@@ -136,7 +126,7 @@ TEST(Curves, LinesAmongThemselvesTouchAtMost) {
   const auto lines = [](const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
     ClashModel m;
     m.object("a").body(chain(a)).object("b").body(chain(b));
-    return only(m);
+    return judged(m);
   };
   expect(lines({{0, 0, 0}, {100, 0, 0}}, {{50, -50, 0}, {50, 50, 0}}), Class::contact,
          Relation::abut_outside, 0);
@@ -183,7 +173,7 @@ TEST(Curves, WhichIsCalledAMirrorsTheAnswer) {
   const std::vector<Vec3d> points{{-500, 310, 400}, {700, 290, 350}, {650, 900, 1400}};
   ClashModel line_first;
   line_first.object("a").body(chain(points)).box("cube", {0, 0, 0}, {1000, 1000, 1000});
-  const Pair p = only(cube_and_line(points)), q = only(line_first);
+  const Pair p = judged(cube_and_line(points)), q = judged(line_first);
   EXPECT_EQ(p.d_mm, q.d_mm);
   EXPECT_EQ(p.d_lower_mm, q.d_lower_mm);
   EXPECT_EQ(p.d_upper_mm, q.d_upper_mm);

@@ -14,6 +14,7 @@
 #include "strake/clash/clash.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
+#include "support/expect_pair.hpp"
 #include "support/voxels.hpp"
 
 namespace strake::clash {
@@ -23,13 +24,8 @@ using geometry::Mat3d;
 using geometry::Placement;
 using geometry::Vec3d;
 using test::ClashModel;
-
-/// The only pair of a scene, or NO_HIT.
-Pair only(const ClashModel& m, const Options& options = {}) {
-  const Report report = m.detect(options);
-  EXPECT_LE(report.pairs.size(), 1U);
-  return report.pairs.empty() ? Pair{} : report.pairs.front();
-}
+using test::expect;
+using test::only;
 
 ClashModel two(const Vec3d& lo_a, const Vec3d& hi_a, const Vec3d& lo_b, const Vec3d& hi_b) {
   ClashModel m;
@@ -41,14 +37,6 @@ ClashModel two(const Vec3d& lo_a, const Vec3d& hi_a, const Vec3d& lo_b, const Ve
 /// first.
 ClashModel walls(double dx, double dy) {
   return two({0, 0, 0}, {5000, 200, 3000}, {5000 + dx, dy, 0}, {10000 + dx, 200 + dy, 3000});
-}
-
-void expect(const Pair& p, Class cls, Relation relation, double d_mm) {
-  EXPECT_EQ(name(p.cls), name(cls));
-  EXPECT_EQ(name(p.relation), name(relation));
-  EXPECT_NEAR(p.d_mm, d_mm, 1e-6);
-  EXPECT_LE(p.d_lower_mm, p.d_mm);
-  EXPECT_GE(p.d_upper_mm, p.d_mm);
 }
 
 TEST(Detect, WallsThatOverlapAreAHitAlsoWhenAligned) {

@@ -14,6 +14,7 @@
 #include "strake/geometry/analyse.hpp"
 #include "strake/geometry/place.hpp"
 #include "support/clash_model.hpp"
+#include "support/rotations.hpp"
 
 namespace strake::clash {
 namespace {
@@ -22,9 +23,7 @@ using geometry::Mat3d;
 using geometry::Placement;
 using geometry::Vec3d;
 using test::ClashModel;
-
-const Mat3d kTurn{{Vec3d{-2.0 / 3, 2.0 / 15, 11.0 / 15}, Vec3d{2.0 / 3, -1.0 / 3, 2.0 / 3},
-                   Vec3d{1.0 / 3, 14.0 / 15, 2.0 / 15}}};
+using test::kTurn;
 
 double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 

@@ -9,6 +9,7 @@
 #include "strake/clash/clash.hpp"
 #include "support/clash_model.hpp"
 #include "support/revolved.hpp"
+#include "support/rotations.hpp"
 
 namespace strake::clash {
 namespace {
@@ -18,9 +19,8 @@ using geometry::Placement;
 using geometry::TriangleMesh;
 using geometry::Vec3d;
 using test::ClashModel;
+using test::kTurn;
 
-const Mat3d kTurn{{Vec3d{-2.0 / 3, 2.0 / 15, 11.0 / 15}, Vec3d{2.0 / 3, -1.0 / 3, 2.0 / 3},
-                   Vec3d{1.0 / 3, 14.0 / 15, 2.0 / 15}}};
 const Mat3d kTwist{{Vec3d{0.8, -0.6, 0}, Vec3d{0.6, 0.8, 0}, Vec3d{0, 0, 1}}};
 
 struct Looked {

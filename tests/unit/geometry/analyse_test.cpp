@@ -25,6 +25,13 @@ MeshAnalysis analysed(const TriangleMesh& mesh, const Mat3d& linear = {}) {
   return analyse(std::move(placed->mesh));
 }
 
+/// Of all its parts, cubic grid units.
+double volume_of(const MeshAnalysis& analysis) {
+  double volume = 0;
+  for (const Part& part : analysis.parts) volume += part.volume;
+  return volume;
+}
+
 bool same(const Part& a, const Part& b) {
   return a.kind == b.kind && a.vertices == b.vertices && a.triangles == b.triangles &&
          a.edge_triangles == b.edge_triangles && a.shells == b.shells && a.box == b.box &&
@@ -379,9 +386,7 @@ TEST(Analyse, ShellsThatCancelLeaveTheirSkin) {
     add_recut_box(mesh, shift, Vec3d{4, 4, 4} + shift, true);
   }
   const MeshAnalysis a = analysed(mesh);
-  double volume = 0;
-  for (const Part& p : a.parts) volume += p.volume;
-  EXPECT_DOUBLE_EQ(volume, 128e9);
+  EXPECT_DOUBLE_EQ(volume_of(a), 128e9);
   EXPECT_GE(a.findings.two_sided_shells, 1U);
 }
 
@@ -414,9 +419,7 @@ TEST(Analyse, CubesInsideOutStandSideBySide) {
       add_box(mesh, lo, lo + Vec3d{1, 1, 1}, inside_out);
     }
     const MeshAnalysis a = analysed(mesh);
-    double volume = 0;
-    for (const Part& p : a.parts) volume += p.volume;
-    EXPECT_DOUBLE_EQ(volume, 27e9);
+    EXPECT_DOUBLE_EQ(volume_of(a), 27e9);
     EXPECT_EQ(a.findings.two_sided_shells, 0U);
   }
 }

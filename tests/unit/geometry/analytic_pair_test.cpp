@@ -11,12 +11,14 @@
 #include <string>
 #include <variant>
 
+#include "support/rotations.hpp"
+
 namespace strake::geometry {
 namespace {
 
+using test::kTurn;
+
 constexpr double kPerMm = 1000;
-const Mat3d kTurn{{Vec3d{-2.0 / 3, 2.0 / 15, 11.0 / 15}, Vec3d{2.0 / 3, -1.0 / 3, 2.0 / 3},
-                   Vec3d{1.0 / 3, 14.0 / 15, 2.0 / 15}}};
 
 AnalyticSeparation of(const Primitive& a, const Vec3d& at_a, const Primitive& b, const Vec3d& at_b,
                       const Mat3d& turn = {}) {

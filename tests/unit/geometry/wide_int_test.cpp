@@ -8,8 +8,12 @@
 #include <cmath>
 #include <random>
 
+#include "support/nearest_double.hpp"
+
 namespace strake::geometry {
 namespace {
+
+using test::nearest_double;
 
 template <std::size_t N>
 mpz_class big(const WideInt<N>& v) {
@@ -37,17 +41,6 @@ template <std::size_t N>
 WideInt<N> random_positive(std::mt19937_64& rng, int max_bits) {
   const WideInt<N> v = random_wide<N>(rng, max_bits);
   return v.sign() == 0 ? WideInt<N>(Int128{1}) : v.negative() ? -v : v;
-}
-
-double nearest(const mpq_class& q) {
-  // mpq_get_d truncates: look at the neighbour as well.
-  const double down = q.get_d();
-  const double up = std::nextafter(down, q < 0 ? -INFINITY : INFINITY);
-  const mpq_class to_down = abs(q - mpq_class(down)), to_up = abs(mpq_class(up) - q);
-  if (to_down != to_up) return to_down < to_up ? down : up;
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(down, &exponent), 53);
-  return std::fmod(mantissa, 2) == 0 ? down : up;
 }
 
 mpz_class power_of_two(int bits) { return mpz_class(1) << static_cast<unsigned>(bits); }
@@ -121,8 +114,8 @@ TEST_P(WideIntTest, RatiosRoundToNearestDouble) {
     const mpq_class q(big(n), big(d));
     mpq_class reduced = q;
     reduced.canonicalize();
-    ASSERT_EQ(ratio_to_double(n, d), nearest(reduced));
-    ASSERT_EQ(to_double(n), nearest(mpq_class(big(n))));
+    ASSERT_EQ(ratio_to_double(n, d), nearest_double(reduced));
+    ASSERT_EQ(to_double(n), nearest_double(mpq_class(big(n))));
   }
   // Exactly half way between two doubles: to even.
   const Int128 tie = (Int128{1} << 53) + 1;
