@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """House rules that no compiler checks: layers, licence lines, file sizes, a library that never prints."""
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -26,9 +27,10 @@ IMPURE = re.compile(r'\bstd::(cout|cerr|abort|exit|getenv)\b|(?<![\w:.])(printf|
 
 
 def tracked():
-    """The files of the project: git's, or in a release, which is no checkout, all outside build."""
-    if not Path('.git').exists():
-        return sorted(path for path in Path('.').rglob('*') if path.is_file() and path.parts[0] != 'build')
+    """The files of the project: git's, or in a release, which is no checkout, and without
+    git, all outside build."""
+    if not Path('.git').exists() or not shutil.which('git'):
+        return sorted(path for path in Path('.').rglob('*') if path.is_file() and path.parts[0] not in ('build', '.git'))
     out = subprocess.run(['git', 'ls-files', '-z', '--cached', '--others', '--exclude-standard'],
                          check=True, capture_output=True, text=True).stdout
     return sorted(Path(name) for name in set(out.split('\0')) if name)

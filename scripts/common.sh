@@ -36,24 +36,30 @@ need() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# configure_and_build PRESET [TARGET...]
-configure_and_build() {
-  local preset=$1 log
-  shift
+# configure PRESET: silent unless it fails.
+configure() {
+  local log
   log=$(mktemp)
-  cmake --preset "$preset" >"$log" 2>&1 || {
+  cmake --preset "$1" >"$log" 2>&1 || {
     cat "$log" >&2
     rm -f "$log"
     return 1
   }
   rm -f "$log"
+}
+
+# configure_and_build PRESET [TARGET...]
+configure_and_build() {
+  local preset=$1
+  shift
+  configure "$preset" || return
   cmake --build "build/$preset" -j "$jobs" ${1:+--target "$@"}
 }
 
 # sources PATTERN...: those of git's files, and files not yet added, that match and were not removed;
-# in a release, which is no checkout, all that do outside build.
+# in a release, which is no checkout, and without git, all that do outside build.
 sources() {
-  if [ -e .git ]; then
+  if [ -e .git ] && command -v git >/dev/null; then
     git ls-files --cached --others --exclude-standard -- "$@" | while IFS= read -r file; do
       if [ -e "$file" ]; then printf '%s\n' "$file"; fi
     done
