@@ -44,6 +44,13 @@ double moved_by_snap(const geometry::TriangleMesh& mesh) {
   return std::sqrt(most);
 }
 
+/// Takes the folds out of a solid: where a primitive is thinner than the grid, the snap lays its
+/// two sides onto each other.
+void drop_folds(std::vector<Part>& parts) {
+  const auto is_sheet = [](const Part& p) { return p.kind == geometry::PartKind::sheet; };
+  if (!std::all_of(parts.begin(), parts.end(), is_sheet)) std::erase_if(parts, is_sheet);
+}
+
 }  // namespace
 
 void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear,
@@ -75,7 +82,8 @@ void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const M
   else
     add_lines(made.lines, Mat3d{}, result);
   // A sliver of a primitive may lose triangles to the snap: that is no fault of the source.
-  result.findings.degenerate_triangles = 0;
+  result.findings.degenerate_triangles = result.findings.cut_triangles = 0;
+  drop_folds(result.shape.parts);
   const double moved = moved_by_snap(made.mesh);
   for (Part& part : result.shape.parts) {
     part.sag += moved;

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "geometry/analyse/degenerate.hpp"
+#include "geometry/analyse/seams.hpp"
 #include "geometry/analyse/topology.hpp"
 #include "geometry/box.hpp"
 
@@ -95,6 +99,7 @@ struct Rows {
   std::span<const std::uint32_t> first;
   std::span<Row> rows;
   bool repeated = false;  ///< some triangle comes twice
+  bool flat = false;      ///< some triangle of three vertices had no area and is left out
 
   [[nodiscard]] std::size_t buckets() const { return first.size() - 1; }
   [[nodiscard]] std::span<Row> bucket(std::size_t low) const {
@@ -113,19 +118,28 @@ Triangle triangle(std::size_t low, const Row& row) {
   return row.side == 0 ? Triangle{v, mid, high} : Triangle{v, high, mid};
 }
 
+struct Listed {
+  std::size_t count = 0;
+  bool flat = false;
+};
+
 /// Fills scratch.unsorted and scratch.lows with the triangles that have an area; returns their
 /// number and counts them in first[lowest vertex + 1].
 template <class Wide>
-std::size_t list_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
-                      std::span<const Vec3i> vertices, std::span<std::uint32_t> first,
-                      WeldScratch& scratch) {
+Listed list_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
+                 std::span<const Vec3i> vertices, std::span<std::uint32_t> first,
+                 WeldScratch& scratch) {
   const std::span<Row> unsorted = room(scratch.unsorted, mesh.triangles.size());
   const std::span<std::uint32_t> lows = room(scratch.lows, mesh.triangles.size());
   std::size_t count = 0;
+  bool flat = false;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     const std::uint32_t a = renumbered[t[0]], b = renumbered[t[1]], c = renumbered[t[2]];
-    if (collinear<Wide>(vertices[a], vertices[b], vertices[c])) continue;
+    if (collinear<Wide>(vertices[a], vertices[b], vertices[c])) {
+      flat = flat || (a != b && b != c && c != a);
+      continue;
+    }
     const std::uint32_t low = std::min({a, b, c}), high = std::max({a, b, c});
     const std::uint32_t mid = a ^ b ^ c ^ low ^ high;
     // Turning a triangle round keeps its side: it runs low, mid, high when one of its steps is
@@ -137,7 +151,7 @@ std::size_t list_rows(const GridMesh& mesh, std::span<const std::uint32_t> renum
     lows[count++] = low;
     ++first[low + 1];
   }
-  return count;
+  return {count, flat};
 }
 
 /// Sorts a bucket, most of which hold a handful; true when a triangle comes twice.
@@ -160,7 +174,7 @@ Rows sorted_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered
   const bool narrow = vertices.empty() || is_narrow(box);
   const std::span<std::uint32_t> first = room(scratch.first, vertices.size() + 1);
   std::fill(first.begin(), first.end(), 0U);
-  const std::size_t count =
+  const auto [count, flat] =
       narrow ? list_rows<std::int64_t>(mesh, renumbered, vertices, first, scratch)
              : list_rows<__int128>(mesh, renumbered, vertices, first, scratch);
   // Buckets by lowest vertex hold a handful of triangles each: linear overall.
@@ -169,10 +183,28 @@ Rows sorted_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered
   for (std::size_t v = 1; v < first.size(); ++v) next[v] = first[v] += first[v - 1];
   const std::span<Row> rows = room(scratch.rows, count);
   for (std::size_t i = 0; i < count; ++i) rows[next[scratch.lows[i]]++] = scratch.unsorted[i];
-  Rows sorted{first, rows};
+  Rows sorted{first, rows, false, flat};
   for (std::size_t v = 0; v < vertices.size(); ++v)
     if (first[v + 1] - first[v] > 1) sorted.repeated |= sort_bucket(sorted.bucket(v));
   return sorted;
+}
+
+/// The rows of a mesh that has triangles without area: what they joined stays joined.
+Rows seamless_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
+                   AnalyseScratch& scratch, const Rows& open, MeshFindings& findings) {
+  const std::vector<Vec3i>& vertices = scratch.welded.vertices;
+  GridMesh whole;
+  whole.triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    whole.triangles.push_back({renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]});
+  std::optional<SeamlessMesh> seamless = cut_at_seams(vertices, whole.triangles, mesh.faces);
+  if (!seamless) return open;
+  findings.cut_triangles += seamless->cut;
+  whole.triangles = std::move(seamless->triangles);
+  whole.faces = std::move(seamless->faces);
+  std::vector<std::uint32_t> same(vertices.size());
+  std::iota(same.begin(), same.end(), 0U);
+  return sorted_rows(whole, same, vertices, scratch.box, scratch.weld);
 }
 
 /// Sets the triangles and faces of a mesh, repetitions once only if so asked.
@@ -242,8 +274,9 @@ std::span<const std::uint32_t> weld_vertices(const GridMesh& mesh, AnalyseScratc
 void weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
                     AnalyseScratch& scratch, MeshFindings& findings) {
   GridMesh& welded = scratch.welded;
-  const Rows rows = sorted_rows(mesh, renumbered, welded.vertices, scratch.box, scratch.weld);
+  Rows rows = sorted_rows(mesh, renumbered, welded.vertices, scratch.box, scratch.weld);
   findings.degenerate_triangles += mesh.triangles.size() - rows.rows.size();
+  if (rows.flat) rows = seamless_rows(mesh, renumbered, scratch, rows, findings);
   const bool with_faces = !mesh.faces.empty();
   set_triangles(rows, with_faces, false, welded);
   if (rows.repeated) drop_duplicates(rows, with_faces, scratch, findings);

@@ -14,9 +14,10 @@ namespace strake::geometry {
 [[nodiscard]] std::span<const std::uint32_t> weld_vertices(const GridMesh& mesh,
                                                            AnalyseScratch& scratch);
 
-/// Fills the rest of scratch.welded: degenerate and duplicate triangles dropped and counted, every
-/// triangle starting with its lowest vertex and triangles sorted by (lowest vertex, the other two
-/// ascending, side, face); drops vertices that none of them uses.
+/// Fills the rest of scratch.welded: degenerate and duplicate triangles dropped and counted, those
+/// beside a degenerate one cut where it would leave a gap (see cut_at_seams()), every triangle
+/// starting with its lowest vertex and triangles sorted by (lowest vertex, the other two ascending,
+/// side, face); drops vertices that none of them uses.
 void weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
                     AnalyseScratch& scratch, MeshFindings& findings);
 

@@ -13,6 +13,11 @@ constexpr std::string_view kBadAngle = "an angle is not positive or not finite";
 /// float32 sources write 2·pi a little short or long.
 bool is_full(double angle) { return angle >= 2 * kPi * (1 - 1e-6); }
 
+/// However small the sweep, a half turn in one step would be flat and a longer one inside out.
+int quarter_turns(double angle) {
+  return static_cast<int>(std::ceil(angle / (kPi / 2) * (1 - 1e-6)));
+}
+
 /// The directions of a sweep from +X. A full one starts where the rule of rims says, so that it
 /// does not depend on the local frame.
 Sweep sweep_of(double angle, double radius, double sag, const Mat3d& linear, int least = 1) {
@@ -20,7 +25,8 @@ Sweep sweep_of(double angle, double radius, double sag, const Mat3d& linear, int
     const int n = circle_segments(radius, sag, kMostSegments);
     return {rim(n, canonical_phase(column(linear, 0), column(linear, 1))), true};
   }
-  const int n = std::max(least, arc_segments(radius, angle, sag, kMostSegments));
+  const int n =
+      std::max({least, quarter_turns(angle), arc_segments(radius, angle, sag, kMostSegments)});
   Sweep sweep;
   for (int k = 0; k <= n; ++k) sweep.directions.push_back(sin_cos(angle * k / n));
   return sweep;
