@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/heavy.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/shape2.hpp"
@@ -191,6 +193,71 @@ TEST(Order, of_the_wrong_length_is_refused) {
       for_each({}, {.name = "three", .n = 3, .order = order}, [](std::size_t) { FAIL(); });
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, ErrorCode::internal);
+}
+
+TEST(Heavy, what_cannot_be_shared_out_evenly_is_apart) {
+  using Items = std::vector<std::uint32_t>;
+  const std::vector<double> one{1, 100, 1, 2};
+  EXPECT_EQ(heavy_items(one, 10, 2), Items{1});
+  EXPECT_EQ(heavy_items(one, 101, 2), Items());  // not worth a team
+  EXPECT_EQ(heavy_items(one, 10, 1), Items());   // nobody else waits
+  const std::vector<double> equal{100, 100, 1, 2};
+  EXPECT_EQ(heavy_items(equal, 10, 2), Items());
+  EXPECT_EQ(heavy_items(equal, 10, 3), (Items{0, 1}));
+  // One of three for two workers: the two others go side by side.
+  EXPECT_EQ(heavy_items(std::vector<double>{50, 60, 50}, 10, 2), Items{1});
+  EXPECT_EQ(heavy_items(std::vector<double>{std::nan(""), 60, -1, 0}, 10, 2), Items{1});
+  EXPECT_EQ(heavy_items({}, 10, 2), Items());
+  const std::vector<double> many(1000, 100);
+  EXPECT_EQ(heavy_items(many, 10, 64), Items());
+}
+
+TEST(Heavy, every_item_runs_once_and_heavy_ones_have_the_team) {
+  constexpr std::size_t kHeavy = 500;
+  for (const unsigned threads : {1U, 2U, 3U, 8U, 64U}) {
+    Team team(threads);
+    const Context context{.team = &team};
+    for (const std::size_t grain : {1U, 7U}) {
+      std::vector<int> runs(kItems, 0);
+      std::vector<std::uint64_t> sums(kItems, 0);
+      std::atomic<unsigned> with_team{0};
+      const Status status = for_each_by_weight(
+          context, {.name = "outer", .n = kItems, .grain = grain}, 1000,
+          [](std::size_t i) { return i == kHeavy ? 1e6 : 1.0; },
+          [&](std::size_t i) -> Status {
+            ++runs[i];
+            if (team.run([](Seat) {}) && threads > 1) ++with_team;
+            const auto sum = reduce(
+                context, {.name = "inner", .n = i, .grain = 16}, std::uint64_t{0},
+                [](std::uint64_t& partial, std::size_t k) { partial += k; },
+                [](std::uint64_t& into, const std::uint64_t& partial) { into += partial; });
+            if (!sum) return sum.error();
+            sums[i] = *sum;
+            return {};
+          });
+      ASSERT_TRUE(status);
+      for (std::size_t i = 0; i < kItems; ++i) {
+        EXPECT_EQ(runs[i], 1);
+        EXPECT_EQ(sums[i], i == 0 ? 0 : i * (i - 1) / 2);
+      }
+      EXPECT_EQ(with_team, threads > 1 ? 1U : 0U);
+    }
+  }
+}
+
+TEST(Heavy, errors_of_either_lot_end_it) {
+  Team team(2);
+  const Context context{.team = &team};
+  for (const std::size_t bad : {3U, 5U}) {
+    const Status status = for_each_by_weight(
+        context, {.name = "outer", .n = 9}, 10, [](std::size_t i) { return i == 5 ? 100.0 : 1.0; },
+        [&](std::size_t i) -> Status {
+          if (i == bad) return Error{ErrorCode::internal, "item " + std::to_string(i), {}, {}};
+          return {};
+        });
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "item " + std::to_string(bad));
+  }
 }
 
 TEST(Shape2, products_do_not_overflow) {
