@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_clash_pairs [TRIANGLES]...: one pair of large meshes at a time through the whole engine,
-// trees and support planes included: CPU microseconds per triangle of the two, one worker. A pair
-// with a wrong class or a bracket that misses the truth reports an error instead.
+// trees and support planes included: CPU microseconds per triangle of the two, one worker, and how
+// much faster a team of two is by the clock. A pair with a wrong class or a bracket that misses the
+// truth reports an error instead.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -12,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "clocks.hpp"
+#include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
 #include "support/revolved.hpp"
 
@@ -37,13 +40,17 @@ void bench(const std::string& title, TriangleMesh a, TriangleMesh b, const Vec3d
   m.object("a").body(std::move(a));
   m.object("b").body(std::move(b), {{}, shift});
   const strake::clash::Options options{.clearance_mm = 25};
+  strake::parallel::Team team(2);
   const double start = cpu_seconds();
   const auto scene =
       strake::model::make_scene(m.model, strake::clash::scene_options(options), {}).value();
   const double placed = cpu_seconds();
-  const auto report =
-      strake::clash::detect(scene, strake::clash::one_set(scene), options, {}).value();
-  const double seconds = cpu_seconds() - placed;
+  const auto sets = strake::clash::one_set(scene);
+  strake::bench::Lap lap;
+  const auto report = strake::clash::detect(scene, sets, options, {}).value();
+  const double seconds = cpu_seconds() - placed, alone = lap();
+  const auto by_two = strake::clash::detect(scene, sets, options, {.team = &team}).value();
+  const double speed_up = alone / lap();
   const auto& w = report.counters;
   const strake::clash::Pair pair =
       report.pairs.empty() ? strake::clash::Pair{} : report.pairs.front();
@@ -51,11 +58,14 @@ void bench(const std::string& title, TriangleMesh a, TriangleMesh b, const Vec3d
                                                (pair.d_lower_mm <= truth.d_mm + truth.slack_mm &&
                                                 pair.d_upper_mm >= truth.d_mm - truth.slack_mm));
   fmt::print(
-      "{:<34}{:>9.0f} triangles {:>8.3f} us each {:>8.3f} s (place {:.3f} s) {}{} {} d {:.4f} "
+      "{:<34}{:>9.0f} triangles {:>8.3f} us each {:>8.3f} s (place {:.3f} s, two {:.2f}x) {}{} {} "
+      "d "
+      "{:.4f} "
       "[{:.4f}, {:.4f}] flags {} | {} triangle pairs, {} exact, {} cells\n",
-      title, triangles, seconds / triangles * 1e6, seconds, placed - start,
-      right ? "" : "ERROR: ", name(pair.cls), name(pair.relation), pair.d_mm, pair.d_lower_mm,
-      pair.d_upper_mm, pair.flags, w.triangle_pairs, w.exact_fallbacks, w.depth_cells);
+      title, triangles, seconds / triangles * 1e6, seconds, placed - start, speed_up,
+      right && by_two.hash == report.hash ? "" : "ERROR: ", name(pair.cls), name(pair.relation),
+      pair.d_mm, pair.d_lower_mm, pair.d_upper_mm, pair.flags, w.triangle_pairs, w.exact_fallbacks,
+      w.depth_cells);
 }
 
 void pairs_of(double triangles) {

@@ -13,12 +13,23 @@ namespace strake::clash {
 /// One case of a pair of parts on its way through the engine.
 struct Candidate {
   FirstLook look;
-  NarrowWork work;
+  NarrowCost cost;
   bool separated = false;  ///< a coordinate plane lies between the two
   bool done = false;
   bool too_large = false;
   bool too_near_to_tell = false;  ///< whether it has one place or several
 };
+
+/// Has a candidate judged, with a team's help where it is heavy, and notes what it cost:
+/// `judge(NarrowWork&)` gives the answer.
+template <class Judge>
+auto charged(Candidate& candidate, const parallel::Context& team, Judge&& judge) {
+  NarrowWork work;
+  work.pair.team = &team;
+  auto answer = judge(work);
+  candidate.cost.add(work);
+  return answer;
+}
 
 /// The pairs that went to the detailed stage, and what it found.
 struct Judged {

@@ -9,8 +9,7 @@
 
 #include "clash/candidate.hpp"
 #include "strake/parallel/collect.hpp"
-#include "strake/parallel/for_each.hpp"
-#include "strake/parallel/order.hpp"
+#include "strake/parallel/heavy.hpp"
 
 namespace strake::clash {
 
@@ -22,6 +21,8 @@ class CaseWork {
   static constexpr std::size_t kGrain = 8;
   /// Items per block where each is done in no time.
   static constexpr std::size_t kBlock = 4096;
+  /// Triangles of a part, or of two, that are worth a whole team.
+  static constexpr double kHeavy = 1 << 16;
 
   CaseWork(const PartList& list, std::span<const geometry::IndexPair> pairs, const Cases& cases,
            const parallel::Context& context)
@@ -51,20 +52,15 @@ class CaseWork {
                                           });
   }
 
-  /// Calls work(i, a, b) for some of the cases, those with most triangles first.
+  /// Calls work(i, a, b) for some of the cases, those with most triangles first; one that nobody
+  /// should wait for has the team to itself.
   template <class Work>
   [[nodiscard]] Status over(std::span<const std::size_t> some, std::string_view name,
                             std::size_t grain, Work&& work) const {
-    const auto order =
-        parallel::longest_first((some.size() + grain - 1) / grain, [&](std::size_t block) {
-          std::size_t cost = 0;
-          for (std::size_t k = block * grain; k < std::min(some.size(), (block + 1) * grain); ++k)
-            cost += triangles(some[k]);
-          return cost;
-        });
-    return parallel::for_each(context_,
-                              {.name = name, .n = some.size(), .grain = grain, .order = order},
-                              [&](std::size_t k) { work(some[k], a(some[k]), b(some[k])); });
+    return parallel::for_each_by_weight(
+        context_, {.name = name, .n = some.size(), .grain = grain}, kHeavy,
+        [&](std::size_t k) { return triangles(some[k]); },
+        [&](std::size_t k) { work(some[k], a(some[k]), b(some[k])); });
   }
 
  private:

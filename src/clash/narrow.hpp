@@ -51,6 +51,19 @@ struct PartAnswer {
   Witness witness;
 };
 
+/// What a pair of parts has cost.
+struct NarrowCost {
+  geometry::PairCost pair;
+  std::uint64_t depth_cells = 0;
+
+  template <class Work>
+  void add(const Work& more) {
+    pair += more.pair;
+    depth_cells += more.depth_cells;
+  }
+};
+
+/// The same while it is worked on.
 struct NarrowWork {
   geometry::PairWork pair;
   std::uint64_t depth_cells = 0;

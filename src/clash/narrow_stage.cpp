@@ -86,10 +86,13 @@ class ExactStage {
                         Candidate& c = candidates_[i];
                         const NarrowPart x = aids_.treed(a), y = aids_.treed(b);
                         const NarrowOptions options = stage_.pair_options.of(a, b);
-                        if (has_wire(*a.placed.part, *b.placed.part))
-                          c.look.answer = judge_wire(x, y, options, c.work);
-                        else
-                          c.look = look_at(x, y, options, c.look.gap, c.separated, c.work);
+                        c.look = charged(c, work_.context(), [&](NarrowWork& work) {
+                          if (!has_wire(*a.placed.part, *b.placed.part))
+                            return look_at(x, y, options, c.look.gap, c.separated, work);
+                          FirstLook look;
+                          look.answer = judge_wire(x, y, options, work);
+                          return look;
+                        });
                       });
   }
 
@@ -102,8 +105,10 @@ class ExactStage {
     if (const Status s = aids_.want_planes(work_.parts_of(asking), work_.context()); !s) return s;
     return work_.over(deep, "depth", 1, [&](std::size_t i, const PartRef& a, const PartRef& b) {
       Candidate& c = candidates_[i];
-      c.look.answer = judge_depth(aids_.planed(a), aids_.planed(b), c.look,
-                                  stage_.pair_options.of(a, b), c.work);
+      c.look.answer = charged(c, work_.context(), [&](NarrowWork& work) {
+        return judge_depth(aids_.planed(a), aids_.planed(b), c.look, stage_.pair_options.of(a, b),
+                           work);
+      });
     });
   }
 
@@ -128,9 +133,10 @@ class ExactStage {
     return work_.over(apart, "distance", CaseWork::kGrain,
                       [&](std::size_t i, const PartRef& a, const PartRef& b) {
                         Candidate& c = candidates_[i];
-                        c.look.answer =
-                            judge_distance(aids_.planed(a), aids_.planed(b),
-                                           stage_.pair_options.of(a, b), reach[i], c.work);
+                        c.look.answer = charged(c, work_.context(), [&](NarrowWork& work) {
+                          return judge_distance(aids_.planed(a), aids_.planed(b),
+                                                stage_.pair_options.of(a, b), reach[i], work);
+                        });
                       });
   }
 
@@ -185,9 +191,10 @@ Status judge_by_spheres(const Stage& stage, std::vector<Candidate>& candidates) 
   return stage.work.over(
       open, "sphere subdivision", 1, [&](std::size_t i, const PartRef& a, const PartRef& b) {
         Candidate& c = candidates[i];
-        c.look.answer =
-            judge_spheres(stage.aids.treed(a), stage.aids.treed(b), stage.pair_options.of(a, b),
-                          stage.options.most_spheres, c.work);
+        c.look.answer = charged(c, stage.work.context(), [&](NarrowWork& work) {
+          return judge_spheres(stage.aids.treed(a), stage.aids.treed(b),
+                               stage.pair_options.of(a, b), stage.options.most_spheres, work);
+        });
       });
 }
 

@@ -24,13 +24,13 @@ LoggedPair logged(const Judged& judged, std::size_t begin, std::size_t end,
   pair.b = model::ObjectId{judged.b(begin).object};
   pair.may_be_allowed = rules.may_allow(index(pair.a), index(pair.b));
   for (std::size_t i = begin; i < end; ++i) {
-    const NarrowWork& work = judged.of(i).work;
+    const NarrowCost& cost = judged.of(i).cost;
     ++pair.part_pairs;
     if (judged.cases.first[judged.cases.of[i]] != i) ++pair.repeated_part_pairs;
-    pair.node_pairs += work.pair.node_pairs;
-    pair.triangle_pairs += work.pair.triangle_pairs;
-    pair.exact_fallbacks += work.pair.exact_fallbacks;
-    pair.depth_cells += work.depth_cells;
+    pair.node_pairs += cost.pair.node_pairs;
+    pair.triangle_pairs += cost.pair.triangle_pairs;
+    pair.exact_fallbacks += cost.pair.exact_fallbacks;
+    pair.depth_cells += cost.depth_cells;
   }
   return pair;
 }

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "strake/parallel/for_each.hpp"
-#include "strake/parallel/order.hpp"
+#include "clash/case_work.hpp"
+#include "strake/parallel/heavy.hpp"
 
 namespace strake::clash {
 namespace {
@@ -22,10 +22,9 @@ Status PartAids::add(Kind<T>& kind, const std::vector<bool>& wanted, std::string
   std::vector<std::uint32_t> missing;
   for (std::uint32_t u = 0; u < wanted.size(); ++u)
     if (wanted[u] && !kind.made[u]) missing.push_back(u);
-  const auto order = parallel::longest_first(
-      missing.size(), [&](std::size_t i) { return list_.unique[missing[i]]->triangles.size(); });
-  const Status status = parallel::for_each(
-      context, {.name = name, .n = missing.size(), .order = order},
+  const Status status = parallel::for_each_by_weight(
+      context, {.name = name, .n = missing.size()}, CaseWork::kHeavy,
+      [&](std::size_t i) { return list_.unique[missing[i]]->triangles.size(); },
       [&](std::size_t i) { kind.all[missing[i]] = make(*list_.unique[missing[i]]); });
   if (!status) return status;
   for (const std::uint32_t u : missing) kind.made[u] = true;
@@ -39,12 +38,13 @@ Status PartAids::want_frames(const std::vector<bool>& wanted, const parallel::Co
 
 Status PartAids::want_trees(const std::vector<bool>& wanted, const parallel::Context& context) {
   return add(trees_, wanted, "part trees", context,
-             [](const geometry::Part& part) { return geometry::PartTree(part); });
+             [&](const geometry::Part& part) { return geometry::PartTree(part, context); });
 }
 
 Status PartAids::want_planes(const std::vector<bool>& wanted, const parallel::Context& context) {
-  return add(planes_, wanted, "support planes", context,
-             [](const geometry::Part& part) { return geometry::make_support_planes(part); });
+  return add(planes_, wanted, "support planes", context, [&](const geometry::Part& part) {
+    return geometry::make_support_planes(part, context);
+  });
 }
 
 NarrowPart PartAids::bare(const PartRef& part) const {

@@ -88,11 +88,17 @@ class PlaceStage {
     // Dents that a place cannot be told by: the touch gap bridges them.
     const double slack = std::max(1.0, stage_.pair_options.least_touch_gap() / 4);
     const std::vector<bool> wanted = work_.parts_of(some);
-    return parallel::transform(
-        work_.context(), {.name = "convex parts", .n = wanted.size()}, [&](std::size_t u) {
-          return static_cast<std::uint8_t>(wanted[u] &&
-                                           geometry::nearly_convex(*judged_.list.unique[u], slack));
+    const auto& unique = judged_.list.unique;
+    std::vector<std::uint8_t> convex(wanted.size(), 0);
+    const Status status = parallel::for_each_by_weight(
+        work_.context(), {.name = "convex parts", .n = wanted.size()}, CaseWork::kHeavy,
+        [&](std::size_t u) { return wanted[u] ? unique[u]->triangles.size() : 0; },
+        [&](std::size_t u) {
+          convex[u] = static_cast<std::uint8_t>(
+              wanted[u] && geometry::nearly_convex(*unique[u], slack, work_.context()));
         });
+    if (!status) return status.error();
+    return convex;
   }
 
   /// The boxes of cases that have one place.
@@ -117,8 +123,10 @@ class PlaceStage {
     if (const Status s = aids_.want_trees(work_.parts_of(treed), work_.context()); !s) return s;
     return work_.over(some, "places", 1, [&](std::size_t i, const PartRef& a, const PartRef& b) {
       Candidate& c = candidates_[i];
-      auto found = places_of(aids_.treed(a), aids_.treed(b), c.look.answer,
-                             stage_.pair_options.of(a, b), telling_[i], c.work);
+      auto found = charged(c, work_.context(), [&](NarrowWork& work) {
+        return places_of(aids_.treed(a), aids_.treed(b), c.look.answer,
+                         stage_.pair_options.of(a, b), telling_[i], work);
+      });
       c.too_near_to_tell = !found;
       if (found) places_[i] = std::move(*found);
     });

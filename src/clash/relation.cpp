@@ -13,10 +13,7 @@ using geometry::DepthPart;
 using geometry::Meeting;
 using geometry::MeetingResult;
 using geometry::PartKind;
-using geometry::PointSide;
 using geometry::TreedPart;
-using geometry::Vec3d;
-using geometry::Vec3i;
 using geometry::Vec3l;
 
 /// Beyond this many vertices a body is not walked vertex by vertex for the sake of a word.
@@ -31,27 +28,26 @@ bool box_within(const TreedPart& a, const TreedPart& b, double band) {
   return true;
 }
 
-/// Every vertex of a lies in b or within the band of its surface; `on_surface` tells whether all
-/// lie within the band.
-bool within_band(const TreedPart& a, const TreedPart& b, double band, bool& on_surface,
-                 geometry::PairWork& work) {
-  on_surface = true;
-  if (!box_within(a, b, band) || a.placed.part->vertices.size() > kMaxVertices) return false;
-  const Vec3l shift = a.placed.origin - b.placed.origin;
-  for (const Vec3i& v : a.placed.part->vertices) {
-    const Vec3l at = v.as<std::int64_t>() + shift;
-    if (geometry::distance_to_surface(b, at.as<double>(), band + 1) <= band) continue;
-    on_surface = false;
-    if (side_of(b, at, 1, work) == PointSide::outside) return false;
-  }
-  return true;
+/// Whether every vertex of a lies in b, within the band.
+geometry::PartCover within_band(const TreedPart& a, const TreedPart& b, double band,
+                                geometry::PairWork& work) {
+  if (!box_within(a, b, band) || a.placed.part->vertices.size() > kMaxVertices) return {};
+  return geometry::cover_by(a, b, band, work);
+}
+
+bool on_surface(const TreedPart& a, const TreedPart& b, double band, geometry::PairWork& work) {
+  const geometry::PartCover cover = within_band(a, b, band, work);
+  return cover.within && cover.on_surface;
 }
 
 /// Whether a bridges a gap of b: the skin of b runs deep inside a, though the corners of a lie in b
 /// or on it. Only what is certain counts, and b's corners say it all where b is convex.
 bool bridges_gap(const DepthPart& a, const DepthPart& b, double band, geometry::PairWork& work) {
   if (b.planes->nearly_convex) return false;
-  const geometry::DepthGoal goal{.threshold = band + 1, .cells_undecided = 256, .cells_decided = 0};
+  const geometry::DepthGoal goal{.threshold = band + 1,
+                                 .cells_undecided = 256,
+                                 .cells_decided = 0,
+                                 .of_no_interest = band + 1};
   return geometry::sheet_in_solid_depth(b, a, goal, work).lower > goal.threshold;
 }
 
@@ -65,9 +61,7 @@ bool one_sheet(const TreedPart& a, const TreedPart& b, const MeetingResult& meet
                geometry::PairWork& work) {
   if (!may_be_one_sheet(a, b, band)) return false;
   if (meeting.a_within_b && meeting.b_within_a) return true;
-  bool a_on_b = false, b_on_a = false;
-  return within_band(a, b, band, a_on_b, work) && a_on_b && within_band(b, a, band, b_on_a, work) &&
-         b_on_a;
+  return on_surface(a, b, band, work) && on_surface(b, a, band, work);
 }
 
 }  // namespace
@@ -96,12 +90,11 @@ Relation relation_of(const DepthPart& deep_a, const DepthPart& deep_b,
   if (meeting.meeting == Meeting::b_inside_a)
     return skins_meet(a, b, band, work) ? Relation::abut_inside : Relation::b_in_a;
   if (meeting.a_within_b && meeting.b_within_a) return Relation::duplicate;
-  bool a_on_b = false, b_on_a = false;
-  const bool a_in =
-      within_band(a, b, band, a_on_b, work) && !bridges_gap(deep_a, deep_b, band, work);
-  const bool b_in =
-      within_band(b, a, band, b_on_a, work) && !bridges_gap(deep_b, deep_a, band, work);
-  if (a_in && b_in && a_on_b && b_on_a) return Relation::duplicate;
+  const geometry::PartCover a_cover = within_band(a, b, band, work);
+  const bool a_in = a_cover.within && !bridges_gap(deep_a, deep_b, band, work);
+  const geometry::PartCover b_cover = within_band(b, a, band, work);
+  const bool b_in = b_cover.within && !bridges_gap(deep_b, deep_a, band, work);
+  if (a_in && b_in && a_cover.on_surface && b_cover.on_surface) return Relation::duplicate;
   if (depth.upper <= band) return Relation::abut_outside;
   if (a_in || b_in || meeting.a_within_b || meeting.b_within_a) return Relation::abut_inside;
   return Relation::interfere;

@@ -13,17 +13,11 @@ namespace {
 
 constexpr std::size_t kGrain = 16384;
 
-void add(const NarrowWork& work, NarrowWork& sum) {
-  sum.pair.triangle_pairs += work.pair.triangle_pairs;
-  sum.pair.exact_fallbacks += work.pair.exact_fallbacks;
-  sum.depth_cells += work.depth_cells;
-}
-
 Status count_work(const Judged& judged, const parallel::Context& context, Counters& counters) {
   const auto sum = parallel::reduce(
-      context, {.name = "count work", .n = judged.candidates.size(), .grain = kGrain}, NarrowWork{},
-      [&](NarrowWork& partial, std::size_t i) { add(judged.candidates[i].work, partial); },
-      [](NarrowWork& into, const NarrowWork& partial) { add(partial, into); });
+      context, {.name = "count work", .n = judged.candidates.size(), .grain = kGrain}, NarrowCost{},
+      [&](NarrowCost& partial, std::size_t i) { partial.add(judged.candidates[i].cost); },
+      [](NarrowCost& into, const NarrowCost& partial) { into.add(partial); });
   if (!sum) return sum.error();
   counters.triangle_pairs = sum->pair.triangle_pairs;
   counters.exact_fallbacks = sum->pair.exact_fallbacks;

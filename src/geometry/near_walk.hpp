@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 #include "geometry/box.hpp"
+#include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/triangle_distance.hpp"
 
@@ -26,31 +29,49 @@ class NearWalk {
   NearWalk(const PartView& a, const PartView& b, PairWork& work, double near_enough = -1)
       : a_(a), b_(b), work_(work), near_enough_(near_enough) {}
 
-  /// `visit(NearTriangles)` tells whether to go on. `reach` is a square, and read anew before each
-  /// step.
-  template <class Visit>
-  void run(const double& reach, Visit&& visit) {
-    if (a_.tree().nodes().empty() || b_.tree().nodes().empty()) return;
-    push(0, 0, reach);
-    while (size_ > 0) {
-      const Entry entry = stack_[--size_];
-      if (entry.squared > reach) continue;
-      ++work_.node_pairs;
-      const PartTree::Node& na = a_.tree().nodes()[entry.pair.a];
-      const PartTree::Node& nb = b_.tree().nodes()[entry.pair.b];
-      if (na.count == 0 || nb.count == 0)
-        open(entry, reach);
-      else if (!leaves(entry.pair, reach, visit))
-        return;
-    }
-  }
-
- private:
+  /// Two nodes that may hold near triangles.
   struct Entry {
     NodePair pair;
     double squared = 0;  ///< distance of the nodes' boxes
   };
 
+  /// Begins with everything, or with one of rest(). `reach` is a square here and below.
+  void start(double reach) {
+    if (!a_.tree().nodes().empty() && !b_.tree().nodes().empty()) push(0, 0, reach);
+  }
+  void start(const Entry& entry) { stack_[size_++] = entry; }
+
+  /// `visit(NearTriangles)` tells whether to go on. `reach` is read anew before each step. Left off
+  /// after `most` node pairs.
+  template <class Visit>
+  WalkEnd run(const double& reach, Visit&& visit, std::uint64_t most = DualWalk::kNoLimit) {
+    for (; size_ > 0; --most) {
+      if (most == 0) return WalkEnd::left_off;
+      const Entry entry = stack_[--size_];
+      if (entry.squared > reach) continue;
+      ++work_.node_pairs;
+      if (!is_leaves(entry))
+        open(entry, reach);
+      else if (!leaves(entry.pair, reach, visit))
+        return WalkEnd::stopped;
+    }
+    return WalkEnd::done;
+  }
+
+  /// What is left, in at least so many pieces where it has as many.
+  [[nodiscard]] std::vector<Entry> rest(double reach, std::size_t wanted) {
+    std::vector<Entry> left(std::make_reverse_iterator(stack_.begin() + size_),
+                            std::make_reverse_iterator(stack_.begin()));
+    return opened(std::move(left), wanted, [&](const Entry& entry, std::vector<Entry>& out) {
+      if (is_leaves(entry)) return false;
+      size_ = 0;
+      open(entry, reach);
+      while (size_ > 0) out.push_back(stack_[--size_]);
+      return true;
+    });
+  }
+
+ private:
   /// The triangles of a leaf, prepared; kept until another leaf is loaded.
   struct LoadedLeaf {
     std::uint32_t node = 0xffffffffU;
@@ -69,6 +90,10 @@ class NearWalk {
       }
     }
   };
+
+  [[nodiscard]] bool is_leaves(const Entry& entry) const {
+    return a_.tree().nodes()[entry.pair.a].count != 0 && b_.tree().nodes()[entry.pair.b].count != 0;
+  }
 
   /// A node's box in the pair's coordinates; exact.
   static Box3d box_of(const PartView& view, std::uint32_t node) {

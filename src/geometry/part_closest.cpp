@@ -3,11 +3,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/box.hpp"
 #include "geometry/corners.hpp"
-#include "geometry/near_walk.hpp"
+#include "geometry/heavy_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/tree_walk.hpp"
 #include "geometry/triangle_distance.hpp"
@@ -26,8 +27,8 @@ class ClosestSearch {
       : a_(a, {}),
         b_(b, b.placed.origin - a.placed.origin),
         limit_(limit),
-        reach_(limit * limit * kOutward),
-        work_(work) {}
+        work_(work),
+        found_{.reach = limit * limit * kOutward} {}
 
   std::optional<Closest> run();
   /// Ends at the first pair of triangles that is certainly not farther apart than the limit.
@@ -37,37 +38,55 @@ class ClosestSearch {
   void walk();
   std::optional<Closest> decide();
 
+  /// What a walk, or a piece of one, has found.
+  struct Found {
+    double reach = 0;    ///< squared distances strictly above this are of no interest
+    double enough = -1;  ///< a squared distance that is near enough to look no further
+    bool near = false;   ///< one was found, and is the only candidate
+    PairWork work = {};
+    std::vector<NearTriangles> candidates = {};  ///< that may be the nearest
+
+    bool operator()(const NearTriangles& t) {
+      near = t.squared.upper <= enough;
+      if (near) candidates.clear();
+      candidates.push_back(t);
+      reach = std::min(reach, t.squared.upper * kOutward);
+      return !near;
+    }
+  };
+
   PartView a_, b_;
   double limit_;
-  double reach_;        ///< squared distances strictly above this are of no interest
-  double enough_ = -1;  ///< a squared distance that is near enough to look no further
-  bool near_ = false;   ///< one was found
   PairWork& work_;
-  std::vector<NearTriangles> candidates_;  ///< that may be the nearest
+  Found found_;
 };
 
 void ClosestSearch::walk() {
-  NearWalk(a_, b_, work_).run(reach_, [this](const NearTriangles& t) {
-    if (t.squared.upper <= enough_) {
-      candidates_.assign(1, t);
-      near_ = true;
-      return false;
-    }
-    candidates_.push_back(t);
-    reach_ = std::min(reach_, t.squared.upper * kOutward);
-    return true;
-  });
+  heavy_near_walk(
+      a_, b_, -1, work_, [this] { return Found{.reach = found_.reach, .enough = found_.enough}; },
+      [this](Found& piece) {
+        found_.near = piece.near;
+        found_.reach = std::min(found_.reach, piece.reach);
+        auto& all = found_.candidates;
+        if (piece.near || all.empty())
+          all = std::move(piece.candidates);
+        else
+          all.insert(all.end(), piece.candidates.begin(), piece.candidates.end());
+        return !piece.near;
+      });
 }
 
 /// The exact least among the candidates whose certified bounds overlap.
 std::optional<Closest> ClosestSearch::decide() {
-  std::erase_if(candidates_, [this](const NearTriangles& c) { return c.squared.lower > reach_; });
-  std::ranges::sort(candidates_, [](const NearTriangles& x, const NearTriangles& y) {
+  auto& candidates = found_.candidates;
+  std::erase_if(candidates,
+                [this](const NearTriangles& c) { return c.squared.lower > found_.reach; });
+  std::ranges::sort(candidates, [](const NearTriangles& x, const NearTriangles& y) {
     return x.a != y.a ? x.a < y.a : x.b < y.b;
   });
   std::optional<Closest> best;
   NearestPoints nearest;
-  for (const NearTriangles& c : candidates_) {
+  for (const NearTriangles& c : candidates) {
     if (best && c.squared.lower > best->squared * kOutward) continue;
     const TriangleCorners a = a_.corners(c.a), b = b_.corners(c.b);
     if (best && not_nearer(a, b, nearest)) continue;
@@ -95,9 +114,9 @@ std::optional<Closest> ClosestSearch::run() {
 }
 
 std::optional<Closest> ClosestSearch::run_until_near() {
-  enough_ = limit_ * limit_;
+  found_.enough = limit_ * limit_;
   walk();
-  return near_ ? decide() : std::nullopt;
+  return found_.near ? decide() : std::nullopt;
 }
 
 /// Squared distance of a point to a triangle, in doubles.

@@ -6,6 +6,9 @@
 #include <limits>
 #include <span>
 
+#include "geometry/halving.hpp"
+#include "geometry/heavy_loop.hpp"
+
 namespace strake::geometry {
 namespace {
 
@@ -99,13 +102,12 @@ Box3i box_of(std::span<const Reference> refs) {
   return box;
 }
 
-/// Two non-empty groups: the size of the first, and their boxes.
-struct Split {
-  std::size_t first = 0;
-  Box3i left = empty_box<std::int32_t>(), right = empty_box<std::int32_t>();
-};
+Halves cut_at(std::span<const Reference> refs, std::size_t first) {
+  return {static_cast<std::uint32_t>(first), box_of(refs.first(first)),
+          box_of(refs.subspan(first))};
+}
 
-Split halve(std::span<Reference> refs, int axis) {
+Halves halve(std::span<Reference> refs, int axis) {
   const std::size_t half = refs.size() / 2;
   std::nth_element(refs.begin(), refs.begin() + static_cast<std::ptrdiff_t>(half), refs.end(),
                    [axis](const Reference& x, const Reference& y) {
@@ -113,10 +115,10 @@ Split halve(std::span<Reference> refs, int axis) {
                      const std::int64_t cy = twice_centre(y.box, axis);
                      return cx != cy ? cx < cy : x.triangle < y.triangle;
                    });
-  return {half, box_of(refs.first(half)), box_of(refs.subspan(half))};
+  return cut_at(refs, half);
 }
 
-Split split(std::span<Reference> refs, const Box3i& box, std::uint32_t depth) {
+Halves split(std::span<Reference> refs, const Box3i& box, std::uint32_t depth) {
   const Binning binning(box);
   if (refs.size() <= kFew || depth >= kMaxSplitDepth) return halve(refs, binning.axis);
   Bins bins;
@@ -130,67 +132,47 @@ Split split(std::span<Reference> refs, const Box3i& box, std::uint32_t depth) {
   const auto middle = std::partition(refs.begin(), refs.end(), [&](const Reference& ref) {
     return binning.bin(ref.box) < boundary;
   });
-  Split r;
-  r.first = static_cast<std::size_t>(middle - refs.begin());
+  Halves r{static_cast<std::uint32_t>(middle - refs.begin()), empty_box<std::int32_t>(),
+           empty_box<std::int32_t>()};
   for (std::size_t i = 0; i < kBins; ++i) grow(i < boundary ? r.left : r.right, bins[i].box);
   return r;
 }
 
-std::vector<Reference> references(const Part& part) {
-  std::vector<Reference> refs(part.triangles.size());
-  for (std::uint32_t i = 0; i < refs.size(); ++i) {
-    refs[i].triangle = i;
-    Box3i& box = refs[i].box;
-    const Triangle& t = part.triangles[i];
-    box.lo = box.hi = part.vertices[t[0]];
-    box.include(part.vertices[t[1]]);
-    box.include(part.vertices[t[2]]);
-  }
-  return refs;
+Reference reference(const Part& part, std::uint32_t triangle) {
+  Reference ref;
+  ref.triangle = triangle;
+  const Triangle& t = part.triangles[triangle];
+  ref.box.lo = ref.box.hi = part.vertices[t[0]];
+  ref.box.include(part.vertices[t[1]]);
+  ref.box.include(part.vertices[t[2]]);
+  return ref;
 }
 
-Split halve_in_order(std::span<const Reference> refs) {
+Halves halve_in_order(std::span<const Reference> refs) {
   // Whole leaves, so that there are as few as can be.
   const std::size_t leaves = (refs.size() + PartTree::kLeafSize - 1) / PartTree::kLeafSize;
-  const std::size_t half = std::min(leaves / 2 * PartTree::kLeafSize, refs.size() - 1);
-  return {half, box_of(refs.first(half)), box_of(refs.subspan(half))};
+  return cut_at(refs, std::min(leaves / 2 * PartTree::kLeafSize, refs.size() - 1));
 }
-
-struct Range {
-  std::uint32_t node = 0, first = 0, last = 0, depth = 0;
-};
 
 }  // namespace
 
-PartTree::PartTree(const Part& part) {
-  std::vector<Reference> refs = references(part);
-  if (refs.empty()) return;
-  nodes_.reserve(refs.size());
-  nodes_.push_back({box_of(refs), 0, 0});
-  std::vector<Range> todo{{0, 0, static_cast<std::uint32_t>(refs.size()), 0}};
-  while (!todo.empty()) {
-    const Range range = todo.back();
-    todo.pop_back();
-    const std::span<Reference> mine =
-        std::span(refs).subspan(range.first, range.last - range.first);
-    Node& node = nodes_[range.node];
-    if (mine.size() <= kLeafSize) {
-      node.first = range.first;
-      node.count = static_cast<std::uint32_t>(mine.size());
-      continue;
-    }
-    const Split halves =
-        refs.size() <= kSmallPart ? halve_in_order(mine) : split(mine, node.box, range.depth);
-    const auto middle = range.first + static_cast<std::uint32_t>(halves.first);
-    const auto left = static_cast<std::uint32_t>(nodes_.size());
-    node.first = left;
-    nodes_.push_back({halves.left, 0, 0});
-    nodes_.push_back({halves.right, 0, 0});
-    todo.push_back({left + 1, middle, range.last, range.depth + 1});
-    todo.push_back({left, range.first, middle, range.depth + 1});
-  }
-  order_.reserve(refs.size());
-  for (const Reference& ref : refs) order_.push_back(ref.triangle);
+PartTree::PartTree(const Part& part, const parallel::Context& context) {
+  const auto n = static_cast<std::uint32_t>(part.triangles.size());
+  if (n == 0) return;
+  std::vector<Reference> refs(n);
+  const Status gathered = heavy_loop(context, "tree items", n, [&](std::size_t i) {
+    refs[i] = reference(part, static_cast<std::uint32_t>(i));
+  });
+  if (!gathered) return;
+  const auto cut = [&](const HalvedRange& range, const Box3i& box) {
+    const std::span<Reference> mine = std::span(refs).subspan(range.first, range.size());
+    return n <= kSmallPart ? halve_in_order(mine) : split(mine, box, range.depth);
+  };
+  nodes_ = Halving<Node, decltype(cut)>(kLeafSize, cut).run(box_of(refs), n, context);
+  order_.resize(n);
+  const Status ordered =
+      heavy_loop(context, "tree order", n, [&](std::size_t i) { order_[i] = refs[i].triangle; });
+  if (!ordered) nodes_.clear();
 }
 
 }  // namespace strake::geometry

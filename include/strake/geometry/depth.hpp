@@ -31,7 +31,9 @@ struct SupportPlanes {
 /// The four fixed unit directions of SupportPlanes::tetrahedral; they sum to zero.
 [[nodiscard]] const std::array<Vec3d, 4>& tetrahedral_directions();
 
-[[nodiscard]] SupportPlanes make_support_planes(const Part& part);
+/// The same with any team or none; of no use where the context's stop token ended it.
+[[nodiscard]] SupportPlanes make_support_planes(const Part& part,
+                                                const parallel::Context& context = {});
 
 /// A part of an interpenetrating pair.
 struct DepthPart {
@@ -56,6 +58,8 @@ struct DepthGoal {
   double relative = 0.02;                ///< and so is one this narrow relative to the depth
   std::uint32_t cells_undecided = 3000;  ///< work limit while the threshold lies in the bracket
   std::uint32_t cells_decided = 1000;    ///< work limit once it does not
+  /// Depths of no more than this are all the same to who asks; the bracket may reach up to it.
+  double of_no_interest = 0;
   /// A certain upper bound, if known: minus the result of gap_bound().
   double known_upper = std::numeric_limits<double>::infinity();
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known,

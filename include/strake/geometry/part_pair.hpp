@@ -9,6 +9,7 @@
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/part_tree.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::geometry {
 
@@ -45,8 +46,28 @@ struct MeetingResult {
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where it was found, if on both
 };
 
-struct PairWork {
+/// What a pair has cost: the same for any team.
+struct PairCost {
   std::uint64_t triangle_pairs = 0, exact_fallbacks = 0, node_pairs = 0;
+
+  PairCost& operator+=(const PairCost& other) {
+    triangle_pairs += other.triangle_pairs;
+    exact_fallbacks += other.exact_fallbacks;
+    node_pairs += other.node_pairs;
+    return *this;
+  }
+};
+
+/// A pair while it is worked on. What a heavy pair asks of a team that was stopped is not an
+/// answer: who started the work looks at the stop token.
+struct PairWork : PairCost {
+  const parallel::Context* team = nullptr;  ///< who may help where a pair is heavy; null: nobody
+
+  /// To run regions with.
+  [[nodiscard]] const parallel::Context& context() const {
+    static const parallel::Context nobody;
+    return team == nullptr ? nobody : *team;
+  }
 };
 
 /// Exact: see Meeting. The caller checks with fits_pair() first. Most pairs are decided by one
@@ -85,5 +106,16 @@ struct Closest {
 /// Distance of a point (grid units relative to the part's origin) to the part's surface.
 [[nodiscard]] double distance_to_surface(const TreedPart& part, const Vec3d& point,
                                          double limit = std::numeric_limits<double>::infinity());
+
+/// Where the vertices of one part lie in another.
+struct PartCover {
+  bool within = false;      ///< each inside, or within the band of the surface
+  bool on_surface = false;  ///< each within the band of the surface; says nothing if not within
+};
+
+/// The vertices of `a` in `b` with a band of so many grid units round it; all are looked at up to
+/// the first that lies outside.
+[[nodiscard]] PartCover cover_by(const TreedPart& a, const TreedPart& b, double band,
+                                 PairWork& work);
 
 }  // namespace strake::geometry

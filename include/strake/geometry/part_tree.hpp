@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "strake/geometry/part.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::geometry {
 
@@ -23,7 +24,8 @@ class PartTree {
   };
 
   PartTree() = default;
-  explicit PartTree(const Part& part);
+  /// The same tree with any team or none. Without nodes where the context's stop token ended it.
+  explicit PartTree(const Part& part, const parallel::Context& context = {});
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< root first
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "strake/geometry/vec.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::geometry {
 
@@ -25,7 +26,8 @@ class VertexTree {
   };
 
   VertexTree() = default;
-  explicit VertexTree(std::span<const Vec3i> points);
+  /// The same tree with any team or none.
+  explicit VertexTree(std::span<const Vec3i> points, const parallel::Context& context = {});
 
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] Extreme greatest_along(const Vec3d& n) const;

@@ -180,7 +180,7 @@ class Candidates {
     if (goal_.within && !goal_.within->contains({q, q})) return std::nullopt;
     if (!a_.contains(q, work_) || !b_.contains(q, work_)) return std::nullopt;
     if (!goal_.counts(q)) return std::nullopt;
-    const double depth = std::max(a_.nearest(q).distance, b_.nearest(q).distance);
+    const double depth = greater_distance(a_, b_, q);
     if (depth > best_) {
       best_ = depth;
       point_ = q;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -47,6 +48,11 @@ class DepthField {
     return nearest_triangle(part(), *part_->tree, local(p), hint);
   }
 
+  /// No less than nearest().distance.
+  [[nodiscard]] double some_distance(const Vec3d& p) const {
+    return geometry::some_distance(part(), *part_->tree, local(p));
+  }
+
   [[nodiscard]] Vec3d local(const Vec3d& p) const { return p + shift_.as<double>(); }
   [[nodiscard]] Vec3d common(const Vec3d& p) const { return p - shift_.as<double>(); }
   [[nodiscard]] const Part& part() const { return *part_->placed.part; }
@@ -57,5 +63,16 @@ class DepthField {
   const TreedPart* part_;
   Vec3l shift_;
 };
+
+/// How far a point is from the skin that is farther from it. In the middle of a round body its
+/// whole skin is about equally near: that of the other is searched only where it could be farther.
+[[nodiscard]] inline double greater_distance(const DepthField& a, const DepthField& b,
+                                             const Vec3d& p) {
+  const double some_a = a.some_distance(p), some_b = b.some_distance(p);
+  const DepthField &far = some_a >= some_b ? a : b, &near = some_a >= some_b ? b : a;
+  const double greater = far.nearest(p).distance;
+  return std::min(some_a, some_b) <= greater ? greater
+                                             : std::max(greater, near.nearest(p).distance);
+}
 
 }  // namespace strake::geometry

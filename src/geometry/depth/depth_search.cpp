@@ -229,7 +229,7 @@ class Search {
 
   void try_point(const Vec3d& p) {
     const Vec3d q = on_field_grid(p);
-    const double depth = std::max(a_.nearest(q).distance, b_.nearest(q).distance);
+    const double depth = greater_distance(a_, b_, q);
     if (depth > depth_.value && a_.contains(q, work_) && b_.contains(q, work_)) improve(depth, q);
   }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/depth/nearest.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "geometry/box.hpp"
 #include "strake/geometry/depth.hpp"
@@ -85,6 +88,20 @@ Vec3d nearest_on_triangle(const Vec3d& p, const Corners& t) {
 NearestTriangle nearest_triangle(const Part& part, const PartTree& tree, const Vec3d& p,
                                  std::uint32_t hint, double limit) {
   return Search(part, tree, p).run(hint, limit);
+}
+
+double some_distance(const Part& part, const PartTree& tree, const Vec3d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  if (tree.nodes().empty()) return least;
+  const PartTree::Node* node = tree.nodes().data();
+  const auto gap = [&](std::uint32_t index) {
+    return squared_gap(p, tree.nodes()[index].box.as<double>());
+  };
+  while (node->count == 0)
+    node = &tree.nodes()[node->first + (gap(node->first + 1) < gap(node->first) ? 1 : 0)];
+  for (std::uint32_t i = node->first; i < node->first + node->count; ++i)
+    least = std::min(least, squared(nearest_on_triangle(p, corners_of(part, tree.order()[i])) - p));
+  return std::sqrt(least);
 }
 
 SkinPoint nearest_on_skin(const TreedPart& part, const Vec3d& p) {

@@ -27,4 +27,7 @@ struct NearestTriangle {
     const Part& part, const PartTree& tree, const Vec3d& p, std::uint32_t hint = kNoFace,
     double limit = std::numeric_limits<double>::infinity());
 
+/// The distance to some triangle that is near: no less than that to the nearest.
+[[nodiscard]] double some_distance(const Part& part, const PartTree& tree, const Vec3d& p);
+
 }  // namespace strake::geometry

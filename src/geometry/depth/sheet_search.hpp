@@ -5,14 +5,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <queue>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "geometry/box.hpp"
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
+#include "geometry/heavy_loop.hpp"
 #include "strake/geometry/depth.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::geometry {
 
@@ -33,17 +35,16 @@ class SheetSearch {
 
   void run() {
     const double ceiling = depth_.upper;
-    const Box3d room = solid_.box();
-    for (const Shape& c : pieces_)
-      if (box_of(c).meets(room)) evaluate(c, kNoFace, ceiling);
+    look_at_all(ceiling);
     while (!open_.empty()) {
-      depth_.upper = std::min(ceiling, std::max(open_.top().upper, depth_.value));
+      depth_.upper = std::min(ceiling, std::max(open_.front().upper, depth_.value));
       if (bracket_suffices(depth_, goal_) || exhausted()) return;
-      const Piece piece = open_.top();
-      open_.pop();
+      std::ranges::pop_heap(open_, LessPromising());
+      const Piece piece = open_.back();
+      open_.pop_back();
       halve(piece);
     }
-    depth_.upper = std::min(ceiling, depth_.value + margin_);
+    depth_.upper = std::min(ceiling, of_no_interest(depth_));
   }
 
  private:
@@ -58,6 +59,69 @@ class SheetSearch {
       return x.upper != y.upper ? x.upper < y.upper : x.id > y.id;
     }
   };
+  /// What some of the pieces have to say.
+  struct Found {
+    Depth depth;
+    std::vector<Piece> open;  ///< what may be deeper, as they came
+    PairCost cost;
+    std::uint32_t nearest = kNoFace;  ///< to the last one: likely near to the next
+  };
+
+  void look_at_all(double ceiling) {
+    if (pieces_.size() < kWorthATeam) {
+      const Box3d room = solid_.box();
+      std::uint32_t nearest = kNoFace;
+      for (const Shape& c : pieces_) {
+        if (!box_of(c).meets(room)) continue;
+        if (const auto piece = evaluate(c, nearest, ceiling, depth_, work_)) push(*piece);
+      }
+      return;
+    }
+    look_together(ceiling);
+  }
+
+  /// By blocks that do not depend on the team, each as if it were alone.
+  void look_together(double ceiling) {
+    const Box3d room = solid_.box();
+    const auto found = parallel::reduce(
+        work_.context(), {.name = "pieces of a skin", .n = pieces_.size(), .grain = kTeamGrain},
+        Found(),
+        [&](Found& block, std::size_t i) {
+          if (!box_of(pieces_[i]).meets(room)) return;
+          PairWork work;
+          if (auto piece = evaluate(pieces_[i], block.nearest, ceiling, block.depth, work))
+            block.open.push_back(*piece);
+          block.cost += work;
+        },
+        [](Found& all, const Found& block) {
+          const std::uint64_t cells = all.depth.cells + block.depth.cells;
+          if (block.depth.value > all.depth.value) all.depth = block.depth;
+          all.depth.cells = cells;
+          all.open.insert(all.open.end(), block.open.begin(), block.open.end());
+          all.cost += block.cost;
+        });
+    if (!found) return;
+    work_ += found->cost;
+    depth_.cells += found->depth.cells;
+    if (found->depth.value > depth_.value) {
+      depth_.value = found->depth.value;
+      depth_.lower = found->depth.lower;
+      depth_.point = found->depth.point;
+    }
+    for (const Piece& piece : found->open)
+      if (piece.upper > of_no_interest(depth_)) push(piece);
+  }
+
+  void push(Piece piece) {
+    piece.id = next_id_++;
+    open_.push_back(piece);
+    std::ranges::push_heap(open_, LessPromising());
+  }
+
+  /// No deeper than what is known already.
+  [[nodiscard]] double of_no_interest(const Depth& known) const {
+    return std::max(known.value + margin_, goal_.of_no_interest);
+  }
 
   [[nodiscard]] bool exhausted() const {
     const bool decided = depth_.lower > goal_.threshold || depth_.upper <= goal_.threshold;
@@ -80,13 +144,18 @@ class SheetSearch {
     Shape left = piece.corners, right = piece.corners;
     left[j] = middle;
     right[longest] = middle;
-    evaluate(left, piece.nearest, piece.upper);
-    evaluate(right, piece.nearest, piece.upper);
+    for (const Shape& half : {left, right}) {
+      std::uint32_t nearest = piece.nearest;
+      if (const auto open = evaluate(half, nearest, piece.upper, depth_, work_)) push(*open);
+    }
   }
 
-  void evaluate(const Shape& c, std::uint32_t hint, double ceiling) {
-    if (goal_.within && !box_of(c).meets(*goal_.within)) return;
-    ++depth_.cells;
+  /// Raises `best` if the piece's middle is deeper; the piece, if some of it may be deeper still.
+  /// `nearest`: a face that may be the nearest, then the one that is.
+  std::optional<Piece> evaluate(const Shape& c, std::uint32_t& nearest, double ceiling, Depth& best,
+                                PairWork& work) const {
+    if (goal_.within && !box_of(c).meets(*goal_.within)) return std::nullopt;
+    ++best.cells;
     // A point of the field grid, within slack of the sheet: its side is exact, and it speaks for
     // the point of the sheet next to it.
     const double slack = 1.0 / 1024 + margin_;
@@ -96,23 +165,32 @@ class SheetSearch {
     double radius = 0;
     for (const Vec3d& v : c) radius = std::max(radius, length(v - at));
     radius += slack;
-    const NearestTriangle near = solid_.nearest(at, hint);
-    const bool inside = solid_.contains(at, work_);
-    if (!inside && near.distance > radius) return;
-    if (inside && near.distance - slack > depth_.value && goal_.counts(at)) {
-      depth_.value = near.distance;
-      depth_.lower = near.distance - slack;
-      depth_.point = at;
+    const NearestTriangle near = solid_.nearest(at, nearest);
+    nearest = near.triangle;
+    // Whatever side it is on: asking for that takes longest.
+    double upper = std::min({ceiling, near.distance + radius, by_face(c, near.triangle) + slack});
+    if (upper <= of_no_interest(best)) return std::nullopt;
+    const bool inside = solid_.contains(at, work);
+    if (!inside && near.distance > radius) return std::nullopt;
+    if (inside && near.distance - slack > best.value && goal_.counts(at)) {
+      best.value = near.distance;
+      best.lower = near.distance - slack;
+      best.point = at;
     }
-    const Corners face = corners_of(solid_.part(), near.triangle);
-    double upper = 0;
+    if (!inside) upper = std::min(upper, radius - near.distance);
+    if (upper <= of_no_interest(best)) return std::nullopt;
+    return Piece{c, upper, near.triangle};
+  }
+
+  /// The greatest distance of a corner from a face of the solid: no point is farther from its skin.
+  [[nodiscard]] double by_face(const Shape& c, std::uint32_t triangle) const {
+    const Corners face = corners_of(solid_.part(), triangle);
+    double most = 0;
     for (const Vec3d& v : c) {
       const Vec3d p = solid_.local(v);
-      upper = std::max(upper, length(p - nearest_on_triangle(p, face)));
+      most = std::max(most, length(p - nearest_on_triangle(p, face)));
     }
-    upper = std::min(
-        {ceiling, upper + slack, inside ? near.distance + radius : radius - near.distance});
-    if (upper > depth_.value + margin_) open_.push({c, upper, near.triangle, next_id_++});
+    return most;
   }
 
   std::span<const Shape> pieces_;
@@ -121,7 +199,7 @@ class SheetSearch {
   Depth& depth_;
   double margin_;
   PairWork& work_;
-  std::priority_queue<Piece, std::vector<Piece>, LessPromising> open_;
+  std::vector<Piece> open_;  ///< a heap, the most promising first
   std::uint32_t next_id_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,7 @@
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
+#include "geometry/heavy_loop.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/meeting_places.hpp"
 #include "strake/geometry/predicates.hpp"
@@ -48,13 +50,13 @@ Face face_of(const Part& part, std::uint32_t t) {
   return face;
 }
 
-std::vector<Face> all_faces(const Part& part) {
-  std::vector<Face> faces;
-  faces.reserve(part.triangles.size());
-  for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
-    const Face face = face_of(part, t);
-    if (face.area > 0) faces.push_back(face);
-  }
+std::vector<Face> all_faces(const Part& part, const parallel::Context& context) {
+  std::vector<Face> faces(part.triangles.size());
+  const Status done = heavy_loop(context, "face normals", faces.size(), [&](std::size_t t) {
+    faces[t] = face_of(part, static_cast<std::uint32_t>(t));
+  });
+  if (!done) return {};
+  std::erase_if(faces, [](const Face& face) { return !(face.area > 0); });
   return faces;
 }
 
@@ -104,8 +106,9 @@ void keep_largest(std::vector<Face>& faces, std::size_t most) {
 }
 
 /// The distinct faces, at most `most`, by normal.
-std::vector<Face> distinct_faces(const Part& part, std::size_t most) {
-  std::vector<Face> faces = all_faces(part);
+std::vector<Face> distinct_faces(const Part& part, std::size_t most,
+                                 const parallel::Context& context) {
+  std::vector<Face> faces = all_faces(part, context);
   if (faces.size() > kSorted)
     merge_by_hash(faces);
   else
@@ -121,33 +124,43 @@ std::uint32_t apex(const Triangle& t, const PartEdge& edge) {
   return t[0];
 }
 
-/// No neighbour stands above a face, over all edges; false at the first that does.
-bool convex_edges(const Part& part, double slack) {
+/// Whether a test holds for every edge with its first two triangles, and all have two.
+template <class Test>
+bool holds_at_all_edges(const Part& part, const parallel::Context& context, const Test& test) {
   if (part.kind != PartKind::solid || part.edges.empty()) return false;
-  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e) {
-    const std::uint32_t first = part.edges[e].first_triangle;
-    if (part.edges[e + 1].first_triangle - first != 2) return false;
-    const std::uint32_t t = part.edge_triangles[first], u = part.edge_triangles[first + 1];
-    const Vec3d n = normal_of(corners_of(part, t));
-    const Vec3d base = part.vertices[part.edges[e].v0].as<double>();
-    const Vec3d tip = part.vertices[apex(part.triangles[u], part.edges[e])].as<double>();
-    const double above = dot(n, tip - base);
-    if (above > 0 && above > slack * length(n)) return false;
-  }
-  return true;
+  std::atomic<bool> holds{true};
+  const Status done =
+      heavy_loop(context, "convex edges", part.edges.size() - 1, [&](std::size_t e) {
+        if (!holds.load(std::memory_order_relaxed)) return;
+        const std::uint32_t first = part.edges[e].first_triangle;
+        if (part.edges[e + 1].first_triangle - first != 2 ||
+            !test(part.edges[e], part.edge_triangles[first], part.edge_triangles[first + 1]))
+          holds.store(false, std::memory_order_relaxed);
+      });
+  return done && holds.load(std::memory_order_relaxed);
 }
 
-/// The same without any slack; two triangles round each edge, as convex_edges() found.
-bool exactly_convex_edges(const Part& part) {
-  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e) {
-    const std::uint32_t first = part.edges[e].first_triangle;
-    const Triangle &t = part.triangles[part.edge_triangles[first]],
-                   &u = part.triangles[part.edge_triangles[first + 1]];
-    const auto corner = [&](std::uint32_t v) { return part.vertices[v].as<std::int64_t>(); };
-    if (orient3d(corner(t[0]), corner(t[1]), corner(t[2]), corner(apex(u, part.edges[e]))) > 0)
-      return false;
-  }
-  return true;
+/// No neighbour stands more than the slack above a face, over all edges.
+bool convex_edges(const Part& part, double slack, const parallel::Context& context) {
+  return holds_at_all_edges(
+      part, context, [&](const PartEdge& edge, std::uint32_t t, std::uint32_t u) {
+        const Vec3d n = normal_of(corners_of(part, t));
+        const Vec3d base = part.vertices[edge.v0].as<double>();
+        const Vec3d tip = part.vertices[apex(part.triangles[u], edge)].as<double>();
+        const double above = dot(n, tip - base);
+        return !(above > 0 && above > slack * length(n));
+      });
+}
+
+/// The same without any slack.
+bool exactly_convex_edges(const Part& part, const parallel::Context& context) {
+  const auto corner = [&](std::uint32_t v) { return part.vertices[v].as<std::int64_t>(); };
+  return holds_at_all_edges(part, context,
+                            [&](const PartEdge& edge, std::uint32_t t, std::uint32_t u) {
+                              const Triangle& base = part.triangles[t];
+                              return orient3d(corner(base[0]), corner(base[1]), corner(base[2]),
+                                              corner(apex(part.triangles[u], edge))) <= 0;
+                            });
 }
 
 /// No vertex stands above the plane of a face. Also false where that takes long to see: a finely
@@ -201,27 +214,28 @@ const std::array<Vec3d, 4>& tetrahedral_directions() {
   return kDirections;
 }
 
-bool nearly_convex(const Part& part, double slack) {
+bool nearly_convex(const Part& part, double slack, const parallel::Context& context) {
   constexpr std::size_t kSmall = 16;  // vertices: looking at all is as fast
   if (part.kind != PartKind::solid) return false;
   if (part.primitive && of_convex_kind(*part.primitive)) return true;
   if (part.vertices.size() <= kSmall) return below_its_faces(part, slack);
-  if (!convex_edges(part, slack)) return false;
+  if (!convex_edges(part, slack, context)) return false;
   // A closed connected surface that is convex at every edge bounds a convex body (Tietze, Nakajima:
   // what is convex round each of its points is convex).
-  return (part.shell_count == 1 && exactly_convex_edges(part)) || below_its_faces(part, slack);
+  return (part.shell_count == 1 && exactly_convex_edges(part, context)) ||
+         below_its_faces(part, slack);
 }
 
-SupportPlanes make_support_planes(const Part& part) {
+SupportPlanes make_support_planes(const Part& part, const parallel::Context& context) {
   SupportPlanes result;
-  result.nearly_convex = convex_edges(part, kConvexSlack);
-  result.vertices = VertexTree(part.vertices);
+  result.nearly_convex = convex_edges(part, kConvexSlack, context);
+  result.vertices = VertexTree(part.vertices, context);
   const double rounding = rounding_of(part);
   const auto support = [&](const Vec3d& n) {
     return result.vertices.greatest_along(n).value + rounding;
   };
   const std::vector<Face> faces =
-      distinct_faces(part, result.nearly_convex ? kMaxConvexPlanes : kMaxHullPlanes);
+      distinct_faces(part, result.nearly_convex ? kMaxConvexPlanes : kMaxHullPlanes, context);
   result.planes.reserve(faces.size());
   for (const Face& face : faces) result.planes.push_back({face.normal, support(face.normal)});
   for (std::size_t i = 0; i < 4; ++i) result.tetrahedral[i] = support(tetrahedral_directions()[i]);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/box.hpp"
+#include "geometry/halving.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -37,35 +38,20 @@ int longest_axis(const Box3i& box) {
 
 }  // namespace
 
-VertexTree::VertexTree(std::span<const Vec3i> points) : points_(points.begin(), points.end()) {
+VertexTree::VertexTree(std::span<const Vec3i> points, const parallel::Context& context)
+    : points_(points.begin(), points.end()) {
   if (points_.size() <= kFew) return;
-  struct Range {
-    std::uint32_t node, first, last;
-  };
-  nodes_.reserve(points_.size() / 2);
-  nodes_.push_back({box_of(points_), 0, 0});
-  std::vector<Range> todo{{0, 0, static_cast<std::uint32_t>(points_.size())}};
-  while (!todo.empty()) {
-    const Range range = todo.back();
-    todo.pop_back();
-    if (range.last - range.first <= kLeaf) {
-      nodes_[range.node].first = range.first;
-      nodes_[range.node].count = range.last - range.first;
-      continue;
-    }
-    const auto mine = std::span(points_).subspan(range.first, range.last - range.first);
+  const auto cut = [&](const HalvedRange& range, const Box3i& box) {
+    const auto mine = std::span(points_).subspan(range.first, range.size());
     const std::size_t half = mine.size() / 2;
-    const int axis = longest_axis(nodes_[range.node].box);
+    const int axis = longest_axis(box);
     std::nth_element(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(half), mine.end(),
                      [axis](const Vec3i& a, const Vec3i& b) { return a[axis] < b[axis]; });
-    const auto left = static_cast<std::uint32_t>(nodes_.size());
-    const auto middle = range.first + static_cast<std::uint32_t>(half);
-    nodes_[range.node].first = left;
-    nodes_.push_back({box_of(mine.first(half)), 0, 0});
-    nodes_.push_back({box_of(mine.subspan(half)), 0, 0});
-    todo.push_back({left + 1, middle, range.last});
-    todo.push_back({left, range.first, middle});
-  }
+    return Halves{static_cast<std::uint32_t>(half), box_of(mine.first(half)),
+                  box_of(mine.subspan(half))};
+  };
+  nodes_ = Halving<Node, decltype(cut)>(kLeaf, cut)
+               .run(box_of(points_), static_cast<std::uint32_t>(points_.size()), context);
 }
 
 VertexTree::Extreme VertexTree::greatest_along(const Vec3d& n) const {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "geometry/box.hpp"
 #include "geometry/corners.hpp"
+#include "geometry/heavy_walk.hpp"
 #include "geometry/places/bucket_order.hpp"
 #include "strake/geometry/wide_int.hpp"
 
@@ -44,6 +46,38 @@ void walk_lists(const PartView& a, const PartView& b, double squared, double nea
     }
 }
 
+/// Pairs of triangles that are certainly within reach, up to a number.
+struct Gathering {
+  const PartView &a, &b;
+  std::size_t most;
+  double reach;  ///< a square
+  PairWork work = {};
+  std::vector<NearTriangles> pairs = {};
+  bool too_many = false;
+
+  bool operator()(NearTriangles pair) {
+    if (pair.squared.upper > reach) {
+      ++work.exact_fallbacks;
+      const SquaredDistance exact =
+          exact_distance(a.corners(pair.a), b.corners(pair.b), pair.squared.upper).squared;
+      const double s = ratio_to_double(exact.numerator, exact.denominator);
+      if (s > reach) return true;
+      pair.squared = {s * (1 - 0x1p-52), s * (1 + 0x1p-52)};
+    }
+    too_many = pairs.size() == most;
+    if (!too_many) pairs.push_back(pair);
+    return !too_many;
+  }
+  bool take(Gathering& piece) {
+    too_many = piece.too_many || pairs.size() + piece.pairs.size() > most;
+    if (pairs.empty())
+      pairs = std::move(piece.pairs);
+    else if (!too_many)
+      pairs.insert(pairs.end(), piece.pairs.begin(), piece.pairs.end());
+    return !too_many;
+  }
+};
+
 std::vector<NearTriangles> by_triangles(const std::vector<NearTriangles>& pairs, const Part& a,
                                         const Part& b) {
   std::vector<std::uint32_t> order = first_numbers(pairs.size());
@@ -62,27 +96,17 @@ std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a, cons
                                                          PairWork& work) {
   const double squared = question.reach * question.reach;
   const double near_enough = question.sharp ? -1 : squared;
-  std::vector<NearTriangles> pairs;
-  bool too_many = false;
-  const auto visit = [&](NearTriangles pair) {
-    if (pair.squared.upper > squared) {
-      ++work.exact_fallbacks;
-      const SquaredDistance exact =
-          exact_distance(a.corners(pair.a), b.corners(pair.b), pair.squared.upper).squared;
-      const double s = ratio_to_double(exact.numerator, exact.denominator);
-      if (s > squared) return true;
-      pair.squared = {s * (1 - 0x1p-52), s * (1 + 0x1p-52)};
-    }
-    too_many = pairs.size() == question.most;
-    if (!too_many) pairs.push_back(pair);
-    return !too_many;
-  };
-  if (a.planted() && b.planted())
-    NearWalk(a, b, work, near_enough).run(squared, visit);
-  else
-    walk_lists(a, b, squared, near_enough, work, visit);
-  if (too_many) return std::nullopt;
-  return by_triangles(pairs, a.part(), b.part());
+  const auto begin = [&] { return Gathering{a, b, question.most, squared}; };
+  Gathering all = begin();
+  if (a.planted() && b.planted()) {
+    heavy_near_walk(a, b, near_enough, work, begin,
+                    [&](Gathering& piece) { return all.take(piece); });
+  } else {
+    walk_lists(a, b, squared, near_enough, all.work, all);
+    work += all.work;
+  }
+  if (all.too_many) return std::nullopt;
+  return by_triangles(all.pairs, a.part(), b.part());
 }
 
 void sharpen(const PartView& a, const PartView& b, std::vector<NearTriangles>& pairs) {

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/contacts.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geometry/axis_rays.hpp"
+#include "geometry/box.hpp"
+#include "geometry/dual_walk.hpp"
+#include "geometry/heavy_rounds.hpp"
+#include "geometry/plane_sides.hpp"
+#include "strake/geometry/triangle_contact.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Planes of triangles in contact, and of triangles apart, that are tried for separating the parts.
+constexpr int kSeparationTries = 4;
+constexpr int kPartingTries = 16;
+
+class ContactWalk {
+ public:
+  ContactWalk(const PartView& a, const PartView& b) : a_(a), b_(b) {}
+
+  /// Everything, with the team's help where it is heavy.
+  Contacts run(PairWork& work);
+
+ private:
+  /// The triangles of a leaf of a, prepared as they are needed; kept until another leaf is loaded.
+  struct LoadedLeaf {
+    const PartTree::Node* node = nullptr;
+    std::array<Box3l, PartTree::kLeafSize> box;
+    std::array<std::optional<ExactTriangle>, PartTree::kLeafSize> triangle;
+  };
+
+  WalkEnd go_on(DualWalk& walk, std::uint64_t most);
+  void share(DualWalk& walk, const PairWork& work);
+  void take(const ContactWalk& piece);
+  bool near(const PartTree::Node& na, const PartTree::Node& nb);
+  // These tell whether to go on.
+  bool leaves(const PartTree::Node& na, const PartTree::Node& nb);
+  bool found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a, const ExactTriangle& b,
+             const TriangleContact& c);
+
+  bool separated(const ExactTriangle& a, const ExactTriangle& b);
+  bool parted(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c);
+  void load(const PartTree::Node& leaf);
+  void judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
+  void judge_crossing(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
+  void judge_coplanar(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
+  void edge_in_face_of_b(std::uint32_t ta, int edge, std::uint32_t tb);
+  void edge_in_face_of_a(std::uint32_t ta, std::uint32_t tb, int edge);
+  void edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t tb, int edge_b);
+
+  PartView a_, b_;
+  PairCost cost_;
+  Contacts found_;
+  LoadedLeaf leaf_;
+  int separation_tries_ = 0, parting_tries_ = 0;
+  Sectors sectors_;
+};
+
+Contacts ContactWalk::run(PairWork& work) {
+  DualWalk walk(a_.tree(), b_.tree());
+  walk.start();
+  if (go_on(walk, kWalkedAlone) == WalkEnd::left_off) share(walk, work);
+  work += cost_;
+  return found_;
+}
+
+WalkEnd ContactWalk::go_on(DualWalk& walk, std::uint64_t most) {
+  return walk.run(
+      [&](const PartTree::Node& na, const PartTree::Node& nb) { return near(na, nb); },
+      [&](const PartTree::Node& na, const PartTree::Node& nb) { return leaves(na, nb); }, most);
+}
+
+/// What is left, in pieces that are judged apart and taken in the order of a single walk.
+void ContactWalk::share(DualWalk& walk, const PairWork& work) {
+  const std::vector<NodePair> pieces =
+      walk.rest([&](const PartTree::Node& na, const PartTree::Node& nb) { return near(na, nb); },
+                kWalkPieces);
+  (void)run_in_rounds(
+      work.context(), pieces,
+      [&](std::size_t i) {
+        ContactWalk piece(a_, b_);
+        // A plane that separates is looked for over a whole part: one piece of a round may.
+        if (i > 0) piece.separation_tries_ = kSeparationTries;
+        if (i > 0) piece.parting_tries_ = kPartingTries;
+        return piece;
+      },
+      [&](ContactWalk& piece, const NodePair& pair) {
+        DualWalk below(a_.tree(), b_.tree());
+        below.start(pair);
+        piece.go_on(below, DualWalk::kNoLimit);
+      },
+      [&](const ContactWalk& piece) {
+        take(piece);
+        return !found_.decided();
+      });
+}
+
+void ContactWalk::take(const ContactWalk& piece) {
+  cost_ += piece.cost_;
+  const Contacts& more = piece.found_;
+  const bool says_more =
+      more.boundaries_meet &&
+      (!found_.boundaries_meet || (more.overlap.interiors && !found_.overlap.interiors));
+  if (says_more) {
+    found_.boundaries_meet = true;
+    found_.triangle_a = more.triangle_a;
+    found_.triangle_b = more.triangle_b;
+    found_.point = more.point;
+  }
+  found_.overlap.interiors |= more.overlap.interiors;
+  found_.overlap.a_leaves_b |= more.overlap.a_leaves_b;
+  found_.overlap.b_leaves_a |= more.overlap.b_leaves_a;
+  found_.flush |= more.flush;
+  found_.separated |= more.separated;
+  found_.linear_a.insert(more.linear_a);
+  found_.linear_b.insert(more.linear_b);
+}
+
+bool ContactWalk::near(const PartTree::Node& na, const PartTree::Node& nb) {
+  ++cost_.node_pairs;
+  return boxes_meet(a_, na.box, b_, nb.box);
+}
+
+void ContactWalk::load(const PartTree::Node& leaf) {
+  if (leaf_.node == &leaf) return;
+  leaf_.node = &leaf;
+  for (std::uint32_t i = 0; i < leaf.count; ++i) {
+    leaf_.box[i] = box_of(a_.corners(a_.tree().order()[leaf.first + i]));
+    leaf_.triangle[i].reset();
+  }
+}
+
+bool ContactWalk::leaves(const PartTree::Node& na, const PartTree::Node& nb) {
+  const Box3l box_a = a_.box(na.box);
+  for (std::uint32_t j = 0; j < nb.count; ++j) {
+    const std::uint32_t tb = b_.tree().order()[nb.first + j];
+    const std::array<Vec3l, 3> corners = b_.corners(tb);
+    const Box3l box_b = box_of(corners);
+    if (!box_b.meets(box_a)) continue;
+    load(na);
+    std::optional<ExactTriangle> b;
+    for (std::uint32_t i = 0; i < na.count; ++i) {
+      if (!leaf_.box[i].meets(box_b)) continue;
+      ++cost_.triangle_pairs;
+      const std::uint32_t ta = a_.tree().order()[na.first + i];
+      if (!leaf_.triangle[i]) leaf_.triangle[i].emplace(a_.corners(ta));
+      if (!b) b.emplace(corners);
+      const ExactTriangle& a = *leaf_.triangle[i];
+      const TriangleContact c = contact(a, *b);
+      if (c.touch == Touch::none ? parted(a, *b, c) : !found(ta, tb, a, *b, c)) return false;
+    }
+  }
+  return true;
+}
+
+/// Two triangles apart often lie on a flat side of one part with all of the other beyond it.
+bool ContactWalk::parted(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c) {
+  const auto positive = [](const CornerSides& s) { return s[0] > 0 && s[1] > 0 && s[2] > 0; };
+  if (found_.boundaries_meet || parting_tries_ >= kPartingTries) return false;
+  const bool a_beyond_b = positive(c.side_a), b_beyond_a = positive(c.side_b);
+  if (!a_beyond_b && !b_beyond_a) return false;
+  ++parting_tries_;
+  found_.separated = a_beyond_b ? parts_strictly(b, b_, a_) : parts_strictly(a, a_, b_);
+  return found_.separated;
+}
+
+bool ContactWalk::found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a,
+                        const ExactTriangle& b, const TriangleContact& c) {
+  if (!found_.boundaries_meet) {
+    found_.boundaries_meet = true;
+    found_.triangle_a = ta;
+    found_.triangle_b = tb;
+    found_.point = common_point(a, b, c);
+  }
+  if (!found_.overlap.interiors && separation_tries_ < kSeparationTries && separated(a, b)) {
+    found_.separated = true;
+    return false;
+  }
+  const bool had_interiors = found_.overlap.interiors;
+  judge(ta, tb, c);
+  if (found_.overlap.interiors && !had_interiors) {
+    // The point of a crossing says more than the point of a touch found before it.
+    found_.triangle_a = ta;
+    found_.triangle_b = tb;
+    found_.point = common_point(a, b, c);
+  }
+  return !found_.overlap.complete();
+}
+
+bool ContactWalk::separated(const ExactTriangle& a, const ExactTriangle& b) {
+  ++separation_tries_;
+  // A solid lies below the planes of its own flat sides; a sheet may lie on either.
+  if (separates(a, a_, b_) || separates(b, b_, a_)) return true;
+  return (!a_.solid() && separates(a, b_, a_)) || (!b_.solid() && separates(b, a_, b_));
+}
+
+void ContactWalk::judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
+  if (c.touch == Touch::point) return;
+  found_.linear_a.insert(shell_of(a_.part(), ta));
+  found_.linear_b.insert(shell_of(b_.part(), tb));
+  if (c.coplanar)
+    judge_coplanar(ta, tb, c);
+  else
+    judge_crossing(ta, tb, c);
+}
+
+/// Adds what a triangle's corners off the other's plane say, where the triangles meet along a
+/// segment through the other's interior: there the other part is a half-space, or itself.
+void judge_corners(const CornerSides& sides, bool crosser_solid, bool face_solid, bool& interiors,
+                   bool& crosser_leaves, bool& face_leaves) {
+  const bool below = sides[0] < 0 || sides[1] < 0 || sides[2] < 0;
+  const bool above = sides[0] > 0 || sides[1] > 0 || sides[2] > 0;
+  if (face_solid) {
+    interiors |= below;
+    crosser_leaves |= above;
+    face_leaves |= below && crosser_solid;
+  } else {
+    // A sheet: the crossing triangle leaves it on either side.
+    crosser_leaves = true;
+  }
+}
+
+void ContactWalk::judge_crossing(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
+  if (c.edge_b < 0)
+    judge_corners(c.side_a, a_.solid(), b_.solid(), found_.overlap.interiors,
+                  found_.overlap.a_leaves_b, found_.overlap.b_leaves_a);
+  if (c.edge_a < 0)
+    judge_corners(c.side_b, b_.solid(), a_.solid(), found_.overlap.interiors,
+                  found_.overlap.b_leaves_a, found_.overlap.a_leaves_b);
+  if (c.edge_a < 0 && c.edge_b < 0) {
+    found_.overlap.interiors = true;
+  } else if (c.edge_b < 0) {
+    edge_in_face_of_b(ta, c.edge_a, tb);
+  } else if (c.edge_a < 0) {
+    edge_in_face_of_a(ta, tb, c.edge_b);
+  } else {
+    edge_on_edge(ta, c.edge_a, tb, c.edge_b);
+  }
+}
+
+void ContactWalk::judge_coplanar(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
+  found_.flush |= c.touch == Touch::area;
+  if (c.touch == Touch::area && a_.solid() && b_.solid()) {
+    found_.overlap.interiors |= c.same_normal;
+    found_.overlap.a_leaves_b |= !c.same_normal;
+    found_.overlap.b_leaves_a |= !c.same_normal;
+  }
+  for (int i = 0; i < 3; ++i) {
+    if ((c.edges_of_a_inside_b >> i) & 1U) edge_in_face_of_b(ta, i, tb);
+    if ((c.edges_of_b_inside_a >> i) & 1U) edge_in_face_of_a(ta, tb, i);
+    for (int j = 0; j < 3; ++j)
+      if ((c.shared_edges >> (3 * i + j)) & 1U) edge_on_edge(ta, i, tb, j);
+  }
+}
+
+void ContactWalk::edge_in_face_of_b(std::uint32_t ta, int edge, std::uint32_t tb) {
+  start_axis(sectors_, a_, ta, edge);
+  add_star(sectors_, a_, ta, edge, false);
+  add_face(sectors_, b_, tb, true);
+  sectors_.judge(a_.solid(), b_.solid(), found_.overlap);
+}
+
+void ContactWalk::edge_in_face_of_a(std::uint32_t ta, std::uint32_t tb, int edge) {
+  start_axis(sectors_, b_, tb, edge);
+  add_face(sectors_, a_, ta, false);
+  add_star(sectors_, b_, tb, edge, true);
+  sectors_.judge(a_.solid(), b_.solid(), found_.overlap);
+}
+
+void ContactWalk::edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t tb, int edge_b) {
+  start_axis(sectors_, a_, ta, edge_a);
+  add_star(sectors_, a_, ta, edge_a, false);
+  add_star(sectors_, b_, tb, edge_b, true);
+  sectors_.judge(a_.solid(), b_.solid(), found_.overlap);
+}
+
+}  // namespace
+
+Contacts find_contacts(const PartView& a, const PartView& b, PairWork& work) {
+  return ContactWalk(a, b).run(work);
+}
+
+}  // namespace strake::geometry

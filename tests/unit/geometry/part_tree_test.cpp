@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/geometry/part_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "strake/geometry/grid.hpp"
+#include "strake/geometry/vertex_tree.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/part_builder.hpp"
+#include "support/revolved.hpp"
+
+namespace strake::geometry {
+namespace {
+
+bool holds(const Box3i& box, const Vec3i& p) { return box.contains({p, p}); }
+
+Part part_of(const TriangleMesh& mesh) {
+  testing::IndexedMesh grid;
+  grid.triangles = mesh.triangles;
+  for (const Vec3d& v : mesh.vertices) grid.vertices.push_back(snap(v)->as<std::int32_t>());
+  return testing::build_part(grid);
+}
+
+/// Every triangle in one leaf, every box round what is below it.
+void expect_sound(const PartTree& tree, const Part& part) {
+  ASSERT_FALSE(tree.nodes().empty());
+  std::vector<int> seen(part.triangles.size(), 0);
+  std::vector<std::uint32_t> todo{0};
+  std::size_t visited = 0;
+  while (!todo.empty()) {
+    const PartTree::Node& node = tree.nodes()[todo.back()];
+    todo.pop_back();
+    ++visited;
+    if (node.count == 0) {
+      for (const std::uint32_t child : {node.first, node.first + 1}) {
+        ASSERT_LT(child, tree.nodes().size());
+        ASSERT_TRUE(holds(node.box, tree.nodes()[child].box.lo) &&
+                    holds(node.box, tree.nodes()[child].box.hi));
+        todo.push_back(child);
+      }
+      continue;
+    }
+    ASSERT_LE(node.count, PartTree::kLeafSize);
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      ++seen[tree.order()[i]];
+      for (const std::uint32_t v : part.triangles[tree.order()[i]])
+        ASSERT_TRUE(holds(node.box, part.vertices[v]));
+    }
+  }
+  EXPECT_EQ(visited, tree.nodes().size());
+  EXPECT_EQ(seen, std::vector<int>(part.triangles.size(), 1));
+}
+
+bool same(const PartTree& x, const PartTree& y) {
+  if (x.order() != y.order() || x.nodes().size() != y.nodes().size()) return false;
+  for (std::size_t i = 0; i < x.nodes().size(); ++i) {
+    const PartTree::Node &p = x.nodes()[i], &q = y.nodes()[i];
+    if (p.first != q.first || p.count != q.count || p.box.lo != q.box.lo || p.box.hi != q.box.hi)
+      return false;
+  }
+  return true;
+}
+
+TEST(PartTree, IsSoundAndTheSameForAnyTeam) {
+  // Few triangles, some, and so many that a team shares the work.
+  for (const std::uint32_t rings : {2U, 5U, 40U, 150U}) {
+    const Part part = part_of(test::bumpy_mesh(1000, 60, 12, rings));
+    const PartTree alone(part);
+    expect_sound(alone, part);
+    for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+      parallel::Team team(threads);
+      EXPECT_TRUE(same(PartTree(part, {.team = &team}), alone)) << rings << ", " << threads;
+    }
+  }
+}
+
+TEST(PartTree, IsEmptyWhenItWasStopped) {
+  const Part part = part_of(test::sphere_mesh(1000, 150));
+  const std::stop_source stop;
+  stop.request_stop();
+  EXPECT_TRUE(PartTree(part, {.stop = stop.get_token()}).nodes().empty());
+}
+
+TEST(VertexTree, OfManyPointsGivesTheirGreatest) {
+  const Part part = part_of(test::bumpy_mesh(1000, 60, 12, 190));
+  parallel::Team team(3);
+  const VertexTree tree(part.vertices, {.team = &team});
+  for (const Vec3d& n : {Vec3d{1, 0, 0}, Vec3d{-0.3, 0.5, 0.8}, Vec3d{0, 0, -1}}) {
+    double most = -1e300;
+    for (const Vec3i& v : part.vertices) {
+      const Vec3d p = v.as<double>();
+      most = std::max(most, n.x * p.x + n.y * p.y + n.z * p.z);
+    }
+    EXPECT_EQ(tree.greatest_along(n).value, most);
+  }
+}
+
+}  // namespace
+}  // namespace strake::geometry
