@@ -5,6 +5,7 @@ set -euo pipefail
 . scripts/common.sh
 need build test bench
 configure_and_build bench
+ran=
 for program in build/bench/bin/bench_*; do
   name=${program##*/bench_}
   if [ $# -gt 0 ]; then
@@ -12,4 +13,10 @@ for program in build/bench/bin/bench_*; do
   fi
   say "$name"
   "$program"
+  ran=yes
 done
+[ -n "$ran" ] || {
+  names=$(printf '%s\n' build/bench/bin/bench_* | sed 's/.*bench_//' | tr '\n' ' ')
+  echo "bench: none is called '$*'; there are: $names" >&2
+  exit 2
+}

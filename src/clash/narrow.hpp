@@ -41,7 +41,6 @@ struct Witness {
     if (interiors_meet) return deep_in_a ? on_b : on_a;
     return (on_a + on_b) * 0.5;
   }
-  [[nodiscard]] const geometry::Vec3d& surface() const { return deep_in_a ? on_a : on_b; }
 };
 
 struct PartAnswer {

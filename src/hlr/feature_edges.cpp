@@ -47,6 +47,37 @@ bool is_round(const Part& part) {
           std::holds_alternative<geometry::CircularTorusPrimitive>(*part.primitive));
 }
 
+// For each triangle the area vector of the whole source face that it is a piece of. That sum
+// depends on the outline of the face alone, so neither the triangulation nor the way that
+// snapping bends a polygon decides whether it faces the viewer.
+std::vector<NormalVector> face_vectors(const Part& part) {
+  const std::size_t count = part.triangles.size();
+  std::vector<NormalVector> own(count);
+  for (std::uint32_t t = 0; t < count; ++t) own[t] = triangle_normal(part, t);
+  if (part.faces.empty()) return own;
+
+  std::vector<std::uint32_t> order;
+  order.reserve(count);
+  for (std::uint32_t t = 0; t < count; ++t)
+    if (part.faces[t] != geometry::kNoFace) order.push_back(t);
+  const auto by_face = [&](std::uint32_t s, std::uint32_t t) {
+    return part.faces[s] < part.faces[t];
+  };
+  if (!std::is_sorted(order.begin(), order.end(), by_face))
+    std::sort(order.begin(), order.end(), by_face);
+  std::vector<NormalVector> result = own;
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t end = i;
+    NormalVector sum{};
+    for (; end < order.size() && part.faces[order[end]] == part.faces[order[i]]; ++end)
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += own[order[end]][k];
+    if (!is_zero(sum))
+      for (std::size_t j = i; j < end; ++j) result[order[j]] = sum;
+    i = end;
+  }
+  return result;
+}
+
 // What a part's edges are judged by, per triangle.
 struct Faces {
   std::vector<NormalVector> vectors;
@@ -139,34 +170,6 @@ NormalVector triangle_normal(const Part& part, std::uint32_t triangle) {
     return static_cast<Int128>(a) * d - static_cast<Int128>(b) * c;
   };
   return {minor(u.y, u.z, v.y, v.z), minor(u.z, u.x, v.z, v.x), minor(u.x, u.y, v.x, v.y)};
-}
-
-std::vector<NormalVector> face_vectors(const Part& part) {
-  const std::size_t count = part.triangles.size();
-  std::vector<NormalVector> own(count);
-  for (std::uint32_t t = 0; t < count; ++t) own[t] = triangle_normal(part, t);
-  if (part.faces.empty()) return own;
-
-  std::vector<std::uint32_t> order;
-  order.reserve(count);
-  for (std::uint32_t t = 0; t < count; ++t)
-    if (part.faces[t] != geometry::kNoFace) order.push_back(t);
-  const auto by_face = [&](std::uint32_t s, std::uint32_t t) {
-    return part.faces[s] < part.faces[t];
-  };
-  if (!std::is_sorted(order.begin(), order.end(), by_face))
-    std::sort(order.begin(), order.end(), by_face);
-  std::vector<NormalVector> result = own;
-  for (std::size_t i = 0; i < order.size();) {
-    std::size_t end = i;
-    NormalVector sum{};
-    for (; end < order.size() && part.faces[order[end]] == part.faces[order[i]]; ++end)
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += own[order[end]][k];
-    if (!is_zero(sum))
-      for (std::size_t j = i; j < end; ++j) result[order[j]] = sum;
-    i = end;
-  }
-  return result;
 }
 
 std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,

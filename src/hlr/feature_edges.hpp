@@ -47,11 +47,6 @@ struct FeatureOptions {
   return n[0] * d.x + n[1] * d.y + n[2] * d.z;
 }
 
-/// For each triangle the area vector of the whole source face that it is a piece of. That sum
-/// depends on the outline of the face alone, so neither the triangulation nor the way that
-/// snapping bends a polygon decides whether it faces the viewer.
-[[nodiscard]] std::vector<NormalVector> face_vectors(const geometry::Part& part);
-
 /// The lines of a shape in one direction: by part, then by (a, b).
 [[nodiscard]] std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,
                                                      const FeatureOptions& options);

@@ -57,19 +57,6 @@ class Frame {
             geometry::dot(p, d_)};
   }
   [[nodiscard]] const geometry::Vec3l& direction() const { return d_; }
-  /// The gradient of w over (u, v) on the plane with normal n, and over |terms| that were summed:
-  /// a bound on rounding is a few units in the last place of the latter.
-  struct Slope {
-    double u = 0, v = 0, size_u = 0, size_v = 0;
-  };
-  [[nodiscard]] Slope slope(const geometry::Vec3d& n, double facing) const {
-    const auto d = d_.as<double>();
-    const double length = geometry::dot(d, d), k = d[k_];
-    const double tu = length * n[i_] / facing, tv = length * n[j_] / facing;
-    return {static_cast<double>(sign_) * (d[i_] - tu) / k, (d[j_] - tv) / k,
-            (std::abs(d[i_]) + std::abs(tu)) / std::abs(k),
-            (std::abs(d[j_]) + std::abs(tv)) / std::abs(k)};
-  }
 
  private:
   geometry::Vec3l d_;

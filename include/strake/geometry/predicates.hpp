@@ -68,17 +68,6 @@ class ExactPlane {
   return ExactPlane(a, b, c).side(p);
 }
 
-/// Sign of det(q-p, r-p, d): the orientation of p, q, r as seen when looking against d (towards
-/// the viewer). d has at most 30 bits a component.
-[[nodiscard]] constexpr int orient_along(const Vec3l& p, const Vec3l& q, const Vec3l& r,
-                                         const Vec3l& d) {
-  const Vec3l u = q - p, v = r - p;
-  const double approximate = dot(cross(u.as<double>(), v.as<double>()), d.as<double>());
-  const std::uint64_t wrapped =
-      dot(cross(u.as<std::uint64_t>(), v.as<std::uint64_t>()), d.as<std::uint64_t>());
-  return SignedDet(approximate, wrapped).sign();
-}
-
 /// The exact cross product (65 bits a component for differences of 2^31).
 [[nodiscard]] constexpr Vec3<Int128> cross_exact(const Vec3l& u, const Vec3l& v) {
   return cross(u.as<Int128>(), v.as<Int128>());

@@ -95,9 +95,6 @@ class WideInt {
 
 using Int192 = WideInt<3>;
 using Int256 = WideInt<4>;
-using Int320 = WideInt<5>;
-using Int384 = WideInt<6>;
-using Int512 = WideInt<8>;
 
 /// The exact product.
 template <std::size_t N, std::size_t M>
@@ -195,12 +192,6 @@ template <std::size_t N, std::size_t M>
 template <std::size_t N, std::size_t M>
 [[nodiscard]] double sqrt_ratio_to_double(const WideInt<N>& n, const WideInt<M>& d) {
   return detail::sqrt_quotient_to_double(n.limbs(), d.limbs());
-}
-
-/// The nearest double, ties to even.
-template <std::size_t N>
-[[nodiscard]] double to_double(const WideInt<N>& n) {
-  return ratio_to_double(n, WideInt<2>(Int128{1}));
 }
 
 }  // namespace strake::geometry

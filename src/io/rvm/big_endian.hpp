@@ -15,10 +15,6 @@ using Bytes = std::span<const std::byte>;
          std::to_integer<std::uint32_t>(p[2]) << 8 | std::to_integer<std::uint32_t>(p[3]);
 }
 
-[[nodiscard]] inline float load_f32(const std::byte* p) {
-  return std::bit_cast<float>(load_u32(p));
-}
-
 /// Reads big-endian values from a span and never past its end: a read that does not fit gives
 /// zero and leaves the cursor failed, so that a body is read first and judged once.
 class Cursor {

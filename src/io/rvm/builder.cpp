@@ -51,7 +51,6 @@ bool Builder::end_group() {
 }
 
 void Builder::add(const PrimitiveChunk& chunk) {
-  ++chunks_;
   BodyRecord& record = bodies_.emplace_back();
   record.group = open_.empty() ? kNoGroup : open_.back();
   record.transparency = chunk.transparency;

@@ -51,8 +51,6 @@ class Builder {
   void set_root_name(std::string name) { root_name_ = std::move(name); }
 
   [[nodiscard]] std::size_t depth() const { return open_.size(); }
-  [[nodiscard]] std::size_t group_count() const { return groups_.size(); }
-  [[nodiscard]] std::size_t primitive_count() const { return chunks_; }
 
   /// Triangulates the facet groups and orders bodies by group. Ids are not yet given.
   [[nodiscard]] Result<Built> build(const parallel::Context& context);
@@ -96,7 +94,6 @@ class Builder {
   /// Equal parameters of a kind are one shape; keys are views of the file.
   std::array<std::unordered_map<std::string_view, model::ShapeId>, kFacetKind + 1> known_;
   std::unordered_map<std::uint32_t, bool> reported_materials_;
-  std::size_t chunks_ = 0;
   float largest_origin_ = 0;  ///< world units of the file
   float largest_local_ = 0;   ///< local units
 };

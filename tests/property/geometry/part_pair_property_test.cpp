@@ -16,13 +16,13 @@
 namespace strake::geometry {
 namespace {
 
+using strake::test::nearest_double;
 using strake::testing::common_volume6;
 using strake::testing::IndexedMesh;
 using strake::testing::LatticeMap;
 using strake::testing::LatticePair;
 using strake::testing::LatticeSolid;
 using strake::testing::mapped;
-using strake::test::nearest_double;
 using strake::testing::SheetCover;
 using strake::testing::Subject;
 using strake::testing::Tetrahedron;
