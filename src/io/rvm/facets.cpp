@@ -98,6 +98,7 @@ class FacetBuilder {
     out_.mesh.triangles.push_back({a, b, c});
     out_.mesh.faces.push_back(face_);
   }
+  void add_fan();
   [[nodiscard]] bool is_convex() const;
   void add_general();
   [[nodiscard]] const Vec3d& at(std::uint32_t index) const { return out_.mesh.vertices[index]; }
@@ -207,15 +208,23 @@ bool FacetBuilder::is_convex() const {
   return true;
 }
 
+void FacetBuilder::add_fan() {
+  for (std::size_t i = 2; i < polygon_.indices.size(); ++i)
+    add_triangle(polygon_.indices[0], polygon_.indices[i - 1], polygon_.indices[i]);
+}
+
 void FacetBuilder::add_general() {
   if (polygon_.rings() == 1 && is_convex()) {
-    for (std::size_t i = 2; i < polygon_.indices.size(); ++i)
-      add_triangle(polygon_.indices[0], polygon_.indices[i - 1], polygon_.indices[i]);
+    add_fan();
     return;
   }
   points_.clear();
   for (const std::uint32_t index : polygon_.indices) points_.push_back(at(index));
   const geometry::FaceTriangles face = geometry::triangulate_face(points_, polygon_.first);
+  if (face.fault == geometry::FaceFault::no_area && polygon_.rings() == 1) {
+    add_fan();  // its edges may seal a solid
+    return;
+  }
   if (face.fault != geometry::FaceFault::none) {
     ++(face.fault == geometry::FaceFault::crossing ? out_.untriangulated : out_.degenerate);
     return;

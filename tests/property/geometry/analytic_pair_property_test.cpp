@@ -20,6 +20,7 @@
 #include "strake/geometry/place.hpp"
 #include "strake/geometry/tessellate.hpp"
 #include "support/random_primitives.hpp"
+#include "support/slender_primitives.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -52,7 +53,7 @@ std::optional<AnalyticSeparation> solved(const Body& a, const Body& b) {
   return solved_separation(a.placed(), b.placed());
 }
 
-enum class Kinds : std::uint8_t { convex, with_torus };
+enum class Kinds : std::uint8_t { convex, with_torus, slender };
 
 /// In general position, nested, beside each other or touching; small, large and far away.
 Pair draw_pair(std::uint64_t seed, Kinds kinds = Kinds::convex) {
@@ -68,6 +69,12 @@ Pair draw_pair(std::uint64_t seed, Kinds kinds = Kinds::convex) {
   p.a.at.linear = draw.linear(torus);
   p.b.at.linear = draw.linear(tori);
   if (torus && draw.one_in(2)) std::swap(p.a, p.b);
+  if (kinds == Kinds::slender) {
+    // Tori go by similarities.
+    test::SlenderDraw slender(draw, 0.05, size);
+    p.a = {slender.of_kind(draw.below(test::SlenderDraw::kKinds)), {draw.linear(true), {}}};
+    p.b = {slender.of_kind(draw.below(test::SlenderDraw::kKinds)), {draw.linear(true), {}}};
+  }
   const double spread = draw.one_in(3) ? 0.2 : 1;
   const Vec3d far = draw.one_in(10) ? draw.point(5e8) : Vec3d{};
   p.a.at.translation = on_grid(far + draw.point(size * spread));
@@ -182,6 +189,10 @@ TEST(AnalyticPairLaws, SwapMotionAndTurnOfTori) {
   swap_move_and_turn(Kinds::with_torus, kTorusPairs);
 }
 
+TEST(AnalyticPairLaws, SwapMotionAndTurnOfSlenderBodies) {
+  swap_move_and_turn(Kinds::slender, kTorusPairs);
+}
+
 TEST(AnalyticPairLaws, TheSamePairAtAnotherPlaceGivesTheSameBits) {
   for (std::uint64_t seed = 1; seed <= kPairs / 10; ++seed) {
     const Pair p = draw_pair(seed);
@@ -282,6 +293,7 @@ void compare_with_meshes(Kinds kinds) {
 
 TEST(AnalyticPairLaws, MeshesEverFinerAgree) { compare_with_meshes(Kinds::convex); }
 TEST(AnalyticPairLaws, MeshesOfToriEverFinerAgree) { compare_with_meshes(Kinds::with_torus); }
+TEST(AnalyticPairLaws, MeshesOfSlenderBodiesEverFinerAgree) { compare_with_meshes(Kinds::slender); }
 
 /// A mesh of planes only is its own true surface, but for the snap.
 TEST(AnalyticPairLaws, BesideAMeshAsBesideTheBodyThatItIs) {

@@ -324,7 +324,8 @@ TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
     mesh.vertices = vertices;
     mesh.triangles = triangles;
     for (const Part& p : analyse(mesh).parts) {
-      EdgeSums rims = unbalanced(std::vector<Triangle>(p.triangles.begin(), p.triangles.end()));
+      const EdgeSums rims =
+          unbalanced(std::vector<Triangle>(p.triangles.begin(), p.triangles.end()));
       EXPECT_TRUE(p.kind == PartKind::sheet || rims.empty());
     }
     // The same from the same triangles in another order.
@@ -332,7 +333,7 @@ TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
     for (Triangle& t : mesh.triangles) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
     const auto again = cut_at_seams(vertices, mesh.triangles, {});
     ASSERT_TRUE(again.has_value());
-    GridMesh one{vertices, seamless->triangles, {}}, other{vertices, again->triangles, {}};
+    const GridMesh one{vertices, seamless->triangles, {}}, other{vertices, again->triangles, {}};
     const MeshAnalysis a = analyse(one), b = analyse(other);
     ASSERT_EQ(a.parts.size(), b.parts.size());
     for (std::size_t i = 0; i < a.parts.size(); ++i)

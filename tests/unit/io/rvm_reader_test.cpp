@@ -229,6 +229,16 @@ TEST(RvmReader, FacetGroupsWeldTriangulateAndKeepFaces) {
   EXPECT_DOUBLE_EQ(area, 45);
 }
 
+TEST(RvmReader, PolygonsWithoutAreaKeepTheirEdges) {
+  RvmWriter w;
+  w.head().modl().cntb("/A");
+  w.facets({{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {5, 0, 0}}}}).cnte().finish();
+  const auto model = read(w);
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(std::get<geometry::TriangleMesh>(model->shapes.at(0)).triangles.size(), 3U);
+  EXPECT_EQ(model->diagnostics.count("rvm-facet-polygon"), 0U);
+}
+
 TEST(RvmReader, LeavesOutBadPolygonsAndSaysSo) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   RvmWriter w;
