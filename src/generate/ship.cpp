@@ -20,7 +20,7 @@ using geometry::Vec3d;
 
 /// A general rotation with rational entries (quaternion 9, 2, -3, 5 over 119).
 constexpr geometry::Mat3d general_rotation() {
-  constexpr double w = 9, x = 2, y = -3, z = 5, n = w * w + x * x + y * y + z * z;
+  const double w = 9, x = 2, y = -3, z = 5, n = w * w + x * x + y * y + z * z;
   return {
       {Vec3d{(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n},
        Vec3d{2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n},
