@@ -144,7 +144,7 @@ Status Planner::body(const model::Object& object, const model::Body& body,
   const bool has_content = (shape.mesh != nullptr && !shape.mesh->triangles.empty()) ||
                            (shape.lines != nullptr && index_count(*shape.lines) != 0);
   if (!has_content) return {};
-  Placement relative = to_mesh ? *to_mesh * shape.placement : Placement{};
+  const Placement relative = to_mesh ? *to_mesh * shape.placement : Placement{};
   const Result<std::uint32_t> made = piece(shape, relative);
   if (!made) {
     Error error = made.error();

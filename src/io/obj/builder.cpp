@@ -35,7 +35,7 @@ class Builder {
   [[nodiscard]] model::Color main_color(const Flat& flat) const;
   std::vector<Vec3d> compact(std::vector<std::uint32_t>& corners) const;
   geometry::TriangleMesh mesh(Flat flat);
-  geometry::Polylines polylines(Flat flat) const;
+  geometry::Polylines polylines(const Flat& flat) const;
 
   const BuildInput& input_;
   const Entry& entry_;
@@ -123,7 +123,7 @@ geometry::TriangleMesh Builder::mesh(Flat flat) {
   return mesh;
 }
 
-geometry::Polylines Builder::polylines(Flat flat) const {
+geometry::Polylines Builder::polylines(const Flat& flat) const {
   geometry::Polylines lines;
   for (const std::uint32_t c : flat.corners) lines.points.push_back(input_.vertices[c]);
   for (const std::size_t end : flat.end) lines.first.push_back(static_cast<std::uint32_t>(end));
@@ -142,7 +142,7 @@ BuiltObject Builder::build() {
   result_.line_color = main_color(lines);
   if (!opaque.end.empty()) result_.opaque = mesh(std::move(opaque));
   if (!transparent.end.empty()) result_.transparent = mesh(std::move(transparent));
-  if (!lines.end.empty()) result_.lines = polylines(std::move(lines));
+  if (!lines.end.empty()) result_.lines = polylines(lines);
   return std::move(result_);
 }
 
