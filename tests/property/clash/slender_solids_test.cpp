@@ -136,9 +136,9 @@ TEST(SlenderSolids, ConesTankRoofsAndNeedles) {
 
 TEST(SlenderSolids, PrimitivesOfAnyProportions) {
   std::uint64_t checked = 0;
-  for (std::uint64_t seed = 1; seed <= test::rounds(180U, 20'000U); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::rounds(90U, 6'000U); ++seed) {
     PrimitiveDraw draw(seed);
-    test::SlenderDraw slender(draw, 2 * kThinnest, 3000);
+    test::SlenderDraw slender(draw, 2 * kThinnest, test::rounds(300.0, 3000.0));
     const Primitive primitive = slender.of_kind(seed % test::SlenderDraw::kKinds);
     const Mat3d linear = draw.one_in(2) ? Mat3d{} : draw.turn();
     const auto made = tessellate(primitive, linear, 1);
@@ -149,7 +149,7 @@ TEST(SlenderSolids, PrimitivesOfAnyProportions) {
     check_primitive(primitive, linear, seed);
     ++checked;
   }
-  EXPECT_GT(checked, test::rounds(180U, 20'000U) * 3 / 4);
+  EXPECT_GT(checked, test::rounds(90U, 6'000U) * 3 / 4);
 }
 
 /// A triangle mesh with some sides of its triangles cut at random and sealed with triangles of no
