@@ -82,7 +82,7 @@ class Halves {
     if (points.size() >= 2) (void)build(0, static_cast<std::uint32_t>(points.size()));
   }
 
-  [[nodiscard]] std::vector<Constrained::Cell> cells() const {
+  [[nodiscard]] std::vector<Cell> cells() const {
     std::vector<std::uint32_t> face(rings_.count(), kNone);
     std::vector<std::array<Edge, 3>> triangles;
     for (Edge e = 0; e < rings_.count(); ++e) {
@@ -94,7 +94,7 @@ class Halves {
         face[k] = static_cast<std::uint32_t>(triangles.size());
       triangles.push_back({e, second, third});
     }
-    std::vector<Constrained::Cell> cells(triangles.size());
+    std::vector<Cell> cells(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         cells[t].vertex[k] = rings_.from(triangles[t][k]);
@@ -194,8 +194,6 @@ class Halves {
 
 }  // namespace
 
-std::vector<Constrained::Cell> delaunay(std::span<const Point2> points) {
-  return Halves(points).cells();
-}
+std::vector<Cell> delaunay(std::span<const Point2> points) { return Halves(points).cells(); }
 
 }  // namespace strake::geometry::polygon
