@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <numeric>
 
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
@@ -116,6 +117,14 @@ class Finder {
 };
 
 }  // namespace
+
+Cases each_alone(std::size_t pairs) {
+  Cases cases;
+  cases.first.resize(pairs);
+  std::iota(cases.first.begin(), cases.first.end(), 0U);
+  cases.of = cases.first;
+  return cases;
+}
 
 Result<Cases> find_cases(std::span<const IndexPair> pairs, const PartList& list,
                          std::span<const CaseSettings> settings, const parallel::Context& context) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,6 +17,9 @@ struct Cases {
   std::vector<std::uint32_t> of;     ///< by pair: its case
   std::vector<std::uint32_t> first;  ///< by case: the first pair that is one, ascending
 };
+
+/// Every pair a case of its own.
+[[nodiscard]] Cases each_alone(std::size_t pairs);
 
 /// What a pair is judged by, besides its parts.
 struct CaseSettings {

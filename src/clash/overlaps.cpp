@@ -1,67 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/clash/overlaps.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <utility>
 
+#include "clash/case_work.hpp"
 #include "clash/object_pairs.hpp"
 #include "clash/options.hpp"
 #include "clash/part_aids.hpp"
 #include "strake/geometry/flush_contact.hpp"
 #include "strake/parallel/collect.hpp"
-#include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
 namespace {
 
-/// Pairs per block: small enough that a heavy one holds up few others.
-constexpr std::size_t kGrain = 8, kBlock = 4096;
-
 enum class State : std::uint8_t { apart, common, open };
 
-State state(bool common) { return common ? State::common : State::apart; }
-
+/// What becomes of the near pairs of parts: what needs no tree first, and of the others only what
+/// their own boxes leave open.
 class Overlaps {
  public:
-  Overlaps(const model::Scene& scene, const parallel::Context& context)
-      : context_(context), aids_(list_, *scene.model) {}
+  Overlaps(const PartList& list, const std::vector<geometry::IndexPair>& pairs,
+           const model::Model& model, const parallel::Context& context)
+      : cases_(each_alone(pairs.size())),
+        work_(list, pairs, cases_, context),
+        aids_(list, model),
+        states_(pairs.size(), State::open) {}
 
-  Result<std::vector<ObjectPair>> run(const model::Scene& scene, const Sets& sets,
-                                      const Options& options) {
-    auto parts = list_parts(scene, sets, Curves::off, context_);
-    if (!parts) return parts.error();
-    list_ = std::move(*parts);
-    auto pairs = near_pairs(list_, sets, 0, options, context_);
-    if (!pairs) return pairs.error();
-    pairs_ = std::move(*pairs);
-    // What needs no tree first, and of the others only what their own boxes leave open.
+  /// By pair, none of them open. Errors: cancelled.
+  Result<std::vector<State>> run() {
     if (const Status s = decide_flush(); !s) return s.error();
     if (const Status s = decide_framed(); !s) return s.error();
     if (const Status s = decide_exactly(); !s) return s.error();
-    return by_objects();
+    return std::move(states_);
   }
 
  private:
-  [[nodiscard]] const PartRef& a(std::size_t i) const { return list_.parts[pairs_[i].first]; }
-  [[nodiscard]] const PartRef& b(std::size_t i) const { return list_.parts[pairs_[i].second]; }
-
   Status decide_flush() {
-    auto states = parallel::transform(
-        context_, {.name = "flush pairs", .n = pairs_.size(), .grain = kGrain}, [&](std::size_t i) {
-          const geometry::PlacedPart &x = a(i).placed, &y = b(i).placed;
-          if (!geometry::fits_pair(x, y)) return State::apart;
-          return geometry::flush_contact(x, y).touching ? State::common : State::open;
+    return parallel::for_each(
+        work_.context(), {.name = "flush pairs", .n = work_.size(), .grain = CaseWork::kGrain},
+        [&](std::size_t i) {
+          const geometry::PlacedPart &x = work_.a(i).placed, &y = work_.b(i).placed;
+          if (!geometry::fits_pair(x, y))
+            states_[i] = State::apart;
+          else if (geometry::flush_contact(x, y).touching)
+            states_[i] = State::common;
         });
-    if (!states) return states.error();
-    states_ = std::move(*states);
-    return {};
   }
 
   Status decide_framed() {
-    if (const Status s = find_open(); !s) return s;
-    if (const Status s = aids_.want_frames(open_parts(), context_); !s) return s;
-    return for_open("parting planes", [&](const PartRef& x, const PartRef& y) {
+    const auto open = find_open();
+    if (!open) return open.error();
+    if (const Status s = aids_.want_frames(work_.parts_of(*open), work_.context()); !s) return s;
+    return decide(*open, "parting planes", [&](const PartRef& x, const PartRef& y) {
       const NarrowPart p = aids_.framed(x), q = aids_.framed(y);
       constexpr double kApart = 1;  // as the broad phase's boxes leave it: whole units
       const double gap =
@@ -71,60 +66,49 @@ class Overlaps {
   }
 
   Status decide_exactly() {
-    if (const Status s = find_open(); !s) return s;
-    if (const Status s = aids_.want_trees(open_parts(), context_); !s) return s;
-    return for_open("overlaps", [&](const PartRef& x, const PartRef& y) {
+    const auto open = find_open();
+    if (!open) return open.error();
+    if (const Status s = aids_.want_trees(work_.parts_of(*open), work_.context()); !s) return s;
+    return decide(*open, "overlaps", [&](const PartRef& x, const PartRef& y) {
       geometry::PairWork work;
       const auto met = geometry::meet(aids_.treed(x).treed, aids_.treed(y).treed, work);
-      return state(met.meeting != geometry::Meeting::apart);
+      return met.meeting == geometry::Meeting::apart ? State::apart : State::common;
     });
   }
 
-  Status find_open() {
-    auto open = parallel::collect<std::size_t>(
-        context_, {.name = "open pairs", .n = pairs_.size(), .grain = kBlock},
-        [&](std::size_t i, std::vector<std::size_t>& out) {
-          if (states_[i] == State::open) out.push_back(i);
-        });
-    if (!open) return open.error();
-    open_ = std::move(*open);
-    return {};
+  [[nodiscard]] Result<std::vector<std::size_t>> find_open() const {
+    return work_.that("open pairs", [&](std::size_t i) { return states_[i] == State::open; });
   }
 
-  [[nodiscard]] std::vector<bool> open_parts() const {
-    std::vector<bool> parts(list_.unique.size(), false);
-    for (const std::size_t i : open_) parts[a(i).unique] = parts[b(i).unique] = true;
-    return parts;
+  template <class Judge>
+  Status decide(std::span<const std::size_t> some, std::string_view name, const Judge& judge) {
+    return work_.over(
+        some, name, CaseWork::kGrain,
+        [&](std::size_t i, const PartRef& x, const PartRef& y) { states_[i] = judge(x, y); });
   }
 
-  template <class Decide>
-  Status for_open(std::string_view name, Decide&& decide) {
-    return parallel::for_each(
-        context_, {.name = name, .n = open_.size(), .grain = kGrain},
-        [&](std::size_t k) { states_[open_[k]] = decide(a(open_[k]), b(open_[k])); });
-  }
-
-  Result<std::vector<ObjectPair>> by_objects() const {
-    const auto objects = ObjectPairs::find(pairs_, list_, context_);
-    if (!objects) return objects.error();
-    return parallel::collect<ObjectPair>(
-        context_, {.name = "overlapping objects", .n = objects->size(), .grain = kBlock},
-        [&](std::size_t k, std::vector<ObjectPair>& out) {
-          for (std::size_t i = objects->begin(k); i < objects->end(k); ++i) {
-            if (states_[i] != State::common) continue;
-            out.push_back({model::ObjectId{a(i).object}, model::ObjectId{b(i).object}});
-            return;
-          }
-        });
-  }
-
-  const parallel::Context& context_;
-  PartList list_;
+  Cases cases_;
+  CaseWork work_;
   PartAids aids_;
-  std::vector<geometry::IndexPair> pairs_;
-  std::vector<State> states_;      ///< by pair
-  std::vector<std::size_t> open_;  ///< pairs not decided yet
+  std::vector<State> states_;  ///< by pair
 };
+
+Result<std::vector<ObjectPair>> by_objects(const std::vector<State>& states, const PartList& list,
+                                           const std::vector<geometry::IndexPair>& pairs,
+                                           const parallel::Context& context) {
+  const auto objects = ObjectPairs::find(pairs, list, context);
+  if (!objects) return objects.error();
+  return parallel::collect<ObjectPair>(
+      context, {.name = "overlapping objects", .n = objects->size(), .grain = CaseWork::kBlock},
+      [&](std::size_t k, std::vector<ObjectPair>& out) {
+        const auto first = states.begin() + static_cast<std::ptrdiff_t>(objects->begin(k));
+        const auto last = states.begin() + static_cast<std::ptrdiff_t>(objects->end(k));
+        if (std::find(first, last, State::common) == last) return;
+        const geometry::IndexPair& pair = pairs[objects->begin(k)];
+        out.push_back({model::ObjectId{list.parts[pair.first].object},
+                       model::ObjectId{list.parts[pair.second].object}});
+      });
+}
 
 }  // namespace
 
@@ -132,7 +116,13 @@ Result<std::vector<ObjectPair>> overlapping_pairs(const model::Scene& scene, con
                                                   const Options& options,
                                                   const parallel::Context& context) {
   if (const Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
-  return Overlaps(scene, context).run(scene, sets, options);
+  const auto list = list_parts(scene, sets, Curves::off, context);
+  if (!list) return list.error();
+  const auto pairs = near_pairs(*list, sets, 0, options, context);
+  if (!pairs) return pairs.error();
+  const auto states = Overlaps(*list, *pairs, *scene.model, context).run();
+  if (!states) return states.error();
+  return by_objects(*states, *list, *pairs, context);
 }
 
 }  // namespace strake::clash
