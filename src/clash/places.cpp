@@ -15,6 +15,7 @@ namespace {
 
 using geometry::Box3d;
 using geometry::MeetingPlace;
+using geometry::OnePlace;
 using geometry::Part;
 using geometry::PartKind;
 using geometry::Vec3d;
@@ -44,25 +45,27 @@ class PairPlaces {
     const double clearance = options_.clearance + part_a_.sag + part_b_.sag;
     const bool beyond = telling == Telling::all && clearance > reach;
     const bool describe_one = telling >= Telling::each;
-    if (!find(reach, describe_one)) return std::nullopt;
+    // Where interiors meet, what is common reaches farther than the skins that are near each other.
+    const bool boxed = describe_one && !whole_.separation.interiors_meet;
+    if (!find(reach, boxed ? OnePlace::boxed : OnePlace::counted)) return std::nullopt;
     std::vector<PartPlace> places;
     if (found_.all.size() > 1)
       places = several();
     else if (describe_one)
       places.push_back(only());
     if (!beyond) return places;
-    if (!find(clearance, true)) return std::nullopt;
+    if (!find(clearance, OnePlace::described)) return std::nullopt;
     add_gaps(places);
     return places;
   }
 
  private:
-  bool find(double reach, bool describe_one) {
+  bool find(double reach, OnePlace one) {
     auto found = geometry::find_meeting_places(
         a_.treed, b_.treed,
         {.reach = reach,
          .interiors_meet = whole_.separation.interiors_meet,
-         .describe_one = describe_one,
+         .one = one,
          .most_pairs = std::max(kLeastPairs, kPairsPerTriangle * (part_a_.triangles.size() +
                                                                   part_b_.triangles.size()))},
         work_.pair);
@@ -80,7 +83,6 @@ class PairPlaces {
   }
 
   PartPlace only() const {
-    // What is common reaches farther than the skins that are near each other.
     const bool deep = found_.all.empty() || whole_.separation.interiors_meet;
     return {whole_, deep ? extent_in_common() : found_.all.front().extent, true};
   }

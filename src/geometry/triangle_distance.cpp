@@ -267,11 +267,16 @@ DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
     return square(std::sqrt(squared) + 0x1p-46 * std::max(a.size, b.size));
   };
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  const Corners &p = a.corner, &q = b.corner;
+  if (near_enough >= 0)  // most of those who ask so are near at their corners
+    for (const Vec3d& from : p)
+      for (const Vec3d& to : q)
+        if (const double up = rounded_up(squared_length(to - from)); up <= near_enough)
+          return {0, up};
   double lower = normal_slab(a, b);
   if (lower > enough) return {lower, kUnknown};
   lower = std::max(lower, normal_slab(b, a));
   if (lower > enough) return {lower, kUnknown};
-  const Corners &p = a.corner, &q = b.corner;
   Near near;
   for (std::size_t i = 0; i < 3; ++i) {
     near.offer(p[i], q[i]);

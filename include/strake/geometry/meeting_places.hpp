@@ -20,11 +20,17 @@ struct MeetingPlace {
   double least = 0;  ///< a certain lower bound on that distance
 };
 
+/// What is asked about a place that turns out to be the only one.
+enum class OnePlace : std::uint8_t {
+  counted,    ///< nothing: the list has one empty entry
+  boxed,      ///< its extent, of the skins alone
+  described,  ///< everything
+};
+
 struct PlacesQuestion {
   double reach = 0;             ///< how near is near, grid units
   bool interiors_meet = false;  ///< as meet() found
-  /// Whether a single place is to be described; otherwise the list then has one empty entry.
-  bool describe_one = true;
+  OnePlace one = OnePlace::described;
   std::uint64_t most_pairs = std::uint64_t{1} << 22U;  ///< of near triangles, before it is given up
 };
 

@@ -5,14 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "geometry/box.hpp"
 #include "geometry/depth/nearest.hpp"
-#include "geometry/places/clip.hpp"
+#include "geometry/places/common_box.hpp"
 #include "geometry/places/edge_stops.hpp"
 #include "geometry/places/inside_links.hpp"
 #include "geometry/places/near_pairs.hpp"
+#include "geometry/places/single_place.hpp"
 #include "strake/core/disjoint_sets.hpp"
 
 namespace strake::geometry {
@@ -21,26 +23,6 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffU;
 /// Added to the reach, grid units: far above what double arithmetic makes of a touch.
 constexpr double kTouch = 1.0 / 256;
-
-std::array<Slab, 3> slabs_of(const Box3d& box) {
-  return {Slab{{1, 0, 0}, box.lo.x, box.hi.x}, Slab{{0, 1, 0}, box.lo.y, box.hi.y},
-          Slab{{0, 0, 1}, box.lo.z, box.hi.z}};
-}
-
-/// Adds what of two triangles lies within reach of the other to a box.
-void include_common(const TriangleCorners& a, const TriangleCorners& b, double reach,
-                    Box3d& extent) {
-  // What rounding may have cut off.
-  const double margin = reach + 1;
-  const Corners corners_a = as_doubles(a), corners_b = as_doubles(b);
-  const Box3d box_a = box_of(corners_a), box_b = box_of(corners_b);
-  const Box3d room_a = box_b.inflated(margin), room_b = box_a.inflated(margin);
-  if (extent.contains(room_a.common(room_b))) return;
-  const Box3d of_a = room_a.contains(box_a) ? box_a : box_within(corners_a, slabs_of(room_a));
-  const Box3d of_b = room_b.contains(box_b) ? box_b : box_within(corners_b, slabs_of(room_b));
-  const Box3d both = of_a.inflated(margin).common(of_b.inflated(margin));
-  extent.include(both.empty() ? room_a.common(room_b) : both);
-}
 
 class Places {
  public:
@@ -53,15 +35,23 @@ class Places {
         reach_(question.reach + kTouch) {}
 
   std::optional<std::vector<MeetingPlace>> find(PairWork& work) {
-    // Who has one place only is not asked where it is nearest.
-    const bool sharp = question_.describe_one;
-    auto pairs = near_triangles(
-        a_, b_, {.reach = reach_, .most = question_.most_pairs, .sharp = sharp}, work);
+    const OnePlace one = question_.one;
+    auto pairs = near_triangles(a_, b_, {.reach = reach_, .most = most_at_first()}, work);
+    if (!pairs && one != OnePlace::described) {
+      const bool boxed = one == OnePlace::boxed;
+      if (const auto box = single_place(a_, b_, {.reach = reach_, .boxed = boxed}, work)) {
+        std::vector<MeetingPlace> single(1);
+        single.front().extent = *box;
+        return single;
+      }
+      pairs = near_triangles(a_, b_, {.reach = reach_, .most = question_.most_pairs}, work);
+    }
     if (!pairs) return std::nullopt;
     pairs_ = std::move(*pairs);
     DisjointSets sets(pairs_.size() + a_.part().vertices.size() + b_.part().vertices.size());
-    if (join_all(sets, work) == 1 && !question_.describe_one) return std::vector<MeetingPlace>(1);
-    if (!sharp) sharpen(a_, b_, pairs_);
+    const bool single = join_all(sets, work) == 1;
+    if (single && one == OnePlace::counted) return std::vector<MeetingPlace>(1);
+    if (single && one == OnePlace::boxed) return std::vector<MeetingPlace>{boxed_all()};
     return describe(sets, work);
   }
 
@@ -89,6 +79,16 @@ class Places {
   }
 
  private:
+  /// Near pairs for each triangle of the two that are joined one by one before a shorter way to a
+  /// single place is tried.
+  static constexpr std::uint64_t kFewPerTriangle = 1;
+
+  [[nodiscard]] std::uint64_t most_at_first() const {
+    if (question_.one == OnePlace::described) return question_.most_pairs;
+    return std::min(question_.most_pairs,
+                    kFewPerTriangle * (a_.part().triangles.size() + b_.part().triangles.size()));
+  }
+
   [[nodiscard]] std::uint32_t first_vertex(bool of_a) const {
     return static_cast<std::uint32_t>(pairs_.size() + (of_a ? 0 : a_.part().vertices.size()));
   }
@@ -128,28 +128,56 @@ class Places {
     return left;
   }
 
+  [[nodiscard]] MeetingPlace boxed_all() const {
+    MeetingPlace place;
+    for (const NearTriangles& p : pairs_)
+      include_common(a_.corners(p.a), b_.corners(p.b), reach_, place.extent);
+    return place;
+  }
+
   std::vector<MeetingPlace> describe(DisjointSets& sets, PairWork& work) {
     std::vector<MeetingPlace> places;
-    std::vector<std::uint32_t> nearest;
     number_.assign(pairs_.size(), kNone);
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
       const std::uint32_t root = sets.root(i);  // the lowest: met before the others
       if (root == i) {
         number_[i] = static_cast<std::uint32_t>(places.size());
         places.emplace_back();
-        places.back().least = std::sqrt(pairs_[i].squared.lower);
-        nearest.push_back(i);
       }
-      const std::uint32_t n = number_[i] = number_[root];
-      MeetingPlace& place = places[n];
-      include_common(a_.corners(pairs_[i].a), b_.corners(pairs_[i].b), reach_, place.extent);
-      place.least = std::min(place.least, std::sqrt(pairs_[i].squared.lower));
-      if (pairs_[i].squared.upper < pairs_[nearest[n]].squared.upper) nearest[n] = i;
+      number_[i] = number_[root];
+      include_common(a_.corners(pairs_[i].a), b_.corners(pairs_[i].b), reach_,
+                     places[number_[i]].extent);
     }
+    const std::vector<std::uint32_t> nearest = find_nearest(places);
     vertices_a_ = include_vertices(a_, first_vertex(true), sets, places);
     vertices_b_ = include_vertices(b_, first_vertex(false), sets, places);
     for (std::size_t n = 0; n < places.size(); ++n) measure(pairs_[nearest[n]], places[n], work);
     return places;
+  }
+
+  /// By place: the first of its pairs that no other is certainly nearer than; sets what is least.
+  std::vector<std::uint32_t> find_nearest(std::vector<MeetingPlace>& places) {
+    const auto box = [](const TriangleCorners& t) { return box_of(as_doubles(t)); };
+    std::vector<double> gap(pairs_.size());
+    std::vector<std::uint32_t> nearest(places.size(), kNone);
+    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+      gap[i] = squared_gap(box(a_.corners(pairs_[i].a)), box(b_.corners(pairs_[i].b)));
+      std::uint32_t& first = nearest[number_[i]];
+      if (first == kNone || gap[i] < gap[first]) first = i;
+    }
+    std::vector<double> least(places.size(), std::numeric_limits<double>::infinity());
+    for (const std::uint32_t i : nearest) sharpen(a_, b_, pairs_[i]);
+    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+      const std::uint32_t n = number_[i];
+      const double limit = pairs_[nearest[n]].squared.upper;
+      if (gap[i] * (1 - 0x1p-40) > limit) continue;
+      if (i != nearest[n]) sharpen(a_, b_, pairs_[i]);
+      least[n] = std::min(least[n], pairs_[i].squared.lower);
+      const double upper = pairs_[i].squared.upper;
+      if (upper < limit || (upper == limit && i < nearest[n])) nearest[n] = i;
+    }
+    for (std::size_t n = 0; n < places.size(); ++n) places[n].least = std::sqrt(least[n]);
+    return nearest;
   }
 
   /// Those inside the other body that belong to a place; returns which, by vertex.

@@ -33,17 +33,29 @@ struct Listed {
 
 /// Small parts are walked triangle by triangle.
 template <class Visit>
-void walk_lists(const PartView& a, const PartView& b, double squared, double near_enough,
-                PairWork& work, Visit&& visit) {
+void walk_lists(const PartView& a, const PartView& b, double squared, PairWork& work,
+                Visit&& visit) {
   const Listed x(a, b, squared), y(b, a, squared);
   for (std::size_t i = 0; i < x.id.size(); ++i)
     for (std::size_t j = 0; j < y.id.size(); ++j) {
       if (squared_gap(x.triangle[i].box, y.triangle[j].box) > squared) continue;
       ++work.triangle_pairs;
-      const DistanceBounds bounds =
-          distance_bounds(x.triangle[i], y.triangle[j], squared, near_enough);
+      const DistanceBounds bounds = distance_bounds(x.triangle[i], y.triangle[j], squared, squared);
       if (bounds.lower <= squared && !visit(NearTriangles{bounds, x.id[i], y.id[j]})) return;
     }
+}
+
+/// Settles in exact arithmetic what the bounds leave open; false for triangles out of reach.
+bool settle(const PartView& a, const PartView& b, double squared, NearTriangles& pair,
+            PairWork& work) {
+  if (pair.squared.lower > squared) return false;
+  if (pair.squared.upper <= squared) return true;
+  ++work.exact_fallbacks;
+  const SquaredDistance exact =
+      exact_distance(a.corners(pair.a), b.corners(pair.b), pair.squared.upper).squared;
+  const double s = ratio_to_double(exact.numerator, exact.denominator);
+  pair.squared = {s * (1 - 0x1p-52), s * (1 + 0x1p-52)};
+  return s <= squared;
 }
 
 /// Pairs of triangles that are certainly within reach, up to a number.
@@ -56,14 +68,7 @@ struct Gathering {
   bool too_many = false;
 
   bool operator()(NearTriangles pair) {
-    if (pair.squared.upper > reach) {
-      ++work.exact_fallbacks;
-      const SquaredDistance exact =
-          exact_distance(a.corners(pair.a), b.corners(pair.b), pair.squared.upper).squared;
-      const double s = ratio_to_double(exact.numerator, exact.denominator);
-      if (s > reach) return true;
-      pair.squared = {s * (1 - 0x1p-52), s * (1 + 0x1p-52)};
-    }
+    if (!settle(a, b, reach, pair, work)) return true;
     too_many = pairs.size() == most;
     if (!too_many) pairs.push_back(pair);
     return !too_many;
@@ -91,32 +96,35 @@ std::vector<NearTriangles> by_triangles(const std::vector<NearTriangles>& pairs,
 
 }  // namespace
 
+bool triangles_within(const PartView& a, const PartView& b, const DoubleTriangle& of_a,
+                      const DoubleTriangle& of_b, const NodePair& numbers, double squared,
+                      PairWork& work) {
+  NearTriangles pair{distance_bounds(of_a, of_b, squared, squared), numbers.a, numbers.b};
+  return settle(a, b, squared, pair, work);
+}
+
 std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a, const PartView& b,
                                                          const NearQuestion& question,
                                                          PairWork& work) {
   const double squared = question.reach * question.reach;
-  const double near_enough = question.sharp ? -1 : squared;
   const auto begin = [&] { return Gathering{a, b, question.most, squared}; };
   Gathering all = begin();
   if (a.planted() && b.planted()) {
-    heavy_near_walk(a, b, near_enough, work, begin,
-                    [&](Gathering& piece) { return all.take(piece); });
+    heavy_near_walk(a, b, squared, work, begin, [&](Gathering& piece) { return all.take(piece); });
   } else {
-    walk_lists(a, b, squared, near_enough, all.work, all);
+    walk_lists(a, b, squared, all.work, all);
     work += all.work;
   }
   if (all.too_many) return std::nullopt;
   return by_triangles(all.pairs, a.part(), b.part());
 }
 
-void sharpen(const PartView& a, const PartView& b, std::vector<NearTriangles>& pairs) {
+void sharpen(const PartView& a, const PartView& b, NearTriangles& pair) {
   constexpr double kAll = std::numeric_limits<double>::infinity();
-  for (NearTriangles& pair : pairs) {
-    const DistanceBounds sharp =
-        distance_bounds(DoubleTriangle(a.corners(pair.a)), DoubleTriangle(b.corners(pair.b)), kAll);
-    pair.squared = {std::max(pair.squared.lower, sharp.lower),
-                    std::min(pair.squared.upper, sharp.upper)};
-  }
+  const DistanceBounds sharp =
+      distance_bounds(DoubleTriangle(a.corners(pair.a)), DoubleTriangle(b.corners(pair.b)), kAll);
+  pair.squared = {std::max(pair.squared.lower, sharp.lower),
+                  std::min(pair.squared.upper, sharp.upper)};
 }
 
 }  // namespace strake::geometry

@@ -12,18 +12,23 @@ namespace strake::geometry {
 struct NearQuestion {
   double reach = 0;        ///< grid units
   std::uint64_t most = 0;  ///< pairs
-  bool sharp = false;      ///< whether the distances matter, or only who is near whom
 };
 
+/// Whether two prepared triangles, with their numbers, are no farther apart than the reach, of
+/// which the square is given.
+[[nodiscard]] bool triangles_within(const PartView& a, const PartView& b,
+                                    const DoubleTriangle& of_a, const DoubleTriangle& of_b,
+                                    const NodePair& numbers, double squared, PairWork& work);
+
 /// All pairs of triangles no farther apart than the reach, by (a, b), with certain bounds on their
-/// distances, as tight as doubles give them where `sharp`; nothing where there are too many. Parts
-/// without trees, which should be small, are walked triangle by triangle.
+/// distances, which say no more than that; nothing where there are too many. Parts without trees,
+/// which should be small, are walked triangle by triangle.
 [[nodiscard]] std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a,
                                                                        const PartView& b,
                                                                        const NearQuestion& question,
                                                                        PairWork& work);
 
-/// Makes the bounds as tight as those of a sharp question.
-void sharpen(const PartView& a, const PartView& b, std::vector<NearTriangles>& pairs);
+/// Makes the bounds of a pair as tight as doubles give them.
+void sharpen(const PartView& a, const PartView& b, NearTriangles& pair);
 
 }  // namespace strake::geometry

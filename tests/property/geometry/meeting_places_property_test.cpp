@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <vector>
@@ -23,6 +24,8 @@ using testing::mapped;
 using testing::Subject;
 
 constexpr int kRounds = test::rounds(200, 20000);
+/// Where all near triangles are listed.
+constexpr int kListedRounds = test::rounds(40, 4000);
 
 /// Cells of side 1 in a cube of kSize cells.
 constexpr int kSize = 8;
@@ -199,6 +202,46 @@ TEST_P(MeetingPlacesProperty, AsTheCellsOfALatticeHaveIt) {
   EXPECT_GT(one, kRounds / 10);
   EXPECT_GT(two, kRounds / 50);
   EXPECT_GT(more, 0);
+}
+
+/// Places by joining every two near triangles, which asking for all about a single place does.
+std::optional<std::vector<MeetingPlace>> asked(const Subject& x, const Subject& y, double reach,
+                                               OnePlace one) {
+  PairWork work;
+  return meeting_places(x.treed(), y.treed(), {.reach = reach, .one = one}, work);
+}
+
+TEST_P(MeetingPlacesProperty, TheShortWayToASinglePlaceCountsAsTheLongOneDoes) {
+  int one = 0, more = 0;
+  for (int round = 0; round < kListedRounds; ++round) {
+    const auto form = [&] {
+      const auto kind = rng() % 4;
+      const Cells cells = kind == 0   ? tube(rng, 6)
+                          : kind == 1 ? grown(rng, 1, 40)
+                                      : worm(rng, 30 + static_cast<int>(rng() % 40));
+      const IndexedMesh mesh = skin_of(cells, 1);
+      return rng() % 2 == 0 ? mesh : testing::subdivided(mesh);
+    };
+    const auto step = [&] { return static_cast<std::int64_t>(rng() % (9 * kCell)); };
+    const Subject x(form()), y(form(), {step(), step(), step()});
+    // From a touch to more than all that is there.
+    const double reach = static_cast<double>(rng() % (kCell * (rng() % 2 == 0 ? 3 : 12)));
+    const auto full = asked(x, y, reach, OnePlace::described);
+    const auto counted = asked(x, y, reach, OnePlace::counted);
+    const auto boxed = asked(x, y, reach, OnePlace::boxed);
+    ASSERT_TRUE(full && counted && boxed);
+    ASSERT_EQ(counted->size(), full->size()) << "round " << round;
+    ASSERT_EQ(boxed->size(), full->size()) << "round " << round;
+    for (std::size_t n = 0; n < full->size(); ++n) {
+      ASSERT_EQ((*boxed)[n].extent.lo, (*full)[n].extent.lo) << "round " << round;
+      ASSERT_EQ((*boxed)[n].extent.hi, (*full)[n].extent.hi) << "round " << round;
+      ASSERT_LE((*full)[n].least, (*full)[n].nearest.distance);
+    }
+    one += full->size() == 1 ? 1 : 0;
+    more += full->size() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(one, kListedRounds / 10);
+  EXPECT_GT(more, kListedRounds / 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MeetingPlacesProperty, ::testing::Values(1, 2, 3));

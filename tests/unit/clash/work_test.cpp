@@ -129,6 +129,17 @@ TEST(ClashWork, ConcentricCylindersCostAFewTrianglePairsATriangle) {
   EXPECT_EQ(l.work.depth_cells, 0U);
 }
 
+TEST(ClashWork, AWideClearanceCostsAFewTrianglePairsATriangle) {
+  const TriangleMesh hills = test::bumpy_mesh(100, 12, 4, 10);
+  for (const double clearance : {110.0, 200.0, 300.0, 1000.0}) {
+    const Looked l =
+        look(hills, hills, {kTurn, kTurn * Vec3d{318, 11, 0}}, {.clearance_mm = clearance});
+    EXPECT_EQ(l.pair.cls, Class::clearance_violation) << clearance;
+    EXPECT_EQ(l.pair.regions, 1U) << clearance;
+    EXPECT_LE(l.work.triangle_pairs, 16 * l.triangles) << clearance;
+  }
+}
+
 TEST(ClashWork, CopiesOfABodyNeedNoWalk) {
   const TriangleMesh hills = test::bumpy_mesh(1000, 60, 12, 40);
   const Looked l = look(hills, hills, {}, {.clearance_mm = 25});

@@ -172,6 +172,25 @@ TEST(MeetingPlacesTest, GivesUpWhereThereAreMorePairsThanAskedFor) {
       meeting_places(a.treed(), b.treed(), {.reach = 1 * kMm, .most_pairs = 10}, work).has_value());
 }
 
+TEST(MeetingPlacesTest, AWideReachIsToldWithoutAListOfNearTriangles) {
+  // Two tubes side by side are far from convex, and nearly all their triangles are near each other.
+  const auto one = tube(50 * kMm, 45 * kMm, 0, 0, 0, 400 * kMm);
+  const Subject a(one), b(one, {130 * kMm, 0, 0});
+  const auto ask = [&](OnePlace what, std::uint64_t most) {
+    PairWork work;
+    const auto found = meeting_places(
+        a.treed(), b.treed(), {.reach = 300.0 * kMm, .one = what, .most_pairs = most}, work);
+    EXPECT_LE(work.triangle_pairs, 5 * (a.part.triangles.size() + b.part.triangles.size()));
+    return found;
+  };
+  for (const OnePlace what : {OnePlace::counted, OnePlace::boxed}) {
+    const auto found = ask(what, 100);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->size(), 1U);
+  }
+  EXPECT_FALSE(ask(OnePlace::described, 100).has_value());
+}
+
 TEST(MeetingPlacesTest, NearlyConvexAllowsForTheSlackAlone) {
   const auto convex = [](const IndexedMesh& mesh, double slack) {
     return nearly_convex(testing::build_part(mesh), slack);

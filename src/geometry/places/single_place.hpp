@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "geometry/pair_view.hpp"
+
+namespace strake::geometry {
+
+struct SingleQuestion {
+  double reach = 0;    ///< grid units
+  bool boxed = false;  ///< whether the box of the place is asked for
+};
+
+/// Whether the skins of two parts certainly come within reach of each other in one place, without a
+/// list of all near triangles: for reaches that are wide against the triangles. The box that holds
+/// the place, where asked for, is that of all near triangles. Nothing says nothing: there may be
+/// several places, or none, or the parts have too many triangles for this to be quick.
+///
+/// Corners that are within reach of each other are joined along the edges of either part: of the
+/// points of an edge those within reach of a corner are a stretch. That leaves pairs of triangles
+/// that are near, but not at corners; each has to hang together with others over an edge.
+[[nodiscard]] std::optional<Box3d> single_place(const PartView& a, const PartView& b,
+                                                const SingleQuestion& question, PairWork& work);
+
+}  // namespace strake::geometry
