@@ -33,7 +33,7 @@ Status PartAids::add(Kind<T>& kind, const std::vector<bool>& wanted, std::string
 
 Status PartAids::want_frames(const std::vector<bool>& wanted, const parallel::Context& context) {
   return add(frames_, wanted, "part frames", context,
-             [](const geometry::Part& part) { return geometry::make_frame(part); });
+             [&](const geometry::Part& part) { return geometry::make_frame(part, context); });
 }
 
 Status PartAids::want_trees(const std::vector<bool>& wanted, const parallel::Context& context) {

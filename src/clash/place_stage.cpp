@@ -107,11 +107,12 @@ class PlaceStage {
     return work_.over(
         some, "simple places", CaseWork::kGrain,
         [&](std::size_t i, const PartRef& a, const PartRef& b) {
-          const NarrowPart x = aids_.framed(a), y = aids_.framed(b);
+          const NarrowPart x = aids_.treed(a), y = aids_.treed(b);
           const PartAnswer& answer = candidates_[i].look.answer;
           const double reach = place_reach(x, y, answer, stage_.pair_options.of(a, b));
           places_[i] = {{answer,
-                         geometry::common_extent({a.placed, x.frame}, {b.placed, y.frame}, reach),
+                         geometry::common_extent({a.placed, x.frame, x.treed.tree},
+                                                 {b.placed, y.frame, y.treed.tree}, reach),
                          true}};
         });
   }
@@ -124,7 +125,7 @@ class PlaceStage {
     return work_.over(some, "places", 1, [&](std::size_t i, const PartRef& a, const PartRef& b) {
       Candidate& c = candidates_[i];
       auto found = charged(c, work_.context(), [&](NarrowWork& work) {
-        return places_of(aids_.treed(a), aids_.treed(b), c.look.answer,
+        return places_of(aids_.planed(a), aids_.planed(b), c.look.answer,
                          stage_.pair_options.of(a, b), telling_[i], work);
       });
       c.too_near_to_tell = !found;

@@ -97,16 +97,26 @@ class PairPlaces {
   }
 
   [[nodiscard]] Box3d extent_in_common() const {
-    const geometry::PartFrame f = geometry::make_frame(part_a_), g = geometry::make_frame(part_b_);
-    return geometry::common_extent({a_.treed.placed, &f}, {b_.treed.placed, &g},
+    geometry::PartFrame own_a, own_b;
+    const auto frame_of = [](const NarrowPart& part,
+                             geometry::PartFrame& own) -> const geometry::PartFrame* {
+      if (part.frame != nullptr) return part.frame;
+      own = geometry::make_frame(*part.treed.placed.part);
+      return &own;
+    };
+    return geometry::common_extent({a_.treed.placed, frame_of(a_, own_a), a_.treed.tree},
+                                   {b_.treed.placed, frame_of(b_, own_b), b_.treed.tree},
                                    place_reach(a_, b_, whole_, options_));
   }
 
   void make_planes() {
-    planes_a_ = geometry::make_support_planes(part_a_);
-    planes_b_ = geometry::make_support_planes(part_b_);
-    a_.planes = &planes_a_;
-    b_.planes = &planes_b_;
+    const auto provide = [](NarrowPart& part, geometry::SupportPlanes& own) {
+      if (part.planes != nullptr) return;
+      own = geometry::make_support_planes(*part.treed.placed.part);
+      part.planes = &own;
+    };
+    provide(a_, planes_a_);
+    provide(b_, planes_b_);
   }
 
   PartAnswer answer_at(std::size_t number) {

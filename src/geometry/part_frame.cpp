@@ -36,7 +36,10 @@ struct Range {
   double hi = -std::numeric_limits<double>::infinity();
 };
 
-Range range_along(const Part& part, const Vec3d& n) {
+/// `vertices`: those of the part, or empty.
+Range range_along(const Part& part, const VertexTree& vertices, const Vec3d& n) {
+  if (!vertices.empty())
+    return {-vertices.greatest_along(-n).value, vertices.greatest_along(n).value};
   Range r;
   for (const Vec3i& v : part.vertices) {
     const double at = dot(n, v.as<double>());
@@ -85,12 +88,12 @@ double box_gap(const PartFrame& of, const PartFrame& other, const Vec3d& to_of, 
 }
 
 /// By the vertices of `other`.
-double vertex_gap(const PartFrame& of, const Part& other, const Vec3d& to_of, const Pair& pair,
-                  double enough) {
+double vertex_gap(const PartFrame& of, const FramedPart& other, const Vec3d& to_of,
+                  const Pair& pair, double enough) {
   double widest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3 && widest < enough; ++i) {
     const Vec3d& n = of.axis[i];
-    const Range r = range_along(other, n);
+    const Range r = range_along(*other.placed.part, other.frame->vertices, n);
     const double base = dot(n, to_of);
     widest = std::max(widest, certain(gap_along(of, i, r.lo + base, r.hi + base), pair));
   }
@@ -99,8 +102,9 @@ double vertex_gap(const PartFrame& of, const Part& other, const Vec3d& to_of, co
 
 }  // namespace
 
-PartFrame make_frame(const Part& part) {
+PartFrame make_frame(const Part& part, const parallel::Context& context) {
   PartFrame frame;
+  if (part.vertices.size() >= kManyVertices) frame.vertices = VertexTree(part.vertices, context);
   const Vec3d x = largest(part, [](const Vec3d&, double) { return true; });
   frame.axis[0] = dot(x, x) > 0 ? x : Vec3d{1, 0, 0};
   const Vec3d y = largest(part, [&](const Vec3d& n, double squared) {
@@ -111,14 +115,14 @@ PartFrame make_frame(const Part& part) {
   const Vec3d z = cross(frame.axis[0], frame.axis[1]);
   frame.axis[2] = z * (1 / std::sqrt(dot(z, z)));
   for (std::size_t i = 0; i < 3; ++i) {
-    const Range r = range_along(part, frame.axis[i]);
+    const Range r = range_along(part, frame.vertices, frame.axis[i]);
     frame.lo[i] = r.lo;
     frame.hi[i] = r.hi;
   }
   const std::array<Vec3d, 3> square{frame.axis[0], cross(frame.axis[2], frame.axis[0]),
                                     frame.axis[2]};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Range r = range_along(part, square[i]);
+    const Range r = range_along(part, frame.vertices, square[i]);
     frame.centre = frame.centre + square[i] * ((r.lo + r.hi) / 2);
     frame.edge[i] = square[i] * ((r.hi - r.lo) / 2);
   }
@@ -134,9 +138,9 @@ double frame_gap(const FramedPart& a, const FramedPart& b, double enough) {
   // The boxes' own rounding is far less than the part of a unit that they are asked to be wider.
   const double boxes = std::max(box_gap(f, g, pair.shift, pair), box_gap(g, f, -pair.shift, pair));
   if (boxes >= enough + 1) return boxes;
-  const double gap = vertex_gap(f, *b.placed.part, pair.shift, pair, enough);
+  const double gap = vertex_gap(f, b, pair.shift, pair, enough);
   if (gap >= enough) return gap;
-  return std::max(gap, vertex_gap(g, *a.placed.part, -pair.shift, pair, enough));
+  return std::max(gap, vertex_gap(g, a, -pair.shift, pair, enough));
 }
 
 }  // namespace strake::geometry

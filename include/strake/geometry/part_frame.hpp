@@ -4,7 +4,10 @@
 #include <array>
 
 #include "strake/geometry/part.hpp"
+#include "strake/geometry/part_tree.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/geometry/vertex_tree.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::geometry {
 
@@ -18,14 +21,17 @@ struct PartFrame {
   std::array<double, 3> lo, hi;  ///< extent of the vertices along each, grid units
   std::array<Vec3d, 3> edge;     ///< half the edges of a box with right angles round the vertices,
   Vec3d centre;                  ///< and its centre
+  VertexTree vertices;           ///< of many, see kManyVertices; else empty
 };
 
-/// One pass over the triangles, one over the vertices.
-[[nodiscard]] PartFrame make_frame(const Part& part);
+/// One pass over the triangles, one over the vertices; of many vertices, a tree. The same with any
+/// team or none; of no use where the context's stop token ended it.
+[[nodiscard]] PartFrame make_frame(const Part& part, const parallel::Context& context = {});
 
 struct FramedPart {
   PlacedPart placed;
   const PartFrame* frame = nullptr;
+  const PartTree* tree = nullptr;  ///< may be null, or without nodes
 };
 
 /// A certain lower bound on the distance of two parts, grid units: the widest gap between them

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "strake/parallel/context.hpp"
 
 namespace strake::geometry {
+
+/// From as many vertices on their tree is asked where fewer would all be looked at.
+inline constexpr std::size_t kManyVertices = 4096;
 
 /// A set of points for "which is farthest this way?": halved again and again along the longest
 /// side of its box. Small sets are only walked.
@@ -31,6 +35,9 @@ class VertexTree {
 
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] Extreme greatest_along(const Vec3d& n) const;
+
+  /// The points in a box, up to a number, in an order that depends on the points alone.
+  [[nodiscard]] std::vector<Vec3i> some_within(const Box3d& box, std::size_t most) const;
 
   /// Whether n·v <= level for all points. False too where that takes a look at more than `boxes`
   /// boxes; takes off those that it looked at.

@@ -240,6 +240,12 @@ void bracket_by_programs(const Halfspaces& spaces, Candidates& candidates, Depth
 /// The corners of one body in the other: where shallow and broken overlaps are deepest.
 void try_vertices(const DepthField& of, const DepthField& in, Candidates& candidates) {
   const Box3d room = in.box();
+  if (of.has_many_vertices()) {
+    const Box3d own{of.local(room.lo), of.local(room.hi)};
+    for (const Vec3i& v : of.vertices().some_within(own, kMaxVerticesTried))
+      candidates.depth_at(of.common(v.as<double>()));
+    return;
+  }
   std::size_t tried = 0;
   for (const Vec3i& v : of.part().vertices) {
     const Vec3d p = of.common(v.as<double>());
@@ -299,7 +305,8 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
   // Flush faces of a model that stands askew: what the snap made of a touch.
   if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};
-  const DepthField fa(a.treed, {}), fb(b.treed, a.treed.placed.origin - b.treed.placed.origin);
+  const DepthField fa(a.treed, {}, &a.planes->vertices);
+  const DepthField fb(b.treed, a.treed.placed.origin - b.treed.placed.origin, &b.planes->vertices);
   const Halfspaces spaces(a, fa, b, fb, goal.within);
   Candidates candidates(fa, fb, spaces.extent(), goal, work);
   Depth depth;

@@ -27,8 +27,10 @@ inline constexpr double kFieldError = 1e-12;
 /// A part as a function of a point that is given relative to a common origin.
 class DepthField {
  public:
-  /// `shift` = common origin minus the part's origin, grid units.
-  DepthField(const TreedPart& part, const Vec3l& shift) : part_(&part), shift_(shift) {}
+  /// `shift` = common origin minus the part's origin, grid units. `vertices`: the part's, for
+  /// those who ask for them.
+  DepthField(const TreedPart& part, const Vec3l& shift, const VertexTree* vertices = nullptr)
+      : part_(&part), shift_(shift), vertices_(vertices) {}
 
   /// Exact for points of on_field_grid().
   [[nodiscard]] PointSide side(const Vec3d& p, PairWork& work) const {
@@ -58,10 +60,14 @@ class DepthField {
   [[nodiscard]] const Part& part() const { return *part_->placed.part; }
   [[nodiscard]] Box3d box() const { return part().box.as<double>().moved(-shift_.as<double>()); }
   [[nodiscard]] const PartTree& tree() const { return *part_->tree; }
+  /// In the part's own coordinates.
+  [[nodiscard]] const VertexTree& vertices() const { return *vertices_; }
+  [[nodiscard]] bool has_many_vertices() const { return part().vertices.size() >= kManyVertices; }
 
  private:
   const TreedPart* part_;
   Vec3l shift_;
+  const VertexTree* vertices_;
 };
 
 /// How far a point is from the skin that is farther from it. In the middle of a round body its

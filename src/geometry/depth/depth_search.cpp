@@ -55,6 +55,11 @@ Range range_along(const Box3d& box, const Vec3d& axis) {
 }
 
 Range range_along(const DepthField& f, const Vec3d& axis) {
+  if (f.has_many_vertices()) {
+    const double at = dot(axis, f.common({}));
+    return {at - f.vertices().greatest_along(-axis).value,
+            at + f.vertices().greatest_along(axis).value};
+  }
   Range r;
   for (const Vec3i& v : f.part().vertices) {
     const double t = dot(axis, f.common(v.as<double>()));

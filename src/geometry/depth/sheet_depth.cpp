@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "geometry/depth/radius_lp.hpp"
 #include "geometry/depth/sheet_search.hpp"
 #include "geometry/sheet_curve.hpp"
+#include "geometry/tree_walk.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
@@ -38,10 +40,7 @@ double hull_bound(const DepthPart& sheet, const DepthField& fs, const DepthPart&
   for (const auto& p : solid.planes->planes) add(fb, p.normal, p.support, 1);
   for (const auto& p : sheet.planes->planes) {
     add(fs, p.normal, p.support, 0);
-    double opposite = -std::numeric_limits<double>::infinity();
-    for (const Vec3i& v : fs.part().vertices)
-      opposite = std::max(opposite, -dot(p.normal, v.as<double>()));
-    add(fs, -p.normal, opposite, 0);
+    add(fs, -p.normal, sheet.planes->vertices.greatest_along(-p.normal).value, 0);
   }
   return std::max(0.0, maximise_radius({rows, extent}).upper);
 }
@@ -130,12 +129,35 @@ class CurveSearch {
   std::uint32_t next_id_ = 0;
 };
 
+/// The triangles of a sheet that may reach into a box, in their order; all of a small one.
+std::vector<Corners> pieces_near(const DepthField& sheet, const Box3d& room) {
+  std::vector<std::uint32_t> near;
+  if (sheet.has_many_vertices()) {
+    const Box3d own{sheet.local(room.lo), sheet.local(room.hi)};
+    walk_tree(
+        sheet.tree(), [&](const PartTree::Node& node) { return node.box.as<double>().meets(own); },
+        [&](std::uint32_t t) {
+          near.push_back(t);
+          return true;
+        });
+    std::ranges::sort(near);
+  } else {
+    near.resize(sheet.part().triangles.size());
+    std::iota(near.begin(), near.end(), 0U);
+  }
+  std::vector<Corners> pieces;
+  pieces.reserve(near.size());
+  for (const std::uint32_t t : near) pieces.push_back(corners_of(sheet.part(), t));
+  return pieces;
+}
+
 }  // namespace
 
 Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid, const DepthGoal& goal,
                            PairWork& work) {
-  const DepthField fs(sheet.treed, {});
-  const DepthField fb(solid.treed, sheet.treed.placed.origin - solid.treed.placed.origin);
+  const DepthField fs(sheet.treed, {}, &sheet.planes->vertices);
+  const DepthField fb(solid.treed, sheet.treed.placed.origin - solid.treed.placed.origin,
+                      &solid.planes->vertices);
   double extent = 1;
   for (const Part* part : {&fs.part(), &fb.part()})
     for (int k = 0; k < 3; ++k)
@@ -143,10 +165,7 @@ Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid, const
                                        static_cast<double>(part->box.lo[k])));
   Depth depth;
   depth.upper = hull_bound(sheet, fs, solid, fb, extent);
-  std::vector<Corners> pieces;
-  pieces.reserve(fs.part().triangles.size());
-  for (std::uint32_t t = 0; t < fs.part().triangles.size(); ++t)
-    pieces.push_back(corners_of(fs.part(), t));
+  const std::vector<Corners> pieces = pieces_near(fs, fb.box());
   SheetSearch<3>(pieces, fb, goal, depth, kFieldError * extent, work).run();
   depth.upper = std::max(depth.upper, depth.value);
   return depth;

@@ -86,6 +86,34 @@ VertexTree::Extreme VertexTree::greatest_along(const Vec3d& n) const {
   return best;
 }
 
+std::vector<Vec3i> VertexTree::some_within(const Box3d& box, std::size_t most) const {
+  std::vector<Vec3i> found;
+  const auto take = [&](std::span<const Vec3i> points) {
+    for (const Vec3i& p : points) {
+      const Vec3d at = p.as<double>();
+      if (found.size() < most && box.contains({at, at})) found.push_back(p);
+    }
+  };
+  if (nodes_.empty()) {
+    take(points_);
+    return found;
+  }
+  std::array<std::uint32_t, kDepth> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0 && found.size() < most) {
+    const Node& node = nodes_[stack[--size]];
+    if (!node.box.as<double>().meets(box)) continue;
+    if (node.count > 0) {
+      take(std::span(points_).subspan(node.first, node.count));
+    } else {
+      stack[size++] = node.first + 1;
+      stack[size++] = node.first;
+    }
+  }
+  return found;
+}
+
 bool VertexTree::none_above(const Vec3d& n, double level, std::uint64_t& boxes) const {
   const auto none_of = [&](std::span<const Vec3i> points) {
     return std::none_of(points.begin(), points.end(),

@@ -166,6 +166,8 @@ bool along_frame(const FramedPart& of, const Part& other, const Vec3d& shift, do
 
 bool in_one_flat_place(const FramedPart& a, const FramedPart& b, double reach) {
   const Part &x = *a.placed.part, &y = *b.placed.part;
+  // Looking at each vertex would cost more than telling the places by a tree.
+  if (std::max(x.vertices.size(), y.vertices.size()) >= kManyVertices) return false;
   const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();
   for (int k = 0; k < 3; ++k)
     for (const double sign : {1.0, -1.0}) {

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "strake/geometry/grid.hpp"
+#include "strake/geometry/meeting_places.hpp"
+#include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/vertex_tree.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/part_builder.hpp"
@@ -98,6 +100,54 @@ TEST(VertexTree, OfManyPointsGivesTheirGreatest) {
       most = std::max(most, n.x * p.x + n.y * p.y + n.z * p.z);
     }
     EXPECT_EQ(tree.greatest_along(n).value, most);
+  }
+}
+
+TEST(VertexTree, FindsThePointsInABox) {
+  const Part part = part_of(test::bumpy_mesh(1000, 60, 12, 60));
+  const VertexTree tree(part.vertices);
+  const auto less = [](const Vec3i& x, const Vec3i& y) {
+    return x.x != y.x ? x.x < y.x : x.y != y.y ? x.y < y.y : x.z < y.z;
+  };
+  for (const Box3d& box : {Box3d{{0, 0, 0}, {8e5, 8e5, 8e5}}, Box3d{{-2e6, -2e6, 0}, {2e6, 2e6, 0}},
+                           Box3d{{-1e3, -1e3, -1e3}, {1e3, 1e3, 1e3}}}) {
+    std::vector<Vec3i> expected;
+    for (const Vec3i& v : part.vertices)
+      if (box.contains({v.as<double>(), v.as<double>()})) expected.push_back(v);
+    std::vector<Vec3i> found = tree.some_within(box, part.vertices.size());
+    std::ranges::sort(expected, less);
+    std::ranges::sort(found, less);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(tree.some_within(box, 5).size(), std::min<std::size_t>(5, expected.size()));
+  }
+}
+
+TEST(PartFrame, OfManyVerticesHoldsThemAllTightly) {
+  const Part part = part_of(test::bumpy_mesh(1000, 60, 12, 60));
+  ASSERT_GE(part.vertices.size(), kManyVertices);
+  const PartFrame frame = make_frame(part);
+  for (std::size_t i = 0; i < 3; ++i) {
+    double lo = 1e300, hi = -1e300;
+    for (const Vec3i& v : part.vertices) {
+      lo = std::min(lo, dot(frame.axis[i], v.as<double>()));
+      hi = std::max(hi, dot(frame.axis[i], v.as<double>()));
+    }
+    EXPECT_EQ(frame.lo[i], lo);
+    EXPECT_EQ(frame.hi[i], hi);
+  }
+}
+
+TEST(PartFrame, CommonExtentIsTheSameByATree) {
+  const Part large = part_of(test::bumpy_mesh(1000, 60, 12, 60));
+  const Part small = part_of(test::bumpy_mesh(300, 10, 5, 8));
+  const PartTree tree(large);
+  const PartFrame f = make_frame(large), g = make_frame(small);
+  for (const std::int64_t at : {0, 500'000, 900'000}) {
+    const FramedPart b{{&small, {at, at / 2, 0}}, &g};
+    const Box3d plain = common_extent({{&large, {}}, &f}, b, 1000);
+    const Box3d by_tree = common_extent({{&large, {}}, &f, &tree}, b, 1000);
+    EXPECT_EQ(by_tree.lo, plain.lo);
+    EXPECT_EQ(by_tree.hi, plain.hi);
   }
 }
 
