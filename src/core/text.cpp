@@ -49,17 +49,23 @@ bool turns_writing(std::uint32_t code) {
          code == 0x200E || code == 0x200F || code == 0x061C;
 }
 
+TakenCharacter take_character(std::string_view& text) {
+  const Character c = first_character(text);
+  const std::string_view bytes = text.substr(0, c.length == 0 ? 1 : c.length);
+  text.remove_prefix(bytes.size());
+  return {c, bytes};
+}
+
+bool is_printable(const Character& c) {
+  return c.length != 0 && !is_control(c.code) && !turns_writing(c.code);
+}
+
 std::string printable(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
-    const Character c = first_character(text);
-    const std::size_t length = c.length == 0 ? 1 : c.length;
-    if (c.length == 0 || is_control(c.code) || turns_writing(c.code))
-      out += '?';
-    else
-      out += text.substr(0, length);
-    text.remove_prefix(length);
+    const TakenCharacter c = take_character(text);
+    out += is_printable(c) ? c.bytes : "?";
   }
   return out;
 }
@@ -135,9 +141,8 @@ std::string valid_utf8(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   for (move_run(out, text); !text.empty(); move_run(out, text)) {
-    const std::size_t length = first_character(text).length;
-    out += length == 0 ? kReplacement : text.substr(0, length);
-    text.remove_prefix(length == 0 ? 1 : length);
+    const TakenCharacter c = take_character(text);
+    out += c.length == 0 ? kReplacement : c.bytes;
   }
   return out;
 }
@@ -145,14 +150,13 @@ std::string valid_utf8(std::string_view text) {
 void append_json_string(std::string& out, std::string_view text) {
   out += '"';
   for (move_run(out, text); !text.empty(); move_run(out, text)) {
-    const Character c = first_character(text);
+    const TakenCharacter c = take_character(text);
     if (c.length == 0)
       out += kReplacement;
     else if (c.code < 0x20 || c.code == 0x7F || c.code == '"' || c.code == '\\')
-      append_escape(out, text.front());
+      append_escape(out, c.bytes.front());
     else
-      out += text.substr(0, c.length);
-    text.remove_prefix(c.length == 0 ? 1 : c.length);
+      out += c.bytes;
   }
   out += '"';
 }

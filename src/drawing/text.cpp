@@ -11,9 +11,8 @@ std::string xml_escaped(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
-    const Character c = first_character(text);
-    const std::size_t length = c.length == 0 ? 1 : c.length;
-    if (c.length == 0 || turns_writing(c.code) || is_control(c.code))
+    const TakenCharacter c = take_character(text);
+    if (!is_printable(c))
       out += kReplacement;
     else if (c.code == '&')
       out += "&amp;";
@@ -26,8 +25,7 @@ std::string xml_escaped(std::string_view text) {
     else if (c.code == '\'')
       out += "&#39;";
     else
-      out += text.substr(0, length);
-    text.remove_prefix(length);
+      out += c.bytes;
   }
   return out;
 }

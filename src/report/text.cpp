@@ -88,11 +88,8 @@ void append_mm_up(std::string& out, double mm) { append_mm(out, std::ceil(mm * k
 std::string fitted(std::string_view text, std::size_t columns) {
   std::vector<std::string_view> characters;
   while (!text.empty()) {
-    const Character c = first_character(text);
-    const std::size_t length = c.length == 0 ? 1 : c.length;
-    const bool shown = c.length != 0 && !is_control(c.code) && !turns_writing(c.code);
-    characters.push_back(shown ? text.substr(0, length) : std::string_view("?"));
-    text.remove_prefix(length);
+    const TakenCharacter c = take_character(text);
+    characters.push_back(is_printable(c) ? c.bytes : "?");
   }
   std::string out;
   if (characters.size() <= columns) {

@@ -21,6 +21,14 @@ struct Character {
 /// The well-formed UTF-8 character at the front of a text that is not empty.
 [[nodiscard]] Character first_character(std::string_view text);
 
+/// A character with its bytes: one where they are no UTF-8.
+struct TakenCharacter : Character {
+  std::string_view bytes;
+};
+
+/// Takes the first character off a text that is not empty.
+[[nodiscard]] TakenCharacter take_character(std::string_view& text);
+
 /// Whether all of it is well-formed UTF-8: no overlong forms, no surrogates.
 [[nodiscard]] bool is_utf8(std::string_view text);
 
@@ -37,7 +45,11 @@ void append_utf8(std::string& out, std::uint32_t code);
 /// another order than it is.
 [[nodiscard]] bool turns_writing(std::uint32_t code);
 
-/// The text with '?' for everything that is no UTF-8, commands a terminal or turns the writing.
+/// Whether a character may stand where people read it: it is UTF-8, commands no terminal and turns
+/// no writing.
+[[nodiscard]] bool is_printable(const Character& c);
+
+/// The text with '?' for everything that is not printable.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// The text with U+FFFD for bytes that are no UTF-8, and otherwise as it is.
