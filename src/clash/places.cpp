@@ -64,6 +64,7 @@ class PairPlaces {
     auto found = geometry::find_meeting_places(
         a_.treed, b_.treed,
         {.reach = reach,
+         .distance = std::max(whole_.separation.d, 0.0),
          .interiors_meet = whole_.separation.interiors_meet,
          .one = one,
          .most_pairs = std::max(kLeastPairs, kPairsPerTriangle * (part_a_.triangles.size() +

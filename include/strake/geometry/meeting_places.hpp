@@ -29,6 +29,7 @@ enum class OnePlace : std::uint8_t {
 
 struct PlacesQuestion {
   double reach = 0;             ///< how near is near, grid units
+  double distance = 0;          ///< of the two, where known: tells only how best to go about it
   bool interiors_meet = false;  ///< as meet() found
   OnePlace one = OnePlace::described;
   std::uint64_t most_pairs = std::uint64_t{1} << 22U;  ///< of near triangles, before it is given up

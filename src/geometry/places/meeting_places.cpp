@@ -36,7 +36,9 @@ class Places {
 
   std::optional<std::vector<MeetingPlace>> find(PairWork& work) {
     const OnePlace one = question_.one;
-    auto pairs = near_triangles(a_, b_, {.reach = reach_, .most = most_at_first()}, work);
+    std::optional<std::vector<NearTriangles>> pairs;
+    if (one == OnePlace::described || !wide())
+      pairs = near_triangles(a_, b_, {.reach = reach_, .most = most_at_first()}, work);
     if (!pairs && one != OnePlace::described) {
       const bool boxed = one == OnePlace::boxed;
       if (const auto box = single_place(a_, b_, {.reach = reach_, .boxed = boxed}, work)) {
@@ -82,6 +84,16 @@ class Places {
   /// Near pairs for each triangle of the two that are joined one by one before a shorter way to a
   /// single place is tried.
   static constexpr std::uint64_t kFewPerTriangle = 1;
+
+  /// Whether what the nearest points leave of the reach is so wide against the smaller part that
+  /// more than a few triangles will be near.
+  [[nodiscard]] bool wide() const {
+    const auto size = [](const Part& part) {
+      const Vec3d d = part.box.hi.as<double>() - part.box.lo.as<double>();
+      return std::max({d.x, d.y, d.z});
+    };
+    return 4 * (question_.reach - question_.distance) > std::min(size(a_.part()), size(b_.part()));
+  }
 
   [[nodiscard]] std::uint64_t most_at_first() const {
     if (question_.one == OnePlace::described) return question_.most_pairs;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -83,6 +85,9 @@ class Vertices {
   std::vector<double> x_, y_, z_;
 };
 
+/// Of the second part and of the first.
+using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;
+
 double squared_distance(const Vec3d& p, const Vec3d& q) { return dot(p - q, p - q); }
 
 /// The corners of the first part that are within reach of each triangle of the second, and in which
@@ -97,15 +102,18 @@ class NearCorners {
         vertices_(a),
         near_vertex_(b.part().vertices.size(), vertices_.size()),
         rows_(triangles.size(), vertices_.size()),
-        pieces_(triangles.size()) {
+        pieces_(triangles.size()),
+        apart_(vertices_.size()) {
     for (std::uint32_t v = 0; v < b.part().vertices.size(); ++v)
       vertices_.near(b.vertex(v).as<double>(), squared, near_vertex_.row(v));
+    const std::vector<double> limits = limits_of(a, squared);
     first_.reserve(triangles.size() + 1);
     std::uint32_t count = 0;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       first_.push_back(count);
-      fill(t, triangles[t]);
-      count += find_pieces(t);
+      const std::size_t near = fill(t, triangles[t]);
+      if (near < vertices_.size()) list_between(t, limits);
+      count += find_pieces(t, near);
     }
     first_.push_back(count);
   }
@@ -114,6 +122,8 @@ class NearCorners {
   [[nodiscard]] std::span<const Word> row(std::uint32_t t) const { return rows_.row(t); }
   /// Of all rows.
   [[nodiscard]] std::uint32_t pieces() const { return first_.back(); }
+  /// The pairs of triangles that may be near, but not at a corner of the first; ascending.
+  [[nodiscard]] const std::vector<TrianglePair>& between() const { return between_; }
   /// The number of the piece that a corner near a triangle is in.
   [[nodiscard]] std::uint32_t piece(std::uint32_t u, std::uint32_t t) const {
     return first_[t] + (pieces_[t].empty() ? 0 : pieces_[t][u]);
@@ -137,7 +147,8 @@ class NearCorners {
  private:
   [[nodiscard]] bool in_one_piece(std::uint32_t t) const { return first_[t + 1] == first_[t] + 1; }
 
-  void fill(std::uint32_t t, const DoubleTriangle& triangle) {
+  /// Returns how many corners are near.
+  std::size_t fill(std::uint32_t t, const DoubleTriangle& triangle) {
     const std::span<Word> row = rows_.row(t);
     for (const std::uint32_t v : b_.part().triangles[t]) {
       const std::span<const Word> near = std::as_const(near_vertex_).row(v);
@@ -146,9 +157,40 @@ class NearCorners {
     for (std::uint32_t u = 0; u < vertices_.size(); ++u) {
       if (test(row, u)) continue;
       const Vec3d p = vertices_.at(u);
-      if (squared_gap(p, triangle.box) <= squared_ &&
-          squared_distance(p, nearest_on_triangle(p, triangle.corner)) <= squared_)
-        row[u / kWordBits] |= Word{1} << (u % kWordBits);
+      apart_[u] = squared_gap(p, triangle.box);
+      if (apart_[u] > squared_) continue;
+      apart_[u] = squared_distance(p, nearest_on_triangle(p, triangle.corner));
+      if (apart_[u] <= squared_) row[u / kWordBits] |= Word{1} << (u % kWordBits);
+    }
+    std::size_t count = 0;
+    for (const Word word : row) count += static_cast<std::size_t>(std::popcount(word));
+    return count;
+  }
+
+  /// How near one corner of each triangle has to be, squared, for any point of it to be within
+  /// reach: no point of a triangle is farther from all corners than its longest edge over the root
+  /// of 3.
+  static std::vector<double> limits_of(const PartView& view, double squared) {
+    std::vector<double> limits;
+    limits.reserve(view.part().triangles.size());
+    for (const Triangle& t : view.part().triangles) {
+      const Corners c = corners_of(view.part(), t);
+      const double longest =
+          std::sqrt(std::max({squared_distance(c[0], c[1]), squared_distance(c[1], c[2]),
+                              squared_distance(c[2], c[0])}));
+      const double limit = std::sqrt(squared) + longest / std::numbers::sqrt3 + kCutMargin;
+      limits.push_back(limit * limit);
+    }
+    return limits;
+  }
+
+  void list_between(std::uint32_t t, const std::vector<double>& limits) {
+    const auto& triangles = a_.part().triangles;
+    const auto row = std::as_const(rows_).row(t);
+    for (std::uint32_t s = 0; s < triangles.size(); ++s) {
+      const Triangle& c = triangles[s];
+      if (!test_any(row, c) && std::min({apart_[c[0]], apart_[c[1]], apart_[c[2]]}) <= limits[s])
+        between_.emplace_back(t, s);
     }
   }
 
@@ -166,13 +208,11 @@ class NearCorners {
       }
   }
 
-  /// Returns how many pieces there are.
-  std::uint32_t find_pieces(std::uint32_t t) {
+  /// Of a row with so many corners; returns how many pieces there are.
+  std::uint32_t find_pieces(std::uint32_t t, std::size_t set) {
     const auto bits = row(t);
     const Part& part = a_.part();
     const std::size_t all = vertices_.size();
-    std::size_t set = 0;
-    for (const Word word : bits) set += static_cast<std::size_t>(std::popcount(word));
     if (set <= 1) return static_cast<std::uint32_t>(set);
     if (set == all && whole_is_one_) return 1;
     sets_.reset(all);
@@ -204,6 +244,8 @@ class NearCorners {
   BitRows rows_;         ///< by triangle of the second part: likewise
   std::vector<std::vector<std::uint32_t>> pieces_;  ///< by row with several, by corner
   std::vector<std::uint32_t> first_;                ///< piece, by row; one more at the end
+  std::vector<TrianglePair> between_;
+  std::vector<double> apart_;  ///< by corner: a bound on its squared distance, of the row at hand
   DisjointSets sets_;
   bool whole_is_one_ = false;  ///< whether all corners are known to hang together
 };
@@ -258,16 +300,11 @@ class SinglePlace {
   }
 
  private:
-  /// The pairs of triangles that are near, but not at a corner of the first.
   void find_between() {
-    const Box3d all_a = a_.box(a_.part().box).as<double>();
-    const auto& triangles = a_.part().triangles;
-    for (std::uint32_t t = 0; t < of_b_.size(); ++t) {
-      if (squared_gap(all_a, of_b_[t].box) > squared_) continue;
-      for (std::uint32_t s = 0; s < triangles.size(); ++s)
-        if (!test_any(corners_.row(t), triangles[s]) &&
-            squared_gap(of_a_[s].box, of_b_[t].box) <= squared_ && near(s, t))
-          between_.emplace_back(t, s);
+    for (const TrianglePair& pair : corners_.between()) {
+      const auto [t, s] = pair;
+      if (squared_gap(of_a_[s].box, of_b_[t].box) <= squared_ && near(s, t))
+        between_.push_back(pair);
     }
   }
 
@@ -324,7 +361,7 @@ class SinglePlace {
   std::vector<DoubleTriangle> of_a_, of_b_;
   NearCorners corners_;
   PairWork& work_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> between_;  ///< (of b, of a), ascending
+  std::vector<TrianglePair> between_;  ///< near, but not at a corner of the first; ascending
   DisjointSets sets_;
 };
 
