@@ -166,7 +166,7 @@ class Engine {
         static_cast<std::uint64_t>(std::count(sets_.in_a.begin(), sets_.in_a.end(), true));
     report.objects_b =
         static_cast<std::uint64_t>(std::count(sets_.in_b.begin(), sets_.in_b.end(), true));
-    report.contact_distance_mm = pair_options_.widest_band() / geometry::kGridPerMm;
+    report.contact_distance_mm = pair_options_.widest_band(list_.parts) / geometry::kGridPerMm;
     if (report.objects_a == 0 || report.objects_b == 0)
       report.diagnostics.add(
           Severity::warning, "empty-set", "a set without objects clashes with nothing",

@@ -55,10 +55,11 @@ Status check(const Options& o, const Sets& sets, std::size_t objects) {
   return {};
 }
 
-double contact_distance(const Options& options, double precision_mm) {
+double contact_distance(const Options& options, float precision_um) {
+  static_assert(geometry::kGridPerMm == 1000, "a grid unit is a micrometre");
   if (options.contact_distance_mm >= 0) return options.contact_distance_mm * geometry::kGridPerMm;
   // Two ulp are four of the half spacings that a source states.
-  return std::max(3.0, 4 * precision_mm * geometry::kGridPerMm);
+  return std::max(3.0, 4 * static_cast<double>(precision_um));
 }
 
 Sets one_set(const model::Scene& scene) {

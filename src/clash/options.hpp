@@ -13,7 +13,7 @@ namespace strake::clash {
 /// A usage error for a tolerance that makes no sense or sets of the wrong size.
 [[nodiscard]] Status check(const Options& options, const Sets& sets, std::size_t objects);
 
-/// The contact distance δ in grid units of geometry whose source has this precision.
-[[nodiscard]] double contact_distance(const Options& options, double precision_mm);
+/// The contact distance δ in grid units of a body whose source has this precision.
+[[nodiscard]] double contact_distance(const Options& options, float precision_um);
 
 }  // namespace strake::clash

@@ -10,14 +10,12 @@
 namespace strake::clash {
 
 PairOptions::PairOptions(const PairRules& rules, const Options& options, const model::Model& model)
-    : rules_(rules), model_(model) {
+    : rules_(rules), options_(options), model_(model) {
   for (const Tolerances& t : rules.all())
     narrow_.push_back({.touch_overlap = t.touch_overlap_mm * geometry::kGridPerMm,
                        .touch_gap = t.touch_gap_mm * geometry::kGridPerMm,
                        .clearance = t.clearance_mm * geometry::kGridPerMm,
                        .thickness_cap = t.thickness_cap == ThicknessCap::on});
-  for (const model::SourceFile& file : model.files)
-    bands_.push_back(contact_distance(options, file.precision_mm));
 }
 
 NarrowOptions PairOptions::of(const PartRef& a, const PartRef& b) const {
@@ -31,9 +29,9 @@ CaseSettings PairOptions::settings(const PartRef& a, const PartRef& b) const {
           std::max(band(a), band(b))};
 }
 
-double PairOptions::widest_band() const {
-  double widest = 0;
-  for (const double b : bands_) widest = std::max(widest, b);
+double PairOptions::widest_band(std::span<const PartRef> parts) const {
+  double widest = contact_distance(options_, 0);
+  for (const PartRef& part : parts) widest = std::max(widest, band(part));
   return widest;
 }
 
@@ -44,7 +42,7 @@ double PairOptions::least_touch_gap() const {
 }
 
 double PairOptions::band(const PartRef& part) const {
-  return bands_[model_.objects[part.object].file];
+  return contact_distance(options_, model_.bodies[part.body].precision_um);
 }
 
 }  // namespace strake::clash

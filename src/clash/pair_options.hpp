@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "clash/cases.hpp"
@@ -10,18 +11,18 @@
 namespace strake::clash {
 
 /// What each pair of parts is judged by: the tolerances that the rules give it, and the precision
-/// of the files that its objects come from.
+/// that the source's numbers have for its two bodies, whatever else there is in the files.
 class PairOptions {
  public:
-  /// `rules` and `model` must outlive this.
+  /// `rules`, `options` and `model` must outlive this.
   PairOptions(const PairRules& rules, const Options& options, const model::Model& model);
 
   [[nodiscard]] NarrowOptions of(const PartRef& a, const PartRef& b) const;
   /// The same, to compare pairs by.
   [[nodiscard]] CaseSettings settings(const PartRef& a, const PartRef& b) const;
 
-  /// The largest contact distance of a file, grid units.
-  [[nodiscard]] double widest_band() const;
+  /// The largest contact distance of a part, grid units.
+  [[nodiscard]] double widest_band(std::span<const PartRef> parts) const;
   /// The smallest touch gap of any pair, grid units.
   [[nodiscard]] double least_touch_gap() const;
 
@@ -29,9 +30,9 @@ class PairOptions {
   [[nodiscard]] double band(const PartRef& part) const;
 
   const PairRules& rules_;
+  const Options& options_;
   const model::Model& model_;
   std::vector<NarrowOptions> narrow_;  ///< by number of tolerances
-  std::vector<double> bands_;          ///< contact distance by file
 };
 
 }  // namespace strake::clash

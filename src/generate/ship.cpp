@@ -206,8 +206,9 @@ model::Model assemble(Yard& yard, const std::vector<Handle>& order, const ShipOp
                          {"weight_kg", fmt::format("{:.2f}", yard.volumes_mm3()[built.shape] *
                                                                  discipline.kg_per_mm3)}};
     model.objects.push_back(std::move(object));
-    model.bodies.push_back({model::ShapeId{built.shape}, placement_of(built.frame, options.turned),
-                            kind.color, model::Category::physical});
+    model.bodies.push_back({model::ShapeId{built.shape}, 0,
+                            placement_of(built.frame, options.turned), kind.color,
+                            model::Category::physical});
   }
   model.shapes = yard.take_shapes();
   return model;

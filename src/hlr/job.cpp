@@ -50,13 +50,12 @@ Vec3l reduced(const Vec3l& d) {
   return {d.x / g, d.y / g, d.z / g};
 }
 
-std::int64_t contact_of(const model::Model& model, const model::GridBody& body,
-                        const Options& options) {
+std::int64_t contact_of(const model::Body& body, const Options& options) {
   if (options.contact_distance_mm >= 0)
     return std::llround(options.contact_distance_mm * geometry::kGridPerMm);
-  const double half_ulp = model.files[model.object(body.object).file].precision_mm;
-  if (!(half_ulp > 0)) return kLeastContact;
-  const double two_ulp = std::ceil(std::min(4 * half_ulp, kMaxContactMm) * geometry::kGridPerMm);
+  static_assert(geometry::kGridPerMm == 1000, "a grid unit is a micrometre");
+  const double two_ulp = std::ceil(
+      std::min(4 * static_cast<double>(body.precision_um), kMaxContactMm * geometry::kGridPerMm));
   return std::max(kLeastContact, static_cast<std::int64_t>(two_ulp));
 }
 
@@ -68,8 +67,9 @@ void fill_bodies(Job& job) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const model::GridBody& body = scene.bodies[b];
     if (!job.drawn[model::index(body.object)]) continue;
-    job.opaque[b] = scene.model->bodies[body.body].color.alpha == 255;
-    job.contact[b] = contact_of(*scene.model, body, job.options);
+    const model::Body& placed = scene.model->bodies[body.body];
+    job.opaque[b] = placed.color.alpha == 255;
+    job.contact[b] = contact_of(placed, job.options);
     largest = std::max(largest, job.contact[b]);
   }
   job.contact_distance_mm = static_cast<double>(largest) * geometry::kMmPerGrid;

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/precision.hpp"
+
 namespace strake::io {
 
 namespace {
@@ -35,7 +37,10 @@ model::Model start_model(const FileBytes& file, std::string format, const ReadOp
 }
 
 Result<model::Model> end_model(const FileBytes& file, model::Model&& model) {
-  if (!model.objects.empty()) return std::move(model);
+  if (!model.objects.empty()) {
+    settle_precision(file, model);
+    return std::move(model);
+  }
   const auto& kept = model.diagnostics.kept();
   const auto reason = std::find_if(kept.begin(), kept.end(), [](const Diagnostic& d) {
     return d.severity == Severity::skipped;
@@ -58,10 +63,11 @@ std::string lower_extension(const std::filesystem::path& path) {
 }
 
 void add_body(model::Model& model, model::Object& object, model::Shape shape,
-              const model::Color& color) {
+              const BodyLook& look) {
   model::Body body;
   body.shape = static_cast<model::ShapeId>(model.shapes.size());
-  body.color = color;
+  body.precision_um = precision_um(look.half_spacing_mm);
+  body.color = look.color;
   model.shapes.push_back(std::move(shape));
   model.bodies.push_back(body);
   ++object.body_count;

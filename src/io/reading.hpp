@@ -14,7 +14,8 @@ namespace strake::io {
 [[nodiscard]] model::Model start_model(const FileBytes& file, std::string format,
                                        const ReadOptions& options, const FrameDefault& fallback);
 
-/// What every reader ends with: the model, or an error when no object is left of the file.
+/// What every reader ends with: the model and what its numbers can carry, or an error when no
+/// object is left of the file.
 [[nodiscard]] Result<model::Model> end_model(const FileBytes& file, model::Model&& model);
 
 [[nodiscard]] Error cancelled(const FileBytes& file);
@@ -22,8 +23,13 @@ namespace strake::io {
 /// Extension in lower case, with the point: ".obj".
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
+/// What a body has besides its shape and place.
+struct BodyLook {
+  model::Color color = {};
+  double half_spacing_mm = 0;  ///< of the numbers that say where it is
+};
+
 /// Appends a body with a shape of its own to the object that owns the last bodies of the model.
-void add_body(model::Model& model, model::Object& object, model::Shape shape,
-              const model::Color& color);
+void add_body(model::Model& model, model::Object& object, model::Shape shape, const BodyLook& look);
 
 }  // namespace strake::io

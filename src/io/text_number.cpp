@@ -113,7 +113,7 @@ bool read_number(const char*& at, const char* end, double& value, DigitStatistic
   } else {
     if (!simple_value(scan, value)) value = hard_value(scan, begin);
     const auto capped = [](std::int64_t n) {
-      return static_cast<int>(std::clamp<std::int64_t>(n, 0, 1000));
+      return static_cast<std::int16_t>(std::clamp<std::int64_t>(n, 0, 1000));
     };
     digits.most_significant_digits =
         std::max(digits.most_significant_digits, capped(scan.significant));
@@ -132,8 +132,10 @@ double text_half_spacing(const DigitStatistics& digits, double magnitude) {
   // of significant digits: the fewer decimals of the two hold at the largest coordinate.
   int whole_digits = 0;
   for (double size = magnitude; size >= 1 && whole_digits < 400; size /= 10) ++whole_digits;
+  if (digits.most_decimals == 0 && digits.most_significant_digits >= whole_digits)
+    return float32_half_spacing(magnitude);
   const int decimals =
-      std::min(digits.most_decimals, digits.most_significant_digits - whole_digits);
+      std::min<int>(digits.most_decimals, digits.most_significant_digits - whole_digits);
   double spacing = 1;
   for (int i = 0; i < decimals; ++i) spacing /= 10;
   for (int i = 0; i > decimals; --i) spacing *= 10;

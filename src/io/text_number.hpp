@@ -6,10 +6,11 @@
 
 namespace strake::io {
 
-/// How finely a text file writes its numbers: what its precision is judged by.
+/// How finely a text writes the numbers of an object: what their precision is judged by. Small,
+/// because vertices of a pool that many objects share have each their own.
 struct DigitStatistics {
-  int most_significant_digits = 0;  ///< as written, from the first digit that is not zero
-  int most_decimals = 0;            ///< digits after the point, exponent applied
+  std::int16_t most_significant_digits = 0;  ///< as written, from the first digit that is not zero
+  std::int16_t most_decimals = 0;            ///< digits after the point, exponent applied
 
   void merge(const DigitStatistics& other);
 };
@@ -22,7 +23,8 @@ struct DigitStatistics {
                                DigitStatistics& digits);
 
 /// Half the spacing of numbers written so at this magnitude, in their unit. Numbers of at most
-/// five digits are taken as exact design values that went through float32.
+/// five digits, and whole ones written in full, are taken as exact design values that went through
+/// float32.
 [[nodiscard]] double text_half_spacing(const DigitStatistics& digits, double magnitude);
 
 /// A number that may be a coordinate: finite, with room for any unit to scale it.

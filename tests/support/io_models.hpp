@@ -43,7 +43,7 @@ inline model::Object& add_object(model::Model& model, const std::string& id, std
 
 inline void add_body(model::Model& model, model::ShapeId shape,
                      const geometry::Placement& placement, const model::Color& color = {}) {
-  model.bodies.push_back({shape, placement, color, model::Category::physical});
+  model.bodies.push_back({shape, 0, placement, color, model::Category::physical});
   ++model.objects.back().body_count;
 }
 

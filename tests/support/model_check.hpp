@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -40,8 +41,6 @@ namespace strake::test {
 [[nodiscard]] inline std::string model_fault(const model::Model& model) {
   if (model.files.size() != 1) return "not one file";
   if (model.objects.empty()) return "no objects and yet no error";
-  if (!std::isfinite(model.files[0].precision_mm) || model.files[0].precision_mm < 0)
-    return "a precision that is no length";
   for (const model::Shape& shape : model.shapes)
     if (std::string fault = shape_fault(shape); !fault.empty()) return fault;
   for (std::size_t i = 0; i < model.groups.size(); ++i)
@@ -55,8 +54,15 @@ namespace strake::test {
       return "an object in a group that does not exist";
     if (object.id.empty()) return "an object without an id";
   }
-  for (const model::Body& body : model.bodies)
+  float worst_um = 0;
+  for (const model::Body& body : model.bodies) {
     if (model::index(body.shape) >= model.shapes.size()) return "a body without a shape";
+    if (!std::isfinite(body.precision_um) || body.precision_um < 0)
+      return "a body with a precision that is no length";
+    worst_um = std::max(worst_um, body.precision_um);
+  }
+  if (model.files[0].precision_mm != static_cast<double>(worst_um) / 1000)
+    return "a precision of the file that is not the worst of its bodies";
   return {};
 }
 

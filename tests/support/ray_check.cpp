@@ -44,12 +44,14 @@ struct Facet {
   std::array<Vec3l, 3> corner;  ///< counter-clockwise to the viewer
   std::uint32_t object = 0;
   std::uint32_t part = 0;  ///< number of the part within its object
+  std::uint32_t body = 0;  ///< of the model
 };
 
 /// An edge of a mesh, or a segment of a wire.
 struct Segment {
   Vec3l a, b;
   std::uint32_t part = 0;  ///< number of the part within its object
+  std::uint32_t body = 0;  ///< of the model
 };
 
 /// The point of a segment that is judged: at / scale.
@@ -173,7 +175,7 @@ std::vector<Facet> facets_of(const model::Scene& scene, const Vec3l& d, const Ve
     for_each_part(scene, object, origin, [&](const auto& part, auto number, auto at, auto& body) {
       if (scene.model->bodies[body.body].color.alpha != 255) return;
       for (const geometry::Triangle& t : part.triangles) {
-        Facet f{{}, object, number};
+        Facet f{{}, object, number, body.body};
         for (std::size_t k = 0; k < 3; ++k)
           f.corner[k] = part.vertices[t[k]].template as<std::int64_t>() + at;
         const Int128 facing = dot(cross(f.corner[1] - f.corner[0], f.corner[2] - f.corner[0]), d);
@@ -189,11 +191,11 @@ std::vector<Facet> facets_of(const model::Scene& scene, const Vec3l& d, const Ve
 std::vector<Segment> segments_of(const model::Scene& scene, std::uint32_t object,
                                  const Vec3l& origin, bool wires) {
   std::vector<Segment> segments;
-  for_each_part(scene, object, origin, [&](const auto& part, auto number, auto at, auto&) {
+  for_each_part(scene, object, origin, [&](const auto& part, auto number, auto at, auto& body) {
     const auto add = [&](std::uint32_t v, std::uint32_t w) {
       const Vec3l p = part.vertices[v].template as<std::int64_t>() + at;
       const Vec3l q = part.vertices[w].template as<std::int64_t>() + at;
-      segments.push_back({p, q, number});
+      segments.push_back({p, q, number, body.body});
     };
     if (!wires)
       for (const geometry::Triangle& t : part.triangles)
@@ -323,7 +325,7 @@ class Checker {
       const std::optional<unsigned> sides = sides_under(f, d_, p);
       if (sides == kNeither) continue;
       const std::int64_t contact =
-          same && f.part == s.part ? 0 : std::max(contact_of(f.object), contact_of(object));
+          same && f.part == s.part ? 0 : std::max(contact_of(f.body), contact_of(s.body));
       if (!is_deeper(f, p, contact)) continue;
       found.decided = found.decided && sides.has_value();
       found.all |= sides.value_or(kNeither);
@@ -333,11 +335,10 @@ class Checker {
   }
 
   // The rule of docs/hlr.md, written once more: 3 units or two spacings of the source's numbers.
-  [[nodiscard]] std::int64_t contact_of(std::uint32_t object) const {
+  [[nodiscard]] std::int64_t contact_of(std::uint32_t body) const {
     if (options_.contact_distance_mm >= 0) return std::llround(options_.contact_distance_mm * 1000);
-    const model::Object& o = scene_.model->objects[object];
-    const double half = scene_.model->files[o.file].precision_mm;
-    return std::max<std::int64_t>(3, std::llround(std::ceil(4 * half * 1000)));
+    const auto half = static_cast<double>(scene_.model->bodies[body].precision_um);
+    return std::max<std::int64_t>(3, std::llround(std::ceil(4 * half)));
   }
 
   const model::Scene& scene_;

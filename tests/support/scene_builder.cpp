@@ -110,11 +110,6 @@ SceneBuilder::SceneBuilder()
   model_->files.push_back({.label = "hand", .format = "hand", .unit = "um", .up_axis = "z"});
 }
 
-SceneBuilder& SceneBuilder::precision_mm(double value) {
-  model_->files[0].precision_mm = value;
-  return *this;
-}
-
 SceneBuilder& SceneBuilder::primitive(std::uint32_t shape, const geometry::Primitive& value) {
   scene_->shapes[shape].parts[0].primitive = value;
   return *this;

@@ -39,7 +39,6 @@ struct HandBody {
 class SceneBuilder {
  public:
   SceneBuilder();
-  SceneBuilder& precision_mm(double value);
   /// A body with a shape of its own.
   SceneBuilder& object(std::initializer_list<HandBody> bodies);
   SceneBuilder& object(const std::vector<HandBody>& bodies);

@@ -47,6 +47,9 @@ enum class Category : std::uint8_t {
 /// One placed shape of an object.
 struct Body {
   ShapeId shape{};
+  /// Half the spacing of the numbers that the source has for this body, µm: what its contact
+  /// distance is derived from. 0: they are exact. (A float fills a gap that would be empty.)
+  float precision_um = 0;
   geometry::Placement placement;  ///< local mm to world mm, z up
   Color color;
   Category category = Category::physical;
@@ -86,8 +89,7 @@ struct SourceFile {
   std::string unit;     ///< the length unit applied, "mm" …, and whether stated, assumed or given
   std::string up_axis;  ///< "z", "y", …
   std::uint64_t bytes = 0;
-  /// Half the spacing of the source's numbers at its largest world coordinate, in mm: what the
-  /// contact distance of its geometry is derived from.
+  /// Half the spacing of the source's numbers, in mm: the worst of its bodies.
   double precision_mm = 0;
   std::string folders =
       {};  ///< it lies in, the outermost first, a '/' behind each; empty: not known

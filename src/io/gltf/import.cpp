@@ -16,6 +16,7 @@
 #include "io/gltf/mesh.hpp"
 #include "io/gltf/node.hpp"
 #include "io/gltf/scene.hpp"
+#include "io/precision.hpp"
 #include "io/reading.hpp"
 #include "io/source_frame.hpp"
 #include "strake/core/hash.hpp"
@@ -47,8 +48,25 @@ struct MeshShapes {
   };
   std::vector<Part> parts;
   geometry::Box3d box = geometry::empty_box<double>();
-  double step_mm = 0;
+  double half_spacing_mm = 0;  ///< of its vertices' numbers
 };
+
+/// Where a mesh goes.
+struct Place {
+  Placement world;             ///< file frame
+  double half_spacing_mm = 0;  ///< of the numbers that say where; 0: doubles
+};
+
+/// Of the numbers of a node, in the unit of the file. They are decimals, but of many writers such
+/// as float32 has.
+double half_spacing_of(const Placement& local) {
+  if (!came_through_float32(local.translation)) return 0;
+  return float32_half_spacing(largest_coordinate(std::array{local.translation}));
+}
+
+double largest_coordinate_of(const geometry::Box3d& box) {
+  return box.empty() ? 0 : largest_coordinate(std::array{box.lo, box.hi});
+}
 
 /// What naming each instance of a node copies for it.
 std::uint64_t attribute_bytes(const Node& node) {
@@ -93,14 +111,14 @@ class Importer {
   void adopt_meshes();
   void place_all();
   void place(const Visit& visit, std::size_t self);
-  void place_instances(const Node& node, model::GroupId parent, const Placement& world);
+  void place_instances(const Node& node, model::GroupId parent, const Place& here);
   struct Element {
     std::string name, id;
     model::Attributes attributes;
   };
   void add_object(const Node& node, Element element, model::GroupId parent,
-                  std::span<const Placement> placements);
-  bool add_bodies(const MeshShapes& mesh, const Placement& world);
+                  std::span<const Place> places);
+  bool add_bodies(const MeshShapes& mesh, const Place& place);
   [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name);
   void skip(const Node& node, const Fault& fault);
   [[nodiscard]] Error refusal(std::string message) const {
@@ -113,6 +131,7 @@ class Importer {
 
   struct Placed {
     Placement world;                              ///< file frame
+    double half_spacing_mm = 0;                   ///< as of a Place
     model::GroupId group = model::GroupId::none;  ///< that its children stand in
     const Fault* fault = nullptr;                 ///< its own or an ancestor's
   };
@@ -134,7 +153,6 @@ class Importer {
   std::vector<Placed> placed_;      ///< per visit
   std::vector<std::string> paths_;  ///< per group, '/' at the end; empty: nobody asked yet
   model::Model model_;
-  double largest_mm_ = 0, step_mm_ = 0;
 };
 
 Status Importer::parse_nodes() {
@@ -228,7 +246,6 @@ void Importer::adopt_meshes() {
     LoadedMesh& loaded = loaded_[i];
     MeshShapes& shapes = shapes_[used_[i]];
     mesh_faults_[used_[i]] = std::move(loaded.fault);
-    shapes.step_mm = loaded.step * frame_.unit_mm;
     const auto adopt = [&](auto&& geometry, const std::vector<Vec3d>& points,
                            const model::Color& color) {
       for (const Vec3d& point : points) shapes.box.include(point);
@@ -241,6 +258,9 @@ void Importer::adopt_meshes() {
       adopt(std::move(loaded.transparent), loaded.transparent.vertices, loaded.transparent_color);
     if (!loaded.lines.points.empty())
       adopt(std::move(loaded.lines), loaded.lines.points, loaded.line_color);
+    const double largest = largest_coordinate_of(shapes.box) / frame_.unit_mm;
+    shapes.half_spacing_mm =
+        frame_.unit_mm * std::max(float32_half_spacing(largest), loaded.step / 2);
   }
   loaded_.clear();
 }
@@ -269,33 +289,28 @@ void Importer::skip(const Node& node, const Fault& fault) {
                          place_text(fault.pointer));
 }
 
-bool Importer::add_bodies(const MeshShapes& mesh, const Placement& world) {
-  const Placement placement = frame_.placement(world);
-  double largest = 0;
+bool Importer::add_bodies(const MeshShapes& mesh, const Place& place) {
+  const Placement placement = frame_.placement(place.world);
   for (unsigned corner = 0; corner < 8; ++corner) {
     const Vec3d p = placement * Vec3d{(corner & 1U) != 0 ? mesh.box.hi.x : mesh.box.lo.x,
                                       (corner & 2U) != 0 ? mesh.box.hi.y : mesh.box.lo.y,
                                       (corner & 4U) != 0 ? mesh.box.hi.z : mesh.box.lo.z};
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
-    largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   }
-  largest_mm_ = std::max(largest_mm_, largest);
-  if (mesh.step_mm > 0)
-    for (const Vec3d& row : placement.linear.row) {
-      const double step_mm = mesh.step_mm * std::sqrt(dot(row, row));
-      if (std::isfinite(step_mm)) step_mm_ = std::max(step_mm_, step_mm);
-    }
+  const float precision = precision_um(
+      std::max(mesh.half_spacing_mm * scale_of(placement.linear), place.half_spacing_mm));
   for (const MeshShapes::Part& part : mesh.parts)
-    model_.bodies.push_back({part.shape, placement, part.color, model::Category::physical});
+    model_.bodies.push_back(
+        {part.shape, precision, placement, part.color, model::Category::physical});
   return true;
 }
 
 void Importer::add_object(const Node& node, Element element, model::GroupId parent,
-                          std::span<const Placement> placements) {
+                          std::span<const Place> places) {
   const MeshShapes& mesh = shapes_[*node.mesh];
   const std::size_t first = model_.bodies.size();
-  for (const Placement& placement : placements)
-    if (!add_bodies(mesh, placement)) {
+  for (const Place& place : places)
+    if (!add_bodies(mesh, place)) {
       model_.bodies.resize(first);
       return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it is placed beyond all bounds"});
     }
@@ -309,20 +324,25 @@ void Importer::add_object(const Node& node, Element element, model::GroupId pare
   model_.objects.push_back(std::move(object));
 }
 
-void Importer::place_instances(const Node& node, model::GroupId parent, const Placement& world) {
+void Importer::place_instances(const Node& node, model::GroupId parent, const Place& here) {
   Instances instances = read_instances(node, accessors_);
   if (instances.fault) return skip(node, *instances.fault);
-  for (Placement& placement : instances.placements) placement = world * placement;
-  if (instances.placements.empty())
+  const double scale_mm = frame_.unit_mm * scale_of(here.world.linear);
+  std::vector<Place> places;
+  places.reserve(instances.placements.size());
+  for (std::size_t i = 0; i < instances.placements.size(); ++i)
+    places.push_back({here.world * instances.placements[i],
+                      std::max(here.half_spacing_mm, scale_mm * instances.half_spacing(i))});
+  if (places.empty())
     return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it has no instances"});
   if (instances.names.empty())
-    return add_object(node, {node.name, node.id, node.attributes}, parent, instances.placements);
+    return add_object(node, {node.name, node.id, node.attributes}, parent, places);
   // Named instances are elements of their own below the node.
   const auto group = static_cast<model::GroupId>(model_.groups.size());
   model_.groups.push_back({node.name, parent});
-  for (std::size_t i = 0; i < instances.placements.size(); ++i)
+  for (std::size_t i = 0; i < places.size(); ++i)
     add_object(node, {std::move(instances.names[i]), std::move(instances.ids[i]), node.attributes},
-               group, std::span(instances.placements).subspan(i, 1));
+               group, std::span(places).subspan(i, 1));
 }
 
 void Importer::place(const Visit& visit, std::size_t self) {
@@ -330,6 +350,9 @@ void Importer::place(const Visit& visit, std::size_t self) {
   const Placed above = visit.parent == kNoVisit ? Placed{} : placed_[visit.parent];
   Placed& here = placed_[self];
   here.world = visit.parent == kNoVisit ? node.local : above.world * node.local;
+  here.half_spacing_mm =
+      std::max(above.half_spacing_mm,
+               frame_.unit_mm * scale_of(above.world.linear) * half_spacing_of(node.local));
   here.group = above.group;
   here.fault = above.fault != nullptr ? above.fault : node.fault ? &*node.fault : nullptr;
   if (!node.children.empty()) {
@@ -342,10 +365,11 @@ void Importer::place(const Visit& visit, std::size_t self) {
   if (const auto& fault = mesh_faults_[*node.mesh]) return skip(node, *fault);
   if (shapes_[*node.mesh].parts.empty())
     return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it has no triangles and no lines"});
-  if (node.instancing.exists()) return place_instances(node, above.group, here.world);
+  const Place at{here.world, here.half_spacing_mm};
+  if (node.instancing.exists()) return place_instances(node, above.group, at);
   // Nobody asks for these again: a node is visited once.
   Element element{node.name, std::move(node.id), std::move(node.attributes)};
-  add_object(node, std::move(element), above.group, std::span(&here.world, 1));
+  add_object(node, std::move(element), above.group, std::span(&at, 1));
 }
 
 void Importer::place_all() {
@@ -362,8 +386,6 @@ Result<model::Model> Importer::run() {
   note_meshes();
   adopt_meshes();
   place_all();
-  const double rounding = frame_.unit_mm * float32_half_spacing(largest_mm_ / frame_.unit_mm);
-  model_.files[0].precision_mm = std::max(rounding, step_mm_ / 2);
   return end_model(input_.file, std::move(model_));
 }
 

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <utility>
 
+#include "io/precision.hpp"
+#include "io/source_frame.hpp"
+
 namespace strake::io::gltf {
 namespace {
 
@@ -172,6 +175,11 @@ void read_names(const Json& extras, std::size_t count, Instances& out) {
 
 }  // namespace
 
+double Instances::half_spacing(std::size_t instance) const {
+  const double largest = largest_coordinate(std::array{placements[instance].translation});
+  return std::max(float32_half_spacing(largest), translation_step / 2);
+}
+
 Instances read_instances(const Node& node, const Accessors& accessors) {
   Instances result;
   const Json attributes = node.instancing["attributes"];
@@ -192,6 +200,7 @@ Instances read_instances(const Node& node, const Accessors& accessors) {
     }
     count = (*part)->count;
   }
+  if (translation) result.translation_step = translation->step();
   for (std::size_t i = 0; i < count.value_or(0); ++i) {
     std::array<double, 4> t{0, 0, 0, 0}, r{0, 0, 0, 1}, s{1, 1, 1, 0};
     if (translation) translation->element(i, t.data());

@@ -34,8 +34,12 @@ struct Node {
 /// The instances of a node, in the node's frame.
 struct Instances {
   std::vector<geometry::Placement> placements;
+  double translation_step = 0;          ///< spacing of quantised translations; 0: float32
   std::vector<std::string> names, ids;  ///< one each per instance, or none at all
   std::optional<Fault> fault;
+
+  /// Half the spacing of the numbers that say where an instance is.
+  [[nodiscard]] double half_spacing(std::size_t instance) const;
 };
 
 [[nodiscard]] Instances read_instances(const Node& node, const Accessors& accessors);

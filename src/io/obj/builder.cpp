@@ -9,6 +9,7 @@
 
 #include "io/compact.hpp"
 #include "io/face_triangles.hpp"
+#include "io/precision.hpp"
 
 namespace strake::io::obj {
 namespace {
@@ -33,9 +34,9 @@ class Builder {
   void damaged(const Segment& segment, std::uint32_t line, std::string message);
   [[nodiscard]] model::Color color(std::uint32_t material) const;
   [[nodiscard]] model::Color main_color(const Flat& flat) const;
-  std::vector<Vec3d> compact(std::vector<std::uint32_t>& corners) const;
+  std::vector<Vec3d> take(std::span<const std::uint32_t> vertices);
   geometry::TriangleMesh mesh(Flat flat);
-  geometry::Polylines polylines(const Flat& flat) const;
+  geometry::Polylines polylines(const Flat& flat);
 
   const BuildInput& input_;
   const Entry& entry_;
@@ -100,17 +101,20 @@ bool Builder::flatten(const Segment& segment, bool faces, Flat& flat) {
   return true;
 }
 
-/// The vertices that the corners use; the corners become indices into them.
-std::vector<Vec3d> Builder::compact(std::vector<std::uint32_t>& corners) const {
-  std::vector<Vec3d> vertices;
-  for (const std::uint32_t vertex : compact_indices(corners))
-    vertices.push_back(input_.vertices[vertex]);
-  return vertices;
+/// Vertices of the file for the object, which learns how large they are and how finely written.
+std::vector<Vec3d> Builder::take(std::span<const std::uint32_t> vertices) {
+  std::vector<Vec3d> taken;
+  for (const std::uint32_t vertex : vertices) {
+    taken.push_back(input_.vertices[vertex]);
+    result_.digits.merge(input_.digits[vertex]);
+  }
+  result_.largest_mm = std::max(result_.largest_mm, largest_coordinate(taken));
+  return taken;
 }
 
 geometry::TriangleMesh Builder::mesh(Flat flat) {
   geometry::TriangleMesh mesh;
-  mesh.vertices = compact(flat.corners);
+  mesh.vertices = take(compact_indices(flat.corners));
   mesh.triangles.reserve(flat.corners.size() - 2 * flat.end.size());
   const bool polygons = flat.corners.size() != 3 * flat.end.size();
   std::size_t begin = 0;
@@ -123,9 +127,9 @@ geometry::TriangleMesh Builder::mesh(Flat flat) {
   return mesh;
 }
 
-geometry::Polylines Builder::polylines(const Flat& flat) const {
+geometry::Polylines Builder::polylines(const Flat& flat) {
   geometry::Polylines lines;
-  for (const std::uint32_t c : flat.corners) lines.points.push_back(input_.vertices[c]);
+  lines.points = take(flat.corners);
   for (const std::size_t end : flat.end) lines.first.push_back(static_cast<std::uint32_t>(end));
   return lines;
 }

@@ -8,6 +8,7 @@
 
 #include "io/obj/assembly.hpp"
 #include "io/obj/chunk.hpp"
+#include "io/text_number.hpp"
 #include "strake/geometry/mesh.hpp"
 #include "strake/model/model.hpp"
 
@@ -18,6 +19,7 @@ struct BuildInput {
   std::span<const Chunk> chunks;
   const Assembly* assembly = nullptr;
   std::span<const geometry::Vec3d> vertices;  ///< of the file in order, in mm with z up
+  std::span<const DigitStatistics> digits;    ///< of the vertices
   std::span<const model::Color> colors;       ///< per material of the assembly
 };
 
@@ -28,6 +30,8 @@ struct BuiltObject {
   geometry::Polylines lines;
   model::Color opaque_color, transparent_color, line_color;  ///< of most of the faces or lines
   std::uint32_t crossing_faces = 0;                          ///< cut as fans
+  double largest_mm = 0;                                     ///< coordinate
+  DigitStatistics digits;                                    ///< of the vertices in use
   struct Damage {
     std::string message;
     std::uint64_t line = 0;  ///< 1-based

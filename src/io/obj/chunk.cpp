@@ -88,10 +88,11 @@ void ChunkParser::line(const char* at, const char* end) {
 
 void ChunkParser::vertex(const char* at, const char* end) {
   geometry::Vec3d point;
+  DigitStatistics digits;
   bool good = true;
   for (int axis = 0; axis < 3 && good; ++axis) {
     skip_blanks(at, end);
-    good = read_number(at, end, point[axis], chunk_.digits) && (at == end || is_blank(*at)) &&
+    good = read_number(at, end, point[axis], digits) && (at == end || is_blank(*at)) &&
            is_coordinate(point[axis]);
   }
   if (!good) {
@@ -100,6 +101,7 @@ void ChunkParser::vertex(const char* at, const char* end) {
     problem(Fault::bad_vertex);
   }
   chunk_.vertices.push_back(point);
+  chunk_.digits.push_back(digits);
 }
 
 /// Face corners "7", "7/1", "7//3", "-1/-1/-1": the vertex index alone matters.
@@ -162,6 +164,7 @@ std::pair<const char*, const char*> ChunkParser::joined(const char* at, const ch
 Chunk ChunkParser::parse(std::string_view text) {
   // Typical lines are longer: this avoids most growth without asking for more than the text's size.
   chunk_.vertices.reserve(text.size() / 64);
+  chunk_.digits.reserve(text.size() / 64);
   const char* at = text.data();
   const char* const text_end = at + text.size();
   while (at != text_end) {

@@ -58,12 +58,12 @@ struct Rows {
 /// What one piece of the text says, read without knowing the pieces before it.
 struct Chunk {
   std::vector<geometry::Vec3d> vertices;  ///< as written; a bad one is NaN, to keep the numbering
+  std::vector<DigitStatistics> digits;    ///< per vertex
   Rows faces;
   Rows polylines;
   std::vector<Statement> statements;
   std::vector<Problem> problems;
   std::uint64_t lines = 0;
-  DigitStatistics digits;
 };
 
 /// Cuts the text into pieces of about `size` bytes at line ends that no continuation crosses.

@@ -76,9 +76,9 @@ class ObjReading {
   std::vector<obj::Chunk> chunks_;
   obj::Assembly assembly_;
   std::vector<Vec3d> vertices_;
+  std::vector<DigitStatistics> digits_;  ///< per vertex
   model::Model model_;
   std::uint32_t last_object_ = 0;  ///< ordinal of the `o` that the last group was made for
-  double largest_ = 0;             ///< coordinate of a vertex in use, mm
 };
 
 Status ObjReading::parse() {
@@ -111,11 +111,15 @@ void ObjReading::report_problems() {
 
 Status ObjReading::gather_vertices() {
   vertices_.resize(assembly_.vertex_base.back());
+  digits_.resize(vertices_.size());
   return parallel::for_each(
       context_, {.name = "place OBJ vertices", .n = chunks_.size()}, [&](std::size_t i) {
-        auto out = vertices_.begin() + static_cast<std::ptrdiff_t>(assembly_.vertex_base[i]);
+        const auto first = static_cast<std::ptrdiff_t>(assembly_.vertex_base[i]);
+        auto out = vertices_.begin() + first;
         for (const Vec3d& vertex : chunks_[i].vertices) *out++ = frame_.point(vertex);
+        std::ranges::copy(chunks_[i].digits, digits_.begin() + first);
         chunks_[i].vertices = {};
+        chunks_[i].digits = {};
       });
 }
 
@@ -133,7 +137,7 @@ std::vector<model::Color> ObjReading::material_colors() {
 
 Status ObjReading::build(std::vector<obj::BuiltObject>& built,
                          std::span<const model::Color> colors) {
-  const obj::BuildInput input{chunks_, &assembly_, vertices_, colors};
+  const obj::BuildInput input{chunks_, &assembly_, vertices_, digits_, colors};
   built.resize(assembly_.entries.size());
   return parallel::for_each(
       context_, {.name = "build OBJ objects", .n = built.size(), .grain = 4},
@@ -173,19 +177,15 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
   object.id =
       object.parent == model::GroupId::none ? object.name : entry.object_name + "/" + object.name;
   object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
-  const auto grow = [this](const std::vector<Vec3d>& points) {
-    for (const Vec3d& p : points)
-      largest_ = std::max({largest_, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  };
-  grow(built.opaque.vertices);
-  grow(built.transparent.vertices);
-  grow(built.lines.points);
+  const double half_spacing_mm =
+      frame_.unit_mm * text_half_spacing(built.digits, built.largest_mm / frame_.unit_mm);
   if (!built.opaque.triangles.empty())
-    add_body(model_, object, std::move(built.opaque), built.opaque_color);
+    add_body(model_, object, std::move(built.opaque), {built.opaque_color, half_spacing_mm});
   if (!built.transparent.triangles.empty())
-    add_body(model_, object, std::move(built.transparent), built.transparent_color);
+    add_body(model_, object, std::move(built.transparent),
+             {built.transparent_color, half_spacing_mm});
   if (!built.lines.points.empty())
-    add_body(model_, object, std::move(built.lines), built.line_color);
+    add_body(model_, object, std::move(built.lines), {built.line_color, half_spacing_mm});
   model_.objects.push_back(std::move(object));
 }
 
@@ -197,11 +197,6 @@ Result<model::Model> ObjReading::read() {
   std::vector<obj::BuiltObject> built;
   if (const Status done = build(built, colors); !done) return done.error();
   for (std::size_t i = 0; i < built.size(); ++i) add(assembly_.entries[i], std::move(built[i]));
-
-  DigitStatistics digits;
-  for (const obj::Chunk& chunk : chunks_) digits.merge(chunk.digits);
-  model_.files[0].precision_mm =
-      frame_.unit_mm * text_half_spacing(digits, largest_ / frame_.unit_mm);
   return end_model(file_, std::move(model_));
 }
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "io/precision.hpp"
 #include "io/rvm/facets.hpp"
-#include "strake/geometry/grid.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::io::rvm {
@@ -31,6 +31,14 @@ std::string facet_problem(const FacetMesh& facets) {
     text +=
         fmt::format(", {} holes left out without three distinct vertices", facets.short_contours);
   return text;
+}
+
+float largest_parameter(const PrimitiveChunk& chunk) {
+  float largest = 0;
+  Cursor in(chunk.parameters);
+  for (std::size_t k = 0; k < parameter_count(chunk.kind); ++k)
+    largest = std::max(largest, std::fabs(in.f32()));
+  return largest;
 }
 
 }  // namespace
@@ -67,24 +75,24 @@ void Builder::add(const PrimitiveChunk& chunk) {
   if (!shape) return;
   record.body.shape = *shape;
   record.body.placement = *placement;
-  measure(chunk);
+  record.body.precision_um = io::precision_um(origin_half_spacing_mm(chunk));
 }
 
 void Builder::note_loss() {
   if (!open_.empty()) groups_[open_.back()].incomplete = true;
 }
 
-void Builder::measure(const PrimitiveChunk& chunk) {
-  for (std::size_t k = 9; k < 12; ++k) {
-    const float coordinate = std::fabs(chunk.matrix[k]);
-    // What cannot be placed at all must not spoil the precision of what can.
-    if (static_cast<double>(coordinate) * frame_.unit_mm <= geometry::kMaxGridMm)
-      largest_origin_ = std::max(largest_origin_, coordinate);
-  }
-  if (chunk.kind == kFacetKind) return;
-  Cursor in(chunk.parameters);
-  for (std::size_t k = 0; k < parameter_count(chunk.kind); ++k)
-    largest_local_ = std::max(largest_local_, std::fabs(in.f32()));
+double Builder::origin_half_spacing_mm(const PrimitiveChunk& chunk) const {
+  float largest = 0;
+  for (std::size_t k = 9; k < 12; ++k) largest = std::max(largest, std::fabs(chunk.matrix[k]));
+  return float32_half_spacing(static_cast<double>(largest)) * frame_.unit_mm;
+}
+
+/// The worse of what its origin says, which it has already, and what its shape's numbers say.
+float Builder::precision_um(const model::Body& body) const {
+  const auto largest = static_cast<double>(largest_[model::index(body.shape)]);
+  return std::max(body.precision_um, io::precision_um(float32_half_spacing(largest) *
+                                                      scale_of(body.placement.linear)));
 }
 
 std::optional<model::ShapeId> Builder::shape_of(const PrimitiveChunk& chunk) {
@@ -105,6 +113,7 @@ std::optional<model::ShapeId> Builder::shape_of(const PrimitiveChunk& chunk) {
   check_stored_box(chunk, *decoded.primitive);
   const auto id = static_cast<model::ShapeId>(shapes_.size());
   shapes_.emplace_back(*decoded.primitive);
+  largest_.push_back(largest_parameter(chunk));
   if (chunk.kind != kLineKind) known.emplace(as_key(chunk.parameters), id);
   return id;
 }
@@ -126,6 +135,7 @@ model::ShapeId Builder::facet_shape(const PrimitiveChunk& chunk) {
   const auto [at, added] = known_[kFacetKind].emplace(as_key(chunk.parameters), id);
   if (added) {
     shapes_.emplace_back(geometry::TriangleMesh{});
+    largest_.push_back(0);
     facets_.push_back({model::index(id), chunk.parameters, chunk.offset});
   }
   return at->second;
@@ -145,7 +155,7 @@ Result<std::vector<Builder::Facets>> Builder::triangulate(const parallel::Contex
                  job.offset);
     if (built.nonfinite + built.untriangulated > 0) facets[job.shape] = Facets::incomplete;
     if (built.mesh.triangles.empty()) facets[job.shape] = Facets::empty;
-    largest_local_ = std::max(largest_local_, built.largest);
+    largest_[job.shape] = built.largest;
     shapes_[job.shape] = std::move(built.mesh);
   }
   return facets;
@@ -204,6 +214,7 @@ void Builder::emit_objects(Built& built) {
     ++built.model.objects.back().body_count;
     built.model.bodies.push_back(record.body);
     built.model.bodies.back().color = color_of(record);
+    built.model.bodies.back().precision_um = precision_um(record.body);
   }
 }
 
@@ -216,11 +227,6 @@ Result<Built> Builder::build(const parallel::Context& context) {
   built.model.groups = std::move(names_);
   built.model.shapes = std::move(shapes_);
   built.groups = std::move(groups_);
-  model::SourceFile file;
-  file.precision_mm =
-      std::max(float32_half_spacing(static_cast<double>(largest_origin_)) * frame_.unit_mm,
-               float32_half_spacing(static_cast<double>(largest_local_)) * frame_.unit_mm / 1000);
-  built.model.files.push_back(std::move(file));
   return built;
 }
 

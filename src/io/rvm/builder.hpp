@@ -79,7 +79,8 @@ class Builder {
   void check_stored_box(const PrimitiveChunk& chunk, const geometry::Primitive& primitive);
   void emit_objects(Built& built);
   [[nodiscard]] model::Color color_of(const BodyRecord& record);
-  void measure(const PrimitiveChunk& chunk);
+  [[nodiscard]] double origin_half_spacing_mm(const PrimitiveChunk& chunk) const;
+  [[nodiscard]] float precision_um(const model::Body& body) const;
 
   Log* log_;
   SourceFrame frame_;
@@ -90,12 +91,11 @@ class Builder {
   std::vector<std::uint32_t> open_;
   std::vector<BodyRecord> bodies_;
   std::vector<model::Shape> shapes_;
+  std::vector<float> largest_;  ///< per shape: its largest number, local units
   std::vector<FacetJob> facets_;
   /// Equal parameters of a kind are one shape; keys are views of the file.
   std::array<std::unordered_map<std::string_view, model::ShapeId>, kFacetKind + 1> known_;
   std::unordered_map<std::uint32_t, bool> reported_materials_;
-  float largest_origin_ = 0;  ///< world units of the file
-  float largest_local_ = 0;   ///< local units
 };
 
 }  // namespace strake::io::rvm

@@ -163,11 +163,10 @@ Result<model::Model> RvmReader::read(const FileBytes& file, const ReadOptions& o
   }
   model::Model started =
       start_model(file, text ? "RVM text" : fmt::format("RVM {}", head.version), options, kFrame);
-  started.files.front().precision_mm = built->model.files.front().precision_mm;
   built->model.files = std::move(started.files);
   add_attributes(*built, file, decoder);
   assign_ids(*built);
-  return std::move(built->model);
+  return end_model(file, std::move(built->model));
 }
 
 }  // namespace

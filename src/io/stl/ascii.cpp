@@ -26,13 +26,13 @@ std::string_view take_word(std::string_view& line) {
 class AsciiParser {
  public:
   void line(std::string_view line);
-  AsciiFile take();
+  std::vector<Solid> take();
   void next_line() { ++line_; }
 
  private:
   Solid& solid() {
     if (!open_) begin("");
-    return file_.solids.back();
+    return solids_.back();
   }
   void begin(std::string_view name);
   void vertex(std::string_view rest);
@@ -42,7 +42,7 @@ class AsciiParser {
     if (!solid().damage) solid().damage = Damage{message, line_};
   }
 
-  AsciiFile file_;
+  std::vector<Solid> solids_;
   std::uint64_t line_ = 1;
   bool open_ = false;
   std::size_t loop_corners_ = 0;  ///< of the loop that is being read
@@ -50,7 +50,7 @@ class AsciiParser {
 
 void AsciiParser::begin(std::string_view name) {
   end_solid();
-  file_.solids.push_back({std::string(name), {}, {}});
+  solids_.push_back({std::string(name), {}, {}, {}});
   open_ = true;
 }
 
@@ -61,7 +61,7 @@ void AsciiParser::vertex(std::string_view rest) {
   geometry::Vec3d point;
   for (int axis = 0; axis < 3; ++axis) {
     skip_blanks(at, end);
-    if (!read_number(at, end, point[axis], file_.digits) || (at != end && !is_blank(*at)) ||
+    if (!read_number(at, end, point[axis], owner.digits) || (at != end && !is_blank(*at)) ||
         !is_coordinate(point[axis]))
       return damaged("a vertex needs three finite numbers");
   }
@@ -95,9 +95,9 @@ void AsciiParser::line(std::string_view line) {
   if (loop_corners_ != 0) damaged("a line within a facet is not understood");
 }
 
-AsciiFile AsciiParser::take() {
+std::vector<Solid> AsciiParser::take() {
   end_solid();
-  return std::move(file_);
+  return std::move(solids_);
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ bool looks_like_ascii(std::string_view text) {
   return is_word(start.substr(0, word_end), "solid");
 }
 
-std::optional<AsciiFile> parse_ascii(std::string_view text, const std::stop_token& stop) {
+std::optional<std::vector<Solid>> parse_ascii(std::string_view text, const std::stop_token& stop) {
   constexpr std::uint64_t kLinesBetweenLooks = 4096;
   AsciiParser parser;
   for (std::uint64_t count = 0; !text.empty(); ++count) {

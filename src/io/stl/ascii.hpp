@@ -22,19 +22,15 @@ struct Damage {
 struct Solid {
   std::string name;
   std::vector<geometry::Vec3d> corners;
+  DigitStatistics digits;        ///< of its corners
   std::optional<Damage> damage;  ///< set: not to be used
-};
-
-struct AsciiFile {
-  std::vector<Solid> solids;
-  DigitStatistics digits;
 };
 
 /// Text that starts with "solid" and goes on with facets or ends.
 [[nodiscard]] bool looks_like_ascii(std::string_view text);
 
 /// Nothing when stopped.
-[[nodiscard]] std::optional<AsciiFile> parse_ascii(std::string_view text,
-                                                   const std::stop_token& stop);
+[[nodiscard]] std::optional<std::vector<Solid>> parse_ascii(std::string_view text,
+                                                            const std::stop_token& stop);
 
 }  // namespace strake::io::stl

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/file_content.hpp"
+#include "io/precision.hpp"
 #include "io/reading.hpp"
 #include "io/stl/ascii.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -45,16 +46,13 @@ Kind kind_of(std::span<const std::byte> bytes) {
   return bytes.size() > expected ? Kind::binary_longer : Kind::binary_truncated;
 }
 
-void grow(double& largest, const Vec3d& p) {
-  largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-}
-
-void add_object(model::Model& model, std::string name, geometry::TriangleMesh mesh) {
+void add_object(model::Model& model, std::string name, geometry::TriangleMesh mesh,
+                double half_spacing_mm) {
   model::Object object;
   object.id = name;
   object.name = std::move(name);
   object.first_body = static_cast<std::uint32_t>(model.bodies.size());
-  add_body(model, object, std::move(mesh), {});
+  add_body(model, object, std::move(mesh), {.half_spacing_mm = half_spacing_mm});
   model.objects.push_back(std::move(object));
 }
 
@@ -98,10 +96,10 @@ Result<model::Model> read_binary(const FileBytes& file, const ReadOptions& optio
         return {};
       });
   if (!read) return read.error();
-  double largest = 0;
-  for (const Vec3d& vertex : mesh.vertices) grow(largest, vertex);
-  model.files[0].precision_mm = frame.unit_mm * float32_half_spacing(largest / frame.unit_mm);
-  if (facets != 0) add_object(model, file.path.stem().string(), std::move(mesh));
+  const double largest = largest_coordinate(mesh.vertices) / frame.unit_mm;
+  if (facets != 0)
+    add_object(model, file.path.stem().string(), std::move(mesh),
+               frame.unit_mm * float32_half_spacing(largest));
   return end_model(file, std::move(model));
 }
 
@@ -109,10 +107,10 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
                                 const parallel::Context& context) {
   model::Model model = start_model(file, "STL text", options, kStlFrame);
   const SourceFrame frame = choose_frame(options, kStlFrame);
-  const std::optional<stl::AsciiFile> text = stl::parse_ascii(as_text(file.bytes), context.stop);
-  if (!text) return Error{ErrorCode::cancelled, "reading was cancelled", file.path.string(), ""};
-  double largest = 0;
-  for (const stl::Solid& solid : text->solids) {
+  const std::optional<std::vector<stl::Solid>> solids =
+      stl::parse_ascii(as_text(file.bytes), context.stop);
+  if (!solids) return Error{ErrorCode::cancelled, "reading was cancelled", file.path.string(), ""};
+  for (const stl::Solid& solid : *solids) {
     std::string name = solid.name.empty() ? file.path.stem().string() : solid.name;
     if (solid.damage) {
       model.diagnostics.add(Severity::skipped, "stl-damaged-solid",
@@ -123,16 +121,12 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
     if (solid.corners.empty()) continue;
     geometry::TriangleMesh mesh;
     mesh.vertices.reserve(solid.corners.size());
-    for (const Vec3d& corner : solid.corners) {
-      mesh.vertices.push_back(frame.point(corner));
-      grow(largest, mesh.vertices.back());
-    }
+    for (const Vec3d& corner : solid.corners) mesh.vertices.push_back(frame.point(corner));
     for (std::uint32_t i = 0; i + 2 < solid.corners.size(); i += 3)
       mesh.triangles.push_back({i, i + 1, i + 2});
-    add_object(model, std::move(name), std::move(mesh));
+    add_object(model, std::move(name), std::move(mesh),
+               frame.unit_mm * text_half_spacing(solid.digits, largest_coordinate(solid.corners)));
   }
-  model.files[0].precision_mm =
-      frame.unit_mm * text_half_spacing(text->digits, largest / frame.unit_mm);
   return end_model(file, std::move(model));
 }
 

@@ -30,17 +30,17 @@ struct Golden {
 
 const Golden kSafe[] = {
     {"iso",
-     {14335, 8194, 10533, 0, 0, 5326},
-     "d03cf6407b8a2ed97f3af17b10092bcf",
-     "5047965651142f3bd4965434e13e217b"},
+     {14336, 8194, 10534, 0, 0, 5328},
+     "9ff4271903020ed87fbf4a1dca9a0c69",
+     "4445a416ab6cf6abcfaae5c5aca2d1da"},
     {"top",
      {8412, 2306, 4829, 1743, 0, 19662},
-     "32a5d47a40fef5e654d711e2e6522099",
-     "08db40a44fcb47dcd03f6ad6a30286e6"},
+     "b6b4c3714af5e3c55b1d0712ed175410",
+     "5aba093984427754818cb06cd6310eee"},
     {"front",
      {8791, 1047, 3770, 1852, 0, 22001},
-     "a935aa642a2882624570981260cd947b",
-     "81ecf03d8ced40f016ff2a156cd127a7"},
+     "d2e7d8ed326f5d1be9561040ce260070",
+     "0a038c7604b79ea0fe7e051042620f4d"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {

@@ -113,6 +113,7 @@ TEST(TextPrecision, FollowsTheNotation) {
 TEST(TextPrecision, TakesDesignValuesAsFloat32) {
   EXPECT_DOUBLE_EQ(half_spacing({"0", "1000"}), std::ldexp(1.0, -15));
   EXPECT_DOUBLE_EQ(half_spacing({"0", "0"}), std::ldexp(1.0, -150));
+  EXPECT_DOUBLE_EQ(half_spacing({"0", "336000"}), std::ldexp(1.0, -6)) << "whole, written in full";
 }
 
 }  // namespace
