@@ -66,8 +66,7 @@ Status Session::write_stdout(std::string_view text) {
 void Session::finish() {
   line_.reset();
   if (!options_.stats) return;
-  const auto regions = report_.regions();
-  console_.print(options_.json ? stats_.json(regions) : stats_.text(regions));
+  console_.print(options_.json ? stats_.json(report_) : stats_.text(report_));
 }
 
 }  // namespace strake::cli

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 #include <sys/resource.h>
-#include <time.h>
 
 #include <nlohmann/json.hpp>
 
@@ -11,26 +10,16 @@
 
 namespace strake::cli {
 
-namespace {
-
-double process_cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
-
-}  // namespace
-
 Stats::Timer::Timer(Stats& stats, std::string_view phase)
     : stats_(stats),
       phase_(phase),
       start_(std::chrono::steady_clock::now()),
-      start_cpu_s_(process_cpu_s()) {}
+      start_cpu_s_(parallel::process_cpu_s()) {}
 
 Stats::Timer::~Timer() {
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  stats_.phases_.push_back({phase_, wall, process_cpu_s() - start_cpu_s_});
+  stats_.phases_.push_back({phase_, wall, parallel::process_cpu_s() - start_cpu_s_});
 }
 
 void Stats::count(std::string_view name, std::uint64_t value) {
@@ -41,10 +30,13 @@ void Stats::costly(std::string_view a, std::string_view b, std::uint64_t cost) {
   costly_.push_back({std::string(a), std::string(b), cost});
 }
 
-std::string Stats::text(const std::vector<parallel::RegionReport>& regions) const {
+std::string Stats::text(const parallel::RunReport& report) const {
   std::string out = fmt::format("{:<28}{:>10}{:>10}\n", "phase", "wall s", "cpu s");
   for (const Phase& phase : phases_)
     out += fmt::format("{:<28}{:>10.3f}{:>10.3f}\n", phase.name, phase.wall_s, phase.cpu_s);
+  for (const parallel::StageReport& stage : report.stages())
+    out += fmt::format("  {:<26}{:>10.3f}{:>10.3f}\n", stage.name, stage.wall_s, stage.cpu_s);
+  const std::vector<parallel::RegionReport> regions = report.regions();
   if (!regions.empty())
     out += fmt::format("{:<28}{:>10}{:>10}{:>12}{:>9}{:>7}{:>11}\n", "parallel region", "wall s",
                        "busy s", "items", "balance", "bound", "longest s");
@@ -67,13 +59,15 @@ std::string Stats::text(const std::vector<parallel::RegionReport>& regions) cons
   return out;
 }
 
-std::string Stats::json(const std::vector<parallel::RegionReport>& regions) const {
+std::string Stats::json(const parallel::RunReport& report) const {
   using Json = nlohmann::ordered_json;
-  Json phases = Json::array(), parts = Json::array(), counters = Json::object(),
-       costly = Json::array();
+  Json phases = Json::array(), stages = Json::array(), parts = Json::array(),
+       counters = Json::object(), costly = Json::array();
   for (const Phase& phase : phases_)
     phases.push_back({{"name", phase.name}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}});
-  for (const parallel::RegionReport& region : regions)
+  for (const parallel::StageReport& stage : report.stages())
+    stages.push_back({{"name", stage.name}, {"wall_s", stage.wall_s}, {"cpu_s", stage.cpu_s}});
+  for (const parallel::RegionReport& region : report.regions())
     parts.push_back({{"name", region.name},
                      {"runs", region.runs},
                      {"nested_runs", region.nested_runs},
@@ -87,11 +81,9 @@ std::string Stats::json(const std::vector<parallel::RegionReport>& regions) cons
   for (const auto& [name, value] : counters_) counters[name] = value;
   for (const Costly& pair : costly_)
     costly.push_back({{"a", valid_utf8(pair.a)}, {"b", valid_utf8(pair.b)}, {"cost", pair.cost}});
-  return Json{{"phases", std::move(phases)},
-              {"regions", std::move(parts)},
-              {"counters", std::move(counters)},
-              {"costly_pairs", std::move(costly)},
-              {"peak_memory_bytes", peak_memory_bytes()}}
+  return Json{{"phases", std::move(phases)},       {"stages", std::move(stages)},
+              {"regions", std::move(parts)},       {"counters", std::move(counters)},
+              {"costly_pairs", std::move(costly)}, {"peak_memory_bytes", peak_memory_bytes()}}
       .dump();
 }
 

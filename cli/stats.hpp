@@ -38,9 +38,9 @@ class Stats {
   void costly(std::string_view a, std::string_view b, std::uint64_t cost);
 
   /// Lines for a person.
-  [[nodiscard]] std::string text(const std::vector<parallel::RegionReport>& regions) const;
+  [[nodiscard]] std::string text(const parallel::RunReport& report) const;
   /// The same as one JSON object.
-  [[nodiscard]] std::string json(const std::vector<parallel::RegionReport>& regions) const;
+  [[nodiscard]] std::string json(const parallel::RunReport& report) const;
 
  private:
   struct Phase {

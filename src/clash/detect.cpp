@@ -19,6 +19,7 @@
 #include "clash/volumes.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/report.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
@@ -42,6 +43,7 @@ class Engine {
     Report report = begin();
     if (const Status s = pair_up(report); !s) return s.error();
     if (const Status s = judge(); !s) return s.error();
+    const parallel::StageTimer timer(context_.report, "result by objects");
     const auto found = answers(report);
     if (!found) return found.error();
     if (const Status s = tell({*found, pairs_, list_, rules_}, report); !s) return s.error();
@@ -69,6 +71,7 @@ class Engine {
   /// The first stage: which pairs of parts go on to the detailed one, and which of them are the
   /// same question.
   Status pair_up(Report& report) {
+    const parallel::StageTimer timer(context_.report, "stage 1: pairs by boxes");
     auto parts = list_parts(scene_, sets_, options_.curves, context_);
     if (!parts) return parts.error();
     list_ = std::move(*parts);
@@ -102,6 +105,7 @@ class Engine {
 
   /// The second stage: the answers of all cases, and their places where that shows.
   Status judge() {
+    const parallel::StageTimer timer(context_.report, "stage 2: detailed work");
     const CaseWork work(list_, pairs_, cases_, context_);
     const Stage stage{work, objects_, rules_, pair_options_, options_, aids_};
     if (!exact()) return judge_by_spheres(stage, candidates_);

@@ -7,6 +7,15 @@
 #include <numeric>
 
 namespace strake::parallel {
+namespace {
+
+double seconds_of(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+}  // namespace
 
 double RegionReport::total_busy_s() const {
   return std::accumulate(busy_s.begin(), busy_s.end(), 0.0);
@@ -46,10 +55,36 @@ std::vector<RegionReport> RunReport::regions() const {
   return regions_;
 }
 
-double thread_cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+void RunReport::add(const StageReport& run) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::ranges::find(stages_, run.name, &StageReport::name);
+  if (found == stages_.end()) {
+    stages_.push_back(run);
+    return;
+  }
+  found->wall_s += run.wall_s;
+  found->cpu_s += run.cpu_s;
 }
+
+std::vector<StageReport> RunReport::stages() const {
+  const std::lock_guard lock(mutex_);
+  return stages_;
+}
+
+StageTimer::StageTimer(RunReport* report, std::string_view stage) : report_(report) {
+  if (report_ == nullptr) return;
+  run_ = {std::string(stage), seconds_of(CLOCK_MONOTONIC), process_cpu_s()};
+}
+
+StageTimer::~StageTimer() {
+  if (report_ == nullptr) return;
+  run_.wall_s = seconds_of(CLOCK_MONOTONIC) - run_.wall_s;
+  run_.cpu_s = process_cpu_s() - run_.cpu_s;
+  report_->add(run_);
+}
+
+double thread_cpu_s() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
+
+double process_cpu_s() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
 
 }  // namespace strake::parallel

@@ -27,21 +27,47 @@ struct RegionReport {
   [[nodiscard]] double bound() const;
 };
 
+/// What a stage of a computation took, its regions and what lies between them.
+struct StageReport {
+  std::string name;
+  double wall_s = 0, cpu_s = 0;  ///< cpu: of the whole process
+};
+
 /// Collects the reports of the regions that run under a Context that names it. Thread-safe.
 /// Asking for it makes regions read clocks per block.
 class RunReport {
  public:
   /// Adds one run to the entry of its name.
   void add(const RegionReport& run);
+  /// Adds to the stage of that name.
+  void add(const StageReport& run);
   /// One entry per name, in order of first appearance.
   [[nodiscard]] std::vector<RegionReport> regions() const;
+  [[nodiscard]] std::vector<StageReport> stages() const;
 
  private:
   mutable std::mutex mutex_;
   std::vector<RegionReport> regions_;
+  std::vector<StageReport> stages_;
 };
 
-/// CPU seconds that the calling thread has used so far.
+/// Measures one stage from construction to destruction; null: nobody asked.
+class StageTimer {
+ public:
+  StageTimer(RunReport* report, std::string_view stage);
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+  StageTimer(StageTimer&&) = delete;
+  StageTimer& operator=(StageTimer&&) = delete;
+
+ private:
+  RunReport* report_;
+  StageReport run_;  ///< while it runs: the clocks at its start
+};
+
+/// CPU seconds that the calling thread, and all threads together, have used so far.
 [[nodiscard]] double thread_cpu_s();
+[[nodiscard]] double process_cpu_s();
 
 }  // namespace strake::parallel

@@ -102,6 +102,26 @@ TEST(Report, keeps_nested_runs_apart) {
   EXPECT_EQ(regions[1].runs, 1U);
 }
 
+TEST(Report, stages_add_up_by_name) {
+  RunReport report;
+  for (int i = 0; i < 2; ++i) {
+    const StageTimer timer(&report, "first");
+    burn(0.001);
+  }
+  {
+    const StageTimer timer(&report, "second");
+  }
+  {
+    const StageTimer nobody(nullptr, "asked");
+  }
+  const std::vector<StageReport> stages = report.stages();
+  ASSERT_EQ(stages.size(), 2U);
+  EXPECT_EQ(stages[0].name, "first");
+  EXPECT_GE(stages[0].cpu_s, 0.002);
+  EXPECT_GE(stages[0].wall_s, 0.002);
+  EXPECT_EQ(stages[1].name, "second");
+}
+
 TEST(Report, figures_follow_their_definitions) {
   RegionReport region;
   region.busy_s = {1.0, 3.0};
