@@ -99,12 +99,40 @@ void pairs_of(double triangles) {
         {Class::clearance_violation, 2, sag});
 }
 
+/// Discs with caps that are fans of needles, straight and askew.
+void fans_of(double triangles) {
+  const auto sectors = static_cast<std::uint32_t>(triangles / 8);
+  const TriangleMesh plate = cylinder_mesh(500, 10, 1, sectors);
+  const TriangleMesh smaller = cylinder_mesh(400, 6, 1, sectors);
+  for (const bool askew : {false, true}) {
+    const auto stand = [&](TriangleMesh m, double angle, double z) {
+      for (Vec3d& v : m.vertices) {
+        v = {v.x * std::cos(angle) - v.y * std::sin(angle),
+             v.x * std::sin(angle) + v.y * std::cos(angle), v.z + z};
+        if (askew) v = {0.6 * v.x + 0.8 * v.z, v.y, 0.6 * v.z - 0.8 * v.x};
+      }
+      return m;
+    };
+    const std::string how = askew ? ", askew" : "";
+    const double phase = 1.0 / sectors;
+    bench("fans 3 mm apart" + how, stand(plate, 0, 0), stand(plate, phase, 13), {},
+          {Class::clearance_violation, 3, 0.004});
+    bench("fans touching" + how, stand(plate, 0, 0), stand(plate, phase, 10), {},
+          {Class::contact, 0, 0.004});
+    bench("fan inside a fan" + how, stand(plate, 0, 0), stand(smaller, phase, 2), {},
+          {Class::hit, -5, 0.01});
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::vector<double> sizes;
   for (int i = 1; i < argc; ++i) sizes.push_back(std::atof(argv[i]));
   if (sizes.empty()) sizes = {20'000, 200'000};
-  for (const double n : sizes) pairs_of(n);
+  for (const double n : sizes) {
+    pairs_of(n);
+    fans_of(n);
+  }
   return 0;
 }

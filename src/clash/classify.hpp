@@ -25,6 +25,8 @@ struct Judgement {
   Class cls = Class::no_hit;
   std::uint16_t flags = 0;
   Class severest = Class::no_hit;  ///< that the bracket, sag included, allows
+
+  friend bool operator==(const Judgement&, const Judgement&) = default;
 };
 
 /// The class of a bracket. A bracket about a threshold and no wider than a grid unit gives the

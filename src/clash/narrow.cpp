@@ -31,6 +31,10 @@ using geometry::Vec3d;
 /// An interior that is known to be met without a measured depth: less than any grid can resolve.
 constexpr double kLeastDepth = 1e-6;
 
+/// Grid units that a distance may be left open by where it decides nothing: what the snap makes of
+/// two flat faces that stand askew.
+constexpr double kSnapSlack = 4;
+
 Separation separated_by(double distance) {
   // The distance is the rounded root of a rounded square: off by less than two ulp.
   constexpr double kEps = 2 * std::numeric_limits<double>::epsilon();
@@ -155,17 +159,33 @@ class PairOfParts {
     }
     if (apart_from_mesh(reach, answer))
       return a_.placed.part->primitive ? b_.placed.part->sag : a_.placed.part->sag;
-    const auto near = geometry::closest(a_, b_, reach, work_.pair);
+    auto near = geometry::closest(a_, b_, reach, work_.pair, kSnapSlack);
+    if (near && !all_one(near->lower, near->distance))
+      near = geometry::closest(a_, b_, reach, work_.pair);
     if (!near) {
       answer.separation = separated_by(std::numeric_limits<double>::infinity());
       return sag();
     }
     answer.separation = separated_by(near->distance);
+    answer.separation.lower = std::min(near->lower, answer.separation.lower);
     answer.witness = witness_of_gap(*near);
     answer.relation = near->distance <= options_.contact_distance
                           ? relation_beside(a_, b_, {}, options_.contact_distance, work_.pair)
                           : Relation::separate;
     return sag();
+  }
+
+  /// Whether any distance in a bracket means the same.
+  [[nodiscard]] bool all_one(double lower, double upper) const {
+    const double band = options_.contact_distance;
+    if (lower == upper) return true;
+    if (lower <= band && band < upper) return false;
+    const auto of = [&](double d) {
+      Separation s = separated_by(d);
+      s.sag = sag();
+      return judge(s, thresholds_);
+    };
+    return of(lower) == of(upper);
   }
 
   /// A primitive beside a mesh, by its true surface; false where that is not certainly clear of the

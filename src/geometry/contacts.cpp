@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/contacts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "geometry/axis_rays.hpp"
 #include "geometry/box.hpp"
 #include "geometry/dual_walk.hpp"
+#include "geometry/flat_pieces.hpp"
 #include "geometry/heavy_rounds.hpp"
+#include "geometry/heavy_walk.hpp"
 #include "geometry/plane_sides.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
@@ -36,6 +40,7 @@ class ContactWalk {
     std::array<std::optional<ExactTriangle>, PartTree::kLeafSize> triangle;
   };
 
+  bool settle_by_heights(PairWork& work);
   WalkEnd go_on(DualWalk& walk, std::uint64_t most);
   void share(DualWalk& walk, const PairWork& work);
   void take(const ContactWalk& piece);
@@ -59,6 +64,7 @@ class ContactWalk {
   PairCost cost_;
   Contacts found_;
   LoadedLeaf leaf_;
+  bool whole_ = true;  ///< to try whether a plane parts all triangles; the trees hold them all
   int separation_tries_ = 0, parting_tries_ = 0;
   Sectors sectors_;
 };
@@ -66,9 +72,30 @@ class ContactWalk {
 Contacts ContactWalk::run(PairWork& work) {
   DualWalk walk(a_.tree(), b_.tree());
   walk.start();
-  if (go_on(walk, kWalkedAlone) == WalkEnd::left_off) share(walk, work);
+  const std::uint64_t alone = std::min(walked_before_flat(a_, b_), kWalkedAlone);
+  if (go_on(walk, alone) == WalkEnd::left_off && !settle_by_heights(work) &&
+      go_on(walk, kWalkedAlone - alone) == WalkEnd::left_off)
+    share(walk, work);
   work += cost_;
   return found_;
+}
+
+/// Whether the heights of flat faces part what they can of two surfaces that have not met so far;
+/// what they leave open is walked.
+bool ContactWalk::settle_by_heights(PairWork& work) {
+  if (found_.boundaries_meet) return false;
+  const auto pieces = parted_by_heights(a_, b_, std::numeric_limits<double>::min());
+  if (!pieces) return false;
+  for (const FlatPieces::Pair& pair : pieces->open) {
+    if (found_.decided()) break;
+    ContactWalk piece(pair.a->view(a_.shift()), pair.b->view(b_.shift()));
+    piece.whole_ = false;
+    DualWalk walk(piece.a_.tree(), piece.b_.tree());
+    walk.start();
+    if (piece.go_on(walk, kWalkedAlone) == WalkEnd::left_off) piece.share(walk, work);
+    take(piece);
+  }
+  return true;
 }
 
 WalkEnd ContactWalk::go_on(DualWalk& walk, std::uint64_t most) {
@@ -87,8 +114,7 @@ void ContactWalk::share(DualWalk& walk, const PairWork& work) {
       [&](std::size_t i) {
         ContactWalk piece(a_, b_);
         // A plane that separates is looked for over a whole part: one piece of a round may.
-        if (i > 0) piece.separation_tries_ = kSeparationTries;
-        if (i > 0) piece.parting_tries_ = kPartingTries;
+        piece.whole_ = whole_ && i == 0;
         return piece;
       },
       [&](ContactWalk& piece, const NodePair& pair) {
@@ -163,7 +189,7 @@ bool ContactWalk::leaves(const PartTree::Node& na, const PartTree::Node& nb) {
 /// Two triangles apart often lie on a flat side of one part with all of the other beyond it.
 bool ContactWalk::parted(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c) {
   const auto positive = [](const CornerSides& s) { return s[0] > 0 && s[1] > 0 && s[2] > 0; };
-  if (found_.boundaries_meet || parting_tries_ >= kPartingTries) return false;
+  if (!whole_ || found_.boundaries_meet || parting_tries_ >= kPartingTries) return false;
   const bool a_beyond_b = positive(c.side_a), b_beyond_a = positive(c.side_b);
   if (!a_beyond_b && !b_beyond_a) return false;
   ++parting_tries_;
@@ -179,7 +205,8 @@ bool ContactWalk::found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle&
     found_.triangle_b = tb;
     found_.point = common_point(a, b, c);
   }
-  if (!found_.overlap.interiors && separation_tries_ < kSeparationTries && separated(a, b)) {
+  if (whole_ && !found_.overlap.interiors && separation_tries_ < kSeparationTries &&
+      separated(a, b)) {
     found_.separated = true;
     return false;
   }

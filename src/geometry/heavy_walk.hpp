@@ -1,22 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "geometry/heavy_rounds.hpp"
 #include "geometry/near_walk.hpp"
 
 namespace strake::geometry {
 
+/// Node pairs after which flat faces of needles may be why a walk takes so long: more than most
+/// parts need at all.
+[[nodiscard]] inline std::uint64_t walked_before_flat(const PartView& a, const PartView& b) {
+  return 512 + a.part().triangles.size() + b.part().triangles.size();
+}
+
 /// A NearWalk that asks a team for help once it has turned out to be heavy.
 ///
 /// `begin()` makes the state of a piece from what is known so far: `reach`, a square that may
 /// shrink, `work`, and operator()(NearTriangles) as NearWalk's visitor. `take(state)` gets the
 /// states in the order of a single walk and tells whether to go on. Where the team was stopped some
-/// are missing.
-template <class Begin, class Take>
+/// are missing. `settled(state)` is asked while the walk is still alone, after walked_before_flat()
+/// node pairs and then each time that the number has grown fourfold: true ends the walk.
+template <class Begin, class Take, class Settled>
 void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, PairWork& work,
-                     const Begin& begin, const Take& take) {
+                     const Begin& begin, const Take& take, const Settled& settled) {
   using State = decltype(begin());
   const auto charge = [&](State& state) {
     work += state.work;
@@ -25,7 +34,13 @@ void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, P
   State first = begin();
   NearWalk walk(a, b, first.work, near_enough);
   walk.start(first.reach);
-  const bool heavy = walk.run(first.reach, first, kWalkedAlone) == WalkEnd::left_off;
+  bool heavy = true;
+  std::uint64_t walked = 0;
+  for (std::uint64_t pause = walked_before_flat(a, b); heavy && walked < kWalkedAlone; pause *= 4) {
+    const std::uint64_t until = std::min(pause, kWalkedAlone);
+    heavy = walk.run(first.reach, first, until - walked) == WalkEnd::left_off && !settled(first);
+    walked = until;
+  }
   const double reach = first.reach;
   if (!charge(first) || !heavy) return;
   (void)run_in_rounds(
@@ -36,6 +51,13 @@ void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, P
         piece.run(state.reach, state);
       },
       charge);
+}
+
+template <class Begin, class Take>
+void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, PairWork& work,
+                     const Begin& begin, const Take& take) {
+  heavy_near_walk(a, b, near_enough, work, begin, take,
+                  [](const auto& /*state*/) { return false; });
 }
 
 }  // namespace strake::geometry

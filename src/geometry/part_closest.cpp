@@ -8,6 +8,7 @@
 
 #include "geometry/box.hpp"
 #include "geometry/corners.hpp"
+#include "geometry/flat_pieces.hpp"
 #include "geometry/heavy_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/tree_walk.hpp"
@@ -23,10 +24,11 @@ constexpr double kOutward = 1 + 0x1p-48;
 
 class ClosestSearch {
  public:
-  ClosestSearch(const TreedPart& a, const TreedPart& b, double limit, PairWork& work)
+  ClosestSearch(const TreedPart& a, const TreedPart& b, double limit, double slack, PairWork& work)
       : a_(a, {}),
         b_(b, b.placed.origin - a.placed.origin),
         limit_(limit),
+        slack_(slack),
         work_(work),
         found_{.reach = limit * limit * kOutward} {}
 
@@ -35,7 +37,18 @@ class ClosestSearch {
   std::optional<Closest> run_until_near();
 
  private:
+  struct Found;
+
   void walk();
+  void take(std::vector<NearTriangles>&& candidates, double reach);
+  bool settle(Found& found);
+  double distance_so_far(Found& found, std::optional<Vec3d>& across);
+  /// Triangles that are certainly so far apart or farther may be left out.
+  [[nodiscard]] double least_of_interest(double distance) const {
+    return distance < limit_ ? distance - slack_ : limit_;
+  }
+  void leave_out(double gap, Found& found);
+  void walk_pair(const FlatPieces::Pair& pair);
   std::optional<Closest> decide();
 
   /// What a walk, or a piece of one, has found.
@@ -57,23 +70,95 @@ class ClosestSearch {
 
   PartView a_, b_;
   double limit_;
+  double slack_;
   PairWork& work_;
   Found found_;
+  /// Nothing that was left out is nearer than this.
+  double left_out_ = std::numeric_limits<double>::infinity();
 };
+
+void ClosestSearch::take(std::vector<NearTriangles>&& candidates, double reach) {
+  found_.reach = std::min(found_.reach, reach);
+  auto& all = found_.candidates;
+  if (all.empty())
+    all = std::move(candidates);
+  else
+    all.insert(all.end(), candidates.begin(), candidates.end());
+}
 
 void ClosestSearch::walk() {
   heavy_near_walk(
       a_, b_, -1, work_, [this] { return Found{.reach = found_.reach, .enough = found_.enough}; },
       [this](Found& piece) {
         found_.near = piece.near;
-        found_.reach = std::min(found_.reach, piece.reach);
-        auto& all = found_.candidates;
-        if (piece.near || all.empty())
-          all = std::move(piece.candidates);
-        else
-          all.insert(all.end(), piece.candidates.begin(), piece.candidates.end());
+        if (piece.near) found_.candidates.clear();
+        take(std::move(piece.candidates), piece.reach);
         return !piece.near;
-      });
+      },
+      [this](Found& found) { return settle(found); });
+}
+
+/// The distance of the nearest triangles of a walk so far; the limit where they are not nearer.
+/// `across` is set from one to the other.
+double ClosestSearch::distance_so_far(Found& found, std::optional<Vec3d>& across) {
+  auto& candidates = found.candidates;
+  if (candidates.empty()) return limit_;
+  // One stands for all that are as near.
+  const auto least = std::ranges::min_element(
+      candidates, [](const auto& x, const auto& y) { return x.squared.upper < y.squared.upper; });
+  std::iter_swap(candidates.begin(), least);
+  const NearTriangles& best = candidates.front();
+  ++found.work.exact_fallbacks;
+  const NearestPoints p =
+      exact_distance(a_.corners(best.a), b_.corners(best.b), best.squared.upper);
+  across = p.on_b - p.on_a;
+  return std::min(limit_, sqrt_ratio_to_double(p.squared.numerator, p.squared.denominator));
+}
+
+/// Of a walk that has turned out heavy, whether nothing is left that could be nearer than what it
+/// has found by more than the slack: so it is for faces of many needles that lie a constant
+/// distance apart. What the heights of the faces leave open is walked.
+bool ClosestSearch::settle(Found& found) {
+  if (found.enough >= 0) return false;
+  std::optional<Vec3d> across;
+  const double distance = distance_so_far(found, across);
+  const auto pieces = parted_by_heights(a_, b_, least_of_interest(distance), across);
+  if (!pieces) return false;
+  leave_out(pieces->gap, found);
+  found_.reach = found.reach;
+  if (!found.candidates.empty()) found_.candidates.assign(1, found.candidates.front());
+  for (const FlatPieces::Pair& pair : pieces->open) {
+    (void)distance_so_far(found_, across);  // what a piece starts from stands first
+    walk_pair(pair);
+  }
+  return true;
+}
+
+void ClosestSearch::walk_pair(const FlatPieces::Pair& pair) {
+  const auto parted = [&](Found& found) {
+    std::optional<Vec3d> across;
+    if (!(pair.gap >= least_of_interest(distance_so_far(found, across)))) return false;
+    leave_out(pair.gap, found);
+    return true;
+  };
+  heavy_near_walk(
+      pair.a->view(a_.shift()), pair.b->view(b_.shift()), -1, work_,
+      [this] {
+        Found piece{.reach = found_.reach};
+        if (!found_.candidates.empty()) piece.candidates.push_back(found_.candidates.front());
+        return piece;
+      },
+      [this](Found& piece) {
+        take(std::move(piece.candidates), piece.reach);
+        return true;
+      },
+      parted);
+}
+
+/// Nothing that is left out is nearer than the gap, so that the nearest found stands for all.
+void ClosestSearch::leave_out(double gap, Found& found) {
+  left_out_ = std::min(left_out_, gap);
+  if (!found.candidates.empty()) found.candidates.resize(1);
 }
 
 /// The exact least among the candidates whose certified bounds overlap.
@@ -104,6 +189,7 @@ std::optional<Closest> ClosestSearch::decide() {
   best->distance = sqrt_ratio_to_double(nearest.squared.numerator, nearest.squared.denominator);
   best->on_a = nearest.on_a;
   best->on_b = nearest.on_b;
+  best->lower = std::min(best->distance, left_out_);
   if (!(best->distance < limit_)) return std::nullopt;
   return best;
 }
@@ -138,14 +224,14 @@ double squared_distance(const Vec3d& p, const Corners& t) {
 
 }  // namespace
 
-std::optional<Closest> closest(const TreedPart& a, const TreedPart& b, double limit,
-                               PairWork& work) {
-  return ClosestSearch(a, b, limit, work).run();
+std::optional<Closest> closest(const TreedPart& a, const TreedPart& b, double limit, PairWork& work,
+                               double slack) {
+  return ClosestSearch(a, b, limit, slack, work).run();
 }
 
 std::optional<Closest> any_within(const TreedPart& a, const TreedPart& b, double distance,
                                   PairWork& work) {
-  return ClosestSearch(a, b, distance, work).run_until_near();
+  return ClosestSearch(a, b, distance, 0, work).run_until_near();
 }
 
 double distance_to_surface(const TreedPart& part, const Vec3d& point, double limit) {

@@ -156,13 +156,14 @@ Halves halve_in_order(std::span<const Reference> refs) {
 
 }  // namespace
 
-PartTree::PartTree(const Part& part, const parallel::Context& context) {
-  const auto n = static_cast<std::uint32_t>(part.triangles.size());
+/// Over n triangles, the i-th being pick(i).
+template <class Pick>
+void PartTree::build(const Part& part, std::uint32_t n, const Pick& pick,
+                     const parallel::Context& context) {
   if (n == 0) return;
   std::vector<Reference> refs(n);
-  const Status gathered = heavy_loop(context, "tree items", n, [&](std::size_t i) {
-    refs[i] = reference(part, static_cast<std::uint32_t>(i));
-  });
+  const Status gathered = heavy_loop(context, "tree items", n,
+                                     [&](std::size_t i) { refs[i] = reference(part, pick(i)); });
   if (!gathered) return;
   const auto cut = [&](const HalvedRange& range, const Box3i& box) {
     const std::span<Reference> mine = std::span(refs).subspan(range.first, range.size());
@@ -173,6 +174,17 @@ PartTree::PartTree(const Part& part, const parallel::Context& context) {
   const Status ordered =
       heavy_loop(context, "tree order", n, [&](std::size_t i) { order_[i] = refs[i].triangle; });
   if (!ordered) nodes_.clear();
+}
+
+PartTree::PartTree(const Part& part, const parallel::Context& context) {
+  build(
+      part, static_cast<std::uint32_t>(part.triangles.size()),
+      [](std::size_t i) { return static_cast<std::uint32_t>(i); }, context);
+}
+
+PartTree::PartTree(const Part& part, std::span<const std::uint32_t> triangles) {
+  build(part, static_cast<std::uint32_t>(triangles.size()),
+        [&](std::size_t i) { return triangles[i]; }, {});
 }
 
 }  // namespace strake::geometry

@@ -83,14 +83,22 @@ struct PairWork : PairCost {
 struct Closest {
   double squared = 0;   ///< grid units², the exact rational rounded to nearest
   double distance = 0;  ///< its square root, rounded
+  double lower = 0;     ///< no points are nearer; the distance itself unless closest() had slack
   Vec3d on_a, on_b;     ///< grid units relative to a's origin
-  std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< lowest ids among exact ties
+  /// The lowest ids among exact ties, but for two flat faces of very many needles: there the first
+  /// that the walk finds, which is the same for any team.
+  std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;
 };
 
 /// The minimum Euclidean distance between the surfaces, if it is below `limit` grid units; the
 /// work follows the output, not the gap. Zero when they share a point.
+///
+/// With `slack` (grid units) a heavy pair may be answered by two points that are farther apart than
+/// the nearest by up to so much, `lower` telling how near those can be: flat faces that stand askew
+/// are snapped to a roughness of a few units, and which of their needles come nearest in it is work
+/// of the square of their number.
 [[nodiscard]] std::optional<Closest> closest(const TreedPart& a, const TreedPart& b, double limit,
-                                             PairWork& work);
+                                             PairWork& work, double slack = 0);
 
 /// Two triangles nearer than `distance` grid units, the first that are found, with their own
 /// closest points: not the closest of the parts, but far cheaper where whole faces are about

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "strake/geometry/part.hpp"
@@ -26,11 +27,16 @@ class PartTree {
   PartTree() = default;
   /// The same tree with any team or none. Without nodes where the context's stop token ended it.
   explicit PartTree(const Part& part, const parallel::Context& context = {});
+  /// Over some triangles of a part.
+  PartTree(const Part& part, std::span<const std::uint32_t> triangles);
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< root first
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
+  template <class Pick>
+  void build(const Part& part, std::uint32_t n, const Pick& pick, const parallel::Context& context);
+
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
 };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "strake/geometry/part_pair.hpp"
 #include "support/part_builder.hpp"
@@ -58,7 +60,7 @@ IndexedMesh cylinder(double radius, std::int32_t height, std::uint32_t sectors,
 TEST(PairWorkTest, RotatedPlatesCostTheSameAtEveryGap) {
   for (const std::int32_t gap : {1001, 1500, 2000, 5000, 10000, 30000, 100000}) {
     const Subject low(turned(box_mesh({0, 0, -13000}, {10000000, 10000000, 0}), 0.1, 0.2));
-    IndexedMesh mesh = box_mesh({0, 0, gap}, {10000000, 10000000, gap + 13000});
+    const IndexedMesh mesh = box_mesh({0, 0, gap}, {10000000, 10000000, gap + 13000});
     const Subject high(turned(turned(mesh, 0.5, 0), 0.1, 0.2));
     PairWork work;
     const auto r = closest(low.treed(), high.treed(), 200000, work);
@@ -114,6 +116,95 @@ TEST(PairWorkTest, FlushContactNeedsFewTriangles) {
   EXPECT_EQ(meet(plate.treed(), box.treed(), work).meeting, Meeting::touching);
   EXPECT_LE(work.triangle_pairs, 4U);
   EXPECT_LE(work.node_pairs, 20U);
+}
+
+// Caps that are fans of needles from their centre, as most programs write them.
+
+struct FanPair {
+  const char* name;
+  IndexedMesh a, b;
+  Vec3i shift;      ///< of b
+  double distance;  ///< of the skins
+  Meeting meeting;
+};
+
+IndexedMesh moved(IndexedMesh mesh, const Vec3i& by) {
+  for (Vec3i& v : mesh.vertices) v = v + by;
+  return mesh;
+}
+
+/// A disc with a flat recess, into which others fit without a plane between.
+IndexedMesh recessed(double radius, std::int32_t height, double recess, std::int32_t floor,
+                     std::uint32_t sectors) {
+  IndexedMesh m = cylinder(radius, height, sectors, 1);
+  // Its upper cap makes way for a rim, a wall and a floor.
+  std::erase_if(m.triangles, [&](const Triangle& t) { return t[0] == 2 * sectors + 1; });
+  IndexedMesh hole = cylinder(recess, height - floor, sectors, 1);
+  std::erase_if(hole.triangles, [&](const Triangle& t) { return t[0] == 2 * sectors + 1; });
+  const auto first = static_cast<std::uint32_t>(m.vertices.size());
+  m.append(moved(hole, {0, 0, floor}).flipped());
+  for (std::uint32_t s = 0; s < sectors; ++s) {
+    const std::uint32_t n = (s + 1) % sectors, out = sectors, in = first + sectors;
+    m.triangles.push_back({out + s, out + n, in + n});
+    m.triangles.push_back({out + s, in + n, in + s});
+  }
+  return m;
+}
+
+std::vector<FanPair> fan_pairs(std::uint32_t sectors) {
+  const auto disc = [&](double radius, std::int32_t height) {
+    return turned(cylinder(radius, height, sectors, 1), 1.0 / sectors, 0);
+  };
+  const IndexedMesh plate = cylinder(500000, 10000, sectors, 1);
+  return {{"gap", plate, disc(500000, 10000), {0, 0, 10500}, 500, Meeting::apart},
+          {"gap to a smaller one", plate, disc(300000, 10000), {0, 0, 10500}, 500, Meeting::apart},
+          {"nested", plate, disc(400000, 6000), {0, 0, 2000}, 2000, Meeting::b_inside_a},
+          {"in a recess",
+           recessed(600000, 40000, 500000, 10000, sectors),
+           disc(499000, 10000),
+           {0, 0, 10500},
+           500,
+           Meeting::apart}};
+}
+
+TEST(PairWorkTest, FansOfNeedlesCostAFewPairsATriangle) {
+  for (const std::uint32_t sectors : {100U, 1000U, 4000U})
+    for (const FanPair& pair : fan_pairs(sectors))
+      for (const bool askew : {false, true}) {
+        SCOPED_TRACE(std::string(pair.name) + ", " + std::to_string(sectors) +
+                     (askew ? " sides, turned" : " sides"));
+        const auto stand = [&](const IndexedMesh& m) { return askew ? turned(m, 0.4, 0.7) : m; };
+        const Subject a(stand(pair.a)), b(stand(moved(pair.b, pair.shift)));
+        const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
+        PairWork work;
+        const auto r = closest(a.treed(), b.treed(), 5000, work, askew ? 4 : 0);
+        ASSERT_TRUE(r);
+        EXPECT_NEAR(r->distance, pair.distance, askew ? 4 : 0.001);
+        EXPECT_LE(r->lower, r->distance);
+        EXPECT_GE(r->lower, r->distance - (askew ? 4 : 0));
+        EXPECT_LE(work.triangle_pairs, 30 * triangles);
+        EXPECT_LE(work.node_pairs, 20 * triangles);
+        EXPECT_LE(work.exact_fallbacks, triangles / 4);
+        PairWork meeting;
+        EXPECT_EQ(meet(a.treed(), b.treed(), meeting).meeting, pair.meeting);
+        EXPECT_LE(meeting.triangle_pairs, 30 * triangles);
+        EXPECT_LE(meeting.node_pairs, 20 * triangles);
+      }
+}
+
+TEST(PairWorkTest, TurnedFansAreAsFarApartAsAllTheirTriangles) {
+  for (const FanPair& pair : fan_pairs(300)) {
+    SCOPED_TRACE(pair.name);
+    const Subject a(turned(pair.a, 0.4, 0.7)), b(turned(moved(pair.b, pair.shift), 0.4, 0.7));
+    PairWork work;
+    const auto exact = closest(a.treed(), b.treed(), 5000, work);
+    const auto quick = closest(a.treed(), b.treed(), 5000, work, 4);
+    ASSERT_TRUE(exact && quick);
+    EXPECT_EQ(exact->lower, exact->distance);
+    EXPECT_LE(quick->lower, exact->distance);
+    EXPECT_GE(quick->distance, exact->distance);
+    EXPECT_LE(quick->distance, exact->distance + 4);
+  }
 }
 
 }  // namespace

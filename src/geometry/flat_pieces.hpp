@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "geometry/pair_view.hpp"
+#include "strake/geometry/part.hpp"
+#include "strake/geometry/part_tree.hpp"
+
+namespace strake::geometry {
+
+/// Some of a part's triangles, with a tree of their own.
+struct FlatPiece {
+  const Part* part = nullptr;
+  PartTree tree;
+
+  /// In the coordinates of a pair; the triangles keep their numbers.
+  [[nodiscard]] PartView view(const Vec3l& shift) const {
+    return {TreedPart{{part, {}}, &tree}, shift};
+  }
+};
+
+/// Two parts cut into their flat levels square to a common direction, a few grid units high and of
+/// many triangles each, and a piece with all the rest. Boxes of needles that fan out from one
+/// corner overlap each other by the square of their number, so that no tree over a whole part tells
+/// two flat faces from each other; their heights do.
+struct FlatPieces {
+  struct Pair {
+    const FlatPiece *a = nullptr, *b = nullptr;
+    double gap = 0;  ///< they are so far apart by their heights; negative where those overlap
+  };
+
+  std::vector<FlatPiece> a, b;
+  std::vector<Pair> open;                                ///< that their heights do not part
+  double gap = std::numeric_limits<double>::infinity();  ///< all other pairs are so far apart
+};
+
+/// The pieces of two parts, those counting as parted that are at least `apart` (grid units) apart
+/// for certain. Nothing where no direction parts a good share of the triangles; parts without flat
+/// faces are told by a few samples. `hint` is a direction to try first. O(n log n).
+///
+/// A direction is the mean normal of all triangles that look within a few degrees along a rough
+/// one, weighed by their areas: a fan has a normal that none of its snapped needles has.
+[[nodiscard]] std::optional<FlatPieces> parted_by_heights(const PartView& a, const PartView& b,
+                                                          double apart,
+                                                          const std::optional<Vec3d>& hint = {});
+
+}  // namespace strake::geometry
