@@ -196,6 +196,10 @@ std::optional<FlatPieces> parted_along(const PartView& a, const PartView& b, dou
                                        const Direction& direction) {
   const Levels levels_a = levels_of(a, direction.normal), levels_b = levels_of(b, direction.normal);
   if (levels_a.flat.empty() || levels_b.flat.empty()) return std::nullopt;
+  // Stairs of very many steps: telling each pair of steps would take longer than it saves.
+  if (levels_a.flat.size() * levels_b.flat.size() >
+      a.part().triangles.size() + b.part().triangles.size())
+    return std::nullopt;
   const std::vector<Range> of_a = ranges_of(levels_a), of_b = ranges_of(levels_b);
   FlatPieces pieces;
   struct Open {
