@@ -136,7 +136,7 @@ TEST(MeetTest, EdgesOnFaces) {
   check(testing::prism_mesh(roof, 2, 8), box_mesh({-10, -10, 0}, {0, 10, 10}), kTouching);
   check(testing::prism_mesh(roof, 2, 8), box_mesh({-10, -10, 0}, {1, 10, 10}), kCrossing);
   // The inner corner of an L, full of material, runs along the middle of a face of the box.
-  IndexedMesh l = frame(10, 5, 10);
+  const IndexedMesh l = frame(10, 5, 10);
   check(l, box_mesh({5, -3, 2}, {8, 3, 8}), {Meeting::crossing, true, false, true});
 }
 

@@ -176,7 +176,7 @@ TEST(Draw, RefusesWhatMakesNoSense) {
 TEST(Draw, StopsWhenToldTo) {
   test::SceneBuilder scene;
   scene.object({{.parts = {box(0, 0, 0)}, .origin = {}}});
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   for (const hlr::Solver solver : {hlr::Solver::gather, hlr::Solver::brute_force}) {
     const auto drawing = hlr::draw(scene.scene(), {}, kIso, {.solver = solver},

@@ -212,11 +212,12 @@ TEST(ObjReader, CountsBackAcrossChunks) {
   ASSERT_GT(text.size(), 2U << 20U);
   const model::Model model = read_ok(text);
   ASSERT_EQ(model.objects.size(), 2U);
+  constexpr std::size_t kHalf = count / 2;
   for (std::size_t object = 0; object < 2; ++object) {
     const TriangleMesh& mesh = mesh_of(model, object);
-    ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(count) / 2);
+    ASSERT_EQ(mesh.triangles.size(), kHalf);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const double x = static_cast<double>(i + object * (count / 2));
+      const double x = static_cast<double>(i + object * kHalf);
       const auto& t = mesh.triangles[i];
       ASSERT_EQ(mesh.vertices[t[0]], (Vec3d{x, 0, 0}));
       ASSERT_EQ(mesh.vertices[t[1]], (Vec3d{x, 1, 0.123456}));
@@ -245,7 +246,7 @@ TEST(ObjReader, StatesThePrecisionOfItsText) {
 }
 
 TEST(ObjReader, StopsWhenAsked) {
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   parallel::Context context;
   context.stop = stop.get_token();
