@@ -189,7 +189,7 @@ std::optional<Closest> ClosestSearch::decide() {
   best->distance = sqrt_ratio_to_double(nearest.squared.numerator, nearest.squared.denominator);
   best->on_a = nearest.on_a;
   best->on_b = nearest.on_b;
-  best->lower = std::min(best->distance, left_out_);
+  best->lower = std::min(best->distance, std::max(0.0, left_out_));
   if (!(best->distance < limit_)) return std::nullopt;
   return best;
 }

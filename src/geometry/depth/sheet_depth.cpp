@@ -166,7 +166,8 @@ Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid, const
   Depth depth;
   depth.upper = hull_bound(sheet, fs, solid, fb, extent);
   const std::vector<Corners> pieces = pieces_near(fs, fb.box());
-  SheetSearch<3>(pieces, fb, goal, depth, kFieldError * extent, work).run();
+  SheetSearch<3>(pieces, fb, goal, depth, kFieldError * extent, work, fs.part().triangles.size())
+      .run();
   depth.upper = std::max(depth.upper, depth.value);
   return depth;
 }

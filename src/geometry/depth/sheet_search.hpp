@@ -28,10 +28,17 @@ class SheetSearch {
  public:
   using Shape = std::array<Vec3d, N>;
 
-  /// Raises `depth` where the pieces are deeper; its upper bound is a ceiling.
+  /// Raises `depth` where the pieces are deeper; its upper bound is a ceiling. `whole`: the pieces
+  /// that there are, if these are only those near the solid; the work limit goes by them.
   SheetSearch(std::span<const Shape> pieces, const DepthField& solid, const DepthGoal& goal,
-              Depth& depth, double margin, PairWork& work)
-      : pieces_(pieces), solid_(solid), goal_(goal), depth_(depth), margin_(margin), work_(work) {}
+              Depth& depth, double margin, PairWork& work, std::size_t whole = 0)
+      : pieces_(pieces),
+        solid_(solid),
+        goal_(goal),
+        depth_(depth),
+        margin_(margin),
+        work_(work),
+        whole_(std::max(whole, pieces.size())) {}
 
   void run() {
     const double ceiling = depth_.upper;
@@ -126,7 +133,7 @@ class SheetSearch {
   [[nodiscard]] bool exhausted() const {
     const bool decided = depth_.lower > goal_.threshold || depth_.upper <= goal_.threshold;
     const std::uint32_t cells = decided ? goal_.cells_decided : goal_.cells_undecided;
-    return depth_.cells >= std::uint64_t{kPiecesPerCell} * cells + pieces_.size();
+    return depth_.cells >= std::uint64_t{kPiecesPerCell} * cells + whole_;
   }
 
   void halve(const Piece& piece) {
@@ -199,6 +206,7 @@ class SheetSearch {
   Depth& depth_;
   double margin_;
   PairWork& work_;
+  std::size_t whole_;
   std::vector<Piece> open_;  ///< a heap, the most promising first
   std::uint32_t next_id_ = 0;
 };

@@ -382,6 +382,32 @@ TEST(SheetDepth, PlateSheetIntoABox) {
   EXPECT_LE(d.upper - d.lower, 1000);
 }
 
+TEST(SheetDepth, TheWorkLimitGoesByTheWholeOfALargeSheet) {
+  // Only what is near the box is searched, and no less thoroughly for that.
+  constexpr int kSide = 80;
+  IndexedMesh grid;
+  for (int i = 0; i <= kSide; ++i)
+    for (int j = 0; j <= kSide; ++j)
+      grid.vertices.push_back({20'000 * i, 20'000 * j,
+                               static_cast<std::int32_t>(9000 * std::sin(0.9 * i) * std::cos(j))});
+  for (std::uint32_t i = 0; i < kSide; ++i)
+    for (std::uint32_t j = 0; j < kSide; ++j) {
+      const std::uint32_t p = i * (kSide + 1) + j, q = p + kSide + 1;
+      grid.triangles.push_back({p, q, q + 1});
+      grid.triangles.push_back({p, q + 1, p + 1});
+    }
+  const Subject sheet(grid), box(box_mesh({801'000, 803'000, -30'000}, {915'000, 907'000, 28'000}));
+  const SupportPlanes ps = make_support_planes(sheet.part), pb = make_support_planes(box.part);
+  ASSERT_GE(sheet.part.vertices.size(), kManyVertices);
+  PairWork work;
+  const DepthPart s{sheet.treed(), &ps}, b{box.treed(), &pb};
+  const Depth fine = sheet_in_solid_depth(s, b, {.tolerance = 0.5, .relative = 0}, work);
+  ASSERT_LE(fine.upper - fine.lower, 0.5);
+  const Depth told = sheet_in_solid_depth(
+      s, b, {.threshold = fine.lower - 1, .cells_undecided = 0, .cells_decided = 0}, work);
+  EXPECT_GT(told.lower, fine.lower - 1);
+}
+
 TEST(SheetDepth, SheetsThatCross) {
   const Subject a(testing::quad_mesh({0, 0, 0}, {100'000, 0, 0}, {0, 100'000, 0}));
   const Subject b(testing::quad_mesh({50'000, 20'000, -30'000}, {0, 500'000, 0}, {0, 0, 60'000}));
