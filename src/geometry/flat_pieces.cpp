@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "geometry/corners.hpp"
+#include "geometry/range.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -105,8 +106,7 @@ std::optional<Direction> mean_direction(const PartView& a, const PartView& b, co
 }
 
 /// A triangle and the heights that it lies between.
-struct Height {
-  double lo = 0, hi = 0;
+struct Height : Range {
   std::uint32_t triangle = 0;
 };
 
@@ -126,7 +126,7 @@ std::vector<Height> heights(const PartView& view, const Vec3d& normal) {
   all.reserve(part.triangles.size());
   for (const Triangle& t : part.triangles) {
     const auto [lo, hi] = std::minmax({at[t[0]], at[t[1]], at[t[2]]});
-    all.push_back({lo, hi, static_cast<std::uint32_t>(all.size())});
+    all.push_back({{lo, hi}, static_cast<std::uint32_t>(all.size())});
   }
   return all;
 }
@@ -151,21 +151,17 @@ Levels levels_of(const PartView& view, const Vec3d& normal) {
   return levels;
 }
 
-struct Range {
-  double lo = std::numeric_limits<double>::infinity();
-  double hi = -std::numeric_limits<double>::infinity();
+struct CountedRange {
+  Range heights;
   std::size_t count = 0;
 };
 
-std::vector<Range> ranges_of(const Levels& levels) {
-  std::vector<Range> ranges;
+std::vector<CountedRange> ranges_of(const Levels& levels) {
+  std::vector<CountedRange> ranges;
   const auto add = [&](const std::vector<Height>& of) {
-    Range& range = ranges.emplace_back();
+    CountedRange& range = ranges.emplace_back();
     range.count = of.size();
-    for (const Height& h : of) {
-      range.lo = std::min(range.lo, h.lo);
-      range.hi = std::max(range.hi, h.hi);
-    }
+    for (const Height& h : of) range.heights.include(h);
   };
   for (const std::vector<Height>& level : levels.flat) add(level);
   if (!levels.rest.empty()) add(levels.rest);
@@ -200,7 +196,7 @@ std::optional<FlatPieces> parted_along(const PartView& a, const PartView& b, dou
   if (levels_a.flat.size() * levels_b.flat.size() >
       a.part().triangles.size() + b.part().triangles.size())
     return std::nullopt;
-  const std::vector<Range> of_a = ranges_of(levels_a), of_b = ranges_of(levels_b);
+  const std::vector<CountedRange> of_a = ranges_of(levels_a), of_b = ranges_of(levels_b);
   FlatPieces pieces;
   struct Open {
     std::size_t a, b;
@@ -210,7 +206,7 @@ std::optional<FlatPieces> parted_along(const PartView& a, const PartView& b, dou
   std::size_t parted = 0;
   for (std::size_t i = 0; i < of_a.size(); ++i)
     for (std::size_t j = 0; j < of_b.size(); ++j) {
-      const double gap = gap_of(of_a[i], of_b[j], direction);
+      const double gap = gap_of(of_a[i].heights, of_b[j].heights, direction);
       if (gap >= apart) {
         pieces.gap = std::min(pieces.gap, gap);
         parted += of_a[i].count * of_b[j].count;

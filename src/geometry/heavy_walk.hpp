@@ -22,10 +22,12 @@ namespace strake::geometry {
 /// shrink, `work`, and operator()(NearTriangles) as NearWalk's visitor. `take(state)` gets the
 /// states in the order of a single walk and tells whether to go on. Where the team was stopped some
 /// are missing. `settled(state)` is asked while the walk is still alone, after walked_before_flat()
-/// node pairs and then each time that the number has grown fourfold: true ends the walk.
-template <class Begin, class Take, class Settled>
+/// node pairs and then each time that the number has grown fourfold: true ends the walk. `most`:
+/// see run_in_rounds().
+template <class Begin, class Take, class Settled, class Most>
 void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, PairWork& work,
-                     const Begin& begin, const Take& take, const Settled& settled) {
+                     const Begin& begin, const Take& take, const Settled& settled,
+                     const Most& most) {
   using State = decltype(begin());
   const auto charge = [&](State& state) {
     work += state.work;
@@ -50,14 +52,14 @@ void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, P
         piece.start(entry);
         piece.run(state.reach, state);
       },
-      charge);
+      charge, most);
 }
 
-template <class Begin, class Take>
+template <class Begin, class Take, class Settled>
 void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, PairWork& work,
-                     const Begin& begin, const Take& take) {
-  heavy_near_walk(a, b, near_enough, work, begin, take,
-                  [](const auto& /*state*/) { return false; });
+                     const Begin& begin, const Take& take, const Settled& settled) {
+  heavy_near_walk(a, b, near_enough, work, begin, take, settled,
+                  [](std::size_t /*done*/) { return kWalkPieces; });
 }
 
 }  // namespace strake::geometry

@@ -8,6 +8,7 @@
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
+#include "geometry/range.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -31,21 +32,12 @@ Vec3d largest(const Part& part, Pass&& pass) {
   return most > 0 ? best * (1 / std::sqrt(most)) : Vec3d{};
 }
 
-struct Range {
-  double lo = std::numeric_limits<double>::infinity();
-  double hi = -std::numeric_limits<double>::infinity();
-};
-
 /// `vertices`: those of the part, or empty.
 Range range_along(const Part& part, const VertexTree& vertices, const Vec3d& n) {
   if (!vertices.empty())
     return {-vertices.greatest_along(-n).value, vertices.greatest_along(n).value};
   Range r;
-  for (const Vec3i& v : part.vertices) {
-    const double at = dot(n, v.as<double>());
-    r.lo = std::min(r.lo, at);
-    r.hi = std::max(r.hi, at);
-  }
+  for (const Vec3i& v : part.vertices) r.include(dot(n, v.as<double>()));
   return r;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geometry/depth/simplex.hpp"
+#include "geometry/range.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -38,22 +39,6 @@ Axes frame_of(const Part& part, std::uint32_t triangle) {
   return {x, y * (1 / ly), z};
 }
 
-struct Range {
-  double lo = std::numeric_limits<double>::infinity();
-  double hi = -std::numeric_limits<double>::infinity();
-};
-
-/// Of the corners of a box.
-Range range_along(const Box3d& box, const Vec3d& axis) {
-  Range r{0, 0};
-  for (int k = 0; k < 3; ++k) {
-    const double x = axis[k] * box.lo[k], y = axis[k] * box.hi[k];
-    r.lo += std::min(x, y);
-    r.hi += std::max(x, y);
-  }
-  return r;
-}
-
 Range range_along(const DepthField& f, const Vec3d& axis) {
   if (f.has_many_vertices()) {
     const double at = dot(axis, f.common({}));
@@ -61,11 +46,7 @@ Range range_along(const DepthField& f, const Vec3d& axis) {
             at + f.vertices().greatest_along(axis).value};
   }
   Range r;
-  for (const Vec3i& v : f.part().vertices) {
-    const double t = dot(axis, f.common(v.as<double>()));
-    r.lo = std::min(r.lo, t);
-    r.hi = std::max(r.hi, t);
-  }
+  for (const Vec3i& v : f.part().vertices) r.include(dot(axis, f.common(v.as<double>())));
   return r;
 }
 

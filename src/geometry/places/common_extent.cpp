@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "geometry/places/clip.hpp"
+#include "geometry/range.hpp"
 #include "geometry/tree_walk.hpp"
 #include "strake/geometry/meeting_places.hpp"
 
@@ -15,13 +16,8 @@ namespace {
 bool reaches_into(const Box3d& box, const std::array<Slab, 3>& room) {
   constexpr double kRounding = 1.0 / 1024;
   return std::ranges::all_of(room, [&](const Slab& slab) {
-    double lo = 0, hi = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double x = slab.axis[k] * box.lo[k], y = slab.axis[k] * box.hi[k];
-      lo += std::min(x, y);
-      hi += std::max(x, y);
-    }
-    return lo <= slab.hi + kRounding && hi >= slab.lo - kRounding;
+    const Range along = range_along(box, slab.axis);
+    return along.lo <= slab.hi + kRounding && along.hi >= slab.lo - kRounding;
   });
 }
 

@@ -36,18 +36,22 @@ class Places {
 
   std::optional<std::vector<MeetingPlace>> find(PairWork& work) {
     const OnePlace one = question_.one;
+    const auto near = [&](std::uint64_t most) {
+      return near_triangles(a_, b_, {.reach = reach_, .most = most}, work);
+    };
     std::optional<std::vector<NearTriangles>> pairs;
-    if (one == OnePlace::described || !wide())
-      pairs = near_triangles(a_, b_, {.reach = reach_, .most = most_at_first()}, work);
-    if (!pairs && one != OnePlace::described) {
-      const bool boxed = one == OnePlace::boxed;
-      if (const auto box = single_place(a_, b_, {.reach = reach_, .boxed = boxed}, work)) {
-        std::vector<MeetingPlace> single(1);
-        single.front().extent = *box;
-        return single;
+    if (one != OnePlace::described && single_place_affordable(a_.part(), b_.part())) {
+      if (!wide()) pairs = near(few_pairs());
+      if (!pairs) {
+        const bool boxed = one == OnePlace::boxed;
+        if (const auto box = single_place(a_, b_, {.reach = reach_, .boxed = boxed}, work)) {
+          std::vector<MeetingPlace> single(1);
+          single.front().extent = *box;
+          return single;
+        }
       }
-      pairs = near_triangles(a_, b_, {.reach = reach_, .most = question_.most_pairs}, work);
     }
+    if (!pairs) pairs = near(question_.most_pairs);
     if (!pairs) return std::nullopt;
     pairs_ = std::move(*pairs);
     DisjointSets sets(pairs_.size() + a_.part().vertices.size() + b_.part().vertices.size());
@@ -95,8 +99,7 @@ class Places {
     return 4 * (question_.reach - question_.distance) > std::min(size(a_.part()), size(b_.part()));
   }
 
-  [[nodiscard]] std::uint64_t most_at_first() const {
-    if (question_.one == OnePlace::described) return question_.most_pairs;
+  [[nodiscard]] std::uint64_t few_pairs() const {
     return std::min(question_.most_pairs,
                     kFewPerTriangle * (a_.part().triangles.size() + b_.part().triangles.size()));
   }

@@ -83,6 +83,24 @@ struct Gathering {
   }
 };
 
+/// Where there are too many, little more than that is looked at.
+void gather_by_trees(Gathering& all, PairWork& work) {
+  const auto room = [&] { return all.most - all.pairs.size(); };
+  std::optional<std::size_t> alone;  // how many the walk found before it asked for help
+  heavy_near_walk(
+      all.a, all.b, all.reach, work, [&] { return Gathering{all.a, all.b, room(), all.reach}; },
+      [&](Gathering& piece) {
+        const bool goes_on = all.take(piece);
+        if (!alone) alone = all.pairs.size();
+        return goes_on;
+      },
+      [](const Gathering& /*alone*/) { return false; },
+      [&](std::size_t done) {
+        const std::size_t found = all.pairs.size() - *alone;
+        return found == 0 ? kWalkPieces : 1 + room() * done / found;
+      });
+}
+
 std::vector<NearTriangles> by_triangles(const std::vector<NearTriangles>& pairs, const Part& a,
                                         const Part& b) {
   std::vector<std::uint32_t> order = first_numbers(pairs.size());
@@ -107,10 +125,9 @@ std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a, cons
                                                          const NearQuestion& question,
                                                          PairWork& work) {
   const double squared = question.reach * question.reach;
-  const auto begin = [&] { return Gathering{a, b, question.most, squared}; };
-  Gathering all = begin();
+  Gathering all{a, b, question.most, squared};
   if (a.planted() && b.planted()) {
-    heavy_near_walk(a, b, squared, work, begin, [&](Gathering& piece) { return all.take(piece); });
+    gather_by_trees(all, work);
   } else {
     walk_lists(a, b, squared, all.work, all);
     work += all.work;

@@ -367,10 +367,14 @@ class SinglePlace {
 
 }  // namespace
 
+bool single_place_affordable(const Part& a, const Part& b) {
+  const std::size_t x = a.triangles.size(), y = b.triangles.size();
+  return x * y <= kPairsPerTriangle * (x + y);
+}
+
 std::optional<Box3d> single_place(const PartView& a, const PartView& b,
                                   const SingleQuestion& question, PairWork& work) {
-  const std::size_t x = a.part().triangles.size(), y = b.part().triangles.size();
-  if (x * y > kPairsPerTriangle * (x + y)) return std::nullopt;
+  if (!single_place_affordable(a.part(), b.part())) return std::nullopt;
   SinglePlace place(a, b, question.reach, work);
   if (!place.certain()) return std::nullopt;
   return question.boxed ? place.extent() : empty_box<double>();

@@ -12,10 +12,13 @@ struct SingleQuestion {
   bool boxed = false;  ///< whether the box of the place is asked for
 };
 
+/// Whether two parts have few enough triangles for single_place() to be quick.
+[[nodiscard]] bool single_place_affordable(const Part& a, const Part& b);
+
 /// Whether the skins of two parts certainly come within reach of each other in one place, without a
 /// list of all near triangles: for reaches that are wide against the triangles. The box that holds
 /// the place, where asked for, is that of all near triangles. Nothing says nothing: there may be
-/// several places, or none, or the parts have too many triangles for this to be quick.
+/// several places, or none, or it is not affordable.
 ///
 /// Corners that are within reach of each other are joined along the edges of either part: of the
 /// points of an edge those within reach of a corner are a stretch. That leaves pairs of triangles

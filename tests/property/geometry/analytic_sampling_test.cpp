@@ -169,65 +169,67 @@ void check_inside(const AnalyticSeparation& s, const Sampled& found) {
   }
 }
 
-TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
-  std::uint64_t answered = 0, apart = 0, meeting = 0, sampled_deep = 0, held = 0;
-  std::array<std::uint64_t, kKinds * kKinds> of_kinds{};
-  for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
-    const auto [a, b] = draw_bodies(seed);
+/// How many pairs were seen of each sort.
+struct Seen {
+  std::uint64_t answered = 0, apart = 0, meeting = 0, held = 0;
+};
+
+/// Draws a pair for each seed and holds its answer against samples; `more(seed, answer, samples)`
+/// for each that was answered.
+template <class Draw, class More>
+Seen check_pairs(std::uint64_t pairs, const Draw& draw, const More& more) {
+  Seen seen;
+  for (std::uint64_t seed = 1; seed <= pairs; ++seed) {
+    const auto [a, b] = draw(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(a.primitive)) +
                  " and " + std::string(kind_name(b.primitive)));
     const auto s = analytic_separation(a.placed(), b.placed());
     if (!s) continue;
-    ++answered;
-    ++of_kinds[seed % (kKinds * kKinds)];
+    ++seen.answered;
     std::mt19937_64 random(seed);
     const Sampled found = sample(a, b, random);
     check_inside(*s, found);
-    if (s->a_inside_b > 0 || s->b_inside_a > 0) ++held;
+    if (s->a_inside_b > 0 || s->b_inside_a > 0) ++seen.held;
     if (s->lower > 0) {
-      ++apart;
+      ++seen.apart;
       check_apart(a, b, *s, found);
-      EXPECT_LE(found.nearest - s->upper * kMmPerGrid, 0.5 * kSize)
-          << "the samples cover the skins";
     } else if (s->upper < 0) {
-      ++meeting;
-      if (found.deepest > 0.5 * -s->d * kMmPerGrid) ++sampled_deep;
+      ++seen.meeting;
       check_meeting(a, b, *s, found);
     }
+    more(seed, *s, found);
   }
-  EXPECT_GT(answered, kPairs * 9 / 10);
-  EXPECT_GT(apart, kPairs / 4);
-  EXPECT_GT(meeting, kPairs / 4);
-  EXPECT_GT(held, kPairs / 200);
-  EXPECT_GT(sampled_deep, meeting / 2) << "the samples reach where it is deep";
+  return seen;
+}
+
+TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
+  std::uint64_t sampled_deep = 0;
+  std::array<std::uint64_t, kKinds * kKinds> of_kinds{};
+  const Seen seen =
+      check_pairs(kPairs, draw_bodies,
+                  [&](std::uint64_t seed, const AnalyticSeparation& s, const Sampled& found) {
+                    ++of_kinds[seed % (kKinds * kKinds)];
+                    if (s.lower > 0) {
+                      EXPECT_LE(found.nearest - s.upper * kMmPerGrid, 0.5 * kSize)
+                          << "the samples cover the skins";
+                    }
+                    if (s.upper < 0 && found.deepest > 0.5 * -s.d * kMmPerGrid) ++sampled_deep;
+                  });
+  EXPECT_GT(seen.answered, kPairs * 9 / 10);
+  EXPECT_GT(seen.apart, kPairs / 4);
+  EXPECT_GT(seen.meeting, kPairs / 4);
+  EXPECT_GT(seen.held, kPairs / 200);
+  EXPECT_GT(sampled_deep, seen.meeting / 2) << "the samples reach where it is deep";
   for (const std::uint64_t count : of_kinds) EXPECT_GT(count, kPairs / (kKinds * kKinds) / 3);
 }
 
 TEST(AnalyticSampling, NoPointOfSlenderBodiesContradictsABracket) {
-  std::uint64_t answered = 0, apart = 0, meeting = 0, held = 0;
-  for (std::uint64_t seed = 1; seed <= kSlenderPairs; ++seed) {
-    const auto [a, b] = draw_slender(seed);
-    SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(a.primitive)) +
-                 " and " + std::string(kind_name(b.primitive)));
-    const auto s = analytic_separation(a.placed(), b.placed());
-    if (!s) continue;
-    ++answered;
-    std::mt19937_64 random(seed);
-    const Sampled found = sample(a, b, random);
-    check_inside(*s, found);
-    if (s->a_inside_b > 0 || s->b_inside_a > 0) ++held;
-    if (s->lower > 0) {
-      ++apart;
-      check_apart(a, b, *s, found);
-    } else if (s->upper < 0) {
-      ++meeting;
-      check_meeting(a, b, *s, found);
-    }
-  }
-  EXPECT_GT(answered, kSlenderPairs * 8 / 10);
-  EXPECT_GT(apart, kSlenderPairs / 8);
-  EXPECT_GT(meeting, kSlenderPairs / 8);
-  EXPECT_GT(held, kSlenderPairs / 200);
+  const Seen seen = check_pairs(kSlenderPairs, draw_slender,
+                                [](std::uint64_t, const AnalyticSeparation&, const Sampled&) {});
+  EXPECT_GT(seen.answered, kSlenderPairs * 8 / 10);
+  EXPECT_GT(seen.apart, kSlenderPairs / 8);
+  EXPECT_GT(seen.meeting, kSlenderPairs / 8);
+  EXPECT_GT(seen.held, kSlenderPairs / 200);
 }
 
 /// Its ends in a disc of more than half a turn, across the apex of what is left out.
