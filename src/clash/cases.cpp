@@ -5,7 +5,9 @@
 #include <bit>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
+#include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -92,17 +94,22 @@ class Finder {
     }
   }
 
-  [[nodiscard]] Cases numbered() const {
-    Cases cases;
-    cases.of.resize(pairs_.size());
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (first_[i] != i) {
-        cases.of[i] = cases.of[first_[i]];
-        continue;
-      }
-      cases.of[i] = static_cast<std::uint32_t>(cases.first.size());
-      cases.first.push_back(static_cast<std::uint32_t>(i));
-    }
+  [[nodiscard]] Result<Cases> numbered() const {
+    auto first = parallel::collect<std::uint32_t>(
+        context_, {.name = "cases", .n = pairs_.size(), .grain = kGrain},
+        [&](std::size_t i, std::vector<std::uint32_t>& out) {
+          if (first_[i] == i) out.push_back(first_[i]);
+        });
+    if (!first) return first.error();
+    Cases cases{.of = std::vector<std::uint32_t>(pairs_.size()), .first = std::move(*first)};
+    for (std::size_t k = 0; k < cases.first.size(); ++k)
+      cases.of[cases.first[k]] = static_cast<std::uint32_t>(k);
+    const Status status = parallel::for_each(
+        context_, {.name = "cases of pairs", .n = pairs_.size(), .grain = kGrain},
+        [&](std::size_t i) {
+          if (first_[i] != i) cases.of[i] = cases.of[first_[i]];
+        });
+    if (!status) return status.error();
     return cases;
   }
 

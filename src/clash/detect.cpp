@@ -159,6 +159,9 @@ class Engine {
     if (!hash) return hash.error();
     report.hash = std::move(*hash);
     if (const Status s = tally(judged(), objects_, rules_, context_, report); !s) return s.error();
+    const auto widest = pair_options_.widest_band(list_.parts, context_);
+    if (!widest) return widest.error();
+    report.contact_distance_mm = *widest / geometry::kGridPerMm;
     describe_sets(report);
     if (const Status s = note_unknown_sag(list_, *scene_.model, context_, report.diagnostics); !s)
       return s.error();
@@ -170,7 +173,6 @@ class Engine {
         static_cast<std::uint64_t>(std::count(sets_.in_a.begin(), sets_.in_a.end(), true));
     report.objects_b =
         static_cast<std::uint64_t>(std::count(sets_.in_b.begin(), sets_.in_b.end(), true));
-    report.contact_distance_mm = pair_options_.widest_band(list_.parts) / geometry::kGridPerMm;
     if (report.objects_a == 0 || report.objects_b == 0)
       report.diagnostics.add(
           Severity::warning, "empty-set", "a set without objects clashes with nothing",

@@ -6,6 +6,7 @@
 
 #include "clash/options.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::clash {
 
@@ -29,10 +30,14 @@ CaseSettings PairOptions::settings(const PartRef& a, const PartRef& b) const {
           std::max(band(a), band(b))};
 }
 
-double PairOptions::widest_band(std::span<const PartRef> parts) const {
-  double widest = contact_distance(options_, 0);
-  for (const PartRef& part : parts) widest = std::max(widest, band(part));
-  return widest;
+Result<double> PairOptions::widest_band(std::span<const PartRef> parts,
+                                        const parallel::Context& context) const {
+  constexpr std::size_t kGrain = 4096;
+  return parallel::reduce(
+      context, {.name = "widest contact distance", .n = parts.size(), .grain = kGrain},
+      contact_distance(options_, 0),
+      [&](double& widest, std::size_t i) { widest = std::max(widest, band(parts[i])); },
+      [](double& into, const double& partial) { into = std::max(into, partial); });
 }
 
 double PairOptions::least_touch_gap() const {

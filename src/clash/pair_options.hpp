@@ -7,6 +7,8 @@
 #include "clash/cases.hpp"
 #include "clash/narrow.hpp"
 #include "clash/pair_rules.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::clash {
 
@@ -22,7 +24,8 @@ class PairOptions {
   [[nodiscard]] CaseSettings settings(const PartRef& a, const PartRef& b) const;
 
   /// The largest contact distance of a part, grid units.
-  [[nodiscard]] double widest_band(std::span<const PartRef> parts) const;
+  [[nodiscard]] Result<double> widest_band(std::span<const PartRef> parts,
+                                           const parallel::Context& context) const;
   /// The smallest touch gap of any pair, grid units.
   [[nodiscard]] double least_touch_gap() const;
 

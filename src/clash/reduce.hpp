@@ -39,6 +39,10 @@ struct PartFindings {
   [[nodiscard]] bool same_objects(std::size_t i, std::size_t j) const {
     return a(i).object == a(j).object && b(i).object == b(j).object;
   }
+  /// Whether the one after it is about the same two objects.
+  [[nodiscard]] bool has_more(std::size_t i) const {
+    return i + 1 < found.size() && same_objects(i, i + 1);
+  }
   /// Of the place, if known.
   [[nodiscard]] std::optional<geometry::Box3d> extent_mm(std::size_t i) const;
   /// The answer as one about the two objects.

@@ -9,7 +9,7 @@
 
 #include "strake/core/disjoint_sets.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/parallel/transform.hpp"
+#include "strake/parallel/collect.hpp"
 
 namespace strake::clash {
 namespace {
@@ -25,7 +25,13 @@ struct Place {
 
 struct Regions {
   std::uint32_t count = 0;
-  std::vector<Region> worst;  ///< of several
+  std::vector<Region> worst = {};  ///< of several
+};
+
+/// Of a pair that does not have just one.
+struct NotOne {
+  std::size_t pair = 0;
+  Regions regions;
 };
 
 Region region_of(const Place& place) {
@@ -83,8 +89,10 @@ class RegionsOfPairs {
       : findings_(findings), most_(most) {}
 
   [[nodiscard]] Regions of(const Pair& pair) const {
-    std::vector<Place> places;
     const std::size_t first = pair.first_region;
+    if (!findings_.has_more(first))
+      return {.count = findings_.found[first].too_near_to_tell ? 0U : 1U};
+    std::vector<Place> places;
     for (std::size_t i = first; i < findings_.found.size() && findings_.same_objects(first, i);
          ++i) {
       const Found& found = findings_.found[i];
@@ -96,7 +104,7 @@ class RegionsOfPairs {
           common_box_mm(findings_.a(i), findings_.b(i), search_reach(apart)));
       places.push_back(std::move(place));
     }
-    if (places.size() < 2) return {.count = 1, .worst = {}};
+    if (places.size() < 2) return {.count = 1};
     return together(places, pair);
   }
 
@@ -118,7 +126,7 @@ class RegionsOfPairs {
       if (worse(places[i], known, whole)) known = places[i];
       known.box_mm = box;
     }
-    Regions regions{.count = static_cast<std::uint32_t>(worst.size()), .worst = {}};
+    Regions regions{.count = static_cast<std::uint32_t>(worst.size())};
     if (regions.count < 2) return regions;
     std::ranges::sort(worst, [&](const Place& x, const Place& y) { return worse(x, y, whole); });
     worst.resize(std::min<std::uint64_t>(worst.size(), most_));
@@ -136,16 +144,21 @@ Status list_regions(const PartFindings& findings, const parallel::Context& conte
                     Report& report) {
   constexpr std::size_t kGrain = 256;
   const RegionsOfPairs regions(findings, report.options.most_regions);
-  const auto all =
-      parallel::transform(context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
-                          [&](std::size_t i) { return regions.of(report.pairs[i]); });
-  if (!all) return all.error();
-  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
-    const Regions& of = (*all)[i];
-    report.pairs[i].regions = of.count;
-    report.pairs[i].first_region = static_cast<std::uint32_t>(report.regions.size());
-    report.regions.insert(report.regions.end(), of.worst.begin(), of.worst.end());
-    if (of.count == 0) ++report.counters.regions_given_up;
+  const auto others = parallel::collect<NotOne>(
+      context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<NotOne>& out) {
+        Pair& pair = report.pairs[i];
+        Regions of = regions.of(pair);
+        pair.regions = of.count;
+        pair.first_region = 0;
+        if (of.count != 1) out.push_back({i, std::move(of)});
+      });
+  if (!others) return others.error();
+  for (const NotOne& other : *others) {
+    const std::vector<Region>& worst = other.regions.worst;
+    report.pairs[other.pair].first_region = static_cast<std::uint32_t>(report.regions.size());
+    report.regions.insert(report.regions.end(), worst.begin(), worst.end());
+    if (other.regions.count == 0) ++report.counters.regions_given_up;
   }
   return {};
 }

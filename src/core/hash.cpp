@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/core/hash.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -12,24 +14,38 @@ namespace strake {
 
 struct Hasher::State {
   XXH3_state_t xxh;  // holds its own alignment, which operator new obeys
+  /// What has been added last: XXH3 takes long runs several times faster than single numbers.
+  std::array<std::byte, 1024> waiting;
+  std::size_t size = 0;
+
+  State() { XXH3_128bits_reset(&xxh); }
+
+  void add(std::span<const std::byte> bytes) {
+    if (bytes.size() > waiting.size() - size) {
+      XXH3_128bits_update(&xxh, waiting.data(), size);
+      size = 0;
+    }
+    if (bytes.size() > waiting.size()) {
+      XXH3_128bits_update(&xxh, bytes.data(), bytes.size());
+    } else {
+      std::ranges::copy(bytes, waiting.begin() + static_cast<std::ptrdiff_t>(size));
+      size += bytes.size();
+    }
+  }
 };
 
-Hasher::Hasher() : state_(std::make_unique<State>()) { XXH3_128bits_reset(&state_->xxh); }
+Hasher::Hasher() : state_(std::make_unique<State>()) {}
 Hasher::~Hasher() = default;
 Hasher::Hasher(Hasher&&) noexcept = default;
 Hasher& Hasher::operator=(Hasher&&) noexcept = default;
 
-void Hasher::add_raw(const void* bytes, std::size_t size) {
-  XXH3_128bits_update(&state_->xxh, bytes, size);
-}
-
 Hasher& Hasher::add(std::uint64_t value) {
-  std::array<unsigned char, 8> bytes{};
-  for (unsigned char& byte : bytes) {
-    byte = static_cast<unsigned char>(value & 0xffU);
+  std::array<std::byte, 8> bytes{};
+  for (std::byte& byte : bytes) {
+    byte = static_cast<std::byte>(value & 0xffU);
     value >>= 8U;
   }
-  add_raw(bytes.data(), bytes.size());
+  state_->add(bytes);
   return *this;
 }
 
@@ -42,12 +58,14 @@ Hasher& Hasher::add(std::string_view text) { return add(std::as_bytes(std::span(
 
 Hasher& Hasher::add(std::span<const std::byte> bytes) {
   add(std::uint64_t{bytes.size()});
-  add_raw(bytes.data(), bytes.size());
+  state_->add(bytes);
   return *this;
 }
 
 Hash128 Hasher::value() const {
-  const XXH128_hash_t hash = XXH3_128bits_digest(&state_->xxh);
+  State all = *state_;
+  XXH3_128bits_update(&all.xxh, all.waiting.data(), all.size);
+  const XXH128_hash_t hash = XXH3_128bits_digest(&all.xxh);
   return {hash.high64, hash.low64};
 }
 

@@ -46,7 +46,6 @@ class Hasher {
 
  private:
   struct State;
-  void add_raw(const void* bytes, std::size_t size);
   std::unique_ptr<State> state_;
 };
 
