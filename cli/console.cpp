@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <system_error>
 
 #include "strake/core/text.hpp"
 
@@ -66,6 +67,12 @@ void Console::show_status(std::string_view line) {
   (void)write_all(STDERR_FILENO, text);
 }
 
-bool write_stdout(std::string_view text) { return write_all(STDOUT_FILENO, text); }
+Status write_stdout(std::string_view text) {
+  if (write_all(STDOUT_FILENO, text)) return {};
+  return Error{ErrorCode::output,
+               "cannot be written: " + std::generic_category().message(errno),
+               "standard output",
+               {}};
+}
 
 }  // namespace strake::cli

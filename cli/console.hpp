@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "strake/core/result.hpp"
+
 namespace strake::cli {
 
 /// Standard error, shared by narration, errors and the progress line. Thread-safe. What is said may
@@ -34,7 +36,7 @@ class Console {
   std::string status_;
 };
 
-/// Writes data to standard output; false when it cannot be written (a full disk).
-[[nodiscard]] bool write_stdout(std::string_view text);
+/// Writes data to standard output. Errors: output, with the reason (a full disk).
+[[nodiscard]] Status write_stdout(std::string_view text);
 
 }  // namespace strake::cli

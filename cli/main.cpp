@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -30,19 +32,20 @@ Examples:
 Exit codes: 0 done, 1 clashes found (--fail-on), 2 wrong command line, 3 a file cannot be read or
 written, 4 something was skipped (--strict), 5 a fault of the program, 130 cancelled.)";
 
+/// Says why it ends, and what the shell is told.
+int ended_by(const Error& error, Console& console) {
+  console.error(error.text());
+  return static_cast<int>(exit_code_of(error.code));
+}
+
 int run_verb(const Verb& verb, const CommonOptions& common, Console& console) {
   Interrupts interrupts(console);
   const Result<unsigned> workers = worker_count(common);
-  if (!workers) {
-    console.error(workers.error().text());
-    return static_cast<int>(ExitCode::usage);
-  }
+  if (!workers) return ended_by(workers.error(), console);
   Session session(common, *workers, console, interrupts);
   const Result<ExitCode> outcome = verb.run(session);
   session.finish();
-  if (outcome) return static_cast<int>(*outcome);
-  console.error(outcome.error().text());
-  return static_cast<int>(exit_code_of(outcome.error().code));
+  return outcome ? static_cast<int>(*outcome) : ended_by(outcome.error(), console);
 }
 
 /// What is wrong with the command line, in the words of this program rather than its parser's.
@@ -81,6 +84,8 @@ void occupy_standard_streams() {
 
 int run(int argc, char** argv) {
   occupy_standard_streams();
+  // A file that grows beyond the limit is a failed write, which cleans up after itself.
+  std::signal(SIGXFSZ, SIG_IGN);
   keep_freed_memory();
   Console console;
   CLI::App program("Exact clash detection and hidden-line drawings of ship and plant models.",
@@ -98,14 +103,15 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version
-    return program.exit(wanted);
+    std::ostringstream text;
+    program.exit(wanted, text);
+    const Status written = write_stdout(text.str());
+    return written ? static_cast<int>(ExitCode::done) : ended_by(written.error(), console);
   } catch (const CLI::ParseError& error) {
     return usage_error(program, error, console);
   }
-  if (const Status status = check_no_empty_values(program); !status) {
-    console.error(status.error().text());
-    return static_cast<int>(ExitCode::usage);
-  }
+  if (const Status status = check_no_empty_values(program); !status)
+    return ended_by(status.error(), console);
   for (const Verb& verb : verbs)
     if (verb.command->parsed()) return run_verb(verb, common, console);
   return static_cast<int>(ExitCode::internal);

@@ -47,13 +47,11 @@ Status Session::write(const std::filesystem::path& target, Producer producer) {
 }
 
 Status Session::write_stdout(Producer producer) {
-  bool good = true;
-  if (Status status =
-          producer([&](std::string_view text) { good = good && cli::write_stdout(text); });
-      !status)
-    return status;
-  if (good) return {};
-  return Error{ErrorCode::output, "cannot be written", "standard output", {}};
+  Status written;
+  const Status produced = producer([&](std::string_view text) {
+    if (written) written = cli::write_stdout(text);
+  });
+  return produced ? written : produced;
 }
 
 Status Session::write_stdout(std::string_view text) {

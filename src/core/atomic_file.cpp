@@ -24,6 +24,10 @@ Error failure(const fs::path& target, int error) {
   if (error == EACCES || error == EPERM || error == EROFS)
     mend = "choose a folder you may write to";
   if (error == ENOSPC || error == EDQUOT) mend = "make room or choose another disk";
+  if (error == EFBIG)
+    mend =
+        "raise the limit on the size of files (ulimit -f), or choose a disk "
+        "that takes larger ones";
   return {ErrorCode::output, "cannot be written: " + std::generic_category().message(error),
           target.string(), std::move(mend)};
 }

@@ -3,6 +3,7 @@
 """files_test.py STRAKE: what cannot be read or written, and what is left behind."""
 import json
 import os
+import resource
 import subprocess
 
 from scenario import Scenario, cube, main
@@ -34,11 +35,54 @@ class Files(Scenario):
         self.assertIn('standard output', done.stderr)
         self.assertEqual(self.files(), ['a.obj', 'b.obj'])
 
+    # Every kind of file that the program writes: the command line up to its name, and its ending.
+    OUTPUTS = [(['clash', 'a.obj', '-o'], '.json'), (['clash', 'a.obj', '-o'], '.csv'),
+               (['clash', 'a.obj', '--log-pairs'], '.csv'), (['clash', 'diff', 'old.json', 'old.json', '-o'], '.json'),
+               (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.json'),
+               (['generate', 'ship', '--objects', '100', '-o'], '.glb'),
+               (['generate', 'ship', '--objects', '100', '-o'], '.obj'),
+               (['generate', 'ship', '--objects', '100', '-o', 'null.glb', '--truth'], '.json')]
+
+    def test_a_failed_write_is_told_and_leaves_nothing(self):
+        """A file larger than the limit on files, and a full disk."""
+        self.two_files()
+        os.symlink('/dev/null', self.folder / 'null.glb')
+        self.assertEqual(self.run_strake('clash', 'a.obj', '-o', 'old.json').returncode, 0)
+        before = self.files()
+
+        def small_files_only():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (16, 16))
+
+        for arguments, ending in self.OUTPUTS:
+            with self.subTest(arguments=arguments, ending=ending):
+                done = self.run_strake(*arguments, 'x' + ending, preexec_fn=small_files_only)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertIn(f'x{ending}: cannot be written: File too large', done.stderr)
+                self.assertIn('ulimit -f', done.stderr)
+                self.assertEqual(self.files(), before)
+                os.symlink('/dev/full', self.folder / ('x' + ending))
+                done = self.run_strake(*arguments, 'x' + ending)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertIn('No space left on device', done.stderr)
+                os.unlink(self.folder / ('x' + ending))
+                self.assertEqual(self.files(), before)
+
+    def test_standard_output_that_is_full_is_told(self):
+        self.two_files()
+        self.assertEqual(self.run_strake('clash', 'a.obj', '-o', 'old.json').returncode, 0)
+        for arguments in (['clash', 'a.obj'], ['clash', 'a.obj', '--json'], ['info', 'a.obj'],
+                          ['clash', 'diff', 'old.json', 'old.json'], ['draw', 'a.obj', '--json'], ['--help'],
+                          ['clash', '--help'], ['--version']):
+            with self.subTest(arguments), open('/dev/full', 'w', encoding='utf-8') as full:
+                done = subprocess.run([self.STRAKE, *arguments], stdout=full, stderr=subprocess.PIPE, text=True,
+                                      cwd=self.folder, timeout=100, check=False)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertIn('standard output: cannot be written: No space left on device', done.stderr)
+
     def test_an_old_result_survives_a_failed_run(self):
         self.write('x.json', 'old')
         self.assertEqual(self.run_strake('clash', 'missing.obj', '-o', 'x.json').returncode, 3)
         self.assertEqual((self.folder / 'x.json').read_text(), 'old')
-
 
     def test_a_model_is_never_overwritten(self):
         self.two_files()
