@@ -36,6 +36,10 @@ class Console {
   std::string status_;
 };
 
+/// The line about ErrorCode::memory on standard error. Takes neither memory nor a lock, so that it
+/// can be said wherever memory runs out.
+void say_out_of_memory() noexcept;
+
 /// Writes data to standard output. Errors: output, with the reason (a full disk).
 [[nodiscard]] Status write_stdout(std::string_view text);
 

@@ -13,6 +13,7 @@ enum class ExitCode : int {
   input = 3,     ///< a file cannot be read or written
   partial = 4,   ///< --strict: done, but something was skipped
   internal = 5,  ///< a fault of the program itself
+  memory = 6,    ///< out of memory
   cancelled = 130,
 };
 
@@ -25,6 +26,8 @@ enum class ExitCode : int {
       return ExitCode::input;
     case ErrorCode::cancelled:
       return ExitCode::cancelled;
+    case ErrorCode::memory:
+      return ExitCode::memory;
     case ErrorCode::internal:
       break;
   }

@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <exception>
 
 #include "cli/exit_code.hpp"
 #include "strake/core/atomic_file.hpp"
@@ -25,11 +26,17 @@ Interrupts::Interrupts(Console& console) : console_(console) {
   if (::pthread_sigmask(SIG_BLOCK, &set, nullptr) != 0) return;
   signals_ = ::signalfd(-1, &set, SFD_CLOEXEC);
   closing_ = ::eventfd(0, EFD_CLOEXEC);
-  if (signals_ < 0 || closing_ < 0) {  // then Ctrl-C ends the program as it does by default
-    ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
-    return;
+  if (signals_ >= 0 && closing_ >= 0 && start()) return;
+  // Then Ctrl-C ends the program as it does by default.
+  ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+bool Interrupts::start() {
+  try {
+    thread_ = std::thread([this] { wait(); });
+  } catch (const std::exception&) {  // the host gives no more threads, or no memory for one
   }
-  thread_ = std::thread([this] { wait(); });
+  return thread_.joinable();
 }
 
 Interrupts::~Interrupts() {
@@ -64,8 +71,11 @@ void Interrupts::wait() {
 }
 
 void Interrupts::end_now() {
-  console_.show_status("");
-  console_.error("cancelled");
+  try {
+    console_.show_status("");
+    console_.error("cancelled");
+  } catch (const std::exception&) {  // no memory to say so: the files matter more
+  }
   const std::lock_guard lock(mutex_);
   for (const std::filesystem::path& target : targets_) remove_partials(target);
   ::_exit(static_cast<int>(ExitCode::cancelled));

@@ -35,6 +35,7 @@ class Interrupts {
   void guard(const std::filesystem::path& target);
 
  private:
+  [[nodiscard]] bool start();
   void wait();
   [[noreturn]] void end_now();
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
+#include <new>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -30,11 +31,15 @@ Examples:
 'strake VERB --help' tells the options of a verb.
 
 Exit codes: 0 done, 1 clashes found (--fail-on), 2 wrong command line, 3 a file cannot be read or
-written, 4 something was skipped (--strict), 5 a fault of the program, 130 cancelled.)";
+written, 4 something was skipped (--strict), 5 a fault of the program, 6 out of memory,
+130 cancelled.)";
 
 /// Says why it ends, and what the shell is told.
 int ended_by(const Error& error, Console& console) {
-  console.error(error.text());
+  if (error.code == ErrorCode::memory)
+    say_out_of_memory();
+  else
+    console.error(error.text());
   return static_cast<int>(exit_code_of(error.code));
 }
 
@@ -87,6 +92,7 @@ int run(int argc, char** argv) {
   // A file that grows beyond the limit is a failed write, which cleans up after itself.
   std::signal(SIGXFSZ, SIG_IGN);
   keep_freed_memory();
+  end_well_without_memory();
   Console console;
   CLI::App program("Exact clash detection and hidden-line drawings of ship and plant models.",
                    "strake");
@@ -124,6 +130,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return strake::cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    strake::cli::say_out_of_memory();
+    return static_cast<int>(strake::cli::ExitCode::memory);
   } catch (const std::exception& error) {
     strake::cli::Console().error(std::string("internal fault: ") + error.what() +
                                  " (please report it with the command line)");

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/memory.hpp"
 
+#include <unistd.h>
+
 #include <cstdlib>  // defines __GLIBC__ where it applies
+#include <exception>
+#include <new>
+
+#include "cli/console.hpp"
+#include "cli/exit_code.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -18,5 +25,36 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, kNeverTrim);
 #endif
 }
+
+namespace {
+
+/// Whether what ends the program is a want of memory. An exception that finds no memory for itself
+/// never comes to be: then there is none, and no more to be had.
+bool memory_ran_out() {
+  constexpr std::size_t kLittle = std::size_t{1} << 16U;
+  const std::exception_ptr thrown = std::current_exception();
+  if (!thrown) {
+    void* const block = std::malloc(kLittle);
+    std::free(block);
+    return block == nullptr;
+  }
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+[[noreturn]] void end_program() {
+  if (!memory_ran_out()) std::abort();
+  say_out_of_memory();
+  ::_exit(static_cast<int>(ExitCode::memory));
+}
+
+}  // namespace
+
+void end_well_without_memory() { std::set_terminate(end_program); }
 
 }  // namespace strake::cli

@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <exception>
+#include <new>
 #include <utility>
 
 namespace strake::cli {
@@ -27,10 +29,12 @@ std::string progress_text(const parallel::Progress::Snapshot& now, double elapse
 
 ProgressLine::ProgressLine(Console& console, const parallel::Progress& progress,
                            std::function<std::string()> step)
-    : console_(console),
-      progress_(progress),
-      step_(std::move(step)),
-      thread_([this] { watch(); }) {}
+    : console_(console), progress_(progress), step_(std::move(step)) {
+  try {
+    thread_ = std::thread([this] { watch(); });
+  } catch (const std::exception&) {  // the host gives no thread for it: the run goes on untold
+  }
+}
 
 ProgressLine::~ProgressLine() {
   {
@@ -38,11 +42,18 @@ ProgressLine::~ProgressLine() {
     done_ = true;
   }
   wake_.notify_one();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
   console_.show_status("");
 }
 
 void ProgressLine::watch() {
+  try {
+    tell();
+  } catch (const std::bad_alloc&) {  // whoever does the work says so, if it has none either
+  }
+}
+
+void ProgressLine::tell() {
   const auto start = std::chrono::steady_clock::now();
   double next_plain_s = kPlainLineEveryS;
   std::unique_lock lock(mutex_);

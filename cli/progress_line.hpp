@@ -30,6 +30,7 @@ class ProgressLine {
 
  private:
   void watch();
+  void tell();
 
   Console& console_;
   const parallel::Progress& progress_;

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "strake/core/text.hpp"
@@ -19,7 +20,10 @@ Stats::Timer::Timer(Stats& stats, std::string_view phase)
 Stats::Timer::~Timer() {
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  stats_.phases_.push_back({phase_, wall, parallel::process_cpu_s() - start_cpu_s_});
+  try {
+    stats_.phases_.push_back({phase_, wall, parallel::process_cpu_s() - start_cpu_s_});
+  } catch (const std::bad_alloc&) {  // the phase goes untold; what it did may be unwinding
+  }
 }
 
 void Stats::count(std::string_view name, std::uint64_t value) {

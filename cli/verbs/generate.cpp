@@ -73,6 +73,7 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
   const auto truth = [&](Session::Sink sink) {
     SinkBuffer buffer(sink);
     std::ostream out(&buffer);
+    out.exceptions(std::ios::badbit);  // what the sink throws comes through
     generate::write_truth(*ship, out);
     return Status{};
   };

@@ -55,9 +55,7 @@ Result<FileContent> FileContent::read(const std::filesystem::path& path) {
   FileContent content;
   const auto size = static_cast<std::size_t>(facts.st_size);
   content.data_.reset(new (std::nothrow) std::byte[size]);
-  if (content.data_ == nullptr)
-    return Error{ErrorCode::input, "does not fit into the memory", path.string(),
-                 "give fewer or smaller files at a time"};
+  if (content.data_ == nullptr) return out_of_memory();
   while (content.size_ < size) {
     constexpr std::size_t kMost = std::size_t{1} << 30;  // one read() takes no more than 2 GiB
     const auto got = ::read(file.number(), content.data_.get() + content.size_,

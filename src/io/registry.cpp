@@ -45,8 +45,7 @@ Result<model::Model> read_one(const Readers& readers, const std::filesystem::pat
   try {
     return reader->read(file, options, context);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::input, "does not fit into the memory", path.string(),
-                 "give fewer or smaller files at a time"};
+    return out_of_memory();
   } catch (const std::length_error&) {
     return Error{ErrorCode::input, "is too large", path.string(), "split the file"};
   }

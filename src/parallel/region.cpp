@@ -48,11 +48,6 @@ RegionReport summary(const Region& region, std::span<const Cursor> seats, double
 
 }  // namespace
 
-Error out_of_memory(std::string_view region) {
-  return {ErrorCode::internal, "out of memory", std::string(region),
-          "use a machine with more memory, or a part of the model"};
-}
-
 void RegionRun::lower_limit(std::size_t item) noexcept {
   std::size_t now = limit_.load(std::memory_order_relaxed);
   while (item < now && !limit_.compare_exchange_weak(now, item, std::memory_order_relaxed)) {
@@ -71,7 +66,7 @@ void RegionRun::fail(std::size_t item, Error error) noexcept {
 }
 
 void RegionRun::fail_with_current_exception(std::size_t item) noexcept {
-  Error error{ErrorCode::internal, "out of memory", {}, {}};  // short enough to need none
+  Error error = out_of_memory();
   try {
     throw;
   } catch (const std::bad_alloc&) {

@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 
 namespace strake::parallel {
@@ -80,7 +81,10 @@ StageTimer::~StageTimer() {
   if (report_ == nullptr) return;
   run_.wall_s = seconds_of(CLOCK_MONOTONIC) - run_.wall_s;
   run_.cpu_s = process_cpu_s() - run_.cpu_s;
-  report_->add(run_);
+  try {
+    report_->add(run_);
+  } catch (const std::bad_alloc&) {  // the stage goes untold; what it did may be unwinding
+  }
 }
 
 double thread_cpu_s() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }

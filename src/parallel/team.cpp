@@ -2,7 +2,7 @@
 #include "strake/parallel/team.hpp"
 
 #include <algorithm>
-#include <system_error>
+#include <exception>
 
 namespace strake::parallel {
 
@@ -12,8 +12,8 @@ Team::Team(unsigned workers) {
   for (unsigned i = 0; i < wanted; ++i) {
     try {
       threads_.emplace_back([this, i] { serve(i + 1); });
-    } catch (const std::system_error&) {
-      break;  // the host gives no more threads: work with those that there are
+    } catch (const std::exception&) {
+      break;  // the host gives no more threads, or no memory: work with those that there are
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <string>
 #include <string_view>
 
@@ -15,7 +16,10 @@ namespace strake::report {
 class Buffered {
  public:
   explicit Buffered(Sink sink) : sink_(sink) {}
-  ~Buffered() { flush(); }
+  /// An exception that unwinds has cut the text short: what is gathered goes nowhere then.
+  ~Buffered() noexcept(false) {
+    if (std::uncaught_exceptions() == exceptions_) flush();
+  }
   Buffered(const Buffered&) = delete;
   Buffered& operator=(const Buffered&) = delete;
   Buffered(Buffered&&) = delete;
@@ -35,6 +39,7 @@ class Buffered {
   static constexpr std::size_t kFull = std::size_t{1} << 16U;
   Sink sink_;
   std::string text_;
+  int exceptions_ = std::uncaught_exceptions();
 };
 
 /// A JSON string with its quotes.

@@ -14,6 +14,7 @@ enum class ErrorCode {
   input,      ///< a file cannot be read, is damaged, or holds nothing usable
   output,     ///< a result cannot be written
   cancelled,  ///< the stop token was triggered
+  memory,     ///< the run needs more memory than there is
   internal,   ///< a broken promise of the library itself
 };
 
@@ -27,6 +28,10 @@ struct Error {
   /// One line for a person: "where: message (mend)".
   [[nodiscard]] std::string text() const;
 };
+
+/// The error of ErrorCode::memory: the same wherever memory ran out, which says little about what
+/// took the most of it. Never throws; with nothing left at all it names no mend.
+[[nodiscard]] Error out_of_memory() noexcept;
 
 /// A value or the Error that prevented it.
 template <class T>

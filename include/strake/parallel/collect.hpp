@@ -22,8 +22,7 @@ struct Piece {
 };
 
 template <class T>
-Result<std::vector<T>> gather(std::span<const Piece> pieces, std::span<std::vector<T>> of_worker,
-                              std::string_view region) {
+Result<std::vector<T>> gather(std::span<const Piece> pieces, std::span<std::vector<T>> of_worker) {
   std::size_t total = 0;
   for (const Piece& piece : pieces) total += piece.count;
   try {
@@ -36,7 +35,7 @@ Result<std::vector<T>> gather(std::span<const Piece> pieces, std::span<std::vect
     }
     return all;
   } catch (const std::bad_alloc&) {
-    return out_of_memory(region);
+    return out_of_memory();
   }
 }
 
@@ -55,8 +54,7 @@ template <class T, class Make, class Body>
                                                   Make&& make, Body&& body) {
   using Local = std::invoke_result_t<Make&>;
   const unsigned workers = context.team != nullptr ? context.team->size() : 1;
-  Result<std::vector<detail::Piece>> pieces =
-      detail::slots<detail::Piece>(region.blocks(), region.name);
+  Result<std::vector<detail::Piece>> pieces = detail::slots<detail::Piece>(region.blocks());
   if (!pieces) return pieces.error();
   std::vector<std::vector<T>> of_worker(workers);
   const std::size_t size = region.block_size();
@@ -85,7 +83,7 @@ template <class T, class Make, class Body>
     of_worker[cursor.seat.index] = std::move(out);
   });
   if (!status) return status.error();
-  return detail::gather<T>(*pieces, of_worker, region.name);
+  return detail::gather<T>(*pieces, of_worker);
 }
 
 /// The same for a body(i, out) that needs no worker context.

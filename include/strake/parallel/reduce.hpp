@@ -27,7 +27,7 @@ template <class T, class Body, class Combine>
 [[nodiscard]] Result<T> reduce(const Context& context, const Region& region, const T& identity,
                                Body&& body, Combine&& combine) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
-  Result<std::vector<T>> partials = detail::slots<T>(region.blocks(), region.name);
+  Result<std::vector<T>> partials = detail::slots<T>(region.blocks());
   if (!partials) return partials.error();
   const std::size_t size = region.block_size();
   detail::RegionRun run(context, region);
@@ -55,7 +55,7 @@ template <class T, class Body, class Combine>
     for (T& partial : *partials) combine(total, std::as_const(partial));
     return total;
   } catch (const std::bad_alloc&) {
-    return detail::out_of_memory(region.name);
+    return out_of_memory();
   }
 }
 

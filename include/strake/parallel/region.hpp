@@ -148,7 +148,5 @@ class RegionRun {
   std::size_t error_item_ = std::numeric_limits<std::size_t>::max();
 };
 
-[[nodiscard]] Error out_of_memory(std::string_view region);
-
 }  // namespace detail
 }  // namespace strake::parallel

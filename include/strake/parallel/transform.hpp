@@ -25,11 +25,11 @@ using unwrapped_t = typename Unwrapped<std::remove_cvref_t<T>>::type;
 
 /// A vector of n values, or the error that says that the memory does not suffice.
 template <class T>
-Result<std::vector<T>> slots(std::size_t n, std::string_view region) {
+Result<std::vector<T>> slots(std::size_t n) {
   try {
     return std::vector<T>(n);
   } catch (const std::exception&) {
-    return out_of_memory(region);
+    return out_of_memory();
   }
 }
 
@@ -46,7 +46,7 @@ template <class Make, class Body>
   using Returned = std::invoke_result_t<Body&, Local&, std::size_t>;
   using T = detail::unwrapped_t<Returned>;
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: return uint8_t");
-  Result<std::vector<T>> results = detail::slots<T>(region.n, region.name);
+  Result<std::vector<T>> results = detail::slots<T>(region.n);
   if (!results) return results;
   std::vector<T>& slot = *results;
   const Status status =

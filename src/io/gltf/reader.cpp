@@ -82,6 +82,7 @@ class GltfReader final : public Reader {
     if (!document) {
       Error error = document.error();
       if (error.code == ErrorCode::cancelled) return cancelled(file);
+      if (error.code == ErrorCode::memory) return error;
       error.where = fmt::format("{}, {} of its JSON", file.path.string(), error.where);
       return error;
     }

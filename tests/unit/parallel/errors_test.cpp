@@ -135,14 +135,15 @@ TEST(Errors, whatever_is_thrown_is_caught) {
   const Status memory =
       for_each({.team = &team}, region, [](std::size_t) { throw std::bad_alloc(); });
   ASSERT_FALSE(memory);
-  EXPECT_EQ(memory.error().message, "out of memory");
+  EXPECT_EQ(memory.error().code, ErrorCode::memory);
+  EXPECT_EQ(memory.error().text(), out_of_memory().text());
 }
 
 TEST(Errors, too_many_slots_are_an_error) {
   const auto result =
       transform({}, {.name = "huge", .n = std::size_t{1} << 60U}, [](std::size_t i) { return i; });
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().message, "out of memory");
+  EXPECT_EQ(result.error().code, ErrorCode::memory);
 }
 
 TEST(Cancel, before_the_start_nothing_runs) {
