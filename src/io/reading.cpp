@@ -37,7 +37,7 @@ model::Model start_model(const FileBytes& file, std::string format, const ReadOp
 }
 
 Result<model::Model> end_model(const FileBytes& file, model::Model&& model) {
-  if (!model.objects.empty()) {
+  if (!model.bodies.empty()) {
     settle_precision(file, model);
     return std::move(model);
   }

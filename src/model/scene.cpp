@@ -179,7 +179,9 @@ std::vector<Use> list_bodies(Assembly& assembly) {
   scene.bodies.reserve(model.bodies.size());
   for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
     const Object& object = model.objects[o];
-    if (object.incomplete) scene.lacking.push_back({ObjectId{o}, "object-incomplete"});
+    if (object.incomplete)
+      scene.lacking.push_back(
+          {ObjectId{o}, object.body_count == 0 ? "object-skipped" : "object-incomplete"});
     for (std::uint32_t b = object.first_body; b - object.first_body < object.body_count; ++b) {
       if (b >= model.bodies.size() || index(model.bodies[b].shape) >= model.shapes.size()) {
         report(scene.diagnostics, Severity::skipped, "body-without-shape", model, ObjectId{o},

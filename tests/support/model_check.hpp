@@ -40,14 +40,14 @@ namespace strake::test {
 /// What is wrong with a model that a reader gave out: empty when nothing is.
 [[nodiscard]] inline std::string model_fault(const model::Model& model) {
   if (model.files.size() != 1) return "not one file";
-  if (model.objects.empty()) return "no objects and yet no error";
+  if (model.bodies.empty()) return "no bodies and yet no error";
   for (const model::Shape& shape : model.shapes)
     if (std::string fault = shape_fault(shape); !fault.empty()) return fault;
   for (std::size_t i = 0; i < model.groups.size(); ++i)
     if (model.groups[i].parent != model::GroupId::none && model::index(model.groups[i].parent) >= i)
       return "a group before its parent";
   for (const model::Object& object : model.objects) {
-    if (object.body_count == 0) return "an object without bodies";
+    if (object.body_count == 0 && !object.incomplete) return "an object without bodies";
     if (std::size_t{object.first_body} + object.body_count > model.bodies.size())
       return "an object with bodies that do not exist";
     if (object.parent != model::GroupId::none && model::index(object.parent) >= model.groups.size())

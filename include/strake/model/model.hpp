@@ -78,7 +78,8 @@ struct Object {
   std::uint32_t body_count = 0;
   std::uint32_t place = 0;  ///< in the order of the source, counted over the model
   Attributes attributes;    ///< its own; Model::stated() has what it inherits
-  bool incomplete = false;  ///< the source has geometry of it that could not be read
+  /// The source has geometry of it that could not be read; without bodies: none could.
+  bool incomplete = false;
 };
 
 /// Where a part of the model came from.

@@ -46,7 +46,8 @@ struct GridBody {
 /// An object of which a scene has not all geometry, and so finds less than there is.
 struct Lacking {
   ObjectId object{};
-  std::string_view code;  ///< of the diagnostic that tells why, or "object-incomplete"; a literal
+  /// Of the diagnostic that tells why, or "object-incomplete", "object-skipped"; a literal.
+  std::string_view code;
   friend auto operator<=>(const Lacking&, const Lacking&) = default;
 };
 

@@ -118,9 +118,10 @@ class Importer {
   };
   void add_object(const Node& node, Element element, model::GroupId parent,
                   std::span<const Place> places);
+  model::Object& new_object(Element element, model::GroupId parent);
   bool add_bodies(const MeshShapes& mesh, const Place& place);
   [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name);
-  void skip(const Node& node, const Fault& fault);
+  void skip(Element element, model::GroupId parent, const Fault& fault);
   [[nodiscard]] Error refusal(std::string message) const {
     return {ErrorCode::input, std::move(message), input_.file.path.string(),
             "export the model again"};
@@ -135,6 +136,7 @@ class Importer {
     model::GroupId group = model::GroupId::none;  ///< that its children stand in
     const Fault* fault = nullptr;                 ///< its own or an ancestor's
   };
+  [[nodiscard]] std::optional<Fault> damage_of(const Node& node, const Placed& here) const;
 
   ImportInput input_;
   const Json& root_;
@@ -283,10 +285,23 @@ std::string Importer::path_id(model::GroupId parent, const std::string& name) {
   return shortened(paths_[model::index(parent)] + name, name);
 }
 
-void Importer::skip(const Node& node, const Fault& fault) {
+/// One without bodies, at the end of the model.
+model::Object& Importer::new_object(Element element, model::GroupId parent) {
+  model::Object object;
+  object.id = element.id.empty() ? path_id(parent, element.name) : std::move(element.id);
+  object.name = std::move(element.name);
+  object.parent = parent;
+  object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
+  object.attributes = std::move(element.attributes);
+  return model_.objects.emplace_back(std::move(object));
+}
+
+/// The object stays in the model, so that it is told what lacks it.
+void Importer::skip(Element element, model::GroupId parent, const Fault& fault) {
   model_.diagnostics.add(Severity::skipped, "gltf-damaged-object",
-                         fmt::format("object '{}' is skipped: {}", node.name, fault.message),
+                         fmt::format("object '{}' is skipped: {}", element.name, fault.message),
                          place_text(fault.pointer));
+  new_object(std::move(element), parent).incomplete = true;
 }
 
 bool Importer::add_bodies(const MeshShapes& mesh, const Place& place) {
@@ -312,21 +327,18 @@ void Importer::add_object(const Node& node, Element element, model::GroupId pare
   for (const Place& place : places)
     if (!add_bodies(mesh, place)) {
       model_.bodies.resize(first);
-      return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it is placed beyond all bounds"});
+      return skip(std::move(element), parent,
+                  {fmt::format("/meshes/{}", *node.mesh), "it is placed beyond all bounds"});
     }
-  model::Object object;
-  object.id = element.id.empty() ? path_id(parent, element.name) : std::move(element.id);
-  object.name = std::move(element.name);
-  object.parent = parent;
+  model::Object& object = new_object(std::move(element), parent);
   object.first_body = static_cast<std::uint32_t>(first);
   object.body_count = static_cast<std::uint32_t>(model_.bodies.size() - first);
-  object.attributes = std::move(element.attributes);
-  model_.objects.push_back(std::move(object));
 }
 
 void Importer::place_instances(const Node& node, model::GroupId parent, const Place& here) {
   Instances instances = read_instances(node, accessors_);
-  if (instances.fault) return skip(node, *instances.fault);
+  const auto whole = [&] { return Element{node.name, node.id, node.attributes}; };
+  if (instances.fault) return skip(whole(), parent, *instances.fault);
   const double scale_mm = frame_.unit_mm * scale_of(here.world.linear);
   std::vector<Place> places;
   places.reserve(instances.placements.size());
@@ -334,15 +346,23 @@ void Importer::place_instances(const Node& node, model::GroupId parent, const Pl
     places.push_back({here.world * instances.placements[i],
                       std::max(here.half_spacing_mm, scale_mm * instances.half_spacing(i))});
   if (places.empty())
-    return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it has no instances"});
-  if (instances.names.empty())
-    return add_object(node, {node.name, node.id, node.attributes}, parent, places);
+    return skip(whole(), parent, {fmt::format("/meshes/{}", *node.mesh), "it has no instances"});
+  if (instances.names.empty()) return add_object(node, whole(), parent, places);
   // Named instances are elements of their own below the node.
   const auto group = static_cast<model::GroupId>(model_.groups.size());
   model_.groups.push_back({node.name, parent});
   for (std::size_t i = 0; i < places.size(); ++i)
     add_object(node, {std::move(instances.names[i]), std::move(instances.ids[i]), node.attributes},
                group, std::span(places).subspan(i, 1));
+}
+
+/// Why a node with a mesh is no usable object, if so.
+std::optional<Fault> Importer::damage_of(const Node& node, const Placed& here) const {
+  if (here.fault != nullptr) return *here.fault;
+  if (const auto& fault = mesh_faults_[*node.mesh]) return fault;
+  if (shapes_[*node.mesh].parts.empty())
+    return Fault{fmt::format("/meshes/{}", *node.mesh), "it has no triangles and no lines"};
+  return std::nullopt;
 }
 
 void Importer::place(const Visit& visit, std::size_t self) {
@@ -361,14 +381,12 @@ void Importer::place(const Visit& visit, std::size_t self) {
     model_.set_attributes(here.group, node.mesh ? node.attributes : std::move(node.attributes));
   }
   if (!node.mesh) return;
-  if (here.fault != nullptr) return skip(node, *here.fault);
-  if (const auto& fault = mesh_faults_[*node.mesh]) return skip(node, *fault);
-  if (shapes_[*node.mesh].parts.empty())
-    return skip(node, {fmt::format("/meshes/{}", *node.mesh), "it has no triangles and no lines"});
   const Place at{here.world, here.half_spacing_mm};
-  if (node.instancing.exists()) return place_instances(node, above.group, at);
+  const std::optional<Fault> fault = damage_of(node, here);
+  if (!fault && node.instancing.exists()) return place_instances(node, above.group, at);
   // Nobody asks for these again: a node is visited once.
   Element element{node.name, std::move(node.id), std::move(node.attributes)};
+  if (fault) return skip(std::move(element), above.group, *fault);
   add_object(node, std::move(element), above.group, std::span(&at, 1));
 }
 

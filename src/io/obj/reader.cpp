@@ -159,11 +159,17 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
   object.name = !entry.group_name.empty()    ? entry.group_name
                 : !entry.object_name.empty() ? entry.object_name
                                              : file_.path.stem().string();
+  object.parent = group(entry);
+  object.id =
+      object.parent == model::GroupId::none ? object.name : entry.object_name + "/" + object.name;
+  object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
   if (built.damage) {
     model_.diagnostics.add(Severity::skipped, "obj-damaged-object",
                            fmt::format("object '{}' is skipped: its face or line {}", object.name,
                                        built.damage->message),
                            fmt::format("{}:{}", file_.path.string(), built.damage->line));
+    object.incomplete = true;
+    model_.objects.push_back(std::move(object));
     return;
   }
   if (built.crossing_faces != 0)
@@ -173,10 +179,6 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
             "{} faces of object '{}' cross themselves or have no area; they are cut as fans",
             built.crossing_faces, object.name),
         file_.path.string());
-  object.parent = group(entry);
-  object.id =
-      object.parent == model::GroupId::none ? object.name : entry.object_name + "/" + object.name;
-  object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
   const double half_spacing_mm =
       frame_.unit_mm * text_half_spacing(built.digits, built.largest_mm / frame_.unit_mm);
   if (!built.opaque.triangles.empty())

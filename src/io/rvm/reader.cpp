@@ -157,10 +157,7 @@ Result<model::Model> RvmReader::read(const FileBytes& file, const ReadOptions& o
   auto built = builder.build(context);
   if (!built) return built.error();
   built->model.diagnostics = std::move(diagnostics);
-  if (built->model.bodies.empty()) {
-    built->model.objects.clear();
-    return end_model(file, std::move(built->model));
-  }
+  if (built->model.bodies.empty()) return end_model(file, std::move(built->model));
   model::Model started =
       start_model(file, text ? "RVM text" : fmt::format("RVM {}", head.version), options, kFrame);
   built->model.files = std::move(started.files);

@@ -46,12 +46,18 @@ Kind kind_of(std::span<const std::byte> bytes) {
   return bytes.size() > expected ? Kind::binary_longer : Kind::binary_truncated;
 }
 
-void add_object(model::Model& model, std::string name, geometry::TriangleMesh mesh,
-                double half_spacing_mm) {
+/// An object without bodies.
+model::Object new_object(const model::Model& model, std::string name) {
   model::Object object;
   object.id = name;
   object.name = std::move(name);
   object.first_body = static_cast<std::uint32_t>(model.bodies.size());
+  return object;
+}
+
+void add_object(model::Model& model, std::string name, geometry::TriangleMesh mesh,
+                double half_spacing_mm) {
+  model::Object object = new_object(model, std::move(name));
   add_body(model, object, std::move(mesh), {.half_spacing_mm = half_spacing_mm});
   model.objects.push_back(std::move(object));
 }
@@ -116,6 +122,8 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
       model.diagnostics.add(Severity::skipped, "stl-damaged-solid",
                             fmt::format("solid '{}' is skipped: {}", name, solid.damage->message),
                             fmt::format("{}:{}", file.path.string(), solid.damage->line));
+      model.objects.push_back(new_object(model, std::move(name)));
+      model.objects.back().incomplete = true;
       continue;
     }
     if (solid.corners.empty()) continue;

@@ -154,7 +154,9 @@ TEST(GltfReader, SkipsDamagedObjectsAndKeepsTheOthers) {
   const auto damaged = [](const std::string& node) {
     const model::Model model =
         read_ok(triangle_glb(R"("nodes":[{"name":"good","mesh":0},)" + node + "]"));
-    EXPECT_EQ(model.objects.size(), 1U) << node;
+    EXPECT_EQ(model.objects.size(), 2U) << "the damaged one is listed, without bodies: " << node;
+    EXPECT_FALSE(model.objects.at(0).incomplete) << node;
+    EXPECT_TRUE(model.objects.at(1).incomplete && model.objects.at(1).body_count == 0) << node;
     EXPECT_EQ(model.diagnostics.count("gltf-damaged-object"), 1U) << node;
     return model.diagnostics.kept().empty() ? "" : model.diagnostics.kept()[0].where;
   };

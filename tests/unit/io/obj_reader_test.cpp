@@ -111,8 +111,9 @@ TEST(ObjReader, ReadsPolylines) {
 TEST(ObjReader, JoinsContinuationLines) {
   const model::Model model = read_ok(
       "v 0 0 0\nv 1 \\\n0 0\nv 0 1 \\\r\n 0\nf 1 \\\n 2 \\\n 3\ng late\nf 1 2 9\nf 1 2 3\\");
-  ASSERT_EQ(model.objects.size(), 1U);
+  ASSERT_EQ(model.objects.size(), 2U);
   EXPECT_EQ(mesh_of(model, 0).vertices.size(), 3U);
+  EXPECT_TRUE(model.objects[1].incomplete);
   ASSERT_EQ(model.diagnostics.kept().size(), 1U);
   EXPECT_EQ(model.diagnostics.kept()[0].where, "some/model.obj:10")
       << "lines are counted as in an editor";
@@ -173,9 +174,15 @@ TEST(ObjReader, SkipsDamagedObjectsAndSaysWhere) {
       "v nan 0 0\nv 1 2\no good\nf 1 2 3\no range\nf 1 2 3\nf 1 2 6\n"
       "o back\nf -6 -2 -3\no word\nf 1 2 x\no zero\nf 0 1 2\no nan\nf 1 2 4\no short\nf 1 2 5\n"
       "o huge\nf 1 2 99999999999999999999999\no fine\nf 3 2 1\nf 1 2\nl 1\n");
-  ASSERT_EQ(model.objects.size(), 2U);
-  EXPECT_EQ(model.objects[0].name, "good");
-  EXPECT_EQ(model.objects[1].name, "fine");
+  // What is skipped is listed all the same, without bodies.
+  std::vector<std::string> whole, skipped;
+  for (const model::Object& object : model.objects) {
+    EXPECT_EQ(object.incomplete, object.body_count == 0) << object.name;
+    (object.incomplete ? skipped : whole).push_back(object.id);
+  }
+  EXPECT_EQ(whole, (std::vector<std::string>{"good", "fine"}));
+  EXPECT_EQ(skipped,
+            (std::vector<std::string>{"range", "back", "word", "zero", "nan", "short", "huge"}));
   EXPECT_EQ(model.diagnostics.count("obj-damaged-object"), 7U);
   EXPECT_EQ(model.diagnostics.skipped(), 7U);
   EXPECT_EQ(model.diagnostics.count("obj-bad-vertex"), 2U);

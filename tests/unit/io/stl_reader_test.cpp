@@ -105,7 +105,9 @@ TEST(StlReader, SkipsDamagedSolidsAndSaysWhere) {
     EXPECT_EQ(alone.error().where, place) << text;
     const Result<model::Model> both = read(text + good);
     ASSERT_TRUE(both) << text;
-    EXPECT_EQ(both->objects.size(), 1U);
+    ASSERT_EQ(both->objects.size(), 2U) << "the damaged one is listed, without bodies";
+    EXPECT_TRUE(both->objects[0].incomplete && both->objects[0].body_count == 0);
+    EXPECT_TRUE(!both->objects[1].incomplete && both->objects[1].body_count == 1);
     EXPECT_EQ(both->diagnostics.count("stl-damaged-solid"), 1U);
   }
 }

@@ -300,6 +300,8 @@ TEST(ClashDiff, WhatCouldNotBeComparedIsNotMended) {
   };
   EXPECT_EQ(why(unplaceable), "'a' of t.obj could not be compared whole (shape-unplaceable)");
   EXPECT_EQ(why(incomplete), "'b' of t.obj could not be compared whole (object-incomplete)");
+  incomplete.model.objects[1].body_count = 0;
+  EXPECT_EQ(why(incomplete), "'b' of t.obj could not be compared whole (object-skipped)");
   EXPECT_EQ(why(apart), "the pair could not be compared (pair-too-large)");
 }
 
