@@ -83,7 +83,8 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
   command->footer(R"(
 A clash is the same in both runs when its test, files and durable ids are. It is gone only where the
 new run looked at the pair again: an object that is missing, in no set, or exempted, and tolerances
-that would no longer report it, are 'cannot tell', with the reason.
+that would no longer report it, are 'cannot tell', with the reason. A result that does not have as
+many pairs as it counts, or otherwise contradicts itself, was cut short or edited and is refused.
 
 Examples:
   strake clash diff monday.json tuesday.json

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
+#include <utility>
 
 #include "strake/core/hash.hpp"
 #include "strake/core/text.hpp"
@@ -68,12 +68,16 @@ std::uint64_t element_hash(const model::Model& model, model::ObjectId id) {
 }
 
 Hash128 pair_hash(std::string_view test, const ElementName& a, const ElementName& b) {
-  const bool ordered = std::tie(a.file_label, a.id) <= std::tie(b.file_label, b.id);
+  const auto shown = [](const ElementName& e) {
+    return std::pair(valid_utf8(e.file_label), valid_utf8(e.id));
+  };
+  // Ordered as shown, so that a reader of a file comes to the same key.
+  auto first = shown(a), second = shown(b);
+  if (second < first) std::swap(first, second);
   Hasher hasher;
-  hasher.add(test);
-  for (const ElementName& e : {ordered ? a : b, ordered ? b : a})
-    for (const std::string_view text : {e.file_label, e.id})
-      hasher.add(std::string_view(valid_utf8(text)));
+  hasher.add(std::string_view(valid_utf8(test)));
+  for (const auto* const element : {&first, &second})
+    hasher.add(std::string_view(element->first)).add(std::string_view(element->second));
   return hasher.value();
 }
 

@@ -2,7 +2,9 @@
 #include "strake/report/clash_document.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -10,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "report/document_check.hpp"
 #include "report/document_entries.hpp"
 #include "report/document_fault.hpp"
 #include "report/document_tests.hpp"
@@ -45,8 +48,10 @@ class Reader {
     document_.elements = read_elements(*elements_);
     document_.tests = read_tests(*tests_, document_.elements.size());
     results();
+    count_exempted();
     document_.exempted = by_key(exempted_);
     not_compared();
+    check_against_itself(document_);
   }
 
  private:
@@ -56,6 +61,12 @@ class Reader {
   };
 
   void section(std::string_view key) {
+    constexpr std::array<std::string_view, 8> kKnown{"schema_version", "elements",    "tests",
+                                                     "hash",           "rules",       "results",
+                                                     "exempted",       "not_compared"};
+    const auto known = static_cast<std::size_t>(std::ranges::find(kKnown, key) - kKnown.begin());
+    if (known < kKnown.size() && std::exchange(there_[known], true))
+      throw contradicts("the document", "has \"" + std::string(key) + "\" twice");
     if (key == "schema_version")
       version();
     else if (key == "elements")
@@ -142,8 +153,24 @@ class Reader {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto named = [&] { return "result " + clash::key_text(all[i].key); };
       if (all[i].test >= document_.tests.size()) throw DocumentFault{named(), "is of no test"};
-      if (i > 0 && all[i].key == all[i - 1].key) throw DocumentFault{named(), "stands there twice"};
+      if (i > 0 && all[i].key == all[i - 1].key) throw contradicts(named(), "stands there twice");
     }
+  }
+
+  /// Where exempted pairs are listed, all are.
+  void count_exempted() const {
+    if (!document_.lists_exempted) return;
+    std::vector<std::uint64_t> listed(document_.tests.size(), 0);
+    for (const Listed& e : exempted_) {
+      static_cast<void>(test_of(e));
+      ++listed[e.test];
+    }
+    for (std::size_t t = 0; t < listed.size(); ++t)
+      if (listed[t] != document_.tests[t].exempted_pairs)
+        throw contradicts("tests[" + std::to_string(t) + "]",
+                          "counts " + std::to_string(document_.tests[t].exempted_pairs) +
+                              " exempted pairs, but \"exempted\" lists " +
+                              std::to_string(listed[t]));
   }
 
   /// Pairs of a list by the keys that their results would have.
@@ -183,6 +210,7 @@ class Reader {
   ClashDocument& document_;
   std::optional<std::string> elements_, tests_;
   std::vector<Listed> exempted_, pairs_not_compared_, lacking_;
+  std::array<bool, 8> there_{};  ///< sections met
   bool has_version_ = false, has_results_ = false, has_hash_ = false;
 };
 
@@ -196,7 +224,8 @@ Error unreadable(const std::string& file, const JsonReader::Fault& fault) {
 
 Error no_document(const std::string& file, const DocumentFault& fault) {
   return {ErrorCode::input, fault.where + " " + fault.what, file,
-          "give a file that 'strake clash -o FILE.json' of this version wrote"};
+          fault.edited ? "it was cut short or edited: run the test again or copy the file anew"
+                       : "give a file that 'strake clash -o FILE.json' of this version wrote"};
 }
 
 }  // namespace

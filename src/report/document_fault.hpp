@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace strake::report {
 
@@ -10,7 +11,13 @@ namespace strake::report {
 /// known.
 struct DocumentFault {
   std::string where, what;
+  bool edited = false;  ///< no run wrote it so: something was changed since
 };
+
+/// A document that says two things which exclude each other.
+[[nodiscard]] inline DocumentFault contradicts(std::string where, std::string what) {
+  return {std::move(where), std::move(what), true};
+}
 
 [[nodiscard]] inline DocumentFault lacks(const std::string& where, std::string_view key) {
   return {where, "has no \"" + std::string(key) + "\""};

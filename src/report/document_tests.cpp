@@ -2,6 +2,7 @@
 #include "report/document_tests.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -13,6 +14,10 @@ namespace strake::report {
 namespace {
 
 using Json = nlohmann::json;
+
+const char* value_name(Json::value_t type) {
+  return type == Json::value_t::object ? "object" : type == Json::value_t::array ? "list" : "truth";
+}
 
 const Json& member(const Json& object, const char* key, const std::string& where) {
   const auto it = object.find(key);
@@ -32,6 +37,19 @@ double number(const Json& object, const char* key, const std::string& where) {
   return value.get<double>();
 }
 
+std::uint64_t count(const Json& object, const char* key, const std::string& where) {
+  const Json& value = member(object, key, where);
+  if (!value.is_number_unsigned()) throw is_not(where, key, "count");
+  return value.get<std::uint64_t>();
+}
+
+const Json& held(const Json& object, const char* key, Json::value_t type,
+                 const std::string& where) {
+  const Json& value = member(object, key, where);
+  if (value.type() != type) throw is_not(where, key, value_name(type));
+  return value;
+}
+
 std::vector<std::uint8_t> bytes(std::string_view base64, const char* key,
                                 const std::string& where) {
   auto parsed = parse_base64(base64);
@@ -41,7 +59,7 @@ std::vector<std::uint8_t> bytes(std::string_view base64, const char* key,
 
 void read_matrix(const Json& json, DocumentTest& t, const std::string& where) {
   t.has_matrix = true;
-  for (const Json& cell : member(json, "cells", where)) {
+  for (const Json& cell : held(json, "cells", Json::value_t::array, where)) {
     const Json settings = cell.contains("settings") ? cell["settings"] : Json("not checked");
     t.settings["matrix, " + text(cell, "a", where) + " and " + text(cell, "b", where)] =
         settings.dump();
@@ -53,23 +71,26 @@ DocumentTest read_test(const Json& json, std::size_t elements, const std::string
   if (!json.is_object()) throw DocumentFault{where, "is no object"};
   DocumentTest t;
   t.name = text(json, "name", where);
-  const Json& settings = member(json, "settings", where);
-  if (!settings.is_object()) throw is_not(where, "settings", "object");
+  t.hash = text(json, "hash", where);
+  const Json& counts = held(json, "counts", Json::value_t::object, where);
+  t.counts = {count(counts, "HIT", where), count(counts, "CONTACT", where),
+              count(counts, "CLEARANCE_VIOLATION", where), count(counts, "ALLOWED", where)};
+  const Json& settings = held(json, "settings", Json::value_t::object, where);
   t.settings["curves"] = "false";  // what older results do not say
   for (const auto& [key, value] : settings.items()) t.settings[key] = value.dump();
   t.clearance_mm = number(settings, "clearance_mm", where);
   t.touch_gap_mm = number(settings, "touch_gap_mm", where);
-  const Json& tested = member(json, "tested", where);
-  if (!tested.is_object()) throw is_not(where, "tested", "object");
+  const Json& tested = held(json, "tested", Json::value_t::object, where);
   t.in_a = bytes(text(tested, "a", where), "a", where);
   t.in_b = bytes(text(tested, "b", where), "b", where);
   const std::size_t size = (elements + 7) / 8;
   if (t.in_a.size() != size || t.in_b.size() != size)
     throw DocumentFault{where, "\"tested\" does not go with \"elements\""};
-  t.within_files = member(tested, "within_files", where) == Json(true);
-  for (const Json& rule : member(json, "exempted", where))
-    t.exempted_pairs += static_cast<std::uint64_t>(std::max(0.0, number(rule, "pairs", where)));
-  if (json.contains("matrix")) read_matrix(json["matrix"], t, where);
+  t.within_files = held(tested, "within_files", Json::value_t::boolean, where).get<bool>();
+  for (const Json& rule : held(json, "exempted", Json::value_t::array, where))
+    t.exempted_pairs += count(rule, "pairs", where);
+  if (json.contains("matrix"))
+    read_matrix(held(json, "matrix", Json::value_t::object, where), t, where);
   return t;
 }
 

@@ -36,8 +36,16 @@ struct DocumentResult {
   clash::Class cls = clash::Class::no_hit;
 };
 
+/// How many results of each class no rule allows, and how many of any class one does.
+struct DocumentCounts {
+  std::uint64_t hit = 0, contact = 0, clearance_violation = 0, allowed = 0;
+  friend bool operator==(const DocumentCounts&, const DocumentCounts&) = default;
+};
+
 struct DocumentTest {
   std::string name;
+  std::string hash;       ///< of its results, as the run gave it
+  DocumentCounts counts;  ///< as the run gave them
   /// What classes depend on, as text by name: settings, and those of the cells of a matrix.
   std::map<std::string, std::string> settings;
   double clearance_mm = 0, touch_gap_mm = 0;
@@ -93,6 +101,13 @@ struct ClashDocument {
 
 /// Errors: input for a file that cannot be read, is cut off, is no such document, is of another
 /// version of the schema, or contradicts itself; each names the line or the result.
+///
+/// A document contradicts itself where its tests do not have as many results of each class, or as
+/// many exempted pairs where these are listed, as they count; where a result's key is not that of
+/// its test and its two objects, or one of these is not among the elements; and where the hash of
+/// the document is not that of its tests. So a list that somebody shortened is no mended clash.
+/// What is edited with its counts, and a d, is not seen: the hash of a test is over more digits
+/// than the document has.
 [[nodiscard]] Result<ClashDocument> read_clash_document(const std::filesystem::path& file);
 
 /// The same from a stream, in one pass; `name` is what errors call it.

@@ -3,7 +3,7 @@
 """clash_diff_test.py STRAKE: two results of clash compared."""
 import json
 
-from scenario import Scenario, main
+from scenario import Scenario, cube, main
 
 
 class ClashDiff(Scenario):
@@ -125,6 +125,50 @@ class ClashDiff(Scenario):
         self.assertEqual(self.run_strake('clash', 'm.obj', '--quiet', '-o', 'new.json').returncode, 0)
         new = json.loads((self.folder / 'new.json').read_text())
         self.assertIn(('obj-damaged-object', 'skipped'), [(m['code'], m['severity']) for m in new['messages']])
+        self.assertEqual(new['not_compared'], [{'test': 0, 'code': 'object-skipped',
+                                                'a': {'id': 'C', 'name': 'C', 'file': 'm.obj'}}])
+
+    def test_a_result_that_was_edited_is_refused(self):
+        """Shortened lists with the counts kept, and whatever else no run writes: neither side may be it."""
+        self.write('m.obj', ''.join(cube(f'c{n}', n, (90 * n, 0, 0), 100) for n in range(4)))
+        self.write('r.toml', '[[exempt]]\nname = "x"\na = "c0"\nb = "c1"\n'
+                   '[[allowed]]\nname = "y"\na = "c1"\nb = "c2"\nmax_depth = "any"\n')
+        run = self.run_strake('clash', 'm.obj', '--unit', 'mm', '--rules', 'r.toml', '--list-exempted', '-o', 'good.json')
+        self.assertEqual(run.returncode, 0, run.stderr)
+        good = json.loads((self.folder / 'good.json').read_text())
+        self.write('other.json', json.dumps(good, indent=3))
+        self.assertEqual(self.run_strake('clash', 'diff', 'good.json', 'other.json').returncode, 0, 'other blanks')
+        first, test = good['results'][0], good['tests'][0]
+        for what, edit in (
+                ('tests[0] counts 1 ALLOWED, but "results" has 0', {'results': good['results'][1:]}),
+                ('tests[0] counts 1 HIT, but "results" has 0', {'results': good['results'][:-1]}),
+                ('tests[0] counts 1 HIT, but "results" has 0', {'results': []}),
+                ('tests[0] counts 1 exempted pairs, but "exempted" lists 0', {'exempted': []}),
+                ('tests[0] counts 2 HIT, but "results" has 1', {'tests': [test | {'counts': test['counts'] | {'HIT': 2}}]}),
+                ('tests[0] "HIT" is no count', {'tests': [test | {'counts': test['counts'] | {'HIT': -1}}]}),
+                ('has not the "hash" of its tests', {'tests': [test | {'hash': '0' * 32}]}),
+                ('has not the "hash" of its tests', {'hash': '0' * 32}),
+                ('two tests of the name', {'tests': [test, test], 'exempted': good['exempted'] + [good['exempted'][0] | {'test': 1}]}),
+                ('has not the key of its test', {'tests': [test | {'name': 'another'}]}),
+                (f"result {first['key']} has not the key",
+                 {'results': [first | {'a': good['results'][1]['b']}, *good['results'][1:]]}),
+                (f"result {first['key']} is of 'c9', which is not among",
+                 {'results': [first | {'a': first['a'] | {'id': 'c9'}}, *good['results'][1:]]}),
+                ('stands there twice', {'results': [first, *good['results']]}),
+                ('"within_files" is no truth', {'tests': [test | {'tested': test['tested'] | {'within_files': 'yes'}}]})):
+            with self.subTest(what):
+                self.write('edited.json', json.dumps(good | edit))
+                for files in (['edited.json', 'good.json'], ['good.json', 'edited.json']):
+                    done = self.run_strake('clash', 'diff', *files, '-o', 'changes.json')
+                    self.assertEqual(done.returncode, 3, done.stdout)
+                    self.assertIn('edited.json: ', done.stderr)
+                    self.assertIn(what, done.stderr)
+                    self.assertEqual(done.stdout, '')
+        self.write('edited.json', (self.folder / 'good.json').read_text().rstrip()[:-1] + ', "results": []}')
+        done = self.run_strake('clash', 'diff', 'good.json', 'edited.json')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('has "results" twice (it was cut short or edited: run the test again', done.stderr)
+        self.assertNotIn('changes.json', self.files())
 
     def test_what_cannot_be_compared_is_named(self):
         self.two_files()

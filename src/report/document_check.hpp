@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "strake/report/clash_document.hpp"
+
+namespace strake::report {
+
+/// Holds a document that is otherwise complete against what it says of itself: counts, keys,
+/// elements and hash. Its results must be of its tests. Throws DocumentFault for the first thing
+/// that does not go with the rest.
+void check_against_itself(const ClashDocument& document);
+
+}  // namespace strake::report
