@@ -226,8 +226,9 @@ void PairRules::allow(const PartRef& a, const PartRef& b,
     return true;
   });
   if (pair.allowed < 0) return;
-  if (!holds_all(policy_.allowed[static_cast<std::size_t>(pair.allowed)],
-                 extent_mm.value_or(common_box_mm(a, b, own_reach(a, b)))))
+  const Allowed& rule = policy_.allowed[static_cast<std::size_t>(pair.allowed)];
+  if (is_as_deep_as_allowed(rule, pair)) pair.flags |= kBorderline;
+  if (!holds_all(rule, extent_mm.value_or(common_box_mm(a, b, own_reach(a, b)))))
     pair.flags |= kUncertain;
 }
 

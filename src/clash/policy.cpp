@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "strake/geometry/grid.hpp"
+
 namespace strake::clash {
 namespace {
 
@@ -62,12 +64,19 @@ bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b) {
 }
 
 bool allows(const Allowed& rule, const Pair& pair) {
-  if (rule.max_depth_mm ? pair.d_lower_mm < -*rule.max_depth_mm : pair.cls == Class::hit)
+  // Half a grid step is what a bracket about a depth on the grid may be off; the next depth that
+  // coordinates on the grid can state is a whole step away.
+  constexpr double kTieMm = geometry::kMmPerGrid / 2;
+  if (rule.max_depth_mm ? -pair.d_lower_mm > *rule.max_depth_mm + kTieMm : pair.cls == Class::hit)
     return false;
   const geometry::Vec3d& at = pair.point_mm;
   if (rule.region_mm && !rule.region_mm->contains({at, at})) return false;
   return std::all_of(rule.cavity.begin(), rule.cavity.end(),
                      [&](const HalfSpace& side) { return within(side, at); });
+}
+
+bool is_as_deep_as_allowed(const Allowed& rule, const Pair& pair) {
+  return rule.max_depth_mm && -pair.d_lower_mm > *rule.max_depth_mm;
 }
 
 bool holds_all(const Allowed& rule, const geometry::Box3d& box) {

@@ -17,8 +17,10 @@ namespace strake::clash {
 [[nodiscard]] bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b);
 [[nodiscard]] bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b);
 
-/// Whether a result is meant, by its depth and its point.
+/// Whether a result is meant, by its depth and its point, of whatever objects.
 [[nodiscard]] bool allows(const Allowed& rule, const Pair& pair);
+/// Of a result that is meant: whether its bracket reaches as deep as the rule allows.
+[[nodiscard]] bool is_as_deep_as_allowed(const Allowed& rule, const Pair& pair);
 
 /// Whether every place of a box lies within the rule's region and cavity.
 [[nodiscard]] bool holds_all(const Allowed& rule, const geometry::Box3d& box);

@@ -72,7 +72,8 @@ struct Allowed {
   std::vector<bool> a, b;  ///< one entry per object
   std::optional<geometry::Box3d> region_mm;
   std::vector<HalfSpace> cavity;  ///< the place lies in all of them
-  /// The certain depth (Pair::d_lower_mm) is at most this; absent: it is no HIT.
+  /// The certain depth (Pair::d_lower_mm) is at most this, to within half a grid step: a depth of
+  /// just this is allowed, and flagged kBorderline. Absent: the result is no HIT.
   std::optional<double> max_depth_mm;
 };
 

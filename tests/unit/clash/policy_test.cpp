@@ -373,6 +373,26 @@ TEST(ClashPolicy, AllowanceStopsAtItsDepthAndKeepsTheClass) {
   EXPECT_NE(report.hash, report_of(m, {{}, {}, {}}).hash);
 }
 
+// To the grid step: a depth of just max_depth is allowed and told to be at the limit.
+TEST(ClashPolicy, TheGreatestAllowedDepthIsAllowedItself) {
+  const auto run = [](double depth_mm, double most_mm) {
+    ClashModel m;
+    m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {100 - depth_mm, 0, 0}, {200, 100, 100});
+    Policy policy;
+    policy.allowed = {meant(2)};
+    policy.allowed[0].max_depth_mm = most_mm;
+    const Report report = report_of(m, {{}, {}, policy});
+    const Pair& pair = report.pairs.at(0);
+    return std::pair(pair.allowed >= 0, (pair.flags & kBorderline) != 0);
+  };
+  for (const double most_mm : {10.0, 0.001, 2.5, 48.999}) {
+    EXPECT_EQ(run(most_mm, most_mm), std::pair(true, true)) << most_mm;
+    EXPECT_EQ(run(most_mm + 0.001, most_mm), std::pair(false, false)) << most_mm;
+    if (most_mm == 0.001) continue;  // a micrometre less is a touch
+    EXPECT_EQ(run(most_mm - 0.001, most_mm), std::pair(true, false)) << most_mm;
+  }
+}
+
 TEST(ClashPolicy, ContactsAndClearancesAreMeantWithoutADepth) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {100, 100, 100});
