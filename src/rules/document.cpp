@@ -21,8 +21,12 @@
 // clang-format on
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 #include <tuple>
 #include <utility>
+
+#include "rules/key_depth.hpp"
 
 namespace strake::rules {
 namespace {
@@ -74,6 +78,11 @@ Error fault_at(std::string_view file, Place at, std::string message, std::string
 }
 
 Result<Value> read_document(std::string_view text, std::string_view file) {
+  // Twice as deep as any key of a rules file.
+  constexpr std::size_t kMostParts = 16;
+  if (const auto at = first_deep_key(text, kMostParts))
+    return fault_at(file, *at, "a key of more than " + std::to_string(kMostParts) + " parts",
+                    "no key of a rules file is so deep; quote a name that has dots in it");
   const toml::parse_result parsed = toml::parse(text);
   if (parsed) return value_of(parsed.table());
   const toml::parse_error& error = parsed.error();

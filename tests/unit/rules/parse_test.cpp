@@ -233,6 +233,34 @@ TEST(RulesFile, HostileTextsEndInAnError) {
   EXPECT_EQ(fault_of("# B\u00FCro\n[sets]\n\"B\u00FCro\" = \"name = '\u00C5*'\""), "");
 }
 
+// Each part of a key is a table within a table.
+TEST(RulesFile, KeysOfVeryManyPartsAreRefused) {
+  std::string deep, most;
+  for (int i = 0; i < 100000; ++i) deep += i % 2 == 0 ? "a." : "'b c' . ";
+  for (int i = 0; i < 15; ++i) most += "a.";
+  const std::string fault = ": a key of more than 16 parts";
+  const std::vector<std::pair<std::string, std::string>> places{
+      {"x = 1\n" + deep + "y = 1", "line 2, column 1"},
+      {"[" + deep + "y]", "line 1, column 2"},
+      {"[[ " + deep + "y]]", "line 1, column 4"},
+      {"x = [ 1.5, { " + deep + " y = 1 } ]", "line 1, column 14"},
+      {"x = [\"\"\"a\"\"\"\", { " + deep + " y = 1 } ]", "line 1, column 18"},
+      {"x = ['it', { " + deep + " y = 1 } ]", "line 1, column 14"},
+      {"x = \"\\\" # \" # '\n " + deep + "y = 1", "line 2, column 2"},
+      {most + "y.z = 1", "line 1, column 1"}};
+  for (const auto& [text, place] : places)
+    EXPECT_NE(fault_of(text).find("r.toml, " + place + fault), std::string::npos)
+        << text.substr(0, 40) << "\n"
+        << fault_of(text);
+  EXPECT_NE(fault_of(most + "y = 1").find("the file has no key 'a'"), std::string::npos);
+  EXPECT_EQ(fault_of("# " + deep + "\n[sets]\nx = \"name ~ '" + std::string(1000, '.') + "'\""),
+            "");
+  // As deep as values and keys may be together.
+  std::string inner = "1";
+  for (int i = 0; i < 250; ++i) inner = "{ " + most + "y = " + inner + " }";
+  EXPECT_NE(fault_of("x = " + inner), "");
+}
+
 TEST(RulesFile, DamageEndsInAnErrorWithAPlaceOrInRules) {
   std::ifstream stream(STRAKE_EXAMPLE_RULES, std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
