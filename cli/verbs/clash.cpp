@@ -189,6 +189,7 @@ Result<clash::Findings> find(Session& session, const Loaded& loaded, rules::Plan
     report->name = test.name;
     findings.tests.push_back(std::move(*report));
   }
+  findings.diagnostics.append(rules::idle_rules(plan, findings.tests));
   return findings;
 }
 
@@ -227,7 +228,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   const Diagnostics diagnostics = findings->all_diagnostics();
   // A rule or a set that does nothing is misspelt more often than meant: each is named.
   tell(session.console(), diagnostics,
-       {"rule-matches-nothing", "selection-picks-nothing", "empty-set"});
+       {"rule-matches-nothing", "rule-shadowed", "selection-picks-nothing", "empty-set"});
   count_work(session.stats(), findings->tests);
   count_costs(session.stats(), *findings, *loaded->model);
   const Result<std::optional<clash::Grouping>> grouping =

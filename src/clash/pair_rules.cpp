@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include "clash/class_totals.hpp"
 #include "clash/policy.hpp"
@@ -31,6 +32,26 @@ std::size_t count_between(const Policy& policy) {
   return static_cast<std::size_t>(
       std::count_if(policy.exemptions.begin(), policy.exemptions.end(),
                     [](const Exemption& e) { return std::holds_alternative<Between>(e.test); }));
+}
+
+/// For each rule that is idle the first of the rules that did its work before it, kNoLabel: none
+/// did. look(pair, take) calls take(rule, by whom) for what concerns a pair.
+template <class Look>
+Result<std::vector<std::uint32_t>> first_before(const std::vector<bool>& idle, std::size_t pairs,
+                                                const parallel::Context& context, Look&& look) {
+  using Firsts = std::vector<std::uint32_t>;
+  const bool some = std::ranges::find(idle, true) != idle.end();
+  return parallel::reduce(
+      context, {.name = "shadowed rules", .n = some ? pairs : 0, .grain = kGrain},
+      Firsts(idle.size(), kNoLabel),
+      [&](Firsts& partial, std::size_t i) {
+        look(i, [&](std::size_t rule, std::uint32_t by) {
+          if (idle[rule]) partial[rule] = std::min(partial[rule], by);
+        });
+      },
+      [](Firsts& into, const Firsts& partial) {
+        for (std::size_t r = 0; r < into.size(); ++r) into[r] = std::min(into[r], partial[r]);
+      });
 }
 
 }  // namespace
@@ -152,6 +173,7 @@ Status PairRules::exempt(const PartList& list, std::vector<IndexPair>& pairs,
         return verdict(list.parts[pairs[i].first], list.parts[pairs[i].second]);
       });
   if (!verdicts) return verdicts.error();
+  if (const Status s = note_shadowed({list, pairs, *verdicts}, context, report); !s) return s;
   std::size_t kept = 0;
   std::vector<std::uint32_t> told;  // rules that the current pair of objects counts for already
   const PartRef *last_a = nullptr, *last_b = nullptr;
@@ -178,6 +200,41 @@ Status PairRules::exempt(const PartList& list, std::vector<IndexPair>& pairs,
             [](const ExemptedPair& x, const ExemptedPair& y) {
               return std::tie(x.a, x.b, x.rule) < std::tie(y.a, y.b, y.rule);
             });
+  return {};
+}
+
+Status PairRules::note_shadowed(const Verdicts& all, const parallel::Context& context,
+                                Report& report) const {
+  const std::uint32_t base = policy_.matrix ? 1 : 0;
+  std::vector<bool> idle(policy_.exemptions.size(), true);
+  for (const Verdict& v : all.verdicts)
+    if (v.rule != kNoLabel && v.rule >= base && v.rule - base < idle.size())
+      idle[v.rule - base] = false;
+  const auto asked = [&](std::uint32_t a, std::uint32_t b, auto&& take) {
+    between_.each(a, b, [&](std::size_t k) {
+      take(between_rule_[k]);
+      return false;
+    });
+    for (std::uint32_t e = 0; e < idle.size(); ++e) {
+      if (!idle[e]) continue;
+      const auto* const same = std::get_if<SameLabel>(&policy_.exemptions[e].test);
+      const auto* const linked = std::get_if<Linked>(&policy_.exemptions[e].test);
+      if ((same != nullptr && exempts(*same, a, b)) ||
+          (linked != nullptr && exempts(*linked, a, b)))
+        take(e);
+    }
+  };
+  const auto first = first_before(idle, all.pairs.size(), context, [&](std::size_t i, auto&& take) {
+    const std::uint32_t by = all.verdicts[i].rule;
+    if (by == kNoLabel) return;
+    const geometry::IndexPair& pair = all.pairs[i];
+    asked(all.list.parts[pair.first].object, all.list.parts[pair.second].object,
+          [&](std::size_t e) { take(e, by); });
+  });
+  if (!first) return first.error();
+  for (std::size_t e = 0; e < first->size(); ++e)
+    if ((*first)[e] != kNoLabel)
+      report.exempted[base + e].shadowed_by = static_cast<std::int32_t>((*first)[e]);
   return {};
 }
 
@@ -281,6 +338,26 @@ Status PairRules::close(const parallel::Context& context, Report& report) const 
     cell.clearance_violation = counts.clearance_violation;
     cell.allowed = counts.allowed;
   }
+  return note_shadowed_allowances(context, report);
+}
+
+Status PairRules::note_shadowed_allowances(const parallel::Context& context, Report& report) const {
+  std::vector<bool> idle;
+  for (const AllowedCount& rule : report.allowed) idle.push_back(rule.pairs == 0);
+  const auto first =
+      first_before(idle, report.pairs.size(), context, [&](std::size_t i, auto&& take) {
+        const Pair& pair = report.pairs[i];
+        if (pair.allowed < 0) return;
+        allowed_.each(index(pair.a), index(pair.b), [&](std::size_t rule) {
+          if (idle[rule] && allows(policy_.allowed[rule], pair))
+            take(rule, static_cast<std::uint32_t>(pair.allowed));
+          return false;
+        });
+      });
+  if (!first) return first.error();
+  for (std::size_t r = 0; r < first->size(); ++r)
+    if ((*first)[r] != kNoLabel)
+      report.allowed[r].shadowed_by = static_cast<std::int32_t>((*first)[r]);
   return {};
 }
 

@@ -56,6 +56,12 @@ class PairRules {
     std::uint32_t rule = kNoLabel;  ///< kNoLabel: none exempts it
     bool far = false;               ///< out of the reach of its own tolerances
   };
+  /// Pairs of parts and their verdicts.
+  struct Verdicts {
+    const PartList& list;
+    const std::vector<geometry::IndexPair>& pairs;
+    const std::vector<Verdict>& verdicts;
+  };
   [[nodiscard]] Verdict verdict(const PartRef& a, const PartRef& b) const;
   [[nodiscard]] std::uint32_t object_rule(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::uint32_t level_rule(Level a, Level b) const;
@@ -63,6 +69,11 @@ class PairRules {
   [[nodiscard]] double own_reach(const PartRef& a, const PartRef& b) const;
   [[nodiscard]] bool within_own_reach(const PartRef& a, const PartRef& b) const;
   void number_level_rules();
+  // Of rules that do nothing: whether that is because earlier ones have done it.
+  [[nodiscard]] Status note_shadowed(const Verdicts& all, const parallel::Context& context,
+                                     Report& report) const;
+  [[nodiscard]] Status note_shadowed_allowances(const parallel::Context& context,
+                                                Report& report) const;
   /// The place of a pair's cell in Report::cells, or kNoCell.
   [[nodiscard]] std::size_t cell_number(const Pair& pair) const;
   static constexpr std::size_t kNoCell = ~std::size_t{0};

@@ -61,7 +61,7 @@ std::vector<bool> Asking::pick(const std::optional<Chooser>& chooser) {
 }
 
 void Asking::nothing(const std::string& where, const std::string& what) {
-  diagnostics_.add(Severity::warning, "rule-matches-nothing", what, where);
+  diagnostics_.add(Severity::warning, kNothing, what, where);
 }
 
 std::vector<const Chooser*> choosers_of(const RuleFile& rules) {

@@ -15,6 +15,9 @@
 
 namespace strake::rules {
 
+// The codes of warnings about rules that do nothing.
+inline constexpr std::string_view kNothing = "rule-matches-nothing", kShadowed = "rule-shadowed";
+
 /// A model that rules are asked about; keeps what turned out to match nothing, and whether the run
 /// was cancelled: what is answered after that is thrown away.
 class Asking {
@@ -33,8 +36,26 @@ class Asking {
   std::vector<bool> pick(const Chooser& chooser);
   /// The same, and all objects where there is no selection.
   std::vector<bool> pick(const std::optional<Chooser>& chooser);
+  /// The same without a warning.
+  [[nodiscard]] const std::vector<bool>& peek(const Chooser& chooser) const {
+    return picked_.at(&chooser);
+  }
   /// Says that a rule matches nothing.
   void nothing(const std::string& where, const std::string& what);
+  /// How many rules were said to match nothing.
+  [[nodiscard]] std::uint64_t idle() const { return diagnostics_.count(kNothing); }
+  /// Says `what` of a selection that picks objects, but none that earlier ones leave to it:
+  /// left(o).
+  template <class Left>
+  void check_shadow(const std::vector<bool>& picked, Left&& left, const std::string& where,
+                    const std::string& what) {
+    bool some = false;
+    for (std::size_t o = 0; o < picked.size(); ++o) {
+      if (picked[o] && left(o)) return;
+      some = some || picked[o];
+    }
+    if (some) diagnostics_.add(Severity::warning, kShadowed, what, where);
+  }
 
  private:
   const model::Scene& scene_;

@@ -139,15 +139,21 @@ struct Labelling {
     std::vector<bool> said(objects.size());
     for (const UnitRule::Group& group : units.groups) {
       const std::vector<bool> picked = asking.pick(group.chooser);
+      asking.check_shadow(
+          picked, [&](std::size_t o) { return !said[o]; }, group.chooser.where,
+          "every object that it picks is in an earlier group");
       for (std::size_t o = 0; o < objects.size(); ++o) {
         if (!picked[o] || said[o]) continue;
         said[o] = true;
         unit[o] = group.number;
       }
     }
+    bool some = units.attribute.empty();
     for (std::size_t o = 0; o < objects.size() && !units.attribute.empty(); ++o) {
+      const auto values = values_of(asking.model(), objects[o], units.attribute);
+      some = some || !values.empty();
       if (said[o]) continue;
-      for (const std::string_view value : values_of(asking.model(), objects[o], units.attribute)) {
+      for (const std::string_view value : values) {
         if (const auto number = parse_integer(value))
           unit[o] = *number;
         else
@@ -159,8 +165,7 @@ struct Labelling {
         break;
       }
     }
-    if (std::find(said.begin(), said.end(), true) == said.end() && !units.attribute.empty())
-      asking.nothing(rule.where, "no object has the attribute '" + units.attribute + "'");
+    if (!some) asking.nothing(rule.where, "no object has the attribute '" + units.attribute + "'");
     std::map<std::int64_t, std::uint32_t> numbers;
     SameLabel test = unlabelled(asking);
     for (std::size_t o = 0; o < objects.size(); ++o)

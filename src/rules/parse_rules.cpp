@@ -342,7 +342,8 @@ class Parser {
     auto box = region(table);
     auto planes = cavity(table);
     if (a && b)
-      rules_.allowed.push_back({name, std::move(*a), std::move(*b), box, std::move(planes), depth});
+      rules_.allowed.push_back({name, place(value.at) + ": " + table.what(), std::move(*a),
+                                std::move(*b), box, std::move(planes), depth});
   }
 
   std::optional<geometry::Box3d> region(TableReader& outer) {

@@ -8,7 +8,9 @@
 #include <span>
 #include <string>
 #include <system_error>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "rules/asking.hpp"
 #include "rules/labels.hpp"
@@ -47,14 +49,16 @@ class Planner {
 
   Result<Plan> run() {
     for (const NamedSet& set : rules_.sets) asking_.pick(set.chooser);
+    Plan plan;
     for (const Exempting& rule : rules_.exempting)
-      exemptions_.push_back(exemption_of(rule, asking_));
+      watch(plan, rule, [&] { exemptions_.push_back(exemption_of(rule, asking_)); });
     make_levels();
     for (const AllowedRule& rule : rules_.allowed)
-      allowed_.push_back({rule.name, asking_.pick(rule.a), asking_.pick(rule.b), rule.region_mm,
-                          rule.cavity, rule.max_depth_mm});
+      watch(plan, rule, [&] {
+        allowed_.push_back({rule.name, asking_.pick(rule.a), asking_.pick(rule.b), rule.region_mm,
+                            rule.cavity, rule.max_depth_mm});
+      });
     make_disciplines();
-    Plan plan;
     for (const TestRule& test : rules_.tests)
       if (test.enabled) plan.tests.push_back(planned(test));
     if (asking_.error()) return *asking_.error();
@@ -63,6 +67,17 @@ class Planner {
   }
 
  private:
+  /// Works a rule out. One that matches objects is watched for whether it concerns a pair of them;
+  /// the exemption of pairs within a file is a setting rather than a rule.
+  template <class Rule, class Work>
+  void watch(Plan& plan, const Rule& rule, Work&& work) {
+    const std::uint64_t idle = asking_.idle();
+    work();
+    if constexpr (std::is_same_v<Rule, Exempting>)
+      if (std::holds_alternative<FileRule>(rule.rule)) return;
+    if (asking_.idle() == idle) plan.watched.push_back({rule.name, rule.where});
+  }
+
   void make_levels() {
     if (!rules_.obstruction && !rules_.insulation) return;
     clash::Levels& levels = levels_.emplace();
@@ -80,6 +95,10 @@ class Planner {
       levels.obstruction_bodies = Level::hard;
     }
     if (!rules_.insulation) return;
+    if (std::ranges::none_of(asking_.model().bodies, [](const model::Body& body) {
+          return body.category == model::Category::insulation;
+        }))
+      asking_.nothing(rules_.file + ": [insulation]", "no object has insulation");
     if (!rules_.insulation->against_insulation)
       leave_out(Level::insulation, Level::insulation, kInsulationRule);
     if (!rules_.insulation->against_soft)
@@ -121,6 +140,11 @@ class Planner {
                           "' and there are no obstruction volumes");
     apply(rule.soft, Level::soft, levels);
     apply(rule.none, Level::none, levels);
+    if (!rule.soft || !rule.none) return;
+    const std::vector<bool> soft = asking_.peek(*rule.soft), none = asking_.peek(*rule.none);
+    asking_.check_shadow(
+        soft, [&](std::size_t o) { return !none[o]; }, rule.soft->where,
+        "every object that it picks is one of 'none'");
   }
 
   void apply(const std::optional<Chooser>& chooser, Level level, std::vector<Level>& levels) {
@@ -135,6 +159,10 @@ class Planner {
     discipline_.assign(asking_.objects(), kNoLabel);
     for (std::uint32_t d = 0; d < rules_.disciplines.size(); ++d) {
       const std::vector<bool> picked = asking_.pick(rules_.disciplines[d].chooser);
+      asking_.check_shadow(
+          picked, [&](std::size_t o) { return discipline_[o] == kNoLabel; },
+          rules_.disciplines[d].chooser.where,
+          "every object that it picks counts for an earlier discipline");
       std::map<std::uint32_t, std::uint64_t> taken;  // by earlier disciplines
       for (std::size_t o = 0; o < picked.size(); ++o) {
         if (!picked[o]) continue;

@@ -105,7 +105,7 @@ struct InsulationRule {
 };
 
 struct AllowedRule {
-  std::string name;
+  std::string name, where;
   Chooser a, b;
   std::optional<geometry::Box3d> region_mm;
   std::vector<clash::HalfSpace> cavity;

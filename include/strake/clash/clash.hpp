@@ -173,6 +173,9 @@ inline constexpr std::uint32_t kNoLabel = 0xffffffffU;
 struct Exempted {
   std::string rule;
   std::uint64_t pairs = 0;  ///< of objects, with parts within reach of each other
+  /// Of an exemption that took none: the first rule that took a pair of its own before it, an index
+  /// into Report::exempted; negative: it has none.
+  std::int32_t shadowed_by = -1;
 };
 
 /// One of these pairs; a < b in the durable order.
@@ -185,6 +188,7 @@ struct ExemptedPair {
 struct AllowedCount {
   std::string rule;
   std::uint64_t candidates = 0, pairs = 0;
+  std::int32_t shadowed_by = -1;  ///< the same of one that allowed none, into Report::allowed
 };
 
 /// A discipline of a matrix, and how many objects of the sets are of it.

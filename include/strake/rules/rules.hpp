@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,12 +36,25 @@ struct PlannedTest {
   clash::Policy policy;
 };
 
+/// A rule and what messages call its place: "steel.toml, line 7: [[exempt]] 'hull'".
+struct WatchedRule {
+  std::string name, where;
+};
+
 struct Plan {
   std::vector<PlannedTest> tests;  ///< those that are enabled, in the order of the file
-  /// "rule-matches-nothing" (a rule or a set, by name), "in-several-disciplines",
-  /// "in-no-discipline", "unit-not-a-number", "obstruction-not-known".
+  /// "rule-matches-nothing" (a rule or a set, by name), "rule-shadowed" (it picks objects, but
+  /// earlier ones leave it none), "in-several-disciplines", "in-no-discipline",
+  /// "unit-not-a-number", "obstruction-not-known".
   Diagnostics diagnostics;
+  /// Rules that exempt or allow, and match objects: idle_rules() tells which of them do nothing.
+  std::vector<WatchedRule> watched = {};
 };
+
+/// Names, once its tests have run, the rules of a plan that did nothing in any of them:
+/// "rule-matches-nothing" where they concern no pair of objects within reach of each other,
+/// "rule-shadowed" where an earlier rule took or allowed whatever they would.
+[[nodiscard]] Diagnostics idle_rules(const Plan& plan, std::span<const clash::Report> tests);
 
 /// A rules file, understood but not yet held against a model. Immutable; cheap to copy.
 class Rules {

@@ -168,6 +168,20 @@ max_depth = "any"
             self.assertIn(said, done.stderr)
             self.assertIn(said, messages)
 
+    def test_a_rule_without_a_use_is_named_in_both_places(self):
+        self.write('m.obj', cubes(0, 90, 500))
+        self.write('r.toml', ''.join(f'[[exempt]]\nname = "{name}"\na = "c0"\nb = "{b}"\n'
+                                     for name, b in (('near', 'c1'), ('again', 'c1'), ('far', 'c2'))))
+        done = self.run_strake('clash', 'm.obj', *self.SETTINGS, '--rules', 'r.toml', '--json')
+        messages = [f"{m['code']}: {m['where']}: {m['message']}" for m in json.loads(done.stdout)['messages']]
+        for said in ("rule-shadowed: r.toml, line 5: [[exempt]] 'again': it does nothing: what it concerns is "
+                     "exempted by earlier rules, as 'near'",
+                     "rule-matches-nothing: r.toml, line 9: [[exempt]] 'far': it concerns no two objects that are "
+                     "within reach of each other"):
+            self.assertIn(said, done.stderr)
+            self.assertIn(said, messages)
+        self.assertEqual(done.stderr.count('warning rule-'), 2, done.stderr)
+
 
 def paths_of_glb(file):
     """Path of each node with a mesh, by its name, from the file itself."""
@@ -223,7 +237,7 @@ class Ship(Rules):
         def piping(name):
             return self.discipline(name) == 'piping'
 
-        if between(piping, lambda n: piping(n) and self.SUPPORTS.match(n)) and result['d_range_mm'][0] >= -0.5:
+        if between(piping, lambda n: piping(n) and self.SUPPORTS.match(n)) and result['d_range_mm'][0] >= -0.5005:
             return 'pipes on their supports'
         x, y, z = result['point_mm']
         inside = -1000 <= x <= 500000 and -50000 <= y <= 50000 and 0 <= z <= 6000

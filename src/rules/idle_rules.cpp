@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rules/asking.hpp"
+#include "strake/rules/rules.hpp"
+
+namespace strake::rules {
+namespace {
+
+constexpr std::string_view kExempted = "exempted", kAllowed = "allowed";
+
+/// What became of a rule in all tests that follow it.
+struct Fate {
+  bool busy = false;
+  std::string_view doing;    ///< what it is there for
+  std::string_view done_by;  ///< the rule that did it before, if so
+
+  void add(bool did, std::int32_t shadowed_by, const auto& rule, std::string_view what) {
+    busy = busy || did;
+    doing = what;
+    if (shadowed_by >= 0 && done_by.empty())
+      done_by = rule[static_cast<std::size_t>(shadowed_by)].rule;
+  }
+};
+
+std::map<std::string_view, Fate> fates_of(std::span<const clash::Report> tests) {
+  std::map<std::string_view, Fate> fates;
+  for (const clash::Report& test : tests) {
+    for (const clash::Exempted& e : test.exempted)
+      fates[e.rule].add(e.pairs > 0, e.shadowed_by, test.exempted, kExempted);
+    // One that was asked about a pair and did not allow what became of it has done its work.
+    for (const clash::AllowedCount& a : test.allowed)
+      fates[a.rule].add(a.pairs > 0 || (a.candidates > 0 && a.shadowed_by < 0), a.shadowed_by,
+                        test.allowed, kAllowed);
+  }
+  return fates;
+}
+
+}  // namespace
+
+Diagnostics idle_rules(const Plan& plan, std::span<const clash::Report> tests) {
+  Diagnostics diagnostics;
+  const std::map<std::string_view, Fate> fates = fates_of(tests);
+  for (const WatchedRule& rule : plan.watched) {
+    const auto at = fates.find(rule.name);
+    if (at == fates.end() || at->second.busy) continue;
+    const Fate& fate = at->second;
+    if (fate.done_by.empty())
+      diagnostics.add(Severity::warning, kNothing,
+                      "it concerns no two objects that are within reach of each other" +
+                          std::string(fate.doing == kAllowed ? " and not exempted" : ""),
+                      rule.where);
+    else
+      diagnostics.add(Severity::warning, kShadowed,
+                      "it does nothing: what it concerns is " + std::string(fate.doing) +
+                          " by earlier rules, as '" + std::string(fate.done_by) + "'",
+                      rule.where);
+  }
+  return diagnostics;
+}
+
+}  // namespace strake::rules

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// A row of cubes that clash with their neighbours, and what a rules file makes of them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "strake/rules/rules.hpp"
+#include "support/clash_model.hpp"
+
+namespace strake::test {
+
+using Told = std::vector<std::string>;
+using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+/// Cubes of side 100 in a row, each 10 into the next, in groups of a hierarchy.
+class Row {
+ public:
+  Row() { m_.model.files.push_back({"u.obj", "OBJ", "mm", "z", 1, 0}); }
+
+  Row& cube(const std::string& id, model::Attributes attributes = {},
+            model::GroupId parent = model::GroupId::none, std::uint32_t file = 0) {
+    const double x = 90.0 * static_cast<double>(m_.model.objects.size());
+    m_.box(id, {x, 0, 0}, {x + 100, 100, 100});
+    model::Object& object = m_.model.objects.back();
+    object.attributes = std::move(attributes);
+    object.parent = parent;
+    object.file = file;
+    return *this;
+  }
+  Row& category(model::Category category) {
+    m_.model.bodies.back().category = category;
+    return *this;
+  }
+  model::GroupId group(const std::string& name, model::GroupId parent = model::GroupId::none) {
+    m_.model.groups.push_back({name, parent});
+    return model::GroupId{static_cast<std::uint32_t>(m_.model.groups.size() - 1)};
+  }
+  model::GroupId group(const std::string& name, model::Attributes attributes) {
+    const model::GroupId made = group(name);
+    m_.model.set_attributes(made, std::move(attributes));
+    return made;
+  }
+
+  struct Outcome {
+    std::vector<clash::Report> reports;
+    Diagnostics diagnostics;
+    std::vector<Told> told;  ///< per test: "a-b HIT", "a-b HIT by RULE"
+  };
+
+  [[nodiscard]] Outcome run(std::string_view text, const parallel::Context& context = {}) const {
+    const auto parsed = rules::Rules::parse(text, "r.toml");
+    if (!parsed) {
+      ADD_FAILURE() << parsed.error().text();
+      return {};
+    }
+    const auto scene = make_scene(m_.model, parsed.value().scene_options(), context).value();
+    const rules::Plan plan = parsed.value().plan(scene, context).value();
+    Outcome outcome;
+    for (const rules::PlannedTest& test : plan.tests) {
+      auto report = clash::detect(scene, test.sets, test.options, test.policy, context).value();
+      report.name = test.name;
+      outcome.told.push_back(told(report));
+      outcome.reports.push_back(std::move(report));
+    }
+    outcome.diagnostics = plan.diagnostics;
+    outcome.diagnostics.append(rules::idle_rules(plan, outcome.reports));
+    return outcome;
+  }
+  /// What the only test finds.
+  [[nodiscard]] Told hits(std::string_view text) const {
+    const Outcome outcome = run(text);
+    return outcome.told.size() == 1 ? outcome.told[0] : Told{"no single test"};
+  }
+
+ private:
+  [[nodiscard]] Told told(const clash::Report& report) const {
+    Told all;
+    for (const clash::Pair& p : report.pairs) {
+      all.push_back(m_.model.object(p.a).id + "-" + m_.model.object(p.b).id + " " +
+                    std::string(name(p.cls)));
+      if (p.allowed >= 0)
+        all.back() += " by " + report.allowed[static_cast<std::size_t>(p.allowed)].rule;
+    }
+    return all;
+  }
+  ClashModel m_;
+};
+
+inline Counts exempted(const clash::Report& report) {
+  Counts all;
+  for (const clash::Exempted& e : report.exempted) all.emplace_back(e.rule, e.pairs);
+  return all;
+}
+/// The diagnostics of a code, one a line.
+inline std::string warned(const Diagnostics& diagnostics, std::string_view code) {
+  std::string all;
+  for (const Diagnostic& d : diagnostics.kept())
+    if (d.code == code) all += d.where + ": " + d.message + "\n";
+  return all;
+}
+
+}  // namespace strake::test
