@@ -13,6 +13,7 @@
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
 #include "geometry/heavy_loop.hpp"
+#include "geometry/snap_tilt.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/meeting_places.hpp"
 #include "strake/geometry/predicates.hpp"
@@ -27,6 +28,13 @@ constexpr std::size_t kMaxConvexPlanes = 1024;
 /// snapping moves a vertex by less than one, and a face's short side magnifies that.
 constexpr double kConvexSlack = 4;
 
+/// Of a part with more faces than are kept at all, those that the snap may have turned by more than
+/// this count as needles, radians.
+constexpr double kNeedleTilt = 1.0 / 16384;
+/// Flat faces that are looked for among needles, and the fewest needles of one.
+constexpr int kNeedleFaces = 16;
+constexpr std::size_t kFewestNeedles = 32;
+
 /// Beyond this many triangles coplanar faces are found by their hashes: sorting would cost more.
 constexpr std::size_t kSorted = 512;
 
@@ -34,19 +42,26 @@ struct Face {
   std::array<std::int64_t, 3> key{};  ///< the normal in steps of 2^-40: equal for coplanar faces
   Vec3d normal;
   double area = 0;  ///< twice
+  double tilt = 0;  ///< of a needle: how far the snap may have turned it; otherwise 0
+
+  /// Of length 0 for no face.
+  explicit Face(const Vec3d& n) : area(length(n)) {
+    if (!(area > 0)) return;
+    normal = {n.x / area, n.y / area, n.z / area};
+    for (int k = 0; k < 3; ++k) {
+      const double steps = normal[k] * 0x1p40;
+      key[static_cast<std::size_t>(k)] =
+          static_cast<std::int64_t>(steps + (steps < 0 ? -0.5 : 0.5));
+    }
+  }
+  Face() = default;
 };
 
 Face face_of(const Part& part, std::uint32_t t) {
-  const Vec3d n = normal_of(corners_of(part, t));
-  Face face;
-  face.area = length(n);
-  if (!(face.area > 0)) return face;
-  face.normal = {n.x / face.area, n.y / face.area, n.z / face.area};
-  for (int k = 0; k < 3; ++k) {
-    const double steps = face.normal[k] * 0x1p40;
-    face.key[static_cast<std::size_t>(k)] =
-        static_cast<std::int64_t>(steps + (steps < 0 ? -0.5 : 0.5));
-  }
+  const Corners c = corners_of(part, t);
+  const Vec3d n = normal_of(c);
+  Face face(n);
+  if (const double tilt = snap_tilt(c, n); tilt > kNeedleTilt) face.tilt = tilt;
   return face;
 }
 
@@ -96,6 +111,30 @@ void merge_by_sorting(std::vector<Face>& faces) {
   faces.resize(kept);
 }
 
+/// Makes one face, with their mean normal, of the needles that are turned from their largest one by
+/// no more than the snap may have turned either. False where these are few.
+bool merge_needles_of_largest(std::vector<Face>& faces) {
+  const auto less = [](const Face& x, const Face& y) {
+    const double of_x = x.tilt > 0 ? x.area : 0, of_y = y.tilt > 0 ? y.area : 0;
+    return of_x != of_y ? of_x < of_y : x.key > y.key;
+  };
+  const Face seed = *std::ranges::max_element(faces, less);
+  if (!(seed.tilt > 0)) return false;
+  const auto is_like = [&](const Face& face) {
+    const double turned = seed.tilt + face.tilt;
+    const Vec3d apart = face.normal - seed.normal;
+    return face.tilt > 0 && dot(apart, apart) <= turned * turned;
+  };
+  if (static_cast<std::size_t>(std::ranges::count_if(faces, is_like)) < kFewestNeedles)
+    return false;
+  Vec3d sum;
+  for (const Face& face : faces)
+    if (is_like(face)) sum = sum + face.normal * face.area;
+  std::erase_if(faces, is_like);
+  faces.emplace_back(sum);
+  return true;
+}
+
 void keep_largest(std::vector<Face>& faces, std::size_t most) {
   if (faces.size() <= most) return;
   std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(most), faces.end(),
@@ -113,6 +152,8 @@ std::vector<Face> distinct_faces(const Part& part, std::size_t most,
     merge_by_hash(faces);
   else
     merge_by_sorting(faces);
+  for (int i = 0; i < kNeedleFaces && faces.size() > kMaxConvexPlanes; ++i)
+    if (!merge_needles_of_largest(faces)) break;
   keep_largest(faces, most);
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
   return faces;

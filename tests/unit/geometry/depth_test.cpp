@@ -425,6 +425,25 @@ TEST(SupportPlanes, FlatFacesCountOnceHoweverFinelyCut) {
   EXPECT_NEAR(planes.planes[1].support, kStep, 1e-6);
 }
 
+TEST(SupportPlanes, NeedlesOfOneFaceMakeOnePlane) {
+  // The needles of either end look many ways once they are snapped, none quite along the axis.
+  const Part part = testing::build_part(turned(cylinder(3000, 100'000, -5'000, 5'000)));
+  const SupportPlanes planes = make_support_planes(part);
+  EXPECT_LE(planes.planes.size(), 1024U);
+  const Vec3d axis{22.0 / 30, 20.0 / 30, 4.0 / 30};
+  int ends = 0;
+  for (const SupportPlanes::Plane& plane : planes.planes) {
+    EXPECT_NEAR(dot(plane.normal, plane.normal), 1, 1e-14);
+    double most = -1e300;
+    for (const Vec3i& v : part.vertices) most = std::max(most, dot(plane.normal, v.as<double>()));
+    EXPECT_GE(plane.support, most);
+    EXPECT_LE(plane.support, most + 1e-6);
+    const double along = dot(plane.normal, axis);
+    ends += along * along > 1 - 1e-10 && plane.support < 5'002 ? 1 : 0;
+  }
+  EXPECT_EQ(ends, 2);
+}
+
 TEST(GapBound, IsNoMoreThanTheDistanceAndNoLessThanTheWidestGap) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     std::mt19937_64 random(seed);
