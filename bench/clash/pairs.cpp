@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <string>
@@ -99,7 +100,7 @@ void pairs_of(double triangles) {
         {Class::clearance_violation, 2, sag});
 }
 
-/// Discs with caps that are fans of needles, straight and askew.
+/// Discs with caps that are fans of needles, straight and askew, over each other and aside.
 void fans_of(double triangles) {
   const auto sectors = static_cast<std::uint32_t>(triangles / 8);
   const TriangleMesh plate = cylinder_mesh(500, 10, 1, sectors);
@@ -115,9 +116,14 @@ void fans_of(double triangles) {
     };
     const std::string how = askew ? ", askew" : "";
     const double phase = 1.0 / sectors;
+    const Vec3d aside = askew ? Vec3d{60, 170, -80} : Vec3d{100, 170, 0};
     bench("fans 3 mm apart" + how, stand(plate, 0, 0), stand(plate, phase, 13), {},
           {Class::clearance_violation, 3, 0.004});
     bench("fans touching" + how, stand(plate, 0, 0), stand(plate, phase, 10), {},
+          {Class::contact, 0, 0.004});
+    bench("fans aside, 3 mm apart" + how, stand(plate, 0, 0), stand(smaller, phase, 13), aside,
+          {Class::clearance_violation, 3, 0.004});
+    bench("fans aside, touching" + how, stand(plate, 0, 0), stand(smaller, phase, 10), aside,
           {Class::contact, 0, 0.004});
     bench("fan inside a fan" + how, stand(plate, 0, 0), stand(smaller, phase, 2), {},
           {Class::hit, -5, 0.01});
@@ -127,6 +133,7 @@ void fans_of(double triangles) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // each line as it comes, into files and pipes too
   std::vector<double> sizes;
   for (int i = 1; i < argc; ++i) sizes.push_back(std::atof(argv[i]));
   if (sizes.empty()) sizes = {20'000, 200'000};

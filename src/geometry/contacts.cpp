@@ -84,7 +84,7 @@ Contacts ContactWalk::run(PairWork& work) {
 /// what they leave open is walked.
 bool ContactWalk::settle_by_heights(PairWork& work) {
   if (found_.boundaries_meet) return false;
-  const auto pieces = parted_by_heights(a_, b_, std::numeric_limits<double>::min());
+  const auto pieces = parted_by_heights(a_, b_, {.apart = std::numeric_limits<double>::min()});
   if (!pieces) return false;
   for (const FlatPieces::Pair& pair : pieces->open) {
     if (found_.decided()) break;

@@ -5,16 +5,19 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 
 #include "geometry/corners.hpp"
+#include "geometry/directions.hpp"
 #include "geometry/range.hpp"
+#include "geometry/snap_tilt.hpp"
 
 namespace strake::geometry {
 namespace {
 
-/// Cosine of the angle by which a triangle may be turned from a rough direction: needles are turned
-/// by the snap.
-constexpr double kAlike = 0.999;
+/// Angle by which a triangle may be turned from a rough direction besides what the snap has turned
+/// it by, and the most of both together; half of either for each of two triangles. Radians.
+constexpr double kAlike = 0.0224, kMostAlike = 0.25;
 /// Grid units that the triangles of one level may lie apart: each corner is snapped by up to
 /// sqrt(3)/2.
 constexpr double kLevel = 4;
@@ -25,47 +28,63 @@ constexpr std::size_t kSamples = 32, kAlikeSamples = 4;
 /// Least share of all pairs of triangles that has to be parted, as a divisor.
 constexpr std::size_t kShare = 4;
 
-bool alike(const Vec3d& n, const Vec3d& m) {
-  const double along = dot(n, m);
-  return along * along >= kAlike * kAlike * dot(n, n) * dot(m, m);
+/// A unit normal, and by how much it may be off.
+struct Facing {
+  Vec3d normal;
+  double angle = kAlike;
+
+  explicit Facing(const Vec3d& n) : normal(n * (1 / length(n))) {}
+  Facing(const Corners& t, const Vec3d& n) : Facing(n) {
+    angle = std::min(kMostAlike, kAlike + snap_tilt(t, n));
+  }
+};
+
+bool alike(const Facing& x, const Facing& y) {
+  const Vec3d apart = dot(x.normal, y.normal) < 0 ? x.normal + y.normal : x.normal - y.normal;
+  const double angle = x.angle + y.angle;
+  return dot(apart, apart) <= angle * angle;
 }
 
-std::vector<Vec3d> sample_normals(const Part& part) {
-  std::vector<Vec3d> normals;
+std::vector<Facing> sample_facings(const Part& part) {
+  std::vector<Facing> facings;
   const std::size_t n = part.triangles.size(), count = std::min(n, kSamples);
-  for (std::size_t i = 0; i < count; ++i)
-    normals.push_back(normal_of(corners_of(part, part.triangles[i * n / count])));
-  return normals;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Corners t = corners_of(part, part.triangles[i * n / count]);
+    facings.emplace_back(t, normal_of(t));
+  }
+  return facings;
 }
 
-std::size_t count_alike(const std::vector<Vec3d>& normals, const Vec3d& n) {
+std::size_t count_alike(const std::vector<Facing>& facings, const Facing& x) {
   return static_cast<std::size_t>(
-      std::ranges::count_if(normals, [&](const Vec3d& m) { return alike(n, m); }));
+      std::ranges::count_if(facings, [&](const Facing& y) { return alike(x, y); }));
 }
 
 /// The one with the most others like it.
-Vec3d commonest(const std::vector<Vec3d>& normals) {
-  Vec3d best;
+std::optional<Facing> commonest(const std::vector<Facing>& facings) {
+  std::optional<Facing> best;
   std::size_t most = 0;
-  for (const Vec3d& n : normals)
-    if (const std::size_t count = count_alike(normals, n); count > most) {
+  for (const Facing& x : facings)
+    if (const std::size_t count = count_alike(facings, x); count > most) {
       most = count;
-      best = n;
+      best = x;
     }
   return best;
 }
 
 /// Directions that both parts have many triangles square to.
-std::vector<Vec3d> rough_directions(const Part& a, const Part& b,
-                                    const std::optional<Vec3d>& hint) {
-  const std::vector<Vec3d> of_a = sample_normals(a), of_b = sample_normals(b);
-  std::vector<Vec3d> tries{commonest(of_a), commonest(of_b)};
-  if (hint) tries.insert(tries.begin(), *hint);
-  std::vector<Vec3d> rough;
-  for (const Vec3d& n : tries)
-    if (count_alike(of_a, n) >= kAlikeSamples && count_alike(of_b, n) >= kAlikeSamples &&
-        count_alike(rough, n) == 0)
-      rough.push_back(n);
+std::vector<Facing> rough_directions(const Part& a, const Part& b,
+                                     const std::optional<Vec3d>& hint) {
+  const std::vector<Facing> of_a = sample_facings(a), of_b = sample_facings(b);
+  std::vector<Facing> rough;
+  const auto offer = [&](const Facing& x) {
+    if (count_alike(of_a, x) >= kAlikeSamples && count_alike(of_b, x) >= kAlikeSamples &&
+        count_alike(rough, x) == 0)
+      rough.push_back(x);
+  };
+  if (hint && dot(*hint, *hint) > 0) offer(Facing(*hint));
+  if (const auto x = commonest(of_a)) offer(*x);
+  if (const auto x = commonest(of_b)) offer(*x);
   return rough;
 }
 
@@ -75,14 +94,15 @@ struct Direction {
   double rounding = 0;  ///< bound on what a difference of heights may be off by; 0 along an axis
 };
 
-void add_alike(const Part& part, const Vec3d& rough, Vec3d& sum) {
-  for (const Triangle& t : part.triangles) {
-    const Vec3d n = normal_of(corners_of(part, t));
-    if (alike(n, rough)) sum = dot(n, rough) > 0 ? sum + n : sum - n;
+void add_alike(const Part& part, const Facing& rough, Vec3d& sum) {
+  for (const Triangle& triangle : part.triangles) {
+    const Corners t = corners_of(part, triangle);
+    const Vec3d n = normal_of(t);
+    if (alike(Facing(t, n), rough)) sum = dot(n, rough.normal) > 0 ? sum + n : sum - n;
   }
 }
 
-std::optional<Direction> mean_direction(const PartView& a, const PartView& b, const Vec3d& rough) {
+std::optional<Direction> mean_direction(const PartView& a, const PartView& b, const Facing& rough) {
   Vec3d sum;
   add_alike(a.part(), rough, sum);
   add_alike(b.part(), rough, sum);
@@ -188,7 +208,8 @@ std::vector<FlatPiece> pieces_of(const Part& part, const Levels& levels) {
   return pieces;
 }
 
-std::optional<FlatPieces> parted_along(const PartView& a, const PartView& b, double apart,
+std::optional<FlatPieces> parted_along(const PartView& a, const PartView& b,
+                                       const HeightsQuestion& question,
                                        const Direction& direction) {
   const Levels levels_a = levels_of(a, direction.normal), levels_b = levels_of(b, direction.normal);
   if (levels_a.flat.empty() || levels_b.flat.empty()) return std::nullopt;
@@ -207,15 +228,18 @@ std::optional<FlatPieces> parted_along(const PartView& a, const PartView& b, dou
   for (std::size_t i = 0; i < of_a.size(); ++i)
     for (std::size_t j = 0; j < of_b.size(); ++j) {
       const double gap = gap_of(of_a[i].heights, of_b[j].heights, direction);
-      if (gap >= apart) {
+      if (gap >= question.apart) {
         pieces.gap = std::min(pieces.gap, gap);
         parted += of_a[i].count * of_b[j].count;
       } else {
         open.push_back({i, j, gap});
       }
     }
-  if (parted < a.part().triangles.size() * b.part().triangles.size() / kShare) return std::nullopt;
+  if (!question.whatever_is_left &&
+      parted < a.part().triangles.size() * b.part().triangles.size() / kShare)
+    return std::nullopt;
   if (open.empty()) return pieces;
+  std::ranges::sort(open, {}, [](const Open& o) { return std::tuple(o.gap, o.a, o.b); });
   pieces.a = pieces_of(a.part(), levels_a);
   pieces.b = pieces_of(b.part(), levels_b);
   for (const Open& o : open) pieces.open.push_back({&pieces.a[o.a], &pieces.b[o.b], o.gap});
@@ -224,11 +248,11 @@ std::optional<FlatPieces> parted_along(const PartView& a, const PartView& b, dou
 
 }  // namespace
 
-std::optional<FlatPieces> parted_by_heights(const PartView& a, const PartView& b, double apart,
-                                            const std::optional<Vec3d>& hint) {
-  for (const Vec3d& rough : rough_directions(a.part(), b.part(), hint))
+std::optional<FlatPieces> parted_by_heights(const PartView& a, const PartView& b,
+                                            const HeightsQuestion& question) {
+  for (const Facing& rough : rough_directions(a.part(), b.part(), question.hint))
     if (const auto direction = mean_direction(a, b, rough))
-      if (auto pieces = parted_along(a, b, apart, *direction)) return pieces;
+      if (auto pieces = parted_along(a, b, question, *direction)) return pieces;
   return std::nullopt;
 }
 

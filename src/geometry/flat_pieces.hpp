@@ -33,18 +33,23 @@ struct FlatPieces {
   };
 
   std::vector<FlatPiece> a, b;
-  std::vector<Pair> open;                                ///< that their heights do not part
+  std::vector<Pair> open;  ///< that their heights do not part, nearest first
   double gap = std::numeric_limits<double>::infinity();  ///< all other pairs are so far apart
 };
 
-/// The pieces of two parts, those counting as parted that are at least `apart` (grid units) apart
-/// for certain. Nothing where no direction parts a good share of the triangles; parts without flat
-/// faces are told by a few samples. `hint` is a direction to try first. O(n log n).
+struct HeightsQuestion {
+  double apart = 0;  ///< grid units: what is so far apart for certain counts as parted
+  std::optional<Vec3d> hint = {};  ///< a direction to try first
+  bool whatever_is_left = false;   ///< the pieces are wanted even where they part next to nothing
+};
+
+/// The pieces of two parts. Nothing where no direction parts a good share of the triangles; parts
+/// without flat faces are told by a few samples. O(n log n).
 ///
-/// A direction is the mean normal of all triangles that look within a few degrees along a rough
-/// one, weighed by their areas: a fan has a normal that none of its snapped needles has.
+/// A direction is the mean normal of all triangles that look along a rough one, within a few
+/// degrees and what the snap may have turned them by, weighed by their areas: a fan has a normal
+/// that none of its snapped needles has.
 [[nodiscard]] std::optional<FlatPieces> parted_by_heights(const PartView& a, const PartView& b,
-                                                          double apart,
-                                                          const std::optional<Vec3d>& hint = {});
+                                                          const HeightsQuestion& question);
 
 }  // namespace strake::geometry

@@ -10,10 +10,10 @@
 
 namespace strake::geometry {
 
-/// Node pairs after which flat faces of needles may be why a walk takes so long: more than most
-/// parts need at all.
+/// Node pairs after which flat faces of needles may be why a walk takes so long: up to 16 pairs of
+/// triangles each.
 [[nodiscard]] inline std::uint64_t walked_before_flat(const PartView& a, const PartView& b) {
-  return 512 + a.part().triangles.size() + b.part().triangles.size();
+  return 512 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
 }
 
 /// A NearWalk that asks a team for help once it has turned out to be heavy.

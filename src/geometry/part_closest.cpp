@@ -22,6 +22,28 @@ namespace {
 /// the roundings of a box distance.
 constexpr double kOutward = 1 + 0x1p-48;
 
+/// Triangles of either of two flat pieces at which it is tried whether they lie over each other,
+/// and by how much farther apart than their heights they may be found, grid units.
+constexpr std::size_t kProbes = 64;
+constexpr double kProbeSlack = 4;
+
+/// Squared distance of a point to a triangle, in doubles.
+double squared_distance(const Vec3d& p, const Corners& t) {
+  const Vec3d u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
+  double least = std::numeric_limits<double>::infinity();
+  bool inside = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d &from = t[i], e = t[(i + 1) % 3] - from, d = p - from;
+    inside = inside && dot(cross(e, d), n) >= 0;
+    const double along = std::clamp(dot(e, d) / dot(e, e), 0.0, 1.0);
+    const Vec3d off = d - e * along;
+    least = std::min(least, dot(off, off));
+  }
+  if (!inside) return least;
+  const double height = dot(n, p - t[0]);
+  return std::min(least, height * height / dot(n, n));
+}
+
 class ClosestSearch {
  public:
   ClosestSearch(const TreedPart& a, const TreedPart& b, double limit, double slack, PairWork& work)
@@ -38,6 +60,12 @@ class ClosestSearch {
 
  private:
   struct Found;
+  /// A triangle of one of the two.
+  struct Probe {
+    const PartView& view;
+    std::uint32_t triangle = 0;
+    bool of_a = true;
+  };
 
   void walk();
   void take(std::vector<NearTriangles>&& candidates, double reach);
@@ -48,6 +76,9 @@ class ClosestSearch {
     return distance < limit_ ? distance - slack_ : limit_;
   }
   void leave_out(double gap, Found& found);
+  bool settle_near(Found& found);
+  void probe(const FlatPieces::Pair& pair, double limit, Found& found) const;
+  static void probe(const Probe& from, const PartView& to, double limit, Found& found);
   void walk_pair(const FlatPieces::Pair& pair);
   std::optional<Closest> decide();
 
@@ -119,19 +150,81 @@ double ClosestSearch::distance_so_far(Found& found, std::optional<Vec3d>& across
 /// has found by more than the slack: so it is for faces of many needles that lie a constant
 /// distance apart. What the heights of the faces leave open is walked.
 bool ClosestSearch::settle(Found& found) {
-  if (found.enough >= 0) return false;
+  if (found.enough >= 0) return settle_near(found);
   std::optional<Vec3d> across;
   const double distance = distance_so_far(found, across);
-  const auto pieces = parted_by_heights(a_, b_, least_of_interest(distance), across);
+  HeightsQuestion question{.apart = least_of_interest(distance), .hint = across};
+  auto pieces = parted_by_heights(a_, b_, question);
+  if (!pieces && found.candidates.empty()) {
+    // So long a walk that has come upon nothing: faces of needles may all be within the limit.
+    question.whatever_is_left = true;
+    pieces = parted_by_heights(a_, b_, question);
+  }
   if (!pieces) return false;
   leave_out(pieces->gap, found);
   found_.reach = found.reach;
   if (!found.candidates.empty()) found_.candidates.assign(1, found.candidates.front());
-  for (const FlatPieces::Pair& pair : pieces->open) {
-    (void)distance_so_far(found_, across);  // what a piece starts from stands first
-    walk_pair(pair);
-  }
+  // What the nearest ones find parts most of the others.
+  for (const FlatPieces::Pair& pair : pieces->open) walk_pair(pair);
+  work_ += found_.work;
+  found_.work = {};
   return true;
+}
+
+/// The same of a walk that looks for any pair near enough: there is none, or it is found where flat
+/// faces lie over each other.
+bool ClosestSearch::settle_near(Found& found) {
+  const auto pieces = parted_by_heights(a_, b_, {.apart = limit_ * kOutward});
+  if (!pieces) return false;
+  for (const FlatPieces::Pair& pair : pieces->open) {
+    probe(pair, limit_, found);
+    if (found.near) return true;
+  }
+  return pieces->open.empty();
+}
+
+/// Looks whether two flat pieces come within a limit of each other at some points of either; what
+/// is found is offered. Boxes of needles lead a walk astray there.
+void ClosestSearch::probe(const FlatPieces::Pair& pair, double limit, Found& found) const {
+  const PartView a = pair.a->view(a_.shift()), b = pair.b->view(b_.shift());
+  const auto sample = [&](const PartView& of, std::size_t i) {
+    const std::vector<std::uint32_t>& order = of.tree().order();
+    return order[i * order.size() / kProbes];
+  };
+  for (std::size_t i = 0; i < kProbes; ++i) {
+    probe({a, sample(a, i), true}, b, limit, found);
+    if (found.near || found.reach <= limit * limit) return;
+    probe({b, sample(b, i), false}, a, limit, found);
+    if (found.near || found.reach <= limit * limit) return;
+  }
+}
+
+/// Offers a triangle and the first of the other piece that is near one of its points.
+void ClosestSearch::probe(const Probe& from, const PartView& to, double limit, Found& found) {
+  const double squared = limit * limit;
+  const TriangleCorners corners = from.view.corners(from.triangle);
+  const Corners c = as_doubles(corners);
+  const auto offer = [&](std::uint32_t t) {
+    const DoubleTriangle own(corners), other(to.corners(t));
+    ++found.work.triangle_pairs;
+    const DistanceBounds bounds = distance_bounds(from.of_a ? own : other, from.of_a ? other : own,
+                                                  found.reach, found.enough);
+    if (bounds.lower > found.reach) return true;
+    return found({bounds, from.of_a ? from.triangle : t, from.of_a ? t : from.triangle}) &&
+           found.reach > squared;
+  };
+  for (const Vec3d& point : {(c[0] + c[1] + c[2]) * (1.0 / 3), c[0], c[1], c[2]}) {
+    const Vec3d p = point - to.shift().as<double>();
+    const auto near = [&](const PartTree::Node& node) {
+      ++found.work.node_pairs;
+      return squared_gap(p, node.box.as<double>()) <= squared;
+    };
+    const auto is_over = [&](std::uint32_t t) {
+      return squared_distance(p, corners_of(to.part(), t)) <= squared;
+    };
+    if (!walk_tree(to.tree(), near, [&](std::uint32_t t) { return !is_over(t) || offer(t); }))
+      return;
+  }
 }
 
 void ClosestSearch::walk_pair(const FlatPieces::Pair& pair) {
@@ -141,6 +234,10 @@ void ClosestSearch::walk_pair(const FlatPieces::Pair& pair) {
     leave_out(pair.gap, found);
     return true;
   };
+  if (parted(found_)) return;
+  const double limit = std::max(pair.gap, 0.0) + kProbeSlack;
+  if (limit * limit < found_.reach) probe(pair, limit, found_);
+  if (parted(found_)) return;
   heavy_near_walk(
       pair.a->view(a_.shift()), pair.b->view(b_.shift()), -1, work_,
       [this] {
@@ -203,23 +300,6 @@ std::optional<Closest> ClosestSearch::run_until_near() {
   found_.enough = limit_ * limit_;
   walk();
   return found_.near ? decide() : std::nullopt;
-}
-
-/// Squared distance of a point to a triangle, in doubles.
-double squared_distance(const Vec3d& p, const Corners& t) {
-  const Vec3d u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
-  double least = std::numeric_limits<double>::infinity();
-  bool inside = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3d &from = t[i], e = t[(i + 1) % 3] - from, d = p - from;
-    inside = inside && dot(cross(e, d), n) >= 0;
-    const double along = std::clamp(dot(e, d) / dot(e, e), 0.0, 1.0);
-    const Vec3d off = d - e * along;
-    least = std::min(least, dot(off, off));
-  }
-  if (!inside) return least;
-  const double height = dot(n, p - t[0]);
-  return std::min(least, height * height / dot(n, n));
 }
 
 }  // namespace

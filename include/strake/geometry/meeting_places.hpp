@@ -48,8 +48,9 @@ struct PlacesQuestion {
 /// Distances are compared in double arithmetic and sides a 4096th of a grid unit off the line, so
 /// places within a grid unit of being one may be either. Not joined: two skins of one body (its
 /// outside and a cavity) between which only its material lies. Nothing where there are more pairs
-/// of near triangles than asked for; an empty list where no skins are near: one body far inside
-/// the other.
+/// of near triangles than asked for, or where some triangles, once a walk over them has turned out
+/// heavy, show that there are about twice as many; an empty list where no skins are near: one body
+/// far inside the other.
 [[nodiscard]] std::optional<std::vector<MeetingPlace>> meeting_places(
     const TreedPart& a, const TreedPart& b, const PlacesQuestion& question, PairWork& work);
 

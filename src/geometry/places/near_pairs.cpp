@@ -8,8 +8,10 @@
 
 #include "geometry/box.hpp"
 #include "geometry/corners.hpp"
+#include "geometry/flat_pieces.hpp"
 #include "geometry/heavy_walk.hpp"
 #include "geometry/places/bucket_order.hpp"
+#include "geometry/tree_walk.hpp"
 #include "strake/geometry/wide_int.hpp"
 
 namespace strake::geometry {
@@ -74,7 +76,7 @@ struct Gathering {
     return !too_many;
   }
   bool take(Gathering& piece) {
-    too_many = piece.too_many || pairs.size() + piece.pairs.size() > most;
+    too_many = too_many || piece.too_many || pairs.size() + piece.pairs.size() > most;
     if (pairs.empty())
       pairs = std::move(piece.pairs);
     else if (!too_many)
@@ -83,22 +85,91 @@ struct Gathering {
   }
 };
 
-/// Where there are too many, little more than that is looked at.
-void gather_by_trees(Gathering& all, PairWork& work) {
+/// Triangles that tell for all the others of their part, and how many of them have to say the same
+/// at least.
+constexpr std::size_t kSamples = 64, kAgree = 8;
+/// Factor by which the pairs that they stand for have to be too many.
+constexpr std::uint64_t kFarTooMany = 2;
+
+/// How many triangles of `b` are within reach of one of `a`, up to `most`.
+std::uint64_t count_near(const PartView& a, std::uint32_t triangle, const PartView& b,
+                         const NearQuestion& question, PairWork& work) {
+  const double squared = question.reach * question.reach;
+  const DoubleTriangle own(a.corners(triangle));
+  const auto shift = b.shift().as<double>();
+  const auto may_reach = [&](const PartTree::Node& node) {
+    ++work.node_pairs;
+    return squared_gap(own.box, node.box.as<double>().moved(shift)) <= squared;
+  };
+  std::uint64_t near = 0;
+  (void)walk_tree(b.tree(), may_reach, [&](std::uint32_t t) {
+    const DoubleTriangle other(b.corners(t));
+    if (squared_gap(own.box, other.box) > squared) return true;
+    ++work.triangle_pairs;
+    near += triangles_within(a, b, own, other, {triangle, t}, squared, work) ? 1U : 0U;
+    return near < question.most;
+  });
+  return near;
+}
+
+/// Whether some triangles of the first part, taken from all over it, show that there are far too
+/// many pairs. Needles that cross each other are near by the square of their number, and a walk
+/// finds that out late: most of their boxes meet where they do not.
+bool too_many_by_samples(const PartView& a, const PartView& b, const NearQuestion& question,
+                         PairWork& work) {
+  const std::vector<std::uint32_t>& order = a.tree().order();
+  if (order.size() < kSamples) return false;
+  const std::uint64_t wanted = kFarTooMany * question.most * kSamples / order.size() + 1;
+  const NearQuestion each{.reach = question.reach, .most = wanted / kAgree + 1};
+  std::uint64_t near = 0;
+  for (std::size_t i = 0; i < kSamples && near < wanted; ++i) {
+    if (near + (kSamples - i) * each.most < wanted) return false;
+    near += count_near(a, order[i * order.size() / kSamples], b, each, work);
+  }
+  return near >= wanted;
+}
+
+/// Gathers from two trees: where there are too many, little more than that is looked at.
+template <class Settled>
+void gather_from(const PartView& a, const PartView& b, Gathering& all, PairWork& work,
+                 const Settled& settled) {
   const auto room = [&] { return all.most - all.pairs.size(); };
-  std::optional<std::size_t> alone;  // how many the walk found before it asked for help
+  std::optional<std::size_t> alone;  // how many there were before the walk asked for help
   heavy_near_walk(
-      all.a, all.b, all.reach, work, [&] { return Gathering{all.a, all.b, room(), all.reach}; },
+      a, b, all.reach, work, [&] { return Gathering{a, b, room(), all.reach}; },
       [&](Gathering& piece) {
         const bool goes_on = all.take(piece);
         if (!alone) alone = all.pairs.size();
         return goes_on;
       },
-      [](const Gathering& /*alone*/) { return false; },
+      settled,
       [&](std::size_t done) {
         const std::size_t found = all.pairs.size() - *alone;
         return found == 0 ? kWalkPieces : 1 + room() * done / found;
       });
+}
+
+/// Of a walk that has turned out heavy only what the heights of flat faces leave open is walked:
+/// boxes of needles tell nothing of it.
+void gather_by_trees(const NearQuestion& question, Gathering& all, PairWork& work) {
+  const PartView &a = all.a, &b = all.b;
+  const auto give_up = [&](const PartView& x, const PartView& y, Gathering& first) {
+    first.too_many = too_many_by_samples(x, y, question, first.work);
+    return first.too_many;
+  };
+  gather_from(a, b, all, work, [&](Gathering& first) {
+    if (give_up(a, b, first)) return true;
+    // A little more than the reach: what lies exactly at it is near.
+    const auto pieces = parted_by_heights(a, b, {.apart = question.reach * (1 + 0x1p-40)});
+    if (!pieces) return false;
+    first.pairs.clear();
+    for (const FlatPieces::Pair& pair : pieces->open) {
+      if (all.too_many) break;
+      const PartView x = pair.a->view(a.shift()), y = pair.b->view(b.shift());
+      gather_from(x, y, all, work, [&](Gathering& piece) { return give_up(x, y, piece); });
+    }
+    return true;
+  });
 }
 
 std::vector<NearTriangles> by_triangles(const std::vector<NearTriangles>& pairs, const Part& a,
@@ -127,7 +198,7 @@ std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a, cons
   const double squared = question.reach * question.reach;
   Gathering all{a, b, question.most, squared};
   if (a.planted() && b.planted()) {
-    gather_by_trees(all, work);
+    gather_by_trees(question, all, work);
   } else {
     walk_lists(a, b, squared, all.work, all);
     work += all.work;

@@ -21,8 +21,10 @@ struct NearQuestion {
                                     const NodePair& numbers, double squared, PairWork& work);
 
 /// All pairs of triangles no farther apart than the reach, by (a, b), with certain bounds on their
-/// distances, which say no more than that; nothing where there are too many. Parts without trees,
-/// which should be small, are walked triangle by triangle.
+/// distances, which say no more than that. Nothing where there are too many, or where a sample of
+/// the first part's triangles, taken of heavy walks, shows that there are about twice too many:
+/// the same for any team. Parts without trees, which should be small, are walked triangle by
+/// triangle.
 [[nodiscard]] std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a,
                                                                        const PartView& b,
                                                                        const NearQuestion& question,

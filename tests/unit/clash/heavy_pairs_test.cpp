@@ -126,6 +126,27 @@ TEST(HeavyPairs, beside_each_other_within_the_clearance) {
          .shared_region = "tree levels"});
 }
 
+TEST(HeavyPairs, fans_of_needles_aside_of_each_other) {
+  const auto stand = [](TriangleMesh m, const Vec3d& at) {
+    for (Vec3d& v : m.vertices) {
+      v = v + at;
+      v = {0.6 * v.x + 0.8 * v.z, v.y, 0.6 * v.z - 0.8 * v.x};
+    }
+    return m;
+  };
+  for (const double gap : {0.0, 3.0})
+    check({.title = "discs",
+           .a = stand(cylinder_mesh(500, 10, 1, 25000), {}),
+           .b = stand(cylinder_mesh(400, 10, 1, 6000), {100, 170, 10 + gap}),
+           .shift = {},
+           .options = {.clearance_mm = 25},
+           .cls = gap > 0 ? Class::clearance_violation : Class::contact,
+           .relation = gap > 0 ? Relation::separate : Relation::abut_outside,
+           .d_mm = gap,
+           .slack_mm = 0.004,
+           .shared_region = "tree pieces"});
+}
+
 TEST(HeavyPairs, one_that_meets_a_small_body) {
   check({.title = "a ball on a box",
          .a = sphere_mesh(1000, kRings),

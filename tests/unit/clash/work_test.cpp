@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -138,6 +139,36 @@ TEST(ClashWork, AWideClearanceCostsAFewTrianglePairsATriangle) {
     EXPECT_EQ(l.pair.regions, 1U) << clearance;
     EXPECT_LE(l.work.triangle_pairs, 16 * l.triangles) << clearance;
   }
+}
+
+TEST(ClashWork, FansOfNeedlesCostAFewTrianglePairsATriangle) {
+  struct Fans {
+    const char* name;
+    Vec3d at;
+    Class cls;
+    double d_mm;
+  };
+  for (const std::uint32_t sectors : {1000U, 5000U})
+    for (const Fans& fans : {Fans{"touching", {0, 0, 10}, Class::contact, 0},
+                             Fans{"touching aside", {100, 170, 10}, Class::contact, 0},
+                             Fans{"apart", {0, 0, 13}, Class::clearance_violation, 3},
+                             Fans{"apart aside", {100, 170, 13}, Class::clearance_violation, 3},
+                             Fans{"within", {0, 0, 2}, Class::hit, -5}})
+      for (const bool askew : {false, true}) {
+        SCOPED_TRACE(std::string(fans.name) + ", " + std::to_string(sectors) +
+                     (askew ? " sides, turned" : " sides"));
+        const Mat3d turn = askew ? kTurn : Mat3d{};
+        TriangleMesh a = test::cylinder_mesh(500, 10, 1, sectors);
+        for (Vec3d& v : a.vertices) v = turn * v;
+        TriangleMesh b = test::cylinder_mesh(400, fans.d_mm < 0 ? 6 : 10, 1, sectors);
+        for (Vec3d& v : b.vertices) v = turn * (v + fans.at);
+        const Looked l = look(std::move(a), std::move(b), {}, {.clearance_mm = 25});
+        EXPECT_EQ(l.pair.cls, fans.cls);
+        EXPECT_LE(l.pair.d_lower_mm, fans.d_mm + 0.002);
+        EXPECT_GE(l.pair.d_upper_mm, fans.d_mm - 0.002);
+        EXPECT_LE(l.pair.d_upper_mm - l.pair.d_lower_mm, 0.01);
+        EXPECT_LE(l.work.triangle_pairs, 12 * l.triangles);
+      }
 }
 
 TEST(ClashWork, CopiesOfABodyNeedNoWalk) {

@@ -172,6 +172,83 @@ TEST(MeetingPlacesTest, GivesUpWhereThereAreMorePairsThanAskedFor) {
       meeting_places(a.treed(), b.treed(), {.reach = 1 * kMm, .most_pairs = 10}, work).has_value());
 }
 
+/// A disc whose caps are fans of needles from their centres, stood askew on the grid.
+IndexedMesh fan_disc(double radius, std::int32_t height, std::uint32_t sectors, const Vec3i& at) {
+  IndexedMesh m;
+  const auto add = [&](double x, double y, double z) {
+    const double u = x + at.x, v = y + at.y, w = z + at.z;
+    m.vertices.push_back({static_cast<std::int32_t>(std::lround(0.6 * u + 0.8 * w)),
+                          static_cast<std::int32_t>(std::lround(v)),
+                          static_cast<std::int32_t>(std::lround(0.6 * w - 0.8 * u))});
+  };
+  for (const std::int32_t z : {0, height}) {
+    for (std::uint32_t s = 0; s < sectors; ++s) {
+      const double angle = (2 * 3.14159265358979 * s + 1) / sectors;
+      add(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+    add(0, 0, z);
+  }
+  const std::uint32_t up = sectors + 1;
+  for (std::uint32_t s = 0; s < sectors; ++s) {
+    const std::uint32_t n = (s + 1) % sectors;
+    m.triangles.push_back({sectors, n, s});
+    m.triangles.push_back({up + sectors, up + s, up + n});
+    m.triangles.push_back({s, n, up + n});
+    m.triangles.push_back({s, up + n, up + s});
+  }
+  return m;
+}
+
+struct FansCase {
+  const char* name;
+  Vec3i at;
+  std::size_t places;
+};
+
+std::vector<FansCase> fans_cases() {
+  return {{"touching", {0, 0, 20000}, 1},
+          {"aside", {150000, 170000, 20000}, 1},
+          {"half a unit of reach apart", {150000, 170000, 20500}, 1},
+          {"too far apart", {150000, 170000, 22000}, 0}};
+}
+
+TEST(MeetingPlacesTest, FansOfNeedlesAreToldAsTriangleByTriangle) {
+  for (const FansCase& fans : fans_cases()) {
+    SCOPED_TRACE(fans.name);
+    const Subject a(fan_disc(500000, 20000, 400, {})), b(fan_disc(400000, 20000, 400, fans.at));
+    PairWork work;
+    const PlacesQuestion question{.reach = 1.0 * kMm};
+    const auto found = meeting_places(a.treed(), b.treed(), question, work);
+    // Parts without trees are walked triangle by triangle.
+    const PartTree none;
+    const auto listed =
+        meeting_places({a.treed().placed, &none}, {b.treed().placed, &none}, question, work);
+    ASSERT_TRUE(found && listed);
+    ASSERT_EQ(found->size(), fans.places);
+    ASSERT_EQ(listed->size(), fans.places);
+    for (std::size_t i = 0; i < found->size(); ++i) {
+      EXPECT_EQ((*found)[i].extent.lo, (*listed)[i].extent.lo);
+      EXPECT_EQ((*found)[i].extent.hi, (*listed)[i].extent.hi);
+      EXPECT_EQ((*found)[i].least, (*listed)[i].least);
+      EXPECT_EQ((*found)[i].nearest.distance, (*listed)[i].nearest.distance);
+    }
+  }
+}
+
+TEST(MeetingPlacesTest, FansOfTooManyNeedlesAreGivenUpSoon) {
+  for (const FansCase& fans : fans_cases()) {
+    SCOPED_TRACE(fans.name);
+    const Subject a(fan_disc(500000, 20000, 6000, {})), b(fan_disc(400000, 20000, 6000, fans.at));
+    const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
+    PairWork work;
+    const auto found = meeting_places(a.treed(), b.treed(),
+                                      {.reach = 1.0 * kMm, .most_pairs = 2 * triangles}, work);
+    EXPECT_EQ(found.has_value(), fans.places == 0);
+    EXPECT_LE(work.triangle_pairs, 12 * triangles);
+    EXPECT_LE(work.node_pairs, 12 * triangles);
+  }
+}
+
 TEST(MeetingPlacesTest, AWideReachIsToldWithoutAListOfNearTriangles) {
   // Two tubes side by side are far from convex, and nearly all their triangles are near each other.
   const auto one = tube(50 * kMm, 45 * kMm, 0, 0, 0, 400 * kMm);

@@ -156,15 +156,19 @@ std::vector<FanPair> fan_pairs(std::uint32_t sectors) {
     return turned(cylinder(radius, height, sectors, 1), 1.0 / sectors, 0);
   };
   const IndexedMesh plate = cylinder(500000, 10000, sectors, 1);
-  return {{"gap", plate, disc(500000, 10000), {0, 0, 10500}, 500, Meeting::apart},
-          {"gap to a smaller one", plate, disc(300000, 10000), {0, 0, 10500}, 500, Meeting::apart},
-          {"nested", plate, disc(400000, 6000), {0, 0, 2000}, 2000, Meeting::b_inside_a},
-          {"in a recess",
-           recessed(600000, 40000, 500000, 10000, sectors),
-           disc(499000, 10000),
-           {0, 0, 10500},
-           500,
-           Meeting::apart}};
+  return {
+      {"gap", plate, disc(500000, 10000), {0, 0, 10500}, 500, Meeting::apart},
+      {"gap to a smaller one", plate, disc(300000, 10000), {0, 0, 10500}, 500, Meeting::apart},
+      {"nested", plate, disc(400000, 6000), {0, 0, 2000}, 2000, Meeting::b_inside_a},
+      // Needles that cross each other, and nearly all of whose boxes meet.
+      {"gap aside", plate, disc(400000, 10000), {150000, 170000, 10500}, 500, Meeting::apart},
+      {"gap at the rims", plate, disc(500000, 10000), {600000, 700000, 10500}, 500, Meeting::apart},
+      {"in a recess",
+       recessed(600000, 40000, 500000, 10000, sectors),
+       disc(499000, 10000),
+       {0, 0, 10500},
+       500,
+       Meeting::apart}};
 }
 
 TEST(PairWorkTest, FansOfNeedlesCostAFewPairsATriangle) {
@@ -204,6 +208,43 @@ TEST(PairWorkTest, TurnedFansAreAsFarApartAsAllTheirTriangles) {
     EXPECT_LE(quick->lower, exact->distance);
     EXPECT_GE(quick->distance, exact->distance);
     EXPECT_LE(quick->distance, exact->distance + 4);
+  }
+}
+
+TEST(PairWorkTest, NeedlesThatTheSnapHasTurnedMakeAFlatFace) {
+  // Thirty units wide at the rim: two units more or less turn one by degrees.
+  const IndexedMesh plate = cylinder(20000, 3000, 4096, 1);
+  for (const Vec3i& at : {Vec3i{0, 0, 3200}, Vec3i{5000, 9000, 3200}}) {
+    const Subject a(turned(plate, 0.4, 0.7)), b(turned(moved(plate, at), 0.4, 0.7));
+    const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
+    PairWork work;
+    const auto r = closest(a.treed(), b.treed(), 5000, work, 4);
+    ASSERT_TRUE(r);
+    EXPECT_LE(r->lower, 200 + 2);
+    EXPECT_GE(r->distance, 200 - 2);
+    EXPECT_LE(r->distance - r->lower, 4);
+    EXPECT_LE(work.triangle_pairs, 30 * triangles);
+    EXPECT_LE(work.node_pairs, 20 * triangles);
+  }
+}
+
+TEST(PairWorkTest, AnyNeedlesWithinReachAreFoundSoon) {
+  for (const Vec3i& at : {Vec3i{0, 0, 10002}, Vec3i{150000, 170000, 10002}}) {
+    const IndexedMesh plate = cylinder(500000, 10000, 4096, 1);
+    const Subject a(turned(plate, 0.4, 0.7)), b(turned(moved(plate, at), 0.4, 0.7));
+    const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
+    PairWork work;
+    const auto near = any_within(a.treed(), b.treed(), 4, work);
+    ASSERT_TRUE(near);
+    EXPECT_LE(near->distance, 4);
+    const auto exact = closest(a.treed(), b.treed(), 5, work, 4);
+    ASSERT_TRUE(exact);
+    EXPECT_GE(near->distance, exact->lower);
+    // Nothing is found where nothing is.
+    const Subject far(turned(moved(plate, at + Vec3i{0, 0, 200}), 0.4, 0.7));
+    EXPECT_FALSE(any_within(a.treed(), far.treed(), 4, work));
+    EXPECT_LE(work.triangle_pairs, 90 * triangles);
+    EXPECT_LE(work.node_pairs, 60 * triangles);
   }
 }
 
