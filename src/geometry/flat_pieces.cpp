@@ -40,9 +40,8 @@ struct Facing {
 };
 
 bool alike(const Facing& x, const Facing& y) {
-  const Vec3d apart = dot(x.normal, y.normal) < 0 ? x.normal + y.normal : x.normal - y.normal;
-  const double angle = x.angle + y.angle;
-  return dot(apart, apart) <= angle * angle;
+  const Vec3d other = dot(x.normal, y.normal) < 0 ? -y.normal : y.normal;
+  return may_be_one_face(x.normal, x.angle, other, y.angle);
 }
 
 std::vector<Facing> sample_facings(const Part& part) {

@@ -9,6 +9,7 @@
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
 #include "geometry/range.hpp"
+#include "geometry/snap_tilt.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -16,20 +17,46 @@ namespace {
 /// The cosine below which two faces count as square to each other.
 constexpr double kSquare = 0.1;
 
-/// The normal of the largest triangle among those that pass.
+/// The most that needles may be turned by, radians: of thinner ones nothing is known.
+constexpr double kMostTilt = 0.25;
+
+/// The mean normal of the needles that the snap alone may have turned from one of them: that is the
+/// face's, which none of them has. The needle's own where they are few.
+Vec3d mean_of_needles(const Part& part, const Vec3d& normal, double tilt) {
+  Vec3d sum;
+  std::size_t count = 0;
+  for (const Triangle& triangle : part.triangles) {
+    const Corners t = corners_of(part, triangle);
+    const Vec3d n = normal_of(t);
+    const double own = std::min(kMostTilt, snap_tilt(t, n));
+    if (own <= kNeedleTilt || !may_be_one_face(n * (1 / length(n)), own, normal, tilt)) continue;
+    sum = sum + n;
+    ++count;
+  }
+  return count < kFewestNeedles ? normal : sum * (1 / length(sum));
+}
+
+/// The normal of the largest triangle among those that pass, or of the face that it is a needle of.
 template <class Pass>
 Vec3d largest(const Part& part, Pass&& pass) {
   Vec3d best;
   double most = 0;
+  const Triangle* of = nullptr;
   for (const Triangle& t : part.triangles) {
     const Vec3d n = normal_of(corners_of(part, t));
     const double squared = dot(n, n);
     if (squared > most && pass(n, squared)) {
       most = squared;
       best = n;
+      of = &t;
     }
   }
-  return most > 0 ? best * (1 / std::sqrt(most)) : Vec3d{};
+  if (of == nullptr) return {};
+  const Vec3d normal = best * (1 / std::sqrt(most));
+  const double tilt = std::min(kMostTilt, snap_tilt(corners_of(part, *of), best));
+  // Small parts have no such faces, and are too many to look.
+  if (part.vertices.size() < kManyVertices || tilt <= kNeedleTilt) return normal;
+  return mean_of_needles(part, normal, tilt);
 }
 
 /// `vertices`: those of the part, or empty.

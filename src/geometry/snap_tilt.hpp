@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
@@ -16,5 +17,18 @@ namespace strake::geometry {
   const double longest = std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])});
   return kUnits * longest / length(normal);
 }
+
+/// Whether two unit normals, either turned by up to so much, may be those of one flat face.
+[[nodiscard]] inline bool may_be_one_face(const Vec3d& n, double tilt_n, const Vec3d& m,
+                                          double tilt_m) {
+  const Vec3d apart = n - m;
+  const double tilt = tilt_n + tilt_m;
+  return dot(apart, apart) <= tilt * tilt;
+}
+
+/// Triangles that the snap may have turned by more than this, in radians, may be needles of one
+/// flat face, and the fewest that are worth while to be told as such.
+inline constexpr double kNeedleTilt = 1.0 / 16384;
+inline constexpr std::size_t kFewestNeedles = 32;
 
 }  // namespace strake::geometry

@@ -28,12 +28,8 @@ constexpr std::size_t kMaxConvexPlanes = 1024;
 /// snapping moves a vertex by less than one, and a face's short side magnifies that.
 constexpr double kConvexSlack = 4;
 
-/// Of a part with more faces than are kept at all, those that the snap may have turned by more than
-/// this count as needles, radians.
-constexpr double kNeedleTilt = 1.0 / 16384;
-/// Flat faces that are looked for among needles, and the fewest needles of one.
+/// Flat faces that are looked for among the needles of a part with more faces than are kept at all.
 constexpr int kNeedleFaces = 16;
-constexpr std::size_t kFewestNeedles = 32;
 
 /// Beyond this many triangles coplanar faces are found by their hashes: sorting would cost more.
 constexpr std::size_t kSorted = 512;
@@ -121,9 +117,7 @@ bool merge_needles_of_largest(std::vector<Face>& faces) {
   const Face seed = *std::ranges::max_element(faces, less);
   if (!(seed.tilt > 0)) return false;
   const auto is_like = [&](const Face& face) {
-    const double turned = seed.tilt + face.tilt;
-    const Vec3d apart = face.normal - seed.normal;
-    return face.tilt > 0 && dot(apart, apart) <= turned * turned;
+    return face.tilt > 0 && may_be_one_face(face.normal, face.tilt, seed.normal, seed.tilt);
   };
   if (static_cast<std::size_t>(std::ranges::count_if(faces, is_like)) < kFewestNeedles)
     return false;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <random>
+#include <vector>
 
 #include "support/part_builder.hpp"
 
@@ -47,6 +49,27 @@ TEST(PartFrame, BoxesAskewShowTheirTrueGap) {
   const Subject c(askew(box_mesh({0, 0, 50'000}, {900'000, 600'000, 53'000})));
   EXPECT_TRUE(a.part.box.meets(c.part.box));
   EXPECT_GT(gap(a, c), 46'990);
+}
+
+/// A prism round z whose ends are fans of needles from one of their corners.
+IndexedMesh disc(double radius, std::int32_t low, std::int32_t high, std::uint32_t sides) {
+  std::vector<Vec3i> ring;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    ring.push_back({static_cast<std::int32_t>(std::lround(radius * std::cos(angle))),
+                    static_cast<std::int32_t>(std::lround(radius * std::sin(angle))), 0});
+  }
+  return testing::prism_mesh(ring, low, high);
+}
+
+TEST(PartFrame, FacesOfNeedlesShowTheirTrueGap) {
+  // The largest needle of an end looks along it no better than to a thousandth.
+  const Subject a(askew(disc(500'000, 0, 10'000, 2500)));
+  for (const std::int32_t apart : {-9, 0, 9, 1'001, 30'000}) {
+    const Subject b(askew(disc(400'000, 10'000 + apart, 20'000 + apart, 2100)));
+    EXPECT_NEAR(gap(a, b), apart, 6);
+    EXPECT_NEAR(gap(b, a), apart, 6);
+  }
 }
 
 TEST(PartFrame, NoGapIsWiderThanTheDistance) {
