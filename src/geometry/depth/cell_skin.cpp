@@ -35,16 +35,13 @@ std::vector<HalfSpace> faces_of(const Points& corners) {
 }  // namespace
 
 std::optional<HalfSpace> plane_of(const DepthField& field, std::uint32_t triangle) {
-  const Corners c = corners_of(field.part(), triangle);
-  const Vec3d n = normal_of(c);
-  const double size = length(n);
-  if (!(size > 0)) return std::nullopt;
-  const Vec3d unit = n * (1 / size);
-  return HalfSpace{unit, dot(unit, field.common(c[0]))};
+  const PreparedTriangle t = field.triangle(triangle);
+  if (!(t.size > 0)) return std::nullopt;
+  return HalfSpace{t.unit, dot(t.unit, field.common(t.corners[0]))};
 }
 
 Corners placed(const DepthField& field, std::uint32_t triangle) {
-  const Corners c = corners_of(field.part(), triangle);
+  const Corners c = field.corners(triangle);
   return {field.common(c[0]), field.common(c[1]), field.common(c[2])};
 }
 

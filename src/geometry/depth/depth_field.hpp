@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "geometry/depth/nearest.hpp"
 #include "strake/geometry/depth.hpp"
@@ -32,6 +34,23 @@ class DepthField {
   DepthField(const TreedPart& part, const Vec3l& shift, const VertexTree* vertices = nullptr)
       : part_(&part), shift_(shift), vertices_(vertices) {}
 
+  /// Makes a small part's triangles ready for many questions. Answers stay the same.
+  void prepare() {
+    constexpr std::size_t kMost = 1024;
+    const std::size_t n = part().triangles.size();
+    if (n > kMost || !prepared_.empty()) return;
+    prepared_.reserve(n);
+    for (std::uint32_t t = 0; t < n; ++t) prepared_.emplace_back(corners_of(part(), t));
+  }
+
+  /// In the part's own coordinates.
+  [[nodiscard]] PreparedTriangle triangle(std::uint32_t t) const {
+    return prepared_.empty() ? PreparedTriangle(corners_of(part(), t)) : prepared_[t];
+  }
+  [[nodiscard]] Corners corners(std::uint32_t t) const {
+    return prepared_.empty() ? corners_of(part(), t) : prepared_[t].corners;
+  }
+
   /// Exact for points of on_field_grid().
   [[nodiscard]] PointSide side(const Vec3d& p, PairWork& work) const {
     constexpr double kSteps = static_cast<double>(kFieldDenominator);
@@ -47,7 +66,8 @@ class DepthField {
   }
 
   [[nodiscard]] NearestTriangle nearest(const Vec3d& p, std::uint32_t hint = kNoFace) const {
-    return nearest_triangle(part(), *part_->tree, local(p), hint);
+    return nearest_triangle(part(), *part_->tree, local(p), hint,
+                            std::numeric_limits<double>::infinity(), prepared_);
   }
 
   /// No less than nearest().distance.
@@ -68,6 +88,7 @@ class DepthField {
   const TreedPart* part_;
   Vec3l shift_;
   const VertexTree* vertices_;
+  std::vector<PreparedTriangle> prepared_;
 };
 
 /// How far a point is from the skin that is farther from it. In the middle of a round body its

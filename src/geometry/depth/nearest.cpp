@@ -14,12 +14,16 @@ namespace {
 
 double squared(const Vec3d& v) { return dot(v, v); }
 
+/// Relative, and grid units squared: far above what a height is off by.
+constexpr double kRounding = 1e-3;
+
 /// Depth-first, nearer child first; equal distances keep the lower triangle, so that neither the
 /// hint nor the tree's shape shows in the answer.
 class Search {
  public:
-  Search(const Part& part, const PartTree& tree, const Vec3d& p)
-      : part_(part), tree_(tree), p_(p) {}
+  Search(const Part& part, const PartTree& tree, const Vec3d& p,
+         std::span<const PreparedTriangle> prepared)
+      : part_(part), tree_(tree), p_(p), prepared_(prepared) {}
 
   NearestTriangle run(std::uint32_t hint, double limit) {
     best_ = limit * limit;
@@ -31,7 +35,18 @@ class Search {
 
  private:
   void test(std::uint32_t t) {
-    const double d = squared(nearest_on_triangle(p_, corners_of(part_, t)) - p_);
+    if (!prepared_.empty()) {
+      // It is farther along its normal, whatever the rounding.
+      const PreparedTriangle& at = prepared_[t];
+      const double along = dot(at.unit, p_), gap = std::max({along - at.hi, at.lo - along, 0.0});
+      if (gap * gap > best_ * (1 + kRounding) + kRounding) return;
+      return compare(t, at.corners);
+    }
+    compare(t, corners_of(part_, t));
+  }
+
+  void compare(std::uint32_t t, const Corners& corners) {
+    const double d = squared(nearest_on_triangle(p_, corners) - p_);
     if (d < best_ || (d == best_ && t < triangle_)) {
       best_ = d;
       triangle_ = t;
@@ -59,6 +74,7 @@ class Search {
   const Part& part_;
   const PartTree& tree_;
   Vec3d p_;
+  std::span<const PreparedTriangle> prepared_;
   double best_ = 0;
   std::uint32_t triangle_ = kNoFace;
 };
@@ -86,8 +102,9 @@ Vec3d nearest_on_triangle(const Vec3d& p, const Corners& t) {
 }
 
 NearestTriangle nearest_triangle(const Part& part, const PartTree& tree, const Vec3d& p,
-                                 std::uint32_t hint, double limit) {
-  return Search(part, tree, p).run(hint, limit);
+                                 std::uint32_t hint, double limit,
+                                 std::span<const PreparedTriangle> prepared) {
+  return Search(part, tree, p, prepared).run(hint, limit);
 }
 
 double some_distance(const Part& part, const PartTree& tree, const Vec3d& p) {

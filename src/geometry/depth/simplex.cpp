@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "geometry/depth/cell_skin.hpp"
@@ -144,11 +145,15 @@ class Bounder {
 
   /// After cuts().
   void add_roofs() {
+    if (std::exchange(has_roofs_, true)) return;
     for (const std::uint32_t t : near_) add_roof(t);
     solve();
   }
-  /// Linear functions that are 0 or more wherever the part is, as far as is known.
-  [[nodiscard]] const std::vector<Values>& rooms() const { return rooms_; }
+  /// Linear functions that are 0 or more wherever the part is, as far as is known. After cuts().
+  [[nodiscard]] const std::vector<Values>& rooms() {
+    add_roofs();
+    return rooms_;
+  }
 
   void stay_in(const std::vector<Values>& rooms) {
     for (const Values& f : rooms) program_->where(f);
@@ -178,7 +183,7 @@ class Bounder {
   }
 
   [[nodiscard]] Values to_triangle(std::uint32_t t) const {
-    const Corners c = corners_of(field_.part(), t);
+    const Corners c = field_.corners(t);
     Values f{};
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3d p = field_.local(corner(simplex_, i));
@@ -210,6 +215,7 @@ class Bounder {
   double slack_;
   PairWork& work_;
   std::vector<std::uint32_t> near_, roofed_;
+  bool has_roofs_ = false;
   std::vector<Values> rooms_;  ///< no less than 0 in the part
   std::vector<Vec3d> outside_;
   std::optional<Skin> skin_;
@@ -231,12 +237,10 @@ std::optional<std::array<SimplexBound, 2>> bound_depth(const DepthField& a, cons
     if (!cuts_a || !cuts_b) return std::nullopt;
     if (in_a.best().upper > enough) in_a.cut(*cuts_a, *cuts_b);
     if (in_b.best().upper > enough) in_b.cut(*cuts_b, *cuts_a);
-    if (undecided()) {
-      in_a.add_roofs();
-      in_b.add_roofs();
-      if (in_a.best().upper > enough) in_a.stay_in(in_b.rooms());
-      if (in_b.best().upper > enough) in_b.stay_in(in_a.rooms());
-    }
+    if (in_a.best().upper > enough) in_a.add_roofs();
+    if (in_b.best().upper > enough) in_b.add_roofs();
+    if (in_a.best().upper > enough) in_a.stay_in(in_b.rooms());
+    if (in_b.best().upper > enough) in_b.stay_in(in_a.rooms());
     if (in_a.best().upper > enough) in_a.refine();
     if (in_b.best().upper > enough) in_b.refine();
   }
