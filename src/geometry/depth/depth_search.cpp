@@ -7,36 +7,74 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <queue>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "geometry/depth/blocks.hpp"
 #include "geometry/depth/simplex.hpp"
 #include "geometry/range.hpp"
 
 namespace strake::geometry {
 namespace {
 
-using Axes = std::array<Vec3d, 3>;
+struct Facing {
+  Vec3d normal;     ///< unit
+  double size = 0;  ///< twice the area
+};
+Facing facing_of(const Part& part, std::uint32_t triangle) {
+  const Vec3d n = normal_of(corners_of(part, triangle));
+  const double size = length(n);
+  return size > 0 ? Facing{n * (1 / size), size} : Facing{};
+}
 
-/// An orthonormal frame along a triangle's normal and longest edge: what meets there is flat in
-/// this frame even when the model stands askew.
-Axes frame_of(const Part& part, std::uint32_t triangle) {
-  const Axes world{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-  if (triangle >= part.triangles.size()) return world;
-  const Corners c = corners_of(part, triangle);
+/// The normal of the largest face of those that a test picks by their normals; none where the part
+/// has too many to look at.
+template <class Test>
+std::optional<Vec3d> largest_facing(const Part& part, const Test& picks) {
+  constexpr std::size_t kMostTriangles = 256;
+  Facing best;
+  if (part.triangles.size() <= kMostTriangles)
+    for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
+      const Facing f = facing_of(part, t);
+      // Of equal ones the same, in whatever order they are.
+      const auto rank = [](const Facing& x) {
+        return std::tuple(x.size, x.normal.x, x.normal.y, x.normal.z);
+      };
+      if (f.size > 0 && rank(f) > rank(best) && picks(f.normal)) best = f;
+    }
+  return best.size > 0 ? std::optional(best.normal) : std::nullopt;
+}
+
+Vec3d longest_edge(const Corners& c) {
   Vec3d edge = c[1] - c[0];
   for (std::size_t i = 1; i < 3; ++i) {
     const Vec3d e = c[(i + 1) % 3] - c[i];
     if (dot(e, e) > dot(edge, edge)) edge = e;
   }
-  const Vec3d n = normal_of(c);
-  const double ln = length(n), le = length(edge);
-  if (!(ln > 0) || !(le > 0)) return world;
-  const Vec3d z = n * (1 / ln), x = edge * (1 / le);
-  const Vec3d y = cross(z, x);
-  const double ly = length(y);
-  return {x, y * (1 / ly), z};
+  return edge;
+}
+
+/// An orthonormal frame along a triangle's normal and a face square to it: what meets there is flat
+/// in this frame even when the model stands askew.
+Axes frame_of(const Part& part, std::uint32_t triangle) {
+  const Axes world{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+  if (triangle >= part.triangles.size()) return world;
+  constexpr double kSquare = 1e-3;
+  const Vec3d own = facing_of(part, triangle).normal;
+  // Of the faces along the triangle the largest is the truest.
+  const auto parallel = [&](const Vec3d& n) { return length(cross(n, own)) < kSquare; };
+  const Vec3d z = largest_facing(part, parallel).value_or(own);
+  const auto square = [&](const Vec3d& n) { return std::fabs(dot(n, z)) < kSquare; };
+  const Vec3d flat =
+      largest_facing(part, square).value_or(longest_edge(corners_of(part, triangle)));
+  const Vec3d x = flat - z * dot(flat, z);
+  const double size = length(x);
+  if (!(size > 0) || !(length(z) > 0)) return world;
+  const Vec3d unit = x * (1 / size);
+  return {unit, cross(z, unit), z};
 }
 
 Range range_along(const DepthField& f, const Vec3d& axis) {
@@ -52,7 +90,10 @@ Range range_along(const DepthField& f, const Vec3d& axis) {
 
 struct Cell {
   Simplex simplex;
-  double upper = 0;  ///< no point of the cell that is in both is deeper
+  Vec3d promise;           ///< the point that `upper` stems from,
+  bool in_a = true;        ///< as a depth in this part
+  bool bent_last = false;  ///< it was not its parent's longest edge that was cut
+  double upper = 0;        ///< no point of the cell that is in both is deeper
   std::uint32_t id = 0;
 };
 
@@ -77,8 +118,17 @@ Edge longest_edge(const Simplex& s) {
   return longest;
 }
 
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// A cell no longer than this, grid units, is not cut further.
 constexpr double kSmallest = 0.25;
+
+/// The edge to cut is chosen once a cell's bound is within this factor of the depth known; farther
+/// off, where bounds say little, the longest is best.
+constexpr double kNearlyThere = 1.5;
+/// An edge shorter than the longest by more than this factor is not cut.
+constexpr double kAspect = 16;
+/// What the cut of an edge other than the longest must gain at least, relative to the bound.
+constexpr double kLeastGain = 1e-3;
 
 class Search {
  public:
@@ -95,17 +145,23 @@ class Search {
     const double ceiling = depth_.upper;
     if (!plant()) return;
     double kept = 0;  // the greatest bound of a cell that is too small to cut
-    while (!open_.empty()) {
-      const double highest = std::max({open_.top().upper, kept, depth_.value});
+    while (!open_.empty() || !blocks_.empty()) {
+      const double cells = open_.empty() ? 0 : open_.top().upper;
+      const double blocks = blocks_.empty() ? 0 : blocks_.back().most();
+      const double highest = std::max({cells, blocks, kept, depth_.value});
       depth_.upper = std::min(ceiling, highest);
       if (bracket_suffices(depth_, goal_) || exhausted()) return;
+      if (blocks > cells) {
+        open_block();
+        continue;
+      }
       const Cell cell = open_.top();
       open_.pop();
-      const Edge edge = longest_edge(cell.simplex);
-      if (edge.squared <= kSmallest * kSmallest)
+      const Edge longest = longest_edge(cell.simplex);
+      if (longest.squared <= kSmallest * kSmallest)
         kept = std::max(kept, cell.upper);
       else
-        cut(cell, edge);
+        cut(cell, bent_edge(cell, longest));
     }
     depth_.upper = std::min(ceiling, std::max(depth_.value + margin_, kept));
   }
@@ -116,35 +172,55 @@ class Search {
     return depth_.cells >= (decided ? goal_.cells_decided : goal_.cells_undecided);
   }
 
-  /// The common box of the two in the frame, as the six simplices round one of its diagonals.
+  /// The common box of the two in the frame, in blocks.
   bool plant() {
     Vec3d lo, size;
     double extent = 0;
     for (int k = 0; k < 3; ++k) {
       const Range x = range_along(a_, axes_[at(k)]), y = range_along(b_, axes_[at(k)]);
       const Range room = goal_.within ? range_along(*goal_.within, axes_[at(k)]) : x;
-      lo[k] = std::max({x.lo, y.lo, room.lo}) - 1;
-      size[k] = std::min({x.hi, y.hi, room.hi}) + 1 - lo[k];
+      lo[k] = std::max({x.lo, y.lo, room.lo}) - kStandOff;
+      size[k] = std::min({x.hi, y.hi, room.hi}) + kStandOff - lo[k];
       if (!(size[k] > 0)) return false;
       extent = std::max({extent, x.hi - x.lo, y.hi - y.lo});
     }
     margin_ = kFieldError * extent;
     slack_ = 1.0 / 1024 + margin_;
+    const std::vector<Block> blocks =
+        cut_into_blocks(a_, b_, axes_, {lo, lo + size}, slack_, work_);
+    if (blocks.size() > 1) depth_.cells += blocks.size();
+    for (const Block& block : blocks) {
+      for (std::size_t i = 0; i < 2; ++i)
+        if (block.upper[i] < kUnbounded && block.upper[i] > depth_.value + margin_)
+          try_point(block.promise[i]);
+      if (block.most() > depth_.value + margin_) blocks_.push_back(block);
+    }
+    const auto rank = [](const Block& x) {
+      return std::tuple(x.most(), x.box.lo.x, x.box.lo.y, x.box.lo.z);
+    };
+    std::sort(blocks_.begin(), blocks_.end(),
+              [&](const Block& x, const Block& y) { return rank(x) < rank(y); });
+    return true;
+  }
+
+  /// Takes up the block that promises most, as the six simplices round one of its diagonals.
+  void open_block() {
+    const Block block = blocks_.back();
+    blocks_.pop_back();
     std::array<SimplexCorner, 8> corners;
     for (unsigned i = 0; i < 8; ++i) {
       Vec3d p;
       for (int k = 0; k < 3; ++k)
-        p = p + axes_[at(k)] * (lo[k] + ((i >> static_cast<unsigned>(k) & 1U) != 0 ? size[k] : 0));
+        p = p + axes_[at(k)] *
+                    ((i >> static_cast<unsigned>(k) & 1U) != 0 ? block.box.hi[k] : block.box.lo[k]);
       corners[i] = look(p, nullptr);
     }
     constexpr std::array<std::array<unsigned, 2>, 6> kPaths{
         {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}}};
-    for (const auto& path : kPaths) {
-      const Cell cell{{{corners[0], corners[path[0]], corners[path[1]], corners[7]}},
-                      std::numeric_limits<double>::infinity()};
-      bound(cell);
-    }
-    return true;
+    for (const auto& path : kPaths)
+      bound({.simplex = {{corners[0], corners[path[0]], corners[path[1]], corners[7]}},
+             .promise = {},
+             .upper = block.most()});
   }
 
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
@@ -171,12 +247,60 @@ class Search {
     return s;
   }
 
+  /// The edge whose cut takes most from the bound, every other time: where the bound suffers from
+  /// something else, cells must get smaller still. The linear function
+  /// above the distance to the triangle nearest to the promising point is off by as much as that
+  /// distance bends.
+  Edge bent_edge(const Cell& cell, const Edge& longest) const {
+    if (cell.bent_last || !(cell.upper < kNearlyThere * depth_.value)) return longest;
+    const DepthField& f = cell.in_a ? a_ : b_;
+    const FieldSample SimplexCorner::* const sample =
+        cell.in_a ? &SimplexCorner::a : &SimplexCorner::b;
+    const auto& corner = cell.simplex.corner;
+    const std::uint32_t t = f.nearest(cell.promise, (corner[0].*sample).triangle).triangle;
+    const Corners triangle = f.corners(t);
+    const auto distance = [&](const Vec3d& p) {
+      return length(f.local(p) - nearest_on_triangle(f.local(p), triangle));
+    };
+    const std::array<double, 4> weight = weights(cell);
+    Edge best = longest;
+    double most = kLeastGain * cell.upper;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const Vec3d e = corner[j].at - corner[i].at;
+        if (dot(e, e) * kAspect * kAspect < longest.squared) continue;
+        const double bend = distance(corner[i].at) + distance(corner[j].at) -
+                            2 * distance((corner[i].at + corner[j].at) * 0.5);
+        const double gain = bend * weight[i] * weight[j];
+        if (gain > most) {
+          most = gain;
+          best = {i, j, dot(e, e)};
+        }
+      }
+    return best;
+  }
+
+  /// Barycentric coordinates of the promising point, roughly.
+  static std::array<double, 4> weights(const Cell& cell) {
+    const auto& c = cell.simplex.corner;
+    std::array<double, 4> w{};
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3d &p = c[(i + 1) % 4].at, &q = c[(i + 2) % 4].at, &r = c[(i + 3) % 4].at;
+      w[i] = std::fabs(dot(cross(q - p, r - p), cell.promise - p));
+      sum += w[i];
+    }
+    for (double& x : w) x = sum > 0 ? x / sum : 0.25;
+    return w;
+  }
+
   void cut(const Cell& cell, const Edge& edge) {
     const SimplexCorner &from = cell.simplex.corner[edge.from], &to = cell.simplex.corner[edge.to];
     const SimplexCorner middle = look((from.at + to.at) * 0.5, &from);
     for (const std::size_t replaced : {edge.from, edge.to}) {
       Cell child = cell;
       child.simplex.corner[replaced] = middle;
+      child.bent_last = edge.squared < longest_edge(cell.simplex).squared;
       bound(child);
     }
   }
@@ -190,7 +314,11 @@ class Search {
     if (!bounds) return;
     double most = 0;
     for (const SimplexBound& b : *bounds) {
-      most = std::max(most, b.upper);
+      if (b.upper > most) {
+        most = b.upper;
+        cell.promise = b.point;
+        cell.in_a = &b == bounds->data();
+      }
       if (b.upper > depth_.value + margin_) try_point(b.point);
     }
     cell.upper = std::min(cell.upper, most);
@@ -233,6 +361,7 @@ class Search {
   PairWork& work_;
   Axes axes_;
   double margin_ = 0, slack_ = 0;
+  std::vector<Block> blocks_;  ///< not yet taken up, the most promising last
   std::priority_queue<Cell, std::vector<Cell>, LessPromising> open_;
   std::uint32_t next_id_ = 0;
 };
@@ -241,7 +370,10 @@ class Search {
 
 void search_solid_depth(const DepthField& a, const DepthField& b, const DepthGoal& goal,
                         Depth& depth, PairWork& work) {
-  Search(a, b, goal, depth, work).run();
+  DepthField ready_a = a, ready_b = b;
+  ready_a.prepare();
+  ready_b.prepare();
+  Search(ready_a, ready_b, goal, depth, work).run();
 }
 
 }  // namespace strake::geometry

@@ -10,23 +10,21 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
-#include "../../support/part_builder.hpp"
+#include "../../support/depth_subjects.hpp"
 
 namespace strake::geometry {
 namespace {
 
 using testing::box_mesh;
+using testing::channel;
+using testing::cylinder;
+using testing::depth_of;
 using testing::IndexedMesh;
-using testing::prism_mesh;
 using testing::Subject;
-
-Depth depth_of(const Subject& a, const Subject& b, const DepthGoal& goal = {}) {
-  const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
-  PairWork work;
-  return solid_depth({a.treed(), &pa}, {b.treed(), &pb}, goal, work);
-}
+using testing::turned;
 
 void expect_depth(const Subject& a, const Subject& b, double expected, double width = 1e-3) {
   const Depth d = depth_of(a, b), e = depth_of(b, a);
@@ -35,84 +33,6 @@ void expect_depth(const Subject& a, const Subject& b, double expected, double wi
   EXPECT_LE(d.lower, expected + width / 2);
   EXPECT_GE(d.upper, expected - width / 2);
   EXPECT_LE(d.upper - d.lower, width);
-}
-
-/// A regular prism along z with `sides` corners on radius r, snapped to the grid.
-IndexedMesh cylinder(int sides, double r, std::int32_t z0, std::int32_t z1) {
-  std::vector<Vec3i> ring;
-  for (int i = 0; i < sides; ++i) {
-    const double t = 2 * std::numbers::pi * i / sides;
-    ring.push_back({static_cast<std::int32_t>(std::lround(r * std::cos(t))),
-                    static_cast<std::int32_t>(std::lround(r * std::sin(t))), 0});
-  }
-  return prism_mesh(ring, z0, z1);
-}
-
-/// A tube round z with `sides` facets within and without; grid units.
-IndexedMesh tube(int sides, double outer, double inner, std::int32_t z0, std::int32_t z1) {
-  const auto n = static_cast<std::uint32_t>(sides);
-  IndexedMesh mesh;
-  for (const std::int32_t z : {z0, z1})
-    for (const double r : {outer, inner})
-      for (int i = 0; i < sides; ++i) {
-        const double t = 2 * std::numbers::pi * i / sides;
-        mesh.vertices.push_back({static_cast<std::int32_t>(std::lround(r * std::cos(t))),
-                                 static_cast<std::int32_t>(std::lround(r * std::sin(t))), z});
-      }
-  // Rings of corners: outer and inner below, outer and inner above.
-  const auto band = [&](std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t j = (i + 1) % n;
-      mesh.triangles.push_back({from * n + i, from * n + j, to * n + j});
-      mesh.triangles.push_back({from * n + i, to * n + j, to * n + i});
-    }
-  };
-  for (const auto& [from, to] :
-       std::array<std::array<std::uint32_t, 2>, 4>{{{0, 2}, {2, 3}, {3, 1}, {1, 0}}})
-    band(from, to);
-  return mesh;
-}
-
-/// A channel: an open-topped U along x made of a single non-convex solid.
-IndexedMesh channel(std::int32_t length, std::int32_t width, std::int32_t height,
-                    std::int32_t wall) {
-  const std::array<std::array<std::int32_t, 2>, 8> outline{{{0, 0},
-                                                            {width, 0},
-                                                            {width, height},
-                                                            {width - wall, height},
-                                                            {width - wall, wall},
-                                                            {wall, wall},
-                                                            {wall, height},
-                                                            {0, height}}};
-  IndexedMesh mesh;
-  for (const std::int32_t x : {0, length})
-    for (const auto& p : outline) mesh.vertices.push_back({x, p[0], p[1]});
-  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    mesh.triangles.push_back({a, b, c});
-    mesh.triangles.push_back({a, c, d});
-  };
-  for (std::uint32_t i = 0; i < 8; ++i) {
-    const std::uint32_t j = (i + 1) % 8;
-    quad(i, i + 8, j + 8, j);
-  }
-  for (const auto& q :
-       std::array<std::array<std::uint32_t, 4>, 3>{{{0, 1, 4, 5}, {1, 2, 3, 4}, {0, 5, 6, 7}}}) {
-    quad(q[0], q[1], q[2], q[3]);
-    quad(q[3] + 8, q[2] + 8, q[1] + 8, q[0] + 8);
-  }
-  return mesh.flipped();
-}
-
-/// Turned by a rational rotation (quaternion 1, 2, 3, 4 over 30) and snapped.
-IndexedMesh turned(IndexedMesh mesh) {
-  const std::array<std::array<double, 3>, 3> m{{{-20, 4, 22}, {20, -10, 20}, {10, 28, 4}}};
-  for (Vec3i& v : mesh.vertices) {
-    std::array<double, 3> p{};
-    for (std::size_t k = 0; k < 3; ++k) p[k] = (m[k][0] * v.x + m[k][1] * v.y + m[k][2] * v.z) / 30;
-    v = {static_cast<std::int32_t>(std::lround(p[0])), static_cast<std::int32_t>(std::lround(p[1])),
-         static_cast<std::int32_t>(std::lround(p[2]))};
-  }
-  return mesh;
 }
 
 TEST(Depth, AlignedWallsOverlapAtTheirEnds) {
@@ -225,44 +145,6 @@ TEST(Depth, BracketsOfConcaveBodiesAreNarrow) {
   EXPECT_GT(met, 30);
 }
 
-/// Fitting bolts: hole and bolt have one radius, their tessellations another number of sides, so
-/// that corners of the bolt stand in the facets of the hole. That it is no more is certain.
-TEST(Depth, AFittingBoltIsNoDeeperThanTheFacets) {
-  for (const int hole_sides : {12, 24, 40})
-    for (const int bolt_sides : {16, 30})
-      for (const bool askew : {false, true}) {
-        constexpr double kRadius = 10'000;
-        IndexedMesh plate = tube(hole_sides, 3 * kRadius, kRadius, 0, 15'000);
-        IndexedMesh bolt = cylinder(bolt_sides, kRadius, -20'000, 30'000);
-        if (askew) {
-          plate = turned(plate);
-          bolt = turned(bolt);
-        }
-        const Subject a(plate), b(bolt);
-        PairWork work;
-        const MeetingResult meeting = meet(a.treed(), b.treed(), work);
-        ASSERT_EQ(meeting.meeting, Meeting::crossing);
-        const Depth d = depth_of(a, b,
-                                 {.threshold = 1000,
-                                  .triangle_a = meeting.triangle_a,
-                                  .triangle_b = meeting.triangle_b,
-                                  .meeting_point = meeting.point});
-        const double sag = kRadius * (1 - std::cos(std::numbers::pi / hole_sides));
-        EXPECT_LE(d.value, sag + 2);
-        EXPECT_LE(d.upper, 1000) << hole_sides << " and " << bolt_sides << (askew ? " askew" : "");
-      }
-}
-
-/// Tubes pushed over each other: what is common is a shell that is long, wide and thin.
-TEST(Depth, ASpigotIsNoDeeperThanItsWall) {
-  const Subject a(tube(24, 54'000, 50'000, 0, 200'000));
-  const Subject b(tube(32, 52'000, 46'000, -100'000, 60'000));
-  const Depth d = depth_of(a, b, {.threshold = 1000});
-  // 4 mm of wall from 50 to 52, 4 to 6 mm of the other; sags of no more than half a millimetre.
-  EXPECT_GE(d.lower, 1'500);
-  EXPECT_LE(d.upper, 6'500);
-}
-
 TEST(Depth, ShallowContactInTheHollowOfATurnedChannel) {
   // 20 µm deep in the floor of a channel that stands askew: that it is no more than a contact must
   // be certain, and cheap.
@@ -309,43 +191,6 @@ TEST(Depth, NoSampleIsDeeperThanTheBracket) {
       const double deep = std::max(distance_to_surface(a.treed(), p.as<double>()),
                                    distance_to_surface(b.treed(), (p - b.origin).as<double>()));
       EXPECT_LE(deep, d.upper + 1e-3) << "seed " << seed;
-    }
-  }
-}
-
-/// The same round the edges of holes, where a roof of many planes bounds what is below it.
-TEST(Depth, NoSampleInAHoleIsDeeperThanTheBracket) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    std::mt19937_64 random(seed);
-    const auto draw = [&](double lo, double hi) {
-      return lo + (hi - lo) * static_cast<double>(random() >> 11U) * 0x1p-53;
-    };
-    const int sides = static_cast<int>(draw(5, 30)), other = static_cast<int>(draw(5, 30));
-    const double radius = draw(2'000, 9'000), tighter = radius * draw(0.9, 1.1);
-    const auto x = static_cast<std::int32_t>(draw(-900, 900));
-    const auto z = static_cast<std::int32_t>(draw(-9'000, 0));
-    const bool askew = seed % 2 == 0;
-    const IndexedMesh ring = tube(sides, radius + draw(500, 9'000), radius, 0, 6'000);
-    IndexedMesh pin = seed % 3 == 0 ? tube(other, tighter, tighter * draw(0.4, 0.95), -3'000, 4'000)
-                                    : cylinder(other, tighter, -3'000, 4'000);
-    for (Vec3i& v : pin.vertices) v = v + Vec3i{x, 300, z / 4};
-    const Subject a(askew ? turned(ring) : ring), b(askew ? turned(pin) : pin);
-    PairWork work;
-    const MeetingResult meeting = meet(a.treed(), b.treed(), work);
-    if (meeting.meeting == Meeting::apart || meeting.meeting == Meeting::touching) continue;
-    const Depth d = depth_of(a, b, {.threshold = 100, .tolerance = 1, .relative = 1e-4});
-    EXPECT_LE(d.lower, d.upper);
-    for (int i = 0; i < 2000; ++i) {
-      const double reach = std::pow(10, draw(0, 4));
-      Vec3d p = d.point;
-      if (i % 2 == 0) p = b.part.vertices[random() % b.part.vertices.size()].as<double>();
-      const double dx = draw(-reach, reach), dy = draw(-reach, reach), dz = draw(-reach, reach);
-      const Vec3l q{std::llround(p.x + dx), std::llround(p.y + dy), std::llround(p.z + dz)};
-      if (side_of(a.treed(), q, 1, work) == PointSide::outside) continue;
-      if (side_of(b.treed(), q, 1, work) == PointSide::outside) continue;
-      const double deep = std::max(nearest_on_skin(a.treed(), q.as<double>()).distance,
-                                   nearest_on_skin(b.treed(), q.as<double>()).distance);
-      ASSERT_LE(deep, d.upper + 1e-3) << "seed " << seed;
     }
   }
 }
