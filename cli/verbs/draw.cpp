@@ -28,7 +28,7 @@ struct DrawOptions {
   InputOptions input;
   SceneInput scene;
   std::string view, direction, up, limits, scale, title;
-  std::string stage, solver, hidden, sharp_angle, contact_distance;
+  std::string stage, solver, hidden, intersections, sharp_angle, contact_distance;
   std::vector<std::string> select, outputs;
 };
 
@@ -91,6 +91,8 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
   if (given.stage == "none") options.stage = hlr::Stage::none;
   if (given.stage == "local") options.stage = hlr::Stage::local;
   if (given.solver == "brute-force") options.solver = hlr::Solver::brute_force;
+  if (given.intersections == "off") options.intersections = hlr::Intersections::off;
+  if (given.intersections == "parts") options.intersections = hlr::Intersections::parts;
   if (!given.sharp_angle.empty()) {
     const Result<double> angle = quantity(given.sharp_angle, "--sharp-angle", parse_angle_deg);
     if (!angle) return angle.error();
@@ -270,6 +272,10 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")
+      ->group("Lines");
+  add_choice(command, "--intersections", options.intersections, {"off", "objects", "parts"},
+             "Lines where bodies pass through each other: none, those of different objects, or of "
+             "all parts (default objects)")
       ->group("Lines");
   command
       .add_option("--sharp-angle", options.sharp_angle,

@@ -4,19 +4,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "clash/parts.hpp"
 #include "strake/geometry/bvh.hpp"
+#include "strake/parallel/distinct.hpp"
 
 namespace strake::clash {
 
 /// Which pairs of parts are the same question: equal geometry in equal relative position, judged by
 /// equal settings. A ship has its frames, brackets and pipe hangers a hundred thousand times over.
-struct Cases {
-  std::vector<std::uint32_t> of;     ///< by pair: its case
-  std::vector<std::uint32_t> first;  ///< by case: the first pair that is one, ascending
-};
+using Cases = parallel::Distinct;
 
 /// Every pair a case of its own.
 [[nodiscard]] Cases each_alone(std::size_t pairs);

@@ -92,6 +92,8 @@ Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
       hasher.add(std::string_view(model.files[object.file].label)).add(std::string_view(object.id));
     }
     hasher.add(static_cast<std::uint32_t>(piece.kind)).add(static_cast<std::uint32_t>(piece.state));
+    if (piece.kind == hlr::EdgeKind::intersection)
+      hasher.add(std::string_view(model.object(piece.other).id));
     add_vector(hasher, piece.a);
     add_vector(hasher, piece.b);
     last = &piece;
@@ -124,7 +126,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.hash = hash_of(drawing, model);
   out.lines.reserve(drawing.pieces.size());
   for (const hlr::Piece& piece : drawing.pieces)
-    out.lines.push_back({piece.object, piece.edge, piece.kind, line_state(piece.state),
+    out.lines.push_back({piece.object, piece.edge, piece.kind, line_state(piece.state), piece.other,
                          geometry::to_mm(piece.a), geometry::to_mm(piece.b),
                          projector.on_paper(piece.a), projector.on_paper(piece.b)});
   // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.

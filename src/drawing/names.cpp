@@ -33,6 +33,8 @@ std::string_view kind_name(hlr::EdgeKind kind) {
       return "non_manifold";
     case hlr::EdgeKind::polyline:
       return "polyline";
+    case hlr::EdgeKind::intersection:
+      return "intersection";
   }
   return "";
 }

@@ -27,16 +27,18 @@ struct Layer {
 };
 
 // Later layers are drawn over earlier ones: outlines last.
-constexpr std::array<Layer, 10> kLayers = {{
+constexpr std::array<Layer, 12> kLayers = {{
     {true, hlr::EdgeKind::polyline, "Hidden polylines"},
     {true, hlr::EdgeKind::boundary, "Hidden boundary"},
     {true, hlr::EdgeKind::non_manifold, "Hidden non-manifold"},
     {true, hlr::EdgeKind::sharp, "Hidden sharp"},
+    {true, hlr::EdgeKind::intersection, "Hidden intersections"},
     {true, hlr::EdgeKind::contour, "Hidden outline"},
     {false, hlr::EdgeKind::polyline, "Visible polylines"},
     {false, hlr::EdgeKind::boundary, "Visible boundary"},
     {false, hlr::EdgeKind::non_manifold, "Visible non-manifold"},
     {false, hlr::EdgeKind::sharp, "Visible sharp"},
+    {false, hlr::EdgeKind::intersection, "Visible intersections"},
     {false, hlr::EdgeKind::contour, "Visible outline"},
 }};
 
@@ -51,8 +53,8 @@ void write_style(Chunked& out, const Pens& pens) {
       "<style>\n"
       "path {{ fill: none; stroke: #000; stroke-linecap: round; stroke-linejoin: round; }}\n"
       ".visible.contour path {{ stroke-width: {0}; }}\n"
-      ".visible.sharp path, .visible.boundary path, .visible.non_manifold path "
-      "{{ stroke-width: {1}; }}\n"
+      ".visible.sharp path, .visible.boundary path, .visible.non_manifold path, "
+      ".visible.intersection path {{ stroke-width: {1}; }}\n"
       ".visible.polyline path {{ stroke-width: {2}; stroke: #246; }}\n"
       ".hidden path {{ stroke-width: {2}; stroke: #444; stroke-linecap: butt; "
       "stroke-dasharray: {3} {4}; }}\n"

@@ -60,11 +60,38 @@ void write_counts(Chunked& out, const NeutralDrawing& drawing) {
   out << "},\n";
 }
 
-void append_line(std::string& out, const Line& line, std::string_view object, std::size_t index) {
+/// The objects that lines name, each once, in the order of the model.
+class Listed {
+ public:
+  Listed(const std::vector<Line>& lines, std::size_t objects) : number_(objects, kNot) {
+    for (const Line& line : lines)
+      for (const model::ObjectId id : {line.object, line.other}) number_[model::index(id)] = 0;
+    for (std::uint32_t o = 0; o < number_.size(); ++o) {
+      if (number_[o] == kNot) continue;
+      number_[o] = static_cast<std::uint32_t>(objects_.size());
+      objects_.push_back(model::ObjectId{o});
+    }
+  }
+
+  [[nodiscard]] const std::vector<model::ObjectId>& objects() const { return objects_; }
+  [[nodiscard]] std::uint32_t number(model::ObjectId id) const { return number_[model::index(id)]; }
+
+ private:
+  static constexpr std::uint32_t kNot = 0xffffffffU;
+  std::vector<std::uint32_t> number_;
+  std::vector<model::ObjectId> objects_;
+};
+
+void append_line(std::string& out, const Line& line, std::string_view object,
+                 const Listed& listed) {
   out += "{\"object\":";
   out += object;
-  out += fmt::format(",\"object_index\":{},\"edge\":{},\"kind\":\"{}\",\"state\":\"{}\",\"a_mm\":",
-                     index, line.edge, kind_name(line.kind), state_name(line.state));
+  out += fmt::format(",\"object_index\":{},\"edge\":{},\"kind\":\"{}\",\"state\":\"{}\"",
+                     listed.number(line.object), line.edge, kind_name(line.kind),
+                     state_name(line.state));
+  if (line.kind == hlr::EdgeKind::intersection)
+    out += fmt::format(",\"other_index\":{}", listed.number(line.other));
+  out += ",\"a_mm\":";
   append_numbers(out, {line.a_mm.x, line.a_mm.y, line.a_mm.z});
   out += ",\"b_mm\":";
   append_numbers(out, {line.b_mm.x, line.b_mm.y, line.b_mm.z});
@@ -84,28 +111,21 @@ void write_view_json(const NeutralDrawing& drawing, const model::Model& model, S
   write_view(out, drawing);
   write_counts(out, drawing);
   out << "\"hash\":\"" << drawing.hash.text() << "\",\n\"objects\":[";
-  // Lines come by object: each object that has any is listed once, in that order.
-  const Line* last = nullptr;
-  for (const Line& line : drawing.lines) {
-    if (last == nullptr || last->object != line.object) {
-      const model::Object& object = model.object(line.object);
-      out << (last == nullptr ? "\n" : ",\n") << "{\"id\":" << json_quoted(object.id)
-          << ",\"name\":" << json_quoted(object.name)
-          << ",\"file\":" << json_quoted(model.files[object.file].label) << "}";
-    }
-    last = &line;
+  const Listed listed(drawing.lines, model.objects.size());
+  for (const model::ObjectId o : listed.objects()) {
+    const model::Object& object = model.object(o);
+    out << (listed.number(o) == 0 ? "\n" : ",\n") << "{\"id\":" << json_quoted(object.id)
+        << ",\"name\":" << json_quoted(object.name)
+        << ",\"file\":" << json_quoted(model.files[object.file].label) << "}";
   }
   out << "],\n\"pieces\":[";
-  last = nullptr;
+  const Line* last = nullptr;
   std::string id;
-  std::size_t index = 0;
   for (const Line& line : drawing.lines) {
-    if (last == nullptr || last->object != line.object) {
+    if (last == nullptr || last->object != line.object)
       id = json_quoted(model.object(line.object).id);
-      if (last != nullptr) ++index;
-    }
     out << (last == nullptr ? "\n" : ",\n");
-    append_line(out.buffer(), line, id, index);
+    append_line(out.buffer(), line, id, listed);
     last = &line;
   }
   out << "]}\n";

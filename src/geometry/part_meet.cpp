@@ -6,8 +6,8 @@
 
 #include "geometry/contacts.hpp"
 #include "geometry/corner_index.hpp"
+#include "geometry/crossing_pieces.hpp"
 #include "geometry/pair_view.hpp"
-#include "geometry/sheet_curve.hpp"
 #include "strake/geometry/part_pair.hpp"
 
 // How the meeting is decided. Write int, ext for the open inside and outside of a body, bd for its
@@ -136,7 +136,7 @@ MeetingResult Meeter::run() {
   if (!contacts_.decided()) {
     // Where they lie on each other, one may go on to the other side elsewhere.
     if (contacts_.flush && !overlap.interiors && !a_.solid() && !b_.solid())
-      overlap.interiors = !crossing_curve(treed_a_, treed_b_, 1, work_).segments.empty();
+      overlap.interiors = !crossing_pieces(treed_a_, treed_b_, 1, work_).all.empty();
     if (!overlap.complete()) probe_shells(false);
     if (!overlap.complete()) probe_shells(true);
   }

@@ -3,18 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <optional>
-#include <utility>
 
-#include "geometry/axis_rays.hpp"
 #include "geometry/corner_index.hpp"
 #include "geometry/corners.hpp"
+#include "geometry/crossing_pieces.hpp"
 #include "geometry/directions.hpp"
-#include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
-#include "geometry/sectors.hpp"
-#include "strake/geometry/triangle_contact.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -78,216 +73,32 @@ std::optional<Segment> common_stretch(const Segment& s, const Segment& t) {
   return part_of(s, std::max(0.0, std::min(from, to)), std::min(1.0, std::max(from, to)));
 }
 
-/// Pairs of triangles that lie on each other, joined to areas over the lines where one goes on into
-/// the next. Each pair says by b's triangle which side is the outer one; along a join the two may
-/// call the same side differently.
-class CommonAreas {
- public:
-  using Key = std::uint64_t;
-  static Key key(const Flush& f) { return (Key{f.a} << 32U) | f.b; }
+Corners corners(const PartView& view, std::uint32_t triangle) {
+  return as_doubles(view.corners(triangle));
+}
 
-  void join(const Flush& x, const Flush& y) {
-    joins_.push_back({key(x), key(y), x.step == y.step});
-  }
+Segment edge_of(const PartView& view, std::uint32_t triangle, int edge) {
+  const Corners t = corners(view, triangle);
+  return {t[at(edge)], t[at(next_corner(edge))]};
+}
 
-  void leave(const Flush& f, const Segment& segment) {
-    if (f.outer || f.inner) leaves_.push_back({key(f), f.outer, f.inner, segment});
-  }
-
-  /// Adds where one sheet leaves the other along areas that it leaves on both sides.
-  void cross(std::vector<Segment>& segments) {
-    if (leaves_.empty()) return;
-    number();
-    for (const Join& j : joins_) join(find(index(j.x)), find(index(j.y)), j.swapped);
-    std::vector<std::array<bool, 2>> sides(keys_.size(), {false, false});
-    for (const Leave& l : leaves_) {
-      const Root r = find(index(l.key));
-      sides[r.root][r.swapped ? 1 : 0] |= l.outer;
-      sides[r.root][r.swapped ? 0 : 1] |= l.inner;
-    }
-    for (const Leave& l : leaves_) {
-      const auto& side = sides[find(index(l.key)).root];
-      if (side[0] && side[1]) segments.push_back(l.segment);
-    }
-  }
-
- private:
-  struct Join {
-    Key x = 0, y = 0;
-    bool swapped = false;
-  };
-  struct Leave {
-    Key key = 0;
-    bool outer = false, inner = false;
-    Segment segment;
-  };
-  struct Root {
-    std::uint32_t root = 0;
-    bool swapped = false;
-  };
-
-  void number() {
-    for (const Join& j : joins_) keys_.insert(keys_.end(), {j.x, j.y});
-    for (const Leave& l : leaves_) keys_.push_back(l.key);
-    std::sort(keys_.begin(), keys_.end());
-    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
-    up_.resize(keys_.size());
-    std::iota(up_.begin(), up_.end(), 0U);
-    swapped_.assign(keys_.size(), false);
-  }
-  [[nodiscard]] std::uint32_t index(Key key) const {
-    return static_cast<std::uint32_t>(std::lower_bound(keys_.begin(), keys_.end(), key) -
-                                      keys_.begin());
-  }
-  [[nodiscard]] Root find(std::uint32_t i) {
-    Root r{i, false};
-    while (up_[r.root] != r.root) {
-      const std::uint32_t next = up_[r.root];
-      // Halves the way; the root itself is never swapped.
-      swapped_[r.root] = swapped_[r.root] != swapped_[next];
-      up_[r.root] = up_[next];
-      r.swapped ^= swapped_[r.root];
-      r.root = up_[r.root];
-    }
-    return r;
-  }
-  void join(const Root& x, const Root& y, bool swapped) {
-    if (x.root == y.root) return;
-    up_[std::max(x.root, y.root)] = std::min(x.root, y.root);
-    swapped_[std::max(x.root, y.root)] = (x.swapped != y.swapped) != swapped;
-  }
-
-  std::vector<Join> joins_;
-  std::vector<Leave> leaves_;
-  std::vector<Key> keys_;
-  std::vector<std::uint32_t> up_;
-  std::vector<bool> swapped_;  ///< against up_
-};
-
-class Finder {
- public:
-  Finder(const TreedPart& a, const TreedPart& b, std::size_t most, PairWork& work)
-      : a_(a, {}), b_(b, b.placed.origin - a.placed.origin), most_(most), work_(work) {}
-
-  CrossingCurve run() {
-    walk();
-    areas_.cross(curve_.segments);
-    return std::move(curve_);
-  }
-
- private:
-  void walk() {
-    if (!a_.planted() || !b_.planted()) return;
-    walk_both(
-        a_.tree(), b_.tree(),
-        [&](const PartTree::Node& x, const PartTree::Node& y) {
-          ++work_.node_pairs;
-          return a_.box(x.box).meets(b_.box(y.box));
-        },
-        [&](const PartTree::Node& x, const PartTree::Node& y) { return leaves(x, y); });
-  }
-
-  bool leaves(const PartTree::Node& x, const PartTree::Node& y) {
-    for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
-      const std::uint32_t ta = a_.tree().order()[i];
-      const ExactTriangle s = a_.triangle(ta);
-      for (std::uint32_t j = y.first; j < y.first + y.count; ++j) {
-        const std::uint32_t tb = b_.tree().order()[j];
-        ++work_.triangle_pairs;
-        judge(ta, tb, contact(s, b_.triangle(tb)));
-        if (curve_.truncated) return false;
-      }
-    }
-    return true;
-  }
-
-  void judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
-    if (c.touch == Touch::none || c.touch == Touch::point) return;
-    if (!c.coplanar) {
-      if (c.edge_a < 0 && c.edge_b < 0)
-        add(common_segment(corners(a_, ta), corners(b_, tb)));
-      else if (c.edge_b < 0)
-        edge_in_face(a_, ta, c.edge_a, b_, tb, false);
-      else if (c.edge_a < 0)
-        edge_in_face(b_, tb, c.edge_b, a_, ta, true);
-      else
-        edge_on_edge(ta, c.edge_a, tb, c.edge_b);
-      return;
-    }
-    for (int i = 0; i < 3; ++i) {
-      if ((c.edges_of_a_inside_b >> i) & 1U) edge_in_face(a_, ta, i, b_, tb, false);
-      if ((c.edges_of_b_inside_a >> i) & 1U) edge_in_face(b_, tb, i, a_, ta, true);
-      for (int j = 0; j < 3; ++j)
-        if ((c.shared_edges >> (3 * i + j)) & 1U) edge_on_edge(ta, i, tb, j);
-    }
-  }
-
-  /// Every triangle round an edge meets what the edge meets: one of them is enough.
-  static bool speaks_for(const PartView& view, std::uint32_t triangle, int edge) {
-    return star(view.part(), triangle, edge).front() == triangle;
-  }
-
-  void edge_in_face(const PartView& x, std::uint32_t tx, int edge, const PartView& y,
-                    std::uint32_t ty, bool edge_of_b) {
-    if (!speaks_for(x, tx, edge)) return;
-    start_axis(sectors_, x, tx, edge);
-    add_star(sectors_, x, tx, edge, edge_of_b);
-    add_face(sectors_, y, ty, !edge_of_b);
-    judge_axis(clipped(edge_of(x, tx, edge), corners(y, ty)));
-  }
-
-  void edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t tb, int edge_b) {
-    if (!speaks_for(a_, ta, edge_a) || !speaks_for(b_, tb, edge_b)) return;
-    start_axis(sectors_, a_, ta, edge_a);
-    add_star(sectors_, a_, ta, edge_a, false);
-    add_star(sectors_, b_, tb, edge_b, true);
-    judge_axis(common_stretch(edge_of(a_, ta, edge_a), edge_of(b_, tb, edge_b)));
-  }
-
-  void judge_axis(const std::optional<Segment>& segment) {
-    Overlap overlap;
-    sectors_.judge(false, false, overlap);
-    if (overlap.interiors) {
-      add(segment);
-      return;
-    }
-    // Over two directions the common area goes on; where there are more it forks.
-    const bool goes_on = sectors_.find_flush(flush_) == 2;
-    for (std::size_t i = 0; i < flush_.size(); ++i) {
-      if (segment) areas_.leave(flush_[i], *segment);
-      for (std::size_t j = 0; goes_on && j < i; ++j)
-        if (flush_[i].direction != flush_[j].direction) areas_.join(flush_[i], flush_[j]);
-    }
-  }
-
-  void add(const std::optional<Segment>& segment) {
-    if (!segment) return;
-    curve_.truncated = curve_.segments.size() == most_;
-    if (!curve_.truncated) curve_.segments.push_back(*segment);
-  }
-
-  static Corners corners(const PartView& view, std::uint32_t triangle) {
-    return as_doubles(view.corners(triangle));
-  }
-  static Segment edge_of(const PartView& view, std::uint32_t triangle, int edge) {
-    const Corners t = corners(view, triangle);
-    return {t[at(edge)], t[at(next_corner(edge))]};
-  }
-
-  PartView a_, b_;
-  std::size_t most_;
-  PairWork& work_;
-  CrossingCurve curve_;
-  CommonAreas areas_;
-  Sectors sectors_;
-  std::vector<Flush> flush_;
-};
+std::optional<Segment> segment_of(const PartView& a, const PartView& b, const CrossingPiece& p) {
+  if (p.edge_a < 0 && p.edge_b < 0) return common_segment(corners(a, p.a), corners(b, p.b));
+  if (p.edge_b < 0) return clipped(edge_of(a, p.a, p.edge_a), corners(b, p.b));
+  if (p.edge_a < 0) return clipped(edge_of(b, p.b, p.edge_b), corners(a, p.a));
+  return common_stretch(edge_of(a, p.a, p.edge_a), edge_of(b, p.b, p.edge_b));
+}
 
 }  // namespace
 
 CrossingCurve crossing_curve(const TreedPart& a, const TreedPart& b, std::size_t most,
                              PairWork& work) {
-  return Finder(a, b, most, work).run();
+  const PartView view_a(a, {}), view_b(b, b.placed.origin - a.placed.origin);
+  const CrossingPieces pieces = crossing_pieces(a, b, most, work);
+  CrossingCurve curve{.segments = {}, .truncated = pieces.truncated};
+  for (const CrossingPiece& piece : pieces.all)
+    if (const auto segment = segment_of(view_a, view_b, piece)) curve.segments.push_back(*segment);
+  return curve;
 }
 
 }  // namespace strake::geometry

@@ -15,13 +15,7 @@ struct CrossingCurve {
   bool truncated = false;  ///< there may be more
 };
 
-/// The segments along which one sheet passes from one side of the other to the other side. Where
-/// they lie on each other, they cross if somewhere along the rim of that common area a goes on to
-/// one side of b and elsewhere to the other; the segments then are those of the rim where it does
-/// so. Touching from one side is no crossing, nor is a sheet that ends on the other.
-///
-/// Which segments these are is exact, where they lie is rounded. Stops after `most` segments that
-/// cross outright. The cost is that of the contacts.
+/// The segments of crossing_pieces(): which these are is exact, where they lie is rounded.
 [[nodiscard]] CrossingCurve crossing_curve(const TreedPart& a, const TreedPart& b, std::size_t most,
                                            PairWork& work);
 

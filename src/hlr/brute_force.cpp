@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The definition of docs/hlr.md, taken literally and kept plain: it is what the engine is judged
-// by, so it shares with the engine nothing but the list of feature edges.
+// by, so it shares with the engine nothing but the lists of feature edges and intersections.
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -68,8 +68,12 @@ struct Sides {
 
 struct Edge {
   Vec3l a, b;
-  bool centre_line = false;
-  std::uint32_t body = 0, part = 0;
+  EdgeKind kind = EdgeKind::sharp;
+  bool projecting = false;
+  std::uint32_t body = 0, other_body = 0;  ///< two of an intersection, otherwise one
+  std::uint32_t part = 0;                  ///< unused of an intersection
+
+  [[nodiscard]] bool is_crossing() const { return kind == EdgeKind::intersection; }
 };
 
 struct Facet {
@@ -128,9 +132,11 @@ class Solver {
             const Interval& range, Sides& sides) const {
     const model::GridBody& body = job_.scene->bodies[body_index];
     const geometry::Part& part = job_.scene->shapes[body.grid_shape].parts[part_index];
-    const bool same_part = e.body == body_index && e.part == part_index;
-    const std::int64_t contact =
-        same_part ? 0 : std::max(job_.contact[e.body], job_.contact[body_index]);
+    const bool same_part = !e.is_crossing() && e.body == body_index && e.part == part_index;
+    std::int64_t contact =
+        std::max({job_.contact[e.body], job_.contact[e.other_body], job_.contact[body_index]});
+    if (e.is_crossing()) contact = std::max(contact, kCrossingContact);
+    if (same_part) contact = 0;
     for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
       Facet f;
       if (!facet(part, t, job_.offset(body), f)) continue;
@@ -258,17 +264,18 @@ std::vector<Stretch> stretches(const Sides& self, const Sides& other, const Inte
   return result;
 }
 
-std::vector<Stretch> solve(const Job& job, const Solver& solver, const Edge& e, bool projecting,
+std::vector<Stretch> solve(const Job& job, const Solver& solver, const Edge& e,
                            std::uint64_t& tests) {
   const model::Scene& scene = *job.scene;
   Interval range{{0, 1}, {1, 1}};
   const bool kept = solver.clip(e, range);
   Sides self, other;
-  if (kept && projecting) return {{{{0, 1}, {1, 1}}, State::projecting}};
+  if (kept && e.projecting) return {{{{0, 1}, {1, 1}}, State::projecting}};
   if (kept && job.options.stage != Stage::none)
     for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-      const bool own = scene.bodies[b].object == scene.bodies[e.body].object;
-      if (!job.opaque[b] || (own && e.centre_line)) continue;
+      const bool own = scene.bodies[b].object == scene.bodies[e.body].object ||
+                       scene.bodies[b].object == scene.bodies[e.other_body].object;
+      if (!job.opaque[b] || (own && e.kind == EdgeKind::polyline)) continue;
       if (!own && job.options.stage == Stage::local) continue;
       const auto& parts = scene.shapes[scene.bodies[b].grid_shape].parts;
       for (std::uint32_t p = 0; p < parts.size(); ++p) {
@@ -284,26 +291,37 @@ struct ObjectLines {
   std::uint64_t edges = 0, tests = 0;
 };
 
+void solve_edge(const Job& job, const Solver& solver, const Edge& e, ObjectLines& result) {
+  const model::Scene& scene = *job.scene;
+  const auto at = [&](const Rational& t) {
+    Vec3l p = e.a + job.origin;
+    for (int k = 0; k < 3; ++k) p[k] += rounded_share(e.b[k] - e.a[k], t);
+    return p;
+  };
+  const auto number = static_cast<std::uint32_t>(result.edges++);
+  for (const Stretch& s : solve(job, solver, e, result.tests))
+    result.pieces.push_back({scene.bodies[e.body].object, number, e.kind, s.state,
+                             scene.bodies[e.other_body].object, at(s.range.lo), at(s.range.hi)});
+}
+
 ObjectLines solve_object(const Job& job, std::uint32_t object) {
   const model::Scene& scene = *job.scene;
   const Solver solver(job);
   ObjectLines result;
   for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b) {
     const model::GridBody& body = scene.bodies[b];
-    for (const FeatureEdge& f : feature_edges(scene.shapes[body.grid_shape], job.features)) {
-      const Edge e{f.a.as<std::int64_t>() + job.offset(body),
-                   f.b.as<std::int64_t>() + job.offset(body), f.kind == EdgeKind::polyline, b,
-                   f.part};
-      const auto at = [&](const Rational& t) {
-        Vec3l p = e.a + job.origin;
-        for (int k = 0; k < 3; ++k) p[k] += rounded_share(e.b[k] - e.a[k], t);
-        return p;
-      };
-      const auto number = static_cast<std::uint32_t>(result.edges++);
-      for (const Stretch& s : solve(job, solver, e, f.projecting, result.tests))
-        result.pieces.push_back(
-            {body.object, number, f.kind, s.state, at(s.range.lo), at(s.range.hi)});
-    }
+    for (const FeatureEdge& f : feature_edges(scene.shapes[body.grid_shape], job.features))
+      solve_edge(job, solver,
+                 {f.a.as<std::int64_t>() + job.offset(body),
+                  f.b.as<std::int64_t>() + job.offset(body), f.kind, f.projecting, b, b, f.part},
+                 result);
+  }
+  for (const Crossing& c : job.crossings.of(object)) {
+    const bool projecting = geometry::cross(c.b - c.a, job.direction()) == Vec3l{};
+    solve_edge(job, solver,
+               {c.a - job.origin, c.b - job.origin, EdgeKind::intersection, projecting, c.body_a,
+                c.body_b, 0},
+               result);
   }
   return result;
 }

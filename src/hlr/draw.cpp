@@ -36,7 +36,7 @@ void count_objects(const Job& job, Drawing& drawing) {
 
 Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, const View& view,
                      const Options& options, const parallel::Context& context) {
-  const Result<Job> job = prepare(scene, drawn, view, options);
+  const Result<Job> job = prepare(scene, drawn, view, options, context);
   if (!job) return job.error();
   Drawing drawing;
   drawing.view = view;

@@ -19,6 +19,7 @@ using geometry::Box3l;
 using geometry::Vec3l;
 
 constexpr std::uint32_t kFewBodies = 16;
+constexpr std::uint32_t kNoBody = 0xffffffffU;
 // Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
 constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
 
@@ -33,30 +34,59 @@ class Gatherer {
   void run(const Item& item, std::vector<Piece>& out, Work& work) {
     body_ = item.body;
     own_ = &world_.placed[body_];
-    for (std::uint32_t i = item.first; i < item.last; ++i)
-      draw_edge(own_->view->edges[i], item.number + (i - item.first), out);
+    const auto crossings = job_.crossings.of(own_->object);
+    for (std::uint32_t i = item.first; i < item.last; ++i) {
+      if (item.crossings)
+        take(crossings[i]);
+      else
+        take(own_->view->edges[i]);
+      draw(item.number + (i - item.first), out);
+    }
     work = work_;
     work_ = {};
   }
 
  private:
-  void draw_edge(const EdgeView& e, std::uint32_t number, std::vector<Piece>& out) {
-    ++work_.edges;
+  void take(const EdgeView& e) {
     edge_ = &e;
+    other_ = own_;
+    kind_ = e.edge.kind;
+    projecting_ = e.edge.projecting;
+    contact_ = own_->contact;
     a_ = e.edge.a.as<std::int64_t>() + own_->offset;
     b_ = e.edge.b.as<std::int64_t>() + own_->offset;
+    va_ = e.a + own_->at;
+    vb_ = e.b + own_->at;
+  }
+
+  void take(const Crossing& c) {
+    edge_ = nullptr;
+    body_ = c.body_a;
+    own_ = &world_.placed[c.body_a];
+    other_ = &world_.placed[c.body_b];
+    kind_ = EdgeKind::intersection;
+    contact_ = std::max({own_->contact, other_->contact, kCrossingContact});
+    a_ = c.a - job_.origin;
+    b_ = c.b - job_.origin;
+    projecting_ = geometry::cross(b_ - a_, job_.direction()) == Vec3l{};
+    va_ = world_.frame(a_);
+    vb_ = world_.frame(b_);
+  }
+
+  void draw(std::uint32_t number, std::vector<Piece>& out) {
+    ++work_.edges;
     stretches_.clear();
     Param lo = Param::zero(), hi = Param::one();
-    const bool kept = !own_->cut || clip(lo, hi);
+    const bool kept = !(own_->cut || other_->cut) || clip(lo, hi);
     if (!kept)
       stretches_.push_back({Param::zero(), Param::one(), State::clipped});
-    else if (e.edge.projecting)
+    else if (projecting_)
       stretches_.push_back({Param::zero(), Param::one(), State::projecting});
     else
       decide(lo, hi);
     for (const Stretch& s : stretches_)
-      out.push_back(
-          {model::ObjectId{own_->object}, number, e.edge.kind, s.state, at(s.lo), at(s.hi)});
+      out.push_back({model::ObjectId{own_->object}, number, kind_, s.state,
+                     model::ObjectId{other_->object}, at(s.lo), at(s.hi)});
   }
 
   [[nodiscard]] Vec3l at(const Param& t) const {
@@ -91,11 +121,8 @@ class Gatherer {
   void decide(const Param& lo, const Param& hi) {
     hits_.clear();
     if (job_.options.stage != Stage::none) {
-      va_ = edge_->a + own_->at;
-      vb_ = edge_->b + own_->at;
       open_ = OpenRange(lo, hi);
-      const bool centre_line = edge_->edge.kind == EdgeKind::polyline;
-      if (!centre_line) gather_own_object();
+      if (kind_ != EdgeKind::polyline) gather_own_objects();
       if (!open_.empty() && job_.options.stage == Stage::global) gather_others();
     }
     if (lo.num > 0) stretches_.push_back({Param::zero(), lo, State::clipped});
@@ -108,13 +135,20 @@ class Gatherer {
 
   // Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
   // edge wholly, completely.
-  void gather_own_object() {
-    if (own_->opaque) gather_own_body();
+  void gather_own_objects() {
+    if (edge_ != nullptr && own_->opaque) gather_own_body();
+    gather_object(own_->object);
+    if (other_->object != own_->object) gather_object(other_->object);
+  }
+
+  // Its bodies, but for the one that has been gathered already.
+  void gather_object(std::uint32_t object) {
+    const std::uint32_t known = edge_ != nullptr ? body_ : kNoBody;
     const auto& first_body = job_.scene->first_body;
-    const std::uint32_t first = first_body[own_->object], last = first_body[own_->object + 1];
-    if (last - first == 1 || (job_.options.culling && open_.empty())) return;
+    const std::uint32_t first = first_body[object], last = first_body[object + 1];
+    if ((known != kNoBody && last - first == 1) || (job_.options.culling && open_.empty())) return;
     const auto consider = [&](std::uint32_t b) {
-      if (b == body_ || world_.placed[b].object != own_->object) return true;
+      if (b == known || world_.placed[b].object != object) return true;
       return gather_body(b, true);
     };
     if (last - first <= kFewBodies || !job_.options.culling) {
@@ -128,7 +162,8 @@ class Gatherer {
 
   void gather_others() {
     const auto consider = [&](std::uint32_t b) {
-      return world_.placed[b].object == own_->object || gather_body(b, false);
+      const std::uint32_t object = world_.placed[b].object;
+      return object == own_->object || object == other_->object || gather_body(b, false);
     };
     if (job_.options.culling) {
       refresh_segment();
@@ -158,7 +193,7 @@ class Gatherer {
     const Placed& other = world_.placed[b];
     if (!other.opaque) return true;
     const LocalEdge local = localized(other);
-    const std::int64_t contact = std::max(own_->contact, other.contact);
+    const std::int64_t contact = std::max(contact_, other.contact);
     for (const PartView& part : other.view->parts)
       if (!test_part(local, *other.view, part, contact, self)) return false;
     return true;
@@ -261,7 +296,11 @@ class Gatherer {
   // The edge in hand.
   std::uint32_t body_ = 0;
   const Placed* own_ = nullptr;
-  const EdgeView* edge_ = nullptr;
+  const Placed* other_ = nullptr;   ///< of a crossing the second body, otherwise own_
+  const EdgeView* edge_ = nullptr;  ///< null: a crossing
+  EdgeKind kind_ = EdgeKind::sharp;
+  bool projecting_ = false;
+  std::int64_t contact_ = 0;
   Vec3l a_, b_;
   ViewPoint va_, vb_;
   OpenRange open_;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "strake/geometry/grid.hpp"
 
@@ -111,7 +112,7 @@ Status place(Job& job) {
 }  // namespace
 
 Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, const View& view,
-                    const Options& options) {
+                    const Options& options, const parallel::Context& context) {
   if (const Status status = check(view, options); !status) return status.error();
   if (scene.model == nullptr)
     return Error{ErrorCode::internal, "the scene has no model", "view", ""};
@@ -127,6 +128,9 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
   fill_bodies(job);
   if (const Status status = place(job); !status) return status.error();
+  auto crossings = find_crossings(scene, job.drawn, job.contact, options.intersections, context);
+  if (!crossings) return crossings.error();
+  job.crossings = std::move(*crossings);
   return job;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "hlr/crossings.hpp"
 #include "hlr/feature_edges.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
@@ -29,6 +30,7 @@ struct Job {
   std::vector<bool> opaque;               ///< per body: drawn, and hides what lies behind it
   std::vector<std::int64_t> contact;      ///< per body: contact distance in grid units
   double contact_distance_mm = 0;         ///< the largest of them
+  Crossings crossings;
 
   [[nodiscard]] const geometry::Vec3l& direction() const { return features.direction; }
   [[nodiscard]] geometry::Vec3l offset(const model::GridBody& body) const {
@@ -36,9 +38,11 @@ struct Job {
   }
 };
 
-/// Checks view and options, fixes contact distances, reduces the direction and finds the origin.
+/// Checks view and options, fixes contact distances, reduces the direction, finds the origin and
+/// the intersections.
 [[nodiscard]] Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn,
-                                  const View& view, const Options& options);
+                                  const View& view, const Options& options,
+                                  const parallel::Context& context);
 
 /// The definition, taken literally: every edge against every triangle. `pieces` and the counters
 /// of a drawing whose header is filled.

@@ -74,14 +74,19 @@ void place_bodies(World& world) {
 void make_items(World& world) {
   const model::Scene& scene = *world.job.scene;
   std::uint32_t number = 0;
+  const auto add = [&](std::uint32_t body, std::size_t size, bool crossings) {
+    const auto edges = static_cast<std::uint32_t>(size);
+    for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
+      world.items.push_back(
+          {body, first, std::min(edges, first + kEdgesPerItem), number + first, crossings});
+    number += edges;
+  };
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     if (world.placed[b].view == nullptr) continue;
     const std::uint32_t object = world.placed[b].object;
     if (b == scene.first_body[object]) number = 0;
-    const auto edges = static_cast<std::uint32_t>(world.placed[b].view->edges.size());
-    for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
-      world.items.push_back({b, first, std::min(edges, first + kEdgesPerItem), number + first});
-    number += edges;
+    add(b, world.placed[b].view->edges.size(), false);
+    if (b + 1 == scene.first_body[object + 1]) add(b, world.job.crossings.of(object).size(), true);
   }
 }
 

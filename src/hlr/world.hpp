@@ -24,10 +24,12 @@ struct Placed {
   bool cut = false;     ///< by the limits
 };
 
-/// A run of edges of one body: the item of work.
+/// A run of edges of one body, or of the crossings that are drawn with its object: the item of
+/// work.
 struct Item {
   std::uint32_t body = 0, first = 0, last = 0;
   std::uint32_t number = 0;  ///< of its first edge within the object
+  bool crossings = false;
 };
 
 /// What the gathering works on.

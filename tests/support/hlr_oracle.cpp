@@ -39,6 +39,9 @@ struct Line {
   EdgeKind kind{};
   bool wire = false;
   std::size_t number = 0;
+  std::uint32_t other = 0;  ///< of an intersection the second object
+
+  [[nodiscard]] bool crosses() const { return kind == EdgeKind::intersection; }
 };
 
 struct Tile {
@@ -138,8 +141,9 @@ struct Moved {
 
 class Oracle {
  public:
-  Oracle(const model::Scene& scene, const hlr::View& view, const hlr::Options& options)
-      : scene_(scene), view_(view), options_(options), d_(vec(view.direction)) {
+  Oracle(const model::Scene& scene, const hlr::View& view, const hlr::Options& options,
+         const std::vector<Piece>& lines)
+      : scene_(scene), view_(view), options_(options), given_(lines), d_(vec(view.direction)) {
     contact_ = options.contact_distance_mm < 0
                    ? mpq_class(3)
                    : number(std::llround(options.contact_distance_mm * 1000));
@@ -161,6 +165,9 @@ class Oracle {
                PartLines(parts[p], body.origin, d_, options_.sharp_angle_deg).lines())
             draw_line(line, o, b, p);
       }
+      for (const Piece& p : given_)
+        if (model::index(p.object) == o)
+          draw_line({vec(p.a), vec(p.b), p.kind, false, 0, model::index(p.other)}, o, 0, 0);
     }
     return std::move(out_);
   }
@@ -198,11 +205,14 @@ class Oracle {
     return dot(tile.n, tile.v[0] - p) / dot(tile.n, d);
   }
 
-  mpq_class least_height(const Tile& tile, std::uint32_t body, std::uint32_t part) const {
-    if (tile.body == body && tile.part == part) return 0;
+  // An intersection is off the faces that it lies on by what its ends were rounded.
+  mpq_class least_height(const Tile& tile, const Line& e, std::uint32_t body,
+                         std::uint32_t part) const {
+    if (!e.crosses() && tile.body == body && tile.part == part) return 0;
     mpq_class size = 0;
     for (const mpq_class& x : tile.n) size += abs(x);
-    return contact_ * size / abs(dot(tile.n, d_));
+    const mpq_class contact = e.crosses() && contact_ < 1 ? mpq_class(1) : contact_;
+    return contact * size / abs(dot(tile.n, d_));
   }
 
   // Barycentric weights of the projection of p, moved by an infinitesimal along `sideways`.
@@ -240,7 +250,7 @@ class Oracle {
       for (std::size_t k = 0; k < 3; ++k)
         cut(result, e, cross(tile.v[(k + 1) % 3] - tile.v[k], d_), tile.v[k]);
       const mpq_class up = dot(tile.n, d_);
-      cut(result, e, tile.n, tile.v[0], -least_height(tile, body, part) * up);
+      cut(result, e, tile.n, tile.v[0], -least_height(tile, e, body, part) * up);
       if (view_.limits)
         for (std::size_t k = 0; k < 3; ++k) {
           // x_k of the hiding point is p_k + height * d_k: a plane in p.
@@ -262,12 +272,12 @@ class Oracle {
     const Vec left = cross(d_, e.b - e.a), right = mpq_class(-1) * left;
     bool self[2] = {false, false}, any[2] = {false, false};
     for (const Tile& tile : tiles_) {
-      const bool own = tile.object == object;
+      const bool own = tile.object == object || (e.crosses() && tile.object == e.other);
       if (own && e.wire) continue;
       if (!own && options_.stage == hlr::Stage::local) continue;
       if (any[0] && any[1] && (!own || (self[0] && self[1]))) continue;
       const mpq_class h = height(tile, p, d_);
-      if (h <= least_height(tile, body, part)) continue;
+      if (h <= least_height(tile, e, body, part)) continue;
       if (!inside_limits(p + h * d_)) continue;
       for (int side = 0; side < 2; ++side)
         if (covers(tile, p, side == 0 ? left : right)) {
@@ -311,12 +321,19 @@ class Oracle {
     }
     if (projecting) runs = {{0, 1, within ? State::projecting : State::clipped}};
     for (const auto& [lo, hi, state] : runs)
-      out_.push_back({model::ObjectId{object}, number, e.kind, state, point(lo), point(hi)});
+      out_.push_back({.object = model::ObjectId{object},
+                      .edge = number,
+                      .kind = e.kind,
+                      .state = state,
+                      .other = model::ObjectId{e.crosses() ? e.other : object},
+                      .a = point(lo),
+                      .b = point(hi)});
   }
 
   const model::Scene& scene_;
   const hlr::View& view_;
   const hlr::Options& options_;
+  const std::vector<Piece>& given_;
   Vec d_, low_, high_;
   mpq_class contact_;
   std::vector<Tile> tiles_;
@@ -335,8 +352,8 @@ std::string text_of(const Piece& p) {
 }  // namespace
 
 std::vector<Piece> oracle_pieces(const model::Scene& scene, const hlr::View& view,
-                                 const hlr::Options& options) {
-  return Oracle(scene, view, options).pieces();
+                                 const hlr::Options& options, const std::vector<Piece>& lines) {
+  return Oracle(scene, view, options, lines).pieces();
 }
 
 std::string text(const std::vector<Piece>& pieces) {

@@ -13,10 +13,12 @@
 namespace strake::test {
 
 /// What hlr::draw must give. The contact distance is options.contact_distance_mm, or 3 grid units
-/// where negative; every file's precision must be 0.
+/// where negative; every file's precision must be 0. `lines`: intersections from end to end, by
+/// object, as drawn with Stage::none; which these are is for another oracle to say.
 [[nodiscard]] std::vector<hlr::Piece> oracle_pieces(const model::Scene& scene,
                                                     const hlr::View& view,
-                                                    const hlr::Options& options);
+                                                    const hlr::Options& options,
+                                                    const std::vector<hlr::Piece>& lines = {});
 
 /// One line per piece, for messages.
 [[nodiscard]] std::string text(const std::vector<hlr::Piece>& pieces);

@@ -261,13 +261,14 @@ class Checker {
     return true;
   }
 
-  /// Nothing when the piece is too short to hold a point that is surely within it.
+  /// Nothing when the piece is too short to hold a point that is surely within it, and for
+  /// intersections, which are no edges of the model.
   [[nodiscard]] std::optional<bool> is_right(const hlr::Piece& piece, Random& random) {
     const Vec3l a = piece.a - origin_, b = piece.b - origin_;
     const int axis = longest_axis(b - a);
     const std::int64_t least = std::min(a[axis], b[axis]) + 1,
                        most = std::max(a[axis], b[axis]) - 1;
-    if (most <= least) return std::nullopt;
+    if (most <= least || piece.kind == hlr::EdgeKind::intersection) return std::nullopt;
     const std::uint32_t object = model::index(piece.object);
     const bool wire = piece.kind == hlr::EdgeKind::polyline;
     // Where parts of an object share an edge the piece may be either's.

@@ -45,6 +45,7 @@ struct Line {
   std::uint32_t edge = 0;
   hlr::EdgeKind kind = hlr::EdgeKind::sharp;
   LineState state = LineState::visible;
+  model::ObjectId other{};  ///< of an intersection the second object; otherwise the same again
   geometry::Vec3d a_mm, b_mm;
   PaperPoint a_paper, b_paper;  ///< multiples of a micrometre of paper
 };

@@ -16,7 +16,17 @@ namespace strake::hlr {
 enum class Stage : std::uint8_t { none, local, global };
 enum class Solver : std::uint8_t { gather, brute_force };
 
-enum class EdgeKind : std::uint8_t { sharp, contour, boundary, non_manifold, polyline };
+/// Whose skins' intersections are drawn: those of different objects, or of all parts.
+enum class Intersections : std::uint8_t { off, objects, parts };
+
+enum class EdgeKind : std::uint8_t {
+  sharp,
+  contour,
+  boundary,
+  non_manifold,
+  polyline,
+  intersection,  ///< where the skins of two parts pass through each other
+};
 enum class State : std::uint8_t {
   visible,
   hidden_by_self,
@@ -39,6 +49,7 @@ struct Options {
   double sharp_angle_deg = 20;
   /// Contact distance δ, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
+  Intersections intersections = Intersections::objects;
   bool culling = true;  ///< changes the work, never the answer
 };
 
@@ -48,6 +59,7 @@ struct Piece {
   std::uint32_t edge = 0;  ///< number of the feature edge within the run
   EdgeKind kind = EdgeKind::sharp;
   State state = State::visible;
+  model::ObjectId other{};  ///< of an intersection the second object; otherwise the same again
   geometry::Vec3l a, b;
 };
 

@@ -18,7 +18,8 @@ struct Case {
   double contact_mm = 0;
 };
 
-std::string run(const Case& c) {
+/// `crossings`: how many lines were intersections, added up.
+std::string run(const Case& c, std::size_t& crossings) {
   const test::LatticeOptions lattice{.objects = 2 + static_cast<std::uint32_t>(c.seed % 3),
                                      .unit = c.unit,
                                      .steps = 2 + static_cast<std::uint32_t>(c.seed % 2)};
@@ -27,10 +28,19 @@ std::string run(const Case& c) {
   const hlr::View view{.direction = test::direction_of(random.below(test::kDirections)),
                        .limits = test::random_limits(random, lattice)};
   hlr::Options options{.solver = hlr::Solver::brute_force, .contact_distance_mm = c.contact_mm};
+  options.intersections = static_cast<hlr::Intersections>(c.seed % 3);
   if (random.one_in(6)) options.stage = random.one_in(2) ? hlr::Stage::local : hlr::Stage::none;
   const auto drawing = hlr::draw(scene.scene(), {}, view, options, {});
   if (!drawing) return drawing.error().text();
-  return test::difference(test::oracle_pieces(scene.scene(), view, options), drawing->pieces);
+  options.stage = hlr::Stage::none;
+  const auto plain =
+      hlr::draw(scene.scene(), {}, {.direction = view.direction, .limits = {}}, options, {});
+  options.stage = drawing->options.stage;
+  std::vector<hlr::Piece> lines = plain->pieces;
+  std::erase_if(lines, [](const auto& p) { return p.kind != hlr::EdgeKind::intersection; });
+  crossings += lines.size();
+  return test::difference(test::oracle_pieces(scene.scene(), view, options, lines),
+                          drawing->pieces);
 }
 
 std::uint64_t count(std::uint64_t usual) {
@@ -39,18 +49,26 @@ std::uint64_t count(std::uint64_t usual) {
 }
 
 TEST(BruteForceAgainstOracle, TiesDoNotHideOnTheFinestLattice) {
+  std::size_t crossings = 0;
   for (std::uint64_t seed = 1; seed <= count(24); ++seed)
-    ASSERT_EQ(run({.seed = seed}), "") << "seed " << seed;
+    ASSERT_EQ(run({.seed = seed}, crossings), "") << "seed " << seed;
+  EXPECT_GT(crossings, 0U);
 }
 
 TEST(BruteForceAgainstOracle, ContactDistanceOnACoarseLattice) {
+  std::size_t crossings = 0;
   for (std::uint64_t seed = 1; seed <= count(12); ++seed)
-    ASSERT_EQ(run({.seed = seed, .unit = 1000, .contact_mm = -1}), "") << "seed " << seed;
+    ASSERT_EQ(run({.seed = seed, .unit = 1000, .contact_mm = -1}, crossings), "")
+        << "seed " << seed;
+  EXPECT_GT(crossings, 0U);
 }
 
 TEST(BruteForceAgainstOracle, ContactDistanceOfTheLatticesOwnSize) {
+  std::size_t crossings = 0;
   for (std::uint64_t seed = 1; seed <= count(12); ++seed)
-    ASSERT_EQ(run({.seed = seed, .unit = 6, .contact_mm = 0.003}), "") << "seed " << seed;
+    ASSERT_EQ(run({.seed = seed, .unit = 6, .contact_mm = 0.003}, crossings), "")
+        << "seed " << seed;
+  EXPECT_GT(crossings, 0U);
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ model::Model two_objects() {
 
 hlr::Piece piece(std::uint32_t object, Vec3l a, Vec3l b, State state = State::visible,
                  EdgeKind kind = EdgeKind::sharp, std::uint32_t edge = 0) {
-  return {static_cast<model::ObjectId>(object), edge, kind, state, a, b};
+  const model::ObjectId own{object};
+  return {own, edge, kind, state, own, a, b};
 }
 
 hlr::Drawing from_top(std::vector<hlr::Piece> pieces) {

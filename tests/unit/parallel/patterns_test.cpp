@@ -6,12 +6,14 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <random>
 #include <string>
 #include <thread>
 
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/distinct.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/heavy.hpp"
 #include "strake/parallel/order.hpp"
@@ -275,6 +277,35 @@ TEST(Shape2, products_do_not_overflow) {
       EXPECT_EQ(kSmall.index(flat), (Shape2::Index{row, column}));
       EXPECT_EQ(kSmall.flat({row, column}), flat);
     }
+}
+
+TEST(Distinct, NumbersKindsByTheirFirstItemsForAnyTeam) {
+  constexpr std::size_t kMany = 50'000;
+  const auto key = [](std::size_t i) { return (i * i) % 7919; };
+  std::map<std::size_t, std::uint32_t> known;
+  Distinct expected;
+  for (std::size_t i = 0; i < kMany; ++i) {
+    const auto next = static_cast<std::uint32_t>(known.size());
+    const auto [place, is_new] = known.try_emplace(key(i), next);
+    if (is_new) expected.first.push_back(static_cast<std::uint32_t>(i));
+    expected.of.push_back(place->second);
+  }
+  const auto same = [&](std::size_t i, std::size_t j) { return key(i) == key(j); };
+  for (const unsigned workers : {1U, 2U, 3U, 8U, 64U}) {
+    Team team(workers);
+    const Context context{.team = &team, .stop = {}};
+    // A good hash, and one that puts very different items side by side.
+    for (const std::uint64_t mask : {~std::uint64_t{0}, std::uint64_t{7} << 58U}) {
+      const auto kinds = distinct(
+          context, "kinds", kMany, [&](std::size_t i) { return mixed(0, key(i)) & mask; }, same);
+      ASSERT_TRUE(kinds);
+      EXPECT_EQ(kinds->of, expected.of);
+      EXPECT_EQ(kinds->first, expected.first);
+    }
+  }
+  const auto none = distinct({}, "none", 0, [](std::size_t) { return std::uint64_t{0}; }, same);
+  ASSERT_TRUE(none);
+  EXPECT_TRUE(none->of.empty() && none->first.empty());
 }
 
 }  // namespace
