@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -113,12 +114,32 @@ Status write_report(Session& session, const ClashOptions& given,
       contents, {.width = terminal_width(), .sort = sort_by(given.result.sort)}));
 }
 
-bool fails(const clash::Report& report, const std::string& fail_on) {
-  if (fail_on == "hit") return report.count_hit > 0;
-  if (fail_on == "contact") return report.count_hit + report.count_contact > 0;
-  if (fail_on == "clearance_violation")
-    return report.count_hit + report.count_contact + report.count_clearance > 0;
-  return false;
+/// The least severe class that --fail-on names; NO_HIT: it is not given.
+clash::Class failing_class(const std::string& fail_on) {
+  if (fail_on == "hit") return clash::Class::hit;
+  if (fail_on == "contact") return clash::Class::contact;
+  return fail_on.empty() ? clash::Class::no_hit : clash::Class::clearance_violation;
+}
+
+/// Whether a result is, or may be as far as its brackets tell, of the class that --fail-on names or
+/// a worse one; says how many only may be.
+bool fails(const clash::Findings& findings, const std::string& fail_on, Console& console) {
+  const clash::Class worst = failing_class(fail_on);
+  if (worst == clash::Class::no_hit) return false;
+  std::uint64_t surely = 0, perhaps = 0;
+  for (const clash::Report& test : findings.tests)
+    for (const clash::Pair& pair : test.pairs) {
+      if (pair.allowed < 0 && pair.cls >= worst)
+        ++surely;
+      else if (pair.severest >= worst)
+        ++perhaps;
+    }
+  if (perhaps > 0)
+    console.say(
+        fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "
+                    "besides {} that are",
+                    fail_on, perhaps, surely));
+  return surely + perhaps > 0;
 }
 
 /// What is to be done, understood before a model is read.
@@ -243,8 +264,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
                         source ? &*source : nullptr, &loading});
       !status)
     return status.error();
-  for (const clash::Report& test : findings->tests)
-    if (fails(test, given.fail_on)) return ExitCode::clashes;
+  if (fails(*findings, given.fail_on, session.console())) return ExitCode::clashes;
   if (given.input.strict && diagnostics.skipped() > 0) return ExitCode::partial;
   return outcome(given.input, *loaded);
 }
@@ -286,7 +306,7 @@ void add_rules(CLI::App& command, ClashOptions& options) {
                 "drawn, but never clash)")
       ->group("Rules");
   add_choice(command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},
-             "Exit code 1 where a pair is of this class or worse")
+             "Exit code 1 where a pair is of this class or worse, or may be (flag UNCERTAIN)")
       ->group("Rules");
 }
 

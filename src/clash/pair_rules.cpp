@@ -287,6 +287,8 @@ void PairRules::allow(const PartRef& a, const PartRef& b,
   if (is_as_deep_as_allowed(rule, pair)) pair.flags |= kBorderline;
   if (!holds_all(rule, extent_mm.value_or(common_box_mm(a, b, own_reach(a, b)))))
     pair.flags |= kUncertain;
+  else if (rule.max_depth_mm || pair.severest != Class::hit)
+    pair.severest = Class::no_hit;  // without a depth it allows the class of d, but no HIT
 }
 
 void PairRules::open(const Sets& sets, Report& report) const {

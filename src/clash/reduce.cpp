@@ -95,11 +95,10 @@ void widen_bracket(Pair& pair, const std::vector<Answer>& peers) {
   pair.d_upper_mm = std::max(pair.d_mm, pair.d_upper_mm);
 }
 
-/// What the brackets of the answers permit, where no rule allows it.
+/// What the brackets of the answers permit where no rule allows it, Pair::severest of them all.
 Class severest_open(const std::vector<Answer>& answers) {
   Class severest = Class::no_hit;
-  for (const Answer& answer : answers)
-    if (answer.pair.allowed < 0) severest = std::max(severest, answer.of_parts->judgement.severest);
+  for (const Answer& answer : answers) severest = std::max(severest, answer.pair.severest);
   return severest;
 }
 
@@ -130,6 +129,7 @@ Pair join(const PartFindings& findings, std::size_t first) {
   // Other parts of the two may turn out worse than the deciding ones.
   const Class known = pair.allowed < 0 ? pair.cls : Class::no_hit;
   if (severest > known) pair.flags |= kUncertain;
+  pair.severest = severest;
   pair.first_region = static_cast<std::uint32_t>(first);
   return pair;
 }
@@ -162,6 +162,7 @@ Pair PartFindings::pair(std::size_t i) const {
   pair.a = model::ObjectId{x.object};
   pair.b = model::ObjectId{y.object};
   pair.cls = answer.judgement.cls;
+  pair.severest = answer.judgement.severest;
   pair.relation = answer.relation;
   pair.flags = answer.judgement.flags;
   pair.d_mm = s.d / geometry::kGridPerMm;

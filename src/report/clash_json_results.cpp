@@ -148,6 +148,11 @@ void append_result(std::string& out, const ClashContents& contents, std::size_t 
     out += ", \"allowed\": ";
     append_json(out, report.allowed[static_cast<std::size_t>(p.allowed)].rule);
   }
+  if (p.severest > (p.allowed < 0 ? p.cls : clash::Class::no_hit)) {
+    out += ", \"may_be\": \"";
+    out += name(p.severest);
+    out += '"';
+  }
   out += ", \"relation\": \"";
   out += name(p.relation);
   out += '"';

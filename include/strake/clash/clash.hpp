@@ -121,6 +121,9 @@ struct Pair {
   Level level_a = Level::hard, level_b = Level::hard;  ///< of the deciding parts
   /// The rule that allows this result, an index into Report::allowed; negative: none.
   std::int32_t allowed = -1;
+  /// The severest class that brackets allow where no rule allows it, its own where no rule allows
+  /// that: more than cls only with kUncertain. NO_HIT: whatever the two turn out to be is allowed.
+  Class severest = Class::no_hit;
   /// Where asked for: the number of separate places, 0 where there is too much to tell them apart.
   /// Of several, as many as asked for are listed from Report::regions[first_region] on.
   std::uint32_t regions = 0, first_region = 0;

@@ -116,6 +116,24 @@ class Clash(Scenario):
         self.assertEqual(self.run_strake(*far, 'contact').returncode, 0)
         self.assertEqual(self.run_strake(*far, 'clearance_violation').returncode, 1)
 
+    def test_fail_on_counts_what_may_be_as_bad(self):
+        # 2 mm apart; with one sphere the baseline cannot tell how far, nor whether at all.
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (102, 0, 0), 100))
+        run = ['clash', 'a.obj', *self.SETTINGS, '--clearance', '3mm', '--narrow-phase', 'sphere-subdivision',
+               '--most-spheres', 1, '--json']
+        done = self.run_strake(*run)
+        (result,) = json.loads(done.stdout)['results']
+        self.assertEqual((done.returncode, result['class'], result['may_be']), (0, 'CONTACT', 'HIT'))
+        self.assertEqual(result['flags'], ['UNCERTAIN'])
+        done = self.run_strake(*run, '--fail-on', 'hit')
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('--fail-on hit: 1 that may be as bad', done.stderr)
+        done = self.run_strake(*run, '--fail-on', 'contact')
+        self.assertEqual((done.returncode, 'may be' in done.stderr), (1, False))
+        # Where it is told exactly nothing is left to doubt.
+        exactly = [*run[:6], '--clearance', '3mm', '--fail-on', 'contact']
+        self.assertEqual(self.run_strake(*exactly).returncode, 0)
+
 
     def test_groups_say_which_options_belong_together(self):
         self.two_files()

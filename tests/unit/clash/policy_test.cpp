@@ -493,6 +493,8 @@ TEST(ClashPolicy, PartsThatMayMeetBeyondWhatIsAllowedAreUncertain) {
     limit(policy.allowed[0]);
     const Report report = report_of(m, {{}, {}, policy});
     EXPECT_EQ(report.pairs[0].allowed, 0);
+    const bool beyond = (report.pairs[0].flags & kUncertain) != 0;
+    EXPECT_EQ(report.pairs[0].severest, beyond ? Class::hit : Class::no_hit);
     return report.pairs[0].flags;
   };
   EXPECT_EQ(flags([](Allowed&) {}), 0);

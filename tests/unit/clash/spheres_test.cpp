@@ -73,6 +73,7 @@ TEST(SphereSubdivision, GivesUpWithAFlagAndNeverInSilence) {
   const Report report = m.detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_NE(report.pairs[0].flags & kUncertain, 0);
+  EXPECT_EQ(report.pairs[0].severest, Class::hit) << "it has not looked into them";
   EXPECT_LE(report.pairs[0].d_lower_mm, 2);
   EXPECT_GE(report.pairs[0].d_upper_mm, 2);
   EXPECT_EQ(m.detect({.clearance_mm = 3}).pairs.at(0).d_mm, 2);
