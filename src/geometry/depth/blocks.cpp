@@ -50,6 +50,9 @@ using Faces = std::vector<const Face*>;
 
 class PartInFrame {
  public:
+  /// How far beyond a face, in slacks, it is clear of it.
+  static constexpr double kClear = 4;
+
   PartInFrame(const DepthField& field, const Axes& axes, double slack)
       : field_(field), axes_(axes), slack_(slack) {
     const std::size_t n = field.part().triangles.size();
@@ -92,6 +95,13 @@ class PartInFrame {
 
   [[nodiscard]] Vec3d common(const Vec3d& p) const {
     return axes_[0] * p.x + axes_[1] * p.y + axes_[2] * p.z;
+  }
+
+  /// No skin in a box, whose middle is outside.
+  [[nodiscard]] bool is_outside(const Box3d& box, PairWork& work) const {
+    return std::none_of(faces_.begin(), faces_.end(),
+                        [&](const Face& f) { return meets(f, box); }) &&
+           !contains((box.lo + box.hi) * 0.5, work);
   }
 
   /// The depth of any point of a box that is in the part is no more than its height below the
@@ -162,18 +172,6 @@ class PartInFrame {
     return std::nullopt;
   }
 
-  /// No skin in a box, whose middle is outside.
-  [[nodiscard]] bool is_outside(const Box3d& box, PairWork& work) const {
-    return std::none_of(faces_.begin(), faces_.end(),
-                        [&](const Face& f) { return meets(f, box); }) &&
-           !contains((box.lo + box.hi) * 0.5, work);
-  }
-
- public:
-  /// How far beyond a face, in slacks, it is clear of it.
-  static constexpr double kClear = 4;
-
- private:
   const DepthField& field_;
   const Axes& axes_;
   double slack_;
@@ -217,7 +215,7 @@ class Cutter {
     }
     const Cut best = best_cut(box, near);
     if (best.axis < 0 || blocks_.size() >= kMostBlocks) {
-      keep(box);
+      keep(box, near);
       return;
     }
     Box3d below = box, above = box;
@@ -244,24 +242,96 @@ class Cutter {
     return best;
   }
 
-  /// Any point of the block is within `way` of one of the core.
-  void keep(const Box3d& box) {
-    Box3d core = box;
+  /// What is left of a block without a little at its sides.
+  struct Core {
+    Box3d box;
+    double way = 0;  ///< any point of the block is within this of the core
+  };
+
+  /// `inset`: from the low and the high sides.
+  [[nodiscard]] Core core_of(const Box3d& box, const std::array<Vec3d, 2>& inset) const {
+    Core core{box, 0};
     double squared = 0;
     for (int k = 0; k < 3; ++k) {
-      const double inset = std::min(inset_, (box.hi[k] - box.lo[k]) / 2);
-      core.lo[k] += inset;
-      core.hi[k] -= inset;
-      squared += inset * inset;
+      const double half = (box.hi[k] - box.lo[k]) / 2;
+      const double lo = std::min(inset[0][k], half), hi = std::min(inset[1][k], half);
+      core.box.lo[k] += lo;
+      core.box.hi[k] -= hi;
+      squared += std::max(lo, hi) * std::max(lo, hi);
     }
-    const double way = std::sqrt(squared) + clear_;
+    core.way = std::sqrt(squared) + clear_;
+    return core;
+  }
+
+  void keep(const Box3d& box, const std::array<Faces, 2>& near) {
     Block block{box, {}, {}};
+    const Vec3d little{inset_, inset_, inset_};
+    const Core core = core_of(box, {little, little});
+    const Core free = core_of(box, beyond_faces(box, near));
+    if (is_outside(core.box))
+      add_rim(block, core);
+    else if (is_outside(free.box))
+      add_rim(block, free);
+    else
+      add(block, core.box, core.way);
+    blocks_.push_back(block);
+  }
+
+  /// How far from its sides a box is clear of the faces that lie along them, too near to be cut
+  /// along: those of a body that fits another.
+  [[nodiscard]] std::array<Vec3d, 2> beyond_faces(const Box3d& box,
+                                                  const std::array<Faces, 2>& near) const {
+    const Vec3d little{inset_, inset_, inset_};
+    std::array<Vec3d, 2> inset{little, little};
+    for (const Faces& faces : near)
+      for (const Face* f : faces) {
+        if (f->axis < 0) continue;
+        const int k = f->axis;
+        const double lo = f->box.hi[k] + clear_ - box.lo[k];
+        const double hi = box.hi[k] + clear_ - f->box.lo[k];
+        if (lo < kThinnest) inset[0][k] = std::max(inset[0][k], lo);
+        if (hi < kThinnest) inset[1][k] = std::max(inset[1][k], hi);
+      }
+    return inset;
+  }
+
+  /// Whether nothing in a box is in both parts.
+  [[nodiscard]] bool is_outside(const Box3d& box) const {
+    return parts_[0].is_outside(box, work_) || parts_[1].is_outside(box, work_);
+  }
+
+  /// Raises the bounds of a block to those of what lies within `way` of a box.
+  void add(Block& block, const Box3d& core, double way) const {
     for (std::size_t i = 0; i < 2; ++i) {
-      Vec3d deepest;
-      block.upper[i] = parts_[i].bound(core, deepest, work_) + way;
+      Vec3d deepest = (core.lo + core.hi) * 0.5;
+      double upper = way;
+      if (!parts_[i].is_outside(core, work_)) upper += parts_[i].bound(core, deepest, work_);
+      if (upper <= block.upper[i]) continue;
+      block.upper[i] = upper;
       block.promise[i] = parts_[i].common(deepest);
     }
-    blocks_.push_back(block);
+  }
+
+  /// All that is common is round an empty core, as where a body fills a channel: of the faces,
+  /// edges and corners of the core, only those count that something common lies at.
+  void add_rim(Block& block, const Core& core) const {
+    constexpr int kPieces = 27, kMiddle = 13;
+    for (int i = 0; i < kPieces; ++i) {
+      if (i == kMiddle) continue;
+      Box3d piece = core.box, side = core.box;
+      const std::array<int, 3> where{i % 3, i / 3 % 3, i / 9};
+      for (int k = 0; k < 3; ++k) {
+        const int at = where[static_cast<std::size_t>(k)];
+        if (at == 0) {
+          piece.lo[k] = block.box.lo[k];
+          piece.hi[k] = side.hi[k] = core.box.lo[k];
+        } else if (at == 2) {
+          piece.lo[k] = side.lo[k] = core.box.hi[k];
+          piece.hi[k] = block.box.hi[k];
+        }
+      }
+      if (!is_outside(piece)) add(block, side, core.way);
+    }
   }
 
   std::array<PartInFrame, 2> parts_;

@@ -5,13 +5,12 @@
 #include <vector>
 
 #include "geometry/depth/depth_field.hpp"
+#include "geometry/depth/search_frame.hpp"
 
 namespace strake::geometry {
 
 /// How far, grid units, a common box may stand off the parts that it holds.
 inline constexpr double kStandOff = 1;
-
-using Axes = std::array<Vec3d, 3>;  ///< orthonormal
 
 /// A box of space in the coordinates of a frame, relative to the common origin.
 struct Block {

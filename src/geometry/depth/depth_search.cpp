@@ -7,75 +7,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "geometry/depth/blocks.hpp"
+#include "geometry/depth/search_frame.hpp"
 #include "geometry/depth/simplex.hpp"
 #include "geometry/range.hpp"
 
 namespace strake::geometry {
 namespace {
-
-struct Facing {
-  Vec3d normal;     ///< unit
-  double size = 0;  ///< twice the area
-};
-Facing facing_of(const Part& part, std::uint32_t triangle) {
-  const Vec3d n = normal_of(corners_of(part, triangle));
-  const double size = length(n);
-  return size > 0 ? Facing{n * (1 / size), size} : Facing{};
-}
-
-/// The normal of the largest face of those that a test picks by their normals; none where the part
-/// has too many to look at.
-template <class Test>
-std::optional<Vec3d> largest_facing(const Part& part, const Test& picks) {
-  constexpr std::size_t kMostTriangles = 256;
-  Facing best;
-  if (part.triangles.size() <= kMostTriangles)
-    for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
-      const Facing f = facing_of(part, t);
-      // Of equal ones the same, in whatever order they are.
-      const auto rank = [](const Facing& x) {
-        return std::tuple(x.size, x.normal.x, x.normal.y, x.normal.z);
-      };
-      if (f.size > 0 && rank(f) > rank(best) && picks(f.normal)) best = f;
-    }
-  return best.size > 0 ? std::optional(best.normal) : std::nullopt;
-}
-
-Vec3d longest_edge(const Corners& c) {
-  Vec3d edge = c[1] - c[0];
-  for (std::size_t i = 1; i < 3; ++i) {
-    const Vec3d e = c[(i + 1) % 3] - c[i];
-    if (dot(e, e) > dot(edge, edge)) edge = e;
-  }
-  return edge;
-}
-
-/// An orthonormal frame along a triangle's normal and a face square to it: what meets there is flat
-/// in this frame even when the model stands askew.
-Axes frame_of(const Part& part, std::uint32_t triangle) {
-  const Axes world{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-  if (triangle >= part.triangles.size()) return world;
-  constexpr double kSquare = 1e-3;
-  const Vec3d own = facing_of(part, triangle).normal;
-  // Of the faces along the triangle the largest is the truest.
-  const auto parallel = [&](const Vec3d& n) { return length(cross(n, own)) < kSquare; };
-  const Vec3d z = largest_facing(part, parallel).value_or(own);
-  const auto square = [&](const Vec3d& n) { return std::fabs(dot(n, z)) < kSquare; };
-  const Vec3d flat =
-      largest_facing(part, square).value_or(longest_edge(corners_of(part, triangle)));
-  const Vec3d x = flat - z * dot(flat, z);
-  const double size = length(x);
-  if (!(size > 0) || !(length(z) > 0)) return world;
-  const Vec3d unit = x * (1 / size);
-  return {unit, cross(z, unit), z};
-}
 
 Range range_along(const DepthField& f, const Vec3d& axis) {
   if (f.has_many_vertices()) {
@@ -139,7 +82,7 @@ class Search {
         goal_(goal),
         depth_(depth),
         work_(work),
-        axes_(frame_of(a.part(), goal.triangle_a)) {}
+        axes_(search_frame(a.part(), goal.triangle_a, b.part())) {}
 
   void run() {
     const double ceiling = depth_.upper;
