@@ -163,6 +163,7 @@ class Engine {
     if (!widest) return widest.error();
     report.contact_distance_mm = *widest / geometry::kGridPerMm;
     describe_sets(report);
+    note_sheets(list_, report);
     if (const Status s = note_unknown_sag(list_, *scene_.model, context_, report.diagnostics); !s)
       return s.error();
     return options_.log_pairs ? log_pairs(judged(), objects_, rules_, context_, report) : Status{};

@@ -52,6 +52,15 @@ Status note_not_compared(const Judged& judged, const model::Scene& scene,
   return {};
 }
 
+void note_sheets(const PartList& list, Report& report) {
+  constexpr std::uint8_t kMost = 255;
+  report.sheets.assign(report.in_a.size(), 0);
+  for (const PartRef& part : list.parts)
+    if (std::uint8_t& sheets = report.sheets[part.object];
+        part.placed.part->kind == geometry::PartKind::sheet && sheets < kMost)
+      ++sheets;
+}
+
 Status note_unknown_sag(const PartList& list, const model::Model& model,
                         const parallel::Context& context, Diagnostics& diagnostics) {
   using Unknown = std::vector<std::uint8_t>;

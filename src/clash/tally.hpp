@@ -12,6 +12,9 @@ namespace strake::clash {
 [[nodiscard]] Status note_not_compared(const Judged& judged, const model::Scene& scene,
                                        const parallel::Context& context, Report& report);
 
+/// Report::sheets.
+void note_sheets(const PartList& list, Report& report);
+
 /// "unknown-sag", once per file.
 [[nodiscard]] Status note_unknown_sag(const PartList& list, const model::Model& model,
                                       const parallel::Context& context, Diagnostics& diagnostics);

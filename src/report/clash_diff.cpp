@@ -67,6 +67,10 @@ class Looks {
     for (const Side* s : {&a, &b})
       if (const std::string* why = lacks(*s, *here))
         return named(s->object) + " could not be compared whole (" + *why + ")";
+    for (const Side* s : {&a, &b})
+      if (sheets(run_, s->element) > sheets(other_run, s->element))
+        return named(s->object) +
+               " has surfaces that enclose nothing beyond those of the other run";
     if (const std::string* why = listed(run_.not_compared, r))
       return "the pair could not be compared (" + *why + ")";
     if (const std::string* rule = listed(run_.exempted, r)) return "exempted by " + *rule;
@@ -98,6 +102,14 @@ class Looks {
                                           const DocumentResult& r) const {
     const auto at = std::ranges::lower_bound(list, r.key, {}, &DocumentExempted::key);
     return at != list.end() && at->key == r.key ? &run_.rules[at->rule] : nullptr;
+  }
+
+  /// How many parts of an element enclose nothing, so that what lies within them is not found; 0
+  /// where the run does not say.
+  [[nodiscard]] static int sheets(const ClashDocument& run, std::uint64_t element) {
+    const auto at = std::ranges::lower_bound(run.elements, element);
+    const bool there = at != run.elements.end() && *at == element && !run.sheets.empty();
+    return there ? run.sheets[static_cast<std::size_t>(at - run.elements.begin())] : 0;
   }
 
   [[nodiscard]] Side side(const DocumentObject& object, const DocumentTest& here) const {

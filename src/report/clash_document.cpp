@@ -46,6 +46,7 @@ class Reader {
           std::pair("results", has_results_), std::pair("hash", has_hash_)})
       if (!there) throw lacks("the document", key);
     document_.elements = read_elements(*elements_);
+    if (sheets_) document_.sheets = read_sheets(*sheets_, document_.elements.size());
     document_.tests = read_tests(*tests_, document_.elements.size());
     results();
     count_exempted();
@@ -61,9 +62,9 @@ class Reader {
   };
 
   void section(std::string_view key) {
-    constexpr std::array<std::string_view, 8> kKnown{"schema_version", "elements",    "tests",
-                                                     "hash",           "rules",       "results",
-                                                     "exempted",       "not_compared"};
+    constexpr std::array<std::string_view, 9> kKnown{"schema_version", "elements", "sheets",
+                                                     "tests",          "hash",     "rules",
+                                                     "results",        "exempted", "not_compared"};
     const auto known = static_cast<std::size_t>(std::ranges::find(kKnown, key) - kKnown.begin());
     if (known < kKnown.size() && std::exchange(there_[known], true))
       throw contradicts("the document", "has \"" + std::string(key) + "\" twice");
@@ -71,6 +72,8 @@ class Reader {
       version();
     else if (key == "elements")
       elements_ = text("elements");
+    else if (key == "sheets")
+      sheets_ = text("sheets");
     else if (key == "tests")
       json_.copy(tests_.emplace());
     else if (key == "hash")
@@ -208,9 +211,9 @@ class Reader {
   JsonReader json_;
   EntryReader entries_;
   ClashDocument& document_;
-  std::optional<std::string> elements_, tests_;
+  std::optional<std::string> elements_, sheets_, tests_;
   std::vector<Listed> exempted_, pairs_not_compared_, lacking_;
-  std::array<bool, 8> there_{};  ///< sections met
+  std::array<bool, 9> there_{};  ///< sections met
   bool has_version_ = false, has_results_ = false, has_hash_ = false;
 };
 

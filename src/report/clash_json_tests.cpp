@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/clash_json_tests.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "report/elements.hpp"
 #include "report/json_fields.hpp"
 #include "report/text.hpp"
@@ -97,6 +102,16 @@ void tested(std::string& out, const Report& report, const Elements& elements) {
   out += report.within_files ? "true}" : "false}";
 }
 
+/// What Report::sheets of any test says of each object: each knows those of its own sets.
+std::vector<std::uint8_t> sheets(const clash::Findings& findings) {
+  std::vector<std::uint8_t> all;
+  for (const Report& test : findings.tests) {
+    all.resize(std::max(all.size(), test.sheets.size()), 0);
+    for (std::size_t o = 0; o < test.sheets.size(); ++o) all[o] = std::max(all[o], test.sheets[o]);
+  }
+  return all;
+}
+
 void test(std::string& out, const Report& report, const Elements& elements) {
   out += "{\"name\": ";
   append_json(out, report.name);
@@ -128,6 +143,8 @@ void append_tests(std::string& out, const clash::Findings& findings, const model
   const Elements elements(model);
   out += "\"elements\": \"";
   elements.append_list(out);
+  out += "\",\n\"sheets\": \"";
+  elements.append_bytes(out, sheets(findings));
   out += "\",\n";
   append_list(
       out, "tests", findings.tests, [&](const Report& report) { test(out, report, elements); },

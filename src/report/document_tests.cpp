@@ -111,6 +111,13 @@ std::vector<std::uint64_t> read_elements(std::string_view base64) {
   return elements;
 }
 
+std::vector<std::uint8_t> read_sheets(std::string_view base64, std::size_t elements) {
+  std::vector<std::uint8_t> sheets = bytes(base64, "sheets", "the document");
+  if (sheets.size() != elements)
+    throw DocumentFault{"the document", "\"sheets\" does not go with \"elements\""};
+  return sheets;
+}
+
 std::vector<DocumentTest> read_tests(std::string_view json, std::size_t elements) {
   try {
     const Json list = Json::parse(json);

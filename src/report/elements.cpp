@@ -35,4 +35,12 @@ void Elements::append_members(std::string& out, const std::vector<bool>& member)
   append_base64(out, bytes);
 }
 
+void Elements::append_bytes(std::string& out, const std::vector<std::uint8_t>& of_object) const {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(elements_.size());
+  for (const Element& e : elements_)
+    bytes.push_back(e.object < of_object.size() ? of_object[e.object] : std::uint8_t{0});
+  append_base64(out, bytes);
+}
+
 }  // namespace strake::report

@@ -19,6 +19,8 @@ class Elements {
   void append_list(std::string& out) const;
   /// A bit for each of them in that order, the lowest of a byte first, as base64.
   void append_members(std::string& out, const std::vector<bool>& member) const;
+  /// A byte for each of them in that order, as base64; 0 beyond the end of `of_object`.
+  void append_bytes(std::string& out, const std::vector<std::uint8_t>& of_object) const;
 
  private:
   struct Element {

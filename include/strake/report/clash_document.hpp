@@ -82,6 +82,8 @@ struct ClashDocument {
   DocumentRules made_by;
   std::vector<DocumentTest> tests;
   std::vector<std::uint64_t> elements;  ///< ascending
+  /// Of each of them: how many of its parts have no inside; empty: the run did not say.
+  std::vector<std::uint8_t> sheets;
   std::vector<DocumentObject> objects;  ///< those that are named, each once
   /// Names of rules, and codes of why something was not compared; the first, empty, stands for
   /// none.

@@ -128,6 +128,34 @@ class ClashDiff(Scenario):
         self.assertEqual(new['not_compared'], [{'test': 0, 'code': 'object-skipped',
                                                 'a': {'id': 'C', 'name': 'C', 'file': 'm.obj'}}])
 
+    def test_what_lay_in_a_solid_that_has_come_open_is_not_gone(self):
+        """A surface has no inside: that nothing is found within it says nothing."""
+        self.write_box('m.obj', [('A', (0, 0, 0), (100, 100, 100)), ('B', (20, 20, 20), (80, 80, 80))])
+        whole = (self.folder / 'm.obj').read_text()
+        lacking = whole.replace('f 5 6 8 7\n', 'f 5 6 8\n', 1)
+        self.assertNotEqual(whole, lacking)
+
+        def run(text, name):
+            self.write('m.obj', text)
+            self.assertEqual(self.run_strake('clash', 'm.obj', '--unit', 'mm', '-o', name).returncode, 0)
+
+        run(whole, 'old.json')
+        run(lacking, 'new.json')
+        told = self.diff('--fail-on', 'cannot-tell', exit_code=1)
+        self.assertEqual([e['why'] for e in told['cannot_tell']],
+                         ["'A' of m.obj has surfaces that enclose nothing beyond those of the other run"])
+        self.assertEqual(told['gone'], [])
+        # The other way round it is new, but perhaps not by what was moved.
+        run(lacking, 'old.json')
+        run(whole, 'new.json')
+        self.assertEqual([e['why'] for e in self.diff()['added']],
+                         ["'A' of m.obj has surfaces that enclose nothing beyond those of the other run"])
+        # As open as before: what is moved out of it is gone.
+        run(lacking.replace('v 20 ', 'v -10 '), 'old.json')
+        self.assertEqual(len(json.loads((self.folder / 'old.json').read_text())['results']), 1)
+        run(lacking, 'new.json')
+        self.assertEqual(self.diff()['counts']['gone'], 1)
+
     def test_a_result_that_was_edited_is_refused(self):
         """Shortened lists with the counts kept, and whatever else no run writes: neither side may be it."""
         self.write('m.obj', ''.join(cube(f'c{n}', n, (90 * n, 0, 0), 100) for n in range(4)))
