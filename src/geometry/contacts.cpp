@@ -42,11 +42,18 @@ class ContactWalk {
 
   bool settle_by_heights(PairWork& work);
   WalkEnd go_on(DualWalk& walk, std::uint64_t most);
+  void finish(DualWalk& walk, std::uint64_t walked, PairWork& work);
+  bool walk_aligned(PairWork& work);
   void share(DualWalk& walk, const PairWork& work);
+  template <class Entry, class Run>
+  void share_out(const std::vector<Entry>& pieces, const PairWork& work, const Run& run);
   void take(const ContactWalk& piece);
   bool near(const PartTree::Node& na, const PartTree::Node& nb);
   // These tell whether to go on.
   bool leaves(const PartTree::Node& na, const PartTree::Node& nb);
+  bool judge_pair(std::uint32_t ta, std::uint32_t tb);
+  bool judge_pair(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a,
+                  const ExactTriangle& b);
   bool found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a, const ExactTriangle& b,
              const TriangleContact& c);
 
@@ -72,12 +79,45 @@ class ContactWalk {
 Contacts ContactWalk::run(PairWork& work) {
   DualWalk walk(a_.tree(), b_.tree());
   walk.start();
-  const std::uint64_t alone = std::min(walked_before_flat(a_, b_), kWalkedAlone);
-  if (go_on(walk, alone) == WalkEnd::left_off && !settle_by_heights(work) &&
-      go_on(walk, kWalkedAlone - alone) == WalkEnd::left_off)
-    share(walk, work);
+  const std::uint64_t before_flat = std::min(walked_before_flat(a_, b_), kWalkedAlone);
+  if (go_on(walk, before_flat) == WalkEnd::left_off && !settle_by_heights(work))
+    finish(walk, before_flat, work);
   work += cost_;
   return found_;
+}
+
+/// The rest of a walk of which so many node pairs are behind it.
+void ContactWalk::finish(DualWalk& walk, std::uint64_t walked, PairWork& work) {
+  // Turning the parts costs as much as a walk of some node pairs a triangle.
+  const std::uint64_t before_turned = std::min(8 * walked_before_flat(a_, b_), kWalkedAlone);
+  if (go_on(walk, before_turned - walked) == WalkEnd::left_off && !walk_aligned(work) &&
+      go_on(walk, kWalkedAlone - before_turned) == WalkEnd::left_off)
+    share(walk, work);
+}
+
+/// Everything once more in a frame along the parts' needles, if there are such: what has been found
+/// so far stays found.
+bool ContactWalk::walk_aligned(PairWork& work) {
+  const auto aligned = aligned_parts(a_, b_, work.context());
+  if (!aligned) return false;
+  const auto run = [&](ContactWalk& piece, NearWalk& walk, std::uint64_t most) {
+    return walk.run(
+        0.0, [&](const NearTriangles& pair) { return piece.judge_pair(pair.a, pair.b); }, most);
+  };
+  PairWork own;
+  NearWalk walk(a_, b_, own, -1, &*aligned);
+  walk.start(0);
+  const WalkEnd end = run(*this, walk, kWalkedAlone);
+  cost_ += own;
+  if (end != WalkEnd::left_off) return true;
+  share_out(walk.rest(0, kWalkPieces), work, [&](ContactWalk& piece, const NearWalk::Entry& entry) {
+    PairWork of_piece;
+    NearWalk below(a_, b_, of_piece, -1, &*aligned);
+    below.start(entry);
+    run(piece, below, DualWalk::kNoLimit);
+    piece.cost_ += of_piece;
+  });
+  return true;
 }
 
 /// Whether the heights of flat faces part what they can of two surfaces that have not met so far;
@@ -92,7 +132,7 @@ bool ContactWalk::settle_by_heights(PairWork& work) {
     piece.whole_ = false;
     DualWalk walk(piece.a_.tree(), piece.b_.tree());
     walk.start();
-    if (piece.go_on(walk, kWalkedAlone) == WalkEnd::left_off) piece.share(walk, work);
+    piece.finish(walk, 0, work);
     take(piece);
   }
   return true;
@@ -109,6 +149,16 @@ void ContactWalk::share(DualWalk& walk, const PairWork& work) {
   const std::vector<NodePair> pieces =
       walk.rest([&](const PartTree::Node& na, const PartTree::Node& nb) { return near(na, nb); },
                 kWalkPieces);
+  share_out(pieces, work, [&](ContactWalk& piece, const NodePair& pair) {
+    DualWalk below(a_.tree(), b_.tree());
+    below.start(pair);
+    piece.go_on(below, DualWalk::kNoLimit);
+  });
+}
+
+template <class Entry, class Run>
+void ContactWalk::share_out(const std::vector<Entry>& pieces, const PairWork& work,
+                            const Run& run) {
   (void)run_in_rounds(
       work.context(), pieces,
       [&](std::size_t i) {
@@ -117,11 +167,7 @@ void ContactWalk::share(DualWalk& walk, const PairWork& work) {
         piece.whole_ = whole_ && i == 0;
         return piece;
       },
-      [&](ContactWalk& piece, const NodePair& pair) {
-        DualWalk below(a_.tree(), b_.tree());
-        below.start(pair);
-        piece.go_on(below, DualWalk::kNoLimit);
-      },
+      run,
       [&](const ContactWalk& piece) {
         take(piece);
         return !found_.decided();
@@ -178,12 +224,20 @@ bool ContactWalk::leaves(const PartTree::Node& na, const PartTree::Node& nb) {
       const std::uint32_t ta = a_.tree().order()[na.first + i];
       if (!leaf_.triangle[i]) leaf_.triangle[i].emplace(a_.corners(ta));
       if (!b) b.emplace(corners);
-      const ExactTriangle& a = *leaf_.triangle[i];
-      const TriangleContact c = contact(a, *b);
-      if (c.touch == Touch::none ? parted(a, *b, c) : !found(ta, tb, a, *b, c)) return false;
+      if (!judge_pair(ta, tb, *leaf_.triangle[i], *b)) return false;
     }
   }
   return true;
+}
+
+bool ContactWalk::judge_pair(std::uint32_t ta, std::uint32_t tb) {
+  return judge_pair(ta, tb, a_.triangle(ta), b_.triangle(tb));
+}
+
+bool ContactWalk::judge_pair(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a,
+                             const ExactTriangle& b) {
+  const TriangleContact c = contact(a, b);
+  return c.touch == Touch::none ? !parted(a, b, c) : found(ta, tb, a, b, c);
 }
 
 /// Two triangles apart often lie on a flat side of one part with all of the other beyond it.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "geometry/heavy_rounds.hpp"
 #include "geometry/near_walk.hpp"
@@ -16,7 +18,9 @@ namespace strake::geometry {
   return 512 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
 }
 
-/// A NearWalk that asks a team for help once it has turned out to be heavy.
+/// A NearWalk that asks a team for help once it has turned out to be heavy. After
+/// walked_before_flat() node pairs it begins anew in a frame along the parts' needles, if there are
+/// such.
 ///
 /// `begin()` makes the state of a piece from what is known so far: `reach`, a square that may
 /// shrink, `work`, and operator()(NearTriangles) as NearWalk's visitor. `take(state)` gets the
@@ -33,22 +37,32 @@ void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, P
     work += state.work;
     return take(state);
   };
-  State first = begin();
-  NearWalk walk(a, b, first.work, near_enough);
-  walk.start(first.reach);
+  std::optional<State> first(begin());
+  std::optional<AlignedParts> aligned;
+  std::optional<NearWalk> walk(std::in_place, a, b, first->work, near_enough);
+  walk->start(first->reach);
   bool heavy = true;
   std::uint64_t walked = 0;
   for (std::uint64_t pause = walked_before_flat(a, b); heavy && walked < kWalkedAlone; pause *= 4) {
     const std::uint64_t until = std::min(pause, kWalkedAlone);
-    heavy = walk.run(first.reach, first, until - walked) == WalkEnd::left_off && !settled(first);
+    heavy =
+        walk->run(first->reach, *first, until - walked) == WalkEnd::left_off && !settled(*first);
+    if (heavy && walked == 0 && (aligned = aligned_parts(a, b, work.context()))) {
+      // Once more from the start: little is lost.
+      work += first->work;
+      first.emplace(begin());
+      walk.emplace(a, b, first->work, near_enough, &*aligned);
+      walk->start(first->reach);
+    }
     walked = until;
   }
-  const double reach = first.reach;
-  if (!charge(first) || !heavy) return;
+  const double reach = first->reach;
+  if (!charge(*first) || !heavy) return;
+  const AlignedParts* const parts = aligned ? &*aligned : nullptr;
   (void)run_in_rounds(
-      work.context(), walk.rest(reach, kWalkPieces), [&](std::size_t /*i*/) { return begin(); },
+      work.context(), walk->rest(reach, kWalkPieces), [&](std::size_t /*i*/) { return begin(); },
       [&](State& state, const NearWalk::Entry& entry) {
-        NearWalk piece(a, b, state.work, near_enough);
+        NearWalk piece(a, b, state.work, near_enough, parts);
         piece.start(entry);
         piece.run(state.reach, state);
       },

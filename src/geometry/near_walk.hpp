@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/aligned_parts.hpp"
 #include "geometry/box.hpp"
 #include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
@@ -25,9 +26,15 @@ struct NearTriangles {
 /// the way: depth first, the nearer of two children first.
 class NearWalk {
  public:
-  /// `near_enough`: see distance_bounds().
-  NearWalk(const PartView& a, const PartView& b, PairWork& work, double near_enough = -1)
-      : a_(a), b_(b), work_(work), near_enough_(near_enough) {}
+  /// `near_enough`: see distance_bounds(). `aligned`: instead of the views' own trees.
+  NearWalk(const PartView& a, const PartView& b, PairWork& work, double near_enough = -1,
+           const AlignedParts* aligned = nullptr)
+      : a_(a),
+        b_(b),
+        boxes_a_(aligned == nullptr ? BoxedTree(a) : BoxedTree(aligned->a)),
+        boxes_b_(aligned == nullptr ? BoxedTree(b) : BoxedTree(aligned->b)),
+        work_(work),
+        near_enough_(near_enough) {}
 
   /// Two nodes that may hold near triangles.
   struct Entry {
@@ -37,7 +44,7 @@ class NearWalk {
 
   /// Begins with everything, or with one of rest(). `reach` is a square here and below.
   void start(double reach) {
-    if (!a_.tree().nodes().empty() && !b_.tree().nodes().empty()) push(0, 0, reach);
+    if (!tree_a().nodes().empty() && !tree_b().nodes().empty()) push(0, 0, reach);
   }
   void start(const Entry& entry) { stack_[size_++] = entry; }
 
@@ -72,42 +79,70 @@ class NearWalk {
   }
 
  private:
+  /// A tree with the boxes of its nodes in a frame that two have in common.
+  class BoxedTree {
+   public:
+    explicit BoxedTree(const PartView& view)
+        : tree_(&view.tree()), shift_(view.shift().as<double>()) {}
+    explicit BoxedTree(const TurnedPart& turned)
+        : tree_(&turned.tree), turned_(&turned.part), margin_(kTurnRounding) {}
+
+    [[nodiscard]] const PartTree& tree() const { return *tree_; }
+    /// Exact for a part's own tree.
+    [[nodiscard]] Box3d box(std::uint32_t node) const {
+      return tree_->nodes()[node].box.as<double>().moved(shift_).inflated(margin_);
+    }
+    /// Of a triangle, which is given in the part's own frame too.
+    [[nodiscard]] Box3d box(std::uint32_t number, const DoubleTriangle& triangle) const {
+      if (turned_ == nullptr) return triangle.box;
+      const Triangle& t = turned_->triangles[number];
+      const auto& v = turned_->vertices;
+      return box_of(std::array{v[t[0]], v[t[1]], v[t[2]]}).as<double>().inflated(margin_);
+    }
+
+   private:
+    const PartTree* tree_;
+    const Part* turned_ = nullptr;
+    Vec3d shift_;
+    double margin_ = 0;
+  };
+
+  [[nodiscard]] const PartTree& tree_a() const { return boxes_a_.tree(); }
+  [[nodiscard]] const PartTree& tree_b() const { return boxes_b_.tree(); }
+
   /// The triangles of a leaf, prepared; kept until another leaf is loaded.
   struct LoadedLeaf {
     std::uint32_t node = 0xffffffffU;
     std::uint32_t count = 0;
     std::array<std::uint32_t, PartTree::kLeafSize> id{};
     std::array<DoubleTriangle, PartTree::kLeafSize> triangle;
+    std::array<Box3d, PartTree::kLeafSize> box;  ///< in the frame of the walk
 
-    void load(const PartView& view, std::uint32_t index) {
+    void load(const PartView& view, const BoxedTree& boxes, std::uint32_t index) {
       if (node == index) return;
       node = index;
-      const PartTree::Node& leaf = view.tree().nodes()[index];
+      const PartTree::Node& leaf = boxes.tree().nodes()[index];
       count = leaf.count;
       for (std::uint32_t i = 0; i < count; ++i) {
-        id[i] = view.tree().order()[leaf.first + i];
+        id[i] = boxes.tree().order()[leaf.first + i];
         triangle[i] = DoubleTriangle(view.corners(id[i]));
+        box[i] = boxes.box(id[i], triangle[i]);
       }
     }
   };
 
   [[nodiscard]] bool is_leaves(const Entry& entry) const {
-    return a_.tree().nodes()[entry.pair.a].count != 0 && b_.tree().nodes()[entry.pair.b].count != 0;
-  }
-
-  /// A node's box in the pair's coordinates; exact.
-  static Box3d box_of(const PartView& view, std::uint32_t node) {
-    return view.tree().nodes()[node].box.as<double>().moved(view.shift().as<double>());
+    return tree_a().nodes()[entry.pair.a].count != 0 && tree_b().nodes()[entry.pair.b].count != 0;
   }
 
   void push(std::uint32_t a, std::uint32_t b, double reach) {
-    const double squared = squared_gap(box_of(a_, a), box_of(b_, b));
+    const double squared = squared_gap(boxes_a_.box(a), boxes_b_.box(b));
     if (squared <= reach) stack_[size_++] = {{a, b}, squared};
   }
 
   void open(const Entry& entry, double reach) {
-    const PartTree::Node& na = a_.tree().nodes()[entry.pair.a];
-    const PartTree::Node& nb = b_.tree().nodes()[entry.pair.b];
+    const PartTree::Node& na = tree_a().nodes()[entry.pair.a];
+    const PartTree::Node& nb = tree_b().nodes()[entry.pair.b];
     const std::size_t before = size_;
     if (open_first(na, nb)) {
       push(na.first + 1, entry.pair.b, reach);
@@ -122,15 +157,15 @@ class NearWalk {
 
   template <class Visit>
   bool leaves(const NodePair& pair, const double& reach, Visit& visit) {
-    leaf_a_.load(a_, pair.a);
-    leaf_b_.load(b_, pair.b);
-    const Box3d box_a = box_of(a_, pair.a);
+    leaf_a_.load(a_, boxes_a_, pair.a);
+    leaf_b_.load(b_, boxes_b_, pair.b);
+    const Box3d box_a = boxes_a_.box(pair.a);
     for (std::uint32_t j = 0; j < leaf_b_.count; ++j) {
       const DoubleTriangle& b = leaf_b_.triangle[j];
-      if (squared_gap(box_a, b.box) > reach) continue;
+      if (squared_gap(box_a, leaf_b_.box[j]) > reach) continue;
       for (std::uint32_t i = 0; i < leaf_a_.count; ++i) {
         const DoubleTriangle& a = leaf_a_.triangle[i];
-        if (squared_gap(a.box, b.box) > reach) continue;
+        if (squared_gap(leaf_a_.box[i], leaf_b_.box[j]) > reach) continue;
         ++work_.triangle_pairs;
         const DistanceBounds bounds = distance_bounds(a, b, reach, near_enough_);
         if (bounds.lower > reach) continue;
@@ -141,6 +176,7 @@ class NearWalk {
   }
 
   const PartView &a_, &b_;
+  BoxedTree boxes_a_, boxes_b_;
   PairWork& work_;
   double near_enough_;
   std::array<Entry, 2 * kMaxTreeDepth + 2> stack_;

@@ -50,17 +50,30 @@ struct Bin {
 
 using Bins = std::array<Bin, kBins>;
 
-/// Slices of the node's box along its longest axis.
+/// Twice the centres of the references' boxes.
+Box3l centres_of(std::span<const Reference> refs) {
+  Box3l box = empty_box<std::int64_t>();
+  for (const Reference& ref : refs)
+    box.include(
+        Vec3l{twice_centre(ref.box, 0), twice_centre(ref.box, 1), twice_centre(ref.box, 2)});
+  return box;
+}
+
+/// Slices of a box along its longest axis.
 struct Binning {
   int axis = 0;
   std::int64_t low = 0;
   double scale = 0;
 
-  explicit Binning(const Box3i& box) {
-    const Vec3l d = box.hi.as<std::int64_t>() - box.lo.as<std::int64_t>();
+  explicit Binning(const Box3i& box)
+      : Binning({box.lo.as<std::int64_t>() + box.lo.as<std::int64_t>(),
+                 box.hi.as<std::int64_t>() + box.hi.as<std::int64_t>()}) {}
+  /// By twice the coordinates.
+  explicit Binning(const Box3l& twice) {
+    const Vec3l d = twice.hi - twice.lo;
     axis = d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
-    low = 2 * std::int64_t{box.lo[axis]};
-    if (d[axis] > 0) scale = kBins / (2 * static_cast<double>(d[axis]));
+    low = twice.lo[axis];
+    if (d[axis] > 0) scale = kBins / static_cast<double>(d[axis]);
   }
   [[nodiscard]] std::size_t bin(const Box3i& box) const {
     const double offset = static_cast<double>(twice_centre(box, axis) - low) * scale;
@@ -118,16 +131,36 @@ Halves halve(std::span<Reference> refs, int axis) {
   return cut_at(refs, half);
 }
 
-Halves split(std::span<Reference> refs, const Box3i& box, std::uint32_t depth) {
-  const Binning binning(box);
-  if (refs.size() <= kFew || depth >= kMaxSplitDepth) return halve(refs, binning.axis);
+/// The longest axis of a box, unless its triangles lie side by side and all reach along it: then
+/// that along which they lie.
+int parting_axis(std::span<const Reference> refs, const Box3i& box) {
+  const int longest = Binning(box).axis;
+  const Box3l centres = centres_of(refs);
+  const std::int64_t spread = centres.hi[longest] - centres.lo[longest];
+  const std::int64_t reach = std::int64_t{box.hi[longest]} - box.lo[longest];
+  return 16 * spread < reach ? Binning(centres).axis : longest;
+}
+
+Bins binned(std::span<const Reference> refs, const Binning& binning) {
   Bins bins;
   for (const Reference& ref : refs) {
     Bin& bin = bins[binning.bin(ref.box)];
     grow(bin.box, ref.box);
     ++bin.count;
   }
-  const std::size_t boundary = best_boundary(bins);
+  return bins;
+}
+
+Halves split(std::span<Reference> refs, const Box3i& box, std::uint32_t depth) {
+  if (refs.size() <= kFew || depth >= kMaxSplitDepth) return halve(refs, parting_axis(refs, box));
+  Binning binning(box);
+  Bins bins = binned(refs, binning);
+  std::size_t boundary = best_boundary(bins);
+  if (boundary == 0) {
+    binning = Binning(centres_of(refs));
+    bins = binned(refs, binning);
+    boundary = best_boundary(bins);
+  }
   if (boundary == 0) return halve(refs, binning.axis);
   const auto middle = std::partition(refs.begin(), refs.end(), [&](const Reference& ref) {
     return binning.bin(ref.box) < boundary;

@@ -94,8 +94,8 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
                          testing::Values(Golden{false, "dd4058366d769ed5efb4a3689a53ddb7",
                                                 "681e92bb01b8b1ec331483b3a986ad5c"},
-                                         Golden{true, "52a9998ef35bd82759612e3b65adf89e",
-                                                "68fa8485d523179647626ea9e0c08c18"}),
+                                         Golden{true, "90c3230b0e7d565dcfc13ab682343728",
+                                                "a1d1cddc09b639f078f1f7a5a47e4731"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });

@@ -2,8 +2,10 @@
 // What a pair may cost, in counts, which hold on any machine. bench_clash_pairs has the times.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -128,6 +130,36 @@ TEST(ClashWork, ConcentricCylindersCostAFewTrianglePairsATriangle) {
   EXPECT_EQ(l.pair.relation, Relation::b_in_a);
   EXPECT_LE(l.work.triangle_pairs, 10 * l.triangles);
   EXPECT_EQ(l.work.depth_cells, 0U);
+}
+
+/// A tube of long facets without bands.
+TriangleMesh tube_mesh(double outer, double inner, double height, std::uint32_t sectors) {
+  TriangleMesh m;
+  for (const double r : {outer, inner})
+    for (const double z : {0.0, height})
+      for (std::uint32_t s = 0; s < sectors; ++s) {
+        const double angle = 2 * std::numbers::pi * s / sectors;
+        m.vertices.push_back({r * std::cos(angle), r * std::sin(angle), z});
+      }
+  const auto at = [&](std::uint32_t ring, std::uint32_t s) { return ring * sectors + s % sectors; };
+  for (std::uint32_t s = 0; s < sectors; ++s)
+    for (const auto& [low, high] : {std::pair(0U, 1U), {1U, 3U}, {3U, 2U}, {2U, 0U}}) {
+      m.triangles.push_back({at(low, s), at(low, s + 1), at(high, s + 1)});
+      m.triangles.push_back({at(low, s), at(high, s + 1), at(high, s)});
+    }
+  return m;
+}
+
+/// A pipe in its sleeve, askew: boxes along the axes tell nothing of their facets.
+TEST(ClashWork, TubesInTubesCostAFewTrianglePairsATriangle) {
+  for (const std::uint32_t sectors : {360U, 1000U, 2000U}) {
+    const double slack = 102 * (1 - std::cos(std::numbers::pi / sectors)) + 0.003;
+    const Looked l = look(tube_mesh(100, 90, 1000, sectors), tube_mesh(120, 102, 1000, sectors - 1),
+                          {kTurn, kTurn * Vec3d{0, 0, 1}}, {.clearance_mm = 10});
+    EXPECT_EQ(l.pair.cls, Class::clearance_violation) << sectors;
+    EXPECT_NEAR(l.pair.d_mm, 2, slack) << sectors;
+    EXPECT_LE(l.work.triangle_pairs, 32 * l.triangles) << sectors;
+  }
 }
 
 TEST(ClashWork, AWideClearanceCostsAFewTrianglePairsATriangle) {
