@@ -268,6 +268,13 @@ class PairOfParts {
     goal.known_upper =
         -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, 0));
     goal.threshold = thresholds_.overlap;
+    // Sheets that a move within the contact distance parts touch: what the snap made of flat ones
+    // that lie on each other askew passes to and fro along lines that mean nothing.
+    if (a_.placed.part->kind == PartKind::sheet && b_.placed.part->kind == PartKind::sheet &&
+        goal.known_upper <= options_.contact_distance) {
+      touching(meeting, answer);
+      return;
+    }
     goal.triangle_a = meeting.triangle_a;
     goal.triangle_b = meeting.triangle_b;
     goal.meeting_point = meeting.point;
