@@ -187,7 +187,7 @@ auto places(const std::vector<Piece>& crossings, const std::vector<std::uint32_t
     return order.empty() ? model::index(id) : order[model::index(id)];
   };
   for (const Piece& p : crossings) {
-    const auto [least, most] = std::minmax(number(p.object), number(p.other));
+    const auto [least, most] = std::minmax({number(p.object), number(p.other)});
     all.emplace_back(least, most, p.a, p.b, p.state);
   }
   std::ranges::sort(all);
