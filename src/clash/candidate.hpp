@@ -5,7 +5,7 @@
 #include <span>
 
 #include "clash/cases.hpp"
-#include "clash/narrow.hpp"
+#include "clash/narrow_part.hpp"
 #include "clash/parts.hpp"
 
 namespace strake::clash {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "clash/canonical_order.hpp"
+#include "clash/pair_limits.hpp"
 #include "clash/witness.hpp"
 #include "strake/geometry/thin_pair.hpp"
 
@@ -91,8 +93,11 @@ bool has_wire(const Part& a, const Part& b) {
 
 PartAnswer judge_wire(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
                       NarrowWork& work) {
-  const bool first = is_wire(a) && (!is_wire(b) || in_canonical_order(a.treed, b.treed));
-  if (first) return judge_ordered(a, b, options, work);
+  if (is_wire(a) && is_wire(b))
+    return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
+      return judge_ordered(x, y, options, work);
+    });
+  if (is_wire(a)) return judge_ordered(a, b, options, work);
   PartAnswer answer = judge_ordered(b, a, options, work);
   turn(answer, a, b);
   return answer;

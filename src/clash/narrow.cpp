@@ -1,415 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clash/narrow.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <compare>
-#include <cstddef>
-#include <limits>
-#include <optional>
-#include <utility>
-
+#include "clash/canonical_order.hpp"
+#include "clash/closed_form.hpp"
+#include "clash/pair_limits.hpp"
+#include "clash/pair_of_parts.hpp"
 #include "clash/relation.hpp"
-#include "clash/witness.hpp"
-#include "strake/geometry/analytic_pair.hpp"
-#include "strake/geometry/depth.hpp"
 #include "strake/geometry/flush_contact.hpp"
-#include "strake/geometry/grid.hpp"
 
 namespace strake::clash {
-namespace {
-
-using geometry::DepthGoal;
-using geometry::DepthPart;
-using geometry::Meeting;
-using geometry::MeetingResult;
-using geometry::Part;
-using geometry::PartKind;
-using geometry::TreedPart;
-using geometry::Vec3d;
-
-/// An interior that is known to be met without a measured depth: less than any grid can resolve.
-constexpr double kLeastDepth = 1e-6;
-
-/// Grid units that a distance may be left open by where it decides nothing: what the snap makes of
-/// two flat faces that stand askew.
-constexpr double kSnapSlack = 4;
-
-Separation separated_by(double distance) {
-  // The distance is the rounded root of a rounded square: off by less than two ulp.
-  constexpr double kEps = 2 * std::numeric_limits<double>::epsilon();
-  return {.d = distance, .lower = distance * (1 - kEps), .upper = distance * (1 + kEps)};
-}
-
-Relation analytic_relation(const geometry::AnalyticSeparation& s, double band) {
-  const bool sheet = s.sheet_a || s.sheet_b;
-  if (s.difference <= band) return Relation::duplicate;
-  if (std::fabs(s.d) <= band) return Relation::abut_outside;
-  if (s.d > 0) return Relation::separate;
-  if (s.a_inside_b > band) return Relation::a_in_b;
-  if (s.b_inside_a > band) return Relation::b_in_a;
-  if (sheet) return Relation::cross;
-  return std::max(s.a_inside_b, s.b_inside_a) >= -band ? Relation::abut_inside
-                                                       : Relation::interfere;
-}
-
-/// A closed form, its point relative to the origin of the part that was called a.
-struct ClosedForm {
-  geometry::AnalyticSeparation separation;
-  Vec3d point;
-  /// Nearer to a touch than the form can tell: which side of it is for the triangles to say.
-  bool tie = false;
-};
-
-std::optional<ClosedForm> closed_form(const NarrowPart& a, const NarrowPart& b, double enough) {
-  const Part &x = *a.treed.placed.part, &y = *b.treed.placed.part;
-  const auto &p = x.primitive, &q = y.primitive;
-  if (!p || !q || a.placement == nullptr || b.placement == nullptr) return std::nullopt;
-  // Triangles that are the true surface are compared exactly.
-  if (!(x.sag + y.sag > 0)) return std::nullopt;
-  const auto s = geometry::analytic_separation({&*p, a.placement}, {&*q, b.placement}, enough + 1);
-  const auto centre = geometry::snap(a.placement->translation);
-  if (!s || !centre) return std::nullopt;
-  if (s->sheet_a != (x.kind == PartKind::sheet) || s->sheet_b != (y.kind == PartKind::sheet))
-    return std::nullopt;
-  return ClosedForm{*s, s->point + (*centre - a.treed.placed.origin).as<double>(),
-                    !(s->lower > 1 || s->upper < -1)};
-}
-
-/// Two parts in canonical order.
-class PairOfParts {
- public:
-  PairOfParts(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
-              NarrowWork& work)
-      : part_a_(a),
-        part_b_(b),
-        a_(a.treed),
-        b_(b.treed),
-        options_(options),
-        work_(work),
-        thresholds_(thresholds(*a.treed.placed.part, *b.treed.placed.part, options)) {}
-
-  PartAnswer analytic(const ClosedForm& form) const {
-    const geometry::AnalyticSeparation& s = form.separation;
-    PartAnswer answer;
-    answer.separation = {
-        .d = s.d, .lower = s.lower, .upper = s.upper, .sag = 0, .interiors_meet = s.upper < 0};
-    answer.witness = witness_of(s, form.point);
-    answer.relation = analytic_relation(s, options_.contact_distance);
-    conclude(answer, 0);
-    return answer;
-  }
-
-  PartAnswer flush(const Vec3d& point) {
-    PartAnswer answer;
-    MeetingResult meeting;
-    meeting.point = point;
-    touching(meeting, answer);
-    conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
-    return answer;
-  }
-
-  FirstLook look(double gap, bool separated) {
-    FirstLook look;
-    look.gap = gap;
-    if (const auto near = flush_near(gap)) {
-      nearly_touching(*near, gap, look.answer);
-      return look;
-    }
-    if (!separated && !(gap > 0))
-      look.meeting = equal_solids() ? meeting_of_equals() : geometry::meet(a_, b_, work_.pair);
-    const auto form = closed_form(part_a_, part_b_, reach_of(options_));
-    if (look.meeting.meeting == Meeting::touching) {
-      touching(look.meeting, look.answer);
-      conclude(look.answer, sag_beside(form));
-      return look;
-    }
-    if (form) {
-      look.answer = analytic(*form);
-      return look;
-    }
-    if (look.meeting.meeting == Meeting::apart)
-      look.next = FirstLook::Next::distance;
-    else
-      look.next = FirstLook::Next::depth;
-    return look;
-  }
-
-  PartAnswer distance(double reach) {
-    PartAnswer answer;
-    conclude(answer, apart(reach, answer));
-    return answer;
-  }
-
-  PartAnswer depth(const FirstLook& look) {
-    PartAnswer answer;
-    interpenetrating(look, answer);
-    conclude(answer);
-    return answer;
-  }
-
- private:
-  /// The sag that the answer has to count with.
-  double apart(double limit, PartAnswer& answer) {
-    const double reach = std::min(limit + 1, reach_of(options_));
-    const double parting = reach + sag();
-    if (geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, parting) >= parting) {
-      answer.separation = separated_by(std::numeric_limits<double>::infinity());
-      return sag();
-    }
-    if (apart_from_mesh(reach, answer))
-      return a_.placed.part->primitive ? b_.placed.part->sag : a_.placed.part->sag;
-    auto near = geometry::closest(a_, b_, reach, work_.pair, kSnapSlack);
-    if (near && !all_one(near->lower, near->distance))
-      near = geometry::closest(a_, b_, reach, work_.pair);
-    if (!near) {
-      answer.separation = separated_by(std::numeric_limits<double>::infinity());
-      return sag();
-    }
-    answer.separation = separated_by(near->distance);
-    answer.separation.lower = std::min(near->lower, answer.separation.lower);
-    answer.witness = witness_of_gap(*near);
-    answer.relation = near->distance <= options_.contact_distance
-                          ? relation_beside(a_, b_, {}, options_.contact_distance, work_.pair)
-                          : Relation::separate;
-    return sag();
-  }
-
-  /// Whether any distance in a bracket means the same.
-  [[nodiscard]] bool all_one(double lower, double upper) const {
-    const double band = options_.contact_distance;
-    if (lower == upper) return true;
-    if (lower <= band && band < upper) return false;
-    const auto of = [&](double d) {
-      Separation s = separated_by(d);
-      s.sag = sag();
-      return judge(s, thresholds_);
-    };
-    return of(lower) == of(upper);
-  }
-
-  /// A primitive beside a mesh, by its true surface; false where that is not certainly clear of the
-  /// mesh, and the sag of its triangles has to be counted.
-  bool apart_from_mesh(double reach, PartAnswer& answer) {
-    const bool a_is_primitive = a_.placed.part->primitive.has_value();
-    const NarrowPart &p = a_is_primitive ? part_a_ : part_b_,
-                     &m = a_is_primitive ? part_b_ : part_a_;
-    const Part& part = *p.treed.placed.part;
-    if (!part.primitive || m.treed.placed.part->primitive || p.placement == nullptr ||
-        part.kind != PartKind::solid || !(part.sag > 0))
-      return false;
-    const auto gap = geometry::analytic_gap({&*part.primitive, p.placement}, m.treed, reach);
-    if (!gap || !(gap->lower > 0)) return false;
-    const double upper = gap->lower >= reach ? gap->lower : gap->upper;
-    const Vec3d shift = (m.treed.placed.origin - a_.placed.origin).as<double>();
-    geometry::Closest near;
-    near.distance = (gap->lower + upper) / 2;
-    near.on_a = (a_is_primitive ? gap->on_primitive : gap->on_mesh) + shift;
-    near.on_b = (a_is_primitive ? gap->on_mesh : gap->on_primitive) + shift;
-    answer.separation = {.d = near.distance, .lower = gap->lower, .upper = upper};
-    answer.witness = witness_of_gap(near);
-    answer.relation =
-        near.distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;
-    return true;
-  }
-
-  /// The same triangles in the same place: copies are common, and no walk over all their contacts
-  /// says more.
-  [[nodiscard]] bool equal_solids() const {
-    const Part &x = *a_.placed.part, &y = *b_.placed.part;
-    return x.kind == PartKind::solid && y.kind == PartKind::solid &&
-           a_.placed.origin == b_.placed.origin &&
-           (&x == &y || (x.vertices == y.vertices && x.triangles == y.triangles));
-  }
-
-  [[nodiscard]] MeetingResult meeting_of_equals() const {
-    const Part& part = *a_.placed.part;
-    return {.meeting = Meeting::crossing,
-            .boundaries_meet = true,
-            .a_within_b = true,
-            .b_within_a = true,
-            .point = part.vertices[part.triangles[0][0]].as<double>(),
-            .triangle_a = 0,
-            .triangle_b = 0};
-  }
-
-  void touching(const MeetingResult& meeting, PartAnswer& answer) {
-    answer.witness = witness_of_touch(meeting.point);
-    answer.relation = relation_beside(a_, b_, meeting, options_.contact_distance, work_.pair);
-  }
-
-  /// Flush faces of a model that stands askew are what the snap has made of them: a little apart,
-  /// touching, a little deep, or all of it here and there. Within the contact distance that says
-  /// nothing about the source, and it is one class and one relation: two triangles so near settle
-  /// it.
-  [[nodiscard]] std::optional<geometry::Closest> flush_near(double gap) const {
-    const Part &x = *a_.placed.part, &y = *b_.placed.part;
-    const double band = options_.contact_distance;
-    if (gap > band || -gap > std::min(band, thresholds_.overlap) || thresholds_.gap < band ||
-        x.kind != PartKind::solid || y.kind != PartKind::solid)
-      return std::nullopt;
-    // Slivers as thin as the band may be duplicates.
-    if (std::min(x.thickness(), y.thickness()) < 4 * band) return std::nullopt;
-    return geometry::any_within(a_, b_, band, work_.pair);
-  }
-
-  void nearly_touching(const geometry::Closest& near, double gap, PartAnswer& answer) const {
-    answer.separation = separated_by(near.distance);
-    answer.separation.lower = std::min(gap, answer.separation.lower);
-    if (!(near.distance > 0)) answer.separation.d = std::min(gap, 0.0);
-    answer.witness = near.distance > 0 ? witness_of_gap(near) : witness_of_touch(near.on_a);
-    answer.relation = Relation::abut_outside;
-    conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
-  }
-
-  void interpenetrating(const FirstLook& look, PartAnswer& answer) {
-    const MeetingResult& meeting = look.meeting;
-    DepthGoal goal;
-    goal.known_upper =
-        -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, 0));
-    goal.threshold = thresholds_.overlap;
-    // Sheets that a move within the contact distance parts touch: what the snap made of flat ones
-    // that lie on each other askew passes to and fro along lines that mean nothing.
-    if (a_.placed.part->kind == PartKind::sheet && b_.placed.part->kind == PartKind::sheet &&
-        goal.known_upper <= options_.contact_distance) {
-      touching(meeting, answer);
-      return;
-    }
-    goal.triangle_a = meeting.triangle_a;
-    goal.triangle_b = meeting.triangle_b;
-    goal.meeting_point = meeting.point;
-    geometry::Depth depth = depth_of(part_a_, part_b_, goal, work_);
-    work_.depth_cells += depth.cells;
-    if (!(depth.value > 0)) {
-      depth.value = kLeastDepth;
-      depth.point = meeting.point;
-    }
-    depth.upper = std::max(depth.upper, depth.value);
-    answer.separation = {
-        .d = -depth.value, .lower = -depth.upper, .upper = -depth.lower, .interiors_meet = true};
-    answer.witness = witness_of_depth(a_, b_, depth.point);
-    answer.relation = relation_of({a_, part_a_.planes}, {b_, part_b_.planes}, meeting, depth,
-                                  options_.contact_distance, work_.pair);
-  }
-
-  [[nodiscard]] double sag() const { return a_.placed.part->sag + b_.placed.part->sag; }
-
-  /// How far the true separation of two that touch as tessellated may be from 0.
-  [[nodiscard]] double sag_beside(const std::optional<ClosedForm>& form) const {
-    if (!form) return sag();
-    return std::min(sag(),
-                    std::max(std::fabs(form->separation.lower), std::fabs(form->separation.upper)));
-  }
-
-  void conclude(PartAnswer& answer) const { conclude(answer, sag()); }
-
-  void conclude(PartAnswer& answer, double sag) const {
-    answer.separation.sag = sag;
-    answer.judgement = judge(answer.separation, thresholds_);
-    answer.judgement.flags |= part_flags(*a_.placed.part, *b_.placed.part);
-  }
-
-  const NarrowPart &part_a_, &part_b_;
-  const TreedPart &a_, &b_;
-  const NarrowOptions& options_;
-  NarrowWork& work_;
-  Thresholds thresholds_;
-};
-
-Relation mirrored(Relation r) {
-  if (r == Relation::a_in_b) return Relation::b_in_a;
-  if (r == Relation::b_in_a) return Relation::a_in_b;
-  return r;
-}
-
-}  // namespace
-
-bool in_canonical_order(const TreedPart& a, const TreedPart& b) {
-  const Part &x = *a.placed.part, &y = *b.placed.part;
-  if (&x != &y) {
-    if (x.kind != y.kind) return x.kind < y.kind;
-    if (x.triangles.size() != y.triangles.size()) return x.triangles.size() > y.triangles.size();
-    if (x.vertices != y.vertices) return x.vertices < y.vertices;
-    if (x.triangles != y.triangles) return x.triangles < y.triangles;
-  }
-  return a.placed.origin <= b.placed.origin;
-}
-
-void turn(PartAnswer& answer, const NarrowPart& a, const NarrowPart& b) {
-  answer.relation = mirrored(answer.relation);
-  answer.witness =
-      mirrored(answer.witness, (b.treed.placed.origin - a.treed.placed.origin).as<double>());
-}
-
-std::uint16_t part_flags(const Part& a, const Part& b) {
-  std::uint16_t flags = 0;
-  for (const Part* part : {&a, &b}) {
-    if (part->kind == PartKind::sheet) flags |= kOpen;
-    if (part->flags.inverted) flags |= kInverted;
-  }
-  return flags;
-}
-
-Thresholds thresholds(const Part& a, const Part& b, const NarrowOptions& options) {
-  Thresholds t{options.touch_overlap, options.touch_gap, options.clearance};
-  if (!options.thickness_cap) return t;
-  for (const Part* part : {&a, &b})
-    if (part->kind == PartKind::solid) t.overlap = std::min(t.overlap, part->thickness() / 4);
-  return t;
-}
-
-geometry::Depth depth_of(const NarrowPart& a, const NarrowPart& b, const DepthGoal& goal,
-                         NarrowWork& work) {
-  const bool sheet_a = a.treed.placed.part->kind == PartKind::sheet;
-  const bool sheet_b = b.treed.placed.part->kind == PartKind::sheet;
-  if (sheet_a && sheet_b) return geometry::sheet_crossing_depth(a.treed, b.treed, goal, work.pair);
-  const DepthPart x{a.treed, a.planes}, y{b.treed, b.planes};
-  if (sheet_a) return geometry::sheet_in_solid_depth(x, y, goal, work.pair);
-  if (sheet_b) {
-    const Vec3d shift = (b.treed.placed.origin - a.treed.placed.origin).as<double>();
-    DepthGoal of_sheet = goal;
-    if (goal.within) of_sheet.within = {goal.within->lo - shift, goal.within->hi - shift};
-    if (goal.belongs) of_sheet.belongs = [&](const Vec3d& p) { return goal.belongs(p + shift); };
-    geometry::Depth depth = geometry::sheet_in_solid_depth(y, x, of_sheet, work.pair);
-    depth.point = depth.point + shift;
-    return depth;
-  }
-  return geometry::solid_depth(x, y, goal, work.pair);
-}
 
 std::optional<PartAnswer> judge_analytic(const NarrowPart& a, const NarrowPart& b,
                                          const NarrowOptions& options) {
-  const bool ordered = in_canonical_order(a.treed, b.treed);
-  const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
-  const auto form = closed_form(x, y, reach_of(options));
-  if (!form || form->tie) return std::nullopt;
-  NarrowWork work;
-  PartAnswer answer = PairOfParts(x, y, options, work).analytic(*form);
-  if (!ordered) turn(answer, a, b);
-  return answer;
+  const auto judge = [&](const NarrowPart& x, const NarrowPart& y) -> std::optional<PartAnswer> {
+    const auto form = closed_form(x, y, reach_of(options));
+    if (!form || form->tie) return std::nullopt;
+    NarrowWork work;
+    return PairOfParts(x, y, options, work).analytic(*form);
+  };
+  return in_order(a, b, judge);
 }
 
 std::optional<PartAnswer> judge_flush(const NarrowPart& a, const NarrowPart& b,
                                       const NarrowOptions& options, bool& separated) {
-  const bool ordered = in_canonical_order(a.treed, b.treed);
-  const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
-  const geometry::FlushContact contact = geometry::flush_contact(x.treed.placed, y.treed.placed);
-  separated = contact.separated;
-  if (!contact.touching) return std::nullopt;
-  if (may_be_one_sheet(x.treed, y.treed, options.contact_distance)) {
-    // How much of them lies on the other is for their trees to say.
-    separated = false;
-    return std::nullopt;
-  }
-  NarrowWork work;
-  PartAnswer answer = PairOfParts(x, y, options, work).flush(contact.point);
-  if (!ordered) turn(answer, a, b);
-  return answer;
-}
-
-double reach_of(const NarrowOptions& options) {
-  // A unit more than the thresholds: what lies exactly at one is for judge() to see.
-  return std::max(options.touch_gap, options.clearance) + 1;
+  const auto judge = [&](const NarrowPart& x, const NarrowPart& y) -> std::optional<PartAnswer> {
+    const auto contact = geometry::flush_contact(x.treed.placed, y.treed.placed);
+    separated = contact.separated;
+    if (!contact.touching) return std::nullopt;
+    if (may_be_one_sheet(x.treed, y.treed, options.contact_distance)) {
+      // How much of them lies on the other is for their trees to say.
+      separated = false;
+      return std::nullopt;
+    }
+    NarrowWork work;
+    return PairOfParts(x, y, options, work).flush(contact.point);
+  };
+  return in_order(a, b, judge);
 }
 
 double gap_between(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options) {
@@ -419,33 +45,25 @@ double gap_between(const NarrowPart& a, const NarrowPart& b, const NarrowOptions
                              parting_gap(*x.treed.placed.part, *y.treed.placed.part, options));
 }
 
-double parting_gap(const Part& a, const Part& b, const NarrowOptions& options) {
-  return reach_of(options) + a.sag + b.sag;
-}
-
 FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
                   double gap, bool separated, NarrowWork& work) {
-  if (in_canonical_order(a.treed, b.treed))
-    return PairOfParts(a, b, options, work).look(gap, separated);
-  FirstLook look = PairOfParts(b, a, options, work).look(gap, separated);
-  turn(look.answer, a, b);
-  return look;
+  return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
+    return PairOfParts(x, y, options, work).look(gap, separated);
+  });
 }
 
 PartAnswer judge_distance(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
                           double reach, NarrowWork& work) {
-  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).distance(reach);
-  PartAnswer answer = PairOfParts(b, a, options, work).distance(reach);
-  turn(answer, a, b);
-  return answer;
+  return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
+    return PairOfParts(x, y, options, work).distance(reach);
+  });
 }
 
 PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b, const FirstLook& look,
                        const NarrowOptions& options, NarrowWork& work) {
-  if (in_canonical_order(a.treed, b.treed)) return PairOfParts(a, b, options, work).depth(look);
-  PartAnswer answer = PairOfParts(b, a, options, work).depth(look);
-  turn(answer, a, b);
-  return answer;
+  return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
+    return PairOfParts(x, y, options, work).depth(look);
+  });
 }
 
 }  // namespace strake::clash

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "clash/curves.hpp"
+#include "clash/narrow.hpp"
+#include "clash/pair_limits.hpp"
 #include "clash/spheres.hpp"
 
 namespace strake::clash {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "clash/cases.hpp"
-#include "clash/narrow.hpp"
+#include "clash/narrow_part.hpp"
 #include "clash/pair_rules.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clash/narrow.hpp"
+#include "clash/narrow_part.hpp"
 #include "clash/parts.hpp"
 
 namespace strake::clash {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "clash/pair_limits.hpp"
 #include "clash/telling.hpp"
 #include "strake/geometry/meeting_places.hpp"
 #include "strake/parallel/transform.hpp"

@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "clash/canonical_order.hpp"
+#include "clash/pair_limits.hpp"
+#include "clash/part_depth.hpp"
 #include "clash/witness.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/meeting_places.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "clash/narrow.hpp"
+#include "clash/narrow_part.hpp"
 #include "clash/telling.hpp"
 
 namespace strake::clash {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "clash/narrow.hpp"
+#include "clash/narrow_part.hpp"
 #include "clash/pair_rules.hpp"
 #include "clash/parts.hpp"
 

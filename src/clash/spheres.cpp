@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "clash/canonical_order.hpp"
+#include "clash/pair_limits.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::clash {
@@ -182,12 +184,12 @@ class SphereSearch {
 
 PartAnswer judge_spheres(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
                          std::uint64_t most_cells, NarrowWork& work) {
-  const bool ordered = in_canonical_order(a.treed, b.treed);
-  SphereSearch search(ordered ? a : b, ordered ? b : a, options, most_cells, work);
-  PartAnswer answer = search.run();
-  work.depth_cells += search.cells();
-  if (!ordered) turn(answer, a, b);
-  return answer;
+  return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
+    SphereSearch search(x, y, options, most_cells, work);
+    const PartAnswer answer = search.run();
+    work.depth_cells += search.cells();
+    return answer;
+  });
 }
 
 }  // namespace strake::clash

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "clash/narrow.hpp"
+#include "clash/narrow_part.hpp"
 
 namespace strake::clash {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "clash/narrow.hpp"
+#include "clash/narrow_part.hpp"
 #include "strake/geometry/analytic_pair.hpp"
 
 namespace strake::clash {

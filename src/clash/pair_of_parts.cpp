@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/pair_of_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "clash/pair_limits.hpp"
+#include "clash/part_depth.hpp"
+#include "clash/relation.hpp"
+#include "clash/witness.hpp"
+
+namespace strake::clash {
+
+using geometry::DepthGoal;
+using geometry::Meeting;
+using geometry::MeetingResult;
+using geometry::Part;
+using geometry::PartKind;
+using geometry::Vec3d;
+
+namespace {
+
+/// An interior that is known to be met without a measured depth: less than any grid can resolve.
+constexpr double kLeastDepth = 1e-6;
+
+/// Grid units that a distance may be left open by where it decides nothing: what the snap makes of
+/// two flat faces that stand askew.
+constexpr double kSnapSlack = 4;
+
+Separation separated_by(double distance) {
+  // The distance is the rounded root of a rounded square: off by less than two ulp.
+  constexpr double kEps = 2 * std::numeric_limits<double>::epsilon();
+  return {.d = distance, .lower = distance * (1 - kEps), .upper = distance * (1 + kEps)};
+}
+
+}  // namespace
+
+PairOfParts::PairOfParts(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
+                         NarrowWork& work)
+    : part_a_(a),
+      part_b_(b),
+      a_(a.treed),
+      b_(b.treed),
+      options_(options),
+      work_(work),
+      thresholds_(thresholds(*a.treed.placed.part, *b.treed.placed.part, options)) {}
+
+PartAnswer PairOfParts::analytic(const ClosedForm& form) const {
+  const geometry::AnalyticSeparation& s = form.separation;
+  PartAnswer answer;
+  answer.separation = {
+      .d = s.d, .lower = s.lower, .upper = s.upper, .sag = 0, .interiors_meet = s.upper < 0};
+  answer.witness = witness_of(s, form.point);
+  answer.relation = relation_of(s, options_.contact_distance);
+  conclude(answer, 0);
+  return answer;
+}
+
+PartAnswer PairOfParts::flush(const Vec3d& point) {
+  PartAnswer answer;
+  MeetingResult meeting;
+  meeting.point = point;
+  touching(meeting, answer);
+  conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
+  return answer;
+}
+
+FirstLook PairOfParts::look(double gap, bool separated) {
+  FirstLook look;
+  look.gap = gap;
+  if (const auto near = flush_near(gap)) {
+    nearly_touching(*near, gap, look.answer);
+    return look;
+  }
+  if (!separated && !(gap > 0))
+    look.meeting = equal_solids() ? meeting_of_equals() : geometry::meet(a_, b_, work_.pair);
+  const auto form = closed_form(part_a_, part_b_, reach_of(options_));
+  if (look.meeting.meeting == Meeting::touching) {
+    touching(look.meeting, look.answer);
+    conclude(look.answer, sag_beside(form));
+    return look;
+  }
+  if (form) {
+    look.answer = analytic(*form);
+    return look;
+  }
+  if (look.meeting.meeting == Meeting::apart)
+    look.next = FirstLook::Next::distance;
+  else
+    look.next = FirstLook::Next::depth;
+  return look;
+}
+
+PartAnswer PairOfParts::distance(double reach) {
+  PartAnswer answer;
+  conclude(answer, apart(reach, answer));
+  return answer;
+}
+
+PartAnswer PairOfParts::depth(const FirstLook& look) {
+  PartAnswer answer;
+  interpenetrating(look, answer);
+  conclude(answer);
+  return answer;
+}
+
+/// The sag that the answer has to count with.
+double PairOfParts::apart(double limit, PartAnswer& answer) {
+  const double reach = std::min(limit + 1, reach_of(options_));
+  const double parting = reach + sag();
+  if (geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, parting) >= parting) {
+    answer.separation = separated_by(std::numeric_limits<double>::infinity());
+    return sag();
+  }
+  if (apart_from_mesh(reach, answer))
+    return a_.placed.part->primitive ? b_.placed.part->sag : a_.placed.part->sag;
+  auto near = geometry::closest(a_, b_, reach, work_.pair, kSnapSlack);
+  if (near && !all_one(near->lower, near->distance))
+    near = geometry::closest(a_, b_, reach, work_.pair);
+  if (!near) {
+    answer.separation = separated_by(std::numeric_limits<double>::infinity());
+    return sag();
+  }
+  answer.separation = separated_by(near->distance);
+  answer.separation.lower = std::min(near->lower, answer.separation.lower);
+  answer.witness = witness_of_gap(*near);
+  answer.relation = near->distance <= options_.contact_distance
+                        ? relation_beside(a_, b_, {}, options_.contact_distance, work_.pair)
+                        : Relation::separate;
+  return sag();
+}
+
+/// Whether any distance in a bracket means the same.
+bool PairOfParts::all_one(double lower, double upper) const {
+  const double band = options_.contact_distance;
+  if (lower == upper) return true;
+  if (lower <= band && band < upper) return false;
+  const auto of = [&](double d) {
+    Separation s = separated_by(d);
+    s.sag = sag();
+    return judge(s, thresholds_);
+  };
+  return of(lower) == of(upper);
+}
+
+/// A primitive beside a mesh, by its true surface; false where that is not certainly clear of the
+/// mesh, and the sag of its triangles has to be counted.
+bool PairOfParts::apart_from_mesh(double reach, PartAnswer& answer) {
+  const bool a_is_primitive = a_.placed.part->primitive.has_value();
+  const NarrowPart &p = a_is_primitive ? part_a_ : part_b_, &m = a_is_primitive ? part_b_ : part_a_;
+  const Part& part = *p.treed.placed.part;
+  if (!part.primitive || m.treed.placed.part->primitive || p.placement == nullptr ||
+      part.kind != PartKind::solid || !(part.sag > 0))
+    return false;
+  const auto gap = geometry::analytic_gap({&*part.primitive, p.placement}, m.treed, reach);
+  if (!gap || !(gap->lower > 0)) return false;
+  const double upper = gap->lower >= reach ? gap->lower : gap->upper;
+  const Vec3d shift = (m.treed.placed.origin - a_.placed.origin).as<double>();
+  geometry::Closest near;
+  near.distance = (gap->lower + upper) / 2;
+  near.on_a = (a_is_primitive ? gap->on_primitive : gap->on_mesh) + shift;
+  near.on_b = (a_is_primitive ? gap->on_mesh : gap->on_primitive) + shift;
+  answer.separation = {.d = near.distance, .lower = gap->lower, .upper = upper};
+  answer.witness = witness_of_gap(near);
+  answer.relation =
+      near.distance <= options_.contact_distance ? Relation::abut_outside : Relation::separate;
+  return true;
+}
+
+/// The same triangles in the same place: copies are common, and no walk over all their contacts
+/// says more.
+bool PairOfParts::equal_solids() const {
+  const Part &x = *a_.placed.part, &y = *b_.placed.part;
+  return x.kind == PartKind::solid && y.kind == PartKind::solid &&
+         a_.placed.origin == b_.placed.origin &&
+         (&x == &y || (x.vertices == y.vertices && x.triangles == y.triangles));
+}
+
+MeetingResult PairOfParts::meeting_of_equals() const {
+  const Part& part = *a_.placed.part;
+  return {.meeting = Meeting::crossing,
+          .boundaries_meet = true,
+          .a_within_b = true,
+          .b_within_a = true,
+          .point = part.vertices[part.triangles[0][0]].as<double>(),
+          .triangle_a = 0,
+          .triangle_b = 0};
+}
+
+void PairOfParts::touching(const MeetingResult& meeting, PartAnswer& answer) {
+  answer.witness = witness_of_touch(meeting.point);
+  answer.relation = relation_beside(a_, b_, meeting, options_.contact_distance, work_.pair);
+}
+
+/// Flush faces of a model that stands askew are what the snap has made of them: a little apart,
+/// touching, a little deep, or all of it here and there. Within the contact distance that says
+/// nothing about the source, and it is one class and one relation: two triangles so near settle
+/// it.
+std::optional<geometry::Closest> PairOfParts::flush_near(double gap) const {
+  const Part &x = *a_.placed.part, &y = *b_.placed.part;
+  const double band = options_.contact_distance;
+  if (gap > band || -gap > std::min(band, thresholds_.overlap) || thresholds_.gap < band ||
+      x.kind != PartKind::solid || y.kind != PartKind::solid)
+    return std::nullopt;
+  // Slivers as thin as the band may be duplicates.
+  if (std::min(x.thickness(), y.thickness()) < 4 * band) return std::nullopt;
+  return geometry::any_within(a_, b_, band, work_.pair);
+}
+
+void PairOfParts::nearly_touching(const geometry::Closest& near, double gap,
+                                  PartAnswer& answer) const {
+  answer.separation = separated_by(near.distance);
+  answer.separation.lower = std::min(gap, answer.separation.lower);
+  if (!(near.distance > 0)) answer.separation.d = std::min(gap, 0.0);
+  answer.witness = near.distance > 0 ? witness_of_gap(near) : witness_of_touch(near.on_a);
+  answer.relation = Relation::abut_outside;
+  conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
+}
+
+void PairOfParts::interpenetrating(const FirstLook& look, PartAnswer& answer) {
+  const MeetingResult& meeting = look.meeting;
+  DepthGoal goal;
+  goal.known_upper =
+      -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, 0));
+  goal.threshold = thresholds_.overlap;
+  // Sheets that a move within the contact distance parts touch: what the snap made of flat ones
+  // that lie on each other askew passes to and fro along lines that mean nothing.
+  if (a_.placed.part->kind == PartKind::sheet && b_.placed.part->kind == PartKind::sheet &&
+      goal.known_upper <= options_.contact_distance) {
+    touching(meeting, answer);
+    return;
+  }
+  goal.triangle_a = meeting.triangle_a;
+  goal.triangle_b = meeting.triangle_b;
+  goal.meeting_point = meeting.point;
+  geometry::Depth depth = depth_of(part_a_, part_b_, goal, work_);
+  work_.depth_cells += depth.cells;
+  if (!(depth.value > 0)) {
+    depth.value = kLeastDepth;
+    depth.point = meeting.point;
+  }
+  depth.upper = std::max(depth.upper, depth.value);
+  answer.separation = {
+      .d = -depth.value, .lower = -depth.upper, .upper = -depth.lower, .interiors_meet = true};
+  answer.witness = witness_of_depth(a_, b_, depth.point);
+  answer.relation = relation_of({a_, part_a_.planes}, {b_, part_b_.planes}, meeting, depth,
+                                options_.contact_distance, work_.pair);
+}
+
+double PairOfParts::sag() const { return a_.placed.part->sag + b_.placed.part->sag; }
+
+/// How far the true separation of two that touch as tessellated may be from 0.
+double PairOfParts::sag_beside(const std::optional<ClosedForm>& form) const {
+  if (!form) return sag();
+  return std::min(sag(),
+                  std::max(std::fabs(form->separation.lower), std::fabs(form->separation.upper)));
+}
+
+void PairOfParts::conclude(PartAnswer& answer, double sag) const {
+  answer.separation.sag = sag;
+  answer.judgement = judge(answer.separation, thresholds_);
+  answer.judgement.flags |= part_flags(*a_.placed.part, *b_.placed.part);
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "clash/closed_form.hpp"
+#include "clash/narrow_part.hpp"
+
+namespace strake::clash {
+
+/// Two parts in canonical order, and what is said of them: narrow.hpp.
+class PairOfParts {
+ public:
+  /// All must outlive this.
+  PairOfParts(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
+              NarrowWork& work);
+
+  [[nodiscard]] PartAnswer analytic(const ClosedForm& form) const;
+
+  /// Of those that touch at a point, relative to a's origin.
+  [[nodiscard]] PartAnswer flush(const geometry::Vec3d& point);
+
+  [[nodiscard]] FirstLook look(double gap, bool separated);
+
+  [[nodiscard]] PartAnswer distance(double reach);
+
+  [[nodiscard]] PartAnswer depth(const FirstLook& look);
+
+ private:
+  double apart(double limit, PartAnswer& answer);
+  [[nodiscard]] bool all_one(double lower, double upper) const;
+  bool apart_from_mesh(double reach, PartAnswer& answer);
+  [[nodiscard]] bool equal_solids() const;
+  [[nodiscard]] geometry::MeetingResult meeting_of_equals() const;
+  void touching(const geometry::MeetingResult& meeting, PartAnswer& answer);
+  [[nodiscard]] std::optional<geometry::Closest> flush_near(double gap) const;
+  void nearly_touching(const geometry::Closest& near, double gap, PartAnswer& answer) const;
+  void interpenetrating(const FirstLook& look, PartAnswer& answer);
+  [[nodiscard]] double sag() const;
+  [[nodiscard]] double sag_beside(const std::optional<ClosedForm>& form) const;
+  void conclude(PartAnswer& answer) const { conclude(answer, sag()); }
+  void conclude(PartAnswer& answer, double sag) const;
+
+  const NarrowPart &part_a_, &part_b_;
+  const geometry::TreedPart &a_, &b_;
+  const NarrowOptions& options_;
+  NarrowWork& work_;
+  Thresholds thresholds_;
+};
+
+}  // namespace strake::clash
