@@ -2,11 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
-#include "geometry/places/edge_stops.hpp"
-#include "strake/core/disjoint_sets.hpp"
+#include "geometry/places/stretches.hpp"
 
 namespace strake::geometry {
 
@@ -19,9 +16,7 @@ struct InsideSets {
 
 /// Joins what the skin of one part joins inside the other, a solid: near pairs between which a
 /// stretch of an edge, or of a line across a triangle, runs through the inside, and the vertices
-/// in there. `stops` are those of the side.
-void link_inside(const PlacesSide& side, const TreedPart& other,
-                 std::span<const NearTriangles> pairs, std::vector<EdgeStop> stops, double reach,
-                 const InsideSets& sets, PairWork& work);
+/// in there.
+void link_inside(const SolidNear& near, const InsideSets& sets, PairWork& work);
 
 }  // namespace strake::geometry

@@ -13,6 +13,7 @@
 #include "geometry/places/common_box.hpp"
 #include "geometry/places/edge_stops.hpp"
 #include "geometry/places/inside_links.hpp"
+#include "geometry/places/material_links.hpp"
 #include "geometry/places/near_pairs.hpp"
 #include "geometry/places/single_place.hpp"
 #include "strake/core/disjoint_sets.hpp"
@@ -131,13 +132,15 @@ class Places {
     std::size_t left = pairs_.size();
     left -= join_round_triangles(side_a(), of_a_, of_b_, pairs_, reach_, sets);
     if (left > 1) left -= join_round_triangles(side_b(), of_b_, of_a_, pairs_, reach_, sets);
+    if (left <= 1) return left;
+    const PlacesSide of_a = side_a(), of_b = side_b();
+    const SolidNear in_b{of_a, of_a_, pairs_, treed_b_, reach_};
+    const SolidNear in_a{of_b, of_b_, pairs_, treed_a_, reach_};
+    if (b_.solid()) left -= link_material(in_b, sets, work);
+    if (a_.solid()) left -= link_material(in_a, sets, work);
     if (left <= 1 || !question_.interiors_meet) return left;
-    if (b_.solid())
-      link_inside(side_a(), treed_b_, pairs_, edge_stops(side_a(), of_a_, pairs_, reach_), reach_,
-                  {sets, first_vertex(true)}, work);
-    if (a_.solid())
-      link_inside(side_b(), treed_a_, pairs_, edge_stops(side_b(), of_b_, pairs_, reach_), reach_,
-                  {sets, first_vertex(false)}, work);
+    if (b_.solid()) link_inside(in_b, {sets, first_vertex(true)}, work);
+    if (a_.solid()) link_inside(in_a, {sets, first_vertex(false)}, work);
     left = 0;
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) left += sets.root(i) == i ? 1U : 0U;
     return left;

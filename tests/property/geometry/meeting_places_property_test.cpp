@@ -26,6 +26,8 @@ using testing::Subject;
 constexpr int kRounds = test::rounds(200, 20000);
 /// Where all near triangles are listed.
 constexpr int kListedRounds = test::rounds(60, 4000);
+/// Where cells are paired by brute force.
+constexpr int kReachRounds = test::rounds(150, 5000);
 
 /// Cells of side 1 in a cube of kSize cells.
 constexpr int kSize = 8;
@@ -185,10 +187,6 @@ TEST_P(MeetingPlacesProperty, AsTheCellsOfALatticeHaveIt) {
                     : kind == 1 ? grown(rng, 1, 1 + static_cast<int>(rng() % 60))
                                 : worm(rng, 40);
     const IndexedMesh mesh_a = skin_of(coarse, side), mesh_b = skin_of(b, 1);
-    // Two skins of one body are not joined by material alone.
-    if (testing::build_part(mesh_a).shell_count != 1 ||
-        testing::build_part(mesh_b).shell_count != 1)
-      continue;
     const std::size_t truth = common_components(refined(coarse, side), b);
     ++(truth <= 1 ? one : truth == 2 ? two : more);
     const Vec3l at{std::int64_t{1} << 44, -12345, static_cast<std::int64_t>(rng() % 1000)};
@@ -245,6 +243,154 @@ TEST_P(MeetingPlacesProperty, TheShortWayToASinglePlaceCountsAsTheLongOneDoes) {
     more += full->size() > 1 ? 1 : 0;
   }
   EXPECT_GT(one, kListedRounds / 10);
+  EXPECT_GT(more, 0);
+}
+
+/// A cell of a body, or what two of them share, in grid units.
+struct Block {
+  Vec3l lo, hi;
+};
+
+/// A body of cells that are not cubes: plates and bars where they are flat and long.
+struct Blocks {
+  Cells cells;
+  Vec3i size;  ///< of a cell, grid units
+  Vec3l at;
+
+  [[nodiscard]] Block block(const Vec3i& cell) const {
+    Block b;
+    for (int axis = 0; axis < 3; ++axis) {
+      b.lo[axis] = at[axis] + std::int64_t{cell[axis]} * size[axis];
+      b.hi[axis] = b.lo[axis] + size[axis];
+    }
+    return b;
+  }
+  [[nodiscard]] Block shared(const Vec3i& x, const Vec3i& y) const {
+    const Block p = block(x), q = block(y);
+    Block both;
+    for (int axis = 0; axis < 3; ++axis) {
+      both.lo[axis] = std::max(p.lo[axis], q.lo[axis]);
+      both.hi[axis] = std::min(p.hi[axis], q.hi[axis]);
+    }
+    return both;
+  }
+  [[nodiscard]] IndexedMesh skin() const {
+    IndexedMesh mesh = skin_of(cells, 1);
+    for (Vec3i& v : mesh.vertices)
+      for (int axis = 0; axis < 3; ++axis) v[axis] = v[axis] / kCell * size[axis];
+    return mesh;
+  }
+};
+
+double squared_gap(const Block& x, const Block& y) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto gap = static_cast<double>(
+        std::max<std::int64_t>({0, x.lo[axis] - y.hi[axis], y.lo[axis] - x.hi[axis]}));
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+/// Components of the pairs of points of two bodies that are within reach of each other. Those of
+/// two cells are a convex set, and two such sets with a cell in common meet where what the two
+/// others share is within reach of it.
+std::size_t near_components(const Blocks& a, const Blocks& b, double reach) {
+  const auto near = [&](const Block& x, const Block& y) {
+    return squared_gap(x, y) <= reach * reach;
+  };
+  std::map<std::pair<Vec3i, Vec3i>, std::uint32_t> number;
+  for (const Vec3i& x : a.cells)
+    for (const Vec3i& y : b.cells)
+      if (near(a.block(x), b.block(y)))
+        number.emplace(std::pair(x, y), static_cast<std::uint32_t>(number.size()));
+  DisjointSets sets(number.size());
+  for (const auto& [cells, n] : number)
+    for (std::int32_t i = 0; i < 27; ++i) {
+      const Vec3i step{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+      const auto& [x, y] = cells;
+      const auto of_a = number.find({x + step, y}), of_b = number.find({x, y + step});
+      if (of_a != number.end() && near(a.shared(x, x + step), b.block(y)))
+        sets.join(n, of_a->second);
+      if (of_b != number.end() && near(a.block(x), b.shared(y, y + step)))
+        sets.join(n, of_b->second);
+    }
+  std::set<std::uint32_t> roots;
+  for (const auto& [cells, n] : number) roots.insert(sets.root(n));
+  return roots.size();
+}
+
+/// A block of cells of which a smaller one is taken out: a frame, a tube or a hollow block.
+Cells with_hole(std::mt19937_64& rng) {
+  const auto below = [&](int n) {
+    return static_cast<std::int32_t>(rng() % static_cast<std::uint64_t>(n));
+  };
+  Vec3i size, lo, hi;
+  for (int axis = 0; axis < 3; ++axis) {
+    size[axis] = 1 + below(kSize);
+    lo[axis] = below(size[axis] + 1);
+    hi[axis] = lo[axis] + below(size[axis] - lo[axis] + 1);
+  }
+  Cells cells;
+  for (std::int32_t x = 0; x < size.x; ++x)
+    for (std::int32_t y = 0; y < size.y; ++y)
+      for (std::int32_t z = 0; z < size.z; ++z)
+        if (x < lo.x || y < lo.y || z < lo.z || x >= hi.x || y >= hi.y || z >= hi.z)
+          cells.insert({x, y, z});
+  return cells.empty() ? Cells{{}} : cells;
+}
+
+std::size_t count_within(const Subject& x, const Subject& y, double reach) {
+  PairWork work;
+  const MeetingResult m = meet(x.treed(), y.treed(), work);
+  const bool interiors = m.meeting != Meeting::apart && m.meeting != Meeting::touching;
+  const auto places =
+      meeting_places(x.treed(), y.treed(), {.reach = reach, .interiors_meet = interiors}, work);
+  EXPECT_TRUE(places.has_value());
+  if (!places) return 0;
+  // Of a body that lies deep in the other no skins are near each other.
+  return interiors ? std::max<std::size_t>(places->size(), 1) : places->size();
+}
+
+/// Round holes and cavities, of plates and bars, within less and more than they are thick.
+TEST_P(MeetingPlacesProperty, WithinReachAsTheCellsOfALatticeHaveIt) {
+  int one = 0, two = 0, more = 0;
+  for (int round = 0; round < kReachRounds; ++round) {
+    const auto cells = [&] {
+      const auto kind = rng() % 4;
+      return kind == 0   ? grown(rng, 1, 30)
+             : kind == 1 ? worm(rng, 20 + static_cast<int>(rng() % 30))
+                         : with_hole(rng);
+    };
+    const auto blocks = [&] {
+      Blocks b{cells(), {}, {}};
+      for (int axis = 0; axis < 3; ++axis) b.size[axis] = 200 << (rng() % 6);
+      return b;
+    };
+    // Some cell of the one comes near some cell of the other.
+    const auto some = [&](const Blocks& of) {
+      auto it = of.cells.begin();
+      std::advance(it, static_cast<long>(rng() % of.cells.size()));
+      return of.block(*it);
+    };
+    const auto reach = static_cast<std::int64_t>(100 + rng() % (500U << (rng() % 5)));
+    const Blocks a = blocks();
+    Blocks b = blocks();
+    const Block of_a = some(a), of_b = some(b);
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool before = rng() % 2 == 0;
+      b.at[axis] = before ? of_a.lo[axis] - of_b.hi[axis] : of_a.hi[axis] - of_b.lo[axis];
+      b.at[axis] += static_cast<std::int64_t>(rng() % static_cast<unsigned>(2 * reach)) - reach;
+    }
+    const auto r = static_cast<double>(reach);
+    const std::size_t truth = near_components(a, b, r + 1.0 / 256);
+    const Subject x(a.skin(), a.at), y(b.skin(), b.at);
+    ASSERT_EQ(count_within(x, y, r), truth) << "round " << round;
+    ASSERT_EQ(count_within(y, x, r), truth) << "round " << round;
+    ++(truth <= 1 ? one : truth == 2 ? two : more);
+  }
+  EXPECT_GT(one, kReachRounds / 10);
+  EXPECT_GT(two, kReachRounds / 50);
   EXPECT_GT(more, 0);
 }
 

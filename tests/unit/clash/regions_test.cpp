@@ -18,6 +18,7 @@
 namespace strake::clash {
 namespace {
 
+using geometry::Box3d;
 using geometry::Vec3d;
 using test::box_mesh;
 using test::ClashModel;
@@ -198,9 +199,9 @@ TEST(RegionsTest, AnAllowedContactIsAllowedAtItsPlaceAlone) {
   EXPECT_EQ(both.pairs[0].flags & kUncertain, 0);
 }
 
-// A hole or a groove is small beside a large plate, and parts the contact all the same.
-TEST(RegionsTest, AHoleInALargePlatePartsAContact) {
-  const double a = 2500, h = 10;
+/// A block from z = 0 to 10 on a square of side `a`, about a square hole of half width `h` round
+/// (a / 2, a / 2).
+geometry::TriangleMesh holed_plate(double a, double h) {
   geometry::TriangleMesh plate;
   const auto ring = [&](double lo, double hi) {
     for (const double z : {0.0, 10.0})
@@ -220,10 +221,16 @@ TEST(RegionsTest, AHoleInALargePlatePartsAContact) {
     quad(4 + i, 4 + j, 12 + j, 12 + i);  // above
     quad(i, 8 + i, 8 + j, j);            // below
   }
+  return plate;
+}
+
+// A hole or a groove is small beside a large plate, and parts the contact all the same.
+TEST(RegionsTest, AHoleInALargePlatePartsAContact) {
+  const double a = 2500;
   for (const double gap : {0.0, 0.5}) {
     SCOPED_TRACE(gap);
     ClashModel made;
-    made.object("plate").body(plate);
+    made.object("plate").body(holed_plate(a, 10));
     made.box("strip", {a / 2 - 5, 1000, 10 + gap}, {a / 2 + 5, 1500, 30});
     model::finish(made.model);
     const Report report = made.detect();
@@ -231,6 +238,64 @@ TEST(RegionsTest, AHoleInALargePlatePartsAContact) {
     EXPECT_EQ(report.pairs[0].cls, Class::contact);
     EXPECT_EQ(report.pairs[0].regions, 2U);
   }
+}
+
+// Both faces of a plate and both skins of a tube lie within the clearance, one behind the other.
+TEST(RegionsTest, WhatLiesBehindTheSkinWithinTheClearanceIsNoOtherPlace) {
+  Options options;
+  options.clearance_mm = 30;
+  ClashModel over;
+  over.object("deck").body(holed_plate(2500, 10));
+  over.box("crate", {100, 100, 15}, {600, 600, 400});
+  model::finish(over.model);
+  Report report = over.detect(options);
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].cls, Class::clearance_violation);
+  EXPECT_EQ(report.pairs[0].regions, 1U);
+
+  // A square tube that points with its edges at the sides of a square hole, 5 mm before each; the
+  // edges inside are 10 mm behind.
+  std::vector<geometry::Vec3i> cubes;
+  for (int x = -3; x < 3; ++x)
+    for (int y = -3; y < 3; ++y)
+      for (int z = -10; z < 10; ++z)
+        if (x == -3 || x == 2 || y == -3 || y == 2) cubes.push_back({x, y, z});
+  geometry::TriangleMesh tube = test::voxel_mesh(cubes, 5);
+  for (Vec3d& v : tube.vertices) v = {100 + v.x - v.y, 100 + v.x + v.y, v.z};
+  ClashModel through;
+  through.object("plate").body(holed_plate(200, 35));
+  through.object("tube").body(tube);
+  model::finish(through.model);
+  options.clearance_mm = 18;
+  report = through.detect(options);
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].cls, Class::clearance_violation);
+  EXPECT_EQ(report.pairs[0].d_mm, 5);
+  EXPECT_EQ(report.pairs[0].regions, 4U);
+}
+
+/// What is allowed at one arm of a fork does not hide that the other is too near.
+TEST(RegionsTest, AGapAcrossFromAHitIsAPlaceOfItsOwn) {
+  std::vector<geometry::Vec3i> cubes;
+  for (int z = 0; z < 10; ++z)
+    for (const int x : {0, 3}) cubes.emplace_back(x, 0, z);
+  cubes.emplace_back(1, 0, 0);
+  cubes.emplace_back(2, 0, 0);
+  ClashModel made;
+  made.object("fork").body(test::voxel_mesh(cubes, 10));
+  made.box("bar", {-20, 2, 62}, {8, 8, 78});  // ends inside the one arm
+  model::finish(made.model);
+  const model::Scene scene =
+      make_scene(made.model, scene_options(Options{}), parallel::Context{}).value();
+  Options options;
+  options.clearance_mm = 25;
+  Policy policy;
+  policy.allowed = {
+      {"sleeve", {true, true}, {true, true}, Box3d{{-30, -10, 50}, {12, 20, 90}}, {}, 100}};
+  const Report report = detect(scene, one_set(scene), options, policy, {}).value();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_EQ(report.pairs[0].cls, Class::clearance_violation);
+  EXPECT_NEAR(report.pairs[0].d_mm, 22, 1e-6);
 }
 
 /// What listing regions must not change.
