@@ -92,9 +92,9 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
-                         testing::Values(Golden{false, "dd4058366d769ed5efb4a3689a53ddb7",
+                         testing::Values(Golden{false, "70fb4696344548e1c293c2353c1a3a1e",
                                                 "681e92bb01b8b1ec331483b3a986ad5c"},
-                                         Golden{true, "90c3230b0e7d565dcfc13ab682343728",
+                                         Golden{true, "22ddcf706bd497d768b6e7e47906d0fb",
                                                 "a1d1cddc09b639f078f1f7a5a47e4731"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
