@@ -11,6 +11,7 @@
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
+#include "geometry/samples.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -35,10 +36,8 @@ std::vector<Needle> needles_of(const PartView& view) {
   const std::size_t count = std::min(triangles.size(), kSamples);
   std::vector<Needle> needles;
   for (std::size_t i = 0; i < count; ++i) {
-    const Corners c = as_doubles(view.corners(triangles[i * triangles.size() / count]));
-    Needle needle{c[1] - c[0], normal_of(c)};
-    for (const Vec3d& edge : {c[2] - c[1], c[0] - c[2]})
-      if (dot(edge, edge) > dot(needle.along, needle.along)) needle.along = edge;
+    const Corners c = as_doubles(view.corners(sample(triangles, i, count)));
+    const Needle needle{longest_edge(c), normal_of(c)};
     const double squared = dot(needle.along, needle.along);
     if (squared > kElongation * length(needle.normal)) needles.push_back(needle);
   }

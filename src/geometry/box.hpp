@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <ranges>
 
 #include "strake/geometry/vec.hpp"
@@ -14,6 +15,17 @@ template <std::ranges::contiguous_range Points>
   auto box = empty_box<decltype(std::ranges::range_value_t<Points>::x)>();
   for (const auto& p : points) box.include(p);
   return box;
+}
+
+/// Twice the centre of a box along an axis: exact.
+[[nodiscard]] inline std::int64_t twice_centre(const Box3i& box, int axis) {
+  return std::int64_t{box.lo[axis]} + box.hi[axis];
+}
+
+/// What the surface area heuristic weighs the nodes of a tree by.
+[[nodiscard]] inline double half_area(const Box3i& box) {
+  const Vec3d d = box.hi.as<double>() - box.lo.as<double>();
+  return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
 /// Squared distance of two boxes that are not empty; zero where they meet. Exact but for the

@@ -29,6 +29,14 @@ using Corners = std::array<Vec3d, 3>;
 /// Its length is twice the area.
 [[nodiscard]] inline Vec3d normal_of(const Corners& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
+/// The longest edge of a triangle; of equal ones the first, from the first corner on.
+[[nodiscard]] inline Vec3d longest_edge(const Corners& t) {
+  Vec3d longest = t[1] - t[0];
+  for (const Vec3d& edge : {t[2] - t[1], t[0] - t[2]})
+    if (dot(edge, edge) > dot(longest, longest)) longest = edge;
+  return longest;
+}
+
 /// Whether a point lies in, over or under the triangle with this normal; in double arithmetic.
 [[nodiscard]] inline bool stands_over(const Vec3d& p, const Corners& t, const Vec3d& normal) {
   for (std::size_t i = 0; i < 3; ++i)

@@ -10,6 +10,7 @@
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
 #include "geometry/range.hpp"
+#include "geometry/samples.hpp"
 #include "geometry/snap_tilt.hpp"
 
 namespace strake::geometry {
@@ -46,9 +47,9 @@ bool alike(const Facing& x, const Facing& y) {
 
 std::vector<Facing> sample_facings(const Part& part) {
   std::vector<Facing> facings;
-  const std::size_t n = part.triangles.size(), count = std::min(n, kSamples);
+  const std::size_t count = std::min(part.triangles.size(), kSamples);
   for (std::size_t i = 0; i < count; ++i) {
-    const Corners t = corners_of(part, part.triangles[i * n / count]);
+    const Corners t = corners_of(part, sample(part.triangles, i, count));
     facings.emplace_back(t, normal_of(t));
   }
   return facings;

@@ -11,6 +11,7 @@
 #include "geometry/flat_pieces.hpp"
 #include "geometry/heavy_walk.hpp"
 #include "geometry/pair_view.hpp"
+#include "geometry/samples.hpp"
 #include "geometry/tree_walk.hpp"
 #include "geometry/triangle_distance.hpp"
 #include "strake/geometry/part_pair.hpp"
@@ -187,14 +188,10 @@ bool ClosestSearch::settle_near(Found& found) {
 /// is found is offered. Boxes of needles lead a walk astray there.
 void ClosestSearch::probe(const FlatPieces::Pair& pair, double limit, Found& found) const {
   const PartView a = pair.a->view(a_.shift()), b = pair.b->view(b_.shift());
-  const auto sample = [&](const PartView& of, std::size_t i) {
-    const std::vector<std::uint32_t>& order = of.tree().order();
-    return order[i * order.size() / kProbes];
-  };
   for (std::size_t i = 0; i < kProbes; ++i) {
-    probe({a, sample(a, i), true}, b, limit, found);
+    probe({a, sample(a.tree().order(), i, kProbes), true}, b, limit, found);
     if (found.near || found.reach <= limit * limit) return;
-    probe({b, sample(b, i), false}, a, limit, found);
+    probe({b, sample(b.tree().order(), i, kProbes), false}, a, limit, found);
     if (found.near || found.reach <= limit * limit) return;
   }
 }

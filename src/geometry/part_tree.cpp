@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "geometry/box.hpp"
 #include "geometry/halving.hpp"
 #include "geometry/heavy_loop.hpp"
 
@@ -26,21 +27,11 @@ struct Reference {
   std::uint32_t triangle = 0;
 };
 
-/// Twice the centre of a box along an axis: exact, so bins depend on the numbers alone.
-std::int64_t twice_centre(const Box3i& box, int axis) {
-  return std::int64_t{box.lo[axis]} + box.hi[axis];
-}
-
 void grow(Box3i& box, const Box3i& by) {
   for (int k = 0; k < 3; ++k) {
     box.lo[k] = std::min(box.lo[k], by.lo[k]);
     box.hi[k] = std::max(box.hi[k], by.hi[k]);
   }
-}
-
-double half_area(const Box3i& box) {
-  const Vec3d d = box.hi.as<double>() - box.lo.as<double>();
-  return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
 struct Bin {
@@ -109,15 +100,15 @@ std::size_t best_boundary(const Bins& bins) {
   return best;
 }
 
-Box3i box_of(std::span<const Reference> refs) {
+Box3i box_round(std::span<const Reference> refs) {
   Box3i box = empty_box<std::int32_t>();
   for (const Reference& ref : refs) grow(box, ref.box);
   return box;
 }
 
 Halves cut_at(std::span<const Reference> refs, std::size_t first) {
-  return {static_cast<std::uint32_t>(first), box_of(refs.first(first)),
-          box_of(refs.subspan(first))};
+  return {static_cast<std::uint32_t>(first), box_round(refs.first(first)),
+          box_round(refs.subspan(first))};
 }
 
 Halves halve(std::span<Reference> refs, int axis) {
@@ -202,7 +193,7 @@ void PartTree::build(const Part& part, std::uint32_t n, const Pick& pick,
     const std::span<Reference> mine = std::span(refs).subspan(range.first, range.size());
     return n <= kSmallPart ? halve_in_order(mine) : split(mine, box, range.depth);
   };
-  nodes_ = Halving<Node, decltype(cut)>(kLeafSize, cut).run(box_of(refs), n, context);
+  nodes_ = Halving<Node, decltype(cut)>(kLeafSize, cut).run(box_round(refs), n, context);
   order_.resize(n);
   const Status ordered =
       heavy_loop(context, "tree order", n, [&](std::size_t i) { order_[i] = refs[i].triangle; });

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "geometry/corners.hpp"
@@ -14,8 +12,7 @@ namespace strake::geometry {
 /// (not a unit one): two grid units in its width. Needles of one flat face look many ways.
 [[nodiscard]] inline double snap_tilt(const Corners& t, const Vec3d& normal) {
   constexpr double kUnits = 2;
-  const double longest = std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])});
-  return kUnits * longest / length(normal);
+  return kUnits * length(longest_edge(t)) / length(normal);
 }
 
 /// Whether two unit normals, either turned by up to so much, may be those of one flat face.

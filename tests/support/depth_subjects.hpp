@@ -2,6 +2,7 @@
 // Bodies that are not convex, for tests of depth; grid units.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +13,7 @@
 
 #include "part_builder.hpp"
 #include "strake/geometry/depth.hpp"
+#include "tube.hpp"
 
 namespace strake::testing {
 
@@ -22,6 +24,37 @@ inline geometry::Depth depth_of(const Subject& a, const Subject& b,
   const geometry::SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
   geometry::PairWork work;
   return solid_depth({a.treed(), &pa}, {b.treed(), &pb}, goal, work);
+}
+
+/// Whether they have interior in common.
+inline bool interiors_meet(const Subject& a, const Subject& b) {
+  geometry::PairWork work;
+  const geometry::Meeting meeting = meet(a.treed(), b.treed(), work).meeting;
+  return meeting != geometry::Meeting::apart && meeting != geometry::Meeting::touching;
+}
+
+/// With the touch that meet() finds, as the narrow phase asks.
+inline geometry::Depth depth_from_touch(const Subject& a, const Subject& b,
+                                        geometry::DepthGoal goal) {
+  geometry::PairWork work;
+  const geometry::MeetingResult meeting = meet(a.treed(), b.treed(), work);
+  goal.triangle_a = meeting.triangle_a;
+  goal.triangle_b = meeting.triangle_b;
+  goal.meeting_point = meeting.point;
+  return depth_of(a, b, goal);
+}
+
+/// The depth at a point of the grid by definition, of two that are not turned against it; 0 where
+/// it lies outside either.
+inline double depth_at(const Subject& a, const Subject& b, const geometry::Vec3l& p) {
+  geometry::PairWork work;
+  double deep = 0;
+  for (const Subject* s : {&a, &b}) {
+    const geometry::Vec3l own = p - s->origin;
+    if (side_of(s->treed(), own, 1, work) == geometry::PointSide::outside) return 0;
+    deep = std::max(deep, nearest_on_skin(s->treed(), own.as<double>()).distance);
+  }
+  return deep;
 }
 
 /// A regular prism along z with `sides` corners on radius r, snapped to the grid.
@@ -35,29 +68,13 @@ inline IndexedMesh cylinder(int sides, double r, std::int32_t z0, std::int32_t z
   return prism_mesh(ring, z0, z1);
 }
 
-/// A tube round z with `sides` facets within and without; grid units.
+/// A tube round z; grid units.
 inline IndexedMesh tube(int sides, double outer, double inner, std::int32_t z0, std::int32_t z1) {
-  const auto n = static_cast<std::uint32_t>(sides);
-  IndexedMesh mesh;
-  for (const std::int32_t z : {z0, z1})
-    for (const double r : {outer, inner})
-      for (int i = 0; i < sides; ++i) {
-        const double t = 2 * std::numbers::pi * i / sides;
-        mesh.vertices.push_back({static_cast<std::int32_t>(std::lround(r * std::cos(t))),
-                                 static_cast<std::int32_t>(std::lround(r * std::sin(t))), z});
-      }
-  // Rings of corners: outer and inner below, outer and inner above.
-  const auto band = [&](std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t j = (i + 1) % n;
-      mesh.triangles.push_back({from * n + i, from * n + j, to * n + j});
-      mesh.triangles.push_back({from * n + i, to * n + j, to * n + i});
-    }
-  };
-  for (const auto& [from, to] :
-       std::array<std::array<std::uint32_t, 2>, 4>{{{0, 2}, {2, 3}, {3, 1}, {1, 0}}})
-    band(from, to);
-  return mesh;
+  return test::tube<IndexedMesh>(
+      static_cast<std::uint32_t>(sides), outer, inner, z0, z1, [](double x, double y, double z) {
+        return Vec3i{static_cast<std::int32_t>(std::lround(x)),
+                     static_cast<std::int32_t>(std::lround(y)), static_cast<std::int32_t>(z)};
+      });
 }
 
 /// A prism along x over an outline in the yz plane, its ends cut into quads of the outline's

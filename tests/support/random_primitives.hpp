@@ -2,25 +2,19 @@
 // Seeded primitives of every kind under placements of every sort.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <random>
 
+#include "draw.hpp"
 #include "strake/geometry/primitive.hpp"
 #include "strake/geometry/vec.hpp"
 
 namespace strake::test {
 
-class PrimitiveDraw {
+class PrimitiveDraw : public Draw {
  public:
-  explicit PrimitiveDraw(std::uint64_t seed) : random_(seed) {}
+  using Draw::Draw;
 
-  double between(double lo, double hi) {
-    return lo + (hi - lo) * static_cast<double>(random_() >> 11U) * 0x1p-53;
-  }
-  bool one_in(std::uint64_t n) { return random_() % n == 0; }
-  std::uint64_t below(std::uint64_t n) { return random_() % n; }
   geometry::Vec3d point(double reach) {
     const double x = between(-reach, reach), y = between(-reach, reach);
     return {x, y, between(-reach, reach)};
@@ -36,19 +30,7 @@ class PrimitiveDraw {
   /// A rotation from a random quaternion; of one in eight, one of the axes' own.
   geometry::Mat3d turn() {
     if (one_in(8)) return {};
-    std::array<double, 4> q{};
-    double size = 0;
-    for (double& x : q) {
-      x = between(-1, 1);
-      size += x * x;
-    }
-    const double s = 2 / size;
-    const auto [w, x, y, z] = q;
-    geometry::Mat3d m;
-    m.row = {geometry::Vec3d{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
-             geometry::Vec3d{s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
-             geometry::Vec3d{s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}};
-    return m;
+    return rotation();
   }
   /// Mostly a rotation; else mirrored, of single precision, stretched or sheared.
   geometry::Mat3d linear(bool similarity = false) {
@@ -141,8 +123,6 @@ class PrimitiveDraw {
     }
     return p;
   }
-
-  std::mt19937_64 random_;
 };
 
 }  // namespace strake::test

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -103,6 +105,13 @@ inline std::string warned(const Diagnostics& diagnostics, std::string_view code)
   for (const Diagnostic& d : diagnostics.kept())
     if (d.code == code) all += d.where + ": " + d.message + "\n";
   return all;
+}
+/// That what was warned of are these lines and no others.
+inline void expect_lines(const std::string& all, std::initializer_list<std::string_view> lines) {
+  for (const std::string_view line : lines)
+    EXPECT_NE(all.find(line), std::string::npos) << line << "in\n" << all;
+  EXPECT_EQ(static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n')), lines.size())
+      << all;
 }
 
 }  // namespace strake::test

@@ -7,13 +7,11 @@
 #include <variant>
 
 #include "geometry/analytic/placed_solid.hpp"
+#include "geometry/full_turn.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::geometry::analytic {
 namespace {
-
-/// As in the tessellation: float32 sources write 2·pi a little short or long.
-bool is_full(double angle) { return angle >= 2 * kPi * (1 - 1e-6); }
 
 Profile scaled(const Profile& p, double by) {
   return {p.round, p.centre * by, p.radius * by, 0, p.inner * by, p.outer * by, p.half_height * by};
@@ -92,7 +90,7 @@ std::optional<Torus> Torus::place(const Shape& shape, const Placement& placement
   t.centre_ = frame->centre;
   t.profile_ = scaled(shape.profile, square->scale * kGridPerMm);
   t.local_profile_ = shape.profile;
-  t.full_ = is_full(shape.angle);
+  t.full_ = is_full_turn(shape.angle);
   t.angle_ = t.full_ ? 2 * kPi : shape.angle;
   t.end_ = sin_cos(t.angle_);
   t.flat_ = shape.flat;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "strake/geometry/bvh.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -55,17 +56,6 @@ struct Quantiser {
   }
 };
 
-double half_area(const Box3i& b) {
-  const double x = double{1} * b.hi.x - b.lo.x, y = double{1} * b.hi.y - b.lo.y,
-               z = double{1} * b.hi.z - b.lo.z;
-  return x * y + y * z + z * x;
-}
-
-/// Twice the centre: exact.
-std::int64_t centre2(const Box3i& b, int axis) {
-  return std::int64_t{b.lo[axis]} + std::int64_t{b.hi[axis]};
-}
-
 /// Bins along the longest side of the box of centres.
 struct Split {
   int axis = 0;
@@ -75,7 +65,7 @@ struct Split {
   /// Rounding may misplace an item by a bin: nothing but the tree's shape depends on it.
   [[nodiscard]] std::size_t bin_of(const Box3i& box) const {
     const double scale = static_cast<double>(kBins) / static_cast<double>(extent + 1);
-    const double at = static_cast<double>(centre2(box, axis) - lo) * scale;
+    const double at = static_cast<double>(twice_centre(box, axis) - lo) * scale;
     return at < 0 ? 0 : std::min(kBins - 1, static_cast<std::size_t>(at));
   }
   [[nodiscard]] bool left(const Ref& r) const { return bin_of(r.box) <= bin; }
@@ -119,7 +109,7 @@ std::optional<Split> best_split(std::span<const Ref> refs) {
   Box3l centres = empty_box<std::int64_t>();
   for (std::size_t i = 0; i < refs.size(); i += step) {
     const Box3i& box = refs[i].box;
-    centres.include(Vec3l{centre2(box, 0), centre2(box, 1), centre2(box, 2)});
+    centres.include(Vec3l{twice_centre(box, 0), twice_centre(box, 1), twice_centre(box, 2)});
   }
   Split split;
   for (int k = 0; k < 3; ++k) {

@@ -48,15 +48,6 @@ std::optional<Vec3d> largest_facing(const Part& part, const Test& picks) {
   return best.size > 0 ? std::optional(best.normal) : std::nullopt;
 }
 
-Vec3d longest_edge(const Corners& c) {
-  Vec3d edge = c[1] - c[0];
-  for (std::size_t i = 1; i < 3; ++i) {
-    const Vec3d e = c[(i + 1) % 3] - c[i];
-    if (dot(e, e) > dot(edge, edge)) edge = e;
-  }
-  return edge;
-}
-
 /// A frame along a triangle's normal and a face square to it.
 Axes frame_of_faces(const Part& part, std::uint32_t triangle) {
   const Axes world{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};

@@ -11,6 +11,7 @@
 #include "geometry/flat_pieces.hpp"
 #include "geometry/heavy_walk.hpp"
 #include "geometry/places/bucket_order.hpp"
+#include "geometry/samples.hpp"
 #include "geometry/tree_walk.hpp"
 #include "strake/geometry/wide_int.hpp"
 
@@ -124,7 +125,7 @@ bool too_many_by_samples(const PartView& a, const PartView& b, const NearQuestio
   std::uint64_t near = 0;
   for (std::size_t i = 0; i < kSamples && near < wanted; ++i) {
     if (near + (kSamples - i) * each.most < wanted) return false;
-    near += count_near(a, order[i * order.size() / kSamples], b, each, work);
+    near += count_near(a, sample(order, i, kSamples), b, each, work);
   }
   return near >= wanted;
 }

@@ -15,6 +15,7 @@
 #include "geometry/box.hpp"
 #include "geometry/corners.hpp"
 #include "geometry/depth/nearest.hpp"
+#include "geometry/directions.hpp"
 #include "geometry/places/common_box.hpp"
 #include "geometry/places/near_pairs.hpp"
 #include "geometry/places/segment_near.hpp"
@@ -175,10 +176,8 @@ class NearCorners {
     limits.reserve(view.part().triangles.size());
     for (const Triangle& t : view.part().triangles) {
       const Corners c = corners_of(view.part(), t);
-      const double longest =
-          std::sqrt(std::max({squared_distance(c[0], c[1]), squared_distance(c[1], c[2]),
-                              squared_distance(c[2], c[0])}));
-      const double limit = std::sqrt(squared) + longest / std::numbers::sqrt3 + kCutMargin;
+      const double limit =
+          std::sqrt(squared) + length(longest_edge(c)) / std::numbers::sqrt3 + kCutMargin;
       limits.push_back(limit * limit);
     }
     return limits;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/full_turn.hpp"
 #include "geometry/tessellate/revolve.hpp"
 
 namespace strake::geometry::tessellation {
@@ -9,9 +10,6 @@ namespace {
 
 constexpr int kMostSegments = 1024;
 constexpr std::string_view kBadAngle = "an angle is not positive or not finite";
-
-/// float32 sources write 2·pi a little short or long.
-bool is_full(double angle) { return angle >= 2 * kPi * (1 - 1e-6); }
 
 /// However small the sweep, a half turn in one step would be flat and a longer one inside out.
 int quarter_turns(double angle) {
@@ -21,7 +19,7 @@ int quarter_turns(double angle) {
 /// The directions of a sweep from +X. A full one starts where the rule of rims says, so that it
 /// does not depend on the local frame.
 Sweep sweep_of(double angle, double radius, double sag, const Mat3d& linear, int least = 1) {
-  if (is_full(angle)) {
+  if (is_full_turn(angle)) {
     const int n = circle_segments(radius, sag, kMostSegments);
     return {rim(n, canonical_phase(column(linear, 0), column(linear, 1))), true};
   }
@@ -95,7 +93,7 @@ Tessellation make(const CircularTorusPrimitive& p, const Target& target) {
   if (p.tube_radius >= p.centre_radius) return clipped(p, target);
   const int n = circle_segments(p.tube_radius, kRimShare * target.sag, kMostSegments);
   const double rim_sag = sagitta(p.tube_radius, 2 * kPi / n);
-  const bool full = is_full(p.angle);
+  const bool full = is_full_turn(p.angle);
   const EndPhases phases = full ? EndPhases{} : end_phases(p, target.linear, n);
   const double outer = p.centre_radius + p.tube_radius, rest = target.sag - rim_sag;
   Sweep sweep = sweep_of(p.angle, outer, rest, target.linear);
@@ -142,7 +140,7 @@ Tessellation make(const RectangularTorusPrimitive& p, const Target& target) {
   Builder builder;
   (void)revolve(builder, sweep, corners.size(), true,
                 [&](std::size_t i, std::size_t) { return corners[i]; });
-  const bool convex = p.inner_radius == 0 && (is_full(p.angle) || p.angle <= kPi);
+  const bool convex = p.inner_radius == 0 && (is_full_turn(p.angle) || p.angle <= kPi);
   return std::move(builder).take(sagitta(p.outer_radius, step_of(sweep, p.angle)), convex);
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "strake/clash/clash.hpp"
 #include "strake/geometry/grid.hpp"
 #include "support/clash_model.hpp"
+#include "support/draw.hpp"
 #include "support/revolved.hpp"
 
 namespace strake::clash {
@@ -30,36 +30,16 @@ using test::ClashModel;
 
 constexpr int kSeeds = 60;
 
-class Draw {
+class Draw : public test::Draw {
  public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
-  double operator()(double lo, double hi) {
-    return lo + (hi - lo) * static_cast<double>(random_() >> 11U) * 0x1p-53;
-  }
+  using test::Draw::Draw;
+
+  double operator()(double lo, double hi) { return between(lo, hi); }
   /// One of the lengths that tell the classes apart, well away from any threshold.
   double gap() {
     constexpr std::array<double, 10> kGaps{-40, -9, -2.5, -0.6, -0.02, 0.02, 0.7, 3, 11, 24};
-    return kGaps[random_() % kGaps.size()];
+    return kGaps[below(kGaps.size())];
   }
-  /// A rotation from a random quaternion.
-  Mat3d turn() {
-    std::array<double, 4> q{};
-    double size = 0;
-    for (double& x : q) {
-      x = (*this)(-1, 1);
-      size += x * x;
-    }
-    const double s = 2 / size;
-    const auto [w, x, y, z] = q;
-    Mat3d m;
-    m.row = {Vec3d{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
-             Vec3d{s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
-             Vec3d{s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}};
-    return m;
-  }
-
- private:
-  std::mt19937_64 random_;
 };
 
 Vec3d on_grid(const Vec3d& p) { return geometry::to_mm(geometry::snap(p).value()); }
@@ -147,7 +127,7 @@ double separation(const std::array<Span, n>& spans) {
 TEST(CertifiedPairs, BoxesInACommonFrame) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     Draw draw(static_cast<std::uint64_t>(seed));
-    const Mat3d turn = draw.turn();
+    const Mat3d turn = draw.rotation();
     const Vec3d a{draw(20, 900), draw(20, 900), draw(20, 900)};
     const Vec3d b{draw(20, 900), draw(20, 900), draw(20, 900)};
     Vec3d at{draw(-300, 300), draw(-300, 300), draw(-300, 300)};
@@ -168,7 +148,7 @@ TEST(CertifiedPairs, BoxesInACommonFrame) {
 TEST(CertifiedPairs, BoxesNestedEqualAndThrough) {
   Draw draw(7);
   for (int i = 0; i < 20; ++i) {
-    const Mat3d turn = draw.turn();
+    const Mat3d turn = draw.rotation();
     const Placement here{turn, {}}, off{turn, on_grid(turn * Vec3d{100, -50, 30})};
     const Body room{Primitive{geometry::BoxPrimitive{1000, 900, 800}}, here};
     const Vec3d at = in_frame(turn, off.translation);
@@ -185,7 +165,7 @@ TEST(CertifiedPairs, BoxesNestedEqualAndThrough) {
 TEST(CertifiedPairs, BoxCornerOverAFace) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     Draw draw(static_cast<std::uint64_t>(seed) + 1000);
-    const Mat3d turn = draw.turn(), other = draw.turn();
+    const Mat3d turn = draw.rotation(), other = draw.rotation();
     const Placement floor{turn, on_grid({draw(-9, 9), draw(-9, 9), draw(-9, 9)})};
     const geometry::BoxPrimitive box{draw(30, 200), draw(30, 200), draw(30, 200)};
     // The corner of the box that lies deepest along the floor's normal.
@@ -209,10 +189,10 @@ TEST(CertifiedPairs, Spheres) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     Draw draw(static_cast<std::uint64_t>(seed) + 2000);
     const double r = draw(5, 900), s = draw(5, 900);
-    const Vec3d way = draw.turn().row[0];
-    const Placement pa{draw.turn(), on_grid({draw(-9, 9), draw(-9, 9), draw(-9, 9)})};
+    const Vec3d way = draw.rotation().row[0];
+    const Placement pa{draw.rotation(), on_grid({draw(-9, 9), draw(-9, 9), draw(-9, 9)})};
     const double distance = seed % 4 == 0 ? std::fabs(r - s) * draw(0.1, 0.9) : r + s + draw.gap();
-    const Placement pb{draw.turn(), on_grid(pa.translation + way * distance)};
+    const Placement pb{draw.rotation(), on_grid(pa.translation + way * distance)};
     const Vec3d off = pb.translation - pa.translation;
     const double apart = std::sqrt(dot(off, off));
     const double d = apart >= r + s
@@ -227,7 +207,7 @@ TEST(CertifiedPairs, Spheres) {
 TEST(CertifiedPairs, SphereAtAFaceAnEdgeOrACorner) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     Draw draw(static_cast<std::uint64_t>(seed) + 3000);
-    const Mat3d turn = draw.turn();
+    const Mat3d turn = draw.rotation();
     const double r = draw(50, 400);
     const Vec3d half{draw(100, 900), draw(100, 900), draw(100, 900)};
     // A point of the box and a way out of it there.
@@ -239,7 +219,8 @@ TEST(CertifiedPairs, SphereAtAFaceAnEdgeOrACorner) {
     }
     const Vec3d way = out * (1 / std::sqrt(dot(out, out)));
     const Placement pa{turn, on_grid({draw(-9, 9), draw(-9, 9), draw(-9, 9)})};
-    const Placement pb{draw.turn(), on_grid(pa.translation + turn * (on + way * (r + draw.gap())))};
+    const Placement pb{draw.rotation(),
+                       on_grid(pa.translation + turn * (on + way * (r + draw.gap())))};
     const Vec3d c = in_frame(turn, pb.translation - pa.translation);
     Vec3d beyond;
     for (int k = 0; k < 3; ++k) beyond[k] = std::max(0.0, std::fabs(c[k]) - half[k]);
@@ -255,7 +236,7 @@ TEST(CertifiedPairs, SphereAtAFaceAnEdgeOrACorner) {
 TEST(CertifiedPairs, CylindersSideBySideEndToEndAndInside) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     Draw draw(static_cast<std::uint64_t>(seed) + 4000);
-    const Mat3d turn = draw.turn();
+    const Mat3d turn = draw.rotation();
     const double r = draw(10, 300), s = draw(10, 300), h = draw(50, 900), k = draw(50, 900);
     Vec3d at{};
     if (seed % 3 == 0) at = {r + s + draw.gap(), 0, draw(-1, 1) * (h + k) / 2};
@@ -296,7 +277,7 @@ TriangleMesh convex_mesh(Draw& draw, int kind) {
     for (Vec3d& v : m.vertices) v.z -= 1;
   }
   const Vec3d size{draw(60, 300), draw(60, 300), draw(60, 300)};
-  const Mat3d turn = draw.turn();
+  const Mat3d turn = draw.rotation();
   for (Vec3d& v : m.vertices) v = on_grid(turn * Vec3d{v.x * size.x, v.y * size.y, v.z * size.z});
   return m;
 }
@@ -307,7 +288,7 @@ TEST(CertifiedPairs, ConvexMeshOverAFaceOfAnother) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     Draw draw(static_cast<std::uint64_t>(seed) + 5000);
     const TriangleMesh body = convex_mesh(draw, seed % 6 < 2 ? seed % 6 : 3 + seed % 6);
-    const Mat3d turn = draw.turn();
+    const Mat3d turn = draw.rotation();
     TriangleMesh floor = test::box_mesh({-4000, -4000, -3000}, {4000, 4000, 0});
     for (Vec3d& v : floor.vertices) v = on_grid(turn * v);
     const Vec3d up = turn * Vec3d{0, 0, 1};
@@ -326,7 +307,7 @@ TEST(CertifiedPairs, ConvexMeshInsideAnother) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     Draw draw(static_cast<std::uint64_t>(seed) + 6000);
     const TriangleMesh body = convex_mesh(draw, seed % 6 < 2 ? seed % 6 : 3 + seed % 6);
-    const Mat3d turn = draw.turn();
+    const Mat3d turn = draw.rotation();
     TriangleMesh block = test::box_mesh({-4000, -4000, -6000}, {4000, 4000, 0});
     for (Vec3d& v : block.vertices) v = on_grid(turn * v);
     const Vec3d up = turn * Vec3d{0, 0, 1};

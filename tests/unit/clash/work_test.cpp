@@ -13,6 +13,7 @@
 #include "support/clash_model.hpp"
 #include "support/revolved.hpp"
 #include "support/rotations.hpp"
+#include "support/tube.hpp"
 
 namespace strake::clash {
 namespace {
@@ -134,20 +135,8 @@ TEST(ClashWork, ConcentricCylindersCostAFewTrianglePairsATriangle) {
 
 /// A tube of long facets without bands.
 TriangleMesh tube_mesh(double outer, double inner, double height, std::uint32_t sectors) {
-  TriangleMesh m;
-  for (const double r : {outer, inner})
-    for (const double z : {0.0, height})
-      for (std::uint32_t s = 0; s < sectors; ++s) {
-        const double angle = 2 * std::numbers::pi * s / sectors;
-        m.vertices.push_back({r * std::cos(angle), r * std::sin(angle), z});
-      }
-  const auto at = [&](std::uint32_t ring, std::uint32_t s) { return ring * sectors + s % sectors; };
-  for (std::uint32_t s = 0; s < sectors; ++s)
-    for (const auto& [low, high] : {std::pair(0U, 1U), {1U, 3U}, {3U, 2U}, {2U, 0U}}) {
-      m.triangles.push_back({at(low, s), at(low, s + 1), at(high, s + 1)});
-      m.triangles.push_back({at(low, s), at(high, s + 1), at(high, s)});
-    }
-  return m;
+  return test::tube<TriangleMesh>(sectors, outer, inner, 0, height,
+                                  [](double x, double y, double z) { return Vec3d{x, y, z}; });
 }
 
 /// A pipe in its sleeve, askew: boxes along the axes tell nothing of their facets.

@@ -17,8 +17,11 @@ namespace {
 using testing::beam;
 using testing::crosswise;
 using testing::cylinder;
+using testing::depth_at;
+using testing::depth_from_touch;
 using testing::depth_of;
 using testing::IndexedMesh;
+using testing::interiors_meet;
 using testing::Subject;
 using testing::tube;
 using testing::turned;
@@ -37,14 +40,8 @@ TEST(CavingDepth, AFittingBoltIsNoDeeperThanTheFacets) {
           bolt = turned(bolt);
         }
         const Subject a(plate), b(bolt);
-        PairWork work;
-        const MeetingResult meeting = meet(a.treed(), b.treed(), work);
-        ASSERT_EQ(meeting.meeting, Meeting::crossing);
-        const Depth d = depth_of(a, b,
-                                 {.threshold = 1000,
-                                  .triangle_a = meeting.triangle_a,
-                                  .triangle_b = meeting.triangle_b,
-                                  .meeting_point = meeting.point});
+        ASSERT_TRUE(interiors_meet(a, b));
+        const Depth d = depth_from_touch(a, b, {.threshold = 1000});
         const double sag = kRadius * (1 - std::cos(std::numbers::pi / hole_sides));
         EXPECT_LE(d.value, sag + 2);
         EXPECT_LE(d.upper, 1000) << hole_sides << " and " << bolt_sides << (askew ? " askew" : "");
@@ -77,14 +74,8 @@ TEST(CavingDepth, CrossingBeamsTakeFewCells) {
     for (Vec3i& v : other.vertices) v = v + Vec3i{x, y, z};
     const bool askew = seed % 2 == 0;
     const Subject a(askew ? turned(along) : along), b(askew ? turned(other) : other);
-    PairWork work;
-    const MeetingResult meeting = meet(a.treed(), b.treed(), work);
-    ASSERT_EQ(meeting.meeting, Meeting::crossing) << "seed " << seed;
-    const Depth d = depth_of(a, b,
-                             {.threshold = 1000,
-                              .triangle_a = meeting.triangle_a,
-                              .triangle_b = meeting.triangle_b,
-                              .meeting_point = meeting.point});
+    ASSERT_TRUE(interiors_meet(a, b)) << "seed " << seed;
+    const Depth d = depth_from_touch(a, b, {.threshold = 1000});
     EXPECT_LE(d.upper - d.lower, 0.0201 * d.upper) << "seed " << seed;
     EXPECT_LT(d.cells, 500U) << "seed " << seed;
     for (int i = 0; i < 4000; ++i) {
@@ -92,11 +83,7 @@ TEST(CavingDepth, CrossingBeamsTakeFewCells) {
       const std::int32_t dx = draw(-reach, reach), dy = draw(-reach, reach);
       const Vec3l q{std::llround(d.point.x) + dx, std::llround(d.point.y) + dy,
                     std::llround(d.point.z) + draw(-reach, reach)};
-      if (side_of(a.treed(), q, 1, work) == PointSide::outside) continue;
-      if (side_of(b.treed(), q, 1, work) == PointSide::outside) continue;
-      const double deep = std::max(nearest_on_skin(a.treed(), q.as<double>()).distance,
-                                   nearest_on_skin(b.treed(), q.as<double>()).distance);
-      ASSERT_LE(deep, d.upper + 1e-3) << "seed " << seed;
+      ASSERT_LE(depth_at(a, b, q), d.upper + 1e-3) << "seed " << seed;
     }
   }
 }
@@ -119,9 +106,7 @@ TEST(CavingDepth, NoSampleInAHoleIsDeeperThanTheBracket) {
                                     : cylinder(other, tighter, -3'000, 4'000);
     for (Vec3i& v : pin.vertices) v = v + Vec3i{x, 300, z / 4};
     const Subject a(askew ? turned(ring) : ring), b(askew ? turned(pin) : pin);
-    PairWork work;
-    const MeetingResult meeting = meet(a.treed(), b.treed(), work);
-    if (meeting.meeting == Meeting::apart || meeting.meeting == Meeting::touching) continue;
+    if (!interiors_meet(a, b)) continue;
     const Depth d = depth_of(a, b, {.threshold = 100, .tolerance = 1, .relative = 1e-4});
     EXPECT_LE(d.lower, d.upper);
     for (int i = 0; i < 2000; ++i) {
@@ -130,11 +115,7 @@ TEST(CavingDepth, NoSampleInAHoleIsDeeperThanTheBracket) {
       if (i % 2 == 0) p = b.part.vertices[random() % b.part.vertices.size()].as<double>();
       const double dx = draw(-reach, reach), dy = draw(-reach, reach), dz = draw(-reach, reach);
       const Vec3l q{std::llround(p.x + dx), std::llround(p.y + dy), std::llround(p.z + dz)};
-      if (side_of(a.treed(), q, 1, work) == PointSide::outside) continue;
-      if (side_of(b.treed(), q, 1, work) == PointSide::outside) continue;
-      const double deep = std::max(nearest_on_skin(a.treed(), q.as<double>()).distance,
-                                   nearest_on_skin(b.treed(), q.as<double>()).distance);
-      ASSERT_LE(deep, d.upper + 1e-3) << "seed " << seed;
+      ASSERT_LE(depth_at(a, b, q), d.upper + 1e-3) << "seed " << seed;
     }
   }
 }

@@ -21,8 +21,11 @@ namespace {
 using testing::box_mesh;
 using testing::channel;
 using testing::cylinder;
+using testing::depth_at;
+using testing::depth_from_touch;
 using testing::depth_of;
 using testing::IndexedMesh;
+using testing::interiors_meet;
 using testing::Subject;
 using testing::turned;
 
@@ -130,16 +133,9 @@ TEST(Depth, BracketsOfConcaveBodiesAreNarrow) {
                                   ? channel(draw(40, 90) * 1000, 30'000, 50'000, draw(4, 12) * 1000)
                                   : cylinder(draw(3, 24), draw(5'000, 20'000), -20'000, 20'000);
     const Subject b(turned(other), {draw(0, 40'000), draw(0, 40'000), draw(0, 20'000)});
-    PairWork work;
-    const MeetingResult meeting = meet(a.treed(), b.treed(), work);
-    if (meeting.meeting == Meeting::apart || meeting.meeting == Meeting::touching) continue;
+    if (!interiors_meet(a, b)) continue;
     ++met;
-    const Depth d = depth_of(a, b,
-                             {.threshold = 1000,
-                              .cells_decided = 10'000,
-                              .triangle_a = meeting.triangle_a,
-                              .triangle_b = meeting.triangle_b,
-                              .meeting_point = meeting.point});
+    const Depth d = depth_from_touch(a, b, {.threshold = 1000, .cells_decided = 10'000});
     EXPECT_LE(d.upper - d.lower, std::max(8.0, 0.02 * d.upper)) << "seed " << seed;
   }
   EXPECT_GT(met, 30);
@@ -150,14 +146,8 @@ TEST(Depth, ShallowContactInTheHollowOfATurnedChannel) {
   // be certain, and cheap.
   const Subject a(turned(channel(1'000'000, 100'000, 80'000, 10'000)));
   const Subject b(turned(box_mesh({400'000, 30'000, 9'980}, {600'000, 70'000, 50'000})));
-  PairWork work;
-  const MeetingResult meeting = meet(a.treed(), b.treed(), work);
-  ASSERT_EQ(meeting.meeting, Meeting::crossing);
-  const Depth d = depth_of(a, b,
-                           {.threshold = 1000,
-                            .triangle_a = meeting.triangle_a,
-                            .triangle_b = meeting.triangle_b,
-                            .meeting_point = meeting.point});
+  ASSERT_TRUE(interiors_meet(a, b));
+  const Depth d = depth_from_touch(a, b, {.threshold = 1000});
   EXPECT_NEAR(d.value, 20, 3);
   EXPECT_LE(d.lower, 22);
   EXPECT_GE(d.upper, 18);
@@ -186,11 +176,7 @@ TEST(Depth, NoSampleIsDeeperThanTheBracket) {
       const Vec3l p{draw(a.part.box.lo.x, a.part.box.hi.x + 1),
                     draw(a.part.box.lo.y, a.part.box.hi.y + 1),
                     draw(a.part.box.lo.z, a.part.box.hi.z + 1)};
-      if (side_of(a.treed(), p, 1, work) != PointSide::inside) continue;
-      if (side_of(b.treed(), p - b.origin, 1, work) != PointSide::inside) continue;
-      const double deep = std::max(distance_to_surface(a.treed(), p.as<double>()),
-                                   distance_to_surface(b.treed(), (p - b.origin).as<double>()));
-      EXPECT_LE(deep, d.upper + 1e-3) << "seed " << seed;
+      EXPECT_LE(depth_at(a, b, p), d.upper + 1e-3) << "seed " << seed;
     }
   }
 }

@@ -9,6 +9,7 @@
 namespace strake::rules {
 namespace {
 
+using test::expect_lines;
 using test::Row;
 using test::Told;
 using test::warned;
@@ -49,21 +50,19 @@ name = "asked in vain"
 a = "b"
 b = "c"
 )toml");
-  const std::string all = warned(outcome.diagnostics, "rule-matches-nothing");
-  for (const char* line :
-       {"r.toml: [insulation]: no object has insulation\n",
-        "r.toml, line 3: [[same_attribute]] 'system': it concerns no two objects that are within "
-        "reach of each other\n",
-        "r.toml, line 6: [[connected]] 'joints': it concerns no two objects that are within reach "
-        "of each other\n",
-        "r.toml, line 9: [[exempt]] 'far': it concerns no two objects that are within reach of "
-        "each other\n",
-        "r.toml, line 17: [[allowed]] 'never asked': it concerns no two objects that are within "
-        "reach of each other and not exempted\n",
-        "r.toml, line 21: [[allowed]] 'exempted': it concerns no two objects that are within reach "
-        "of each other and not exempted\n"})
-    EXPECT_NE(all.find(line), std::string::npos) << line << "in\n" << all;
-  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 6) << all;
+  expect_lines(
+      warned(outcome.diagnostics, "rule-matches-nothing"),
+      {"r.toml: [insulation]: no object has insulation\n",
+       "r.toml, line 3: [[same_attribute]] 'system': it concerns no two objects that are within "
+       "reach of each other\n",
+       "r.toml, line 6: [[connected]] 'joints': it concerns no two objects that are within reach "
+       "of each other\n",
+       "r.toml, line 9: [[exempt]] 'far': it concerns no two objects that are within reach of "
+       "each other\n",
+       "r.toml, line 17: [[allowed]] 'never asked': it concerns no two objects that are within "
+       "reach of each other and not exempted\n",
+       "r.toml, line 21: [[allowed]] 'exempted': it concerns no two objects that are within reach "
+       "of each other and not exempted\n"});
 }
 
 // One test that has a use for a rule is enough.
@@ -120,18 +119,16 @@ name = "not checked anyway"
 a = "d"
 b = "c"
 )toml");
-  const std::string all = warned(outcome.diagnostics, "rule-shadowed");
-  for (const char* line :
-       {"[[discipline]] 'second', select: every object that it picks counts for an earlier "
-        "discipline\n",
-        "every object that it picks is in an earlier group\n",
-        "every object that it picks is one of 'none'\n",
-        "[[exempt]] 'again': it does nothing: what it concerns is exempted by earlier rules, as "
-        "'unit groups'\n",
-        "[[exempt]] 'not checked anyway': it does nothing: what it concerns is exempted by earlier "
-        "rules, as 'matrix'\n"})
-    EXPECT_NE(all.find(line), std::string::npos) << line << "in\n" << all;
-  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 5) << all;
+  expect_lines(
+      warned(outcome.diagnostics, "rule-shadowed"),
+      {"[[discipline]] 'second', select: every object that it picks counts for an earlier "
+       "discipline\n",
+       "every object that it picks is in an earlier group\n",
+       "every object that it picks is one of 'none'\n",
+       "[[exempt]] 'again': it does nothing: what it concerns is exempted by earlier rules, as "
+       "'unit groups'\n",
+       "[[exempt]] 'not checked anyway': it does nothing: what it concerns is exempted by earlier "
+       "rules, as 'matrix'\n"});
 }
 
 TEST(IdleRules, AllowancesThatEarlierOnesLeaveNothingToAreNamed) {
