@@ -130,8 +130,8 @@ void report_findings(const GridShapeResult& made, const Model& model, ObjectId i
   counted(Severity::note, "mesh-degenerate", made.findings.degenerate_triangles,
           "a triangle without area was left out", "{} triangles without area were left out");
   counted(Severity::note, "mesh-cut", made.findings.cut_triangles,
-          "a triangle was cut so that one without area beside it leaves no gap",
-          "{} triangles were cut so that those without area beside them leave no gap");
+          "a triangle was cut where corners of others lie on its edges, to match them",
+          "{} triangles were cut where corners of others lie on their edges, to match them");
   counted(Severity::note, "mesh-duplicate", made.findings.duplicate_triangles,
           "a repeated triangle was left out", "{} repeated triangles were left out");
   counted(Severity::warning, "mesh-nested", made.findings.nested_shells,

@@ -21,7 +21,7 @@ struct GridMesh {
 /// What had to be left out of the parts or mended, counted.
 struct MeshFindings {
   std::uint64_t degenerate_triangles = 0;  ///< of exactly zero area after the snap: left out
-  std::uint64_t cut_triangles = 0;         ///< cut so that these leave no gap
+  std::uint64_t cut_triangles = 0;         ///< at T-junctions, so that edges match
   std::uint64_t duplicate_triangles = 0;   ///< same vertices, same side
   std::uint64_t nested_shells = 0;         ///< closed shells that bound nothing: a solid in a solid
   std::uint64_t two_sided_shells = 0;      ///< closed skins that were drawn from both sides
@@ -45,8 +45,9 @@ struct MeshAnalysis {
 ///    and counted.
 ///    A skin that is drawn from both sides is the solid in it, whatever the triangles of either
 ///    side; the far side is left out and counted.
-/// 4. A triangle of no area joins its neighbours as any other; that these stay joined without it,
-///    the one along its longest edge is cut at the corner between. Nothing moves.
+/// 4. Triangles of no area are left out. Where corners lie exactly on an edge that does not match
+///    those on its other side, its triangles are cut there if edges then match: T-junctions, and
+///    what a triangle of no area has sealed. Nothing moves.
 /// 5. A closed shell of no volume that is covered twice, once from each side, becomes a sheet.
 ///
 /// Every decision is exact. Cost: O(n log n) for one shell; nesting tests only shells whose boxes

@@ -199,10 +199,8 @@ MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh) {
       return analysis;
     }
   const std::size_t vertices = welded.vertices.size();
-  weld_triangles(mesh, key.renumbered, scratch, analysis.findings);
+  const Topology topology = weld_triangles(mesh, key.renumbered, scratch, analysis.findings);
   if (welded.triangles.empty()) return analysis;
-  const Topology topology =
-      make_topology(welded.vertices.size(), welded.triangles, scratch.topology);
   ShellLabels labels = label_shells(welded.vertices, welded.triangles, topology, scratch.topology);
   if (labels.count > 1) {
     split(labels, scratch, analysis);
@@ -211,13 +209,15 @@ MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh) {
   // Only what does not depend on coordinates may be said of other meshes with this key.
   const bool plain = welded.vertices.size() == vertices &&
                      welded.triangles.size() == mesh.triangles.size() &&
-                     analysis.findings.degenerate_triangles == 0 && !has_crowded_edge(topology);
+                     analysis.findings.degenerate_triangles == 0 &&
+                     analysis.findings.cut_triangles == 0 && !has_crowded_edge(topology);
   const bool closed = labels.closed[0] != 0;
   analysis.parts.push_back(whole(topology, std::move(labels), scratch));
   const Part& part = analysis.parts.front();
   if (plain && closed == (part.kind == PartKind::solid) && scratch.known.wants_last())
     scratch.known.remember(key, {part.triangles, part.faces, part.edges, part.edge_triangles,
-                                 closed, part.flags.inverted});
+                                 SharedArray(topology.uneven), SharedArray(topology.folded), closed,
+                                 part.flags.inverted});
   return analysis;
 }
 

@@ -28,6 +28,8 @@ struct Connectivity {
   SharedArray<std::uint32_t> faces;
   SharedArray<PartEdge> edges;
   SharedArray<std::uint32_t> edge_triangles;
+  /// Whether there are T-junctions among these hangs on coordinates.
+  SharedArray<std::uint32_t> uneven, folded;
   bool closed = false;
   bool inverted = false;  ///< the triangles are turned over from how they came
 };

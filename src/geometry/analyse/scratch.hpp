@@ -50,7 +50,7 @@ struct TopologyScratch {
   std::vector<std::uint64_t> halves;       ///< (higher vertex, triangle, 1 when it runs back)
   std::vector<PartEdge> edges;
   std::vector<std::uint32_t> edge_triangles;
-  std::vector<std::uint32_t> uneven;
+  std::vector<std::uint32_t> uneven, folded;
   DisjointSets sets;  ///< of triangles
 };
 

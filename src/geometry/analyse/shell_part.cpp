@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/analyse/degenerate.hpp"
+#include "geometry/analyse/junctions.hpp"
 #include "geometry/box.hpp"
 
 namespace strake::geometry {
@@ -122,6 +123,8 @@ std::optional<Part> make_known_part(const Connectivity& known, const Box3i& box,
   if (degenerate) return std::nullopt;
   const __int128 volume = known.closed ? signed_volume_6(vertices, triangles) : 0;
   if (known.closed && volume <= 0) return std::nullopt;
+  const Topology topology{known.edges, known.edge_triangles, known.uneven, known.folded};
+  if (!Junctions(vertices, triangles, topology).none()) return std::nullopt;
   Part part =
       measured_part(known.closed ? PartKind::solid : PartKind::sheet, vertices, triangles, volume);
   part.triangles = known.triangles;

@@ -164,6 +164,11 @@ class Fan {
   std::vector<Spoke> spokes_;
 };
 
+/// Whether two triangles with one edge in common have the third corner in common, too.
+bool are_opposite(const Triangle& a, const Triangle& b) {
+  return (a[0] ^ a[1] ^ a[2]) == (b[0] ^ b[1] ^ b[2]);
+}
+
 /// Half-edges by (lower vertex, higher vertex, triangle); scratch.first tells the buckets.
 std::span<const std::uint64_t> sorted_halves(std::size_t vertices,
                                              std::span<const Triangle> triangles,
@@ -196,6 +201,7 @@ Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles
   const std::span<PartEdge> edges = room(scratch.edges, halves.size() + 1);
   const std::span<std::uint32_t> around = room(scratch.edge_triangles, halves.size());
   scratch.uneven.clear();
+  scratch.folded.clear();
   std::uint32_t count = 0;
   for (std::uint32_t v = 0; v < vertices; ++v) {
     const std::uint32_t last = scratch.first[v + 1];
@@ -204,12 +210,15 @@ Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles
       for (; i < last && high_of(halves[i]) == high; ++i) around[i] = triangle_of(halves[i]);
       edges[count] = {v, high, begin};
       const bool even = i - begin == 2 && ((halves[begin] ^ halves[begin + 1]) & 1U) != 0;
-      if (!even) scratch.uneven.push_back(count);
+      if (!even)
+        scratch.uneven.push_back(count);
+      else if (are_opposite(triangles[around[begin]], triangles[around[begin + 1]]))
+        scratch.folded.push_back(count);
       ++count;
     }
   }
   edges[count] = {0, 0, static_cast<std::uint32_t>(halves.size())};
-  return {edges.first(count + 1), around, scratch.uneven};
+  return {edges.first(count + 1), around, scratch.uneven, scratch.folded};
 }
 
 ShellLabels label_shells(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,

@@ -18,6 +18,8 @@ struct Topology {
   std::span<const std::uint32_t> edge_triangles;
   /// Edges, ascending, that do not have just two triangles, one along and one back.
   std::span<const std::uint32_t> uneven;
+  /// Edges, ascending, of one triangle and its opposite: the rims of what is drawn from both sides.
+  std::span<const std::uint32_t> folded;
 
   [[nodiscard]] std::span<const std::uint32_t> triangles_of(std::size_t edge) const {
     const std::uint32_t first = edges[edge].first_triangle;

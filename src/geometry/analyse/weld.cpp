@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "geometry/analyse/degenerate.hpp"
-#include "geometry/analyse/seams.hpp"
-#include "geometry/analyse/topology.hpp"
+#include "geometry/analyse/junctions.hpp"
 #include "geometry/box.hpp"
 
 namespace strake::geometry {
@@ -99,7 +98,6 @@ struct Rows {
   std::span<const std::uint32_t> first;
   std::span<Row> rows;
   bool repeated = false;  ///< some triangle comes twice
-  bool flat = false;      ///< some triangle of three vertices had no area and is left out
 
   [[nodiscard]] std::size_t buckets() const { return first.size() - 1; }
   [[nodiscard]] std::span<Row> bucket(std::size_t low) const {
@@ -118,28 +116,19 @@ Triangle triangle(std::size_t low, const Row& row) {
   return row.side == 0 ? Triangle{v, mid, high} : Triangle{v, high, mid};
 }
 
-struct Listed {
-  std::size_t count = 0;
-  bool flat = false;
-};
-
 /// Fills scratch.unsorted and scratch.lows with the triangles that have an area; returns their
 /// number and counts them in first[lowest vertex + 1].
 template <class Wide>
-Listed list_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
-                 std::span<const Vec3i> vertices, std::span<std::uint32_t> first,
-                 WeldScratch& scratch) {
+std::size_t list_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
+                      std::span<const Vec3i> vertices, std::span<std::uint32_t> first,
+                      WeldScratch& scratch) {
   const std::span<Row> unsorted = room(scratch.unsorted, mesh.triangles.size());
   const std::span<std::uint32_t> lows = room(scratch.lows, mesh.triangles.size());
   std::size_t count = 0;
-  bool flat = false;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     const std::uint32_t a = renumbered[t[0]], b = renumbered[t[1]], c = renumbered[t[2]];
-    if (collinear<Wide>(vertices[a], vertices[b], vertices[c])) {
-      flat = flat || (a != b && b != c && c != a);
-      continue;
-    }
+    if (collinear<Wide>(vertices[a], vertices[b], vertices[c])) continue;
     const std::uint32_t low = std::min({a, b, c}), high = std::max({a, b, c});
     const std::uint32_t mid = a ^ b ^ c ^ low ^ high;
     // Turning a triangle round keeps its side: it runs low, mid, high when one of its steps is
@@ -151,7 +140,7 @@ Listed list_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered
     lows[count++] = low;
     ++first[low + 1];
   }
-  return {count, flat};
+  return count;
 }
 
 /// Sorts a bucket, most of which hold a handful; true when a triangle comes twice.
@@ -174,7 +163,7 @@ Rows sorted_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered
   const bool narrow = vertices.empty() || is_narrow(box);
   const std::span<std::uint32_t> first = room(scratch.first, vertices.size() + 1);
   std::fill(first.begin(), first.end(), 0U);
-  const auto [count, flat] =
+  const std::size_t count =
       narrow ? list_rows<std::int64_t>(mesh, renumbered, vertices, first, scratch)
              : list_rows<__int128>(mesh, renumbered, vertices, first, scratch);
   // Buckets by lowest vertex hold a handful of triangles each: linear overall.
@@ -183,46 +172,39 @@ Rows sorted_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered
   for (std::size_t v = 1; v < first.size(); ++v) next[v] = first[v] += first[v - 1];
   const std::span<Row> rows = room(scratch.rows, count);
   for (std::size_t i = 0; i < count; ++i) rows[next[scratch.lows[i]]++] = scratch.unsorted[i];
-  Rows sorted{first, rows, false, flat};
+  Rows sorted{first, rows, false};
   for (std::size_t v = 0; v < vertices.size(); ++v)
     if (first[v + 1] - first[v] > 1) sorted.repeated |= sort_bucket(sorted.bucket(v));
   return sorted;
 }
 
-/// The rows of a mesh that has triangles without area: what they joined stays joined.
-Rows seamless_rows(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
-                   AnalyseScratch& scratch, const Rows& open, MeshFindings& findings) {
-  const std::vector<Vec3i>& vertices = scratch.welded.vertices;
-  GridMesh whole;
-  whole.triangles.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    whole.triangles.push_back({renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]});
-  std::optional<SeamlessMesh> seamless = cut_at_seams(vertices, whole.triangles, mesh.faces);
-  if (!seamless) return open;
-  findings.cut_triangles += seamless->cut;
-  whole.triangles = std::move(seamless->triangles);
-  whole.faces = std::move(seamless->faces);
-  std::vector<std::uint32_t> same(vertices.size());
-  std::iota(same.begin(), same.end(), 0U);
-  return sorted_rows(whole, same, vertices, scratch.box, scratch.weld);
-}
-
-/// Sets the triangles and faces of a mesh, repetitions once only if so asked.
-void set_triangles(const Rows& rows, bool with_faces, bool once, GridMesh& mesh) {
+/// Sets the triangles and faces of a mesh.
+void set_triangles(const Rows& rows, bool with_faces, GridMesh& mesh) {
   mesh.triangles.clear();
   mesh.faces.clear();
-  for (std::size_t low = 0; low < rows.buckets(); ++low) {
-    const std::span<const Row> bucket = rows.bucket(low);
-    for (std::size_t i = 0; i < bucket.size(); ++i) {
-      if (once && i > 0 && same_triangle(bucket[i - 1], bucket[i])) continue;
-      mesh.triangles.push_back(triangle(low, bucket[i]));
-      if (with_faces) mesh.faces.push_back(bucket[i].face);
+  for (std::size_t low = 0; low < rows.buckets(); ++low)
+    for (const Row& row : rows.bucket(low)) {
+      mesh.triangles.push_back(triangle(low, row));
+      if (with_faces) mesh.faces.push_back(row.face);
     }
-  }
 }
 
-std::uint64_t unbalanced_edges(const GridMesh& mesh, TopologyScratch& scratch) {
-  const Topology topology = make_topology(mesh.vertices.size(), mesh.triangles, scratch);
+Topology topology_of(AnalyseScratch& scratch) {
+  const GridMesh& mesh = scratch.welded;
+  return make_topology(mesh.vertices.size(), mesh.triangles, scratch.topology);
+}
+
+/// Puts other triangles into a welded mesh; true when some triangle comes twice.
+bool replace_triangles(CutMesh cut, AnalyseScratch& scratch) {
+  const GridMesh mesh{{}, std::move(cut.triangles), std::move(cut.faces)};
+  std::vector<std::uint32_t> same(scratch.welded.vertices.size());
+  std::iota(same.begin(), same.end(), 0U);
+  const Rows rows = sorted_rows(mesh, same, scratch.welded.vertices, scratch.box, scratch.weld);
+  set_triangles(rows, !mesh.faces.empty(), scratch.welded);
+  return rows.repeated;
+}
+
+std::uint64_t unbalanced_edges(const GridMesh& mesh, const Topology& topology) {
   std::uint64_t count = 0;
   for (const std::uint32_t e : topology.uneven) {
     int net = 0;
@@ -235,15 +217,27 @@ std::uint64_t unbalanced_edges(const GridMesh& mesh, TopologyScratch& scratch) {
 
 /// Drops repetitions unless the balance of the edges needs them: two nested solids that share a
 /// face list its triangles twice with reason.
-void drop_duplicates(const Rows& rows, bool with_faces, AnalyseScratch& scratch,
-                     MeshFindings& findings) {
+Topology drop_duplicates(const Topology& repeated, AnalyseScratch& scratch,
+                         MeshFindings& findings) {
   GridMesh& mesh = scratch.welded;
-  const std::uint64_t unbalanced = unbalanced_edges(mesh, scratch.topology);
-  set_triangles(rows, with_faces, true, mesh);
-  if (unbalanced_edges(mesh, scratch.topology) > unbalanced)
-    set_triangles(rows, with_faces, false, mesh);
-  else
-    findings.duplicate_triangles += rows.rows.size() - mesh.triangles.size();
+  const std::uint64_t unbalanced = unbalanced_edges(mesh, repeated);
+  std::vector<Triangle> all;
+  std::vector<std::uint32_t> faces;
+  all.swap(mesh.triangles);
+  faces.swap(mesh.faces);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0 && all[i] == all[i - 1]) continue;
+    mesh.triangles.push_back(all[i]);
+    if (!faces.empty()) mesh.faces.push_back(faces[i]);
+  }
+  const Topology once = topology_of(scratch);
+  if (unbalanced_edges(mesh, once) <= unbalanced) {
+    findings.duplicate_triangles += all.size() - mesh.triangles.size();
+    return once;
+  }
+  all.swap(mesh.triangles);
+  faces.swap(mesh.faces);
+  return topology_of(scratch);
 }
 
 /// Drops vertices that no triangle uses, keeping the order of the others.
@@ -271,16 +265,21 @@ std::span<const std::uint32_t> weld_vertices(const GridMesh& mesh, AnalyseScratc
   return number_vertices(mesh.vertices, scratch.box, scratch.weld, scratch.welded.vertices);
 }
 
-void weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
-                    AnalyseScratch& scratch, MeshFindings& findings) {
+Topology weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
+                        AnalyseScratch& scratch, MeshFindings& findings) {
   GridMesh& welded = scratch.welded;
-  Rows rows = sorted_rows(mesh, renumbered, welded.vertices, scratch.box, scratch.weld);
+  const Rows rows = sorted_rows(mesh, renumbered, welded.vertices, scratch.box, scratch.weld);
   findings.degenerate_triangles += mesh.triangles.size() - rows.rows.size();
-  if (rows.flat) rows = seamless_rows(mesh, renumbered, scratch, rows, findings);
-  const bool with_faces = !mesh.faces.empty();
-  set_triangles(rows, with_faces, false, welded);
-  if (rows.repeated) drop_duplicates(rows, with_faces, scratch, findings);
+  bool repeated = rows.repeated;
+  set_triangles(rows, !mesh.faces.empty(), welded);
   drop_unused_vertices(welded, scratch.weld.next);
+  Topology topology = topology_of(scratch);
+  if (std::optional<CutMesh> cut = cut_at_junctions(welded, topology)) {
+    findings.cut_triangles += cut->cut;
+    repeated = replace_triangles(std::move(*cut), scratch);
+    topology = topology_of(scratch);
+  }
+  return repeated ? drop_duplicates(topology, scratch, findings) : topology;
 }
 
 }  // namespace strake::geometry

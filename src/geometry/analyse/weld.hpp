@@ -5,6 +5,7 @@
 #include <span>
 
 #include "geometry/analyse/scratch.hpp"
+#include "geometry/analyse/topology.hpp"
 #include "strake/geometry/analyse.hpp"
 
 namespace strake::geometry {
@@ -15,10 +16,11 @@ namespace strake::geometry {
                                                            AnalyseScratch& scratch);
 
 /// Fills the rest of scratch.welded: degenerate and duplicate triangles dropped and counted, those
-/// beside a degenerate one cut where it would leave a gap (see cut_at_seams()), every triangle
-/// starting with its lowest vertex and triangles sorted by (lowest vertex, the other two ascending,
-/// side, face); drops vertices that none of them uses.
-void weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
-                    AnalyseScratch& scratch, MeshFindings& findings);
+/// at T-junctions cut (see cut_at_junctions()), every triangle starting with its lowest vertex and
+/// triangles sorted by (lowest vertex, the other two ascending, side, face); drops vertices that
+/// none of them uses. Returns their topology, which lives in the scratch.
+[[nodiscard]] Topology weld_triangles(const GridMesh& mesh,
+                                      std::span<const std::uint32_t> renumbered,
+                                      AnalyseScratch& scratch, MeshFindings& findings);
 
 }  // namespace strake::geometry

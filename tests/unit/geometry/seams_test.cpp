@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Triangles without area hold a skin together as any other, and no part has one.
-#include "geometry/analyse/seams.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "geometry/analyse/junctions.hpp"
 #include "strake/geometry/analyse.hpp"
 #include "strake/geometry/place.hpp"
 #include "support/rounds.hpp"
@@ -51,6 +51,22 @@ bool has_area(const Part& part, const Triangle& t) {
   const Vec3l p = part.vertices[t[0]].as<std::int64_t>();
   return cross(part.vertices[t[1]].as<std::int64_t>() - p,
                part.vertices[t[2]].as<std::int64_t>() - p) != Vec3l{0, 0, 0};
+}
+
+/// What is left of a welded mesh without its triangles of no area, and the same cut.
+struct Cut {
+  std::vector<Triangle> before;
+  std::optional<CutMesh> after;
+};
+
+Cut cut(const std::vector<Vec3i>& vertices, const std::vector<Triangle>& triangles) {
+  GridMesh mesh{vertices, triangles, {}};
+  Part part;
+  part.vertices = vertices;
+  std::erase_if(mesh.triangles, [&](const Triangle& t) { return !has_area(part, t); });
+  TopologyScratch scratch;
+  const Topology topology = make_topology(vertices.size(), mesh.triangles, scratch);
+  return {mesh.triangles, cut_at_junctions(mesh, topology)};
 }
 
 /// One solid with the skin of the cube, each edge between two triangles.
@@ -249,21 +265,6 @@ TEST(Seams, OneThatLosesAndGainsATriangleIsNotHeldForPlain) {
   EXPECT_EQ(a.parts.at(0).triangles, analyse(raised).parts.at(0).triangles);
 }
 
-TEST(Seams, ZigzagsAreGivenUp) {
-  // n triangles across n places of one line would need n² pieces.
-  constexpr std::int32_t kSpan = 2000;
-  std::vector<Vec3i> line;
-  for (std::int32_t x = 0; x < kSpan; ++x) line.push_back({x, 0, 0});
-  line.push_back({kSpan, 7, 0});
-  std::vector<Triangle> triangles;
-  for (std::uint32_t i = 0; i + 2 < kSpan / 2; ++i) {
-    const std::uint32_t far = kSpan - 1 - i;
-    triangles.push_back({i, far, i + 1});
-    triangles.push_back({i, far, kSpan});
-  }
-  EXPECT_FALSE(cut_at_seams(line, triangles, {}).has_value());
-}
-
 using EdgeSums = std::map<std::pair<std::uint32_t, std::uint32_t>, int>;
 
 EdgeSums unbalanced(std::span<const Triangle> triangles) {
@@ -279,7 +280,7 @@ EdgeSums unbalanced(std::span<const Triangle> triangles) {
 
 /// Closed meshes whose corners are thrown onto so few places that most triangles have no area.
 TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
-  std::uint64_t cut = 0;
+  std::uint64_t cuts = 0;
   for (std::uint32_t seed = 0; seed < test::rounds(4'000U, 400'000U); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
@@ -303,23 +304,18 @@ TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
       for (std::uint32_t& v : t)
         v = static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, at[v]) - sorted.begin());
     ASSERT_TRUE(unbalanced(triangles).empty());
-    const auto seamless = cut_at_seams(vertices, triangles, {});
+    const auto [solid, seamless] = cut(vertices, triangles);
     if (!seamless) {
       // Then those with an area close without more.
-      std::erase_if(triangles, [&](const Triangle& t) {
-        Part part;
-        part.vertices = vertices;
-        return !has_area(part, t);
-      });
-      EXPECT_TRUE(unbalanced(triangles).empty());
+      EXPECT_TRUE(unbalanced(solid).empty());
       continue;
     }
-    ++cut;
+    ++cuts;
     EXPECT_TRUE(unbalanced(seamless->triangles).empty());
     Part part;
     part.vertices = vertices;
     for (const Triangle& t : seamless->triangles) EXPECT_TRUE(has_area(part, t));
-    EXPECT_FALSE(cut_at_seams(vertices, seamless->triangles, {}).has_value());
+    EXPECT_FALSE(cut(vertices, seamless->triangles).after.has_value());
     // No solid has lost its skin to it.
     mesh.vertices = vertices;
     mesh.triangles = triangles;
@@ -331,7 +327,7 @@ TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
     // The same from the same triangles in another order.
     std::ranges::shuffle(mesh.triangles, random);
     for (Triangle& t : mesh.triangles) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
-    const auto again = cut_at_seams(vertices, mesh.triangles, {});
+    const auto again = cut(vertices, mesh.triangles).after;
     ASSERT_TRUE(again.has_value());
     const GridMesh one{vertices, seamless->triangles, {}}, other{vertices, again->triangles, {}};
     const MeshAnalysis a = analyse(one), b = analyse(other);
@@ -339,7 +335,7 @@ TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
     for (std::size_t i = 0; i < a.parts.size(); ++i)
       EXPECT_EQ(a.parts[i].triangles, b.parts[i].triangles);
   }
-  EXPECT_GT(cut, 1'000U);
+  EXPECT_GT(cuts, 1'000U);
 }
 
 }  // namespace

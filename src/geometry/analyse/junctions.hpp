@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry/analyse/topology.hpp"
+#include "strake/geometry/analyse.hpp"
+
+namespace strake::geometry {
+
+/// The T-junctions of a welded mesh: where an edge a-c does not balance, and another of the same
+/// line that does not either ends within it and runs back along a piece of it, a-c is to be cut at
+/// that end, so that the two match there. An edge that only a triangle and its opposite have is
+/// balanced by nothing. Incidence is exact: a corner that the snap has taken a micrometre off an
+/// edge is none on it.
+///
+/// Nothing moves and no point is added to the surface: only the ends of such edges are places to
+/// cut at. Lines on which everybody is to be cut at everybody else's ends (zigzags) are left alone.
+///
+/// O(k log k) for k edges that do not balance, and nothing where all do. Source of the algorithm: a
+/// sweep over the intervals of each line; lines are told by their primitive direction and moment
+/// (Plücker coordinates).
+class Junctions {
+ public:
+  /// `vertices` are distinct and sorted by (x, y, z), so that points of one line are in order along
+  /// it.
+  Junctions(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
+            const Topology& topology);
+
+  [[nodiscard]] bool none() const { return cut_edges_.empty(); }
+
+  /// Where the edge between two vertices, the lower first, is to be cut, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> points_on(std::uint32_t low,
+                                                         std::uint32_t high) const;
+
+ private:
+  /// The triangles that run along an edge and back.
+  struct OpenEdge {
+    std::uint32_t low = 0, high = 0;
+    std::uint32_t along = 0, back = 0;
+  };
+  struct CutEdge {
+    std::uint32_t low = 0, high = 0;
+    std::size_t first = 0, count = 0;  ///< of points_
+  };
+
+  void look_at_line(std::span<const OpenEdge> edges);
+
+  std::vector<std::uint32_t> points_;
+  std::vector<CutEdge> cut_edges_;          ///< by (low, high)
+  std::vector<std::uint8_t> on_cut_edge_;   ///< per vertex: whether one of these ends there
+  std::vector<std::uint32_t> line_points_;  ///< memory of look_at_line()
+  std::vector<std::int64_t> along_, back_;
+};
+
+/// A welded mesh with some of its triangles cut.
+struct CutMesh {
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> faces;  ///< empty, or one per triangle
+  std::uint64_t cut = 0;             ///< triangles that became several
+};
+
+/// The mesh with its triangles cut at its T-junctions, in fans that have an area each; nothing
+/// where it has none. Depends neither on the order of the triangles nor on their corners', and a
+/// triangle is cut like its opposite.
+[[nodiscard]] std::optional<CutMesh> cut_at_junctions(const GridMesh& welded,
+                                                      const Topology& topology);
+
+}  // namespace strake::geometry
