@@ -225,18 +225,24 @@ void PairOfParts::interpenetrating(const FirstLook& look, PartAnswer& answer) {
   goal.known_upper =
       -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, 0));
   goal.threshold = thresholds_.overlap;
-  // Sheets that a move within the contact distance parts touch: what the snap made of flat ones
-  // that lie on each other askew passes to and fro along lines that mean nothing.
-  if (a_.placed.part->kind == PartKind::sheet && b_.placed.part->kind == PartKind::sheet &&
-      goal.known_upper <= options_.contact_distance) {
+  // Sheets that moves within the contact distance part touch: what the snap made of sheets that lie
+  // on each other askew passes to and fro along lines that mean nothing.
+  const bool sheets =
+      a_.placed.part->kind == PartKind::sheet && b_.placed.part->kind == PartKind::sheet;
+  if (sheets && goal.known_upper <= options_.contact_distance) {
     touching(meeting, answer);
     return;
   }
+  goal.apart_within = options_.contact_distance;
   goal.triangle_a = meeting.triangle_a;
   goal.triangle_b = meeting.triangle_b;
   goal.meeting_point = meeting.point;
   geometry::Depth depth = depth_of(part_a_, part_b_, goal, work_);
   work_.depth_cells += depth.cells;
+  if (sheets && depth.upper == 0) {
+    touching(meeting, answer);
+    return;
+  }
   if (!(depth.value > 0)) {
     depth.value = kLeastDepth;
     depth.point = meeting.point;

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <functional>
 #include <utility>
 
 #include "geometry/axis_rays.hpp"
 #include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/sectors.hpp"
+#include "geometry/sided_sets.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
 namespace strake::geometry {
@@ -35,15 +36,16 @@ class CommonAreas {
   void cross(std::vector<CrossingPiece>& pieces) {
     if (leaves_.empty()) return;
     number();
-    for (const Join& j : joins_) join(find(index(j.x)), find(index(j.y)), j.swapped);
+    SidedSets sets(keys_.size());
+    for (const Join& j : joins_) sets.join(index(j.x), index(j.y), j.swapped);
     std::vector<std::array<bool, 2>> sides(keys_.size(), {false, false});
     for (const Leave& l : leaves_) {
-      const Root r = find(index(l.key));
+      const SidedSets::Root r = sets.find(index(l.key));
       sides[r.root][r.swapped ? 1 : 0] |= l.outer;
       sides[r.root][r.swapped ? 0 : 1] |= l.inner;
     }
     for (const Leave& l : leaves_) {
-      const auto& side = sides[find(index(l.key)).root];
+      const auto& side = sides[sets.find(index(l.key)).root];
       if (side[0] && side[1]) pieces.push_back(l.piece);
     }
   }
@@ -58,53 +60,31 @@ class CommonAreas {
     bool outer = false, inner = false;
     CrossingPiece piece;
   };
-  struct Root {
-    std::uint32_t root = 0;
-    bool swapped = false;
-  };
-
   void number() {
     for (const Join& j : joins_) keys_.insert(keys_.end(), {j.x, j.y});
     for (const Leave& l : leaves_) keys_.push_back(l.key);
     std::sort(keys_.begin(), keys_.end());
     keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
-    up_.resize(keys_.size());
-    std::iota(up_.begin(), up_.end(), 0U);
-    swapped_.assign(keys_.size(), false);
   }
   [[nodiscard]] std::uint32_t index(Key key) const {
     return static_cast<std::uint32_t>(std::lower_bound(keys_.begin(), keys_.end(), key) -
                                       keys_.begin());
   }
-  [[nodiscard]] Root find(std::uint32_t i) {
-    Root r{i, false};
-    while (up_[r.root] != r.root) {
-      const std::uint32_t next = up_[r.root];
-      // Halves the way; the root itself is never swapped.
-      swapped_[r.root] = swapped_[r.root] != swapped_[next];
-      up_[r.root] = up_[next];
-      r.swapped ^= swapped_[r.root];
-      r.root = up_[r.root];
-    }
-    return r;
-  }
-  void join(const Root& x, const Root& y, bool swapped) {
-    if (x.root == y.root) return;
-    up_[std::max(x.root, y.root)] = std::min(x.root, y.root);
-    swapped_[std::max(x.root, y.root)] = (x.swapped != y.swapped) != swapped;
-  }
 
   std::vector<Join> joins_;
   std::vector<Leave> leaves_;
   std::vector<Key> keys_;
-  std::vector<std::uint32_t> up_;
-  std::vector<bool> swapped_;  ///< against up_
 };
 
 class Finder {
  public:
-  Finder(const TreedPart& a, const TreedPart& b, std::size_t most, PairWork& work)
-      : a_(a, {}), b_(b, b.placed.origin - a.placed.origin), most_(most), work_(work) {}
+  Finder(const TreedPart& a, const TreedPart& b, std::size_t most, PairWork& work,
+         const std::function<bool(const CrossingPiece&)>& enough)
+      : a_(a, {}),
+        b_(b, b.placed.origin - a.placed.origin),
+        most_(most),
+        work_(work),
+        enough_(enough) {}
 
   CrossingPieces run() {
     walk();
@@ -199,13 +179,16 @@ class Finder {
   }
 
   void add(const CrossingPiece& piece) {
-    found_.truncated = found_.all.size() == most_;
-    if (!found_.truncated) found_.all.push_back(piece);
+    found_.truncated = found_.truncated || found_.all.size() == most_;
+    if (found_.truncated) return;
+    found_.all.push_back(piece);
+    found_.truncated = enough_ && enough_(piece);
   }
 
   PartView a_, b_;
   std::size_t most_;
   PairWork& work_;
+  const std::function<bool(const CrossingPiece&)>& enough_;
   CrossingPieces found_;
   CommonAreas areas_;
   Sectors sectors_;
@@ -215,8 +198,9 @@ class Finder {
 }  // namespace
 
 CrossingPieces crossing_pieces(const TreedPart& a, const TreedPart& b, std::size_t most,
-                               PairWork& work) {
-  return Finder(a, b, most, work).run();
+                               PairWork& work,
+                               const std::function<bool(const CrossingPiece&)>& enough) {
+  return Finder(a, b, most, work, enough).run();
 }
 
 }  // namespace strake::geometry

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "strake/geometry/part_pair.hpp"
@@ -26,8 +27,10 @@ struct CrossingPieces {
 /// goes on to one side of b and elsewhere to the other; the stretches then are those of the rim
 /// where it does so. Touching from one side is no crossing, nor is a sheet that ends on the other.
 ///
-/// Exact. Stops after `most` stretches that cross outright. The cost is that of the contacts.
-[[nodiscard]] CrossingPieces crossing_pieces(const TreedPart& a, const TreedPart& b,
-                                             std::size_t most, PairWork& work);
+/// Exact. Stops after `most` stretches that cross outright, or after one of them that is `enough`.
+/// The cost is that of the contacts.
+[[nodiscard]] CrossingPieces crossing_pieces(
+    const TreedPart& a, const TreedPart& b, std::size_t most, PairWork& work,
+    const std::function<bool(const CrossingPiece&)>& enough = {});
 
 }  // namespace strake::geometry

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
+#include "geometry/piece_segment.hpp"
 #include "strake/geometry/part_pair.hpp"
 
 namespace strake::geometry {
 
 /// Where two sheets cross: segments in grid units relative to a's origin.
 struct CrossingCurve {
-  std::vector<std::array<Vec3d, 2>> segments;
+  std::vector<DoubleSegment> segments;
+  bool crosses = false;    ///< though it may be in segments too short to tell
   bool truncated = false;  ///< there may be more
 };
 
-/// The segments of crossing_pieces(): which these are is exact, where they lie is rounded.
-[[nodiscard]] CrossingCurve crossing_curve(const TreedPart& a, const TreedPart& b, std::size_t most,
-                                           PairWork& work);
+/// The segments of crossing_pieces() that moves of up to `within` grid units do not undo
+/// (lasting_pieces()): which these are is exact, where they lie is rounded.
+[[nodiscard]] CrossingCurve crossing_curve(const TreedPart& a, const TreedPart& b, double within,
+                                           std::size_t most, PairWork& work);
 
 }  // namespace strake::geometry

@@ -64,6 +64,9 @@ struct DepthGoal {
   double known_upper = std::numeric_limits<double>::infinity();
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known,
   Vec3d meeting_point{};  ///< and a point there, relative to a's origin
+  /// Two sheets: what moves of the corners of one of them undo that are no longer than this is no
+  /// crossing.
+  double apart_within = 0;
   /// Only points in this box, relative to a's origin, count.
   std::optional<Box3d> within = {};
   /// And of those, where there are several places: whether a point of both belongs to the one asked
@@ -114,7 +117,8 @@ struct SkinPoint {
                                          const DepthGoal& goal, PairWork& work);
 
 /// Two sheets that cross: D = max over the curve that they share of the smaller distance to their
-/// boundary curves. A sheet without a boundary curve counts as far away as it is large.
+/// boundary curves. A sheet without a boundary curve counts as far away as it is large. All zero
+/// where DepthGoal::apart_within undoes all of it.
 [[nodiscard]] Depth sheet_crossing_depth(const TreedPart& a, const TreedPart& b,
                                          const DepthGoal& goal, PairWork& work);
 

@@ -63,12 +63,13 @@ class CurveSearch {
       : a_(*a.placed.part),
         b_(*b.placed.part),
         goal_(goal),
-        crossing_(crossing_curve(a, b, kMaxSegments, work)),
+        crossing_(crossing_curve(a, b, goal.apart_within, kMaxSegments, work)),
         shift_((b.placed.origin - a.placed.origin).as<double>()),
         curve_a_(boundary_curve(a_)),
         curve_b_(boundary_curve(b_)) {}
 
   Depth run() {
+    if (!crossing_.crosses) return depth_;
     for (const auto& segment : crossing_.segments) evaluate(segment);
     // Beyond the limit on segments nothing is known but the size of the smaller sheet.
     const double ceiling = std::min(size(a_), size(b_));

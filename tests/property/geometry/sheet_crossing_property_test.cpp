@@ -141,7 +141,7 @@ TEST_P(SheetCrossing, IsThatOfTheWalks) {
       PairWork work;
       ASSERT_EQ(meet(a.treed(), b.treed(), work).meeting == Meeting::crossing, truth);
       ASSERT_EQ(meet(b.treed(), a.treed(), work).meeting == Meeting::crossing, truth);
-      ASSERT_EQ(crossing_curve(a.treed(), b.treed(), 1000, work).segments.empty(), !truth);
+      ASSERT_EQ(crossing_curve(a.treed(), b.treed(), 0, 1000, work).segments.empty(), !truth);
     }
     bool along = false;
     for (std::size_t i = 0; i + 1 < p.size(); ++i) along |= has_step(q, p[i], p[i + 1]);

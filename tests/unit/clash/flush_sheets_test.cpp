@@ -5,17 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <numbers>
-#include <random>
-#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "support/clash_model.hpp"
+#include "support/draw.hpp"
+#include "support/drawn_sheets.hpp"
 #include "support/rounds.hpp"
 
 namespace strake::clash {
@@ -25,74 +23,16 @@ using geometry::Mat3d;
 using geometry::TriangleMesh;
 using geometry::Vec3d;
 
-constexpr int kTurns = test::rounds(10, 400);
+constexpr int kTurns = test::rounds(40, 400);
 /// The contact distance, mm, as far as a snap of both sheets may blur it.
 constexpr double kBand = 0.003, kBlur = 0.002;
 
-using Profile = std::vector<std::array<double, 2>>;  ///< x and z
-
-/// A profile drawn out along y, in so many bays whose diagonals alternate or not.
-TriangleMesh drawn(const Profile& profile, double y0, double y1, int bays = 1,
-                   bool alternate = false) {
-  TriangleMesh mesh;
-  const auto count = static_cast<std::uint32_t>(profile.size());
-  for (int bay = 0; bay <= bays; ++bay)
-    for (const auto& [x, z] : profile) mesh.vertices.push_back({x, y0 + (y1 - y0) * bay / bays, z});
-  for (std::uint32_t bay = 0; bay < static_cast<std::uint32_t>(bays); ++bay)
-    for (std::uint32_t i = 0; i + 1 < count; ++i) {
-      const std::uint32_t a = bay * count + i, b = a + 1, c = b + count, d = a + count;
-      const bool other = alternate && (i + bay) % 2 == 1;
-      mesh.triangles.push_back(other ? geometry::Triangle{a, b, d} : geometry::Triangle{a, b, c});
-      mesh.triangles.push_back(other ? geometry::Triangle{b, c, d} : geometry::Triangle{a, c, d});
-    }
-  return mesh;
-}
-
-/// A profile with more corners along its straight lines.
-Profile refined(const Profile& profile, int parts) {
-  Profile fine{profile.front()};
-  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-    for (int k = 1; k <= parts; ++k) {
-      const double t = static_cast<double>(k) / parts;
-      const auto &p = profile[i], &q = profile[i + 1];
-      fine.push_back({p[0] + (q[0] - p[0]) * t, p[1] + (q[1] - p[1]) * t});
-    }
-  return fine;
-}
-
-Profile arc(double radius, int first, int last) {
-  Profile profile;
-  for (int i = first; i <= last; ++i) {
-    const double angle = std::numbers::pi * i / 12;
-    profile.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-  }
-  return profile;
-}
-
-Mat3d turned(std::mt19937_64& rng) {
-  std::uniform_real_distribution<double> any(-1, 1);
-  double w = 0, x = 0, y = 0, z = 0, length = 0;
-  while (!(length > 0.1 && length < 1)) {
-    w = any(rng);
-    x = any(rng);
-    y = any(rng);
-    z = any(rng);
-    length = std::sqrt(w * w + x * x + y * y + z * z);
-  }
-  w /= length;
-  x /= length;
-  y /= length;
-  z /= length;
-  return {{Vec3d{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-           Vec3d{2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-           Vec3d{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
-}
-
-TriangleMesh placed(TriangleMesh mesh, const Mat3d& turn, const Vec3d& move) {
-  for (Vec3d& v : mesh.vertices)
-    v = Vec3d{dot(turn.row[0], v), dot(turn.row[1], v), dot(turn.row[2], v)} + move;
-  return mesh;
-}
+using test::arc;
+using test::drawn;
+using test::placed;
+using test::Profile;
+using test::refined;
+using test::shuffled;
 
 Pair pair_of(const TriangleMesh& a, const TriangleMesh& b) {
   test::ClashModel m;
@@ -106,15 +46,14 @@ Pair pair_of(const TriangleMesh& a, const TriangleMesh& b) {
 /// Looks at the pair in many places.
 template <class Expect>
 void turn_every_way(const TriangleMesh& a, const TriangleMesh& b, Expect&& expect) {
-  std::mt19937_64 rng(7);
-  std::uniform_real_distribution<double> any(-2000, 2000);
+  test::Draw draw(7);
   for (int i = 0; i < kTurns; ++i) {
     SCOPED_TRACE(i);
-    const Mat3d turn = turned(rng);
+    const Mat3d turn = draw.rotation();
     Vec3d move;
-    move.x = any(rng);
-    move.y = any(rng);
-    move.z = any(rng);
+    move.x = draw.between(-2000, 2000);
+    move.y = draw.between(-2000, 2000);
+    move.z = draw.between(-2000, 2000);
     expect(pair_of(placed(a, turn, move), placed(b, turn, move)));
   }
 }
@@ -151,6 +90,43 @@ TEST(FlushSheets, FoldedOnesTouchAFloorFromOneSide) {
     turn_every_way(floor, drawn(profile, 200, 800), [](const Pair& p) { expect_touch(p); });
 }
 
+TEST(FlushSheets, BentOnesTouchWhatTheyLieOn) {
+  const auto touches = [](const TriangleMesh& a, const TriangleMesh& b) {
+    turn_every_way(a, b, [](const Pair& p) { expect_touch(p); });
+  };
+  const Profile channel{{0, 200}, {0, 0}, {400, 0}, {400, 200}};
+  const Profile hat{{0, 0}, {200, 0}, {200, 150}, {400, 150}, {400, 0}, {600, 0}};
+  const TriangleMesh pipe = drawn(arc(500, 0, 24), 0, 1000);
+  // A pipe on a pipe, or a saddle on it, of the same facets cut in other places.
+  touches(pipe, drawn(arc(500, 0, 24), 200, 1300, 3, true));
+  touches(pipe, drawn(arc(500, 2, 9), 100, 900, 2));
+  touches(drawn(arc(500, 0, 12), 0, 1000, 5, true), drawn(arc(500, 3, 15), 300, 1200, 4));
+  // A panel on a facet, inside and outside, and on a ridge.
+  const double middle = std::numbers::pi / 24, flat = 500 * std::cos(middle);
+  const auto panel = [](double angle, double radius) {
+    const double x = std::cos(angle), z = std::sin(angle);
+    return drawn({{radius * x - 200 * z, radius * z + 200 * x},
+                  {radius * x + 200 * z, radius * z - 200 * x}},
+                 200, 800);
+  };
+  touches(drawn(arc(500, 0, 12), 0, 1000, 3), panel(5 * middle, flat));
+  touches(drawn(arc(500, 0, 12), 0, 1000, 3), panel(4 * middle, 500));
+  touches(drawn(kAngle, 0, 1000), drawn(kAngle, 100, 900));
+  touches(drawn(kAngle, 0, 1000), drawn({{0, 200}, {0, 0}, {200, 0}}, 100, 1200, 3));
+  touches(drawn(kAngle, 0, 1000), drawn({{0, 400}, {0, 0}, {400, 0}, {400, 50}}, 300, 800, 2));
+  touches(drawn(channel, 0, 1000), drawn({{0, 150}, {0, 0}, {400, 0}, {400, 150}}, -200, 700, 3));
+  touches(drawn(hat, 0, 1000),
+          drawn({{-100, 0}, {250, 0}, {250, -100}, {350, -100}, {350, 0}, {700, 0}}, 100, 900, 2));
+  touches(drawn(hat, 0, 1000), drawn(refined(hat, 3), 100, 1100, 4, true));
+}
+
+TEST(FlushSheets, GridsOnGridsTouch) {
+  const TriangleMesh grid = drawn(refined(kFloor, 10), 0, 1000, 10, true);
+  for (const double by : {10.0, 25.0, 333.3})
+    turn_every_way(grid, drawn(refined({{by, 0}, {1000 + by, 0}}, 10), by / 2, 1000 + by / 2, 10),
+                   [](const Pair& p) { expect_touch(p); });
+}
+
 TEST(FlushSheets, WhatGoesOnToBothSidesCrosses) {
   const auto crosses = [](const Pair& p) {
     EXPECT_EQ(p.cls, Class::hit) << p.d_mm;
@@ -181,6 +157,32 @@ TEST(FlushSheets, SeparationChangesByNoMoreThanTheMoveWithinTheContactDistance) 
       EXPECT_NEAR(p.d_mm, std::max(0.0, -down), std::max(down, 0.0) + kBlur);
     });
   }
+}
+
+/// What a pair is judged to be, but for which of the two is a.
+auto judgement(const Pair& p) {
+  return std::tuple(p.cls, p.relation, p.flags, p.d_mm, p.d_lower_mm, p.d_upper_mm, p.point_mm);
+}
+
+TEST(FlushSheets, AreJudgedTheSameWhicheverWayTheyAreWrittenDown) {
+  test::Draw draw(11);
+  const TriangleMesh half = drawn(arc(500, 0, 12), 0, 1000, 5, true);
+  // Nothing but a touch, a touch here and a crossing there, and a crossing where they touch.
+  const std::vector<std::pair<TriangleMesh, TriangleMesh>> pairs{
+      {half, drawn(arc(500, 3, 15), 300, 1200, 4)},
+      {drawn({{0, 0}, {1000, 0}, {1000, 400}, {0, 400}}, 0, 1000, 3),
+       drawn({{100, 0}, {800, 0}, {800, 200}, {600, 200}, {600, 700}}, 100, 900, 2, true)},
+      {drawn(refined(kFloor, 3), 0, 1000, 3, true),
+       drawn({{300, -100}, {300, 0}, {700, 0}, {700, 200}}, 200, 800)}};
+  for (const auto& [a, b] : pairs)
+    for (int i = 0; i < kTurns; ++i) {
+      SCOPED_TRACE(i);
+      const Mat3d turn = draw.rotation();
+      const TriangleMesh x = placed(a, turn, {1, 2, 3}), y = placed(b, turn, {1, 2, 3});
+      const Pair p = pair_of(x, y);
+      EXPECT_EQ(judgement(pair_of(y, x)), judgement(p));
+      EXPECT_EQ(judgement(pair_of(shuffled(x, draw), shuffled(y, draw))), judgement(p));
+    }
 }
 
 TEST(FlushSheets, OneOnASolidIsAContact) {

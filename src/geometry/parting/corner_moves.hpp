@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "strake/geometry/part.hpp"
+
+namespace strake::geometry {
+
+/// A triangle that is to move to one of its sides.
+struct MovingTriangle {
+  std::uint32_t triangle = 0;
+  bool outward = true;  ///< along its normal, seen from where it runs counter-clockwise
+  bool leads = false;   ///< at its corners only triangles that lead have a say
+};
+
+struct CornerMove {
+  std::uint32_t vertex = 0;
+  Vec3i by;
+};
+
+/// For each corner of the triangles, ascending: of the whole moves no longer than `most` grid units
+/// (at least 1) one that takes it farthest off all the planes that have a say there, each to its
+/// side: that which makes the least of these ways the greatest. The same however the triangles are
+/// numbered and their corners ordered.
+[[nodiscard]] std::vector<CornerMove> corner_moves(const Part& part,
+                                                   std::span<const MovingTriangle> triangles,
+                                                   double most);
+
+}  // namespace strake::geometry

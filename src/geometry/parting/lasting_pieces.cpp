@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/parting/lasting_pieces.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/axis_rays.hpp"
+#include "geometry/box.hpp"
+#include "geometry/corners.hpp"
+#include "geometry/directions.hpp"
+#include "geometry/parting/corner_moves.hpp"
+#include "geometry/parting/near_areas.hpp"
+#include "geometry/piece_segment.hpp"
+#include "strake/geometry/predicates.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Work limits: pieces that are looked at, and attempts for the areas of one sheet. Each area may
+/// fail on either side, and where it stays may keep its neighbours from moving. A heavy pair, of
+/// which not all pieces are known at first, has one attempt for either side.
+constexpr std::size_t kMostPieces = std::size_t{1} << 18U;
+constexpr int kMostAttempts = 4, kMostAttemptsIfHeavy = 2;
+/// Moves longer than this, grid units, are of sheets whose numbers say nothing.
+constexpr double kLongestMove = 1 << 20;
+
+/// One of two sheets: that which is moved.
+struct Mover {
+  bool is_b = false;
+
+  [[nodiscard]] const TreedPart& of(const TreedPart& a, const TreedPart& b) const {
+    return is_b ? b : a;
+  }
+  [[nodiscard]] const TreedPart& other(const TreedPart& a, const TreedPart& b) const {
+    return is_b ? a : b;
+  }
+  [[nodiscard]] std::uint32_t triangle(const CrossingPiece& p) const { return is_b ? p.b : p.a; }
+  /// All its triangles that hold the piece.
+  [[nodiscard]] std::span<const std::uint32_t> triangles(const Part& part,
+                                                         const CrossingPiece& p) const {
+    const int edge = is_b ? p.edge_b : p.edge_a;
+    const std::uint32_t& t = is_b ? p.b : p.a;
+    return edge < 0 ? std::span(&t, 1) : star(part, t, edge);
+  }
+};
+
+/// Of a point in a triangle.
+double distance_to_edges(const Vec3d& p, const Corners& t) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d along = t[(i + 1) % 3] - t[i];
+    least = std::min(least, length(cross(along, p - t[i])) / length(along));
+  }
+  return least;
+}
+
+/// Whether the triangles of a piece pass through each other so far round a point of it that no
+/// moves part them. Each holds a disc round the point; the rim of one stays linked with the rim of
+/// the other as long as no point moves by half of what either reaches off the other's plane.
+bool certainly_lasts(const PartView& a, const PartView& b, const CrossingPiece& piece,
+                     double within) {
+  if (piece.edge_a >= 0 || piece.edge_b >= 0) return false;
+  const auto segment = segment_of(a, b, piece);
+  if (!segment) return false;
+  const Vec3d middle = ((*segment)[0] + (*segment)[1]) * 0.5;
+  const Corners s = as_doubles(a.corners(piece.a)), t = as_doubles(b.corners(piece.b));
+  const double radius = std::min(distance_to_edges(middle, s), distance_to_edges(middle, t));
+  const Vec3d n = normal_of(s), m = normal_of(t);
+  const double sine = length(cross(n, m)) / (length(n) * length(m));
+  return radius * sine > 3 * within + 3;
+}
+
+/// A sheet with some of its corners moved.
+struct MovedSheet {
+  Part part;
+  std::vector<bool> moved;  ///< by vertex
+  PartTree tree = {};
+
+  MovedSheet(const Part& sheet, std::span<const CornerMove> moves)
+      : part(sheet), moved(sheet.vertices.size(), false) {
+    for (const CornerMove& move : moves) {
+      part.vertices[move.vertex] = part.vertices[move.vertex] + move.by;
+      moved[move.vertex] = true;
+    }
+    part.box = box_of(part.vertices);
+  }
+
+  /// A triangle that has no area any more.
+  [[nodiscard]] bool is_flattened(const Triangle& t) const {
+    if (!moved[t[0]] && !moved[t[1]] && !moved[t[2]]) return false;
+    const auto at = [&](std::size_t i) { return part.vertices[t[i]].as<std::int64_t>(); };
+    return cross_exact(at(1) - at(0), at(2) - at(0)) == Vec3<Int128>{};
+  }
+};
+
+/// Moves corners of one of two sheets, area by area.
+class Parting {
+ public:
+  Parting(const TreedPart& a, const TreedPart& b, Mover mover, double within, PairWork& work)
+      : treed_a_(a),
+        treed_b_(b),
+        a_(a, {}),
+        b_(b, b.placed.origin - a.placed.origin),
+        mover_(mover),
+        placed_(mover.of(a, b).placed),
+        part_(*placed_.part),
+        within_(within),
+        work_(work) {}
+
+  /// The sheet as it is when it crosses less, and what is left of the pieces.
+  std::optional<MovedSheet> run(CrossingPieces& pieces) {
+    if (!choose(pieces)) return std::nullopt;
+    const int most = pieces.truncated ? kMostAttemptsIfHeavy : kMostAttempts;
+    for (int attempt = 0; attempt < most; ++attempt) {
+      MovedSheet moved = moved_sheet();
+      if (!fits_pair({&moved.part, placed_.origin}, mover_.other(treed_a_, treed_b_).placed))
+        return std::nullopt;
+      CrossingPieces left = judged(moved);
+      if (moving_ > 0 && left.truncated) return std::nullopt;
+      if (std::ranges::none_of(plans_, &Plan::failed)) {
+        pieces = std::move(left);
+        return moved;
+      }
+      if (!try_others()) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// What is to become of an area.
+  struct Plan {
+    bool moves = false;
+    bool lost = false;    ///< it holds a piece that certainly lasts, or has no two sides
+    bool outward = true;  ///< to the outer side of its first triangle
+    bool tried = false;   ///< the other side was
+    bool failed = false;
+  };
+
+  /// Areas that hold pieces, but none that certainly last; where not all pieces are known, all such
+  /// areas. False where there are none.
+  bool choose(const CrossingPieces& pieces) {
+    std::vector<bool> lasts(part_.triangles.size(), false);
+    const std::vector<std::uint32_t> doubtful = doubtful_triangles(pieces.all, lasts);
+    if (doubtful.empty()) return false;
+    auto near = near_areas(a_, b_, mover_.is_b, within_, work_);
+    if (!near) return false;
+    near_ = std::move(*near);
+    plans_.assign(near_.triangles.size(), {});
+    for (const std::uint32_t t : doubtful)
+      if (const NearTriangle* known = near_.find(t)) plans_[known->area].moves = true;
+    for (const NearTriangle& t : near_.triangles) {
+      Plan& plan = plans_[t.area];
+      if (pieces.truncated) plan.moves = true;
+      if (lasts[t.triangle] || !near_.two_sided[t.area]) plan.lost = true;
+    }
+    for (Plan& plan : plans_) plan.moves = plan.moves && !plan.lost;
+    return count_moving() > 0;
+  }
+
+  /// The triangles that hold pieces, but for those that join over edges to one that holds a piece
+  /// that certainly lasts. Marks these and all they join to.
+  std::vector<std::uint32_t> doubtful_triangles(const std::vector<CrossingPiece>& pieces,
+                                                std::vector<bool>& lasts) const {
+    std::vector<bool> holds(part_.triangles.size(), false);
+    std::vector<std::uint32_t> spread, all;
+    for (const CrossingPiece& piece : pieces) {
+      const std::uint32_t t = mover_.triangle(piece);
+      if (!holds[t]) all.push_back(t);
+      holds[t] = true;
+      if (lasts[t] || !certainly_lasts(a_, b_, piece, within_)) continue;
+      lasts[t] = true;
+      spread.push_back(t);
+    }
+    while (!spread.empty()) {
+      const std::uint32_t t = spread.back();
+      spread.pop_back();
+      for (int edge = 0; edge < 3; ++edge)
+        for (const std::uint32_t other : star(part_, t, edge)) {
+          if (!holds[other] || lasts[other]) continue;
+          lasts[other] = true;
+          spread.push_back(other);
+        }
+    }
+    std::erase_if(all, [&](std::uint32_t t) { return lasts[t]; });
+    return all;
+  }
+
+  std::size_t count_moving() {
+    moving_ = static_cast<std::size_t>(std::ranges::count_if(plans_, &Plan::moves));
+    return moving_;
+  }
+
+  MovedSheet moved_sheet() {
+    std::vector<MovingTriangle> moving;
+    owners_.clear();
+    for (const NearTriangle& t : near_.triangles) {
+      const Plan& plan = plans_[t.area];
+      if (!plan.moves) continue;
+      moving.push_back({t.triangle, plan.outward != t.swapped, t.along});
+      for (const std::uint32_t v : part_.triangles[t.triangle]) owners_.emplace_back(v, t.area);
+    }
+    std::ranges::sort(owners_);
+    const auto twice = std::ranges::unique(owners_);
+    owners_.erase(twice.begin(), twice.end());
+    return {part_, corner_moves(part_, moving, within_)};
+  }
+
+  /// The pieces that are left; the plans that fail are marked. Only some of them where all fail.
+  CrossingPieces judged(MovedSheet& sheet) {
+    for (std::uint32_t t = 0; t < part_.triangles.size(); ++t)
+      if (sheet.is_flattened(part_.triangles[t])) fail_at(t, sheet);
+    if (std::ranges::any_of(plans_, &Plan::failed)) return {};
+    sheet.tree = PartTree(sheet.part, work_.context());
+    const TreedPart own{{&sheet.part, placed_.origin}, &sheet.tree};
+    const auto note = [&](const CrossingPiece& piece) {
+      for (const std::uint32_t t : mover_.triangles(part_, piece)) fail_at(t, sheet);
+      return moving_ == 0;
+    };
+    CrossingPieces left = crossing_pieces(mover_.is_b ? treed_a_ : own,
+                                          mover_.is_b ? own : treed_b_, kMostPieces, work_, note);
+    // Of those along areas that lie on the other sheet exactly it is told in the end.
+    for (const CrossingPiece& piece : left.all) note(piece);
+    return left;
+  }
+
+  /// The areas that move a corner of the triangle.
+  void fail_at(std::uint32_t triangle, const MovedSheet& sheet) {
+    for (const std::uint32_t v : part_.triangles[triangle]) {
+      if (!sheet.moved[v]) continue;
+      const auto first = std::ranges::lower_bound(owners_, std::pair(v, std::uint32_t{0}));
+      for (auto it = first; it != owners_.end() && it->first == v; ++it) {
+        Plan& plan = plans_[it->second];
+        moving_ -= plan.failed ? 0 : 1;
+        plan.failed = true;
+      }
+    }
+  }
+
+  /// To the other side, where that was not tried; then not at all. False where nothing moves.
+  bool try_others() {
+    for (Plan& plan : plans_) {
+      if (!plan.failed) continue;
+      plan.failed = false;
+      plan.moves = !plan.tried;
+      plan.outward = !plan.outward;
+      plan.tried = true;
+    }
+    return count_moving() > 0;
+  }
+
+  const TreedPart &treed_a_, &treed_b_;
+  PartView a_, b_;
+  Mover mover_;
+  PlacedPart placed_;
+  const Part& part_;
+  double within_;
+  PairWork& work_;
+  NearAreas near_;
+  std::vector<Plan> plans_;  ///< by area
+  std::size_t moving_ = 0;   ///< plans that move and have not failed
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> owners_;  ///< vertices that areas move
+};
+
+}  // namespace
+
+CrossingPieces lasting_pieces(const TreedPart& a, const TreedPart& b, CrossingPieces pieces,
+                              double within, std::size_t most, PairWork& work) {
+  if (!(within >= 1) || within > kLongestMove || pieces.all.empty()) return pieces;
+  const auto moved_a = Parting(a, b, {.is_b = false}, within, work).run(pieces);
+  // Of a heavy pair one view has to do.
+  if (!pieces.all.empty() && !pieces.truncated) {
+    const TreedPart other =
+        moved_a ? TreedPart{{&moved_a->part, a.placed.origin}, &moved_a->tree} : a;
+    Parting(other, b, {.is_b = true}, within, work).run(pieces);
+  }
+  if (pieces.all.size() > most) {
+    pieces.all.resize(most);
+    pieces.truncated = true;
+  }
+  return pieces;
+}
+
+}  // namespace strake::geometry
