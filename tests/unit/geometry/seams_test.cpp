@@ -315,7 +315,10 @@ TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
     Part part;
     part.vertices = vertices;
     for (const Triangle& t : seamless->triangles) EXPECT_TRUE(has_area(part, t));
-    EXPECT_FALSE(cut(vertices, seamless->triangles).after.has_value());
+    // Triangles may come to lie on their opposites by it: then more edges may be cut, and match.
+    if (const auto twice = cut(vertices, seamless->triangles).after) {
+      EXPECT_TRUE(unbalanced(twice->triangles).empty());
+    }
     // No solid has lost its skin to it.
     mesh.vertices = vertices;
     mesh.triangles = triangles;
