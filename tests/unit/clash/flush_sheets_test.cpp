@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
 #include "support/draw.hpp"
 #include "support/drawn_sheets.hpp"
@@ -34,11 +35,11 @@ using test::Profile;
 using test::refined;
 using test::shuffled;
 
-Pair pair_of(const TriangleMesh& a, const TriangleMesh& b) {
+Pair pair_of(const TriangleMesh& a, const TriangleMesh& b, const parallel::Context& context = {}) {
   test::ClashModel m;
   m.object("a").body(a);
   m.object("b").body(b);
-  const Report report = m.detect();
+  const Report report = m.detect({}, context);
   EXPECT_EQ(report.pairs.size(), 1U);
   return report.pairs.empty() ? Pair{} : report.pairs.front();
 }
@@ -166,6 +167,7 @@ auto judgement(const Pair& p) {
 
 TEST(FlushSheets, AreJudgedTheSameWhicheverWayTheyAreWrittenDown) {
   test::Draw draw(11);
+  parallel::Team team(3);
   const TriangleMesh half = drawn(arc(500, 0, 12), 0, 1000, 5, true);
   // Nothing but a touch, a touch here and a crossing there, and a crossing where they touch.
   const std::vector<std::pair<TriangleMesh, TriangleMesh>> pairs{
@@ -181,6 +183,7 @@ TEST(FlushSheets, AreJudgedTheSameWhicheverWayTheyAreWrittenDown) {
       const TriangleMesh x = placed(a, turn, {1, 2, 3}), y = placed(b, turn, {1, 2, 3});
       const Pair p = pair_of(x, y);
       EXPECT_EQ(judgement(pair_of(y, x)), judgement(p));
+      EXPECT_EQ(judgement(pair_of(x, y, {.team = &team})), judgement(p));
       EXPECT_EQ(judgement(pair_of(shuffled(x, draw), shuffled(y, draw))), judgement(p));
     }
 }
