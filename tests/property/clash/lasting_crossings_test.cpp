@@ -77,11 +77,14 @@ class Scene {
     return profile;
   }
 
-  /// Cut into bays and more corners, its triangles in any order.
+  /// Cut into bays and more corners, some wound to and fro, its triangles in any order.
   Drawn sheet(const Profile& profile, double y0, double y1, double path_at) {
     Drawn s{test::drawn(chance(0.3) ? test::refined(profile, number(2, 3)) : profile, y0, y1,
                         number(1, 4), chance(0.5)),
             {}};
+    if (chance(0.2))
+      for (Triangle& t : s.mesh.triangles)
+        if (chance(0.5)) std::swap(t[1], t[2]);
     s.mesh = test::shuffled(std::move(s.mesh), draw_);
     for (const auto& [x, z] : test::refined(profile, 6)) s.path.push_back({x, path_at, z});
     return s;

@@ -9,6 +9,7 @@
 #include <random>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "strake/clash/clash.hpp"
@@ -154,6 +155,19 @@ TEST(Detect, Sheets) {
   laid.object("a").body(sheet({0, 0, 20}, {100, 0, 0}, {0, 100, 0}));
   laid.box("b", {40, 40, -20}, {60, 60, 20});
   EXPECT_EQ(only(laid).cls, Class::contact);
+}
+
+TEST(Detect, SheetsThatAreWoundToAndFroEndWhereTheyEnd) {
+  geometry::TriangleMesh plate = sheet({50, 20, -30}, {0, 60, 0}, {0, 0, 60});
+  std::swap(plate.triangles[1][0], plate.triangles[1][1]);
+  ClashModel m;
+  m.object("a").body(sheet({0, 0, 0}, {100, 0, 0}, {0, 100, 0}));
+  m.object("b").body(plate);
+  const Pair p = only(m);
+  EXPECT_EQ(p.cls, Class::hit);
+  EXPECT_LE(p.d_lower_mm, -30);
+  EXPECT_GE(p.d_upper_mm, -30);
+  EXPECT_LE(p.d_mm, -29);
 }
 
 TEST(Detect, ASheetInTheSamePlaceIsADuplicate) {
