@@ -149,26 +149,47 @@ std::string suffix_of(const std::string& file) {
   return suffix;
 }
 
+namespace {
+
+Status check_output(const std::string& option, const std::string& file,
+                    const std::vector<std::string>& suffixes,
+                    const std::vector<std::string>& inputs) {
+  std::string list;
+  for (const std::string& suffix : suffixes) list += (list.empty() ? "" : " or ") + suffix;
+  if (std::find(suffixes.begin(), suffixes.end(), suffix_of(file)) == suffixes.end())
+    return usage("the format of '" + file + "' is not known", option, "end its name in " + list);
+  for (const std::string& input : inputs)
+    if (same_file(file, input))
+      return usage("'" + file + "' is one of the inputs and would be overwritten", option,
+                   "give another name");
+  return {};
+}
+
+}  // namespace
+
 Status check_outputs(const std::vector<std::string>& files,
                      const std::vector<std::string>& suffixes,
                      const std::vector<std::string>& inputs) {
-  std::string list;
-  for (const std::string& suffix : suffixes) list += (list.empty() ? "" : " or ") + suffix;
   for (std::size_t f = 0; f < files.size(); ++f) {
     const std::string& file = files[f];
-    const std::string suffix = suffix_of(file);
-    if (std::find(suffixes.begin(), suffixes.end(), suffix) == suffixes.end())
-      return usage("the format of '" + file + "' is not known", "-o", "end its name in " + list);
-    for (const std::string& input : inputs)
-      if (same_file(file, input))
-        return usage("'" + file + "' is one of the inputs and would be overwritten", "-o",
-                     "give another name");
+    if (Status status = check_output("-o", file, suffixes, inputs); !status) return status;
     for (std::size_t g = 0; g < f; ++g)
       if (same_file(file, files[g]))
         return usage("'" + file + "' is given twice", "-o", "give each output its own name");
     if (Status status = check_place(file); !status) return status;
   }
   return {};
+}
+
+Status check_other_output(const std::string& option, const std::string& file,
+                          const std::string& suffix, const std::vector<std::string>& inputs,
+                          const std::vector<std::string>& outputs) {
+  if (Status status = check_output(option, file, {suffix}, inputs); !status) return status;
+  for (const std::string& output : outputs)
+    if (same_file(file, output))
+      return usage("'" + file + "' is the output of -o already", option,
+                   "give each output its own name");
+  return check_place(file);
 }
 
 Status length_option(double& value, const std::string& text, const std::string& option) {

@@ -55,11 +55,16 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
                                                       const std::string& example);
 /// The suffix of a file name in lower case, ".svg".
 [[nodiscard]] std::string suffix_of(const std::string& file);
-/// Whether every file ends in one of the suffixes and can be written where it is to stand, and is
-/// neither one of `inputs` nor named twice.
+/// Whether every file of -o ends in one of the suffixes and can be written where it is to stand,
+/// and is neither one of `inputs` nor named twice.
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& files,
                                    const std::vector<std::string>& suffixes,
                                    const std::vector<std::string>& inputs);
+/// The same of a file that another option names: it is none of those of -o either.
+[[nodiscard]] Status check_other_output(const std::string& option, const std::string& file,
+                                        const std::string& suffix,
+                                        const std::vector<std::string>& inputs,
+                                        const std::vector<std::string>& outputs);
 /// A length that is an option of the command line: overwrites `value` where it was given.
 [[nodiscard]] Status length_option(double& value, const std::string& text,
                                    const std::string& option);

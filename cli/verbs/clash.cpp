@@ -68,6 +68,7 @@ Result<clash::Options> engine_options(const ClashOptions& given) {
 
 void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   clash::Counters sum;
+  std::uint64_t allowed_places = 0;
   for (const clash::Report& test : tests) {
     sum.candidate_pairs += test.counters.candidate_pairs;
     sum.allowed_pairs += test.counters.allowed_pairs;
@@ -78,7 +79,9 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
     sum.volume_triangle_pairs += test.counters.volume_triangle_pairs;
     sum.volumes_given_up += test.counters.volumes_given_up;
     sum.regions_given_up += test.counters.regions_given_up;
+    allowed_places += test.count_allowed_regions;
   }
+  const clash::NotComparedCounts lacks = clash::counts_of(tests);
   stats.count("candidate pairs", sum.candidate_pairs);
   stats.count("pairs that may be allowed", sum.allowed_pairs);
   stats.count("part pairs", sum.part_pairs);
@@ -88,6 +91,9 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   stats.count("volume triangle pairs", sum.volume_triangle_pairs);
   stats.count("volumes given up", sum.volumes_given_up);
   stats.count("regions given up", sum.regions_given_up);
+  stats.count("allowed places of others", allowed_places);
+  stats.count("pairs not compared", lacks.pairs);
+  stats.count("objects not compared whole", lacks.objects);
 }
 
 Status write_report(Session& session, const ClashOptions& given,
@@ -122,11 +128,13 @@ clash::Class failing_class(const std::string& fail_on) {
 }
 
 /// Whether a result is, or may be as far as its brackets tell, of the class that --fail-on names or
-/// a worse one; says how many only may be.
+/// a worse one, or a pair was not compared; says how many only may be. An object that could not be
+/// read whole is in many models every night: it is told, and --strict stops at it.
 bool fails(const clash::Findings& findings, const std::string& fail_on, Console& console) {
   const clash::Class worst = failing_class(fail_on);
   if (worst == clash::Class::no_hit) return false;
   std::uint64_t surely = 0, perhaps = 0;
+  const clash::NotComparedCounts lacks = clash::counts_of(findings.tests);
   for (const clash::Report& test : findings.tests)
     for (const clash::Pair& pair : test.pairs) {
       if (pair.allowed < 0 && pair.cls >= worst)
@@ -139,7 +147,15 @@ bool fails(const clash::Findings& findings, const std::string& fail_on, Console&
         fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "
                     "besides {} that are",
                     fail_on, perhaps, surely));
-  return surely + perhaps > 0;
+  if (lacks.pairs > 0)
+    console.say(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
+                            fail_on, lacks.pairs));
+  if (lacks.objects > 0)
+    console.say(
+        fmt::format("--fail-on {}: does not go by objects that could not be compared whole "
+                    "(--strict does): {}",
+                    fail_on, lacks.objects));
+  return surely + perhaps + lacks.pairs > 0;
 }
 
 /// What is to be done, understood before a model is read.
@@ -231,8 +247,7 @@ Status check_files(const ClashOptions& given) {
   if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, others); !status)
     return status;
   if (given.result.log_pairs.empty()) return {};
-  others.insert(others.end(), given.outputs.begin(), given.outputs.end());
-  return check_outputs({given.result.log_pairs}, {".csv"}, others);
+  return check_other_output("--log-pairs", given.result.log_pairs, ".csv", others, given.outputs);
 }
 
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
@@ -306,7 +321,8 @@ void add_rules(CLI::App& command, ClashOptions& options) {
                 "drawn, but never clash)")
       ->group("Rules");
   add_choice(command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},
-             "Exit code 1 where a pair is of this class or worse, or may be (flag UNCERTAIN)")
+             "Exit code 1 where a pair is of this class or worse, or may be: flag UNCERTAIN, or it "
+             "could not be compared; objects that could not be read whole only with --strict")
       ->group("Rules");
 }
 

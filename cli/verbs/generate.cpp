@@ -59,7 +59,8 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
   if (const Status s = whole_number(options.seed, given.seed, "--seed"); !s) return s.error();
   if (const Status s = check_outputs({given.output}, {".glb", ".obj"}, {}); !s) return s.error();
   if (!given.truth.empty())
-    if (const Status s = check_outputs({given.truth}, {".json"}, {given.output}); !s)
+    if (const Status s = check_other_output("--truth", given.truth, ".json", {}, {given.output});
+        !s)
       return s.error();
   const Result<generate::Ship> ship = [&] {
     const auto timer = session.step("generate");

@@ -147,7 +147,7 @@ class Engine {
     auto joined = join_by_objects(findings, context_);
     if (!joined) return joined.error();
     report.pairs = std::move(*joined);
-    if (report.options.most_regions > 0)
+    if (report.options.most_regions > 0 || !report.allowed.empty())
       if (const Status s = list_regions(findings, context_, report); !s) return s;
     if (options_.volumes == Volumes::on) return measure_volumes(findings, aids_, context_, report);
     return {};

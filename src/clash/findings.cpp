@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "strake/clash/clash.hpp"
 #include "strake/core/hash.hpp"
@@ -30,6 +33,17 @@ Diagnostics Findings::all_diagnostics() const {
   Diagnostics all = diagnostics;
   for (const Report& test : tests) all.append(test.name.empty() ? test.diagnostics : named(test));
   return all;
+}
+
+NotComparedCounts counts_of(std::span<const Report> tests) {
+  std::vector<std::pair<model::ObjectId, std::optional<model::ObjectId>>> all;
+  for (const Report& test : tests)
+    for (const NotCompared& what : test.not_compared) all.emplace_back(what.a, what.b);
+  std::ranges::sort(all);
+  NotComparedCounts counts;
+  for (auto at = all.begin(), end = std::unique(all.begin(), all.end()); at != end; ++at)
+    ++(at->second ? counts.pairs : counts.objects);
+  return counts;
 }
 
 std::string hash_of(const Findings& findings) {

@@ -25,6 +25,10 @@ void add_region(Hasher& hasher, const Region& region) {
     for (int k = 0; k < 3; ++k) hasher.add(p[k]);
 }
 
+void add_allowed(Hasher& hasher, std::int32_t rule, const Report& report) {
+  hasher.add(std::string_view(report.allowed[static_cast<std::size_t>(rule)].rule));
+}
+
 void add_pair(Hasher& hasher, const Pair& pair, const Report& report, const model::Model& model) {
   for (const model::ObjectId id : {pair.a, pair.b}) {
     const model::Object& object = model.object(id);
@@ -42,8 +46,16 @@ void add_pair(Hasher& hasher, const Pair& pair, const Report& report, const mode
     for (std::uint32_t r = pair.first_region; r < pair.first_region + listed; ++r)
       add_region(hasher, report.regions[r]);
   }
-  if (pair.allowed >= 0)
-    hasher.add(std::string_view(report.allowed[static_cast<std::size_t>(pair.allowed)].rule));
+  if (pair.allowed_regions > 0) {
+    hasher.add(pair.allowed_regions);
+    const std::uint32_t first = pair.first_region + pair.regions_listed(report.options);
+    const std::uint32_t listed = pair.allowed_regions_listed(report.options);
+    for (std::uint32_t r = first; r < first + listed; ++r) {
+      add_region(hasher, report.regions[r]);
+      add_allowed(hasher, report.regions[r].allowed, report);
+    }
+  }
+  if (pair.allowed >= 0) add_allowed(hasher, pair.allowed, report);
 }
 
 }  // namespace

@@ -345,7 +345,8 @@ Status PairRules::close(const parallel::Context& context, Report& report) const 
 
 Status PairRules::note_shadowed_allowances(const parallel::Context& context, Report& report) const {
   std::vector<bool> idle;
-  for (const AllowedCount& rule : report.allowed) idle.push_back(rule.pairs == 0);
+  for (const AllowedCount& rule : report.allowed)
+    idle.push_back(rule.pairs == 0 && rule.places == 0);
   const auto first =
       first_before(idle, report.pairs.size(), context, [&](std::size_t i, auto&& take) {
         const Pair& pair = report.pairs[i];

@@ -25,10 +25,11 @@ struct Place {
 
 struct Regions {
   std::uint32_t count = 0;
-  std::vector<Region> worst = {};  ///< of several
+  std::vector<Region> worst = {};    ///< of several
+  std::vector<Region> allowed = {};  ///< of a pair that no rule allows: all that one does
 };
 
-/// Of a pair that does not have just one.
+/// Of a pair that does not have just one, or allowed ones besides.
 struct NotOne {
   std::size_t pair = 0;
   Regions regions;
@@ -44,7 +45,8 @@ Region region_of(const Place& place) {
           .point_mm = p.point_mm,
           .box_mm = place.box_mm,
           .part_a = p.part_a,
-          .part_b = p.part_b};
+          .part_b = p.part_b,
+          .allowed = p.allowed};
 }
 
 /// Whether a place counts for a pair of objects with this answer.
@@ -92,24 +94,36 @@ class RegionsOfPairs {
     const std::size_t first = pair.first_region;
     if (!findings_.has_more(first))
       return {.count = findings_.found[first].too_near_to_tell ? 0U : 1U};
-    std::vector<Place> places;
+    std::vector<Place> places, allowed;
+    bool too_near_to_tell = false;
     for (std::size_t i = first; i < findings_.found.size() && findings_.same_objects(first, i);
          ++i) {
-      const Found& found = findings_.found[i];
-      Place place{findings_.pair(i), {}, found.candidate};
-      if (!counts(place.result, pair)) continue;
-      if (found.too_near_to_tell) return {};
-      const double apart = std::max(place.result.d_upper_mm, 0.0) * geometry::kGridPerMm;
-      place.box_mm = findings_.extent_mm(i).value_or(
-          common_box_mm(findings_.a(i), findings_.b(i), search_reach(apart)));
-      places.push_back(std::move(place));
+      Place place = place_of(i);
+      if (pair.allowed < 0 && place.result.allowed >= 0) {
+        allowed.push_back(std::move(place));
+      } else if (counts(place.result, pair)) {
+        too_near_to_tell = too_near_to_tell || findings_.found[i].too_near_to_tell;
+        places.push_back(std::move(place));
+      }
     }
-    if (places.size() < 2) return {.count = 1};
-    return together(places, pair);
+    Regions regions{.count = too_near_to_tell ? 0U : 1U};
+    if (!too_near_to_tell && places.size() > 1) take(together(places, pair), regions);
+    if (!allowed.empty()) regions.allowed = allowed_of(std::move(allowed), pair);
+    return regions;
   }
 
  private:
-  [[nodiscard]] Regions together(const std::vector<Place>& places, const Pair& whole) const {
+  [[nodiscard]] Place place_of(std::size_t i) const {
+    Place place{findings_.pair(i), {}, findings_.found[i].candidate};
+    const double apart = std::max(place.result.d_upper_mm, 0.0) * geometry::kGridPerMm;
+    place.box_mm = findings_.extent_mm(i).value_or(
+        common_box_mm(findings_.a(i), findings_.b(i), search_reach(apart)));
+    return place;
+  }
+
+  /// One of each, the worst first.
+  [[nodiscard]] static std::vector<Place> together(const std::vector<Place>& places,
+                                                   const Pair& whole) {
     DisjointSets sets = joined(places);
     std::vector<Place> worst;
     std::vector<std::size_t> number(places.size());
@@ -126,11 +140,28 @@ class RegionsOfPairs {
       if (worse(places[i], known, whole)) known = places[i];
       known.box_mm = box;
     }
-    Regions regions{.count = static_cast<std::uint32_t>(worst.size())};
-    if (regions.count < 2) return regions;
     std::ranges::sort(worst, [&](const Place& x, const Place& y) { return worse(x, y, whole); });
-    worst.resize(std::min<std::uint64_t>(worst.size(), most_));
-    for (const Place& place : worst) regions.worst.push_back(region_of(place));
+    return worst;
+  }
+
+  void take(const std::vector<Place>& worst, Regions& regions) const {
+    regions.count = static_cast<std::uint32_t>(worst.size());
+    if (regions.count < 2) return;
+    const std::uint64_t listed = std::min<std::uint64_t>(worst.size(), most_);
+    for (std::size_t i = 0; i < listed; ++i) regions.worst.push_back(region_of(worst[i]));
+  }
+
+  /// What a rule allows of a pair that none allows as a whole. Gaps round a hit or a contact, be it
+  /// allowed, are none, as they are not where nothing is allowed. Where there is too much to tell
+  /// places apart, one stands for all.
+  [[nodiscard]] static std::vector<Region> allowed_of(std::vector<Place> places,
+                                                      const Pair& whole) {
+    Class worst = whole.cls;
+    for (const Place& place : places) worst = std::max(worst, place.result.cls);
+    const Class least = std::min(worst, Class::contact);
+    std::erase_if(places, [&](const Place& place) { return place.result.cls < least; });
+    std::vector<Region> regions;
+    for (const Place& place : together(places, whole)) regions.push_back(region_of(place));
     return regions;
   }
 
@@ -143,22 +174,31 @@ class RegionsOfPairs {
 Status list_regions(const PartFindings& findings, const parallel::Context& context,
                     Report& report) {
   constexpr std::size_t kGrain = 256;
+  const bool told = report.options.most_regions > 0;
   const RegionsOfPairs regions(findings, report.options.most_regions);
   const auto others = parallel::collect<NotOne>(
       context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<NotOne>& out) {
         Pair& pair = report.pairs[i];
         Regions of = regions.of(pair);
-        pair.regions = of.count;
+        pair.regions = told ? of.count : 0;
         pair.first_region = 0;
-        if (of.count != 1) out.push_back({i, std::move(of)});
+        pair.allowed_regions = static_cast<std::uint32_t>(of.allowed.size());
+        if (of.count != 1 || !of.allowed.empty()) out.push_back({i, std::move(of)});
       });
   if (!others) return others.error();
   for (const NotOne& other : *others) {
-    const std::vector<Region>& worst = other.regions.worst;
-    report.pairs[other.pair].first_region = static_cast<std::uint32_t>(report.regions.size());
+    const auto& [count, worst, allowed] = other.regions;
+    Pair& pair = report.pairs[other.pair];
+    pair.first_region = static_cast<std::uint32_t>(report.regions.size());
     report.regions.insert(report.regions.end(), worst.begin(), worst.end());
-    if (other.regions.count == 0) ++report.counters.regions_given_up;
+    const std::uint32_t listed = pair.allowed_regions_listed(report.options);
+    report.regions.insert(report.regions.end(), allowed.begin(),
+                          allowed.begin() + static_cast<std::ptrdiff_t>(listed));
+    for (const Region& region : allowed)
+      ++report.allowed[static_cast<std::size_t>(region.allowed)].places;
+    report.count_allowed_regions += allowed.size();
+    if (told && count == 0) ++report.counters.regions_given_up;
   }
   return {};
 }

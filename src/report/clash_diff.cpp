@@ -206,7 +206,7 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
   compare_settings(looks_before, looks_after, diff);
   const auto still_the_same = [&](const DocumentResult& x, const DocumentResult& y) {
     return x.cls == y.cls && std::fabs(x.d_mm - y.d_mm) <= kSameMm && more_places(x, y) == 0 &&
-           before.allowed(x) == after.allowed(y);
+           x.allowed_regions == y.allowed_regions && before.allowed(x) == after.allowed(y);
   };
   diff.same.reserve(std::min(before.results.size(), after.results.size()));
   auto x = before.results.begin();

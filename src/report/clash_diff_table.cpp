@@ -20,8 +20,10 @@ std::string_view short_name(clash::Class cls) {
 
 std::string told(const ClashDocument& run, const DocumentResult& r, bool with_places) {
   std::string out = std::string(short_name(r.cls)) + " " + fixed(r.d_mm, 3);
-  if (with_places)
+  if (with_places && r.regions > 0)
     out += " at " + std::to_string(r.regions) + (r.regions == 1 ? " place" : " places");
+  if (with_places && r.allowed_regions > 0)
+    out += ", " + std::to_string(r.allowed_regions) + " more allowed";
   if (const std::string& rule = run.allowed(r); !rule.empty())
     out += ", allowed by " + printable(rule);
   return out;
@@ -30,7 +32,8 @@ std::string told(const ClashDocument& run, const DocumentResult& r, bool with_pl
 /// "HIT -12.000", "HIT -12.000 (was CONTACT 0.000)"; with the number of places where that changed.
 std::string change(const ClashDiff& diff, const DiffEntry& e) {
   const bool both = e.before != nullptr && e.after != nullptr;
-  const bool places = both && more_places(*e.before, *e.after) != 0;
+  const bool places = both && (more_places(*e.before, *e.after) != 0 ||
+                               e.before->allowed_regions != e.after->allowed_regions);
   const std::string is = told(diff.run_of(e), e.either(), places);
   return both ? is + " (was " + told(*diff.before, *e.before, places) + ")" : is;
 }

@@ -130,6 +130,7 @@ class Reader {
       r.d_mm = entries_.must(e.d_mm, "d_mm");
       r.rule = e.rule.value_or(0);
       r.regions = e.regions;
+      r.allowed_regions = e.allowed_regions;
       document_.results.push_back(r);
     });
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/clash_json_results.hpp"
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -96,10 +97,17 @@ void flags(std::string& out, std::uint16_t of_found) {
   out += ']';
 }
 
-void region(std::string& out, const clash::Region& r) {
+void allowed(std::string& out, const Report& test, std::int32_t rule) {
+  if (rule < 0) return;
+  out += ", \"allowed\": ";
+  append_json(out, test.allowed[static_cast<std::size_t>(rule)].rule);
+}
+
+void region(std::string& out, const Report& test, const clash::Region& r) {
   out += "{\"class\": \"";
   out += name(r.cls);
   out += '"';
+  allowed(out, test, r.allowed);
   measured(out, r);
   point(out, "point_mm", r.point_mm);
   out += ", \"box_mm\": ";
@@ -109,15 +117,27 @@ void region(std::string& out, const clash::Region& r) {
   out += '}';
 }
 
-/// How many separate places the two meet in, and the worst of several.
-void regions(std::string& out, const Report& test, const Pair& p) {
-  out += ", \"region_count\": ";
-  out += p.regions == 0 ? "null" : std::to_string(p.regions);
-  const std::uint32_t listed = p.regions_listed(test.options);
+void region_list(std::string& out, const Report& test, std::string_view name, std::size_t first,
+                 std::size_t listed) {
   if (listed == 0) return;
   out += ", ";
-  append_list(out, "regions", std::span(test.regions).subspan(p.first_region, listed),
-              [&](const clash::Region& r) { region(out, r); });
+  append_list(out, name, std::span(test.regions).subspan(first, listed),
+              [&](const clash::Region& r) { region(out, test, r); });
+}
+
+/// How many separate places the two meet in, and the worst of several; those apart that a rule
+/// allows.
+void regions(std::string& out, const Report& test, const Pair& p) {
+  if (test.options.most_regions > 0) {
+    out += ", \"region_count\": ";
+    out += p.regions == 0 ? "null" : std::to_string(p.regions);
+  }
+  if (p.allowed_regions > 0)
+    out += ", \"allowed_region_count\": " + std::to_string(p.allowed_regions);
+  const std::uint32_t listed = p.regions_listed(test.options);
+  region_list(out, test, "regions", p.first_region, listed);
+  region_list(out, test, "allowed_regions", p.first_region + listed,
+              p.allowed_regions_listed(test.options));
 }
 
 void volume(std::string& out, const Pair& p) {
@@ -144,10 +164,7 @@ void append_result(std::string& out, const ClashContents& contents, std::size_t 
   out += ", \"class\": \"";
   out += name(p.cls);
   out += '"';
-  if (p.allowed >= 0) {
-    out += ", \"allowed\": ";
-    append_json(out, report.allowed[static_cast<std::size_t>(p.allowed)].rule);
-  }
+  allowed(out, report, p.allowed);
   if (p.severest > (p.allowed < 0 ? p.cls : clash::Class::no_hit)) {
     out += ", \"may_be\": \"";
     out += name(p.severest);
@@ -159,7 +176,7 @@ void append_result(std::string& out, const ClashContents& contents, std::size_t 
   measured(out, p);
   witness(out, p);
   if (p.cls == clash::Class::hit && report.options.volumes == clash::Volumes::on) volume(out, p);
-  if (report.options.most_regions > 0) regions(out, report, p);
+  regions(out, report, p);
   flags(out, p.flags);
   out += '}';
 }

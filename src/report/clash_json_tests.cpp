@@ -57,7 +57,8 @@ void allowed(std::string& out, const Report& report) {
     out += "{\"rule\": ";
     append_json(out, rule.rule);
     out += ", \"candidates\": " + std::to_string(rule.candidates) +
-           ", \"pairs\": " + std::to_string(rule.pairs) + "}";
+           ", \"pairs\": " + std::to_string(rule.pairs) +
+           ", \"places\": " + std::to_string(rule.places) + "}";
   });
 }
 

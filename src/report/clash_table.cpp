@@ -102,18 +102,34 @@ std::string_view label(const model::Model& model, model::ObjectId id) {
   return o.name.empty() ? o.id : o.name;
 }
 
-std::string counted(const ClassRows& c, std::size_t n) {
-  return std::to_string(n) + ' ' + std::string(n == 1 ? c.one : c.many);
+std::string counted(std::uint64_t n, std::string_view one, std::string_view many) {
+  return std::to_string(n) + ' ' + std::string(n == 1 ? one : many);
+}
+
+std::string counted(const ClassRows& c, std::size_t n) { return counted(n, c.one, c.many); }
+
+/// What a class of no hits may hide.
+std::string not_compared(const Report& report) {
+  const clash::NotComparedCounts lacks = clash::counts_of({&report, 1});
+  std::string text;
+  if (lacks.pairs > 0) text = counted(lacks.pairs, "pair", "pairs");
+  if (lacks.objects > 0)
+    text += (text.empty() ? "" : ", ") + std::string("all or part of ") +
+            counted(lacks.objects, "object", "objects");
+  return text.empty() ? text : "; not compared: " + text;
 }
 
 std::string summary_of(const Report& report, const std::array<ClassRows, 3>& classes) {
   std::string summary;
   for (const ClassRows& c : classes) summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
   if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
+  if (report.count_allowed_regions > 0)
+    summary +=
+        ", " + counted(report.count_allowed_regions, "place", "places") + " of others allowed";
   for (const clash::Exempted& e : report.exempted)
     if (e.pairs > 0)
       summary += ", " + std::to_string(e.pairs) + " exempted by " + printable(e.rule);
-  return summary + "\n";
+  return summary + not_compared(report) + "\n";
 }
 
 std::string cell_row(std::string_view cell, const std::array<std::string, 4>& counts,

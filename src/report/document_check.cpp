@@ -48,6 +48,17 @@ void check_counts(const ClashDocument& document) {
   }
 }
 
+void check_places(const ClashDocument& document) {
+  std::vector<std::uint64_t> found(document.tests.size(), 0);
+  for (const DocumentResult& result : document.results)
+    found[result.test] += result.allowed_regions;
+  for (std::size_t t = 0; t < found.size(); ++t)
+    if (const auto& said = document.tests[t].allowed_places; said && *said != found[t])
+      throw contradicts(of_test(t), "counts " + std::to_string(*said) +
+                                        " places that rules allow, but \"results\" has " +
+                                        std::to_string(found[t]));
+}
+
 void check_names(const ClashDocument& document) {
   std::vector<std::string_view> names;
   for (const DocumentTest& test : document.tests) names.push_back(test.name);
@@ -90,6 +101,7 @@ void check_hash(const ClashDocument& document) {
 void check_against_itself(const ClashDocument& document) {
   check_names(document);
   check_counts(document);
+  check_places(document);
   check_results(document);
   check_hash(document);
 }

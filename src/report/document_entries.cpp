@@ -40,6 +40,8 @@ void EntryReader::take_member(std::string_view key, DocumentEntry& entry) {
     entry.rule = rule();
   else if (key == "region_count" && json_.kind() != Kind::null)
     entry.regions = whole("region_count", "number of places");
+  else if (key == "allowed_region_count")
+    entry.allowed_regions = whole("allowed_region_count", "number of places");
   else
     json_.skip();
 }

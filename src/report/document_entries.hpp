@@ -24,7 +24,7 @@ struct DocumentEntry {
   std::optional<std::uint32_t> test, a, b, rule;
   std::optional<clash::Class> cls;
   std::optional<double> d_mm;
-  std::uint32_t regions = 0;
+  std::uint32_t regions = 0, allowed_regions = 0;
 };
 
 /// Takes the pairs of a list one by one; objects and rules go to the document. Throws

@@ -89,6 +89,9 @@ DocumentTest read_test(const Json& json, std::size_t elements, const std::string
   t.within_files = held(tested, "within_files", Json::value_t::boolean, where).get<bool>();
   for (const Json& rule : held(json, "exempted", Json::value_t::array, where))
     t.exempted_pairs += count(rule, "pairs", where);
+  for (const Json& rule : held(json, "allowed", Json::value_t::array, where))
+    if (rule.contains("places"))
+      t.allowed_places = t.allowed_places.value_or(0) + count(rule, "places", where);
   if (json.contains("matrix"))
     read_matrix(held(json, "matrix", Json::value_t::object, where), t, where);
   return t;

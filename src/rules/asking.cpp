@@ -2,38 +2,8 @@
 #include "rules/asking.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace strake::rules {
-namespace {
-
-std::string_view bare(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const auto trim = [&] {
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return text = {}, void();
-    text = text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-  };
-  trim();
-  if (text.size() >= 2 && (text.front() == '\'' || text.front() == '"') &&
-      text.back() == text.front()) {
-    text = text.substr(1, text.size() - 2);
-    trim();
-  }
-  return text;
-}
-
-bool says_none(std::string_view value) {
-  constexpr std::array<std::string_view, 5> kNone{"", "nulref", "unset", "none", "=0/0"};
-  const auto same = [&](std::string_view word) {
-    return std::equal(value.begin(), value.end(), word.begin(), word.end(), [](char a, char b) {
-      return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-    });
-  };
-  return std::any_of(kNone.begin(), kNone.end(), same);
-}
-
-}  // namespace
 
 Asking::Asking(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
                const parallel::Context& context)
@@ -94,23 +64,6 @@ std::vector<const Chooser*> choosers_of(const RuleFile& rules) {
     all.push_back(&rule.b);
   }
   return all;
-}
-
-std::vector<std::string_view> values_of(const model::Model& model, const model::Object& object,
-                                        std::string_view attribute) {
-  const model::Attributes* const stated = model.stated(object, attribute).attributes;
-  return stated == nullptr ? std::vector<std::string_view>() : values_of(*stated, attribute);
-}
-
-std::vector<std::string_view> values_of(const model::Attributes& attributes,
-                                        std::string_view attribute) {
-  std::vector<std::string_view> values;
-  for (const auto& [name, value] : attributes) {
-    if (name != attribute) continue;
-    const std::string_view text = bare(value);
-    if (!says_none(text)) values.push_back(text);
-  }
-  return values;
 }
 
 }  // namespace strake::rules

@@ -64,13 +64,4 @@ class Asking {
   std::optional<Error> error_;
 };
 
-/// The values of the attributes of this name, without blanks and quotes round them; those that say
-/// that there is none ("", "Nulref", "unset", "none", "=0/0") are left out.
-[[nodiscard]] std::vector<std::string_view> values_of(const model::Attributes& attributes,
-                                                      std::string_view attribute);
-/// The same of an object, inherited ones too.
-[[nodiscard]] std::vector<std::string_view> values_of(const model::Model& model,
-                                                      const model::Object& object,
-                                                      std::string_view attribute);
-
 }  // namespace strake::rules

@@ -36,8 +36,8 @@ std::map<std::string_view, Fate> fates_of(std::span<const clash::Report> tests) 
       fates[e.rule].add(e.pairs > 0, e.shadowed_by, test.exempted, kExempted);
     // One that was asked about a pair and did not allow what became of it has done its work.
     for (const clash::AllowedCount& a : test.allowed)
-      fates[a.rule].add(a.pairs > 0 || (a.candidates > 0 && a.shadowed_by < 0), a.shadowed_by,
-                        test.allowed, kAllowed);
+      fates[a.rule].add(a.pairs + a.places > 0 || (a.candidates > 0 && a.shadowed_by < 0),
+                        a.shadowed_by, test.allowed, kAllowed);
   }
   return fates;
 }

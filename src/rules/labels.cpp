@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "rules/values.hpp"
 #include "strake/core/glob.hpp"
 #include "strake/core/number.hpp"
 
@@ -99,7 +100,7 @@ class References {
       const Model::Stated stated = model_.stated(model_.objects[o], attribute);
       if (stated.attributes == nullptr) continue;
       if (stated.group != GroupId::none && !speaks(o, a, stated.group)) continue;
-      const auto more = values_of(*stated.attributes, attribute);
+      const auto more = listed_values_of(*stated.attributes, attribute, rule_.separator);
       values.insert(values.end(), more.begin(), more.end());
     }
     return values;
@@ -193,6 +194,8 @@ struct Labelling {
       }
       std::string text;
       for (std::size_t g = 0; g < depth; ++g) text += hierarchy.name(path[g]) + '\0';
+      // What has no name is not the same as another without one.
+      if (hierarchy.name(path[depth - 1]).empty()) text += std::to_string(index(path[depth - 1]));
       test.label[o] = paths.of(text);
     }
     if (!some) asking.nothing(rule.where, "no object lies in such a group");
@@ -244,8 +247,7 @@ struct Labelling {
       const Object& object = asking.model().objects[o];
       std::vector<std::uint32_t> refers, answers;
       if (among[o]) {
-        for (const std::string_view value : references.of(o))
-          split(value, connected.separator, texts, refers);
+        for (const std::string_view value : references.of(o)) refers.push_back(texts.of(value));
         answers = connected.node ? refers : names(object, connected, hierarchy, texts);
       }
       append(test.refers_to, std::move(refers));
@@ -254,22 +256,6 @@ struct Labelling {
     if (test.refers_to.numbers.empty())
       asking.nothing(rule.where, "no object has one of the attributes with a value");
     return test;
-  }
-
-  static void split(std::string_view value, const std::string& separator, Numbers& texts,
-                    std::vector<std::uint32_t>& numbers) {
-    while (!separator.empty() && value.find(separator) != std::string_view::npos) {
-      const std::size_t end = value.find(separator);
-      if (end > 0) numbers.push_back(texts.of(trimmed(value.substr(0, end))));
-      value.remove_prefix(end + separator.size());
-    }
-    if (!trimmed(value).empty()) numbers.push_back(texts.of(trimmed(value)));
-  }
-
-  static std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-    return text;
   }
 
   static std::vector<std::uint32_t> names(const Object& object, const ConnectedRule& connected,

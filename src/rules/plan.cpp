@@ -15,6 +15,7 @@
 #include "rules/asking.hpp"
 #include "rules/labels.hpp"
 #include "rules/rule_file.hpp"
+#include "rules/values.hpp"
 #include "strake/rules/rules.hpp"
 
 namespace strake::rules {
@@ -117,13 +118,10 @@ class Planner {
       if (stated == nullptr) continue;
       for (const auto& [name, text] : *stated) {
         if (name != rule.attribute) continue;
+        // "none" is a level here, where other attributes have no value.
+        const auto level = level_of(bare(text));
+        if (!level && says_none(bare(text))) continue;
         some = true;
-        // "none" is a level here, which values_of() takes for no value.
-        const std::size_t first = text.find_first_not_of(" '\""),
-                          last = text.find_last_not_of(" '\"");
-        const auto level = first == std::string::npos
-                               ? std::nullopt
-                               : level_of(std::string_view(text).substr(first, last - first + 1));
         if (level)
           levels[o] = *level;
         else

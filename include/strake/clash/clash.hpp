@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +58,7 @@ struct Region {
   geometry::Vec3d point_mm;
   geometry::Box3d box_mm;                ///< holds the place
   std::uint32_t part_a = 0, part_b = 0;  ///< deciding parts
+  std::int32_t allowed = -1;             ///< the rule that allows it, as Pair::allowed
 };
 
 /// One pair of objects that is not NO_HIT; a < b in the durable order.
@@ -89,11 +91,15 @@ struct Pair {
   /// Where asked for: the number of separate places, 0 where there is too much to tell them apart.
   /// Of several, as many as asked for are listed from Report::regions[first_region] on.
   std::uint32_t regions = 0, first_region = 0;
+  /// Of a result that no rule allows: its places that one does, which `regions` leaves out. Counted
+  /// whether regions are asked for or not; as many as asked for are listed behind the others.
+  std::uint32_t allowed_regions = 0;
 
   [[nodiscard]] std::uint32_t regions_listed(const Options& options) const {
-    if (regions < 2) return 0;
-    return regions < options.most_regions ? regions
-                                          : static_cast<std::uint32_t>(options.most_regions);
+    return regions < 2 ? 0 : options.regions_listed_of(regions);
+  }
+  [[nodiscard]] std::uint32_t allowed_regions_listed(const Options& options) const {
+    return options.regions_listed_of(allowed_regions);
   }
   /// d < 0: the nearest point of the skin that d is measured to.
   [[nodiscard]] const geometry::Vec3d& surface_mm() const { return deep_in_a ? on_a_mm : on_b_mm; }
@@ -153,6 +159,7 @@ struct ExemptedPair {
 struct AllowedCount {
   std::string rule;
   std::uint64_t candidates = 0, pairs = 0;
+  std::uint64_t places = 0;       ///< that it allows of other pairs, Pair::allowed_regions
   std::int32_t shadowed_by = -1;  ///< the same of one that allowed none, into Report::allowed
 };
 
@@ -178,17 +185,24 @@ struct NotCompared {
   std::string_view code;                  ///< of the diagnostic that tells why; a literal
 };
 
+/// How many objects could not be compared whole, and how many pairs not at all.
+struct NotComparedCounts {
+  std::uint64_t objects = 0, pairs = 0;
+};
+
 /// What one test found.
 struct Report {
   std::string name;          ///< of the test; empty where a run has only one
   std::string set_a, set_b;  ///< how the sets were chosen, as in Sets
   Options options;
-  std::vector<Pair> pairs;      ///< by (a, b); NO_HIT pairs are not kept
-  std::vector<Region> regions;  ///< of pairs with several, in their order; of each the worst first
+  std::vector<Pair> pairs;  ///< by (a, b); NO_HIT pairs are not kept
+  /// Of pairs with several or with allowed ones, in their order; of each the worst first.
+  std::vector<Region> regions;
   std::uint64_t objects_a = 0, objects_b = 0;
   /// Pairs of each class, those apart that a rule allows.
   std::uint64_t count_hit = 0, count_contact = 0, count_clearance = 0;
   std::uint64_t count_allowed = 0;           ///< pairs of any class that a rule allows
+  std::uint64_t count_allowed_regions = 0;   ///< Pair::allowed_regions of all pairs
   std::vector<Exempted> exempted;            ///< one entry per rule in force, in its order
   bool lists_exempted = false;               ///< whether they are listed as well
   std::vector<ExemptedPair> exempted_pairs;  ///< by (a, b, rule)
@@ -249,6 +263,9 @@ struct Sets {
 /// wrong size; input for more pairs than most_pairs; cancelled.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const parallel::Context& context);
+
+/// What Report::not_compared of all tests says, each object and each pair once.
+[[nodiscard]] NotComparedCounts counts_of(std::span<const Report> tests);
 
 /// Hexadecimal hash of the names and hashes of all tests.
 [[nodiscard]] std::string hash_of(const Findings& findings);

@@ -42,6 +42,11 @@ struct Options {
   bool log_pairs = false;
   /// More pairs of parts within reach of each other than this are an error: some 300 bytes each.
   std::uint64_t most_pairs = std::uint64_t{1} << 25U;
+
+  /// How many of so many places are listed.
+  [[nodiscard]] std::uint32_t regions_listed_of(std::uint32_t places) const {
+    return places < most_regions ? places : static_cast<std::uint32_t>(most_regions);
+  }
 };
 
 }  // namespace strake::clash

@@ -95,9 +95,9 @@ struct Policy {
 /// 2. An exempted pair is counted, and listed where asked for, if parts of the two are within reach
 ///    of each other; where a level leaves out some pairs of their parts, the others are checked.
 /// 3. An allowed result keeps its class and d. Each pair of parts is held against the rules by
-///    itself: one that no rule allows decides the pair, whatever else is allowed.
-///    Its place is the worst one: where the boxes of the two parts meet beyond region and cavity
-///    too, the result is flagged kUncertain.
+///    itself: one that no rule allows decides the pair, and what is allowed besides is counted
+///    (Pair::allowed_regions). Its place is the worst one: where the boxes of the two parts meet
+///    beyond region and cavity too, the result is flagged kUncertain.
 /// 4. A hard part decides before a soft one, and that before insulation, where the class is equal.
 /// Errors: those of detect(); usage for lists of the wrong size.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,

@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,9 +31,10 @@ struct DocumentResult {
   Hash128 key;  ///< clash::parse_key of its text
   double d_mm = 0;
   std::uint32_t test = 0;
-  std::uint32_t a = 0, b = 0;  ///< of ClashDocument::objects
-  std::uint32_t rule = 0;      ///< that allows it, of ClashDocument::rules
-  std::uint32_t regions = 0;   ///< separate places; 0: not counted
+  std::uint32_t a = 0, b = 0;         ///< of ClashDocument::objects
+  std::uint32_t rule = 0;             ///< that allows it, of ClashDocument::rules
+  std::uint32_t regions = 0;          ///< separate places; 0: not counted
+  std::uint32_t allowed_regions = 0;  ///< places besides that a rule allows
   clash::Class cls = clash::Class::no_hit;
 };
 
@@ -46,6 +48,8 @@ struct DocumentTest {
   std::string name;
   std::string hash;       ///< of its results, as the run gave it
   DocumentCounts counts;  ///< as the run gave them
+  /// Places of results that rules allow, but not the results; none: the run did not count them.
+  std::optional<std::uint64_t> allowed_places;
   /// What classes depend on, as text by name: settings, and those of the cells of a matrix.
   std::map<std::string, std::string> settings;
   double clearance_mm = 0, touch_gap_mm = 0;
@@ -104,12 +108,12 @@ struct ClashDocument {
 /// Errors: input for a file that cannot be read, is cut off, is no such document, is of another
 /// version of the schema, or contradicts itself; each names the line or the result.
 ///
-/// A document contradicts itself where its tests do not have as many results of each class, or as
-/// many exempted pairs where these are listed, as they count; where a result's key is not that of
-/// its test and its two objects, or one of these is not among the elements; and where the hash of
-/// the document is not that of its tests. So a list that somebody shortened is no mended clash.
-/// What is edited with its counts, and a d, is not seen: the hash of a test is over more digits
-/// than the document has.
+/// A document contradicts itself where its tests do not have as many results of each class, places
+/// that rules allow, or exempted pairs where these are listed, as they count; where a result's key
+/// is not that of its test and its two objects, or one of these is not among the elements; and
+/// where the hash of the document is not that of its tests. So a list that somebody shortened is no
+/// mended clash. What is edited with its counts, and a d, is not seen: the hash of a test is over
+/// more digits than the document has.
 [[nodiscard]] Result<ClashDocument> read_clash_document(const std::filesystem::path& file);
 
 /// The same from a stream, in one pass; `name` is what errors call it.

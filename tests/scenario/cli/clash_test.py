@@ -134,6 +134,34 @@ class Clash(Scenario):
         exactly = [*run[:6], '--clearance', '3mm', '--fail-on', 'contact']
         self.assertEqual(self.run_strake(*exactly).returncode, 0)
 
+    def test_fail_on_counts_pairs_that_could_not_be_compared(self):
+        # Together they measure more than 2.147 km: nothing is known of them, whatever they are.
+        self.write('a.obj', cube('a0', 0, (-1.5e6, 0, 0), 1.5e6))
+        self.write('b.obj', cube('b0', 0, (-1e3, 0, 0), 1.5e6))
+        run = ['clash', 'a.obj', 'b.obj', *self.SETTINGS]
+        done = self.run_strake(*run)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('0 hits, 0 contacts, 0 clearance violations; not compared: 1 pair\n', done.stdout)
+        for worst in 'hit', 'contact', 'clearance_violation':
+            done = self.run_strake(*run, '--fail-on', worst)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn(f'--fail-on {worst}: pairs that could not be compared and may be as bad: 1', done.stderr)
+        self.assertRegex(self.run_strake(*run, '--stats').stderr, r'pairs not compared\s+1\n')
+
+    def test_objects_that_could_not_be_read_whole_are_told_and_strict_counts_them(self):
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (50, 50, 50), 100).replace('150', 'nan'))
+        run = ['clash', 'a.obj', *self.SETTINGS]
+        done = self.run_strake(*run)
+        self.assertIn('0 clearance violations; not compared: all or part of 1 object\n', done.stdout)
+        # In most models something is: --fail-on would stop every night.
+        done = self.run_strake(*run, '--fail-on', 'hit')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('could not be compared whole (--strict does): 1', done.stderr)
+        self.assertEqual(self.run_strake(*run, '--fail-on', 'hit', '--strict').returncode, 4)
+        # What is in no set is nobody's concern.
+        self.write('b.obj', cube('b0', 0, (50, 0, 0), 100))
+        done = self.run_strake('clash', 'a.obj', 'b.obj', *self.SETTINGS, '--a', 'a0', '--b', 'b0')
+        self.assertTrue(done.stdout.endswith('1 hit, 0 contacts, 0 clearance violations\n'), done.stdout)
 
     def test_groups_say_which_options_belong_together(self):
         self.two_files()
@@ -165,6 +193,7 @@ class Clash(Scenario):
         self.assertEqual(done.returncode, 2, 'a model is never overwritten')
         done = self.run_strake(*arguments, 'z.csv', '-o', 'z.csv')
         self.assertEqual(done.returncode, 2, 'two results in one file')
+        self.assertIn("--log-pairs: 'z.csv' is the output of -o already", done.stderr)
         self.assertIn('costly pair', self.run_strake('clash', 'a.obj', '--stats').stderr)
 
 

@@ -11,7 +11,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from scenario import Scenario, cube, main
+from scenario import Scenario, bar_between_walls, cube, main
 
 EXAMPLES = None
 
@@ -42,6 +42,42 @@ class Small(Rules):
         self.assertRegex(done.stderr, r'pairs that may be allowed\s+1\n')
         result, = self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')['results']
         self.assertEqual((result['class'], result['allowed'], result['d_mm']), ('HIT', 'glued', -10))
+
+    def test_a_place_that_a_rule_allows_of_a_pair_that_it_does_not_is_told(self):
+        # A bar between two walls of one object, in both of them; the one has a sleeve.
+        self.write('m.obj', bar_between_walls())
+        self.write('r.toml', '[[allowed]]\nname = "sleeve"\na = "bar"\nb = "walls"\nmax_depth = "any"\n'
+                             'region = { min = ["50mm", "-1m", "-1m"], max = ["1m", "1m", "1m"] }\n')
+        run = ['m.obj', *self.SETTINGS]
+        plain = self.report(*run)['results'][0]
+        self.assertEqual((plain['region_count'], 'allowed_region_count' in plain), (2, False))
+        document = self.report(*run, '--rules', 'r.toml', '-o', 'new.json', '-o', 'x.csv')
+        result, = document['results']
+        self.assertEqual((result['class'], result['region_count'], result['allowed_region_count']), ('HIT', 1, 1))
+        self.assertNotIn('regions', result)
+        place, = result['allowed_regions']
+        self.assertEqual((place['allowed'], place['class'], place['d_mm']), ('sleeve', 'HIT', -10))
+        self.assertEqual(document['tests'][0]['allowed'],
+                         [{'rule': 'sleeve', 'candidates': 1, 'pairs': 0, 'places': 1}])
+        done = self.run_strake('clash', *run, '--rules', 'r.toml', '--stats')
+        self.assertIn('1 hit, 0 contacts, 0 clearance violations, 1 place of others allowed\n', done.stdout)
+        self.assertRegex(done.stderr, r'allowed places of others\s+1\n')
+        row, = csv.DictReader(io.StringIO((self.folder / 'x.csv').read_text(encoding='utf-8')))
+        self.assertEqual((row['regions'], row['allowed_regions']), ('1', '1'))
+        # Against a run under a rule that allows nothing of it, which has a test of the same name.
+        self.write('r.toml', '[[allowed]]\nname = "sleeve"\na = "bar"\nb = "walls"\nmax_depth = "1mm"\n')
+        self.report(*run, '--rules', 'r.toml', '-o', 'old.json')
+        diff = self.run_strake('clash', 'diff', 'old.json', 'new.json', '-o', 'diff.json')
+        self.assertIn('HIT -10.000 at 1 place, 1 more allowed (was HIT -10.000 at 2 places)', diff.stdout)
+        entry, = json.loads((self.folder / 'diff.json').read_text(encoding='utf-8'))['changed']
+        self.assertEqual((entry['region_count'], entry['allowed_region_count'], entry['was']['region_count']),
+                         (1, 1, 2))
+        # A result from which the count was cut contradicts itself.
+        text = (self.folder / 'new.json').read_text(encoding='utf-8')
+        self.write('cut.json', text.replace('"allowed_region_count": 1', '"allowed_region_count": 2'))
+        done = self.run_strake('clash', 'diff', 'old.json', 'cut.json')
+        self.assertEqual(done.returncode, 3)
+        self.assertIn('counts 1 places that rules allow, but "results" has 2', done.stderr)
 
     def test_exempted_pairs_are_listed_where_asked_for(self):
         self.write('m.obj', cubes(0, 90, 180))

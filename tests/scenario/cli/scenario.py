@@ -19,6 +19,12 @@ def cube(name, number, at, size):
     return '\n'.join(lines) + '\n'
 
 
+def bar_between_walls():
+    """An OBJ file: a cube of side 100 at 0, 10 into each of two others before and behind it, which are one object."""
+    return (cube('bar', 0, (0, 0, 0), 100) + cube('walls', 1, (90, 0, 0), 100)
+            + cube('', 2, (-90, 0, 0), 100).split('\n', 1)[1])
+
+
 class Scenario(unittest.TestCase):
     """Runs in a new folder; main() sets the program."""
 

@@ -9,6 +9,7 @@ import unittest
 from pathlib import Path
 
 import jsonschema
+from scenario import bar_between_walls
 
 STRAKE = SCHEMAS = None
 
@@ -124,6 +125,20 @@ class Schemas(unittest.TestCase):
                               'clash')
         self.assertGreater(len(report['exempted']), 0)
         self.assertGreater(sum('allowed' in result for result in report['results']), 0)
+
+    def test_clash_with_a_place_that_a_rule_allows(self):
+        (self.folder / 'bar.obj').write_text(bar_between_walls(), encoding='utf-8')
+        ruled = ['clash', 'bar.obj', '--unit', 'mm', '--rules']
+        for name, depth in (('none.toml', '1mm'), ('one.toml', '1m')):
+            (self.folder / name).write_text(
+                f'[[allowed]]\nname = "sleeve"\na = "bar"\nb = "walls"\nmax_depth = "{depth}"\n'
+                'region = { min = ["50mm", "-1m", "-1m"], max = ["1m", "1m", "1m"] }\n', encoding='utf-8')
+            self.run_strake(*ruled, name, '-o', f'{name}.json')
+        report = self.follows((self.folder / 'one.toml.json').read_text(encoding='utf-8'), 'clash')
+        self.assertEqual([place['allowed'] for place in report['results'][0]['allowed_regions']], ['sleeve'])
+        diff = self.follows(self.run_strake('clash', 'diff', 'none.toml.json', 'one.toml.json', '--json'),
+                            'clash-diff')
+        self.assertEqual(diff['changed'][0]['allowed_region_count'], 1)
 
     def test_clash_diff(self):
         for name, clearance in (('tight.json', '0'), ('wide.json', '25mm')):

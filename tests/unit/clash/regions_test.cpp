@@ -191,12 +191,80 @@ TEST(RegionsTest, AnAllowedContactIsAllowedAtItsPlaceAlone) {
   EXPECT_LT(one.pairs[0].allowed, 0);
   EXPECT_GT(one.pairs[0].point_mm.x, 700);
   EXPECT_EQ(one.pairs[0].regions, 1U);
+  // What it allows there is counted and listed all the same.
+  EXPECT_EQ(one.pairs[0].allowed_regions, 1U);
+  EXPECT_EQ(one.count_allowed_regions, 1U);
+  EXPECT_EQ(one.count_allowed, 0U);
+  EXPECT_EQ(one.allowed[0].places, 1U);
+  EXPECT_EQ(one.allowed[0].pairs, 0U);
+  ASSERT_EQ(one.regions.size(), 1U);
+  EXPECT_EQ(one.regions[0].allowed, 0);
+  EXPECT_EQ(one.regions[0].cls, Class::hit);
+  EXPECT_LT(one.regions[0].point_mm.x, 100);
   const Report both = check({{-200, -200, 0}, {1200, 200, 200}});
   EXPECT_EQ(both.count_hit, 0U);
   EXPECT_EQ(both.count_allowed, 1U);
   EXPECT_EQ(both.pairs[0].regions, 2U);
+  EXPECT_EQ(both.pairs[0].allowed_regions, 0U);
+  EXPECT_EQ(both.regions[1].allowed, 0);
   // The places are known to lie within: nothing is uncertain.
   EXPECT_EQ(both.pairs[0].flags & kUncertain, 0);
+}
+
+/// A bar through three plates of one object: as many rules as plates, and the one in the middle.
+TEST(RegionsTest, PlacesThatRulesAllowAreCountedByRule) {
+  ClashModel made;
+  made.box("bar", {0, 0, 0}, {1000, 20, 20});
+  made.object("plates");
+  for (const double x : {100.0, 500.0, 900.0})
+    made.body(box_mesh({x, -200, -200}, {x + 10, 200, 200}));
+  model::finish(made.model);
+  const model::Scene scene =
+      make_scene(made.model, scene_options(Options{}), parallel::Context{}).value();
+  const auto rule = [](const char* name, double from, double to) {
+    return Allowed{name, {true, true}, {true, true}, Box3d{{from, -200, -200}, {to, 200, 200}},
+                   {},   100};
+  };
+  Policy policy;
+  policy.allowed = {rule("first", 0, 200), rule("last", 800, 1000), rule("shadow", 800, 1000)};
+  Options options;
+  const Report all = detect(scene, one_set(scene), options, policy, {}).value();
+  ASSERT_EQ(all.pairs.size(), 1U);
+  EXPECT_LT(all.pairs[0].allowed, 0);
+  EXPECT_EQ(all.pairs[0].regions, 1U);
+  EXPECT_EQ(all.pairs[0].allowed_regions, 2U);
+  EXPECT_EQ(all.allowed[0].places, 1U);
+  EXPECT_EQ(all.allowed[1].places, 1U);
+  EXPECT_EQ(all.allowed[2].places, 0U);
+  EXPECT_EQ(all.count_allowed_regions, 2U);
+  EXPECT_EQ(all.pairs[0].allowed_regions_listed(options), 2U);
+  // The count does not depend on what is listed, nor on whether places are.
+  for (const std::uint64_t most : {1U, 0U}) {
+    options.most_regions = most;
+    const Report some = detect(scene, one_set(scene), options, policy, {}).value();
+    EXPECT_EQ(some.pairs[0].allowed_regions, 2U);
+    EXPECT_EQ(some.pairs[0].regions, most);
+    EXPECT_EQ(some.regions.size(), most);
+    EXPECT_EQ(some.count_allowed_regions, 2U);
+  }
+  // The hash covers them: another rule, another hash.
+  policy.allowed[0].rule = "renamed";
+  options.most_regions = 8;
+  const Report renamed = detect(scene, one_set(scene), options, policy, {}).value();
+  EXPECT_NE(renamed.hash, all.hash);
+  // An allowed hit besides a gap that is none: the result is the gap, the hit is counted.
+  ClashModel gap;
+  gap.box("bar", {0, 0, 0}, {1000, 20, 20});
+  gap.object("plates").body(box_mesh({100, -200, -200}, {110, 200, 200}));
+  gap.body(box_mesh({1010, -200, -200}, {1020, 200, 200}));
+  model::finish(gap.model);
+  const model::Scene near =
+      make_scene(gap.model, scene_options(Options{}), parallel::Context{}).value();
+  options.clearance_mm = 25;
+  const Report open = detect(near, one_set(near), options, policy, {}).value();
+  ASSERT_EQ(open.pairs.size(), 1U);
+  EXPECT_EQ(open.pairs[0].cls, Class::clearance_violation);
+  EXPECT_EQ(open.pairs[0].allowed_regions, 1U);
 }
 
 /// A block from z = 0 to 10 on a square of side `a`, about a square hole of half width `h` round

@@ -167,7 +167,8 @@ TEST(ClashReports, TellWhatRulesDid) {
                                             "ALLOWED": 1})"));
   EXPECT_EQ(test["exempted"], json::parse(R"([{"rule": "matrix", "pairs": 1},
                                               {"rule": "no obstruction", "pairs": 0}])"));
-  EXPECT_EQ(test["allowed"], json::parse(R"([{"rule": "sleeve", "candidates": 1, "pairs": 1}])"));
+  EXPECT_EQ(test["allowed"],
+            json::parse(R"([{"rule": "sleeve", "candidates": 1, "pairs": 1, "places": 0}])"));
   EXPECT_EQ(test["matrix"]["disciplines"], json::parse(R"([{"name": "hull, port", "objects": 2},
                                                            {"name": "pipes", "objects": 1}])"));
   const json& cells = test["matrix"]["cells"];
@@ -189,9 +190,10 @@ TEST(ClashReports, TellWhatRulesDid) {
   EXPECT_EQ(doc["exempted"][0]["rule"], "matrix");
   EXPECT_EQ(doc["exempted"][0]["a"]["id"], "deck \"1\", port\n");
   const std::string csv = as_csv(report, m.model);
-  EXPECT_NE(csv.find(",sleeve,,hard,soft,\"hull, port\",pipes,,1\r\n"), std::string::npos) << csv;
-  EXPECT_NE(csv.find(",EXEMPTED,,,,,,,,,,,,,,,,,,,,,,matrix,,,\"hull, port\",\"hull, port\",,\r\n"),
-            std::string::npos)
+  EXPECT_NE(csv.find(",sleeve,,hard,soft,\"hull, port\",pipes,,1,\r\n"), std::string::npos) << csv;
+  EXPECT_NE(
+      csv.find(",EXEMPTED,,,,,,,,,,,,,,,,,,,,,,matrix,,,\"hull, port\",\"hull, port\",,,\r\n"),
+      std::string::npos)
       << csv;
   const std::string table = clash_table({{{report}, {}}, m.model}, {});
   EXPECT_NE(

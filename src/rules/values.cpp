@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rules/values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace strake::rules {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+bool is_quote(char c) { return c == '\'' || c == '"'; }
+
+/// Of a text without blanks round it.
+bool is_quoted(std::string_view text) {
+  return text.size() >= 2 && is_quote(text.front()) && text.back() == text.front();
+}
+
+std::string_view without_quotes(std::string_view text) {
+  return trimmed(text.substr(1, text.size() - 2));
+}
+
+/// The beginning of a list, up to the first separator. A quote there holds up to the next such
+/// quote that ends a piece; one that nothing closes is part of a name.
+std::string_view first_piece(std::string_view list, std::string_view separator) {
+  const std::string_view plain = list.substr(0, list.find(separator));
+  const std::size_t open = plain.find_first_not_of(kBlanks);
+  if (open == std::string_view::npos || !is_quote(list[open])) return plain;
+  for (std::size_t close = open + 1; close < list.size(); ++close) {
+    if (list[close] != list[open]) continue;
+    const std::string_view behind = list.substr(close + 1);
+    const std::size_t end = std::min(behind.find(separator), behind.size());
+    if (trimmed(behind.substr(0, end)).empty()) return list.substr(0, close + 1 + end);
+  }
+  return plain;
+}
+
+template <class Take>
+void each_listed(std::string_view list, std::string_view separator, Take&& take) {
+  const auto is_one = [&] { return first_piece(list, separator).size() == list.size(); };
+  list = trimmed(list);
+  while (is_quoted(list) && is_one()) list = without_quotes(list);  // round the whole list
+  for (;;) {
+    const std::string_view piece = first_piece(list, separator);
+    take(piece);
+    if (piece.size() == list.size()) return;
+    list.remove_prefix(piece.size() + separator.size());
+  }
+}
+
+}  // namespace
+
+std::string_view bare(std::string_view text) {
+  text = trimmed(text);
+  while (is_quoted(text)) text = without_quotes(text);
+  return text;
+}
+
+bool says_none(std::string_view value) {
+  constexpr std::array<std::string_view, 5> kNone{"", "nulref", "unset", "none", "=0/0"};
+  const auto same = [&](std::string_view word) {
+    return std::equal(value.begin(), value.end(), word.begin(), word.end(), [](char a, char b) {
+      return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+    });
+  };
+  return std::any_of(kNone.begin(), kNone.end(), same);
+}
+
+std::vector<std::string_view> values_of(const model::Attributes& attributes,
+                                        std::string_view attribute) {
+  return listed_values_of(attributes, attribute, {});
+}
+
+std::vector<std::string_view> values_of(const model::Model& model, const model::Object& object,
+                                        std::string_view attribute) {
+  const model::Attributes* const stated = model.stated(object, attribute).attributes;
+  return stated == nullptr ? std::vector<std::string_view>() : values_of(*stated, attribute);
+}
+
+std::vector<std::string_view> listed_values_of(const model::Attributes& attributes,
+                                               std::string_view attribute,
+                                               std::string_view separator) {
+  std::vector<std::string_view> values;
+  const auto take = [&](std::string_view text) {
+    const std::string_view value = bare(text);
+    if (!says_none(value)) values.push_back(value);
+  };
+  for (const auto& [name, value] : attributes) {
+    if (name != attribute) continue;
+    if (separator.empty())
+      take(value);
+    else
+      each_listed(value, separator, take);
+  }
+  return values;
+}
+
+}  // namespace strake::rules
