@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clash/canonical_order.hpp"
 
+#include <cmath>
+
 #include "clash/witness.hpp"
 
 namespace strake::clash {
@@ -26,6 +28,19 @@ bool in_canonical_order(const geometry::TreedPart& a, const geometry::TreedPart&
   }
   return a.placed.origin <= b.placed.origin;
 }
+
+geometry::Vec3d in_steps(const geometry::Vec3d& p) {
+  constexpr double kSteps = 65536;
+  return {std::nearbyint(p.x * kSteps) / kSteps, std::nearbyint(p.y * kSteps) / kSteps,
+          std::nearbyint(p.z * kSteps) / kSteps};
+}
+
+void put_in_steps(PartAnswer& answer) {
+  answer.witness.on_a = in_steps(answer.witness.on_a);
+  answer.witness.on_b = in_steps(answer.witness.on_b);
+}
+
+void put_in_steps(FirstLook& look) { put_in_steps(look.answer); }
 
 void turn(PartAnswer& answer, const NarrowPart& a, const NarrowPart& b) {
   answer.relation = mirrored(answer.relation);

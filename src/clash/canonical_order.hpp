@@ -11,6 +11,17 @@ namespace strake::clash {
 /// pair is worked on the same way round whichever is called a.
 [[nodiscard]] bool in_canonical_order(const geometry::TreedPart& a, const geometry::TreedPart& b);
 
+/// Points in steps of 2^-16 grid units: those of one part's coordinates become the other's without
+/// rounding.
+[[nodiscard]] geometry::Vec3d in_steps(const geometry::Vec3d& p);
+void put_in_steps(PartAnswer& answer);
+void put_in_steps(FirstLook& look);
+
+template <class Answer>
+void put_in_steps(std::optional<Answer>& answer) {
+  if (answer) put_in_steps(*answer);
+}
+
 /// An answer about (b, a) becomes one about (a, b).
 void turn(PartAnswer& answer, const NarrowPart& a, const NarrowPart& b);
 void turn(FirstLook& look, const NarrowPart& a, const NarrowPart& b);
@@ -23,9 +34,10 @@ void turn(std::optional<Answer>& answer, const NarrowPart& a, const NarrowPart& 
 /// What judge(x, y) says of two parts in canonical order, as an answer about (a, b).
 template <class Judge>
 [[nodiscard]] auto in_order(const NarrowPart& a, const NarrowPart& b, Judge&& judge) {
-  if (in_canonical_order(a.treed, b.treed)) return judge(a, b);
-  auto answer = judge(b, a);
-  turn(answer, a, b);
+  const bool ordered = in_canonical_order(a.treed, b.treed);
+  auto answer = ordered ? judge(a, b) : judge(b, a);
+  put_in_steps(answer);
+  if (!ordered) turn(answer, a, b);
   return answer;
 }
 

@@ -97,9 +97,10 @@ PartAnswer judge_wire(const NarrowPart& a, const NarrowPart& b, const NarrowOpti
     return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
       return judge_ordered(x, y, options, work);
     });
-  if (is_wire(a)) return judge_ordered(a, b, options, work);
-  PartAnswer answer = judge_ordered(b, a, options, work);
-  turn(answer, a, b);
+  PartAnswer answer =
+      is_wire(a) ? judge_ordered(a, b, options, work) : judge_ordered(b, a, options, work);
+  put_in_steps(answer);
+  if (!is_wire(a)) turn(answer, a, b);
   return answer;
 }
 

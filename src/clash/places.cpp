@@ -251,14 +251,17 @@ std::optional<std::vector<PartPlace>> places_of(const NarrowPart& a, const Narro
                                                 const PartAnswer& whole,
                                                 const NarrowOptions& options, Telling telling,
                                                 NarrowWork& work) {
-  if (in_canonical_order(a.treed, b.treed))
-    return PairPlaces(a, b, whole, options, work).run(telling);
-  PartAnswer turned = whole;
-  turn(turned, b, a);
-  auto places = PairPlaces(b, a, turned, options, work).run(telling);
+  const bool ordered = in_canonical_order(a.treed, b.treed);
+  PartAnswer in_order = whole;
+  if (!ordered) turn(in_order, b, a);
+  auto places = ordered ? PairPlaces(a, b, in_order, options, work).run(telling)
+                        : PairPlaces(b, a, in_order, options, work).run(telling);
   if (!places) return places;
   const Vec3d shift = (b.treed.placed.origin - a.treed.placed.origin).as<double>();
   for (PartPlace& place : *places) {
+    put_in_steps(place.answer);
+    place.extent = {in_steps(place.extent.lo), in_steps(place.extent.hi)};
+    if (ordered) continue;
     turn(place.answer, a, b);
     place.extent = place.extent.moved(shift);
   }

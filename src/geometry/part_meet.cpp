@@ -23,7 +23,7 @@
 namespace strake::geometry {
 namespace {
 
-/// Corners tried on a shell that already has contact along a segment: only meshes that overlap
+/// Triangles tried on a shell that already has contact along a segment: only meshes that overlap
 /// themselves can still surprise there.
 constexpr int kExtraProbes = 3;
 
@@ -70,22 +70,23 @@ bool Meeter::probe(bool of_b, const Vec3l& numerator, std::int64_t denominator) 
   return true;
 }
 
-/// Tries points of a triangle until one is off the other surface: corners, then, where asked, the
-/// middles of the edges and points of the inside with ever larger denominators.
+/// Tries points of a triangle until one is off the other surface: corners and the middle, then,
+/// where asked, the middles of the edges and points of the inside with ever larger denominators.
 bool Meeter::probe_triangle(bool of_b, std::uint32_t triangle, bool thorough) {
   const std::array<Vec3l, 3> t = (of_b ? b_ : a_).corners(triangle);
   for (const Vec3l& p : t)
     if (probe(of_b, p, 1)) return true;
+  if (probe(of_b, t[0] + t[1] + t[2], 3)) return true;
   if (!thorough) return false;
   for (int i = 0; i < 3; ++i)
     if (probe(of_b, t[at(i)] + t[at(next_corner(i))], 2)) return true;
-  for (const std::int64_t d : {3, 7, 31, 127, 509, 2039})
+  for (const std::int64_t d : {7, 31, 127, 509, 2039})
     for (std::int64_t i = 1; i <= 3 && i + 1 < d; ++i)
       if (probe(of_b, t[0] * i + t[1] + t[2] * (d - i - 1), d)) return true;
   return false;
 }
 
-/// Probes every shell without contact along a segment, and for good measure a few corners of the
+/// Probes every shell without contact along a segment, and for good measure a few triangles of the
 /// others.
 void Meeter::probe_shells(bool of_b) {
   const PartView& view = of_b ? b_ : a_;

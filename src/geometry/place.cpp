@@ -11,9 +11,6 @@
 namespace strake::geometry {
 namespace {
 
-/// Beyond this distance from the local origin (17 m) a shape gets a base of its own: nearer ones
-/// keep the local origin, so that a body's origin stays what the placement says.
-constexpr std::int64_t kFar = std::int64_t{1} << 24;
 constexpr std::int64_t kWidest = std::int64_t{1} << 31;
 
 /// A coordinate that no placed point has.
@@ -29,17 +26,16 @@ void snap_all(const std::vector<Vec3d>& points, const Mat3d& linear, std::vector
   for (std::size_t i = 0; i < points.size(); ++i) snapped[i] = snap_or_nowhere(linear * points[i]);
 }
 
-/// The base of points in a box, or nothing when int32 cannot span it.
+/// The middle of points in a box, or nothing when int32 cannot span it: where the file's origin
+/// lies must not show in what is worked out in doubles.
 std::optional<Vec3l> choose_base(const Box3l& box) {
   if (box.empty()) return Vec3l{};
-  bool far = false;
   Vec3l centre;
   for (int k = 0; k < 3; ++k) {
     if (box.hi[k] - box.lo[k] >= kWidest) return std::nullopt;
-    far = far || box.lo[k] < -kFar || box.hi[k] > kFar;
     centre[k] = box.lo[k] + (box.hi[k] - box.lo[k]) / 2;
   }
-  return far ? centre : Vec3l{};
+  return centre;
 }
 
 /// A box that any point on the grid makes that point.

@@ -15,7 +15,7 @@ namespace strake::geometry {
 /// is base + vertex = snap(linear · local).
 struct PlacedMesh {
   GridMesh mesh;
-  Vec3l base;  ///< zero unless the shape lies far from its local origin
+  Vec3l base;  ///< the middle of its box
   std::uint64_t bad_triangles =
       0;  ///< left out: an index out of range, or a vertex that has no place
 };

@@ -29,7 +29,8 @@ class SheetSearch {
   using Shape = std::array<Vec3d, N>;
 
   /// Raises `depth` where the pieces are deeper; its upper bound is a ceiling. `whole`: the pieces
-  /// that there are, if these are only those near the solid; the work limit goes by them.
+  /// that there are, if these are only those near the solid; the work limit goes by them, or by
+  /// those in the goal's box.
   SheetSearch(std::span<const Shape> pieces, const DepthField& solid, const DepthGoal& goal,
               Depth& depth, double margin, PairWork& work, std::size_t whole = 0)
       : pieces_(pieces),
@@ -43,6 +44,7 @@ class SheetSearch {
   void run() {
     const double ceiling = depth_.upper;
     look_at_all(ceiling);
+    if (goal_.within) whole_ = std::min<std::uint64_t>(whole_, depth_.cells);
     while (!open_.empty()) {
       depth_.upper = std::min(ceiling, std::max(open_.front().upper, depth_.value));
       if (bracket_suffices(depth_, goal_) || exhausted()) return;
@@ -178,7 +180,9 @@ class SheetSearch {
     double upper = std::min({ceiling, near.distance + radius, by_face(c, near.triangle) + slack});
     if (upper <= of_no_interest(best)) return std::nullopt;
     const bool inside = solid_.contains(at, work);
-    if (!inside && near.distance > radius) return std::nullopt;
+    const bool one_side = near.distance > radius;  // no skin within that radius
+    if (one_side && !inside) return std::nullopt;
+    if (one_side && goal_.belongs && !goal_.belongs(at)) return std::nullopt;
     if (inside && near.distance - slack > best.value && goal_.counts(at)) {
       best.value = near.distance;
       best.lower = near.distance - slack;
@@ -206,7 +210,7 @@ class SheetSearch {
   Depth& depth_;
   double margin_;
   PairWork& work_;
-  std::size_t whole_;
+  std::uint64_t whole_;
   std::vector<Piece> open_;  ///< a heap, the most promising first
   std::uint32_t next_id_ = 0;
 };

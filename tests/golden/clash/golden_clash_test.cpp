@@ -92,10 +92,10 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
-                         testing::Values(Golden{false, "70fb4696344548e1c293c2353c1a3a1e",
-                                                "681e92bb01b8b1ec331483b3a986ad5c"},
-                                         Golden{true, "22ddcf706bd497d768b6e7e47906d0fb",
-                                                "a1d1cddc09b639f078f1f7a5a47e4731"}),
+                         testing::Values(Golden{false, "7048419728d9599f4dded7a49d66139e",
+                                                "31228cbdc94bfbdcb1a3ebea14c583b3"},
+                                         Golden{true, "bc4b8b17f02f161ccfe3cdb78f43e1ab",
+                                                "64b7bc5c562a48bf790e7000b393f8aa"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });

@@ -17,6 +17,7 @@
 #include "support/clash_model.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/random_primitives.hpp"
+#include "support/revolved.hpp"
 #include "support/rounds.hpp"
 #include "support/solid_pairs.hpp"
 
@@ -126,6 +127,43 @@ TEST(PairLaws, MovedByGridSteps) {
     m.object("b").body(test::in_mm(pair.b), {{}, there});
     expect_same_bits(base, judged(m));
   });
+}
+
+IndexedMesh moved(IndexedMesh mesh, const Vec3i& by) {
+  for (Vec3i& v : mesh.vertices) v = v + by;
+  return mesh;
+}
+
+/// A file may write its coordinates from anywhere.
+TEST(PairLaws, MovedInTheFileByGridSteps) {
+  over_pairs([](const SolidPair& pair, const Pair& base, std::uint64_t seed) {
+    std::mt19937_64 rng(seed);
+    const auto step = [&] {
+      return static_cast<std::int32_t>(rng() % 1'000'000'000) - 500'000'000;
+    };
+    Vec3i there;
+    for (int axis = 0; axis < 3; ++axis) there[axis] = step();
+    expect_same_bits(base, judged(moved(pair.a, there), moved(pair.b, there)));
+  });
+}
+
+/// Also where a search ends at its limit and the bracket is what it has come to.
+TEST(PairLaws, MovedInTheFileByGridStepsWithWorkLeft) {
+  const auto on_grid = [](const geometry::TriangleMesh& mesh, const Vec3d& at) {
+    IndexedMesh made;
+    for (const Vec3d& v : mesh.vertices)
+      made.vertices.push_back(geometry::snap(v + at).value().as<std::int32_t>());
+    made.triangles = mesh.triangles;
+    return made;
+  };
+  const IndexedMesh a = on_grid(test::bumpy_mesh(50, 12, 7, 16), {});
+  const IndexedMesh b = on_grid(test::bumpy_mesh(40, 15, 5, 16), {71.5, 11.25, 23.125});
+  const Pair base = judged(a, b);
+  EXPECT_EQ(base.cls, Class::hit);
+  EXPECT_GT(base.d_upper_mm - base.d_lower_mm, 0.01);
+  for (const Vec3i by : {Vec3i{1, 0, 0}, Vec3i{1000, -7, 3}, Vec3i{0, 30'000'000, 0},
+                         Vec3i{-400'000'000, 123'456'789, 987'654'321}})
+    expect_same_bits(base, judged(moved(a, by), moved(b, by)));
 }
 
 /// Bit by bit where the number is exact; a depth within its bracket.

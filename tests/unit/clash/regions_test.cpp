@@ -431,6 +431,24 @@ TEST(RegionsTest, APlaceRoundAnotherHasItsOwnDepth) {
   }
 }
 
+/// Points of the pin, in the box of the ring, are not what is asked about there.
+TEST(RegionsTest, APlaceOfASheetRoundAnotherHasItsOwnDepth) {
+  ClashModel made;
+  geometry::TriangleMesh stamp = ring_and_pin(-1);
+  stamp.triangles.pop_back();
+  ASSERT_GT(stamp.vertices[stamp.triangles.back()[0]].z, 0);
+  made.object("plate").body(box_mesh({-100, -100, -200}, {100, 100, 0}));
+  made.object("stamp").body(stamp);
+  model::finish(made.model);
+  const Report report = made.detect();
+  ASSERT_EQ(report.pairs.size(), 1U);
+  ASSERT_EQ(report.pairs[0].regions, 2U);
+  ASSERT_EQ(report.regions.size(), 2U);
+  EXPECT_NEAR(report.regions[0].d_mm, -30, 0.01);
+  EXPECT_NEAR(report.regions[1].d_mm, -5, 0.01);
+  EXPECT_GE(report.regions[1].d_lower_mm, -5.2);
+}
+
 TEST(RegionsTest, AGapRoundAHitIsAGap) {
   for (const bool turned : {false, true}) {
     SCOPED_TRACE(turned);

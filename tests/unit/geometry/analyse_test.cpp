@@ -51,7 +51,7 @@ TEST(Analyse, BoxIsOneSolid) {
   EXPECT_DOUBLE_EQ(p.volume, 6e9);
   EXPECT_DOUBLE_EQ(p.area, 22e6);
   EXPECT_FALSE(p.flags.inverted || p.flags.open || p.flags.non_manifold);
-  EXPECT_EQ(p.box, (Box3i{{0, 0, 0}, {1000, 2000, 3000}}));
+  EXPECT_EQ(p.box, (Box3i{{-500, -1000, -1500}, {500, 1000, 1500}}));
 }
 
 TEST(Analyse, UnweldedSoupOfABoxIsTheSameSolid) {
@@ -493,10 +493,13 @@ TEST(Place, FarShapesGetABaseThatKeepsEveryVertex) {
   EXPECT_EQ(box.hi, (Vec3l{450001000000, 7250002000500, -2997000000}));
 }
 
-TEST(Place, NearShapesKeepTheLocalOrigin) {
-  const auto placed = place(box_mesh({0, 0, 0}, {10000, 1, 1}), {});
-  ASSERT_TRUE(placed.has_value());
-  EXPECT_EQ(placed->base, Vec3l{});
+TEST(Place, TheLocalOriginDoesNotShow) {
+  const auto placed = place(box_mesh({0, 0, 0}, {10000, 1, 3}), {});
+  const auto other = place(box_mesh({-700, 20, 0.5}, {9300, 21, 3.5}), {});
+  ASSERT_TRUE(placed.has_value() && other.has_value());
+  EXPECT_EQ(placed->base, (Vec3l{5000000, 500, 1500}));
+  EXPECT_EQ(other->base, (Vec3l{4300000, 20500, 2000}));
+  EXPECT_EQ(placed->mesh.vertices, other->mesh.vertices);
 }
 
 TEST(Place, TooWideIsRefused) {

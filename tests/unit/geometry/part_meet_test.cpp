@@ -140,6 +140,41 @@ TEST(MeetTest, EdgesOnFaces) {
   check(l, box_mesh({5, -3, 2}, {8, 3, 8}), {Meeting::crossing, true, false, true});
 }
 
+/// A bar bent round to a square ring whose last arm runs through its first.
+IndexedMesh ring_through_itself() {
+  const std::vector<Vec3i> rim{{0, 0, 0},     {1000, 0, 0},   {1000, 1000, 0}, {0, 1000, 0},
+                               {0, -200, 0},  {200, -200, 0}, {200, 800, 0},   {800, 800, 0},
+                               {800, 200, 0}, {0, 200, 0}};
+  IndexedMesh m;
+  for (const std::int32_t z : {0, 100})
+    for (const Vec3i& p : rim) m.vertices.push_back(p + Vec3i{0, 0, z});
+  const auto quad = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t t) {
+    m.triangles.push_back({p, q, r});
+    m.triangles.push_back({p, r, t});
+  };
+  for (std::uint32_t i = 0; i < 10; ++i) quad(i, (i + 1) % 10, 10 + (i + 1) % 10, 10 + i);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t inner = 9 - i;
+    quad(i, inner, inner - 1, i + 1);
+    quad(10 + i, 11 + i, 9 + inner, 10 + inner);
+  }
+  return m;
+}
+
+// The wedge touches nothing but an inner face and, with its far corners, the arm's own skin.
+TEST(MeetTest, InsideABodyThatRunsThroughItself) {
+  const Subject ring(ring_through_itself());
+  IndexedMesh wedge;
+  wedge.vertices = {{200, 60, 20}, {200, 140, 20}, {400, 200, 50}, {400, 60, 100}};
+  wedge.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
+  const Subject other(wedge);
+  ASSERT_EQ(ring.treed().placed.part->kind, PartKind::solid);
+  ASSERT_EQ(other.treed().placed.part->kind, PartKind::solid);
+  PairWork work;
+  EXPECT_EQ(meet(ring.treed(), other.treed(), work).meeting, Meeting::crossing);
+  EXPECT_EQ(meet(other.treed(), ring.treed(), work).meeting, Meeting::crossing);
+}
+
 TEST(MeetTest, SheetAgainstSolid) {
   const IndexedMesh solid = box_mesh({0, 0, 0}, {10, 10, 10});
   const auto sheet = [](std::int32_t z, std::int32_t lo, std::int32_t size) {

@@ -56,7 +56,7 @@ TEST(Scene, InstancesShareAGridShape) {
   const Scene s = b.scene();
   EXPECT_EQ(s.shapes.size(), 2U);
   ASSERT_EQ(s.bodies.size(), 12U);
-  EXPECT_EQ(s.bodies[3].origin, (geometry::Vec3l{6000, 0, 0}));
+  EXPECT_EQ(s.bodies[3].origin, (geometry::Vec3l{6500, 500, 500}));
   EXPECT_EQ(s.bodies_of(ObjectId{11}).size(), 1U);
   EXPECT_EQ(s.bodies[11].grid_shape, 1U);
 }
