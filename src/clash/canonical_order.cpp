@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clash/canonical_order.hpp"
 
-#include <cmath>
-
 #include "clash/witness.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::clash {
 namespace {
@@ -29,15 +28,11 @@ bool in_canonical_order(const geometry::TreedPart& a, const geometry::TreedPart&
   return a.placed.origin <= b.placed.origin;
 }
 
-geometry::Vec3d in_steps(const geometry::Vec3d& p) {
-  constexpr double kSteps = 65536;
-  return {std::nearbyint(p.x * kSteps) / kSteps, std::nearbyint(p.y * kSteps) / kSteps,
-          std::nearbyint(p.z * kSteps) / kSteps};
-}
+geometry::Vec3d in_witness_steps(const geometry::Vec3d& p) { return geometry::in_steps(p, 65536); }
 
 void put_in_steps(PartAnswer& answer) {
-  answer.witness.on_a = in_steps(answer.witness.on_a);
-  answer.witness.on_b = in_steps(answer.witness.on_b);
+  answer.witness.on_a = in_witness_steps(answer.witness.on_a);
+  answer.witness.on_b = in_witness_steps(answer.witness.on_b);
 }
 
 void put_in_steps(FirstLook& look) { put_in_steps(look.answer); }

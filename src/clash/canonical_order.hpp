@@ -13,7 +13,7 @@ namespace strake::clash {
 
 /// Points in steps of 2^-16 grid units: those of one part's coordinates become the other's without
 /// rounding.
-[[nodiscard]] geometry::Vec3d in_steps(const geometry::Vec3d& p);
+[[nodiscard]] geometry::Vec3d in_witness_steps(const geometry::Vec3d& p);
 void put_in_steps(PartAnswer& answer);
 void put_in_steps(FirstLook& look);
 

@@ -213,8 +213,10 @@ void PairOfParts::nearly_touching(const geometry::Closest& near, double gap,
                                   PartAnswer& answer) const {
   answer.separation = separated_by(near.distance);
   answer.separation.lower = std::min(gap, answer.separation.lower);
-  if (!(near.distance > 0)) answer.separation.d = std::min(gap, 0.0);
-  answer.witness = near.distance > 0 ? witness_of_gap(near) : witness_of_touch(near.on_a);
+  // Two triangles that are a little apart say nothing of the others, which may cross.
+  const bool apart = near.distance > 0 && gap >= 0;
+  if (!apart) answer.separation.d = std::min(gap, 0.0);
+  answer.witness = apart ? witness_of_gap(near) : witness_of_touch((near.on_a + near.on_b) * 0.5);
   answer.relation = Relation::abut_outside;
   conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
 }

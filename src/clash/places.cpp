@@ -260,7 +260,7 @@ std::optional<std::vector<PartPlace>> places_of(const NarrowPart& a, const Narro
   const Vec3d shift = (b.treed.placed.origin - a.treed.placed.origin).as<double>();
   for (PartPlace& place : *places) {
     put_in_steps(place.answer);
-    place.extent = {in_steps(place.extent.lo), in_steps(place.extent.hi)};
+    place.extent = {in_witness_steps(place.extent.lo), in_witness_steps(place.extent.hi)};
     if (ordered) continue;
     turn(place.answer, a, b);
     place.extent = place.extent.moved(shift);

@@ -33,6 +33,12 @@ inline constexpr double kMaxGridMm = 1125899906842624.0 / kGridPerMm;
   return Vec3l{*x, *y, *z};
 }
 
+/// The point nearest to p, in grid units, of a grid that is `steps` times finer.
+[[nodiscard]] inline Vec3d in_steps(const Vec3d& p, double steps) {
+  return {std::nearbyint(p.x * steps) / steps, std::nearbyint(p.y * steps) / steps,
+          std::nearbyint(p.z * steps) / steps};
+}
+
 /// Back to millimetres (for output only, never for a decision).
 [[nodiscard]] constexpr Vec3d to_mm(const Vec3d& grid) {
   return {grid.x / kGridPerMm, grid.y / kGridPerMm, grid.z / kGridPerMm};

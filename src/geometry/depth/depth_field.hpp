@@ -10,6 +10,7 @@
 
 #include "geometry/depth/nearest.hpp"
 #include "strake/geometry/depth.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::geometry {
 
@@ -21,9 +22,7 @@ inline constexpr std::int64_t kFieldDenominator = 4096;
 inline constexpr double kFieldError = 1e-12;
 
 [[nodiscard]] inline Vec3d on_field_grid(const Vec3d& p) {
-  constexpr double kSteps = static_cast<double>(kFieldDenominator);
-  return {std::nearbyint(p.x * kSteps) / kSteps, std::nearbyint(p.y * kSteps) / kSteps,
-          std::nearbyint(p.z * kSteps) / kSteps};
+  return in_steps(p, static_cast<double>(kFieldDenominator));
 }
 
 /// A part as a function of a point that is given relative to a common origin.

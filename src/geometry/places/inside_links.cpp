@@ -24,7 +24,6 @@ class InsideLinks {
   InsideLinks(const SolidNear& near, const InsideSets& sets, PairWork& work)
       : side_(near.side),
         near_(near),
-        squared_(near.reach * near.reach),
         sets_(sets.sets),
         first_vertex_(sets.first_vertex),
         work_(work),
@@ -110,7 +109,7 @@ class InsideLinks {
         exact_distance(own, side_.other.corners(side_.other_of(p)), p.squared.upper).on_a;
     const std::uint32_t corner = side_.own.part().triangles[side_.own_of(p)][0];
     const Line line{from, place(corner)};
-    const std::vector<EdgeStop> stops = stretches_.stops_on(line, pairs, squared_);
+    const std::vector<EdgeStop> stops = stretches_.stops_on(line, pairs, near_.squared_reach());
     if (stops.empty()) return;
     stretches_.join(line, stops);
     join_vertex(corner, stops.back(), line);
@@ -118,7 +117,6 @@ class InsideLinks {
 
   const PlacesSide& side_;
   SolidNear near_;
-  double squared_;
   DisjointSets& sets_;
   std::uint32_t first_vertex_;
   PairWork& work_;

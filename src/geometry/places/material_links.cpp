@@ -25,11 +25,7 @@ constexpr std::size_t kTries = 8;
 class MaterialLinks {
  public:
   MaterialLinks(const SolidNear& near, DisjointSets& sets, PairWork& work)
-      : near_(near),
-        squared_(near.reach * near.reach),
-        sets_(sets),
-        work_(work),
-        stretches_(near, sets, work) {}
+      : near_(near), sets_(sets), work_(work), stretches_(near, sets, work) {}
 
   /// The pairs of one triangle.
   std::size_t join(std::span<const std::uint32_t> group) {
@@ -70,9 +66,10 @@ class MaterialLinks {
     for (const std::uint32_t i : group) {
       if (sets_.joined(pair, i)) continue;
       const Corners t = as_doubles(other_corners(i));
-      if (squared_gap({x, x}, box_of(t)) > squared_) continue;
+      if (squared_gap({x, x}, box_of(t)) > near_.squared_reach()) continue;
       const Vec3d at = nearest_on_triangle(x, t), gap = at - x;
-      if (dot(gap, gap) <= squared_) spots.push_back({sets_.root(i), dot(gap, gap), i, at});
+      if (dot(gap, gap) <= near_.squared_reach())
+        spots.push_back({sets_.root(i), dot(gap, gap), i, at});
     }
     std::ranges::sort(spots, [](const Spot& s, const Spot& t) {
       return std::tie(s.root, s.squared, s.pair) < std::tie(t.root, t.squared, t.pair);
@@ -98,7 +95,6 @@ class MaterialLinks {
   }
 
   SolidNear near_;
-  double squared_;
   DisjointSets& sets_;
   PairWork& work_;
   Stretches stretches_;

@@ -26,6 +26,8 @@ struct SolidNear {
   std::span<const NearTriangles> pairs;
   const TreedPart& other;
   double reach = 0;
+
+  [[nodiscard]] double squared_reach() const { return reach * reach; }
 };
 
 /// Joins near pairs between which a line runs inside the other part, a solid. Between two stops

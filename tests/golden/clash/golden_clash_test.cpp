@@ -94,8 +94,8 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
                          testing::Values(Golden{false, "7048419728d9599f4dded7a49d66139e",
                                                 "31228cbdc94bfbdcb1a3ebea14c583b3"},
-                                         Golden{true, "bc4b8b17f02f161ccfe3cdb78f43e1ab",
-                                                "64b7bc5c562a48bf790e7000b393f8aa"}),
+                                         Golden{true, "54e7292fbe8a22d8f3ce3249910cf1af",
+                                                "8683ecc4dbb25bea7574c27f388c2462"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });

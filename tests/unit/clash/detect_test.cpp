@@ -58,6 +58,27 @@ TEST(Detect, WallsEndToEnd) {
   expect(only(walls(-0.002, 0)), Class::contact, Relation::abut_outside, -0.002);
 }
 
+/// Whichever two triangles are looked at first: those of the faces are apart where the boxes
+/// overlap.
+TEST(Detect, WhatOverlapsWithinTheContactDistanceIsNotApart) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {20.0, 50.0, 100.0, 140.0})
+      for (const double deep : {0.001, 0.002}) {
+        SCOPED_TRACE(std::to_string(axis) + ", " + std::to_string(side));
+        for (const bool below : {false, true}) {
+          Vec3d lo{30, 30, 30};
+          lo[axis] = below ? deep - side : 100 - deep;
+          const Pair pair = only(two({0, 0, 0}, {100, 100, 100}, lo, lo + Vec3d{side, side, side}));
+          expect(pair, Class::contact, Relation::abut_outside, -deep);
+          EXPECT_LE(pair.d_lower_mm, -deep);
+          EXPECT_GE(pair.d_upper_mm, -deep);
+          lo[axis] += below ? -2 * deep : 2 * deep;
+          EXPECT_NEAR(only(two({0, 0, 0}, {100, 100, 100}, lo, lo + Vec3d{side, side, side})).d_mm,
+                      deep, 1e-9);
+        }
+      }
+}
+
 /// A thousand objects at one place are half a million pairs; the memory ends before a million's do.
 TEST(Detect, MorePairsThanAllowedAreAnErrorThatSaysWhy) {
   test::ClashModel m;

@@ -27,6 +27,12 @@ constexpr std::int32_t kSize = 720'720;  // many divisors
 
 GridMesh cube() { return grid_box({0, 0, 0}, {kSize, kSize, kSize}); }
 
+GridMesh split_cube(Draw& draw) {
+  GridMesh mesh = cube();
+  split_sides(mesh, 40, draw);
+  return mesh;
+}
+
 void append(GridMesh& mesh, const GridMesh& other) {
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
@@ -109,8 +115,7 @@ TEST(TJunctions, TheSameWhateverTheOrderAndTheSideThatItIsSeenFrom) {
   for (std::uint64_t seed = 1; seed <= test::rounds(50U, 5'000U); ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
-    GridMesh mesh = cube();
-    split_sides(mesh, 40, draw);
+    GridMesh mesh = split_cube(draw);
     const Part first = analyse(mesh).parts.at(0);
     for (std::size_t i = mesh.triangles.size() - 1; i > 0; --i)
       std::swap(mesh.triangles[i], mesh.triangles[draw.below(i + 1)]);
@@ -226,8 +231,7 @@ TEST(TJunctions, SkinsDrawnFromBothSides) {
   for (std::uint64_t seed = 1; seed <= test::rounds(50U, 5'000U); ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
-    GridMesh mesh = cube();
-    split_sides(mesh, 40, draw);
+    GridMesh mesh = split_cube(draw);
     // The far side cut like the near one, and not at all.
     for (const GridMesh& other : {mesh, cube()}) {
       GridMesh both = mesh, far = other;
