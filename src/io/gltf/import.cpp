@@ -19,6 +19,7 @@
 #include "io/precision.hpp"
 #include "io/reading.hpp"
 #include "io/source_frame.hpp"
+#include "io/whole_solids.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/parallel/for_each.hpp"
 
@@ -227,6 +228,7 @@ void Importer::note_meshes() {
     if (loaded_[i].points != 0)
       model_.diagnostics.add(Severity::skipped, "gltf-points", "points are not read",
                              place_text(pointer));
+    if (loaded_[i].part_transparent) note_whole_solid(model_, place_text(pointer));
     if (loaded_[i].odd != 0)
       model_.diagnostics.add(Severity::warning, "gltf-odd-indices",
                              "indices are left over behind the last triangle or line",

@@ -13,6 +13,7 @@
 
 #include "io/compact.hpp"
 #include "io/gltf/srgb.hpp"
+#include "io/whole_solids.hpp"
 
 namespace strake::io::gltf {
 namespace {
@@ -206,6 +207,7 @@ LoadedMesh MeshLoader::load(const Json& mesh) {
     broken.fault = std::move(result_.fault);
     return broken;
   }
+  result_.part_transparent = keep_solids_whole(result_.opaque, result_.transparent);
   result_.opaque_color = main_color(opaque_);
   result_.transparent_color = main_color(transparent_);
   result_.line_color = main_color(lines_);

@@ -15,7 +15,8 @@
 namespace strake::io::gltf {
 
 /// A mesh of the document as shapes: its opaque primitives are one, whatever their materials,
-/// because a solid cut along its colours would be no solid; so are its transparent ones.
+/// because a solid cut along its colours would be no solid; so are its transparent ones, but for
+/// those that a solid does not close without (keep_solids_whole).
 struct LoadedMesh {
   geometry::TriangleMesh opaque, transparent;  ///< mm, z up
   geometry::Polylines lines;
@@ -23,7 +24,8 @@ struct LoadedMesh {
   double step = 0;           ///< spacing of quantised coordinates in file units; 0: float32
   std::uint32_t points = 0;  ///< primitives that are point clouds
   std::uint32_t odd = 0;     ///< primitives with indices left over behind the last triangle or line
-  std::optional<Fault> fault;  ///< set: not to be used
+  bool part_transparent = false;  ///< some transparent faces are among the opaque
+  std::optional<Fault> fault;     ///< set: not to be used
 };
 
 struct MeshInput {

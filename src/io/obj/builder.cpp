@@ -10,6 +10,7 @@
 #include "io/compact.hpp"
 #include "io/face_triangles.hpp"
 #include "io/precision.hpp"
+#include "io/whole_solids.hpp"
 
 namespace strake::io::obj {
 namespace {
@@ -146,6 +147,7 @@ BuiltObject Builder::build() {
   result_.line_color = main_color(lines);
   if (!opaque.end.empty()) result_.opaque = mesh(std::move(opaque));
   if (!transparent.end.empty()) result_.transparent = mesh(std::move(transparent));
+  result_.part_transparent = keep_solids_whole(result_.opaque, result_.transparent);
   if (!lines.end.empty()) result_.lines = polylines(lines);
   return std::move(result_);
 }

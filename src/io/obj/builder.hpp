@@ -24,12 +24,14 @@ struct BuildInput {
 };
 
 /// The geometry of one object: its opaque faces are one mesh whatever their materials, because a
-/// solid cut along its colours would be no solid; so are its transparent ones.
+/// solid cut along its colours would be no solid; so are its transparent ones, but for those that
+/// a solid does not close without (keep_solids_whole).
 struct BuiltObject {
   geometry::TriangleMesh opaque, transparent;
   geometry::Polylines lines;
   model::Color opaque_color, transparent_color, line_color;  ///< of most of the faces or lines
   std::uint32_t crossing_faces = 0;                          ///< cut as fans
+  bool part_transparent = false;                             ///< some are among the opaque
   double largest_mm = 0;                                     ///< coordinate
   DigitStatistics digits;                                    ///< of the vertices in use
   struct Damage {

@@ -16,6 +16,7 @@
 #include "io/obj/material.hpp"
 #include "io/reading.hpp"
 #include "io/source_frame.hpp"
+#include "io/whole_solids.hpp"
 #include "strake/parallel/for_each.hpp"
 
 namespace strake::io {
@@ -179,6 +180,8 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
             "{} faces of object '{}' cross themselves or have no area; they are cut as fans",
             built.crossing_faces, object.name),
         file_.path.string());
+  if (built.part_transparent)
+    note_whole_solid(model_, fmt::format("{}: {}", file_.path.string(), object.name));
   const double half_spacing_mm =
       frame_.unit_mm * text_half_spacing(built.digits, built.largest_mm / frame_.unit_mm);
   if (!built.opaque.triangles.empty())

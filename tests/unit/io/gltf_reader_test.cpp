@@ -383,6 +383,27 @@ TEST(GltfReader, TakesColoursOfMaterials) {
   EXPECT_EQ(read_ok(parts.build()).bodies[0].color, (model::Color{255, 127, 0, 255}));
 }
 
+TEST(GltfReader, KeepsASolidWithATransparentFaceInOnePiece) {
+  const std::string binary =
+      bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
+      bytes_of(std::vector<std::uint16_t>{0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 2, 1});
+  const model::Model model = read_ok(glb(
+      R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":72}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":48},)"
+      R"({"buffer":0,"byteOffset":48,"byteLength":24}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+      R"({"bufferView":1,"componentType":5123,"count":9,"type":"SCALAR"},)"
+      R"({"bufferView":1,"byteOffset":18,"componentType":5123,"count":3,"type":"SCALAR"}],)"
+      R"("materials":[{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[0,0,1,0.5]}}],)"
+      R"("meshes":[{"name":"m","primitives":[{"attributes":{"POSITION":0},"indices":1},)"
+      R"({"attributes":{"POSITION":0},"indices":2,"material":0}]}],"nodes":[{"mesh":0}]})",
+      binary));
+  ASSERT_EQ(model.bodies.size(), 1U);
+  EXPECT_EQ(std::get<TriangleMesh>(model.shapes[0]).triangles.size(), 4U);
+  EXPECT_EQ(model.bodies[0].color, model::Color{});
+  EXPECT_EQ(model.diagnostics.count("mesh-part-transparent"), 1U);
+}
+
 TEST(GltfReader, NamesExtensionsThatItDoesNotRead) {
   for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
     const Error error =

@@ -148,6 +148,58 @@ TEST(ObjReader, TakesColoursFromTheLibraryBesideIt) {
   EXPECT_EQ(model->bodies[2].color, model::Color{});
 }
 
+/// A tetrahedron with a face of glass, and beside it what is closed or open by itself.
+TEST(ObjReader, KeepsASolidWithATransparentFaceInOnePiece) {
+  const test::TemporaryFolder folder;
+  (void)folder.write("c.mtl", "newmtl steel\nnewmtl glass\nd 0.5\n");
+  const std::string corners = "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const std::string walls = "usemtl steel\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const auto read_it = [&](const std::string& text) {
+    Result<model::Model> model = read(corners + text, {}, folder.path() / "x.obj");
+    EXPECT_TRUE(model);
+    return model ? std::move(*model) : model::Model{};
+  };
+  const model::Model tank = read_it(walls + "usemtl glass\nf 1 3 2\n");
+  ASSERT_EQ(tank.bodies.size(), 1U);
+  EXPECT_EQ(mesh_of(tank, 0).triangles.size(), 4U);
+  EXPECT_EQ(mesh_of(tank, 0).vertices.size(), 7U);
+  EXPECT_EQ(tank.bodies[0].color.alpha, 255);
+  EXPECT_EQ(tank.diagnostics.count("mesh-part-transparent"), 1U);
+
+  // The corners of the glass stand in the file once more.
+  const model::Model soup = read_it(walls + "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl glass\nf 5 7 6\n");
+  EXPECT_EQ(soup.bodies.size(), 1U);
+
+  const model::Model pane =
+      read_it(walls + "f 1 3 2\nusemtl glass\nf 1 2 3\nf 1 3 2\nf 1 2 3\nf 1 3 2\n");
+  EXPECT_EQ(pane.bodies.size(), 2U) << "each closes by itself";
+  EXPECT_EQ(read_it(walls + "usemtl glass\nf 1 2 3\n").bodies.size(), 2U) << "wound otherwise";
+
+  // A second pane, far from the tank, stays transparent with its own corners.
+  const model::Model two =
+      read_it(walls + "v 5 0 0\nv 6 0 0\nv 5 1 0\nusemtl glass\nf 1 3 2\nf 5 6 7\n");
+  ASSERT_EQ(two.bodies.size(), 2U);
+  EXPECT_EQ(mesh_of(two, 0).triangles.size(), 4U);
+  EXPECT_EQ(mesh_of(two, 0, 1).triangles.size(), 1U);
+  EXPECT_EQ(mesh_of(two, 0, 1).vertices.size(), 3U);
+  EXPECT_EQ(two.bodies[1].color.alpha, 128);
+}
+
+/// Edges between pieces of one face stay hidden whichever mesh the face comes to.
+TEST(ObjReader, KeepsTheFacesOfASolidWithATransparentFace) {
+  const test::TemporaryFolder folder;
+  (void)folder.write("c.mtl", "newmtl steel\nnewmtl glass\nd 0.5\n");
+  const Result<model::Model> model = read(
+      "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
+      "v 1 1 1\nusemtl steel\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
+      "usemtl glass\nf 1 3 4 2\n",
+      {}, folder.path() / "x.obj");
+  ASSERT_TRUE(model);
+  ASSERT_EQ(model->bodies.size(), 1U);
+  EXPECT_EQ(mesh_of(*model, 0).faces,
+            (std::vector<std::uint32_t>{0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}));
+}
+
 TEST(ObjReader, KeepsASolidOfTwoOpaqueColoursInOnePiece) {
   const test::TemporaryFolder folder;
   (void)folder.write("c.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
