@@ -28,4 +28,11 @@ class FileContent {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// The text behind the mark that some writers put before UTF-8: no part of the first line.
+[[nodiscard]] inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
+}
+
 }  // namespace strake::io

@@ -66,12 +66,8 @@ bool has_glb_magic(std::span<const std::byte> bytes) {
 Result<Container> open_container(const FileBytes& file) {
   if (has_glb_magic(file.bytes)) return open_glb(file);
   Container container;
-  container.json = as_text(file.bytes);
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (container.json.substr(0, 3) == kByteOrderMark) {
-    container.json.remove_prefix(3);
-    container.json_offset = 3;
-  }
+  container.json = without_byte_order_mark(as_text(file.bytes));
+  container.json_offset = file.bytes.size() - container.json.size();
   return container;
 }
 

@@ -63,8 +63,7 @@ class GltfReader final : public Reader {
 
   [[nodiscard]] int recognise(const FileBytes& file) const override {
     if (gltf::has_glb_magic(file.bytes)) return 100;
-    std::string_view text = as_text(file.bytes).substr(0, 1U << 16U);
-    if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+    const std::string_view text = without_byte_order_mark(as_text(file.bytes)).substr(0, 1U << 16U);
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     const bool object = first != std::string_view::npos && text[first] == '{';
     const std::string extension = lower_extension(file.path);

@@ -12,12 +12,12 @@ constexpr std::uint32_t kNoEntry = 0xffffffffU;
 
 class Assembler {
  public:
-  void chunk(std::uint32_t number, const Chunk& chunk, std::uint64_t lines_before);
+  void chunk(std::uint32_t number, const Chunk& chunk);
   Assembly take() { return std::move(result_); }
 
  private:
   void apply(const Statement& statement);
-  void segment(Segment run, const Chunk& chunk, std::uint64_t lines_before);
+  void segment(Segment run);
   std::uint32_t entry();
   std::uint32_t material_index(const std::string& name);
 
@@ -56,6 +56,9 @@ void Assembler::apply(const Statement& statement) {
     case StatementKind::library:
       result_.libraries.push_back(statement.text);
       break;
+    case StatementKind::unread:
+      result_.entries[entry()].incomplete = true;
+      break;
   }
 }
 
@@ -63,34 +66,25 @@ std::uint32_t Assembler::entry() {
   if (entry_ != kNoEntry) return entry_;
   const auto next = static_cast<std::uint32_t>(result_.entries.size());
   const auto [place, is_new] = groups_.try_emplace(group_name_, next);
-  if (is_new) result_.entries.push_back({object_name_, group_name_, 0, object_, {}});
+  if (is_new) result_.entries.push_back({object_name_, group_name_, object_, {}, false});
   return entry_ = place->second;
 }
 
-void Assembler::segment(Segment run, const Chunk& chunk, std::uint64_t lines_before) {
-  const bool has_faces = run.face_begin != run.face_end;
-  if (!has_faces && run.polyline_begin == run.polyline_end) return;
-  Entry& owner = result_.entries[entry()];
-  if (owner.segments.empty()) {
-    const std::uint32_t line =
-        has_faces ? chunk.faces.line[run.face_begin] : chunk.polylines.line[run.polyline_begin];
-    owner.first_line = lines_before + line + 1;
-  }
+void Assembler::segment(Segment run) {
+  if (run.face_begin == run.face_end && run.polyline_begin == run.polyline_end) return;
   run.material = material_;
-  owner.segments.push_back(run);
+  result_.entries[entry()].segments.push_back(run);
 }
 
-void Assembler::chunk(std::uint32_t number, const Chunk& chunk, std::uint64_t lines_before) {
+void Assembler::chunk(std::uint32_t number, const Chunk& chunk) {
   std::uint32_t face = 0, polyline = 0;
   for (const Statement& statement : chunk.statements) {
-    segment({number, face, statement.face, polyline, statement.polyline, kNoMaterial}, chunk,
-            lines_before);
+    segment({number, face, statement.face, polyline, statement.polyline, kNoMaterial});
     face = statement.face;
     polyline = statement.polyline;
     apply(statement);
   }
-  segment({number, face, chunk.faces.size(), polyline, chunk.polylines.size(), kNoMaterial}, chunk,
-          lines_before);
+  segment({number, face, chunk.faces.size(), polyline, chunk.polylines.size(), kNoMaterial});
 }
 
 }  // namespace
@@ -99,7 +93,7 @@ Assembly assemble(const std::vector<Chunk>& chunks) {
   Assembler assembler;
   std::vector<std::uint64_t> vertex_base{0}, line_base{0};
   for (std::size_t i = 0; i < chunks.size(); ++i) {
-    assembler.chunk(static_cast<std::uint32_t>(i), chunks[i], line_base.back());
+    assembler.chunk(static_cast<std::uint32_t>(i), chunks[i]);
     vertex_base.push_back(vertex_base.back() + chunks[i].vertices.size());
     line_base.push_back(line_base.back() + chunks[i].lines);
   }

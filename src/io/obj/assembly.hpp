@@ -19,13 +19,13 @@ struct Segment {
   std::uint32_t material = kNoMaterial;  ///< index into Assembly::material_names
 };
 
-/// An `o` or `g` of the file that has faces or lines.
+/// An `o` or `g` of the file that has geometry.
 struct Entry {
-  std::string object_name;       ///< of the `o` that it stands under; empty: none
-  std::string group_name;        ///< of its own `g`; empty: the object itself
-  std::uint64_t first_line = 0;  ///< 1-based line of its first face or polyline
-  std::uint32_t object = 0;      ///< ordinal of the `o` statement, 0: before any
+  std::string object_name;   ///< of the `o` that it stands under; empty: none
+  std::string group_name;    ///< of its own `g`; empty: the object itself
+  std::uint32_t object = 0;  ///< ordinal of the `o` statement, 0: before any
   std::vector<Segment> segments;
+  bool incomplete = false;  ///< it has free-form geometry as well, or alone
 };
 
 /// The chunks in order, and what belongs together across them.

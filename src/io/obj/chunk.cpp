@@ -63,13 +63,6 @@ std::string_view keyword(const char*& at, const char* end) {
   return {begin, static_cast<std::size_t>(at - begin)};
 }
 
-bool is_free_form(std::string_view word) {
-  constexpr std::array<std::string_view, 4> kWords{"curv", "curv2", "surf", "cstype"};
-  for (const std::string_view known : kWords)
-    if (word == known) return true;
-  return false;
-}
-
 void ChunkParser::line(const char* at, const char* end) {
   skip_blanks(at, end);
   if (at == end || *at == '#') return;
@@ -81,7 +74,10 @@ void ChunkParser::line(const char* at, const char* end) {
   if (word == "g") return statement(StatementKind::group, at, end);
   if (word == "usemtl") return statement(StatementKind::material, at, end);
   if (word == "mtllib") return statement(StatementKind::library, at, end);
-  if (is_free_form(word)) problem(Fault::curve_or_surface);
+  if (word == "surf" || word == "curv") {
+    problem(Fault::curve_or_surface);
+    return statement(StatementKind::unread, end, end);
+  }
   // Normals, texture coordinates, smoothing groups and display attributes say nothing about
   // where the surface is.
 }

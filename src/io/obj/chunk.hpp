@@ -18,8 +18,9 @@ struct Corner {
   bool chunk_relative = false;
 };
 
-/// A statement that changes what the following faces and lines belong to.
-enum class StatementKind : std::uint8_t { object, group, material, library };
+/// A statement that changes what the following faces and lines belong to, or `unread`: that what
+/// they belong to has geometry of a kind that is not read.
+enum class StatementKind : std::uint8_t { object, group, material, library, unread };
 
 struct Statement {
   StatementKind kind = StatementKind::object;

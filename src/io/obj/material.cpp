@@ -62,7 +62,7 @@ void load_library(std::string_view name, const std::filesystem::path& obj_path,
                     obj_path.string());
     return;
   }
-  parse_materials(as_text(content->bytes()), materials);
+  parse_materials(without_byte_order_mark(as_text(content->bytes())), materials);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ FaultText fault_text(obj::Fault fault) {
     case obj::Fault::short_polyline:
       return {"obj-short-line", "a line with fewer than two points is left out"};
     case obj::Fault::curve_or_surface:
-      return {"obj-free-form", "free-form curves and surfaces are not read: export polygons"};
+      return {"obj-free-form", "a free-form curve or surface is not read: export polygons"};
   }
   return {"obj-fault", "the line is not understood"};
 }
@@ -83,7 +83,8 @@ class ObjReading {
 };
 
 Status ObjReading::parse() {
-  const std::vector<std::string_view> pieces = obj::cut_chunks(as_text(file_.bytes), kChunkBytes);
+  const std::vector<std::string_view> pieces =
+      obj::cut_chunks(without_byte_order_mark(as_text(file_.bytes)), kChunkBytes);
   for (const std::string_view piece : pieces)
     if (piece.size() > std::numeric_limits<std::uint32_t>::max())
       return Error{ErrorCode::input, "has a line of more than 4 GiB", file_.path.string(),
@@ -104,8 +105,9 @@ void ObjReading::report_problems() {
   for (std::size_t i = 0; i < chunks_.size(); ++i)
     for (const obj::Problem& problem : chunks_[i].problems) {
       const FaultText text = fault_text(problem.fault);
+      const bool skipped = problem.fault == obj::Fault::curve_or_surface;
       model_.diagnostics.add(
-          Severity::warning, text.code, text.message,
+          skipped ? Severity::skipped : Severity::warning, text.code, text.message,
           fmt::format("{}:{}", file_.path.string(), assembly_.line_base[i] + problem.line + 1));
     }
 }
@@ -164,6 +166,7 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
   object.id =
       object.parent == model::GroupId::none ? object.name : entry.object_name + "/" + object.name;
   object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
+  object.incomplete = entry.incomplete;
   if (built.damage) {
     model_.diagnostics.add(Severity::skipped, "obj-damaged-object",
                            fmt::format("object '{}' is skipped: its face or line {}", object.name,
@@ -232,7 +235,7 @@ class ObjReader final : public Reader {
   [[nodiscard]] std::string_view format() const override { return "OBJ"; }
 
   [[nodiscard]] int recognise(const FileBytes& file) const override {
-    const std::string_view text = as_text(file.bytes);
+    const std::string_view text = without_byte_order_mark(as_text(file.bytes));
     if (text.substr(0, 4096).find('\0') != std::string_view::npos) return 0;
     const int likeness = obj_likeness(text);
     return lower_extension(file.path) == ".obj" ? std::max(likeness + 5, 30) : likeness;

@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "io/file_content.hpp"
+
 namespace strake::io::rvm {
 
 namespace {
@@ -172,7 +174,7 @@ std::vector<std::uint32_t> match(const Built& built, const std::vector<std::stri
 }  // namespace
 
 Result<AttributeFile> parse_attributes(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_byte_order_mark(text);
   std::string_view first;
   while (!text.empty() && first.empty()) first = next_line(text);
   const auto tokens = parse_first_line(first);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/file_content.hpp"
 #include "io/rvm/primitive.hpp"
 
 namespace strake::io::rvm {
@@ -285,7 +286,7 @@ Transcoded Transcoder::run() {
 }  // namespace
 
 bool is_text_variant(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_byte_order_mark(text);
   Scanner in(text.substr(0, 4096));
   std::string_view line;
   while (!in.at_end() && line.empty()) line = trimmed(in.next_line());
@@ -293,8 +294,7 @@ bool is_text_variant(std::string_view text) {
 }
 
 Transcoded transcode_text(std::string_view text, Log& log) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  return Transcoder(text, log).run();
+  return Transcoder(without_byte_order_mark(text), log).run();
 }
 
 }  // namespace strake::io::rvm

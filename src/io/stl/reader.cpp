@@ -37,7 +37,7 @@ enum class Kind { none, binary, binary_longer, binary_truncated, ascii };
 
 /// Binary files are known by their size, because many begin with "solid" like the text variant.
 Kind kind_of(std::span<const std::byte> bytes) {
-  const bool text = stl::looks_like_ascii(as_text(bytes));
+  const bool text = stl::looks_like_ascii(without_byte_order_mark(as_text(bytes)));
   if (bytes.size() < kHeaderBytes) return text ? Kind::ascii : Kind::none;
   const std::uint64_t facets = stated_facets(bytes);
   const std::uint64_t expected = kHeaderBytes + kFacetBytes * facets;
@@ -114,7 +114,7 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
   model::Model model = start_model(file, "STL text", options, kStlFrame);
   const SourceFrame frame = choose_frame(options, kStlFrame);
   const std::optional<std::vector<stl::Solid>> solids =
-      stl::parse_ascii(as_text(file.bytes), context.stop);
+      stl::parse_ascii(without_byte_order_mark(as_text(file.bytes)), context.stop);
   if (!solids) return Error{ErrorCode::cancelled, "reading was cancelled", file.path.string(), ""};
   for (const stl::Solid& solid : *solids) {
     std::string name = solid.name.empty() ? file.path.stem().string() : solid.name;
@@ -145,6 +145,18 @@ Error truncated(const FileBytes& file) {
                       (file.bytes.size() - kHeaderBytes) / kFacetBytes, facets),
           fmt::format("{}, byte {}", file.path.string(), file.bytes.size()),
           "copy or export the file again"};
+}
+
+/// What could be facets, as of a second solid behind the first, is told as missing.
+void note_trailing_bytes(const FileBytes& file, model::Model& model) {
+  const std::uint64_t end = kHeaderBytes + kFacetBytes * stated_facets(file.bytes);
+  const bool facets = file.bytes.size() - end >= kFacetBytes;
+  model.diagnostics.add(facets ? Severity::skipped : Severity::warning, "stl-trailing-bytes",
+                        fmt::format("{} bytes behind the last of the {} facets that the file "
+                                    "announces are not read",
+                                    file.bytes.size() - end, stated_facets(file.bytes)),
+                        fmt::format("{}, byte {}", file.path.string(), end));
+  if (facets) model.objects.back().incomplete = true;
 }
 
 class StlReader final : public Reader {
@@ -182,11 +194,7 @@ class StlReader final : public Reader {
         break;
     }
     Result<model::Model> model = read_binary(file, options, context);
-    if (model && kind_of(file.bytes) == Kind::binary_longer)
-      model->diagnostics.add(Severity::warning, "stl-trailing-bytes",
-                             "bytes behind the last facet are ignored",
-                             fmt::format("{}, byte {}", file.path.string(),
-                                         kHeaderBytes + kFacetBytes * stated_facets(file.bytes)));
+    if (model && kind_of(file.bytes) == Kind::binary_longer) note_trailing_bytes(file, *model);
     return model;
   }
 };

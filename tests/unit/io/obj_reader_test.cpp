@@ -56,6 +56,38 @@ TEST(ObjReader, ReadsCornersWithTextureAndNormal) {
   for (const auto& t : mesh_of(model, 0).triangles) EXPECT_EQ(t, (geometry::Triangle{0, 1, 2}));
 }
 
+/// The mark is no part of the first line: without it all vertices would count one less.
+TEST(ObjReader, ReadsWhatIsBehindAByteOrderMark) {
+  const model::Model model =
+      read_ok("\xEF\xBB\xBF" + std::string(kTriangle) + "v 5 5 5\nf 1 2 3\n");
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(mesh_of(model, 0).vertices, (std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+
+  const test::TemporaryFolder folder;
+  (void)folder.write("c.mtl", "\xEF\xBB\xBFnewmtl red\nKd 1 0 0\n");
+  const Result<model::Model> named =
+      read("\xEF\xBB\xBFmtllib c.mtl\n" + std::string(kTriangle) + "usemtl red\nf 1 2 3\n", {},
+           folder.path() / "x.obj");
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->bodies[0].color, (model::Color{255, 0, 0, 255}));
+}
+
+/// What is not read is missing from its object, not from nowhere.
+TEST(ObjReader, ObjectsWithFreeFormGeometryAreIncomplete) {
+  const model::Model model = read_ok(std::string(kTriangle) +
+                                     "o a\nf 1 2 3\no b\ncstype bspline\nsurf 0 1 0 1 1 2 3\n"
+                                     "curv2 1 2\nend\no c\nf 1 2 3\ncurv 0 1 1 2\n");
+  ASSERT_EQ(model.objects.size(), 3U);
+  EXPECT_FALSE(model.objects[0].incomplete);
+  EXPECT_TRUE(model.objects[1].incomplete);
+  EXPECT_EQ(model.objects[1].name, "b");
+  EXPECT_EQ(model.objects[1].body_count, 0U);
+  EXPECT_TRUE(model.objects[2].incomplete);
+  EXPECT_EQ(model.objects[2].body_count, 1U);
+  EXPECT_EQ(model.diagnostics.count("obj-free-form"), 2U);
+  EXPECT_EQ(model.diagnostics.skipped(), 2U);
+}
+
 TEST(ObjReader, NamesGroupsUnderObjects) {
   const model::Model model = read_ok(std::string(kTriangle) +
                                      "f 1 2 3\no Deck 1\nf 1 2 3\ng plate\nf 1 2 3\ng stiffener\n"

@@ -137,6 +137,22 @@ TEST(StlReader, IgnoresBytesBehindTheLastFacetWithAWarning) {
   const Result<model::Model> model = read(binary("x", {kFacet}) + "trailing");
   ASSERT_TRUE(model);
   EXPECT_EQ(model->diagnostics.count("stl-trailing-bytes"), 1U);
+  EXPECT_FALSE(model->objects[0].incomplete);
+}
+
+TEST(StlReader, TellsOfASecondSolidThatItDoesNotRead) {
+  const Result<model::Model> model = read(binary("x", {kFacet}) + binary("y", {kFacet}));
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->diagnostics.skipped(), 1U);
+  EXPECT_TRUE(model->objects[0].incomplete);
+}
+
+TEST(StlReader, ReadsTextBehindAByteOrderMark) {
+  const std::string text = std::string("\xEF\xBB\xBF") + std::string(kText);
+  const Result<model::Model> model = read(text);
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->objects.size(), read(kText)->objects.size());
+  EXPECT_GT(sureness(text, "x.txt"), 80);
 }
 
 TEST(StlReader, RecognisesItsContent) {
