@@ -73,6 +73,11 @@ Chunk chunk_at(Bytes bytes, std::size_t at) {
   }
 }
 
+/// Whether a model lacks geometry, or the group that it belongs to, without the chunk.
+bool holds_geometry(Chunk chunk) {
+  return chunk != Chunk::head && chunk != Chunk::modl && chunk != Chunk::colr;
+}
+
 class BinaryReader {
  public:
   BinaryReader(Bytes bytes, const std::optional<TextDecoder>& stated, Builder& builder, Log& log,
@@ -87,6 +92,7 @@ class BinaryReader {
   [[nodiscard]] bool read(const parallel::Context& context);
 
  private:
+  void note_truncation();
   void read_chunk();
   [[nodiscard]] bool read_body(Chunk chunk, Cursor& in);
   [[nodiscard]] bool read_head(Cursor& in);
@@ -130,8 +136,7 @@ bool BinaryReader::read(const parallel::Context& context) {
   for (std::size_t chunks = 0; !ended_; ++chunks) {
     if (chunks % 1024 == 0 && context.stop.stop_requested()) return false;
     if (bytes_.size() - at_ < kFrameBytes) {
-      log_->warn("rvm-truncated", "the file ends without an END chunk; what came before it is kept",
-                 at_);
+      note_truncation();
       break;
     }
     read_chunk();
@@ -140,6 +145,19 @@ bool BinaryReader::read(const parallel::Context& context) {
     log_->warn("rvm-unclosed-group",
                fmt::format("{} groups are still open at the end", builder_->depth()), at_);
   return true;
+}
+
+/// Whether anything is missing behind the last group that was closed, nobody can tell.
+void BinaryReader::note_truncation() {
+  constexpr const char* kCode = "rvm-truncated";
+  constexpr const char* kMessage =
+      "the file ends without an END chunk; what came before it is kept";
+  if (builder_->depth() == 0) {
+    log_->warn(kCode, kMessage, at_);
+    return;
+  }
+  builder_->note_loss(at_);
+  log_->skip(kCode, kMessage, at_);
 }
 
 void BinaryReader::read_chunk() {
@@ -162,10 +180,10 @@ void BinaryReader::read_chunk() {
     leave_chunk(in.at(), next);
     return;
   }
-  builder_->note_loss();
-  log_->skip(
-      "rvm-damaged-chunk",
-      fmt::format("a {} chunk holds less than its counts state", letters(id_at(bytes_, at_))), at_);
+  if (holds_geometry(chunk)) builder_->note_loss(at_);
+  log_->skip("rvm-damaged-chunk",
+             fmt::format("a {} chunk does not hold all that it must", letters(id_at(bytes_, at_))),
+             at_);
   if (bounded_)
     at_ = *next;
   else
@@ -200,6 +218,7 @@ void BinaryReader::skip_unknown(std::optional<std::size_t> next) {
   constexpr std::size_t kMostIds = 64;
   if (unknown_ids_.size() < kMostIds && unknown_ids_.insert(id).second)
     log_->skip("rvm-unknown-chunk", fmt::format("chunks \"{}\" are not known", letters(id)), at_);
+  builder_->note_loss(at_);
   at_ = *next;
 }
 
@@ -215,7 +234,7 @@ std::size_t BinaryReader::next_chunk(std::size_t from) const {
 
 void BinaryReader::resynchronise(std::size_t from) {
   const std::size_t found = next_chunk(from);
-  builder_->note_loss();
+  builder_->note_loss(from);
   log_->skip("rvm-lost-bytes", fmt::format("{} bytes are not readable as chunks", found - from),
              from);
   at_ = found;
@@ -353,7 +372,7 @@ bool BinaryReader::read_primitive(Chunk chunk, Cursor& in) {
   } else {
     const std::size_t count = parameter_count(primitive.kind);
     if (count == 0) {
-      builder_->note_loss();
+      builder_->note_loss(at_);
       log_->skip("rvm-unknown-kind",
                  fmt::format("primitives of kind {} are not known", primitive.kind), at_);
       if (bounded_) in.skip(in.left());

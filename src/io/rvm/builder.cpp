@@ -78,8 +78,14 @@ void Builder::add(const PrimitiveChunk& chunk) {
   record.body.precision_um = io::precision_um(origin_half_spacing_mm(chunk));
 }
 
-void Builder::note_loss() {
-  if (!open_.empty()) groups_[open_.back()].incomplete = true;
+void Builder::note_loss(std::uint64_t offset) {
+  bool& told = open_.empty() ? lost_outside_ : groups_[open_.back()].lost;
+  if (told) return;
+  told = true;
+  BodyRecord& record = bodies_.emplace_back();
+  record.group = open_.empty() ? kNoGroup : open_.back();
+  record.offset = offset;
+  record.dropped = record.incomplete = true;
 }
 
 double Builder::origin_half_spacing_mm(const PrimitiveChunk& chunk) const {
@@ -205,7 +211,6 @@ void Builder::emit_objects(Built& built) {
       object.name = grouped ? names_[record.group].name : root_name_;
       object.parent = grouped ? names_[record.group].parent : model::GroupId::none;
       object.first_body = static_cast<std::uint32_t>(built.model.bodies.size());
-      object.incomplete = grouped && groups_[record.group].incomplete;
       built.model.objects.push_back(std::move(object));
       built.group_of.push_back(record.group);
     }

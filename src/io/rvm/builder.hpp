@@ -25,7 +25,7 @@ struct GroupRecord {
   std::uint32_t material = 0;
   std::uint8_t transparency = 0;  ///< percent, own or inherited
   std::uint64_t offset = 0;
-  bool incomplete = false;  ///< something that it holds could not be read
+  bool lost = false;  ///< something that it holds could not be read, which is told
 };
 
 /// A model under construction with what only this format's later steps need.
@@ -45,8 +45,9 @@ class Builder {
   /// False when no group is open.
   [[nodiscard]] bool end_group();
   void add(const PrimitiveChunk& chunk);
-  /// Something of the group that is open cannot be read.
-  void note_loss();
+  /// Something of the group that is open, or outside any group, cannot be read: an object of that
+  /// group is in the model even if nothing else is left of it.
+  void note_loss(std::uint64_t offset);
   void redefine_color(std::uint32_t index, model::Color color) { palette_.redefine(index, color); }
   void set_root_name(std::string name) { root_name_ = std::move(name); }
 
@@ -89,6 +90,7 @@ class Builder {
   std::vector<GroupRecord> groups_;
   std::vector<model::Group> names_;
   std::vector<std::uint32_t> open_;
+  bool lost_outside_ = false;  ///< what GroupRecord::lost is, outside any group
   std::vector<BodyRecord> bodies_;
   std::vector<model::Shape> shapes_;
   std::vector<float> largest_;  ///< per shape: its largest number, local units

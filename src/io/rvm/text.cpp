@@ -258,21 +258,11 @@ Transcoded Transcoder::run() {
     }
     begin(line);
     in_.next_line();  // two integers that carry nothing
-    if (transcode_chunk(line)) {
-      in_.finish_line();
-      end();
-      ended = line == "END:";
-      continue;
-    }
+    // A chunk that ends, or holds something else, where a number must stand remains as short as
+    // that: the reader of chunks tells of it and of what it belongs to.
+    ended = transcode_chunk(line) && line == "END:";
     in_.finish_line();
-    log_->use_lines(out_.marks);
-    log_->skip("rvm-damaged-chunk",
-               fmt::format("a {} chunk ends or holds something else where a number must stand (by "
-                           "line {})",
-                           line, in_.line() - 1),
-               chunk_);
-    out_.bytes.resize(chunk_);
-    out_.marks.pop_back();
+    end();
   }
   if (strays > 0) {
     out_.marks.insert(out_.marks.begin(), LineMark{0, first_stray});

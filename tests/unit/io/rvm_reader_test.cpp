@@ -332,6 +332,54 @@ TEST(RvmReader, GoesOnAfterDamage) {
   }
 }
 
+/// Of a group of which nothing can be read there is an object all the same: otherwise nobody would
+/// be told that it was not compared.
+TEST(RvmReader, GroupsOfWhichNothingIsLeftAreInTheModel) {
+  const auto objects_of = [](auto&& spoil) {
+    RvmWriter w = one_box();
+    w.cntb("/B");
+    spoil(w);
+    w.cnte().finish();
+    const auto model = read(w);
+    EXPECT_TRUE(model);
+    return model ? model->objects : std::vector<model::Object>{};
+  };
+  const auto lost = [&](const char* what, auto&& spoil) {
+    const std::vector<model::Object> objects = objects_of(spoil);
+    ASSERT_EQ(objects.size(), 2U) << what;
+    EXPECT_FALSE(objects[0].incomplete) << what;
+    EXPECT_EQ(objects[1].name, "/B") << what;
+    EXPECT_EQ(objects[1].body_count, 0U) << what;
+    EXPECT_TRUE(objects[1].incomplete) << what;
+  };
+  lost("a kind that is not known", [](RvmWriter& w) { w.prim(12, {1}).prim(13, {1}); });
+  lost("a chunk that is not known", [](RvmWriter& w) { w.chunk("WHAT", 20).chunk("WHAT", 20); });
+  lost("a damaged chunk", [](RvmWriter& w) {
+    w.facets({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}}).set_word(80, 0xFFFFFFFF);
+  });
+  lost("lost bytes", [](RvmWriter& w) { w.raw("nobody knows what this was"); });
+  // A colour that cannot be read is no loss of geometry.
+  EXPECT_EQ(objects_of([](RvmWriter& w) { w.chunk("COLR", 4); }).size(), 1U);
+}
+
+TEST(RvmReader, AGroupThatTheFileEndsInIsIncomplete) {
+  RvmWriter w = one_box();
+  w.cntb("/B").prim(9, {5});
+  const auto cut = read(w);
+  ASSERT_TRUE(cut);
+  ASSERT_EQ(cut->objects.size(), 2U);
+  EXPECT_FALSE(cut->objects[0].incomplete);
+  EXPECT_TRUE(cut->objects[1].incomplete);
+  EXPECT_EQ(cut->objects[1].body_count, 1U);
+  EXPECT_EQ(cut->diagnostics.skipped(), 1U);
+
+  const auto closed = read(one_box());
+  ASSERT_TRUE(closed);
+  EXPECT_FALSE(closed->objects[0].incomplete);
+  EXPECT_EQ(closed->diagnostics.count("rvm-truncated"), 1U);
+  EXPECT_EQ(closed->diagnostics.skipped(), 0U);
+}
+
 TEST(RvmReader, AcceptsPrimitivesOutsideGroupsLeadingBytesAndAMissingEnd) {
   RvmWriter w;
   w.raw("junk!").head().modl("/ROOT").prim(9, {5}).cntb("/A").prim(9, {5});

@@ -71,6 +71,8 @@ TEST(RvmText, ADamagedChunkIsNamedByItsLine) {
   EXPECT_EQ(model->bodies.size(), 1U);
   ASSERT_EQ(model->diagnostics.count("rvm-damaged-chunk"), 1U);
   EXPECT_EQ(model->diagnostics.kept().at(0).where, "test.rev, line 16");
+  ASSERT_EQ(model->objects.size(), 1U);
+  EXPECT_TRUE(model->objects[0].incomplete);
 }
 
 TEST(RvmText, EveryTruncationIsSurvived) {
