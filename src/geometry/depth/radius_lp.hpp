@@ -31,6 +31,7 @@ struct RadiusSolution {
   /// every rounding counted. Holds even when the iteration stopped early.
   double upper = 0;
   bool optimal = false;
+  int steps = 0;  ///< vertices looked at: the work
 };
 
 /// Dual simplex method with four-row bases (Lemke 1954), most violated constraint first and least

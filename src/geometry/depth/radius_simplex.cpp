@@ -110,6 +110,14 @@ double RadiusSimplex::share(const RadiusConstraint& c, std::size_t i) const {
   return w;
 }
 
+double RadiusSimplex::doubt(const RadiusConstraint& c) const {
+  double most = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    most += std::fabs(share(c, i)) *
+            (std::fabs(excess(rows_[i])) + kEps * (std::fabs(rows_[i].offset) + extent_));
+  return most;
+}
+
 /// With a the entering row and rest = a + sum w a_i, all z that satisfy the five constraints have
 /// rest·z <= b + sum w b_i: none has where that is less than rest can be for any z in the extent.
 bool RadiusSimplex::proves_empty(const RadiusConstraint& entering) const {

@@ -28,6 +28,9 @@ class RadiusSimplex {
     return c.normal.x * z_[0] + c.normal.y * z_[1] + c.normal.z * z_[2] + c.weight * z_[3] -
            c.offset;
   }
+  /// What rounding of the vertex may make of an excess: much where the present four are along
+  /// nearly the same planes.
+  [[nodiscard]] double doubt(const RadiusConstraint& c) const;
   [[nodiscard]] bool holds(std::size_t id) const;
 
   /// A violated constraint takes the place of one of the four; false when none gives way. `id`

@@ -2,7 +2,7 @@
 strake_test(geometry_bvh_test
   SOURCES bvh_test.cpp MODULES geometry parallel LABELS fast parallel)
 strake_test(geometry_radius_lp_test
-  SOURCES radius_lp_test.cpp MODULES geometry LABELS fast)
+  SOURCES radius_lp_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_depth_test
   SOURCES depth_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_caving_depth_test

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "../../support/depth_subjects.hpp"
+#include "../../support/draw.hpp"
 #include "geometry/depth/radius_simplex.hpp"
 #include "strake/geometry/depth.hpp"
 
@@ -135,6 +137,43 @@ TEST(RadiusLp, EqualsTheBestVertexOfSmallProblems) {
       EXPECT_LE(r, s.upper) << "seed " << seed;
     }
   }
+}
+
+/// The planes of a long box, turned and snapped: two triangles of each face, a little askew to each
+/// other, that hold the ball's centre, and the same twice over for the ball of two equal bodies.
+std::vector<RadiusConstraint> most_central_of_equals(std::uint64_t seed, double inset) {
+  const Mat3d turn = test::Draw(seed).rotation();
+  testing::IndexedMesh mesh = testing::box_mesh({}, {3'000'000, 600'000, 320'000});
+  for (Vec3i& v : mesh.vertices) {
+    const Vec3d p = v.as<double>() - Vec3d{1'500'000, 300'000, 160'000};
+    for (int k = 0; k < 3; ++k)
+      v[k] = static_cast<std::int32_t>(std::lround(dot(turn.row[static_cast<std::size_t>(k)], p)));
+  }
+  const auto support = [&](const Vec3d& n) {
+    double most = -1e300;
+    for (const Vec3i& v : mesh.vertices) most = std::max(most, dot(n, v.as<double>()));
+    return most;
+  };
+  std::vector<RadiusConstraint> rows, planes;
+  for (const Vec3d& n : tetrahedral_directions()) rows.push_back({n, 1, support(n)});
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t i) { return mesh.vertices[t[i]].as<double>(); };
+    Vec3d n = cross(at(1) - at(0), at(2) - at(0));
+    n = n * (1 / std::sqrt(dot(n, n)));
+    planes.push_back({n, 1, support(n)});
+  }
+  for (const RadiusConstraint& p : planes) rows.push_back({p.normal, 0, p.offset - inset});
+  for (int body = 0; body < 2; ++body) rows.insert(rows.end(), planes.begin(), planes.end());
+  return rows;
+}
+
+TEST(RadiusLp, EndsWherePlanesAreNearlyTheSame) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed)
+    for (const double deep : {0.0, 159'000.0, 159'998.0}) {
+      const RadiusSolution s = maximise_radius({most_central_of_equals(seed, deep), 3'000'000});
+      EXPECT_LT(s.steps, 40) << "seed " << seed << ", " << deep << " deep";
+      EXPECT_NEAR(s.r, 160'000, 4) << "seed " << seed;
+    }
 }
 
 }  // namespace
