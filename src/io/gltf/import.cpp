@@ -77,6 +77,13 @@ std::uint64_t attribute_bytes(const Node& node) {
   return bytes;
 }
 
+/// Whether the weights of morph targets move a mesh away from its own positions.
+bool any_weight(const Json& weights) {
+  bool any = false;
+  weights.elements([&](const Json& weight) { any = any || weight.number().value_or(0) != 0; });
+  return any;
+}
+
 /// A path that is not too long, else a hash of it and the end of its last name.
 std::string shortened(std::string path, std::string_view name) {
   constexpr std::size_t kMost = 256;
@@ -109,6 +116,7 @@ class Importer {
   Status check_amount() const;
   Status load_meshes();
   void note_meshes();
+  void note_nodes();
   void adopt_meshes();
   void place_all();
   void place(const Visit& visit, std::size_t self);
@@ -234,13 +242,39 @@ void Importer::note_meshes() {
                              "indices are left over behind the last triangle or line",
                              place_text(pointer));
   }
-  const auto skinned = std::count_if(visits_.begin(), visits_.end(), [&](const Visit& visit) {
-    return nodes_[visit.node].skinned;
-  });
-  if (skinned != 0)
+}
+
+/// What of the nodes is not read, though it bears on what there is or where.
+void Importer::note_nodes() {
+  std::vector<bool> visited(nodes_.size()), displaced(meshes_.size());
+  for (const std::uint32_t mesh : used_) displaced[mesh] = any_weight(meshes_[mesh]["weights"]);
+  bool skinned = false, morphed = false;
+  for (const Visit& visit : visits_) {
+    const Node& node = nodes_[visit.node];
+    visited[visit.node] = true;
+    skinned = skinned || node.skinned;
+    if (node.mesh && *node.mesh < meshes_.size())
+      morphed =
+          morphed || (node.weights.exists() ? any_weight(node.weights) : displaced[*node.mesh]);
+  }
+  if (skinned)
     model_.diagnostics.add(Severity::warning, "gltf-skin",
                            "skinned meshes are read as they stand, without their bones",
                            place_text("/skins"));
+  if (morphed)
+    model_.diagnostics.add(Severity::warning, "gltf-morph",
+                           "meshes with morph targets are read as they stand, whatever their "
+                           "weights are",
+                           place_text("/meshes"));
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (!visited[i] && nodes_[i].mesh) ++outside;
+  if (outside != 0)
+    model_.diagnostics.add(
+        Severity::warning, "gltf-other-scene",
+        fmt::format("nodes with a mesh outside the scene that the file shows are not read: {}",
+                    outside),
+        place_text("/scenes"));
 }
 
 void Importer::adopt_meshes() {
@@ -404,6 +438,7 @@ Result<model::Model> Importer::run() {
   if (const Status bounded = check_amount(); !bounded) return bounded.error();
   if (const Status loaded = load_meshes(); !loaded) return loaded.error();
   note_meshes();
+  note_nodes();
   adopt_meshes();
   place_all();
   return end_model(input_.file, std::move(model_));

@@ -105,9 +105,10 @@ std::optional<Placement> placement_of(const Vec3d& translation, const double* qu
 }
 
 Node parse_node(const Json& json, std::size_t index, const std::vector<Json>& mesh_names) {
-  const auto [name, mesh, children, matrix, translation, rotation, scale, extras, extensions,
-              skin] = json.pick<10>({"name", "mesh", "children", "matrix", "translation",
-                                     "rotation", "scale", "extras", "extensions", "skin"});
+  const auto [name, mesh, children, matrix, translation, rotation, scale, extras, extensions, skin,
+              weights] =
+      json.pick<11>({"name", "mesh", "children", "matrix", "translation", "rotation", "scale",
+                     "extras", "extensions", "skin", "weights"});
   Node node;
   node.name = name.text_value();
   if (mesh.exists()) {
@@ -134,6 +135,7 @@ Node parse_node(const Json& json, std::size_t index, const std::vector<Json>& me
   }
   node.instancing = extensions["EXT_mesh_gpu_instancing"];
   node.skinned = skin.exists();
+  node.weights = weights;
   return node;
 }
 

@@ -24,6 +24,7 @@ struct Node {
   Json instancing;       ///< EXT_mesh_gpu_instancing
   Json instance_extras;  ///< extras.instances
   bool skinned = false;
+  Json weights;                ///< of its mesh's morph targets, in place of the mesh's own
   std::optional<Fault> fault;  ///< set: it and what is below it cannot be placed
 };
 

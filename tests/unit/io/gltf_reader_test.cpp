@@ -383,6 +383,31 @@ TEST(GltfReader, TakesColoursOfMaterials) {
   EXPECT_EQ(read_ok(parts.build()).bodies[0].color, (model::Color{255, 127, 0, 255}));
 }
 
+TEST(GltfReader, TellsOfNodesInOtherScenes) {
+  constexpr const char* kTwo =
+      R"("nodes":[{"name":"a","mesh":0},{"name":"b","mesh":0},{"name":"c"}])";
+  const model::Model one =
+      read_ok(triangle_glb(kTwo, R"(,"scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}])"));
+  ASSERT_EQ(one.objects.size(), 1U);
+  EXPECT_EQ(one.objects[0].name, "b");
+  EXPECT_EQ(one.diagnostics.count("gltf-other-scene"), 1U);
+  const model::Model both = read_ok(triangle_glb(kTwo, R"(,"scenes":[{"nodes":[0,1]}])"));
+  EXPECT_TRUE(both.diagnostics.kept().empty()) << "a node without a mesh is nobody's loss";
+}
+
+TEST(GltfReader, TellsOfMorphTargetsThatAreApplied) {
+  const auto told = [](const char* node) {
+    return read_ok(triangle_glb(fmt::format(R"("nodes":[{{"mesh":0{}}}])", node)))
+        .diagnostics.count("gltf-morph");
+  };
+  EXPECT_EQ(told(R"(,"weights":[0,0.5])"), 1U);
+  EXPECT_EQ(told(R"(,"weights":[0,0.0])"), 0U);
+  EXPECT_EQ(told(""), 0U);
+  Parts parts;
+  parts.more = R"(],"weights":[0.5],"extras":[1)";
+  EXPECT_EQ(read_ok(parts.build()).diagnostics.count("gltf-morph"), 1U);
+}
+
 TEST(GltfReader, KeepsASolidWithATransparentFaceInOnePiece) {
   const std::string binary =
       bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
