@@ -50,8 +50,14 @@ SourceFrame choose_frame(const ReadOptions& options, const FrameDefault& fallbac
 }
 
 std::string unit_text(const ReadOptions& options, const FrameDefault& fallback) {
-  constexpr std::array<std::pair<double, const char*>, 6> kNamed{
-      {{1.0, "mm"}, {10.0, "cm"}, {1000.0, "m"}, {25.4, "in"}, {304.8, "ft"}, {0.001, "µm"}}};
+  constexpr std::array<std::pair<double, const char*>, 8> kNamed{{{1.0, "mm"},
+                                                                  {10.0, "cm"},
+                                                                  {100.0, "dm"},
+                                                                  {1000.0, "m"},
+                                                                  {1e6, "km"},
+                                                                  {25.4, "in"},
+                                                                  {304.8, "ft"},
+                                                                  {0.001, "µm"}}};
   const double unit_mm = options.unit_mm.value_or(fallback.unit_mm);
   const char* how = options.unit_mm ? "given" : fallback.stated ? "stated" : "assumed";
   for (const auto& [length, name] : kNamed)

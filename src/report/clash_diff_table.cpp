@@ -54,7 +54,10 @@ std::string block(std::string_view title, const ClashDiff& diff, const std::vect
     out += "  " + fitted(label(run.a(r)), names) + "  " + fitted(label(run.b(r)), names) + "  " +
            change(diff, list[i]) + "\n";
     const bool told = i > 0 && list[i].why == list[i - 1].why;
-    if (!list[i].why.empty() && !told) out += "      " + printable(list[i].why) + "\n";
+    // Why there was no such result before is said of the run before.
+    const std::string_view of = list[i].before == nullptr ? "in the old run: " : "";
+    if (!list[i].why.empty() && !told)
+      out += "      " + std::string(of) + printable(list[i].why) + "\n";
   }
   if (shown < list.size()) out += "  … and " + std::to_string(list.size() - shown) + " more\n";
   return out + "\n";

@@ -201,8 +201,13 @@ std::optional<geometry::Vec3d> TableReader::direction(std::string_view key) {
     const Value& value = (*list)[static_cast<std::size_t>(k)];
     const auto* const whole = std::get_if<std::int64_t>(&value.held);
     const auto* const number = std::get_if<double>(&value.held);
-    if (whole == nullptr && (number == nullptr || !std::isfinite(*number))) {
+    if (whole == nullptr && number == nullptr) {
       wrong_type(value, key, "a list of three numbers");
+      return std::nullopt;
+    }
+    if (number != nullptr && !std::isfinite(*number)) {
+      reading_.fault(value.at, quoted(key) + " of " + what_ + " has a number that is not finite",
+                     "write a list of three numbers, as [0, 0, 1]");
       return std::nullopt;
     }
     way[k] = whole != nullptr ? static_cast<double>(*whole) : *number;

@@ -164,6 +164,17 @@ TEST(ObjReader, AppliesUnitAndUpAxis) {
             (Vec3d{2000, 3000, 1000}));
 }
 
+TEST(ObjReader, NamesTheUnitThatTheUserGives) {
+  const auto told = [](double unit_mm) {
+    ReadOptions options;
+    options.unit_mm = unit_mm;
+    return read_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options).files[0].unit;
+  };
+  EXPECT_EQ(told(100), "dm (given)");
+  EXPECT_EQ(told(1e6), "km (given)");
+  EXPECT_EQ(told(914.4), "914.4 mm (given)");
+}
+
 TEST(ObjReader, TakesColoursFromTheLibraryBesideIt) {
   const test::TemporaryFolder folder;
   (void)folder.write("my colours.mtl", "newmtl steel\nKd 1 0.5 0\nnewmtl glass\nKd 0 0 1\nd 0.5\n");

@@ -174,6 +174,11 @@ TEST(ClashDiff, AMissingElementIsNotAMendedClash) {
   const ClashDiff back = compare(y, x);
   ASSERT_EQ(back.added.size(), 2U);
   EXPECT_EQ(back.added[0].why, "'b' of t.obj is not in the model") << "of the old run";
+  EXPECT_NE(
+      clash_diff_table(back, {}).find("\n      in the old run: 'b' of t.obj is not in the model\n"),
+      std::string::npos);
+  EXPECT_NE(clash_diff_table(diff, {}).find("\n      'b' of t.obj is not in the model\n"),
+            std::string::npos);
 }
 
 TEST(ClashDiff, WhatIsNotTestedAnyMore) {

@@ -211,6 +211,9 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
        "has no direction"},
       {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0], normal = "
        "[inf, 0, 0] } ]",
+       "'normal' of 'cavity' of [[allowed]] has a number that is not finite"},
+      {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0], normal = "
+       "[\"x\", 0, 0] } ]",
        "not a list of three numbers"},
       {"[[allowed]]\nname = \"c\"\na = \"x\"\nb = \"x\"\ncavity = [ { point = [0, 0, 0] } ]",
        "a plane of a cavity wants a point and a normal"},
