@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -85,6 +86,7 @@ bool measure(std::uint64_t objects, bool turned, double clearance_mm) {
         workers, run->median_s, alone_s / run->median_s, report.pairs.size(),
         run->median_s / static_cast<double>(report.counters.candidate_pairs) * 1e6,
         report.counters.regions_given_up);
+    std::fflush(stdout);  // the next may take minutes
   }
   return true;
 }

@@ -13,7 +13,7 @@ namespace strake::clash {
 struct NarrowPart {
   geometry::TreedPart treed;
   const geometry::PartFrame* frame = nullptr;
-  const geometry::SupportPlanes* planes = nullptr;  ///< for judge_distance() and judge_depth()
+  const geometry::SupportPlanes* planes = nullptr;  ///< for judge_depth()
   /// What the part's primitive is placed by; null: its triangles speak for it.
   const geometry::Placement* placement = nullptr;
 };

@@ -99,12 +99,10 @@ class ExactStage {
   }
 
   Status depths() {
-    std::vector<std::size_t> deep, asking;
-    for (const std::size_t i : open_) {
+    std::vector<std::size_t> deep;
+    for (const std::size_t i : open_)
       if (candidates_[i].look.next == FirstLook::Next::depth) deep.push_back(i);
-      if (candidates_[i].look.next != FirstLook::Next::nothing) asking.push_back(i);
-    }
-    if (const Status s = aids_.want_planes(work_.parts_of(asking), work_.context()); !s) return s;
+    if (const Status s = aids_.want_planes(work_.parts_of(deep), work_.context()); !s) return s;
     return work_.over(deep, "depth", 1, [&](std::size_t i, const PartRef& a, const PartRef& b) {
       Candidate& c = candidates_[i];
       c.look.answer = charged(c, work_.context(), [&](NarrowWork& work) {
@@ -136,7 +134,7 @@ class ExactStage {
                       [&](std::size_t i, const PartRef& a, const PartRef& b) {
                         Candidate& c = candidates_[i];
                         c.look.answer = charged(c, work_.context(), [&](NarrowWork& work) {
-                          return judge_distance(aids_.planed(a), aids_.planed(b),
+                          return judge_distance(aids_.treed(a), aids_.treed(b),
                                                 stage_.pair_options.of(a, b), reach[i], work);
                         });
                       });

@@ -10,6 +10,7 @@
 #include "clash/part_depth.hpp"
 #include "clash/relation.hpp"
 #include "clash/witness.hpp"
+#include "strake/geometry/hull_gap.hpp"
 
 namespace strake::clash {
 
@@ -28,6 +29,11 @@ constexpr double kLeastDepth = 1e-6;
 /// Grid units that a distance may be left open by where it decides nothing: what the snap makes of
 /// two flat faces that stand askew.
 constexpr double kSnapSlack = 4;
+
+/// Grid units: more than this is more than nothing, whatever the rounding.
+constexpr double kLeastGap = 1.0 / 1024;
+
+geometry::FramedPart framed(const NarrowPart& part) { return {part.treed.placed, part.frame}; }
 
 Separation separated_by(double distance) {
   // The distance is the rounded root of a rounded square: off by less than two ulp.
@@ -74,7 +80,7 @@ FirstLook PairOfParts::look(double gap, bool separated) {
     nearly_touching(*near, gap, look.answer);
     return look;
   }
-  if (!separated && !(gap > 0))
+  if (!separated && !(gap > 0) && !hulls_part())
     look.meeting = equal_solids() ? meeting_of_equals() : geometry::meet(a_, b_, work_.pair);
   const auto form = closed_form(part_a_, part_b_, reach_of(options_));
   if (look.meeting.meeting == Meeting::touching) {
@@ -91,6 +97,11 @@ FirstLook PairOfParts::look(double gap, bool separated) {
   else
     look.next = FirstLook::Next::depth;
   return look;
+}
+
+/// Whether a plane keeps the two apart that is no face of either, as between pipes that cross.
+bool PairOfParts::hulls_part() const {
+  return geometry::hull_gap(framed(part_a_), framed(part_b_), kLeastGap).lower > 0;
 }
 
 PartAnswer PairOfParts::distance(double reach) {
@@ -110,15 +121,17 @@ PartAnswer PairOfParts::depth(const FirstLook& look) {
 double PairOfParts::apart(double limit, PartAnswer& answer) {
   const double reach = std::min(limit + 1, reach_of(options_));
   const double parting = reach + sag();
-  if (geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, parting) >= parting) {
+  const auto hulls = geometry::hull_gap(framed(part_a_), framed(part_b_), parting);
+  if (hulls.lower >= parting) {
     answer.separation = separated_by(std::numeric_limits<double>::infinity());
     return sag();
   }
   if (apart_from_mesh(reach, answer))
     return a_.placed.part->primitive ? b_.placed.part->sag : a_.placed.part->sag;
-  auto near = geometry::closest(a_, b_, reach, work_.pair, kSnapSlack);
+  const auto way = hulls.lower > 0 ? std::optional(hulls.normal) : std::nullopt;
+  auto near = geometry::closest(a_, b_, reach, work_.pair, kSnapSlack, way);
   if (near && !all_one(near->lower, near->distance))
-    near = geometry::closest(a_, b_, reach, work_.pair);
+    near = geometry::closest(a_, b_, reach, work_.pair, 0, way);
   if (!near) {
     answer.separation = separated_by(std::numeric_limits<double>::infinity());
     return sag();

@@ -30,6 +30,7 @@ class PairOfParts {
   double apart(double limit, PartAnswer& answer);
   [[nodiscard]] bool all_one(double lower, double upper) const;
   bool apart_from_mesh(double reach, PartAnswer& answer);
+  [[nodiscard]] bool hulls_part() const;
   [[nodiscard]] bool equal_solids() const;
   [[nodiscard]] geometry::MeetingResult meeting_of_equals() const;
   void touching(const geometry::MeetingResult& meeting, PartAnswer& answer);

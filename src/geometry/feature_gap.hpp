@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "strake/geometry/grid_shapes.hpp"
 #include "strake/geometry/predicates.hpp"
@@ -38,6 +39,15 @@ namespace feature {
   return {{Int256(dot(d, d)), Int192(Int128{1})}, d, dot(d, d), {}, {}};
 }
 
+/// Coordinates of two vectors up to which what is left of the one without its part along the other
+/// is short enough to be multiplied with any difference of corners of a pair: 2^87 · 3 · 2^32.
+[[nodiscard]] constexpr bool both_short(const Vec3l& d, const Vec3l& e) {
+  constexpr std::int64_t kShort = std::int64_t{1} << 28;
+  for (int k = 0; k < 3; ++k)
+    if (d[k] > kShort || d[k] < -kShort || e[k] > kShort || e[k] < -kShort) return false;
+  return true;
+}
+
 [[nodiscard]] inline bool corner_edge(const Vec3l& p, const Vec3l& from, const Vec3l& to,
                                       FeatureGap& r) {
   const Vec3l e = to - from, d = p - from;
@@ -45,6 +55,10 @@ namespace feature {
   const Int128 length = dot(e.as<Int128>(), e.as<Int128>());
   if (along <= 0 || along >= length) return false;
   r = {{norm(cross_exact(d, e)), Int192(length)}, {}, 0, {}, Int256(along)};
+  if (both_short(d, e)) {
+    r.direction = d.as<Int128>() * length - e.as<Int128>() * along;
+    r.width = dot(r.direction, d.as<Int128>());
+  }
   return true;
 }
 

@@ -12,6 +12,7 @@
 #include "geometry/heavy_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/samples.hpp"
+#include "geometry/slab_faces.hpp"
 #include "geometry/tree_walk.hpp"
 #include "geometry/triangle_distance.hpp"
 #include "strake/geometry/part_pair.hpp"
@@ -27,6 +28,9 @@ constexpr double kOutward = 1 + 0x1p-48;
 /// and by how much farther apart than their heights they may be found, grid units.
 constexpr std::size_t kProbes = 64;
 constexpr double kProbeSlack = 4;
+
+/// Triangles at an end of a slab between two parts up to which all pairs of them are tried.
+constexpr std::size_t kSlabFaces = 32;
 
 /// Squared distance of a point to a triangle, in doubles.
 double squared_distance(const Vec3d& p, const Corners& t) {
@@ -55,7 +59,8 @@ class ClosestSearch {
         work_(work),
         found_{.reach = limit * limit * kOutward} {}
 
-  std::optional<Closest> run();
+  /// `parting`: see closest().
+  std::optional<Closest> run(const std::optional<Vec3d>& parting);
   /// Ends at the first pair of triangles that is certainly not farther apart than the limit.
   std::optional<Closest> run_until_near();
 
@@ -69,6 +74,7 @@ class ClosestSearch {
   };
 
   void walk();
+  void offer(const SlabFaces& faces);
   void take(std::vector<NearTriangles>&& candidates, double reach);
   bool settle(Found& found);
   double distance_so_far(Found& found, std::optional<Vec3d>& across);
@@ -288,7 +294,29 @@ std::optional<Closest> ClosestSearch::decide() {
   return best;
 }
 
-std::optional<Closest> ClosestSearch::run() {
+void ClosestSearch::offer(const SlabFaces& faces) {
+  std::vector<DoubleTriangle> all;
+  all.reserve(faces.b.size());
+  for (const std::uint32_t t : faces.b) all.emplace_back(b_.corners(t));
+  for (const std::uint32_t s : faces.a) {
+    const DoubleTriangle a(a_.corners(s));
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      if (squared_gap(a.box, all[j].box) > found_.reach) continue;
+      ++work_.triangle_pairs;
+      const DistanceBounds bounds = distance_bounds(a, all[j], found_.reach, -1);
+      if (bounds.lower <= found_.reach) found_({bounds, s, faces.b[j]});
+    }
+  }
+}
+
+std::optional<Closest> ClosestSearch::run(const std::optional<Vec3d>& parting) {
+  if (const auto faces = parting ? slab_faces(a_, b_, *parting, kSlabFaces) : std::nullopt) {
+    offer(*faces);
+    const auto near = decide();
+    if ((near ? near->distance : limit_) < faces->beyond) return near;
+    // The walk comes upon them again.
+    found_.candidates.clear();
+  }
   walk();
   return decide();
 }
@@ -302,8 +330,8 @@ std::optional<Closest> ClosestSearch::run_until_near() {
 }  // namespace
 
 std::optional<Closest> closest(const TreedPart& a, const TreedPart& b, double limit, PairWork& work,
-                               double slack) {
-  return ClosestSearch(a, b, limit, slack, work).run();
+                               double slack, const std::optional<Vec3d>& parting) {
+  return ClosestSearch(a, b, limit, slack, work).run(parting);
 }
 
 std::optional<Closest> any_within(const TreedPart& a, const TreedPart& b, double distance,

@@ -40,7 +40,7 @@ struct NearestPoints {
   SquaredDistance squared;
   Vec3d on_a, on_b;
   /// A direction w across which the triangles lie `width` apart, width²/w² being the squared
-  /// distance; zero where it would not fit (a corner nearest to the inside of an edge).
+  /// distance; zero where its numbers are too large (a corner nearest to an edge, far apart).
   Vec3<Int128> direction;
   Int128 width = 0;
 };

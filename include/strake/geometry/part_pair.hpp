@@ -97,8 +97,13 @@ struct Closest {
 /// the nearest by up to so much, `lower` telling how near those can be: flat faces that stand askew
 /// are snapped to a roughness of a few units, and which of their needles come nearest in it is work
 /// of the square of their number.
+///
+/// `parting`, a unit vector from b to a, is a hint that changes no answer but such a one: where the
+/// parts come nearest each other at the two ends of the widest slab between them, as convex ones
+/// do, the triangles there are all that is looked at.
 [[nodiscard]] std::optional<Closest> closest(const TreedPart& a, const TreedPart& b, double limit,
-                                             PairWork& work, double slack = 0);
+                                             PairWork& work, double slack = 0,
+                                             const std::optional<Vec3d>& parting = {});
 
 /// Two triangles nearer than `distance` grid units, the first that are found, with their own
 /// closest points: not the closest of the parts, but far cheaper where whole faces are about

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <variant>
 
 #include "strake/geometry/trig.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/geometry/vertex_tree.hpp"
 
 namespace strake::geometry::analytic {
 
@@ -59,7 +61,14 @@ struct Block {
   Vec3d centre, half;
 };
 
-using SupportShape = std::variant<Prismoid, Cap, Sweep, Corners3, Block>;
+/// The convex hull of vertices, which are given relative to `origin`.
+struct Hull {
+  std::span<const Vec3i> vertices;
+  const VertexTree* tree = nullptr;  ///< over them; empty where they are few
+  Vec3d origin;
+};
+
+using SupportShape = std::variant<Prismoid, Cap, Sweep, Corners3, Block, Hull>;
 
 namespace detail {
 
@@ -132,6 +141,20 @@ inline Vec3d support(const Block& s, const Vec3d& n) {
   return {s.centre.x + (n.x < 0 ? -s.half.x : s.half.x),
           s.centre.y + (n.y < 0 ? -s.half.y : s.half.y),
           s.centre.z + (n.z < 0 ? -s.half.z : s.half.z)};
+}
+
+inline Vec3d support(const Hull& s, const Vec3d& n) {
+  if (!s.tree->empty()) return s.tree->greatest_along(n).vertex.as<double>() + s.origin;
+  Vec3d farthest;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vec3i& v : s.vertices) {
+    const Vec3d p = v.as<double>();
+    if (const double along = dot(n, p); along > most) {
+      most = along;
+      farthest = p;
+    }
+  }
+  return farthest + s.origin;
 }
 
 }  // namespace detail
