@@ -156,9 +156,10 @@ void report_findings(const GridShapeResult& made, const Model& model, ObjectId i
   counted(Severity::note, "mesh-open", open, "a surface does not close and counts as a sheet",
           "{} surfaces do not close and count as sheets");
   counted(Severity::warning, "mesh-mixed-winding", mixed,
-          "a surface closes, but its triangles do not all face the same way: it counts as a sheet",
+          "a surface closes, but its triangles do not all face the same way: it counts as a sheet, "
+          "and what lies within it is not found",
           "{} surfaces close, but their triangles do not all face the same way: they count as "
-          "sheets");
+          "sheets, and what lies within them is not found");
   counted(Severity::note, "mesh-non-manifold", non_manifold,
           "a part has edges with more than two triangles",
           "{} parts have edges with more than two triangles");
