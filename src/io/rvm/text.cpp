@@ -246,14 +246,25 @@ bool Transcoder::transcode_chunk(std::string_view id) {
   return true;
 }
 
+/// Of a chunk that is not known: the reader of chunks tells of it, its numbers are stray lines.
+bool looks_like_id(std::string_view line) {
+  return line.size() == 4 &&
+         std::all_of(line.begin(), line.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+}
+
 Transcoded Transcoder::run() {
   std::uint64_t strays = 0, first_stray = 0;
   bool ended = false;
   while (!in_.at_end() && !ended) {
     const std::string_view line = trimmed(in_.next_line());
     if (line.empty()) continue;
-    if (std::find(kIds.begin(), kIds.end(), line.substr(0, 4)) == kIds.end() || line.size() > 4) {
-      if (strays++ == 0) first_stray = in_.line() - 1;
+    if (std::find(kIds.begin(), kIds.end(), line) == kIds.end()) {
+      if (looks_like_id(line)) {
+        begin(line);
+        end();
+      } else if (strays++ == 0) {
+        first_stray = in_.line() - 1;
+      }
       continue;
     }
     begin(line);

@@ -75,6 +75,17 @@ TEST(RvmText, ADamagedChunkIsNamedByItsLine) {
   EXPECT_TRUE(model->objects[0].incomplete);
 }
 
+TEST(RvmText, AChunkThatIsNotKnownIsMissingFromItsGroup) {
+  std::string text = kText;
+  text.replace(text.find("PRIM"), 4, "WHAT");
+  const auto model = read_text(text);
+  ASSERT_TRUE(model) << model.error().text();
+  ASSERT_EQ(model->objects.size(), 1U);
+  EXPECT_TRUE(model->objects[0].incomplete);
+  EXPECT_EQ(model->objects[0].body_count, 1U);
+  EXPECT_EQ(model->diagnostics.count("rvm-unknown-chunk"), 1U);
+}
+
 TEST(RvmText, EveryTruncationIsSurvived) {
   const std::string text = kText;
   for (std::size_t length = 0; length < text.size(); ++length) {
