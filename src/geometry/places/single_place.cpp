@@ -17,6 +17,7 @@
 #include "geometry/depth/nearest.hpp"
 #include "geometry/directions.hpp"
 #include "geometry/places/common_box.hpp"
+#include "geometry/places/facing.hpp"
 #include "geometry/places/near_pairs.hpp"
 #include "geometry/places/segment_near.hpp"
 #include "geometry/triangle_distance.hpp"
@@ -95,28 +96,33 @@ double squared_distance(const Vec3d& p, const Vec3d& q) { return dot(p - q, p - 
 /// pieces these hang together: the points of an edge within reach of a triangle are a stretch.
 class NearCorners {
  public:
-  NearCorners(const PartView& a, const PartView& b, std::span<const DoubleTriangle> triangles,
-              double squared)
+  NearCorners(const PartView& a, const PartView& b, const Facing& facing,
+              std::span<const DoubleTriangle> triangles, double squared)
       : a_(a),
         b_(b),
+        facing_(facing),
         squared_(squared),
         vertices_(a),
         near_vertex_(b.part().vertices.size(), vertices_.size()),
         rows_(triangles.size(), vertices_.size()),
         pieces_(triangles.size()),
         apart_(vertices_.size()) {
-    for (std::uint32_t v = 0; v < b.part().vertices.size(); ++v)
-      vertices_.near(b.vertex(v).as<double>(), squared, near_vertex_.row(v));
+    std::vector<bool> asked(b.part().vertices.size(), false);
+    for (const std::uint32_t t : facing.triangles_b)
+      for (const std::uint32_t v : b.part().triangles[t]) {
+        if (!asked[v]) vertices_.near(b.vertex(v).as<double>(), squared, near_vertex_.row(v));
+        asked[v] = true;
+      }
     const std::vector<double> limits = limits_of(a, squared);
     first_.reserve(triangles.size() + 1);
     std::uint32_t count = 0;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-      first_.push_back(count);
+    for (const std::uint32_t t : facing.triangles_b) {
+      first_.resize(t + 1, count);
       const std::size_t near = fill(t, triangles[t]);
       if (near < vertices_.size()) list_between(t, limits);
       count += find_pieces(t, near);
     }
-    first_.push_back(count);
+    first_.resize(triangles.size() + 1, count);
   }
 
   /// By triangle of the second part.
@@ -155,7 +161,7 @@ class NearCorners {
       const std::span<const Word> near = std::as_const(near_vertex_).row(v);
       for (std::size_t i = 0; i < row.size(); ++i) row[i] |= near[i];
     }
-    for (std::uint32_t u = 0; u < vertices_.size(); ++u) {
+    for (const std::uint32_t u : facing_.vertices_a) {
       if (test(row, u)) continue;
       const Vec3d p = vertices_.at(u);
       apart_[u] = squared_gap(p, triangle.box);
@@ -186,7 +192,7 @@ class NearCorners {
   void list_between(std::uint32_t t, const std::vector<double>& limits) {
     const auto& triangles = a_.part().triangles;
     const auto row = std::as_const(rows_).row(t);
-    for (std::uint32_t s = 0; s < triangles.size(); ++s) {
+    for (const std::uint32_t s : facing_.triangles_a) {
       const Triangle& c = triangles[s];
       if (!test_any(row, c) && std::min({apart_[c[0]], apart_[c[1]], apart_[c[2]]}) <= limits[s])
         between_.emplace_back(t, s);
@@ -216,9 +222,11 @@ class NearCorners {
     if (set == all && whole_is_one_) return 1;
     sets_.reset(all);
     const std::size_t in_one = all - set + 1;
-    for (std::size_t e = 0; e + 1 < part.edges.size() && sets_.count() > in_one; ++e)
+    for (const std::uint32_t e : facing_.edges_a) {
+      if (sets_.count() <= in_one) break;
       if (test(bits, part.edges[e].v0) && test(bits, part.edges[e].v1))
         sets_.join(part.edges[e].v0, part.edges[e].v1);
+    }
     const auto count = static_cast<std::uint32_t>(sets_.count() - (all - set));
     if (set == all && count == 1) whole_is_one_ = true;
     if (count > 1) number(t);
@@ -237,6 +245,7 @@ class NearCorners {
   }
 
   const PartView &a_, &b_;
+  const Facing& facing_;
   double squared_;
   Vertices vertices_;
   BitRows near_vertex_;  ///< by vertex of the second part: of the first part
@@ -266,7 +275,8 @@ class SinglePlace {
         squared_(reach * reach),
         of_a_(prepared(a)),
         of_b_(prepared(b)),
-        corners_(a, b, of_b_, squared_),
+        facing_(facing(a, b, reach)),
+        corners_(a, b, facing_, of_b_, squared_),
         work_(work) {}
 
   [[nodiscard]] bool certain() {
@@ -288,10 +298,10 @@ class SinglePlace {
         include_common(a_.corners(s), b_.corners(t), reach_, extent);
     };
     const auto& triangles = a_.part().triangles;
-    for (std::uint32_t t = 0; t < of_b_.size(); ++t) {
+    for (const std::uint32_t t : facing_.triangles_b) {
       const Box3d room = of_b_[t].box.inflated(margin);
       if (extent.contains(room.common(all_a))) continue;
-      for (std::uint32_t s = 0; s < triangles.size(); ++s)
+      for (const std::uint32_t s : facing_.triangles_a)
         if (test_any(corners_.row(t), triangles[s])) include(s, t, room);
     }
     for (const auto& [t, s] : between_) include(s, t, of_b_[t].box.inflated(margin));
@@ -358,6 +368,7 @@ class SinglePlace {
   const PartView &a_, &b_;
   double reach_, squared_;
   std::vector<DoubleTriangle> of_a_, of_b_;
+  Facing facing_;
   NearCorners corners_;
   PairWork& work_;
   std::vector<TrianglePair> between_;  ///< near, but not at a corner of the first; ascending
