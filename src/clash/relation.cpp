@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clash/relation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -51,6 +52,13 @@ bool bridges_gap(const DepthPart& a, const DepthPart& b, double band, geometry::
   return geometry::sheet_in_solid_depth(b, a, goal, work).lower > goal.threshold;
 }
 
+/// Whether a is thicker than the two are deep: what fills a channel has all its corners on the
+/// channel's skin, but is not in it. Half the thickness, volume by area, is no more than the radius
+/// of the largest ball in a convex body, and where that is in b, its centre is as deep.
+bool sticks_out(const DepthPart& a, const geometry::Depth& depth, double band) {
+  return a.planes->nearly_convex && depth.upper < a.treed.placed.part->thickness() / 2 - 2 * band;
+}
+
 bool skins_meet(const TreedPart& a, const TreedPart& b, double band, geometry::PairWork& work) {
   const auto near = geometry::closest(a, b, band + 1, work);
   return near && near->distance <= band;
@@ -90,10 +98,16 @@ Relation relation_of(const DepthPart& deep_a, const DepthPart& deep_b,
   if (meeting.meeting == Meeting::b_inside_a)
     return skins_meet(a, b, band, work) ? Relation::abut_inside : Relation::b_in_a;
   if (meeting.a_within_b && meeting.b_within_a) return Relation::duplicate;
+  // Only slivers as thin as the band may be one and the same, or one in the other, and no deeper.
+  if (depth.upper <= band &&
+      std::min(a.placed.part->thickness(), b.placed.part->thickness()) >= 4 * band)
+    return Relation::abut_outside;
   const geometry::PartCover a_cover = within_band(a, b, band, work);
-  const bool a_in = a_cover.within && !bridges_gap(deep_a, deep_b, band, work);
+  const bool a_in = a_cover.within && !sticks_out(deep_a, depth, band) &&
+                    !bridges_gap(deep_a, deep_b, band, work);
   const geometry::PartCover b_cover = within_band(b, a, band, work);
-  const bool b_in = b_cover.within && !bridges_gap(deep_b, deep_a, band, work);
+  const bool b_in = b_cover.within && !sticks_out(deep_b, depth, band) &&
+                    !bridges_gap(deep_b, deep_a, band, work);
   if (a_in && b_in && a_cover.on_surface && b_cover.on_surface) return Relation::duplicate;
   if (depth.upper <= band) return Relation::abut_outside;
   if (a_in || b_in || meeting.a_within_b || meeting.b_within_a) return Relation::abut_inside;

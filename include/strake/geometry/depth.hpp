@@ -64,8 +64,8 @@ struct DepthGoal {
   double known_upper = std::numeric_limits<double>::infinity();
   std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known,
   Vec3d meeting_point{};  ///< and a point there, relative to a's origin
-  /// Two sheets: what moves of the corners of one of them undo that are no longer than this is no
-  /// crossing.
+  /// What moves of corners that are no longer than this undo is no crossing of two sheets, and of
+  /// two solids a touch as good as any (up to the tolerance).
   double apart_within = 0;
   /// Only points in this box, relative to a's origin, count.
   std::optional<Box3d> within = {};

@@ -14,6 +14,7 @@
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
 #include "geometry/depth/radius_lp.hpp"
+#include "geometry/depth/shrink.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -21,6 +22,10 @@ namespace {
 constexpr std::size_t kMaxVerticesTried = 128;
 /// A step off a skin that the exact test of a side can see.
 constexpr double kLeastMove = 1.0 / 64;
+/// Moves of corners no longer than this part what the snap pushed into each other: it moves either
+/// face by less than one unit, and the corner where three are square to each other goes off each by
+/// half of its way. Narrow enough for a bracket.
+constexpr double kSnapApart = 5;
 
 /// The half-spaces of both parts about a centre in their common box.
 class Halfspaces {
@@ -255,6 +260,11 @@ void try_vertices(const DepthField& of, const DepthField& in, Candidates& candid
   }
 }
 
+/// A depth that means nothing: all that it is told apart from is what the snap made of a touch.
+double tie_depth(const DepthGoal& goal) {
+  return std::min(std::max(kTieDepth, std::min(goal.apart_within, goal.tolerance)), goal.threshold);
+}
+
 std::optional<Vec3d> outward(const Part& part, std::uint32_t triangle) {
   if (triangle >= part.triangles.size()) return std::nullopt;
   const Corners c = corners_of(part, triangle);
@@ -273,6 +283,37 @@ void try_inwards(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
   for (const Vec3d& way : {*na + *nb, *na, *nb})
     for (double step = 1; step < 1e6; step *= 3)
       candidates.depth_at(goal.meeting_point - way * step);
+}
+
+/// Ties end here, with the corners that are in the other. Bodies that are not convex may touch at
+/// faces that none of their half-spaces belong to: those that moves of corners part are no deeper
+/// than a tie, or than a bracket may be wide.
+bool settle_tie(const DepthPart& a, const DepthField& fa, const DepthPart& b, const DepthField& fb,
+                const DepthGoal& goal, Candidates& candidates, Depth& depth, PairWork& work) {
+  const double tie = tie_depth(goal);
+  depth.upper = goal.known_upper;
+  if (goal.known_upper <= tie) {
+    try_vertices(fa, fb, candidates);
+    try_vertices(fb, fa, candidates);
+  } else {
+    if (a.planes->nearly_convex && b.planes->nearly_convex) return false;
+    if (tie < 1 || goal.triangle_a == kNoFace || goal.triangle_b == kNoFace) return false;
+    const auto shrunk =
+        shrink_apart(a.treed, b.treed, tie, std::min(kSnapApart, goal.threshold), work);
+    if (!shrunk) return false;
+    depth.upper = std::min(shrunk->depth, goal.known_upper);
+    for (const std::uint32_t v : shrunk->corners_a)
+      candidates.depth_at(fa.common(a.treed.placed.part->vertices[v].as<double>()));
+    for (const std::uint32_t v : shrunk->corners_b)
+      candidates.depth_at(fb.common(b.treed.placed.part->vertices[v].as<double>()));
+  }
+  candidates.store(depth);
+  if (!(depth.value > 0)) {
+    try_inwards(a, b, goal, candidates);
+    candidates.store(depth);
+  }
+  depth.upper = std::max(depth.upper, depth.value);
+  return true;
 }
 
 /// Moves b a little way out of a, along the normals where they meet: once no interior point is
@@ -310,6 +351,7 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
   const Halfspaces spaces(a, fa, b, fb, goal.within);
   Candidates candidates(fa, fb, spaces.extent(), goal, work);
   Depth depth;
+  if (settle_tie(a, fa, b, fb, goal, candidates, depth, work)) return depth;
   bracket_by_programs(spaces, candidates, depth);
   depth.upper = std::min(depth.upper, goal.known_upper);
   candidates.store(depth);

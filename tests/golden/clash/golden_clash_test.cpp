@@ -94,8 +94,8 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
                          testing::Values(Golden{false, "7048419728d9599f4dded7a49d66139e",
                                                 "31228cbdc94bfbdcb1a3ebea14c583b3"},
-                                         Golden{true, "54e7292fbe8a22d8f3ce3249910cf1af",
-                                                "8683ecc4dbb25bea7574c27f388c2462"}),
+                                         Golden{true, "60c619f1de095f7a055aa2539cf67b07",
+                                                "5536eb0a8dd45710cb7960d10ee4ac08"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });

@@ -3,6 +3,7 @@
 // what is not proven is not said, and the points of an answer lie on the skins.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -11,6 +12,8 @@
 #include "strake/geometry/grid.hpp"
 #include "support/body_depth.hpp"
 #include "support/clash_model.hpp"
+#include "support/draw.hpp"
+#include "support/meshes.hpp"
 #include "support/random_primitives.hpp"
 
 namespace strake::clash {
@@ -153,6 +156,44 @@ TEST(CertifiedRelations, ARodAcrossTheHoleOfARingIsNotInTheRing) {
                   -50, "off the middle");
   expect_relation(ring, {CylinderPrimitive{10, 40}, {kOnItsSide, {500, 0, 0}}}, Relation::b_in_a,
                   -50, "in the tube");
+}
+
+/// A channel of one solid, 120 x 110 along x with walls of 10 mm.
+geometry::TriangleMesh channel_mesh() {
+  constexpr std::array<std::array<double, 2>, 8> kOutline{
+      {{0, 0}, {120, 0}, {120, 110}, {110, 110}, {110, 10}, {10, 10}, {10, 110}, {0, 110}}};
+  constexpr std::array<std::array<std::uint32_t, 4>, 3> kEnds{
+      {{0, 1, 4, 5}, {1, 2, 3, 4}, {0, 5, 6, 7}}};
+  geometry::TriangleMesh mesh;
+  for (const double x : {0.0, 1200.0})
+    for (const auto& p : kOutline) mesh.vertices.push_back({x, p[0], p[1]});
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({a, d, c});
+  };
+  for (std::uint32_t i = 0; i < 8; ++i) quad(i, i + 8, (i + 1) % 8 + 8, (i + 1) % 8);
+  for (const auto& q : kEnds) {
+    quad(q[0], q[1], q[2], q[3]);
+    quad(q[3] + 8, q[2] + 8, q[1] + 8, q[0] + 8);
+  }
+  return mesh;
+}
+
+/// All its corners are on the channel's skin, or within what the snap made of it; it is not in it.
+TEST(CertifiedRelations, WhatFillsAChannelIsNotInIt) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    test::Draw draw(seed);
+    const Placement turn{draw.rotation(), {}};
+    test::ClashModel m;
+    m.object("a").body(channel_mesh(), turn);
+    m.object("b").body(test::box_mesh({0, 10, 10}, {1000, 110, 110}), turn);
+    const Report report = m.detect();
+    ASSERT_EQ(report.pairs.size(), 1U) << "seed " << seed;
+    const Pair& p = report.pairs.front();
+    EXPECT_EQ(p.cls, Class::contact) << "seed " << seed;
+    EXPECT_TRUE(p.relation == Relation::abut_outside || p.d_mm < -0.001) << "seed " << seed;
+    EXPECT_NE(p.relation, Relation::abut_inside) << "seed " << seed;
+  }
 }
 
 }  // namespace

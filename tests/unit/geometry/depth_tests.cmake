@@ -9,6 +9,8 @@ strake_test(geometry_caving_depth_test
   SOURCES caving_depth_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_fitted_depth_test
   SOURCES fitted_depth_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
+strake_test(geometry_shrink_test
+  SOURCES shrink_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_flush_contact_test
   SOURCES flush_contact_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_analytic_pair_test
