@@ -134,6 +134,9 @@ void report_findings(const GridShapeResult& made, const Model& model, ObjectId i
           "{} triangles were cut where corners of others lie on their edges, to match them");
   counted(Severity::note, "mesh-duplicate", made.findings.duplicate_triangles,
           "a repeated triangle was left out", "{} repeated triangles were left out");
+  counted(Severity::warning, "mesh-turned", made.findings.turned_triangles,
+          "a triangle of a closed surface faced the other way than the others and is turned",
+          "{} triangles of closed surfaces faced the other way than the others and are turned");
   counted(Severity::warning, "mesh-nested", made.findings.nested_shells,
           "a closed shell inside solid material was left out",
           "{} closed shells inside solid material were left out");

@@ -23,6 +23,7 @@ struct MeshFindings {
   std::uint64_t degenerate_triangles = 0;  ///< of exactly zero area after the snap: left out
   std::uint64_t cut_triangles = 0;         ///< at T-junctions, so that edges match
   std::uint64_t duplicate_triangles = 0;   ///< same vertices, same side
+  std::uint64_t turned_triangles = 0;      ///< of closed surfaces: they faced the other way
   std::uint64_t nested_shells = 0;         ///< closed shells that bound nothing: a solid in a solid
   std::uint64_t two_sided_shells = 0;      ///< closed skins that were drawn from both sides
 };
@@ -48,7 +49,9 @@ struct MeshAnalysis {
 /// 4. Triangles of no area are left out. Where corners lie exactly on an edge that does not match
 ///    those on its other side, its triangles are cut there if edges then match: T-junctions, and
 ///    what a triangle of no area has sealed. Nothing moves.
-/// 5. A closed shell of no volume that is covered twice, once from each side, becomes a sheet.
+/// 5. Of a closed surface whose edges have two triangles each, those that face the other way than
+///    the rest are turned.
+/// 6. A closed shell of no volume that is covered twice, once from each side, becomes a sheet.
 ///
 /// Every decision is exact. Cost: O(n log n) for one shell; nesting tests only shells whose boxes
 /// lie inside each other.

@@ -207,10 +207,10 @@ MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh) {
     return analysis;
   }
   // Only what does not depend on coordinates may be said of other meshes with this key.
-  const bool plain = welded.vertices.size() == vertices &&
-                     welded.triangles.size() == mesh.triangles.size() &&
-                     analysis.findings.degenerate_triangles == 0 &&
-                     analysis.findings.cut_triangles == 0 && !has_crowded_edge(topology);
+  const bool plain =
+      welded.vertices.size() == vertices && welded.triangles.size() == mesh.triangles.size() &&
+      analysis.findings.degenerate_triangles == 0 && analysis.findings.cut_triangles == 0 &&
+      analysis.findings.turned_triangles == 0 && !has_crowded_edge(topology);
   const bool closed = labels.closed[0] != 0;
   analysis.parts.push_back(whole(topology, std::move(labels), scratch));
   const Part& part = analysis.parts.front();

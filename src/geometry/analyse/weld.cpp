@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geometry/analyse/degenerate.hpp"
+#include "geometry/analyse/facing_one_way.hpp"
 #include "geometry/analyse/junctions.hpp"
 #include "geometry/box.hpp"
 
@@ -279,7 +280,12 @@ Topology weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> ren
     repeated = replace_triangles(std::move(*cut), scratch);
     topology = topology_of(scratch);
   }
-  return repeated ? drop_duplicates(topology, scratch, findings) : topology;
+  if (repeated) topology = drop_duplicates(topology, scratch, findings);
+  if (const std::uint64_t turned = turn_to_face_one_way(welded, topology)) {
+    findings.turned_triangles += turned;
+    topology = topology_of(scratch);
+  }
+  return topology;
 }
 
 }  // namespace strake::geometry

@@ -435,10 +435,12 @@ TEST(Analyse, OpenBoxIsASheet) {
   EXPECT_GT(a.parts[0].area, 0);
 }
 
-TEST(Analyse, FlippedTriangleMakesASheet) {
+TEST(Analyse, FlippedTriangleIsTurnedBack) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
-  EXPECT_EQ(analysed(mesh).parts.at(0).kind, PartKind::sheet);
+  const MeshAnalysis a = analysed(mesh);
+  EXPECT_EQ(a.parts.at(0).kind, PartKind::solid);
+  EXPECT_EQ(a.findings.turned_triangles, 1U);
 }
 
 TEST(Analyse, FlatBoxIsASheetOfOneLayer) {

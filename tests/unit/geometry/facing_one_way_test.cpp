@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closed surfaces of which some triangles face the other way.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "strake/geometry/analyse.hpp"
+#include "support/draw.hpp"
+#include "support/meshes.hpp"
+#include "support/rounds.hpp"
+#include "support/t_junctions.hpp"
+#include "support/voxels.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using test::Draw;
+using test::grid_box;
+
+void append(GridMesh& mesh, const GridMesh& other) {
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const Triangle& t : other.triangles)
+    mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+}
+
+void turn(Triangle& t) { std::swap(t[1], t[2]); }
+
+GridMesh stair() {
+  const test::VoxelSkin skin = test::voxel_skin({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}});
+  GridMesh mesh{skin.vertices, skin.triangles, {}};
+  for (Vec3i& v : mesh.vertices) v = v * 5040;
+  return mesh;
+}
+
+/// A box in which another is hollow.
+GridMesh hollow() {
+  GridMesh mesh = grid_box({0, 0, 0}, {9000, 9000, 9000}),
+           inner = grid_box({3000, 3000, 3000}, {6000, 6000, 6000});
+  for (Triangle& t : inner.triangles) turn(t);
+  append(mesh, inner);
+  return mesh;
+}
+
+bool same(const Part& a, const Part& b) {
+  return a.kind == b.kind && a.vertices == b.vertices && a.triangles == b.triangles &&
+         a.edge_triangles == b.edge_triangles && a.volume == b.volume && a.shells == b.shells;
+}
+
+TEST(FacingOneWay, FewerThanHalfOfThemAreTurnedBack) {
+  for (const GridMesh& whole : {grid_box({0, 0, 0}, {1000, 2000, 3000}), stair(), hollow()}) {
+    const MeshAnalysis right = analyse(whole);
+    ASSERT_EQ(right.parts.size(), 1U);
+    EXPECT_EQ(right.findings.turned_triangles, 0U);
+    for (std::uint64_t seed = 1; seed <= test::rounds(100U, 10'000U); ++seed) {
+      SCOPED_TRACE(seed);
+      Draw draw(seed);
+      GridMesh mesh = whole;
+      // Of either surface of the hollow box fewer than half of its 12.
+      const std::size_t most = 1 + draw.below(5);
+      for (std::size_t first = 0, n = 0; first + 12 <= mesh.triangles.size(); first += 12, n = 0)
+        for (; n < most; ++n) turn(mesh.triangles[first + n * 12 / most]);
+      const MeshAnalysis found = analyse(mesh);
+      ASSERT_EQ(found.parts.size(), 1U);
+      EXPECT_TRUE(same(found.parts[0], right.parts[0]));
+      EXPECT_FALSE(found.parts[0].flags.open || found.parts[0].flags.inverted);
+      EXPECT_EQ(found.findings.turned_triangles, whole.triangles.size() / 12 * most);
+      // And all of it inside out.
+      for (Triangle& t : mesh.triangles) turn(t);
+      const MeshAnalysis inside_out = analyse(mesh);
+      ASSERT_EQ(inside_out.parts.size(), 1U);
+      EXPECT_TRUE(same(inside_out.parts[0], right.parts[0]));
+      EXPECT_TRUE(inside_out.parts[0].flags.inverted);
+      EXPECT_EQ(inside_out.findings.turned_triangles, found.findings.turned_triangles);
+    }
+  }
+}
+
+/// The connectivity of a mesh that needed it is not that of the next one.
+TEST(FacingOneWay, IsToldOfEachMeshOfManyAlike) {
+  GridMesh mesh = grid_box({0, 0, 0}, {1000, 1000, 1000});
+  turn(mesh.triangles[5]);
+  MeshAnalyser analyser;
+  for (int i = 0; i < 4; ++i) {
+    const MeshAnalysis found = analyser.analyse(mesh);
+    EXPECT_EQ(found.findings.turned_triangles, 1U);
+    EXPECT_EQ(found.parts.at(0).kind, PartKind::solid);
+  }
+}
+
+TEST(FacingOneWay, OpenAndOneSidedSurfacesStayAsTheyAre) {
+  GridMesh open = grid_box({0, 0, 0}, {1000, 1000, 1000});
+  open.triangles.pop_back();
+  turn(open.triangles[2]);
+  // The projective plane of six corners.
+  const GridMesh one_sided{{{0, 0, 0},
+                            {500, 100, 200},
+                            {100, 700, 300},
+                            {400, 200, 900},
+                            {800, 600, 100},
+                            {300, 800, 700}},
+                           {{0, 1, 2},
+                            {0, 2, 3},
+                            {0, 3, 4},
+                            {0, 4, 5},
+                            {0, 5, 1},
+                            {1, 2, 4},
+                            {2, 3, 5},
+                            {3, 4, 1},
+                            {4, 5, 2},
+                            {5, 1, 3}},
+                           {}};
+  for (const GridMesh& mesh : {open, one_sided}) {
+    const MeshAnalysis found = analyse(mesh);
+    ASSERT_EQ(found.parts.size(), 1U);
+    EXPECT_EQ(found.parts[0].kind, PartKind::sheet);
+    EXPECT_EQ(found.parts[0].triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(found.findings.turned_triangles, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace strake::geometry
