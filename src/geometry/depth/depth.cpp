@@ -296,6 +296,8 @@ bool settle_tie(const DepthPart& a, const DepthField& fa, const DepthPart& b, co
     try_vertices(fa, fb, candidates);
     try_vertices(fb, fa, candidates);
   } else {
+    // Where the half-spaces tell as much as the goal asks for, they do so sooner.
+    if (goal.known_upper <= goal.tolerance) return false;
     if (a.planes->nearly_convex && b.planes->nearly_convex) return false;
     if (tie < 1 || goal.triangle_a == kNoFace || goal.triangle_b == kNoFace) return false;
     const auto shrunk =
