@@ -8,10 +8,9 @@
 
 #include "strake/geometry/analyse.hpp"
 #include "support/draw.hpp"
-#include "support/meshes.hpp"
+#include "support/grid_bodies.hpp"
 #include "support/rounds.hpp"
 #include "support/t_junctions.hpp"
-#include "support/voxels.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -19,28 +18,14 @@ namespace {
 using test::Draw;
 using test::grid_box;
 
-void append(GridMesh& mesh, const GridMesh& other) {
-  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Triangle& t : other.triangles)
-    mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-}
-
 void turn(Triangle& t) { std::swap(t[1], t[2]); }
-
-GridMesh stair() {
-  const test::VoxelSkin skin = test::voxel_skin({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}});
-  GridMesh mesh{skin.vertices, skin.triangles, {}};
-  for (Vec3i& v : mesh.vertices) v = v * 5040;
-  return mesh;
-}
 
 /// A box in which another is hollow.
 GridMesh hollow() {
   GridMesh mesh = grid_box({0, 0, 0}, {9000, 9000, 9000}),
            inner = grid_box({3000, 3000, 3000}, {6000, 6000, 6000});
   for (Triangle& t : inner.triangles) turn(t);
-  append(mesh, inner);
+  test::append(mesh, inner);
   return mesh;
 }
 
@@ -50,7 +35,8 @@ bool same(const Part& a, const Part& b) {
 }
 
 TEST(FacingOneWay, FewerThanHalfOfThemAreTurnedBack) {
-  for (const GridMesh& whole : {grid_box({0, 0, 0}, {1000, 2000, 3000}), stair(), hollow()}) {
+  for (const GridMesh& whole :
+       {grid_box({0, 0, 0}, {1000, 2000, 3000}), test::grid_stair(5040), hollow()}) {
     const MeshAnalysis right = analyse(whole);
     ASSERT_EQ(right.parts.size(), 1U);
     EXPECT_EQ(right.findings.turned_triangles, 0U);
@@ -94,25 +80,7 @@ TEST(FacingOneWay, OpenAndOneSidedSurfacesStayAsTheyAre) {
   GridMesh open = grid_box({0, 0, 0}, {1000, 1000, 1000});
   open.triangles.pop_back();
   turn(open.triangles[2]);
-  // The projective plane of six corners.
-  const GridMesh one_sided{{{0, 0, 0},
-                            {500, 100, 200},
-                            {100, 700, 300},
-                            {400, 200, 900},
-                            {800, 600, 100},
-                            {300, 800, 700}},
-                           {{0, 1, 2},
-                            {0, 2, 3},
-                            {0, 3, 4},
-                            {0, 4, 5},
-                            {0, 5, 1},
-                            {1, 2, 4},
-                            {2, 3, 5},
-                            {3, 4, 1},
-                            {4, 5, 2},
-                            {5, 1, 3}},
-                           {}};
-  for (const GridMesh& mesh : {open, one_sided}) {
+  for (const GridMesh& mesh : {open, test::one_sided_mesh()}) {
     const MeshAnalysis found = analyse(mesh);
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::sheet);

@@ -12,14 +12,16 @@
 
 #include "geometry/analyse/junctions.hpp"
 #include "strake/geometry/analyse.hpp"
+#include "support/grid_bodies.hpp"
 #include "support/rounds.hpp"
-#include "support/voxels.hpp"
 
 namespace strake::geometry {
 namespace {
 
+using test::append;
 using test::Draw;
 using test::grid_box;
+using test::grid_stair;
 using test::split_side;
 using test::split_sides;
 
@@ -30,21 +32,6 @@ GridMesh cube() { return grid_box({0, 0, 0}, {kSize, kSize, kSize}); }
 GridMesh split_cube(Draw& draw) {
   GridMesh mesh = cube();
   split_sides(mesh, 40, draw);
-  return mesh;
-}
-
-void append(GridMesh& mesh, const GridMesh& other) {
-  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Triangle& t : other.triangles)
-    mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-}
-
-/// A stair that is not convex.
-GridMesh stair() {
-  const test::VoxelSkin skin = test::voxel_skin({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}});
-  GridMesh mesh{skin.vertices, skin.triangles, {}};
-  for (Vec3i& v : mesh.vertices) v = v * 5040;
   return mesh;
 }
 
@@ -99,7 +86,7 @@ TEST(TJunctions, ACornerOnTheEdgeOfAnother) {
 }
 
 TEST(TJunctions, ManyCornersOnBothSidesOfEveryEdge) {
-  for (const GridMesh& whole : {cube(), stair()}) {
+  for (const GridMesh& whole : {cube(), grid_stair(5040)}) {
     const Part part = analyse(whole).parts.at(0);
     for (std::uint64_t seed = 1; seed <= test::rounds(200U, 20'000U); ++seed) {
       SCOPED_TRACE(seed);
@@ -231,7 +218,7 @@ TEST(TJunctions, SkinsDrawnFromBothSides) {
   for (std::uint64_t seed = 1; seed <= test::rounds(50U, 5'000U); ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
-    GridMesh mesh = split_cube(draw);
+    const GridMesh mesh = split_cube(draw);
     // The far side cut like the near one, and not at all.
     for (const GridMesh& other : {mesh, cube()}) {
       GridMesh both = mesh, far = other;

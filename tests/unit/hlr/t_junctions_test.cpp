@@ -11,7 +11,7 @@
 
 #include "strake/hlr/hlr.hpp"
 #include "support/clash_model.hpp"
-#include "support/voxels.hpp"
+#include "support/grid_bodies.hpp"
 
 namespace strake {
 namespace {
@@ -51,21 +51,13 @@ void expect_same_lines(const GridMesh& whole, const GridMesh& cut) {
   }
 }
 
-/// Each voxel is 5040 mm wide.
-GridMesh stair() {
-  const test::VoxelSkin skin = test::voxel_skin({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}});
-  GridMesh mesh{skin.vertices, skin.triangles, {}};
-  for (Vec3i& v : mesh.vertices) v = v * 5'040'000;
-  return mesh;
-}
-
 TEST(TJunctionDrawings, ASolidLooksLikeItself) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE(seed);
     test::Draw draw(seed);
-    GridMesh mesh = stair();
+    GridMesh mesh = test::grid_stair(5'040'000);
     test::split_sides(mesh, 60, draw);
-    expect_same_lines(stair(), mesh);
+    expect_same_lines(test::grid_stair(5'040'000), mesh);
   }
 }
 
@@ -73,7 +65,7 @@ TEST(TJunctionDrawings, SoDoFacesAndWhatIsOpen) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE(seed);
     test::Draw draw(seed);
-    GridMesh whole = stair();
+    GridMesh whole = test::grid_stair(5'040'000);
     for (std::uint32_t t = 0; t < whole.triangles.size(); ++t) whole.faces.push_back(t / 2);
     if (seed % 2 == 0) {
       whole.triangles.resize(whole.triangles.size() - 4);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/grid_bodies.hpp"
 #include "support/meshes.hpp"
 
 namespace strake::model {
@@ -156,20 +157,10 @@ TEST(Scene, SurfacesThatDoNotCloseAreToldFromThoseThatFaceBothWays) {
   geometry::TriangleMesh turned = test::box_mesh({0, 0, 0}, {1, 1, 1}), open = turned;
   std::swap(turned.triangles[3][0], turned.triangles[3][1]);
   open.triangles.pop_back();
-  // The projective plane of six corners: it closes, and has one side only.
-  const geometry::TriangleMesh mixed{
-      {{0, 0, 0}, {5, 1, 2}, {1, 7, 3}, {4, 2, 9}, {8, 6, 1}, {3, 8, 7}},
-      {{0, 1, 2},
-       {0, 2, 3},
-       {0, 3, 4},
-       {0, 4, 5},
-       {0, 5, 1},
-       {1, 2, 4},
-       {2, 3, 5},
-       {3, 4, 1},
-       {4, 5, 2},
-       {5, 1, 3}},
-      {}};
+  geometry::TriangleMesh mixed;
+  for (const geometry::Vec3i& v : test::one_sided_mesh().vertices)
+    mixed.vertices.push_back(v.as<double>());
+  mixed.triangles = test::one_sided_mesh().triangles;
   Builder b;
   b.object(b.shape(turned));
   EXPECT_EQ(b.scene().diagnostics.count("mesh-turned"), 1U);
