@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""House rules that no compiler checks: layers, licence lines, file sizes, a library that never prints."""
+"""House rules that no compiler checks: layers, licence lines, file sizes, a library that never prints,
+no scratch files in the root."""
 import re
 import shutil
 import subprocess
@@ -21,6 +22,8 @@ MAY_USE = {
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
 }
 LINES = {'.hpp': 300, '.cpp': 600}
+IN_ROOT = {'.clang-format', '.clang-tidy', '.gitattributes', '.gitignore', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CMakeLists.txt',
+           'CMakePresets.json', 'CONTRIBUTING.md', 'HACKING.md', 'LICENSE', 'README.md', 'SECURITY.md', 'packages.txt', 'run'}
 NEEDS_SPDX = {'.cpp', '.hpp', '.py', '.sh', '.cmake'}
 IMPURE = re.compile(r'\bstd::(cout|cerr|abort|exit|getenv)\b|(?<![\w:.])(printf|puts|abort|exit|getenv)\s*\('
                     r'|\bthread_local\b|\bfmt::print\b')
@@ -67,6 +70,8 @@ def faults_of(path, text):
 def main():
     faults = []
     for path in tracked():
+        if len(path.parts) == 1 and path.is_file() and path.name not in IN_ROOT:
+            faults.append(f'{path}: no file that belongs in the root (a scratch file?)')
         if path.is_file() and (path.suffix in NEEDS_SPDX or path.name == 'CMakeLists.txt'):
             faults += [f'{path}:{n}: {what}' for n, what in faults_of(path, path.read_text(encoding='utf-8'))]
     if faults:
