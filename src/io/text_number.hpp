@@ -11,6 +11,8 @@ namespace strake::io {
 struct DigitStatistics {
   std::int16_t most_significant_digits = 0;  ///< as written, from the first digit that is not zero
   std::int16_t most_decimals = 0;            ///< digits after the point, exponent applied
+  bool tells_float32 = false;  ///< some number is what float32 has, to more digits than that needs
+  bool beyond_float32 = false;  ///< some number is not what float32 has, as far as its digits go
 
   void merge(const DigitStatistics& other);
 };
@@ -24,7 +26,8 @@ struct DigitStatistics {
 
 /// Half the spacing of numbers written so at this magnitude, in their unit. Numbers of at most
 /// five digits, and whole ones written in full, are taken as exact design values that went through
-/// float32.
+/// float32; and so are numbers of many digits that are all what float32 has, as programs write them
+/// that keep their points in single precision.
 [[nodiscard]] double text_half_spacing(const DigitStatistics& digits, double magnitude);
 
 /// A number that may be a coordinate: finite, with room for any unit to scale it.

@@ -110,6 +110,19 @@ TEST(TextPrecision, FollowsTheNotation) {
   EXPECT_DOUBLE_EQ(half_spacing({"-336000.25", "7"}), 0.5e-2);
 }
 
+TEST(TextPrecision, SeesFloat32InManyDigits) {
+  const double at_65536 = std::ldexp(1.0, -8);
+  EXPECT_DOUBLE_EQ(half_spacing({"65536.781250000", "-144.617706299", "12.000000000"}), at_65536);
+  EXPECT_DOUBLE_EQ(half_spacing({"65536.78125", "-1.446177062988281e+02", "0.1"}), at_65536);
+  EXPECT_DOUBLE_EQ(half_spacing({"65536.781250", "2038.410278"}), at_65536) << "%f";
+  // One number that float32 has not is enough.
+  EXPECT_DOUBLE_EQ(half_spacing({"65536.781250000", "144.617700000"}), 0.5e-9);
+  EXPECT_DOUBLE_EQ(half_spacing({"65536.781250000", "0.10000000000000001"}), 0.5e-12);
+  // Design values in fixed notation say nothing of it, nor do digits that float32 needs.
+  EXPECT_DOUBLE_EQ(half_spacing({"65536.000000000", "1200.500000000"}), 0.5e-9);
+  EXPECT_DOUBLE_EQ(half_spacing({"65536.7812", "144.617706"}), 0.5e-4);
+}
+
 TEST(TextPrecision, TakesDesignValuesAsFloat32) {
   EXPECT_DOUBLE_EQ(half_spacing({"0", "1000"}), std::ldexp(1.0, -15));
   EXPECT_DOUBLE_EQ(half_spacing({"0", "0"}), std::ldexp(1.0, -150));
