@@ -14,7 +14,7 @@ namespace strake::clash {
 struct Candidate {
   FirstLook look;
   NarrowCost cost;
-  bool separated = false;  ///< a coordinate plane lies between the two
+  KnownBefore known;
   bool done = false;
   bool too_large = false;
   bool too_near_to_tell = false;  ///< whether it has one place or several

@@ -38,17 +38,27 @@ std::optional<PartAnswer> judge_flush(const NarrowPart& a, const NarrowPart& b,
   return in_order(a, b, judge);
 }
 
-double gap_between(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options) {
+geometry::PartingGap gap_between(const NarrowPart& a, const NarrowPart& b,
+                                 const NarrowOptions& options) {
   const bool ordered = in_canonical_order(a.treed, b.treed);
   const NarrowPart &x = ordered ? a : b, &y = ordered ? b : a;
   return geometry::frame_gap({x.treed.placed, x.frame}, {y.treed.placed, y.frame},
                              parting_gap(*x.treed.placed.part, *y.treed.placed.part, options));
 }
 
-FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
-                  double gap, bool separated, NarrowWork& work) {
+std::optional<PartAnswer> judge_flush_askew(const NarrowPart& a, const NarrowPart& b,
+                                            const NarrowOptions& options,
+                                            const geometry::PartingGap& gap, bool& asked,
+                                            NarrowWork& work) {
   return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
-    return PairOfParts(x, y, options, work).look(gap, separated);
+    return PairOfParts(x, y, options, work).flush_across(gap, asked);
+  });
+}
+
+FirstLook look_at(const NarrowPart& a, const NarrowPart& b, const NarrowOptions& options,
+                  const KnownBefore& known, NarrowWork& work) {
+  return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
+    return PairOfParts(x, y, options, work).look(known);
   });
 }
 

@@ -20,17 +20,24 @@ namespace strake::clash {
                                                     const NarrowOptions& options, bool& separated);
 
 /// A certain lower bound on the signed separation of two framed parts as they are on the grid, grid
-/// units; the same whichever is called a. Not below parting_gap(): the pair is NO_HIT.
-[[nodiscard]] double gap_between(const NarrowPart& a, const NarrowPart& b,
-                                 const NarrowOptions& options);
+/// units; the same whichever is called a, its normal that of their canonical order. Not below
+/// parting_gap(): the pair is NO_HIT.
+[[nodiscard]] geometry::PartingGap gap_between(const NarrowPart& a, const NarrowPart& b,
+                                               const NarrowOptions& options);
+
+/// The answer for a pair that lies face to face within the contact distance, however it stands:
+/// wants no trees. `gap` is that of gap_between(). `asked` tells whether none is the answer, then
+/// look_at() need not ask again.
+[[nodiscard]] std::optional<PartAnswer> judge_flush_askew(const NarrowPart& a, const NarrowPart& b,
+                                                          const NarrowOptions& options,
+                                                          const geometry::PartingGap& gap,
+                                                          bool& asked, NarrowWork& work);
 
 /// Class, relation, separation and witness of two parts, but for the distance of those that are
 /// apart and the depth of those whose interiors meet. Swapping the parts mirrors the relation and
 /// moves the witness to the other origin; every other bit of an answer stays the same.
-/// `gap` is that of gap_between(); `separated` what judge_flush() found. Depth that the gap alone
-/// shows to be that of a tie is given too.
 [[nodiscard]] FirstLook look_at(const NarrowPart& a, const NarrowPart& b,
-                                const NarrowOptions& options, double gap, bool separated,
+                                const NarrowOptions& options, const KnownBefore& known,
                                 NarrowWork& work);
 
 /// The answer for a pair that is apart, if nearer than `reach` and than anybody asked; otherwise

@@ -67,12 +67,19 @@ struct NarrowWork {
   std::uint64_t depth_cells = 0;
 };
 
+/// What is known of a pair before anybody looks at it exactly.
+struct KnownBefore {
+  double gap = 0;            ///< a certain lower bound on their signed separation, of gap_between()
+  bool separated = false;    ///< a coordinate plane lies between the two, as judge_flush() found
+  bool flush_asked = false;  ///< judge_flush_askew() has found that they are not flush
+};
+
 /// What one exact look at a pair decides, and what is left to ask.
 struct FirstLook {
   enum class Next : std::uint8_t { nothing, distance, depth };
   PartAnswer answer;                ///< where nothing is left to ask
   geometry::MeetingResult meeting;  ///< in canonical order of the two
-  double gap = 0;                   ///< a certain lower bound on their signed separation
+  double gap = 0;                   ///< that of KnownBefore
   Next next = Next::nothing;
 };
 

@@ -49,7 +49,7 @@ class ExactStage {
           const NarrowPart x = aids_.bare(a), y = aids_.bare(b);
           const NarrowOptions options = stage_.pair_options.of(a, b);
           auto answer = judge_analytic(x, y, options);
-          if (!answer) answer = judge_flush(x, y, options, c.separated);
+          if (!answer) answer = judge_flush(x, y, options, c.known.separated);
           c.done = answer.has_value();
           if (c.done) c.look.answer = *answer;
         });
@@ -71,8 +71,16 @@ class ExactStage {
                    [&](std::size_t i, const PartRef& a, const PartRef& b) {
                      const NarrowOptions options = stage_.pair_options.of(a, b);
                      Candidate& c = candidates_[i];
-                     c.look.gap = gap_between(aids_.framed(a), aids_.framed(b), options);
-                     c.done = c.look.gap >= parting_gap(*a.placed.part, *b.placed.part, options);
+                     const NarrowPart x = aids_.framed(a), y = aids_.framed(b);
+                     const geometry::PartingGap gap = gap_between(x, y, options);
+                     c.known.gap = gap.lower;
+                     c.done = gap.lower >= parting_gap(*a.placed.part, *b.placed.part, options);
+                     if (c.done || has_wire(*a.placed.part, *b.placed.part)) return;
+                     const auto flush = charged(c, work_.context(), [&](NarrowWork& work) {
+                       return judge_flush_askew(x, y, options, gap, c.known.flush_asked, work);
+                     });
+                     c.done = flush.has_value();
+                     if (flush) c.look.answer = *flush;
                    });
     if (!status) return status;
     auto open = open_cases("open pairs");
@@ -90,7 +98,7 @@ class ExactStage {
                         const NarrowOptions options = stage_.pair_options.of(a, b);
                         c.look = charged(c, work_.context(), [&](NarrowWork& work) {
                           if (!has_wire(*a.placed.part, *b.placed.part))
-                            return look_at(x, y, options, c.look.gap, c.separated, work);
+                            return look_at(x, y, options, c.known, work);
                           FirstLook look;
                           look.answer = judge_wire(x, y, options, work);
                           return look;

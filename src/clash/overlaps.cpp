@@ -60,7 +60,7 @@ class Overlaps {
       const NarrowPart p = aids_.framed(x), q = aids_.framed(y);
       constexpr double kApart = 1;  // as the broad phase's boxes leave it: whole units
       const double gap =
-          geometry::frame_gap({p.treed.placed, p.frame}, {q.treed.placed, q.frame}, kApart);
+          geometry::frame_gap({p.treed.placed, p.frame}, {q.treed.placed, q.frame}, kApart).lower;
       return gap >= kApart ? State::apart : State::open;
     });
   }

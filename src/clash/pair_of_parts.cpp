@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "clash/pair_limits.hpp"
 #include "clash/part_depth.hpp"
 #include "clash/relation.hpp"
 #include "clash/witness.hpp"
 #include "strake/geometry/hull_gap.hpp"
+#include "strake/geometry/near_across.hpp"
 
 namespace strake::clash {
 
@@ -73,14 +75,27 @@ PartAnswer PairOfParts::flush(const Vec3d& point) {
   return answer;
 }
 
-FirstLook PairOfParts::look(double gap, bool separated) {
+std::optional<PartAnswer> PairOfParts::flush_across(const geometry::PartingGap& gap, bool& asked) {
+  asked = true;
+  if (!may_be_flush(gap.lower)) return std::nullopt;
+  const auto found = geometry::near_across(a_.placed, b_.placed, gap.normal,
+                                           options_.contact_distance, work_.pair);
+  asked = found.asked;
+  if (!found.near) return std::nullopt;
+  std::optional<PartAnswer> answer(std::in_place);
+  nearly_touching(*found.near, gap.lower, *answer);
+  return answer;
+}
+
+FirstLook PairOfParts::look(const KnownBefore& known) {
   FirstLook look;
-  look.gap = gap;
-  if (const auto near = flush_near(gap)) {
-    nearly_touching(*near, gap, look.answer);
-    return look;
-  }
-  if (!separated && !(gap > 0) && !hulls_part())
+  look.gap = known.gap;
+  if (!known.flush_asked && may_be_flush(known.gap))
+    if (const auto near = geometry::any_within(a_, b_, options_.contact_distance, work_.pair)) {
+      nearly_touching(*near, known.gap, look.answer);
+      return look;
+    }
+  if (!known.separated && !(known.gap > 0) && !hulls_part())
     look.meeting = equal_solids() ? meeting_of_equals() : geometry::meet(a_, b_, work_.pair);
   const auto form = closed_form(part_a_, part_b_, reach_of(options_));
   if (look.meeting.meeting == Meeting::touching) {
@@ -211,15 +226,14 @@ void PairOfParts::touching(const MeetingResult& meeting, PartAnswer& answer) {
 /// touching, a little deep, or all of it here and there. Within the contact distance that says
 /// nothing about the source, and it is one class and one relation: two triangles so near settle
 /// it.
-std::optional<geometry::Closest> PairOfParts::flush_near(double gap) const {
+bool PairOfParts::may_be_flush(double gap) const {
   const Part &x = *a_.placed.part, &y = *b_.placed.part;
   const double band = options_.contact_distance;
   if (gap > band || -gap > std::min(band, thresholds_.overlap) || thresholds_.gap < band ||
       x.kind != PartKind::solid || y.kind != PartKind::solid)
-    return std::nullopt;
+    return false;
   // Slivers as thin as the band may be duplicates.
-  if (std::min(x.thickness(), y.thickness()) < 4 * band) return std::nullopt;
-  return geometry::any_within(a_, b_, band, work_.pair);
+  return std::min(x.thickness(), y.thickness()) >= 4 * band;
 }
 
 void PairOfParts::nearly_touching(const geometry::Closest& near, double gap,
@@ -238,7 +252,7 @@ void PairOfParts::interpenetrating(const FirstLook& look, PartAnswer& answer) {
   const MeetingResult& meeting = look.meeting;
   DepthGoal goal;
   goal.known_upper =
-      -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}, 0));
+      -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}));
   goal.threshold = thresholds_.overlap;
   // Sheets that moves within the contact distance part touch: what the snap made of sheets that lie
   // on each other askew passes to and fro along lines that mean nothing.

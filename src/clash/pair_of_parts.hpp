@@ -20,7 +20,11 @@ class PairOfParts {
   /// Of those that touch at a point, relative to a's origin.
   [[nodiscard]] PartAnswer flush(const geometry::Vec3d& point);
 
-  [[nodiscard]] FirstLook look(double gap, bool separated);
+  /// Of those that lie face to face across the gap; `asked`: whether none is certain.
+  [[nodiscard]] std::optional<PartAnswer> flush_across(const geometry::PartingGap& gap,
+                                                       bool& asked);
+
+  [[nodiscard]] FirstLook look(const KnownBefore& known);
 
   [[nodiscard]] PartAnswer distance(double reach);
 
@@ -34,7 +38,7 @@ class PairOfParts {
   [[nodiscard]] bool equal_solids() const;
   [[nodiscard]] geometry::MeetingResult meeting_of_equals() const;
   void touching(const geometry::MeetingResult& meeting, PartAnswer& answer);
-  [[nodiscard]] std::optional<geometry::Closest> flush_near(double gap) const;
+  [[nodiscard]] bool may_be_flush(double gap) const;
   void nearly_touching(const geometry::Closest& near, double gap, PartAnswer& answer) const;
   void interpenetrating(const FirstLook& look, PartAnswer& answer);
   [[nodiscard]] double sag() const;

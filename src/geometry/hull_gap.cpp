@@ -6,7 +6,7 @@
 
 namespace strake::geometry {
 
-HullGap hull_gap(const FramedPart& a, const FramedPart& b, double enough) {
+PartingGap hull_gap(const FramedPart& a, const FramedPart& b, double enough) {
   const Vec3l shift = b.placed.origin - a.placed.origin;
   const analytic::ConvexGap gap = analytic::convex_gap(
       hull_body(*a.placed.part, a.frame->vertices, {}),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/box.hpp"
+#include "geometry/closest_points.hpp"
 #include "geometry/corners.hpp"
 #include "geometry/flat_pieces.hpp"
 #include "geometry/heavy_walk.hpp"
@@ -279,16 +280,10 @@ std::optional<Closest> ClosestSearch::decide() {
     const NearestPoints p = exact_distance(a, b, c.squared.upper);
     if (best && p.squared >= nearest.squared) continue;
     nearest = p;
-    best.emplace();
-    best->squared = ratio_to_double(p.squared.numerator, p.squared.denominator);
-    best->triangle_a = c.a;
-    best->triangle_b = c.b;
+    best = as_closest(p, {c.a, c.b});
     if (best->squared == 0) break;
   }
   if (!best) return std::nullopt;
-  best->distance = sqrt_ratio_to_double(nearest.squared.numerator, nearest.squared.denominator);
-  best->on_a = nearest.on_a;
-  best->on_b = nearest.on_b;
   best->lower = std::min(best->distance, std::max(0.0, left_out_));
   if (!(best->distance < limit_)) return std::nullopt;
   return best;

@@ -76,47 +76,46 @@ double magnitude(const Box3i& box) {
   return sum;
 }
 
-/// A pair in the coordinates of its first part.
-struct Pair {
-  const FramedPart &a, &b;
-  Vec3d shift;          ///< takes b's coordinates into a's
+/// One of two parts as seen from the other's frame.
+struct Beside {
+  const FramedPart& of;
+  const FramedPart& other;
+  Vec3d shift;          ///< takes the other's coordinates into those of `of`
+  double out = 1;       ///< -1: the normal of the gap goes from the other to `of`
   double rounding = 0;  ///< bound on what the arithmetic of a gap may be off by
 };
 
-/// The gap along an axis of `of`, by the extent of `other` along it; axes are unit vectors but for
-/// rounding, for which the gap gives way a little.
-double certain(double gap, const Pair& pair) {
-  return gap - std::fabs(gap) * 1e-14 - pair.rounding;
+/// The gap along an axis of the frame, by the extent of the other along it, kept where it is wider.
+/// Axes are unit vectors but for rounding, for which the gap gives way a little.
+void widen(PartingGap& widest, const Beside& pair, std::size_t axis, double lo, double hi) {
+  const PartFrame& f = *pair.of.frame;
+  const double above = lo - f.hi[axis], below = f.lo[axis] - hi;
+  const double gap = std::max(above, below);
+  const double certain = gap - std::fabs(gap) * 1e-14 - pair.rounding;
+  if (!(certain > widest.lower)) return;
+  widest = {certain, f.axis[axis] * (above >= below ? pair.out : -pair.out)};
 }
 
-double gap_along(const PartFrame& of, std::size_t axis, double lo, double hi) {
-  return std::max(lo - of.hi[axis], of.lo[axis] - hi);
-}
-
-/// By the box of `other`.
-double box_gap(const PartFrame& of, const PartFrame& other, const Vec3d& to_of, const Pair& pair) {
-  double widest = -std::numeric_limits<double>::infinity();
-  const Vec3d centre = other.centre + to_of;
+/// By the box of the other.
+void widen_by_box(PartingGap& widest, const Beside& pair) {
+  const PartFrame &f = *pair.of.frame, &g = *pair.other.frame;
+  const Vec3d centre = g.centre + pair.shift;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double at = dot(of.axis[i], centre);
+    const double at = dot(f.axis[i], centre);
     double half = 0;
-    for (const Vec3d& e : other.edge) half += std::fabs(dot(of.axis[i], e));
-    widest = std::max(widest, certain(gap_along(of, i, at - half, at + half), pair));
+    for (const Vec3d& e : g.edge) half += std::fabs(dot(f.axis[i], e));
+    widen(widest, pair, i, at - half, at + half);
   }
-  return widest;
 }
 
-/// By the vertices of `other`.
-double vertex_gap(const PartFrame& of, const FramedPart& other, const Vec3d& to_of,
-                  const Pair& pair, double enough) {
-  double widest = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3 && widest < enough; ++i) {
-    const Vec3d& n = of.axis[i];
-    const Range r = range_along(*other.placed.part, other.frame->vertices, n);
-    const double base = dot(n, to_of);
-    widest = std::max(widest, certain(gap_along(of, i, r.lo + base, r.hi + base), pair));
+/// By the vertices of the other.
+void widen_by_vertices(PartingGap& widest, const Beside& pair, double enough) {
+  for (std::size_t i = 0; i < 3 && widest.lower < enough; ++i) {
+    const Vec3d& n = pair.of.frame->axis[i];
+    const Range r = range_along(*pair.other.placed.part, pair.other.frame->vertices, n);
+    const double base = dot(n, pair.shift);
+    widen(widest, pair, i, r.lo + base, r.hi + base);
   }
-  return widest;
 }
 
 }  // namespace
@@ -148,18 +147,21 @@ PartFrame make_frame(const Part& part, const parallel::Context& context) {
   return frame;
 }
 
-double frame_gap(const FramedPart& a, const FramedPart& b, double enough) {
-  Pair pair{a, b, (b.placed.origin - a.placed.origin).as<double>()};
-  const double reach = std::fabs(pair.shift.x) + std::fabs(pair.shift.y) + std::fabs(pair.shift.z) +
+PartingGap frame_gap(const FramedPart& a, const FramedPart& b, double enough) {
+  const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();
+  const double reach = std::fabs(shift.x) + std::fabs(shift.y) + std::fabs(shift.z) +
                        magnitude(a.placed.part->box) + magnitude(b.placed.part->box);
-  pair.rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
-  const PartFrame &f = *a.frame, &g = *b.frame;
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
+  const Beside from_a{a, b, shift, -1, rounding}, from_b{b, a, -shift, 1, rounding};
   // The boxes' own rounding is far less than the part of a unit that they are asked to be wider.
-  const double boxes = std::max(box_gap(f, g, pair.shift, pair), box_gap(g, f, -pair.shift, pair));
-  if (boxes >= enough + 1) return boxes;
-  const double gap = vertex_gap(f, b, pair.shift, pair, enough);
-  if (gap >= enough) return gap;
-  return std::max(gap, vertex_gap(g, a, -pair.shift, pair, enough));
+  PartingGap boxes;
+  for (const Beside* pair : {&from_a, &from_b}) {
+    widen_by_box(boxes, *pair);
+    if (boxes.lower >= enough + 1) return boxes;
+  }
+  PartingGap gap;
+  for (const Beside* pair : {&from_a, &from_b}) widen_by_vertices(gap, *pair, enough);
+  return gap;
 }
 
 }  // namespace strake::geometry

@@ -11,7 +11,7 @@ namespace strake::io {
 struct DigitStatistics {
   std::int16_t most_significant_digits = 0;  ///< as written, from the first digit that is not zero
   std::int16_t most_decimals = 0;            ///< digits after the point, exponent applied
-  bool tells_float32 = false;  ///< some number is what float32 has, to more digits than that needs
+  bool tells_float32 = false;   ///< some number is what float32 has, to more digits than that needs
   bool beyond_float32 = false;  ///< some number is not what float32 has, as far as its digits go
 
   void merge(const DigitStatistics& other);

@@ -43,9 +43,8 @@ struct DepthPart {
 
 /// A certain lower bound on the distance of two parts: the widest gap between their supports along
 /// the face normals of either. Negative when no such direction keeps them apart: then moving one by
-/// that much parts them, so that they are no deeper in each other. Stops at the first gap of at
-/// least `enough` grid units.
-[[nodiscard]] double gap_bound(const DepthPart& a, const DepthPart& b, double enough);
+/// that much parts them, so that they are no deeper in each other.
+[[nodiscard]] double gap_bound(const DepthPart& a, const DepthPart& b);
 
 /// A depth in which nobody needs the deepest point, grid units: a known upper bound no greater is
 /// the whole answer.

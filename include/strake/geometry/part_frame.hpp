@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/part_tree.hpp"
@@ -34,10 +35,17 @@ struct FramedPart {
   const PartTree* tree = nullptr;  ///< may be null, or without nodes
 };
 
-/// A certain lower bound on the distance of two parts, grid units: the widest gap between them
-/// along the axes of either frame. Negative when none keeps them apart: moving one by that much
-/// parts them. Tells boxes first and looks at vertices only where these leave the gap below
-/// `enough`; stops at the first gap of at least that.
-[[nodiscard]] double frame_gap(const FramedPart& a, const FramedPart& b, double enough);
+/// A slab between two parts.
+struct PartingGap {
+  /// Grid units, certain: no two points of the parts are nearer. Negative where no slab was found:
+  /// moving one by that much parts them.
+  double lower = -std::numeric_limits<double>::infinity();
+  Vec3d normal;  ///< unit, from b to a: the direction across the slab
+};
+
+/// The widest gap between two parts along the axes of either frame. Tells boxes first and looks at
+/// vertices only where these leave the gap below `enough` grid units; stops at the first gap of at
+/// least that.
+[[nodiscard]] PartingGap frame_gap(const FramedPart& a, const FramedPart& b, double enough);
 
 }  // namespace strake::geometry

@@ -10,7 +10,7 @@ namespace {
 
 /// The widest gap along the normals of `from`; `shift` takes `to` into its coordinates.
 double widest_gap(const SupportPlanes& from, const VertexTree& to, const Vec3d& shift,
-                  double rounding, double enough) {
+                  double rounding) {
   double widest = -std::numeric_limits<double>::infinity();
   if (to.empty()) return widest;
   // The vertex that came nearest last: most normals are done with at a look at it.
@@ -23,14 +23,13 @@ double widest_gap(const SupportPlanes& from, const VertexTree& to, const Vec3d& 
     const VertexTree::Extreme nearest = to.greatest_along(-plane.normal);
     vertex = nearest.vertex.as<double>();
     widest = std::max(widest, certain(-nearest.value));
-    if (widest >= enough) break;
   }
   return widest;
 }
 
 }  // namespace
 
-double gap_bound(const DepthPart& a, const DepthPart& b, double enough) {
+double gap_bound(const DepthPart& a, const DepthPart& b) {
   const Part &x = *a.treed.placed.part, &y = *b.treed.placed.part;
   const Vec3d shift = (b.treed.placed.origin - a.treed.placed.origin).as<double>();
   double reach = std::fabs(shift.x) + std::fabs(shift.y) + std::fabs(shift.z);
@@ -39,9 +38,8 @@ double gap_bound(const DepthPart& a, const DepthPart& b, double enough) {
       reach += std::fabs(static_cast<double>(part->box.lo[k])) +
                std::fabs(static_cast<double>(part->box.hi[k]));
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
-  const double gap = widest_gap(*a.planes, b.planes->vertices, shift, rounding, enough);
-  if (gap >= enough) return gap;
-  return std::max(gap, widest_gap(*b.planes, a.planes->vertices, -shift, rounding, enough));
+  return std::max(widest_gap(*a.planes, b.planes->vertices, shift, rounding),
+                  widest_gap(*b.planes, a.planes->vertices, -shift, rounding));
 }
 
 }  // namespace strake::geometry

@@ -94,8 +94,8 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
                          testing::Values(Golden{false, "7048419728d9599f4dded7a49d66139e",
                                                 "31228cbdc94bfbdcb1a3ebea14c583b3"},
-                                         Golden{true, "60c619f1de095f7a055aa2539cf67b07",
-                                                "5536eb0a8dd45710cb7960d10ee4ac08"}),
+                                         Golden{true, "76dde0ef774f8898687f0b89bb833e18",
+                                                "772c4546059cd8358d765fb8bba1488e"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });

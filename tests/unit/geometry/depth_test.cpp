@@ -285,7 +285,7 @@ TEST(GapBound, IsNoMoreThanTheDistanceAndNoLessThanTheWidestGap) {
     const Subject b(cylinder(draw(3, 90), draw(5'000, 40'000), -20'000, 20'000),
                     {draw(-90'000, 90'000), draw(-90'000, 90'000), draw(-50'000, 50'000)});
     const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
-    const double bound = gap_bound({a.treed(), &pa}, {b.treed(), &pb}, 1e9);
+    const double bound = gap_bound({a.treed(), &pa}, {b.treed(), &pb});
     double widest = -1e300;
     const auto along = [&](const SupportPlanes& planes, const Subject& to, const Vec3l& shift) {
       for (const SupportPlanes::Plane& p : planes.planes) {
@@ -313,7 +313,7 @@ TEST(Depth, ATieNeedsNoSearch) {
   const Subject a(turned(box_mesh({0, 0, -12'000}, {6'000'000, 4'000'000, 0})));
   const Subject b(turned(box_mesh({1'000'000, 500'000, 0}, {2'000'000, 900'000, 700'000})));
   const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
-  const double gap = gap_bound({a.treed(), &pa}, {b.treed(), &pb}, 1000);
+  const double gap = gap_bound({a.treed(), &pa}, {b.treed(), &pb});
   EXPECT_LE(std::fabs(gap), 2);
   const Depth d = depth_of(a, b, {.threshold = 1000, .known_upper = std::max(0.0, -gap)});
   EXPECT_LE(d.upper, 2);

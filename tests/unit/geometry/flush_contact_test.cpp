@@ -87,7 +87,7 @@ TEST(FlushContact, AgreesWithTheGeneralTests) {
           << "seed " << seed;
     }
     const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
-    const double gap = gap_bound({a.treed(), &pa}, {b.treed(), &pb}, 1e9);
+    const double gap = gap_bound({a.treed(), &pa}, {b.treed(), &pb});
     if (gap > 0) {
       EXPECT_EQ(meeting, Meeting::apart) << "seed " << seed;
     }

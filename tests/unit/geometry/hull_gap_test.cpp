@@ -27,7 +27,7 @@ IndexedMesh moved(IndexedMesh mesh, const Vec3i& by) {
   return mesh;
 }
 
-HullGap gap_of(const Subject& a, const Subject& b, double enough = kFar) {
+PartingGap gap_of(const Subject& a, const Subject& b, double enough = kFar) {
   const PartFrame x = make_frame(a.part), y = make_frame(b.part);
   return hull_gap({a.treed().placed, &x}, {b.treed().placed, &y}, enough);
 }
@@ -47,7 +47,7 @@ TEST(HullGap, PipesThatCrossComeApartAtOnce) {
   PairWork plain, hinted;
   const auto near = closest(a.treed(), b.treed(), kFar, plain);
   ASSERT_TRUE(near);
-  const HullGap gap = gap_of(a, b);
+  const PartingGap gap = gap_of(a, b);
   EXPECT_LE(gap.lower, near->distance);
   EXPECT_GE(gap.lower, near->distance - 2);
   EXPECT_GE(gap_of(a, b, 5000).lower, 5000);
@@ -61,7 +61,7 @@ TEST(HullGap, PipesThatCrossComeApartAtOnce) {
 TEST(HullGap, ManyVerticesAndFarOrigins) {
   auto [a, b] = crossing_pipes(2100);
   a.origin = b.origin - Vec3l{0, 0, 1000};
-  const HullGap gap = gap_of(a, b);
+  const PartingGap gap = gap_of(a, b);
   PairWork work;
   const auto near = closest(a.treed(), b.treed(), kFar, work, 0, gap.normal);
   ASSERT_TRUE(near);
@@ -114,7 +114,7 @@ TEST(HullGap, TheHintChangesNoAnswer) {
       y = testing::turned(std::move(y));
     }
     const Subject a(x), b(y);
-    const HullGap gap = gap_of(a, b);
+    const PartingGap gap = gap_of(a, b);
     const double limit = draw.below(2) == 0 ? kFar : 2500;
     PairWork plain, hinted;
     const auto near = closest(a.treed(), b.treed(), limit, plain);

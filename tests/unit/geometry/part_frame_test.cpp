@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "strake/geometry/near_across.hpp"
 #include "support/part_builder.hpp"
 
 namespace strake::geometry {
@@ -21,9 +23,13 @@ using testing::Subject;
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-double gap(const Subject& a, const Subject& b, double enough = kAny) {
+PartingGap parting(const Subject& a, const Subject& b, double enough = kAny) {
   const PartFrame f = make_frame(a.part), g = make_frame(b.part);
   return frame_gap({a.treed().placed, &f}, {b.treed().placed, &g}, enough);
+}
+
+double gap(const Subject& a, const Subject& b, double enough = kAny) {
+  return parting(a, b, enough).lower;
 }
 
 /// Turned by a rotation of rational entries, snapped.
@@ -35,6 +41,14 @@ IndexedMesh askew(IndexedMesh mesh) {
          static_cast<std::int32_t>(std::lround((-p.x + 2 * p.y + 2 * p.z) / 3))};
   }
   return mesh;
+}
+
+/// The least height along a direction, in coordinates moved by a shift.
+double lowest(const Subject& subject, const Vec3d& n, const Vec3l& shift) {
+  double least = kAny;
+  for (const Vec3i& v : subject.part.vertices)
+    least = std::min(least, dot(n, (v.as<std::int64_t>() + shift).as<double>()));
+  return least;
 }
 
 TEST(PartFrame, BoxesAskewShowTheirTrueGap) {
@@ -52,12 +66,13 @@ TEST(PartFrame, BoxesAskewShowTheirTrueGap) {
 }
 
 /// A prism round z whose ends are fans of needles from one of their corners.
-IndexedMesh disc(double radius, std::int32_t low, std::int32_t high, std::uint32_t sides) {
+IndexedMesh disc(double radius, std::int32_t low, std::int32_t high, std::uint32_t sides,
+                 const Vec3i& at = {}) {
   std::vector<Vec3i> ring;
   for (std::uint32_t i = 0; i < sides; ++i) {
     const double angle = 2 * std::numbers::pi * i / sides;
-    ring.push_back({static_cast<std::int32_t>(std::lround(radius * std::cos(angle))),
-                    static_cast<std::int32_t>(std::lround(radius * std::sin(angle))), 0});
+    ring.push_back({at.x + static_cast<std::int32_t>(std::lround(radius * std::cos(angle))),
+                    at.y + static_cast<std::int32_t>(std::lround(radius * std::sin(angle))), 0});
   }
   return testing::prism_mesh(ring, low, high);
 }
@@ -104,6 +119,9 @@ TEST(PartFrame, NoGapIsWiderThanTheDistance) {
     }
     ++apart;
     EXPECT_LE(g, closest(a.treed(), b.treed(), kAny, work)->distance) << "seed " << seed;
+    // Across its normal all of a is above all of b by so much.
+    const Vec3d n = parting(a, b).normal;
+    EXPECT_GE(lowest(a, n, {}) + lowest(b, -n, b.origin - a.origin), g) << "seed " << seed;
     // An early end is no more than another bound.
     const double enough = gap(a, b, 5);
     EXPECT_LE(enough, g + 1e-9) << "seed " << seed;
@@ -135,6 +153,67 @@ TEST(AnyWithin, FindsSomethingAsNearIfThereIsAnything) {
   const Vec3d off = near->on_b - near->on_a;
   EXPECT_NEAR(std::sqrt(dot(off, off)), near->distance, 1e-6);
   EXPECT_FALSE(any_within(a.treed(), b.treed(), closest_pair->distance - 1e-3, work));
+}
+
+NearAcross across(const Subject& a, const Subject& b, double distance, PairWork& work) {
+  return near_across(a.treed().placed, b.treed().placed, parting(a, b).normal, distance, work);
+}
+
+TEST(NearAcross, LooksAtNothingButTheFacesThatMeet) {
+  const Subject deck(askew(box_mesh({0, 0, 0}, {900'000, 600'000, 3'000})));
+  const Subject pipe(askew(disc(50'000, 3'002, 900'000, 24, {300'000, 200'000, 0})));
+  PairWork work;
+  const NearAcross found = across(deck, pipe, 8, work);
+  ASSERT_TRUE(found.asked && found.near);
+  EXPECT_LE(found.near->distance, 8);
+  EXPECT_LE(work.triangle_pairs, 2U * 22U);
+  const Vec3d off = found.near->on_b - found.near->on_a;
+  EXPECT_NEAR(std::sqrt(dot(off, off)), found.near->distance, 1e-6);
+}
+
+TEST(NearAcross, SaysThatThereIsNothing) {
+  const Subject deck(askew(box_mesh({0, 0, 0}, {900'000, 600'000, 3'000})));
+  // Beside each other in the plane: no triangles are near, although the slab is narrow.
+  const Subject beside(askew(box_mesh({900'100, 0, 3'000}, {990'000, 600'000, 9'000})));
+  PairWork work;
+  const NearAcross none = across(deck, beside, 8, work);
+  EXPECT_TRUE(none.asked);
+  EXPECT_FALSE(none.near);
+  // Of many needles nothing is known: trees tell.
+  const Subject plate(askew(disc(500'000, 3'001, 10'000, 600)));
+  const NearAcross unknown = across(deck, plate, 8, work);
+  EXPECT_FALSE(unknown.asked);
+  EXPECT_FALSE(unknown.near);
+}
+
+TEST(NearAcross, FindsWhatAWalkFinds) {
+  int found = 0, none = 0;
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](int lo, int hi) {
+      return lo + static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(hi - lo));
+    };
+    const auto body = [&](std::int32_t low) {
+      const Vec3i at{draw(0, 900), draw(0, 900), 0};
+      return draw(0, 2) == 0 ? askew(disc(draw(60, 300), low, low + 90, 7, at))
+                             : askew(box_mesh({at.x, at.y, low}, {at.x + draw(20, 400),
+                                                                  at.y + draw(20, 400), low + 90}));
+    };
+    const Subject a(body(0)), b(body(90 + draw(-3, 9)));
+    PairWork work;
+    const PartingGap slab = parting(a, b);
+    const NearAcross quick = near_across(a.treed().placed, b.treed().placed, slab.normal, 8, work);
+    ASSERT_TRUE(quick.asked) << "seed " << seed;
+    const auto walked = any_within(a.treed(), b.treed(), 8, work);
+    EXPECT_EQ(quick.near.has_value(), walked.has_value()) << "seed " << seed;
+    ++(quick.near ? found : none);
+    if (!quick.near) continue;
+    EXPECT_LE(quick.near->distance, 8) << "seed " << seed;
+    EXPECT_GE(quick.near->distance, closest(a.treed(), b.treed(), 9, work)->distance)
+        << "seed " << seed;
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(none, 100);
 }
 
 }  // namespace

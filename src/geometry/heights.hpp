@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "geometry/pair_view.hpp"
+
+namespace strake::geometry {
+
+/// How high the vertices of a small part stand along a direction.
+class Heights {
+ public:
+  Heights(const PartView& view, const Vec3d& up) : part_(view.part()) {
+    all_.reserve(part_.vertices.size());
+    for (std::uint32_t v = 0; v < part_.vertices.size(); ++v) {
+      all_.push_back(dot(up, view.vertex(v).as<double>()));
+      least_ = std::min(least_, all_.back());
+    }
+  }
+
+  [[nodiscard]] double least() const { return least_; }
+
+  /// The triangles with a corner no higher than a level, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> below(double level) const {
+    std::vector<std::uint32_t> low;
+    for (std::uint32_t t = 0; t < part_.triangles.size(); ++t)
+      if (lowest(t) <= level) low.push_back(t);
+    return low;
+  }
+
+  [[nodiscard]] double lowest(std::uint32_t triangle) const {
+    const Triangle& t = part_.triangles[triangle];
+    return std::min({all_[t[0]], all_[t[1]], all_[t[2]]});
+  }
+  [[nodiscard]] double highest(std::uint32_t triangle) const {
+    const Triangle& t = part_.triangles[triangle];
+    return std::max({all_[t[0]], all_[t[1]], all_[t[2]]});
+  }
+
+ private:
+  const Part& part_;
+  std::vector<double> all_;  ///< by vertex
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+/// The heights of two parts over the slab between them: how far up a triangle may reach and still
+/// be near the other part.
+struct SlabHeights {
+  Heights a, b;
+  double level_a = 0, level_b = 0;
+
+  /// `normal`: unit, from b to a. Two points within `reach` grid units of each other are no
+  /// farther apart across the slab.
+  SlabHeights(const PartView& of_a, const PartView& of_b, const Vec3d& normal, double reach)
+      : a(of_a, normal), b(of_b, -normal) {
+    /// Far above the rounding of a height, far below what matters.
+    constexpr double kMargin = 1.0 / 16;
+    const double margin = reach * (1 + 1e-12) + kMargin;
+    level_a = margin - b.least();
+    level_b = margin - a.least();
+  }
+};
+
+}  // namespace strake::geometry
