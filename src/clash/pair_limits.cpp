@@ -8,6 +8,11 @@ namespace strake::clash {
 using geometry::Part;
 using geometry::PartKind;
 
+double apart_within(const Part& a, const Part& b, const NarrowOptions& options) {
+  if (a.kind != PartKind::sheet || b.kind != PartKind::sheet) return options.contact_distance;
+  return std::min(options.contact_distance, thresholds(a, b, options).overlap);
+}
+
 std::uint16_t part_flags(const Part& a, const Part& b) {
   std::uint16_t flags = 0;
   for (const Part* part : {&a, &b}) {

@@ -11,6 +11,11 @@ namespace strake::clash {
 [[nodiscard]] Thresholds thresholds(const geometry::Part& a, const geometry::Part& b,
                                     const NarrowOptions& options);
 
+/// How far the corners of two parts may move for what such moves part to be touching, grid units:
+/// the contact distance, of two sheets no more than may overlap, or it would decide their class.
+[[nodiscard]] double apart_within(const geometry::Part& a, const geometry::Part& b,
+                                  const NarrowOptions& options);
+
 /// The flags of a pair that come from its parts.
 [[nodiscard]] std::uint16_t part_flags(const geometry::Part& a, const geometry::Part& b);
 

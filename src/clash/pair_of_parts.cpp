@@ -248,6 +248,15 @@ void PairOfParts::nearly_touching(const geometry::Closest& near, double gap,
   conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
 }
 
+/// Whether moves within a contact distance that is more than may overlap part two sheets, so that
+/// nobody can say whether they cross.
+bool PairOfParts::may_touch(DepthGoal goal) {
+  if (options_.contact_distance <= goal.apart_within) return false;
+  if (goal.known_upper <= options_.contact_distance) return true;
+  goal.apart_within = options_.contact_distance;
+  return depth_of(part_a_, part_b_, goal, work_).upper == 0;
+}
+
 void PairOfParts::interpenetrating(const FirstLook& look, PartAnswer& answer) {
   const MeetingResult& meeting = look.meeting;
   DepthGoal goal;
@@ -258,11 +267,11 @@ void PairOfParts::interpenetrating(const FirstLook& look, PartAnswer& answer) {
   // on each other askew passes to and fro along lines that mean nothing.
   const bool sheets =
       a_.placed.part->kind == PartKind::sheet && b_.placed.part->kind == PartKind::sheet;
-  if (sheets && goal.known_upper <= options_.contact_distance) {
+  goal.apart_within = apart_within(*a_.placed.part, *b_.placed.part, options_);
+  if (sheets && goal.known_upper <= goal.apart_within) {
     touching(meeting, answer);
     return;
   }
-  goal.apart_within = options_.contact_distance;
   goal.triangle_a = meeting.triangle_a;
   goal.triangle_b = meeting.triangle_b;
   goal.meeting_point = meeting.point;
@@ -272,10 +281,13 @@ void PairOfParts::interpenetrating(const FirstLook& look, PartAnswer& answer) {
     touching(meeting, answer);
     return;
   }
+  if (sheets && may_touch(goal)) depth.lower = 0;
   if (!(depth.value > 0)) {
     depth.value = kLeastDepth;
     depth.point = meeting.point;
   }
+  // What parts the two by a move bounds the depth of a sheet in a solid as well.
+  if (!sheets) depth.upper = std::min(depth.upper, goal.known_upper);
   depth.upper = std::max(depth.upper, depth.value);
   answer.separation = {
       .d = -depth.value, .lower = -depth.upper, .upper = -depth.lower, .interiors_meet = true};

@@ -40,6 +40,7 @@ class PairOfParts {
   void touching(const geometry::MeetingResult& meeting, PartAnswer& answer);
   [[nodiscard]] bool may_be_flush(double gap) const;
   void nearly_touching(const geometry::Closest& near, double gap, PartAnswer& answer) const;
+  [[nodiscard]] bool may_touch(geometry::DepthGoal goal);
   void interpenetrating(const FirstLook& look, PartAnswer& answer);
   [[nodiscard]] double sag() const;
   [[nodiscard]] double sag_beside(const std::optional<ClosedForm>& form) const;

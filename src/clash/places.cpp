@@ -172,7 +172,7 @@ class PairPlaces {
     geometry::DepthGoal goal;
     goal.threshold = thresholds_.overlap;
     goal.known_upper = -whole_.separation.lower;
-    goal.apart_within = options_.contact_distance;
+    goal.apart_within = apart_within(part_a_, part_b_, options_);
     goal.triangle_a = place.nearest.triangle_a;
     goal.triangle_b = place.nearest.triangle_b;
     goal.meeting_point = place.nearest.on_a;

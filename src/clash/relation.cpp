@@ -64,6 +64,11 @@ bool skins_meet(const TreedPart& a, const TreedPart& b, double band, geometry::P
   return near && near->distance <= band;
 }
 
+/// Of the one of the two that is a solid.
+double solid_thickness(const TreedPart& a, const TreedPart& b) {
+  return (a.placed.part->kind == PartKind::solid ? a : b).placed.part->thickness();
+}
+
 /// Two sheets that are the same one: exactly, or each within the band of the other.
 bool one_sheet(const TreedPart& a, const TreedPart& b, const MeetingResult& meeting, double band,
                geometry::PairWork& work) {
@@ -91,6 +96,10 @@ Relation relation_of(const DepthPart& deep_a, const DepthPart& deep_b,
   if (a.placed.part->kind == PartKind::sheet || b.placed.part->kind == PartKind::sheet) {
     if (meeting.meeting == Meeting::a_inside_b) return Relation::a_in_b;
     if (meeting.meeting == Meeting::b_inside_a) return Relation::b_in_a;
+    // On the skin of a solid, but for what the snap has made of it; slivers as thin have no inside.
+    if (depth.upper <= band && a.placed.part->kind != b.placed.part->kind &&
+        solid_thickness(a, b) >= 4 * band)
+      return Relation::abut_outside;
     return one_sheet(a, b, meeting, band, work) ? Relation::duplicate : Relation::cross;
   }
   if (meeting.meeting == Meeting::a_inside_b)

@@ -12,14 +12,14 @@ namespace strake {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, double>, 26> kUnits{{
+constexpr std::array<std::pair<std::string_view, double>, 27> kUnits{{
     {"um", 0.001},      {"µm", 0.001},      {"micrometre", 0.001}, {"micrometer", 0.001},
     {"mm", 1},          {"millimetre", 1},  {"millimeter", 1},     {"cm", 10},
     {"centimetre", 10}, {"centimeter", 10}, {"dm", 100},           {"decimetre", 100},
     {"decimeter", 100}, {"m", 1000},        {"metre", 1000},       {"meter", 1000},
     {"km", 1e6},        {"kilometre", 1e6}, {"kilometer", 1e6},    {"in", 25.4},
     {"inch", 25.4},     {"inches", 25.4},   {"\"", 25.4},          {"ft", 304.8},
-    {"foot", 304.8},    {"feet", 304.8},
+    {"foot", 304.8},    {"feet", 304.8},    {"'", 304.8},
 }};
 constexpr std::string_view kUnitNames = "um, mm, cm, dm, m, km, in or ft";
 /// Scales beyond these are slips of the pen, and their sheets no paper.

@@ -3,8 +3,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "strake/core/glob.hpp"
@@ -34,14 +38,28 @@ struct Comparable {
   double left = 0, right = 0;
 };
 
+/// As values have it: in capitals too, and with more behind it ("150MM x 20MM").
+std::optional<double> unit_of_value_mm(std::string_view unit) {
+  if (unit.empty()) return 1.0;
+  if (const auto mm = unit_mm(unit)) return mm;
+  std::string word(unit.substr(0, unit.find_first_of(" \t")));
+  for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return unit_mm(word);
+}
+
+/// 6in and 152.4mm are one length, though their products are not the same double.
+bool differ_by_rounding(double x, double y) {
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  return std::fabs(x - y) <= kRounding * std::max(std::fabs(x), std::fabs(y));
+}
+
 std::optional<Comparable> comparable(const Quantity& left, const Quantity& right) {
   if (left.unit == right.unit) return Comparable{left.number, right.number};
-  const auto in_mm = [](const Quantity& q) {
-    return q.unit.empty() ? std::optional(1.0) : unit_mm(q.unit);
-  };
-  const auto l = in_mm(left), r = in_mm(right);
+  const auto l = unit_of_value_mm(left.unit), r = unit_of_value_mm(right.unit);
   if (!l || !r) return std::nullopt;
-  return Comparable{left.number * *l, right.number * *r};
+  Comparable both{left.number * *l, right.number * *r};
+  if (differ_by_rounding(both.left, both.right)) both.left = both.right;
+  return both;
 }
 
 bool holds(Operator op, const Comparable& c) {

@@ -35,11 +35,12 @@ using test::Profile;
 using test::refined;
 using test::shuffled;
 
-Pair pair_of(const TriangleMesh& a, const TriangleMesh& b, const parallel::Context& context = {}) {
+Pair pair_of(const TriangleMesh& a, const TriangleMesh& b, const parallel::Context& context = {},
+             const Options& options = {}) {
   test::ClashModel m;
   m.object("a").body(a);
   m.object("b").body(b);
-  const Report report = m.detect({}, context);
+  const Report report = m.detect(options, context);
   EXPECT_EQ(report.pairs.size(), 1U);
   return report.pairs.empty() ? Pair{} : report.pairs.front();
 }
@@ -195,8 +196,28 @@ TEST(FlushSheets, OneOnASolidIsAContact) {
         drawn({{300, -100}, {300, 0}, {700, 0}, {700, -100}}, 200, 800)})
     turn_every_way(sheet, plate, [](const Pair& p) {
       EXPECT_EQ(p.cls, Class::contact) << p.d_mm;
+      EXPECT_EQ(p.relation, Relation::abut_outside);
       EXPECT_LE(std::fabs(p.d_mm), kBand);
     });
+}
+
+TEST(FlushSheets, AWideContactDistanceHidesNoHit) {
+  const TriangleMesh floor = drawn(kFloor, 0, 1000);
+  const auto fold = [&](double down, double contact_distance_mm) {
+    const Options options{.contact_distance_mm = contact_distance_mm};
+    return pair_of(floor, drawn({{300, 100}, {500, -down}, {700, 100}}, 200, 800), {}, options);
+  };
+  EXPECT_EQ(fold(3, 2).cls, Class::hit);
+  EXPECT_EQ(fold(3, 2).flags & kUncertain, 0);
+  for (const double down : {1.2, 3.0}) {
+    const Pair p = fold(down, 4);
+    EXPECT_EQ(p.cls, Class::hit) << p.d_mm;
+    EXPECT_NE(p.flags & kUncertain, 0);
+    EXPECT_LT(p.d_lower_mm, -100);
+    EXPECT_EQ(p.d_upper_mm, 0) << "moves of " << down << " mm part them";
+  }
+  // Within the touch overlap it is a touch as any.
+  expect_touch(fold(0.5, 4));
 }
 
 }  // namespace

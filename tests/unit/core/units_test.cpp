@@ -14,7 +14,8 @@ TEST(Units, lengths) {
   for (const Case& one :
        {Case{"25mm", 25}, Case{"0.5m", 500}, Case{" -1.5 cm ", -15}, Case{"1in", 25.4},
         Case{"2ft", 609.6}, Case{"3um", 0.003}, Case{"3µm", 0.003}, Case{"1e3m", 1e6}, Case{"0", 0},
-        Case{"0.0", 0}, Case{"2 metres", 2000}, Case{"+7mm", 7}, Case{"12\"", 304.8}}) {
+        Case{"0.0", 0}, Case{"2 metres", 2000}, Case{"+7mm", 7}, Case{"12\"", 304.8},
+        Case{"6'", 1828.8}}) {
     const Result<double> got = parse_length_mm(one.text);
     ASSERT_TRUE(got) << one.text << ": " << got.error().text();
     EXPECT_DOUBLE_EQ(*got, one.mm) << one.text;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "strake/parallel/team.hpp"
@@ -98,6 +99,8 @@ TEST_F(SelectionTest, AttributesAreComparedWithUnits) {
   EXPECT_EQ(picked("@DN > 20cm"), "v1") << "8 in are 203.2 mm";
   EXPECT_EQ(picked("@DN <= 100"), "p1");
   EXPECT_EQ(picked("@DN = 0.2m"), "p2");
+  // 203.2 mm, and a product of doubles that is not.
+  EXPECT_EQ(picked("@DN = 203.2mm"), "v1");
   EXPECT_EQ(picked("@DN = 100"), "p1");
   EXPECT_EQ(picked("@Part = 7"), "") << "part numbers are text";
   EXPECT_EQ(picked("@Part < 8"), "p1");
@@ -107,6 +110,29 @@ TEST_F(SelectionTest, AttributesAreComparedWithUnits) {
   EXPECT_EQ(picked("@Spec = old"), "p2") << "every value of a repeated attribute counts";
   EXPECT_EQ(picked("@Spec != S-10"), "p2 v1 w1 c1") << "what has no Spec has not that Spec";
   EXPECT_EQ(picked("@\"no such\" = *"), "");
+}
+
+TEST_F(SelectionTest, LengthsAreComparedAndNotTheirRoundings) {
+  for (int inches = 1; inches <= 48; ++inches) {
+    const std::string in = std::to_string(inches) + "in";
+    const int tenths = 254 * inches;
+    const std::string mm = std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + "mm";
+    for (const auto& [value, asked] : {std::pair(in, mm), std::pair(mm, in)}) {
+      model_.objects[0].attributes = {{"L", value}};
+      EXPECT_EQ(picked("@L = " + asked), "p1") << value;
+      EXPECT_EQ(picked("@L >= " + asked + " and @L <= " + asked), "p1") << value;
+      EXPECT_EQ(picked("@L < " + asked + " or @L > " + asked), "") << value;
+    }
+  }
+}
+
+TEST_F(SelectionTest, ValuesAreReadAsDesignersWriteThem) {
+  for (const char* value : {"150 MM", "150Mm", "150mm x 20mm", "150 mm (nominal)", "0.15 M"}) {
+    model_.objects[0].attributes = {{"L", value}};
+    EXPECT_EQ(picked("@L >= 150mm and @L < 15.1cm"), "p1") << value;
+  }
+  model_.objects[0].attributes = {{"L", "150 x 20"}};
+  EXPECT_EQ(picked("@L >= 150mm"), "") << "no length";
 }
 
 TEST_F(SelectionTest, BoxesOfTheModel) {
