@@ -106,7 +106,7 @@ class NearSkin {
     std::vector<MovingTriangle> moving;
     moving.reserve(triangles_.size());
     for (const std::uint32_t t : triangles_) moving.push_back({t, false, false});
-    moves_ = corner_moves(view_.part(), moving, most);
+    moves_ = corner_moves(view_.part(), moving, {}, most);
     for (const CornerMove& move : moves_) {
       const Vec3d by = move.by.as<double>();
       const double root = std::sqrt(dot(by, by));

@@ -12,10 +12,11 @@
 namespace strake::geometry {
 namespace {
 
-/// What a triangle says of a corner.
+/// What a triangle says of a corner, or is said of it besides.
 struct Say {
   std::uint32_t vertex = 0;
   bool leads = false;
+  bool besides = false;
   Vec3d way;  ///< unit
 };
 
@@ -41,7 +42,7 @@ Vec3i best_move(std::span<const Say> say, const std::vector<Vec3i>& moves) {
     const Vec3d way = move.as<double>();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < say.size() && least > most; ++i)
-      if (say[i].leads || !led) least = std::min(least, dot(say[i].way, way));
+      if (say[i].leads || say[i].besides || !led) least = std::min(least, dot(say[i].way, way));
     if (least > most) {
       most = least;
       best = move;
@@ -53,17 +54,18 @@ Vec3i best_move(std::span<const Say> say, const std::vector<Vec3i>& moves) {
 }  // namespace
 
 std::vector<CornerMove> corner_moves(const Part& part, std::span<const MovingTriangle> triangles,
-                                     double most) {
+                                     std::span<const CornerWay> ways, double most) {
   std::vector<Say> say;
-  say.reserve(3 * triangles.size());
+  say.reserve(3 * triangles.size() + ways.size());
   for (const MovingTriangle& t : triangles) {
     const Triangle& corner = part.triangles[t.triangle];
     const auto at = [&](std::size_t i) { return part.vertices[corner[i]].as<std::int64_t>(); };
     // Exact before it is rounded: the same from whichever corner.
     Vec3d n = cross_exact(at(1) - at(0), at(2) - at(0)).as<double>();
     n = n * ((t.outward ? 1 : -1) / length(n));
-    for (const std::uint32_t v : corner) say.push_back({v, t.leads, n});
+    for (const std::uint32_t v : corner) say.push_back({v, t.leads, false, n});
   }
+  for (const CornerWay& w : ways) say.push_back({w.vertex, false, true, w.way});
   std::ranges::sort(say, {}, &Say::vertex);
   const std::vector<Vec3i> moves = moves_up_to(most);
   std::vector<CornerMove> all;

@@ -16,6 +16,12 @@ struct MovingTriangle {
   bool leads = false;   ///< at its corners only triangles that lead have a say
 };
 
+/// Where else a corner is to move.
+struct CornerWay {
+  std::uint32_t vertex = 0;
+  Vec3d way;  ///< unit
+};
+
 struct CornerMove {
   std::uint32_t vertex = 0;
   Vec3i by;
@@ -23,10 +29,10 @@ struct CornerMove {
 
 /// For each corner of the triangles, ascending: of the whole moves no longer than `most` grid units
 /// (at least 1) one that takes it farthest off all the planes that have a say there, each to its
-/// side: that which makes the least of these ways the greatest. The same however the triangles are
-/// numbered and their corners ordered.
+/// side, and along all its `ways`, of corners of the triangles: that which makes the least of these
+/// the greatest. The same however the triangles are numbered and their corners ordered.
 [[nodiscard]] std::vector<CornerMove> corner_moves(const Part& part,
                                                    std::span<const MovingTriangle> triangles,
-                                                   double most);
+                                                   std::span<const CornerWay> ways, double most);
 
 }  // namespace strake::geometry

@@ -16,6 +16,7 @@
 #include "geometry/directions.hpp"
 #include "geometry/parting/corner_moves.hpp"
 #include "geometry/parting/near_areas.hpp"
+#include "geometry/parting/ways_back.hpp"
 #include "geometry/piece_segment.hpp"
 #include "strake/geometry/predicates.hpp"
 
@@ -23,10 +24,11 @@ namespace strake::geometry {
 namespace {
 
 /// Work limits: pieces that are looked at, and attempts for the areas of one sheet. Each area may
-/// fail on either side, and where it stays may keep its neighbours from moving. A heavy pair, of
-/// which not all pieces are known at first, has one attempt for either side.
+/// fail on either side, at first and when its ends are held back, and where it stays may keep its
+/// neighbours from moving. A heavy pair, of which not all pieces are known at first, has one
+/// attempt for either side, and one more.
 constexpr std::size_t kMostPieces = std::size_t{1} << 18U;
-constexpr int kMostAttempts = 4, kMostAttemptsIfHeavy = 2;
+constexpr int kMostAttempts = 8, kMostAttemptsIfHeavy = 3;
 /// Moves longer than this, grid units, are of sheets whose numbers say nothing.
 constexpr double kLongestMove = 1 << 20;
 
@@ -91,9 +93,14 @@ struct MovedSheet {
     part.box = box_of(part.vertices);
   }
 
+  /// A corner of the triangle or more.
+  [[nodiscard]] bool moves(const Triangle& t) const {
+    return moved[t[0]] || moved[t[1]] || moved[t[2]];
+  }
+
   /// A triangle that has no area any more.
   [[nodiscard]] bool is_flattened(const Triangle& t) const {
-    if (!moved[t[0]] && !moved[t[1]] && !moved[t[2]]) return false;
+    if (!moves(t)) return false;
     const auto at = [&](std::size_t i) { return part.vertices[t[i]].as<std::int64_t>(); };
     return cross_exact(at(1) - at(0), at(2) - at(0)) == Vec3<Int128>{};
   }
@@ -123,7 +130,7 @@ class Parting {
         return std::nullopt;
       CrossingPieces left = judged(moved);
       if (moving_ > 0 && left.truncated) return std::nullopt;
-      if (std::ranges::none_of(plans_, &Plan::failed)) {
+      if (std::ranges::none_of(plans_, [](const Plan& p) { return p.failed || p.pokes; })) {
         pieces = std::move(left);
         return moved;
       }
@@ -140,6 +147,14 @@ class Parting {
     bool outward = true;  ///< to the outer side of its first triangle
     bool tried = false;   ///< the other side was
     bool failed = false;
+    bool pokes = false;  ///< it fails with nothing but ends that reach through by little
+    bool held = false;   ///< they were held back, on this side
+  };
+
+  /// A corner that an area holds back from what it ends on.
+  struct End {
+    std::uint32_t area = 0;
+    CornerWay back;
   };
 
   /// Areas that hold pieces, but none that certainly last; where not all pieces are known, all such
@@ -208,43 +223,74 @@ class Parting {
     std::ranges::sort(owners_);
     const auto twice = std::ranges::unique(owners_);
     owners_.erase(twice.begin(), twice.end());
-    return {part_, corner_moves(part_, moving, within_)};
+    std::vector<CornerWay> back;
+    back.reserve(ends_.size());
+    for (const End& end : ends_) back.push_back(end.back);
+    return {part_, corner_moves(part_, moving, back, within_)};
   }
 
-  /// The pieces that are left; the plans that fail are marked. Only some of them where all fail.
+  /// The pieces that are left; the plans that fail are marked, and those with ends to hold back.
+  /// Only some of them where all fail.
   CrossingPieces judged(MovedSheet& sheet) {
     for (std::uint32_t t = 0; t < part_.triangles.size(); ++t)
       if (sheet.is_flattened(part_.triangles[t])) fail_at(t, sheet);
     if (std::ranges::any_of(plans_, &Plan::failed)) return {};
     sheet.tree = PartTree(sheet.part, work_.context());
     const TreedPart own{{&sheet.part, placed_.origin}, &sheet.tree};
+    const TreedPart &a = mover_.is_b ? treed_a_ : own, &b = mover_.is_b ? own : treed_b_;
+    const PartView view_a(a, a_.shift()), view_b(b, b_.shift());
     const auto note = [&](const CrossingPiece& piece) {
-      for (const std::uint32_t t : mover_.triangles(part_, piece)) fail_at(t, sheet);
+      for (const std::uint32_t t : mover_.triangles(part_, piece))
+        if (sheet.moves(part_.triangles[t]) &&
+            !hold_back(ways_back(view_a, view_b, piece, mover_.is_b, t, 2 * within_), sheet))
+          fail_at(t, sheet);
       return moving_ == 0;
     };
-    CrossingPieces left = crossing_pieces(mover_.is_b ? treed_a_ : own,
-                                          mover_.is_b ? own : treed_b_, kMostPieces, work_, note);
+    CrossingPieces left = crossing_pieces(a, b, kMostPieces, work_, note);
     // Of those along areas that lie on the other sheet exactly it is told in the end.
     for (const CrossingPiece& piece : left.all) note(piece);
     return left;
+  }
+
+  template <class Visit>
+  void for_owners(std::uint32_t vertex, Visit&& visit) const {
+    const auto first = std::ranges::lower_bound(owners_, std::pair(vertex, std::uint32_t{0}));
+    for (auto it = first; it != owners_.end() && it->first == vertex; ++it) visit(it->second);
   }
 
   /// The areas that move a corner of the triangle.
   void fail_at(std::uint32_t triangle, const MovedSheet& sheet) {
     for (const std::uint32_t v : part_.triangles[triangle]) {
       if (!sheet.moved[v]) continue;
-      const auto first = std::ranges::lower_bound(owners_, std::pair(v, std::uint32_t{0}));
-      for (auto it = first; it != owners_.end() && it->first == v; ++it) {
-        Plan& plan = plans_[it->second];
-        moving_ -= plan.failed ? 0 : 1;
-        plan.failed = true;
-      }
+      for_owners(v, [&](std::uint32_t area) {
+        moving_ -= plans_[area].failed ? 0U : 1U;
+        plans_[area].failed = true;
+      });
     }
   }
 
-  /// To the other side, where that was not tried; then not at all. False where nothing moves.
+  /// Has the corners held back in the next attempt. False where they were already, or do not move.
+  bool hold_back(const std::vector<CornerWay>& ways, const MovedSheet& sheet) {
+    bool held = false;
+    for (const CornerWay& back : ways) {
+      if (!sheet.moved[back.vertex]) continue;
+      for_owners(back.vertex, [&](std::uint32_t area) {
+        Plan& plan = plans_[area];
+        if (plan.held) return;
+        ends_.push_back({area, back});
+        plan.pokes = held = true;
+      });
+    }
+    return held;
+  }
+
+  /// On the same side, where corners that are held back may do; to the other side, where that was
+  /// not tried; then not at all. False where nothing moves.
   bool try_others() {
+    std::erase_if(ends_, [&](const End& end) { return plans_[end.area].failed; });
     for (Plan& plan : plans_) {
+      plan.held = !plan.failed && (plan.held || plan.pokes);
+      plan.pokes = false;
       if (!plan.failed) continue;
       plan.failed = false;
       plan.moves = !plan.tried;
@@ -263,6 +309,7 @@ class Parting {
   PairWork& work_;
   NearAreas near_;
   std::vector<Plan> plans_;  ///< by area
+  std::vector<End> ends_;    ///< of areas that move
   std::size_t moving_ = 0;   ///< plans that move and have not failed
   std::vector<std::pair<std::uint32_t, std::uint32_t>> owners_;  ///< vertices that areas move
 };

@@ -180,12 +180,6 @@ void judge(const Drawn& a, const Drawn& b, Scene& scene, Tally& tally) {
     }
   }
   ++tally.lost;
-  ++tally.lost;
-  Options plain = options;
-  plain.contact_distance_mm = 0;
-  const Report pr = m.detect(plain);
-  std::printf("PLAIN %d %.9f [%.9f %.9f] %x askew %d\n", int(pr.pairs.size()), pr.pairs[0].d_mm,
-              pr.pairs[0].d_lower_mm, pr.pairs[0].d_upper_mm, int(pr.pairs[0].flags), askew);
   ADD_FAILURE() << "lost: " << report.pairs.size() << " pairs, d "
                 << (report.pairs.empty() ? 1 : report.pairs.front().d_mm);
 }

@@ -67,6 +67,18 @@ void expect_touch(const Pair& p, Relation relation = Relation::abut_outside) {
   EXPECT_GE(p.d_lower_mm, -kBand);
 }
 
+/// Joined where they share corners.
+TriangleMesh all_of(const std::vector<TriangleMesh>& meshes) {
+  TriangleMesh all;
+  for (const TriangleMesh& mesh : meshes) {
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const geometry::Triangle& t : mesh.triangles)
+      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  return all;
+}
+
 const Profile kFloor{{0, 0}, {1000, 0}};
 const Profile kAngle{{0, 300}, {0, 0}, {300, 0}};
 
@@ -129,6 +141,36 @@ TEST(FlushSheets, GridsOnGridsTouch) {
                    [](const Pair& p) { expect_touch(p); });
 }
 
+// No move to one side is enough: their rims have to leave what they end on as well.
+TEST(FlushSheets, OnesThatEndInFoldsTouch) {
+  const auto touches = [](const Profile& on, const Profile& what, int bays = 1) {
+    SCOPED_TRACE(testing::PrintToString(on) + " and " + testing::PrintToString(what));
+    turn_every_way(drawn(on, 0, 120), drawn(what, 0, 100, bays),
+                   [](const Pair& p) { expect_touch(p); });
+    turn_every_way(drawn(refined(what, 3), 10, 130, 4, true), drawn(refined(on, 2), 0, 120, 3),
+                   [](const Pair& p) { expect_touch(p); });
+  };
+  // A plate on the web of a Z, whose flanges leave to different sides, at any angle.
+  for (const double slope : {-20, -10, 0, 30, 100})
+    touches({{0, -slope}, {50, 0}, {50, 80}, {100, 80 + slope}}, {{50, 0}, {50, 80}});
+  touches({{0, 0}, {50, 0}, {50, 80}, {100, 80}}, {{50, 30}, {50, 80}}, 5);
+  touches({{0, 0}, {50, 0}, {50, 80}, {100, 80}}, {{50, 0}, {50, 80}, {20, 80}}, 2);
+  touches({{0, 0}, {50, 0}, {50, 80}, {100, 80}}, {{90, 60}, {50, 80}, {50, 0}}, 2);
+  touches({{0, 0}, {50, 0}, {50, 80}, {100, 80}}, {{25, 0}, {50, 0}, {50, 80}, {20, 60}});
+  // One that stands on a floor, flush with a wall of it.
+  touches({{100, 0}, {0, 0}, {0, 60}}, {{0, 0}, {0, 40}, {50, 40}, {50, 0}});
+  // A plate on the web between the flanges of an I, and on a wall in the corner of three.
+  const TriangleMesh plate = drawn({{0, 0}, {0, 80}}, 0, 100, 2);
+  const TriangleMesh beam =
+      all_of({drawn({{0, 0}, {0, 80}}, 0, 120), drawn({{-40, 80}, {0, 80}, {40, 80}}, 0, 120),
+              drawn({{-40, 0}, {0, 0}, {40, 0}}, 0, 120)});
+  TriangleMesh side = drawn({{0, 0}, {50, 0}}, 0, 90);
+  for (Vec3d& v : side.vertices) v = {v.x, 0, v.y};
+  const TriangleMesh corner = all_of({drawn({{50, 0}, {0, 0}, {0, 90}}, 0, 120), side});
+  for (const TriangleMesh& on : {beam, corner})
+    turn_every_way(on, plate, [](const Pair& p) { expect_touch(p); });
+}
+
 TEST(FlushSheets, WhatGoesOnToBothSidesCrosses) {
   const auto crosses = [](const Pair& p) {
     EXPECT_EQ(p.cls, Class::hit) << p.d_mm;
@@ -170,9 +212,11 @@ TEST(FlushSheets, AreJudgedTheSameWhicheverWayTheyAreWrittenDown) {
   test::Draw draw(11);
   parallel::Team team(3);
   const TriangleMesh half = drawn(arc(500, 0, 12), 0, 1000, 5, true);
-  // Nothing but a touch, a touch here and a crossing there, and a crossing where they touch.
+  // Nothing but a touch, one that ends in folds, a touch here and a crossing there, and a crossing
+  // where they touch.
   const std::vector<std::pair<TriangleMesh, TriangleMesh>> pairs{
       {half, drawn(arc(500, 3, 15), 300, 1200, 4)},
+      {drawn({{0, 0}, {50, 0}, {50, 80}, {100, 80}}, 0, 120), drawn({{50, 0}, {50, 80}}, 0, 100)},
       {drawn({{0, 0}, {1000, 0}, {1000, 400}, {0, 400}}, 0, 1000, 3),
        drawn({{100, 0}, {800, 0}, {800, 200}, {600, 200}, {600, 700}}, 100, 900, 2, true)},
       {drawn(refined(kFloor, 3), 0, 1000, 3, true),
