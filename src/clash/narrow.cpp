@@ -70,9 +70,9 @@ PartAnswer judge_distance(const NarrowPart& a, const NarrowPart& b, const Narrow
 }
 
 PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b, const FirstLook& look,
-                       const NarrowOptions& options, NarrowWork& work) {
+                       const KnownBefore& known, const NarrowOptions& options, NarrowWork& work) {
   return in_order(a, b, [&](const NarrowPart& x, const NarrowPart& y) {
-    return PairOfParts(x, y, options, work).depth(look);
+    return PairOfParts(x, y, options, work).depth(look, known);
   });
 }
 

@@ -48,7 +48,7 @@ namespace strake::clash {
 
 /// The answer for a pair that needs its depth.
 [[nodiscard]] PartAnswer judge_depth(const NarrowPart& a, const NarrowPart& b,
-                                     const FirstLook& look, const NarrowOptions& options,
-                                     NarrowWork& work);
+                                     const FirstLook& look, const KnownBefore& known,
+                                     const NarrowOptions& options, NarrowWork& work);
 
 }  // namespace strake::clash

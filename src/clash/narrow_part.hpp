@@ -79,7 +79,6 @@ struct FirstLook {
   enum class Next : std::uint8_t { nothing, distance, depth };
   PartAnswer answer;                ///< where nothing is left to ask
   geometry::MeetingResult meeting;  ///< in canonical order of the two
-  double gap = 0;                   ///< that of KnownBefore
   Next next = Next::nothing;
 };
 

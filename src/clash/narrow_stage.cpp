@@ -114,8 +114,8 @@ class ExactStage {
     return work_.over(deep, "depth", 1, [&](std::size_t i, const PartRef& a, const PartRef& b) {
       Candidate& c = candidates_[i];
       c.look.answer = charged(c, work_.context(), [&](NarrowWork& work) {
-        return judge_depth(aids_.planed(a), aids_.planed(b), c.look, stage_.pair_options.of(a, b),
-                           work);
+        return judge_depth(aids_.planed(a), aids_.planed(b), c.look, c.known,
+                           stage_.pair_options.of(a, b), work);
       });
     });
   }

@@ -89,7 +89,6 @@ std::optional<PartAnswer> PairOfParts::flush_across(const geometry::PartingGap& 
 
 FirstLook PairOfParts::look(const KnownBefore& known) {
   FirstLook look;
-  look.gap = known.gap;
   if (!known.flush_asked && may_be_flush(known.gap))
     if (const auto near = geometry::any_within(a_, b_, options_.contact_distance, work_.pair)) {
       nearly_touching(*near, known.gap, look.answer);
@@ -125,9 +124,9 @@ PartAnswer PairOfParts::distance(double reach) {
   return answer;
 }
 
-PartAnswer PairOfParts::depth(const FirstLook& look) {
+PartAnswer PairOfParts::depth(const FirstLook& look, const KnownBefore& known) {
   PartAnswer answer;
-  interpenetrating(look, answer);
+  interpenetrating(look.meeting, known.gap, answer);
   conclude(answer);
   return answer;
 }
@@ -257,11 +256,10 @@ bool PairOfParts::may_touch(DepthGoal goal) {
   return depth_of(part_a_, part_b_, goal, work_).upper == 0;
 }
 
-void PairOfParts::interpenetrating(const FirstLook& look, PartAnswer& answer) {
-  const MeetingResult& meeting = look.meeting;
+void PairOfParts::interpenetrating(const MeetingResult& meeting, double gap, PartAnswer& answer) {
   DepthGoal goal;
   goal.known_upper =
-      -std::max(look.gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}));
+      -std::max(gap, geometry::gap_bound({a_, part_a_.planes}, {b_, part_b_.planes}));
   goal.threshold = thresholds_.overlap;
   // Sheets that moves within the contact distance part touch: what the snap made of sheets that lie
   // on each other askew passes to and fro along lines that mean nothing.

@@ -28,7 +28,7 @@ class PairOfParts {
 
   [[nodiscard]] PartAnswer distance(double reach);
 
-  [[nodiscard]] PartAnswer depth(const FirstLook& look);
+  [[nodiscard]] PartAnswer depth(const FirstLook& look, const KnownBefore& known);
 
  private:
   double apart(double limit, PartAnswer& answer);
@@ -41,7 +41,7 @@ class PairOfParts {
   [[nodiscard]] bool may_be_flush(double gap) const;
   void nearly_touching(const geometry::Closest& near, double gap, PartAnswer& answer) const;
   [[nodiscard]] bool may_touch(geometry::DepthGoal goal);
-  void interpenetrating(const FirstLook& look, PartAnswer& answer);
+  void interpenetrating(const geometry::MeetingResult& meeting, double gap, PartAnswer& answer);
   [[nodiscard]] double sag() const;
   [[nodiscard]] double sag_beside(const std::optional<ClosedForm>& form) const;
   void conclude(PartAnswer& answer) const { conclude(answer, sag()); }

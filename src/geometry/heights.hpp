@@ -10,6 +10,9 @@
 
 namespace strake::geometry {
 
+/// Grid units: far above the rounding of a height, far below what matters.
+inline constexpr double kHeightMargin = 1.0 / 16;
+
 /// How high the vertices of a small part stand along a direction.
 class Heights {
  public:
@@ -56,9 +59,7 @@ struct SlabHeights {
   /// farther apart across the slab.
   SlabHeights(const PartView& of_a, const PartView& of_b, const Vec3d& normal, double reach)
       : a(of_a, normal), b(of_b, -normal) {
-    /// Far above the rounding of a height, far below what matters.
-    constexpr double kMargin = 1.0 / 16;
-    const double margin = reach * (1 + 1e-12) + kMargin;
+    const double margin = reach * (1 + 1e-12) + kHeightMargin;
     level_a = margin - b.least();
     level_b = margin - a.least();
   }

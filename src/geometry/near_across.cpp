@@ -23,7 +23,7 @@ constexpr std::size_t kMostTriangles = 1024;
 /// Most pairs of triangles.
 constexpr std::size_t kMostPairs = 4096;
 
-/// A triangle at an end of the slab, with its extent across the normal.
+/// A triangle at an end of the slab, with its extent in the plane of the slab.
 struct EndTriangle {
   std::uint32_t id = 0;
   DoubleTriangle triangle;
@@ -74,11 +74,9 @@ class Search {
 
   /// The first two that are near; nothing where none are.
   [[nodiscard]] std::optional<Closest> first(const EndTriangles& a, const EndTriangles& b) {
-    /// Far above the rounding of a height.
-    constexpr double kMargin = 1.0 / 16;
     for (const EndTriangle& x : a)
       for (const EndTriangle& y : b) {
-        if (!overlap(x, y, distance_ + kMargin)) continue;
+        if (!overlap(x, y, distance_ + kHeightMargin)) continue;
         ++work_.triangle_pairs;
         const DistanceBounds bounds = distance_bounds(x.triangle, y.triangle, squared_, squared_);
         if (!(bounds.upper <= squared_)) continue;

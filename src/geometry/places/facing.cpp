@@ -6,6 +6,7 @@
 #include "geometry/hull_body.hpp"
 
 namespace strake::geometry {
+
 Facing facing(const PartView& a, const PartView& b, double reach) {
   const VertexTree none;
   const Vec3d n = analytic::convex_gap(hull_body(a.part(), none, a.shift().as<double>()),
