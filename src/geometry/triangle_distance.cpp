@@ -59,6 +59,15 @@ double normal_slab(const DoubleTriangle& a, const DoubleTriangle& b) {
                        a.normal_squared, std::max(a.size, b.size));
 }
 
+/// The greatest of the slabs square to the first triangle's sides, in its plane; that of two
+/// triangles in one plane is among these. Stops at the first that is more than `enough`.
+double side_slabs(const DoubleTriangle& a, const DoubleTriangle& b, double enough) {
+  double widest = 0;
+  for (std::size_t i = 0; i < 3 && widest <= enough; ++i)
+    widest = std::max(widest, slab(cross(a.normal, a.corner[next(i)] - a.corner[i]), a, b));
+  return widest;
+}
+
 /// The best pair of points so far.
 struct Near {
   double squared = std::numeric_limits<double>::infinity();
@@ -85,6 +94,21 @@ void offer_foot(const Vec3d& corner, const Corners& t, const Vec3d& n, const Off
   const double sum = w0 + w1 + w2;
   if (!(w0 >= 0 && w1 >= 0 && w2 >= 0 && sum > 0)) return;
   offer(t[0] * (w0 / sum) + t[1] * (w1 / sum) + t[2] * (w2 / sum));
+}
+
+/// Where sides of the first triangle pass through the second's plane: triangles that cross have no
+/// nearest features, but a side of one of them meets the other.
+template <class Offer>
+void offer_crossings(const DoubleTriangle& a, const DoubleTriangle& b, const Offer& offer) {
+  const Vec3d& on_b = b.corner[0];
+  std::array<double, 3> height;
+  for (std::size_t i = 0; i < 3; ++i) height[i] = dot(b.normal, a.corner[i] - on_b);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double from = height[i], to = height[next(i)];
+    if (!(from * to < 0)) continue;
+    const Vec3d p = a.corner[i] + (a.corner[next(i)] - a.corner[i]) * (from / (from - to));
+    offer_foot(p, b.corner, b.normal, [&](const Vec3d& foot) { offer(p, foot); });
+  }
 }
 
 /// How far the triangles lie apart across a direction, exactly (times its length).
@@ -271,12 +295,19 @@ DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
   if (near_enough >= 0)  // most of those who ask so are near at their corners
     for (const Vec3d& from : p)
       for (const Vec3d& to : q)
-        if (const double up = rounded_up(squared_length(to - from)); up <= near_enough)
-          return {0, up};
+        if (const double squared = squared_length(to - from);
+            squared <= near_enough && rounded_up(squared) <= near_enough)
+          return {0, rounded_up(squared)};
   double lower = normal_slab(a, b);
   if (lower > enough) return {lower, kUnknown};
   lower = std::max(lower, normal_slab(b, a));
   if (lower > enough) return {lower, kUnknown};
+  if (near_enough >= 0) {
+    lower = std::max(lower, side_slabs(a, b, enough));
+    if (lower > enough) return {lower, kUnknown};
+    lower = std::max(lower, side_slabs(b, a, enough));
+    if (lower > enough) return {lower, kUnknown};
+  }
   Near near;
   for (std::size_t i = 0; i < 3; ++i) {
     near.offer(p[i], q[i]);
@@ -285,10 +316,15 @@ DistanceBounds distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
   }
   lower = std::max(lower, slab(near.on_b - near.on_a, a, b));
   if (lower > enough) return {lower, kUnknown};
-  if (rounded_up(near.squared) <= near_enough) return {lower, rounded_up(near.squared)};
+  offer_crossings(a, b, [&](const Vec3d& of_a, const Vec3d& of_b) { near.offer(of_a, of_b); });
+  offer_crossings(b, a, [&](const Vec3d& of_b, const Vec3d& of_a) { near.offer(of_a, of_b); });
+  const auto settled = [&] { return rounded_up(near.squared) <= near_enough; };
+  if (settled()) return {lower, rounded_up(near.squared)};
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t j = 0; j < 3; ++j) {
       offer_segments(p[i], p[next(i)] - p[i], q[j], q[next(j)] - q[j], near);
+      if (settled()) return {lower, rounded_up(near.squared)};
+    }
   lower = std::max(lower, slab(near.on_b - near.on_a, a, b));
   return {lower, rounded_up(near.squared)};
 }

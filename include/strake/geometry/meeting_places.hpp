@@ -80,9 +80,9 @@ struct MeetingPlaces {
 
 /// Whether it is certain, from flat faces alone, that two parts that come within reach of each
 /// other do so in one place: a plane lies between them, and what of either reaches it is one convex
-/// face. Most contacts of a model are of this kind. The plane is a coordinate plane or, where
-/// frames are given, along one of theirs. What a twentieth of the reach could make of it does not
-/// count. False says nothing.
+/// face, or of both one face of the same outline. Most contacts of a model are of this kind. The
+/// plane is a coordinate plane or, where frames are given, along one of theirs. What a twentieth of
+/// the reach could make of it does not count. False says nothing.
 [[nodiscard]] bool in_one_flat_place(const FramedPart& a, const FramedPart& b, double reach);
 
 /// Whether no vertex of a solid stands above the plane of a face by more than `slack` grid units.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -14,9 +15,10 @@
 namespace strake::geometry {
 namespace {
 
-SegmentNear near_edge(const PartView& view, std::uint32_t edge, const Corners& t) {
+std::optional<double> near_along_edge(const PartView& view, std::uint32_t edge, const Corners& t,
+                                      double squared) {
   const PartEdge& e = view.part().edges[edge];
-  return nearest_along(view.vertex(e.v0).as<double>(), view.vertex(e.v1).as<double>(), t);
+  return near_along(view.vertex(e.v0).as<double>(), view.vertex(e.v1).as<double>(), t, squared);
 }
 
 /// A feature of another triangle, and the pair that has it.
@@ -86,7 +88,7 @@ std::size_t join_round_triangles(const PlacesSide& side, const SidePairs& own,
       for (const std::uint32_t edge : other.edges[other.row[i]])
         if (edge != kNoFace) features.push_back({edge, i});
     joins += join_features(features, sets, [&](std::uint32_t edge) {
-      return near_edge(side.other, edge, t).squared <= squared;
+      return near_along_edge(side.other, edge, t, squared).has_value();
     });
     // Over edges all triangles round a corner hang together, but where two fans only touch.
     if (together()) continue;
@@ -118,12 +120,13 @@ std::vector<EdgeStop> edge_stops(const PlacesSide& side, const SidePairs& own,
     while (last < stops.size() && stops[last].edge == stops[first].edge &&
            stops[last].other == stops[first].other)
       ++last;
-    const SegmentNear near =
-        near_edge(side.own, stops[first].edge, as_doubles(side.other.corners(stops[first].other)));
-    if (near.squared <= reach * reach)
+    const std::optional<double> along =
+        near_along_edge(side.own, stops[first].edge,
+                        as_doubles(side.other.corners(stops[first].other)), reach * reach);
+    if (along)
       for (std::size_t i = first; i < last; ++i) {
         stops[kept] = stops[i];
-        stops[kept++].along = near.along;
+        stops[kept++].along = *along;
       }
     first = last;
   }

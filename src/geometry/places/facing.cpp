@@ -2,17 +2,20 @@
 #include "geometry/places/facing.hpp"
 
 #include "geometry/analytic/convex_gap.hpp"
-#include "geometry/heights.hpp"
 #include "geometry/hull_body.hpp"
 
 namespace strake::geometry {
 
-Facing facing(const PartView& a, const PartView& b, double reach) {
+SlabHeights slab_heights(const PartView& a, const PartView& b, double reach) {
   const VertexTree none;
   const Vec3d n = analytic::convex_gap(hull_body(a.part(), none, a.shift().as<double>()),
                                        hull_body(b.part(), none, b.shift().as<double>()))
                       .normal;
-  const SlabHeights heights(a, b, n, reach);
+  return {a, b, n, reach};
+}
+
+Facing facing(const PartView& a, const PartView& b, double reach) {
+  const SlabHeights heights = slab_heights(a, b, reach);
   Facing facing;
   facing.triangles_a = heights.a.below(heights.level_a);
   facing.triangles_b = heights.b.below(heights.level_b);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/heights.hpp"
 #include "geometry/pair_view.hpp"
 
 namespace strake::geometry {
@@ -15,6 +16,9 @@ struct Facing {
   std::vector<std::uint32_t> vertices_a;                ///< of triangles_a, ascending
   std::vector<std::uint32_t> edges_a;                   ///< between two of these, ascending
 };
+
+/// By the slab between the hulls of two parts. `reach`: grid units.
+[[nodiscard]] SlabHeights slab_heights(const PartView& a, const PartView& b, double reach);
 
 /// `reach`: grid units. Costs a walk over all vertices and triangles.
 [[nodiscard]] Facing facing(const PartView& a, const PartView& b, double reach);

@@ -11,6 +11,7 @@
 #include "geometry/flat_pieces.hpp"
 #include "geometry/heavy_walk.hpp"
 #include "geometry/places/bucket_order.hpp"
+#include "geometry/places/facing.hpp"
 #include "geometry/samples.hpp"
 #include "geometry/tree_walk.hpp"
 #include "strake/geometry/wide_int.hpp"
@@ -32,13 +33,34 @@ struct Listed {
       triangle.emplace_back(c);
     }
   }
+
+  void keep_below(const Heights& heights, double level) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < id.size(); ++i) {
+      if (heights.lowest(id[i]) > level) continue;
+      id[kept] = id[i];
+      triangle[kept++] = triangle[i];
+    }
+    id.resize(kept);
+    triangle.resize(kept);
+  }
 };
+
+/// Pairs of listed triangles, for each triangle of the two parts, beyond which these are first
+/// looked at across the slab between them.
+constexpr std::size_t kManyListed = 4;
 
 /// Small parts are walked triangle by triangle.
 template <class Visit>
-void walk_lists(const PartView& a, const PartView& b, double squared, PairWork& work,
-                Visit&& visit) {
-  const Listed x(a, b, squared), y(b, a, squared);
+void walk_lists(const PartView& a, const PartView& b, double reach, PairWork& work, Visit&& visit) {
+  const double squared = reach * reach;
+  Listed x(a, b, squared), y(b, a, squared);
+  if (x.id.size() * y.id.size() >
+      kManyListed * (a.part().triangles.size() + b.part().triangles.size())) {
+    const SlabHeights heights = slab_heights(a, b, reach);
+    x.keep_below(heights.a, heights.level_a);
+    y.keep_below(heights.b, heights.level_b);
+  }
   for (std::size_t i = 0; i < x.id.size(); ++i)
     for (std::size_t j = 0; j < y.id.size(); ++j) {
       if (squared_gap(x.triangle[i].box, y.triangle[j].box) > squared) continue;
@@ -201,7 +223,7 @@ std::optional<std::vector<NearTriangles>> near_triangles(const PartView& a, cons
   if (a.planted() && b.planted()) {
     gather_by_trees(question, all, work);
   } else {
-    walk_lists(a, b, squared, all.work, all);
+    walk_lists(a, b, question.reach, all.work, all);
     work += all.work;
   }
   if (all.too_many) return std::nullopt;

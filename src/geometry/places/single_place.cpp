@@ -357,9 +357,9 @@ class SinglePlace {
     for (const std::uint32_t beside : triangles_round(part, edge)) {
       const std::uint32_t number = member_beside(beside);
       if (number == kNone || sets_.joined(own, number)) continue;
-      known_near = known_near || nearest_along(view.vertex(ends.first).as<double>(),
-                                               view.vertex(ends.second).as<double>(), other)
-                                         .squared <= squared_;
+      known_near = known_near || near_along(view.vertex(ends.first).as<double>(),
+                                            view.vertex(ends.second).as<double>(), other, squared_)
+                                     .has_value();
       if (!known_near) return;
       sets_.join(own, number);
     }

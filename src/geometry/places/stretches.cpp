@@ -2,6 +2,7 @@
 #include "geometry/places/stretches.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 #include "geometry/depth/nearest.hpp"
@@ -15,8 +16,8 @@ std::vector<EdgeStop> Stretches::stops_on(const Line& line, std::span<const std:
   std::vector<EdgeStop> stops;
   for (const std::uint32_t i : listed) {
     const Corners t = as_doubles(side.other.corners(side.other_of(near_.pairs[i])));
-    const SegmentNear near = nearest_along(line.from, line.to, t);
-    if (near.squared <= squared) stops.push_back({0, 0, i, near.along});
+    if (const std::optional<double> along = near_along(line.from, line.to, t, squared))
+      stops.push_back({0, 0, i, *along});
   }
   std::ranges::sort(stops, [](const EdgeStop& x, const EdgeStop& y) {
     return std::tie(x.along, x.pair) < std::tie(y.along, y.pair);

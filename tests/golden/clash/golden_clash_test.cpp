@@ -94,7 +94,7 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
                          testing::Values(Golden{false, "7048419728d9599f4dded7a49d66139e",
                                                 "31228cbdc94bfbdcb1a3ebea14c583b3"},
-                                         Golden{true, "76dde0ef774f8898687f0b89bb833e18",
+                                         Golden{true, "b7630968f4f18f5e9eb0a46dd4fb9f31",
                                                 "772c4546059cd8358d765fb8bba1488e"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
