@@ -53,6 +53,11 @@ void Console::print(std::string_view line) {
   put(line);
 }
 
+void Console::warn(std::string_view line) {
+  const std::lock_guard lock(mutex_);
+  put("strake: " + printable(line));
+}
+
 void Console::error(std::string_view line) {
   const std::lock_guard lock(mutex_);
   put("strake: error: " + printable(line));

@@ -21,6 +21,9 @@ class Console {
 
   /// A line of narration; silent under --quiet.
   void say(std::string_view line);
+  /// "strake: ...", of what makes the exit code one of failure and standard output does not show;
+  /// never silent.
+  void warn(std::string_view line);
   /// "strake: error: ..."; never silent.
   void error(std::string_view line);
   /// A line that the user asked for (--stats); never silent.

@@ -31,8 +31,8 @@ Examples:
 'strake VERB --help' tells the options of a verb.
 
 Exit codes: 0 done, 1 clashes found (--fail-on), 2 wrong command line, 3 a file cannot be read or
-written, 4 something was skipped (--strict), 5 a fault of the program, 6 out of memory,
-130 cancelled.)";
+written, 4 something was skipped or a set is empty (--strict), 5 a fault of the program, 6 out of
+memory, 130 cancelled.)";
 
 /// Says why it ends, and what the shell is told.
 int ended_by(const Error& error, Console& console) {

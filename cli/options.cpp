@@ -77,7 +77,9 @@ void add_input_options(CLI::App& command, InputOptions& options) {
   add_choice(command, "--up-axis", options.up_axis, {"x", "y", "z"},
              "Axis that points up in the files, whatever they say themselves")
       ->group("Input");
-  command.add_flag("--strict", options.strict, "Exit code 4 when anything was skipped")
+  command
+      .add_flag("--strict", options.strict,
+                "Exit code 4 when anything was skipped; of clash also where a set is empty")
       ->group("Input");
 }
 

@@ -13,6 +13,7 @@
 
 #include "cli/clash_result.hpp"
 #include "cli/clash_sets.hpp"
+#include "cli/clash_verdict.hpp"
 #include "cli/load.hpp"
 #include "cli/verb.hpp"
 #include "strake/report/clash.hpp"
@@ -118,44 +119,6 @@ Status write_report(Session& session, const ClashOptions& given,
     });
   return session.write_stdout(report::clash_table(
       contents, {.width = terminal_width(), .sort = sort_by(given.result.sort)}));
-}
-
-/// The least severe class that --fail-on names; NO_HIT: it is not given.
-clash::Class failing_class(const std::string& fail_on) {
-  if (fail_on == "hit") return clash::Class::hit;
-  if (fail_on == "contact") return clash::Class::contact;
-  return fail_on.empty() ? clash::Class::no_hit : clash::Class::clearance_violation;
-}
-
-/// Whether a result is, or may be as far as its brackets tell, of the class that --fail-on names or
-/// a worse one, or a pair was not compared; says how many only may be. An object that could not be
-/// read whole is in many models every night: it is told, and --strict stops at it.
-bool fails(const clash::Findings& findings, const std::string& fail_on, Console& console) {
-  const clash::Class worst = failing_class(fail_on);
-  if (worst == clash::Class::no_hit) return false;
-  std::uint64_t surely = 0, perhaps = 0;
-  const clash::NotComparedCounts lacks = clash::counts_of(findings.tests);
-  for (const clash::Report& test : findings.tests)
-    for (const clash::Pair& pair : test.pairs) {
-      if (pair.allowed < 0 && pair.cls >= worst)
-        ++surely;
-      else if (pair.severest >= worst)
-        ++perhaps;
-    }
-  if (perhaps > 0)
-    console.say(
-        fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "
-                    "besides {} that are",
-                    fail_on, perhaps, surely));
-  if (lacks.pairs > 0)
-    console.say(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
-                            fail_on, lacks.pairs));
-  if (lacks.objects > 0)
-    console.say(
-        fmt::format("--fail-on {}: does not go by objects that could not be compared whole "
-                    "(--strict does): {}",
-                    fail_on, lacks.objects));
-  return surely + perhaps + lacks.pairs > 0;
 }
 
 /// What is to be done, understood before a model is read.
@@ -279,9 +242,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
                         source ? &*source : nullptr, &loading});
       !status)
     return status.error();
-  if (fails(*findings, given.fail_on, session.console())) return ExitCode::clashes;
-  if (given.input.strict && diagnostics.skipped() > 0) return ExitCode::partial;
-  return outcome(given.input, *loaded);
+  return verdict(*findings, given.fail_on, given.input, *loaded, session.console());
 }
 
 /// After the options that it excludes.
@@ -320,9 +281,11 @@ void add_rules(CLI::App& command, ClashOptions& options) {
                 "Judge lines and polylines too, as bodies without thickness (default: they are "
                 "drawn, but never clash)")
       ->group("Rules");
-  add_choice(command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},
-             "Exit code 1 where a pair is of this class or worse, or may be: flag UNCERTAIN, or it "
-             "could not be compared; objects that could not be read whole only with --strict")
+  add_choice(
+      command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},
+      "Exit code 1 where a pair is of this class or worse, or may be: flag UNCERTAIN, or it "
+      "could not be compared; and where a set is empty. Objects that could not be read whole "
+      "only with --strict")
       ->group("Rules");
 }
 

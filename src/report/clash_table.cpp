@@ -110,6 +110,9 @@ std::string counted(const ClassRows& c, std::size_t n) { return counted(n, c.one
 
 /// What a class of no hits may hide.
 std::string not_compared(const Report& report) {
+  if (report.objects_a == 0 || report.objects_b == 0)
+    return std::string("; not compared: anything, as set ") + (report.objects_a == 0 ? "A" : "B") +
+           " is empty";
   const clash::NotComparedCounts lacks = clash::counts_of({&report, 1});
   std::string text;
   if (lacks.pairs > 0) text = counted(lacks.pairs, "pair", "pairs");

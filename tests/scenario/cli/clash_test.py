@@ -79,6 +79,24 @@ class Clash(Scenario):
         self.assertEqual(report['results'], [])
         self.assertIn(('empty-set', 'set A, nobody'), [(m['code'], m['where']) for m in report['messages']])
 
+    def test_an_empty_set_is_no_success(self):
+        self.two_files()
+        for sets, said in ((['--a', 'nobody*'], 'set A is empty (nobody*)'),
+                           (['--a', 'a0', '--b', 'b0'], 'set B is empty (b0)')):
+            run = ['clash', 'a.obj', *sets, '--quiet']
+            for extra, code, option in ((['--fail-on', 'hit'], 1, '--fail-on hit'),
+                                        (['--fail-on', 'clearance_violation', '--json'], 1,
+                                         '--fail-on clearance_violation'),
+                                        (['--fail-on', 'hit', '--strict'], 1, '--fail-on hit'),
+                                        (['--strict'], 4, '--strict')):
+                with self.subTest(sets=sets, extra=extra):
+                    done = self.run_strake(*run, *extra)
+                    self.assertEqual(done.returncode, code, done.stderr)
+                    self.assertEqual(done.stderr, f'strake: {option}: nothing was compared: {said}\n')
+            done = self.run_strake(*run)
+            self.assertEqual((done.returncode, done.stderr), (0, ''))
+            self.assertIn(f'violations; not compared: anything, as {said.split(" (")[0]}\n', done.stdout)
+
     def test_lines_are_judged_where_asked_for(self):
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + 'o wire\nv -50 50 40\nv 150 50 40\nl 9 10\n')
         plain = json.loads(self.run_strake('clash', 'a.obj', '--json').stdout)

@@ -204,6 +204,28 @@ max_depth = "any"
             self.assertIn(said, done.stderr)
             self.assertIn(said, messages)
 
+    def test_a_test_that_compares_nothing_is_no_success(self):
+        self.write('m.obj', cubes(0, 500))
+        self.write('r.toml', '[[test]]\nname = "t"\na = "c0"\nb = "c1"\n[[test]]\nname = "u"\na = "x"\n')
+        said = "nothing was compared: set A of test 'u' is empty (x)\n"
+        for extra, code in (['--fail-on', 'hit'], 1), (['--strict'], 4), ([], 0):
+            with self.subTest(extra=extra):
+                done = self.run_strake('clash', 'm.obj', '--rules', 'r.toml', '--quiet', *extra)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertEqual(done.stderr.endswith(said), code != 0, done.stderr)
+
+    def test_a_discipline_without_objects_stops_strict_where_it_is_checked(self):
+        self.write('m.obj', cubes(0, 500))
+        disciplines = ''.join(f'[[discipline]]\nname = "{name}"\nselect = "{select}"\n'
+                              for name, select in (('one', 'c*'), ('two', 'x')))
+        for missing, code in ('checked', 4), ('not checked', 0):
+            self.write('r.toml', f'{disciplines}[matrix]\nmissing = "{missing}"\n[matrix.cells.one]\none = {{}}\n')
+            run = ['clash', 'm.obj', '--rules', 'r.toml', '--quiet']
+            done = self.run_strake(*run, '--strict')
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertEqual("discipline 'two' of the matrix is empty" in done.stderr, code == 4, done.stderr)
+            self.assertEqual(self.run_strake(*run, '--fail-on', 'hit').returncode, 0)
+
     def test_a_rule_without_a_use_is_named_in_both_places(self):
         self.write('m.obj', cubes(0, 90, 500))
         self.write('r.toml', ''.join(f'[[exempt]]\nname = "{name}"\na = "c0"\nb = "{b}"\n'
