@@ -108,7 +108,7 @@ std::string_view kind_name(const Shape& shape) {
   return std::holds_alternative<geometry::TriangleMesh>(shape) ? "mesh" : "polylines";
 }
 
-std::string Model::path(const Object& object) const {
+std::vector<std::string_view> Model::group_names(const Object& object) const {
   std::vector<std::string_view> names;
   GroupId group = object.parent;
   // A chain longer than the number of groups runs in a circle.
@@ -116,10 +116,17 @@ std::string Model::path(const Object& object) const {
     names.push_back(groups[index(group)].name);
     group = groups[index(group)].parent;
   }
+  std::reverse(names.begin(), names.end());
+  return names;
+}
+
+std::string Model::path(const Object& object) const { return joined_path(group_names(object)); }
+
+std::string joined_path(std::span<const std::string_view> names) {
   std::string joined;
-  for (auto name = names.rbegin(); name != names.rend(); ++name) {
-    if (name != names.rbegin()) joined += '/';
-    joined += *name;
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    if (n > 0 && !names[n].starts_with('/')) joined += '/';
+    joined += names[n];
   }
   return joined;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -112,7 +113,9 @@ struct Model {
   Diagnostics diagnostics;
 
   [[nodiscard]] const Object& object(ObjectId id) const { return objects[index(id)]; }
-  /// Names from the outermost group to the object's own parent, joined by '/'.
+  /// Names from the outermost group to the object's own parent; they last as long as the groups.
+  [[nodiscard]] std::vector<std::string_view> group_names(const Object& object) const;
+  /// The same as a path.
   [[nodiscard]] std::string path(const Object& object) const;
 
   /// Where an attribute of an object is stated.
@@ -125,6 +128,10 @@ struct Model {
   /// Gives a group attributes, if there are any.
   void set_attributes(GroupId group, Attributes attributes);
 };
+
+/// Names joined by '/'. One that begins with '/', as full names of RVM do, brings it along:
+/// "/SITE" and "/ZONE" are "/SITE/ZONE".
+[[nodiscard]] std::string joined_path(std::span<const std::string_view> names);
 
 /// Makes file labels and object ids unique (a repeated id gains "#2", "#3", … and a diagnostic),
 /// notes the objects' places, and orders objects by (file label, id) and bodies by object. Readers'

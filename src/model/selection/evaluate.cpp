@@ -2,6 +2,7 @@
 #include "model/selection/evaluate.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "strake/core/glob.hpp"
 
@@ -94,12 +96,27 @@ bool text_passes(const Test& test, std::string_view text) {
   }
 }
 
+/// Of a text that is a number with blanks round it: 7 or 7.0, but not 007, a part number, nor 1e2
+/// or what has more digits than a double.
+bool is_plain_number(std::string_view text) {
+  constexpr std::size_t kDigits = 15;
+  constexpr std::string_view kBlanks = " \t";
+  text = text.substr(text.find_first_not_of(kBlanks));
+  text = text.substr(0, text.find_first_of(kBlanks));
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return text.size() <= kDigits && text.find_first_not_of("0123456789.") == text.npos &&
+         !(text.size() > 1 && text[0] == '0' && text[1] != '.');
+}
+
 bool quantity_passes(const Test& test, std::string_view text) {
-  // A bare number that is to be equal is compared as text: 007 is not 7 among part numbers.
   if (!test.quantity || test.op == Operator::match || test.op == Operator::exists) return false;
-  if (test.op == Operator::equal && test.quantity->unit.empty()) return false;
   const auto value = parse_quantity(text);
-  const auto both = value ? comparable(*value, *test.quantity) : std::nullopt;
+  if (!value) return false;
+  // Numbers without units are equal as numbers where both are written as such.
+  if (test.op == Operator::equal && test.quantity->unit.empty() && value->unit.empty() &&
+      !(is_plain_number(text) && is_plain_number(test.text)))
+    return false;
+  const auto both = comparable(*value, *test.quantity);
   return both && holds(test.op, *both);
 }
 
@@ -146,13 +163,13 @@ class Asker {
     switch (test.field) {
       case Field::any:
         return text_passes(test, object_.name) || text_passes(test, object_.id) ||
-               text_passes(test, asked_.whole_path());
+               path_passes(test);
       case Field::name:
         return text_passes(test, object_.name);
       case Field::id:
         return text_passes(test, object_.id);
       case Field::path:
-        return text_passes(test, asked_.whole_path());
+        return path_passes(test);
       case Field::file:
         return text_passes(test, model_.files[object_.file].label);
       case Field::attribute:
@@ -163,6 +180,13 @@ class Asker {
         return body_passes(test);
     }
     return false;
+  }
+
+  /// In either form: "/SITE/ZONE", or "/SITE//ZONE" as the plain joining of the names has it.
+  [[nodiscard]] bool path_passes(const Test& test) const {
+    const Asked::Path& path = asked_.whole_path();
+    return text_passes(test, path.joined) ||
+           (!path.slashed.empty() && text_passes(test, path.slashed));
   }
 
   /// A name may be carried several times; one that passes is enough.
@@ -215,13 +239,16 @@ bool Asked::by_set(const Query& query) {
   return picked;
 }
 
-const std::string& Asked::whole_path() {
-  if (has_path_) return path_;
+const Asked::Path& Asked::whole_path() {
+  if (path_) return *path_;
   const Object& object = scene_.model->object(id_);
-  path_ = scene_.model->path(object);
-  path_ += path_.empty() ? object.name : '/' + object.name;
-  has_path_ = true;
-  return path_;
+  std::vector<std::string_view> names = scene_.model->group_names(object);
+  names.emplace_back(object.name);
+  path_.emplace(Path{joined_path(names), {}});
+  if (std::any_of(names.begin() + 1, names.end(),
+                  [](std::string_view name) { return name.starts_with('/'); }))
+    path_->slashed = fmt::format("{}", fmt::join(names, "/"));
+  return *path_;
 }
 
 }  // namespace strake::model::selection

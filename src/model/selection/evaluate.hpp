@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,13 +23,16 @@ class Asked {
   friend class Asker;
   /// The same, remembered: for sets, which many queries name.
   [[nodiscard]] bool by_set(const Query& query);
-  /// The names of its groups and its own, joined by '/'.
-  [[nodiscard]] const std::string& whole_path();
+  /// The path of its groups and its own name. `slashed` has a '/' of the level's besides the one
+  /// that a name begins with, where there are such; empty else.
+  struct Path {
+    std::string joined, slashed;
+  };
+  [[nodiscard]] const Path& whole_path();
 
   const Scene& scene_;
   ObjectId id_;
-  std::string path_;
-  bool has_path_ = false;
+  std::optional<Path> path_;
   std::vector<std::pair<const Query*, bool>> known_;
 };
 

@@ -126,6 +126,53 @@ TEST_F(SelectionTest, LengthsAreComparedAndNotTheirRoundings) {
   }
 }
 
+TEST_F(SelectionTest, EqualIsWhatNeitherLessNorMoreIs) {
+  struct Case {
+    const char* value;
+    const char* asked;
+    bool equal;
+  };
+  for (const Case& c : std::vector<Case>{{"150mm", "150", true},
+                                         {"150 MM", "150", true},
+                                         {"15cm", "150", true},
+                                         {"150mm", "150.0", true},
+                                         {"150", "150mm", true},
+                                         {"150", "15cm", true},
+                                         {"150.00", "150", true},
+                                         {"150", "150.0", true},
+                                         {" 150 ", "150", true},
+                                         {"-5", "-5.0", true},
+                                         {"151mm", "150", false},
+                                         {"16bar", "16", false},
+                                         {"150 x 20", "150", false}}) {
+    model_.objects[0].attributes = {{"L", c.value}};
+    const std::string at(c.asked);
+    EXPECT_EQ(picked("@L = " + at), c.equal ? "p1" : "") << c.value << " = " << at;
+    EXPECT_EQ(picked("@L >= " + at + " and @L <= " + at), c.equal ? "p1" : "") << c.value;
+    EXPECT_EQ(picked("@L != " + at + " and @L"), c.equal ? "" : "p1") << c.value << " != " << at;
+  }
+  for (const auto& [value, asked] :
+       {std::pair("007", "7"), std::pair("7", "007"), std::pair("1e2", "100"),
+        std::pair("100", "1e2"), std::pair("1234567890123456789", "1234567890123456788")}) {
+    model_.objects[0].attributes = {{"L", value}};
+    EXPECT_EQ(picked(std::string("@L = ") + asked), "") << value << " is a name, not a number";
+  }
+}
+
+TEST_F(SelectionTest, OneSlashStandsBetweenLevelsOfAPath) {
+  model_.groups = {{"/SITE", GroupId::none}, {"/PIPING", GroupId{0}}};
+  model_.objects[0].name = "/P1";
+  for (const char* path :
+       {"/SITE/PIPING/P1", "/SITE/PIPING/*", "/SITE//PIPING//P1", "/SITE//PIPING/*"}) {
+    EXPECT_NE(picked("path = '" + std::string(path) + "'").find("p1"), std::string::npos) << path;
+    EXPECT_NE(picked("'" + std::string(path) + "'").find("p1"), std::string::npos) << path;
+    EXPECT_EQ(picked("path != '" + std::string(path) + "'").find("p1"), std::string::npos) << path;
+  }
+  EXPECT_EQ(picked("path ~ '^/SITE/PIPING/P1$'"), "p1");
+  EXPECT_EQ(picked("path = 'SITE/PIPING/*'"), "") << "the first slash belongs to the name";
+  EXPECT_EQ(model_.path(model_.objects[0]), "/SITE/PIPING");
+}
+
 TEST_F(SelectionTest, ValuesAreReadAsDesignersWriteThem) {
   for (const char* value : {"150 MM", "150Mm", "150mm x 20mm", "150 mm (nominal)", "0.15 M"}) {
     model_.objects[0].attributes = {{"L", value}};
