@@ -108,6 +108,18 @@ std::string counted(std::uint64_t n, std::string_view one, std::string_view many
 
 std::string counted(const ClassRows& c, std::size_t n) { return counted(n, c.one, c.many); }
 
+/// How many answers brackets leave open: the classes counted are those of the nominal d.
+std::string uncertain(const Report& report) {
+  std::uint64_t all = 0, worse = 0;
+  for (const Pair& p : report.pairs) {
+    if ((p.flags & clash::kUncertain) != 0) ++all;
+    if (p.severest > (p.allowed < 0 ? p.cls : clash::Class::no_hit)) ++worse;
+  }
+  if (all == 0) return {};
+  return "; UNCERTAIN: " + counted(all, "result", "results") +
+         (worse == 0 ? "" : ", " + std::to_string(worse) + " may be of a severer class");
+}
+
 /// What a class of no hits may hide.
 std::string not_compared(const Report& report) {
   if (report.objects_a == 0 || report.objects_b == 0)
@@ -132,7 +144,7 @@ std::string summary_of(const Report& report, const std::array<ClassRows, 3>& cla
   for (const clash::Exempted& e : report.exempted)
     if (e.pairs > 0)
       summary += ", " + std::to_string(e.pairs) + " exempted by " + printable(e.rule);
-  return summary + not_compared(report) + "\n";
+  return summary + uncertain(report) + not_compared(report) + "\n";
 }
 
 std::string cell_row(std::string_view cell, const std::array<std::string, 4>& counts,

@@ -143,6 +143,9 @@ class Clash(Scenario):
         (result,) = json.loads(done.stdout)['results']
         self.assertEqual((done.returncode, result['class'], result['may_be']), (0, 'CONTACT', 'HIT'))
         self.assertEqual(result['flags'], ['UNCERTAIN'])
+        plain = self.run_strake(*run[:-1]).stdout
+        self.assertTrue(plain.endswith('0 hits, 1 contact, 0 clearance violations; UNCERTAIN: 1 result, '
+                                       '1 may be of a severer class\n'), plain)
         done = self.run_strake(*run, '--fail-on', 'hit')
         self.assertEqual(done.returncode, 1)
         self.assertIn('--fail-on hit: 1 that may be as bad', done.stderr)
