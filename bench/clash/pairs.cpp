@@ -127,6 +127,8 @@ void fans_of(double triangles) {
           {Class::contact, 0, 0.004});
     bench("fan inside a fan" + how, stand(plate, 0, 0), stand(smaller, phase, 2), {},
           {Class::hit, -5, 0.01});
+    bench("fan flush inside a fan" + how, stand(plate, 0, 0), stand(smaller, phase, 0), {},
+          {Class::hit, -5, 0.01});
   }
 }
 

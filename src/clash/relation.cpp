@@ -111,6 +111,10 @@ Relation relation_of(const DepthPart& deep_a, const DepthPart& deep_b,
   if (depth.upper <= band &&
       std::min(a.placed.part->thickness(), b.placed.part->thickness()) >= 4 * band)
     return Relation::abut_outside;
+  // One in the other for certain, and not the same: no need to ask vertex by vertex.
+  if ((meeting.a_within_b || meeting.b_within_a) &&
+      !(box_within(a, b, band) && box_within(b, a, band)))
+    return depth.upper <= band ? Relation::abut_outside : Relation::abut_inside;
   const geometry::PartCover a_cover = within_band(a, b, band, work);
   const bool a_in = a_cover.within && !sticks_out(deep_a, depth, band) &&
                     !bridges_gap(deep_a, deep_b, band, work);

@@ -51,6 +51,21 @@ void add_star(Sectors& sectors, const PartView& view, std::uint32_t triangle, in
   }
 }
 
+void add_coordinate_face(Sectors& sectors, const PartView& view, std::uint32_t triangle,
+                         bool of_b) {
+  const std::array<Vec3l, 3> t = view.corners(triangle);
+  int axis = 0;
+  while (t[0][axis] != t[1][axis] || t[0][axis] != t[2][axis]) ++axis;
+  const int facing = orient2d(t[0], t[1], t[2], axis);
+  const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+  Vec3l step;
+  step[sectors.from()[y] != sectors.to()[y] ? x : y] = 1;
+  for (const Vec3l& beside : {sectors.from() + step, sectors.from() - step}) {
+    const int turn = orient2d(sectors.from(), sectors.to(), beside, axis);
+    sectors.add({beside, turn == facing ? -1 : 1, of_b, triangle});
+  }
+}
+
 void add_face(Sectors& sectors, const PartView& view, std::uint32_t triangle, bool of_b) {
   const std::array<Vec3l, 3> t = view.corners(triangle);
   for (int axis = 0; axis < 3; ++axis) {

@@ -22,4 +22,8 @@ void add_star(Sectors& sectors, const PartView& view, std::uint32_t triangle, in
 /// Adds the two half-planes of a triangle through whose interior the axis runs.
 void add_face(Sectors& sectors, const PartView& view, std::uint32_t triangle, bool of_b);
 
+/// The same for an axis through the interior of a face in a coordinate plane, of which a triangle
+/// is given.
+void add_coordinate_face(Sectors& sectors, const PartView& view, std::uint32_t triangle, bool of_b);
+
 }  // namespace strake::geometry

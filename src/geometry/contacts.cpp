@@ -7,15 +7,19 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/axis_rays.hpp"
 #include "geometry/box.hpp"
 #include "geometry/dual_walk.hpp"
 #include "geometry/flat_pieces.hpp"
+#include "geometry/flush_planes.hpp"
 #include "geometry/heavy_rounds.hpp"
 #include "geometry/heavy_walk.hpp"
+#include "geometry/plane_rim.hpp"
 #include "geometry/plane_sides.hpp"
+#include "geometry/tree_walk.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
 namespace strake::geometry {
@@ -41,6 +45,11 @@ class ContactWalk {
   };
 
   bool settle_by_heights(PairWork& work);
+  bool settle_flush(PairWork& work);
+  void walk_some(std::span<const std::uint32_t> of_a, std::span<const std::uint32_t> of_b,
+                 PairWork& work);
+  void walk_piece(const PartView& a, const PartView& b, PairWork& work);
+  void judge_rims(const FlushPlane& plane);
   WalkEnd go_on(DualWalk& walk, std::uint64_t most);
   void finish(DualWalk& walk, std::uint64_t walked, PairWork& work);
   bool walk_aligned(PairWork& work);
@@ -56,6 +65,8 @@ class ContactWalk {
                   const ExactTriangle& b);
   bool found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a, const ExactTriangle& b,
              const TriangleContact& c);
+  void stand_at(std::uint32_t ta, std::uint32_t tb, const Vec3d& point);
+  void insert_linear(std::uint32_t ta, std::uint32_t tb);
 
   bool separated(const ExactTriangle& a, const ExactTriangle& b);
   bool parted(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c);
@@ -80,7 +91,8 @@ Contacts ContactWalk::run(PairWork& work) {
   DualWalk walk(a_.tree(), b_.tree());
   walk.start();
   const std::uint64_t before_flat = std::min(walked_before_flat(a_, b_), kWalkedAlone);
-  if (go_on(walk, before_flat) == WalkEnd::left_off && !settle_by_heights(work))
+  if (go_on(walk, before_flat) == WalkEnd::left_off && !settle_flush(work) &&
+      !settle_by_heights(work))
     finish(walk, before_flat, work);
   work += cost_;
   return found_;
@@ -128,14 +140,107 @@ bool ContactWalk::settle_by_heights(PairWork& work) {
   if (!pieces) return false;
   for (const FlatPieces::Pair& pair : pieces->open) {
     if (found_.decided()) break;
-    ContactWalk piece(pair.a->view(a_.shift()), pair.b->view(b_.shift()));
-    piece.whole_ = false;
-    DualWalk walk(piece.a_.tree(), piece.b_.tree());
-    walk.start();
-    piece.finish(walk, 0, work);
-    take(piece);
+    walk_piece(pair.a->view(a_.shift()), pair.b->view(b_.shift()), work);
   }
   return true;
+}
+
+/// Some triangles of either part.
+void ContactWalk::walk_piece(const PartView& a, const PartView& b, PairWork& work) {
+  ContactWalk piece(a, b);
+  piece.whole_ = false;
+  DualWalk walk(a.tree(), b.tree());
+  walk.start();
+  piece.finish(walk, 0, work);
+  take(piece);
+}
+
+/// Faces of two solids in one coordinate plane whose triangles fan out from a corner of each touch
+/// in all pairs of them. What these say of the parts is said by the rims of the faces: round any
+/// other side of their triangles either part is but a half-space.
+bool ContactWalk::settle_flush(PairWork& work) {
+  if (!a_.solid() || !b_.solid()) return false;
+  const std::vector<FlushPlane> planes = flush_planes(a_, b_);
+  if (planes.empty()) return false;
+  std::vector<bool> done_a(a_.part().triangles.size()), done_b(b_.part().triangles.size());
+  for (const FlushPlane& plane : planes) {
+    judge_rims(plane);
+    walk_some(plane.a, plane.through_b, work);
+    walk_some(plane.through_a, plane.b, work);
+    for (const std::uint32_t t : plane.a) done_a[t] = true;
+    for (const std::uint32_t t : plane.b) done_b[t] = true;
+  }
+  const auto rest = [](const std::vector<bool>& done) {
+    std::vector<std::uint32_t> left;
+    for (std::uint32_t t = 0; t < done.size(); ++t)
+      if (!done[t]) left.push_back(t);
+    return left;
+  };
+  walk_some(rest(done_a), rest(done_b), work);
+  return true;
+}
+
+void ContactWalk::walk_some(std::span<const std::uint32_t> of_a,
+                            std::span<const std::uint32_t> of_b, PairWork& work) {
+  if (found_.decided() || of_a.empty() || of_b.empty()) return;
+  const FlatPiece some_a{&a_.part(), PartTree(a_.part(), of_a)};
+  const FlatPiece some_b{&b_.part(), PartTree(b_.part(), of_b)};
+  walk_piece(some_a.view(a_.shift()), some_b.view(b_.shift()), work);
+}
+
+void ContactWalk::judge_rims(const FlushPlane& plane) {
+  const PlaneRim rim_a(a_, plane.a, plane.axis), rim_b(b_, plane.b, plane.axis);
+  const PartTree tree_a(a_.part(), plane.a), tree_b(b_.part(), plane.b);
+  // Near the other rim the triangles there are looked at, elsewhere a side lies in one face as a
+  // whole, or in none.
+  const auto judge = [&](const PlaneRim& rim, const PlaneRim& other, const PartView& view,
+                         const PartTree& tree, const auto& judge_triangles,
+                         const auto& judge_in_face) {
+    for (const TriangleSide& side : rim.sides()) {
+      if (found_.overlap.complete()) return;
+      const std::array<Vec3l, 2> ends = rim.ends(side);
+      const Box3l box = box_of(ends);
+      if (other.meets(ends)) {
+        (void)walk_tree(
+            tree, [&](const PartTree::Node& node) { return view.box(node.box).meets(box); },
+            [&](std::uint32_t t) {
+              ++cost_.triangle_pairs;
+              return judge_triangles(side.triangle, t);
+            });
+      } else if (const auto face = other.face_round(ends[0])) {
+        judge_in_face(side, *face, (ends[0] + ends[1]).as<double>() * 0.5);
+      }
+    }
+  };
+  const auto in_face = [&](std::uint32_t ta, std::uint32_t tb, const Vec3d& point,
+                           const auto& add_rays) {
+    if (!found_.boundaries_meet) stand_at(ta, tb, point);
+    insert_linear(ta, tb);
+    const bool had_interiors = found_.overlap.interiors;
+    add_rays();
+    sectors_.judge(true, true, found_.overlap);
+    if (found_.overlap.interiors && !had_interiors) stand_at(ta, tb, point);
+  };
+  judge(
+      rim_a, rim_b, b_, tree_b,
+      [&](std::uint32_t ta, std::uint32_t tb) { return judge_pair(ta, tb); },
+      [&](const TriangleSide& side, std::uint32_t tb, const Vec3d& point) {
+        in_face(side.triangle, tb, point, [&] {
+          start_axis(sectors_, a_, side.triangle, side.number);
+          add_star(sectors_, a_, side.triangle, side.number, false);
+          add_coordinate_face(sectors_, b_, tb, true);
+        });
+      });
+  judge(
+      rim_b, rim_a, a_, tree_a,
+      [&](std::uint32_t tb, std::uint32_t ta) { return judge_pair(ta, tb); },
+      [&](const TriangleSide& side, std::uint32_t ta, const Vec3d& point) {
+        in_face(ta, side.triangle, point, [&] {
+          start_axis(sectors_, b_, side.triangle, side.number);
+          add_coordinate_face(sectors_, a_, ta, false);
+          add_star(sectors_, b_, side.triangle, side.number, true);
+        });
+      });
 }
 
 WalkEnd ContactWalk::go_on(DualWalk& walk, std::uint64_t most) {
@@ -253,12 +358,7 @@ bool ContactWalk::parted(const ExactTriangle& a, const ExactTriangle& b, const T
 
 bool ContactWalk::found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a,
                         const ExactTriangle& b, const TriangleContact& c) {
-  if (!found_.boundaries_meet) {
-    found_.boundaries_meet = true;
-    found_.triangle_a = ta;
-    found_.triangle_b = tb;
-    found_.point = common_point(a, b, c);
-  }
+  if (!found_.boundaries_meet) stand_at(ta, tb, common_point(a, b, c));
   if (whole_ && !found_.overlap.interiors && separation_tries_ < kSeparationTries &&
       separated(a, b)) {
     found_.separated = true;
@@ -266,13 +366,21 @@ bool ContactWalk::found(std::uint32_t ta, std::uint32_t tb, const ExactTriangle&
   }
   const bool had_interiors = found_.overlap.interiors;
   judge(ta, tb, c);
-  if (found_.overlap.interiors && !had_interiors) {
-    // The point of a crossing says more than the point of a touch found before it.
-    found_.triangle_a = ta;
-    found_.triangle_b = tb;
-    found_.point = common_point(a, b, c);
-  }
+  // The point of a crossing says more than the point of a touch found before it.
+  if (found_.overlap.interiors && !had_interiors) stand_at(ta, tb, common_point(a, b, c));
   return !found_.overlap.complete();
+}
+
+void ContactWalk::stand_at(std::uint32_t ta, std::uint32_t tb, const Vec3d& point) {
+  found_.boundaries_meet = true;
+  found_.triangle_a = ta;
+  found_.triangle_b = tb;
+  found_.point = point;
+}
+
+void ContactWalk::insert_linear(std::uint32_t ta, std::uint32_t tb) {
+  found_.linear_a.insert(shell_of(a_.part(), ta));
+  found_.linear_b.insert(shell_of(b_.part(), tb));
 }
 
 bool ContactWalk::separated(const ExactTriangle& a, const ExactTriangle& b) {
@@ -284,8 +392,7 @@ bool ContactWalk::separated(const ExactTriangle& a, const ExactTriangle& b) {
 
 void ContactWalk::judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
   if (c.touch == Touch::point) return;
-  found_.linear_a.insert(shell_of(a_.part(), ta));
-  found_.linear_b.insert(shell_of(b_.part(), tb));
+  insert_linear(ta, tb);
   if (c.coplanar)
     judge_coplanar(ta, tb, c);
   else

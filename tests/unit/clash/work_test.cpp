@@ -174,7 +174,8 @@ TEST(ClashWork, FansOfNeedlesCostAFewTrianglePairsATriangle) {
                              Fans{"touching aside", {100, 170, 10}, Class::contact, 0},
                              Fans{"apart", {0, 0, 13}, Class::clearance_violation, 3},
                              Fans{"apart aside", {100, 170, 13}, Class::clearance_violation, 3},
-                             Fans{"within", {0, 0, 2}, Class::hit, -5}})
+                             Fans{"within", {0, 0, 2}, Class::hit, -5},
+                             Fans{"flush within", {0, 0, 0}, Class::hit, -5}})
       for (const bool askew : {false, true}) {
         SCOPED_TRACE(std::string(fans.name) + ", " + std::to_string(sectors) +
                      (askew ? " sides, turned" : " sides"));
