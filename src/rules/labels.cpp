@@ -81,10 +81,10 @@ class References {
  public:
   References(const Model& model, const ConnectedRule& rule) : model_(model), rule_(rule) {
     if (rule.heirs != Heirs::ends || model.group_attributes.empty()) return;
-    ends_.resize(rule.attributes.size());
+    ends_.resize(rule.references.size());
     for (std::uint32_t o = 0; o < model.objects.size(); ++o)
       for (std::size_t a = 0; a < ends_.size(); ++a) {
-        const Model::Stated stated = model.stated(model.objects[o], rule.attributes[a]);
+        const Model::Stated stated = model.stated(model.objects[o], rule.references[a].attribute);
         if (stated.group == GroupId::none) continue;
         Ends& ends = ends_[a].try_emplace(stated.group, Ends{o, o}).first->second;
         if (place(o) < place(ends.first)) ends.first = o;
@@ -95,8 +95,8 @@ class References {
   /// What object `o` refers to.
   [[nodiscard]] std::vector<std::string_view> of(std::uint32_t o) const {
     std::vector<std::string_view> values;
-    for (std::size_t a = 0; a < rule_.attributes.size(); ++a) {
-      const std::string& attribute = rule_.attributes[a];
+    for (std::size_t a = 0; a < rule_.references.size(); ++a) {
+      const std::string& attribute = rule_.references[a].attribute;
       const Model::Stated stated = model_.stated(model_.objects[o], attribute);
       if (stated.attributes == nullptr) continue;
       if (stated.group != GroupId::none && !speaks(o, a, stated.group)) continue;
@@ -111,15 +111,16 @@ class References {
     std::uint32_t first = 0, last = 0;
   };
   [[nodiscard]] std::uint32_t place(std::uint32_t o) const { return model_.objects[o].place; }
-  [[nodiscard]] bool speaks(std::uint32_t o, std::size_t attribute, GroupId group) const {
+  [[nodiscard]] bool speaks(std::uint32_t o, std::size_t reference, GroupId group) const {
     if (rule_.heirs != Heirs::ends) return rule_.heirs == Heirs::all;
-    const Ends& ends = ends_[attribute].at(group);
-    return o == ends.first || o == ends.last;
+    const Ends& ends = ends_[reference].at(group);
+    const End end = rule_.references[reference].end;
+    return (end != End::tail && o == ends.first) || (end != End::head && o == ends.last);
   }
 
   const Model& model_;
   const ConnectedRule& rule_;
-  std::vector<std::map<GroupId, Ends>> ends_;  ///< by attribute
+  std::vector<std::map<GroupId, Ends>> ends_;  ///< by reference
 };
 
 SameLabel unlabelled(const Asking& asking) {

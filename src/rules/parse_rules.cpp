@@ -270,15 +270,28 @@ class Parser {
     TableReader table(reading_, value, "[[connected]]");
     Exempting& rule = exempting(table);
     ConnectedRule connected;
-    connected.attributes = table.texts("attributes");
-    if (connected.attributes.empty())
+    struct Key {
+      std::string_view name;
+      End end;
+    };
+    bool of_an_end = false;
+    for (const Key& key :
+         {Key{"attributes", End::either}, Key{"head", End::head}, Key{"tail", End::tail}})
+      for (std::string& attribute : table.texts(key.name)) {
+        of_an_end = of_an_end || key.end != End::either;
+        connected.references.push_back({std::move(attribute), key.end});
+      }
+    if (connected.references.empty())
       reading_.fault(value.at, "[[connected]] names no attributes",
-                     "write attributes = [\"HREF\", \"TREF\"]");
+                     "write head = \"HREF\" and tail = \"TREF\", or attributes = [\"CREF\"]");
     constexpr std::array<std::string_view, 2> kWords{"partner", "node"};
     connected.node = table.word("by", kWords).value_or("partner") == "node";
     constexpr std::array<std::string_view, 3> kHeirs{"none", "ends", "all"};
     const std::string heirs = table.word("inherited", kHeirs).value_or("ends");
     connected.heirs = heirs == "none" ? Heirs::none : heirs == "all" ? Heirs::all : Heirs::ends;
+    if (of_an_end && connected.heirs != Heirs::ends)
+      reading_.fault(value.at, "'head' and 'tail' of [[connected]] are about the ends of a branch",
+                     "leave 'inherited' out, or write attributes = [\"HREF\", \"TREF\"]");
     connected.groups = table.flag("groups").value_or(false);
     connected.separator = table.text("separator").value_or("");
     rule.rule = std::move(connected);

@@ -68,9 +68,16 @@ struct AssemblyRule {
 /// Whom an attribute of a group speaks for, among the objects that inherit it.
 enum class Heirs : std::uint8_t { none, ends, all };
 
+/// Which of the ends of a group a reference of it is about, where its ends inherit it.
+enum class End : std::uint8_t { either, head, tail };
+
 /// Objects whose attributes name each other, or a common node, are no pair.
 struct ConnectedRule {
-  std::vector<std::string> attributes;
+  struct Reference {
+    std::string attribute;
+    End end = End::either;
+  };
+  std::vector<Reference> references;
   Heirs heirs = Heirs::ends;  ///< ends: the first and the last in the order of the source
   bool node = false;    ///< equal values connect; otherwise a value is the partner's name or id
   bool groups = false;  ///< the names of a partner's groups count as its own

@@ -184,6 +184,8 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
       {"[[same_assembly]]\nname = \"s\"\nlevel = 0", "'level' of [[same_assembly]] is no level"},
       {"[[same_assembly]]\nname = \"s\"\nlevel = \"top\"", "is no level of the hierarchy"},
       {"[[connected]]\nname = \"c\"", "[[connected]] names no attributes"},
+      {"[[connected]]\nname = \"c\"\nhead = \"HREF\"\ninherited = \"all\"",
+       "'head' and 'tail' of [[connected]] are about the ends of a branch"},
       {"[[connected]]\nname = \"c\"\nattributes = [\"A\"]\nby = \"luck\"",
        "write one of \"partner\", \"node\""},
       {"[[same_attribute]]\nname = \"c\"", "[[same_attribute]] 'c' has no 'attribute'"},

@@ -174,6 +174,26 @@ TEST(RulesPlan, WhatABranchIsConnectedToItsEndsAre) {
   EXPECT_EQ(row.hits("[[connected]]\nname = \"x\"\nattributes = \"TREF\"").size(), 5U);
 }
 
+TEST(RulesPlan, TheHeadOfABranchIsItsFirstObjectAndTheTailItsLast) {
+  const auto between = [](const char* head, const char* tail) {
+    Row row;
+    const auto branch = row.group("/100-B-1", {{"HREF", head}, {"TREF", tail}});
+    row.cube("pump").cube("flange", {}, branch).cube("elbow", {}, branch).cube("tank");
+    return row;
+  };
+  const Row right = between("pump", "tank"), wrong = between("tank", "pump");
+  const std::string named = "[[connected]]\nname = \"x\"\nhead = \"HREF\"\ntail = [\"TREF\"]\n";
+  EXPECT_EQ(right.hits(named), (Told{"flange-elbow HIT"}));
+  EXPECT_EQ(wrong.hits(named).size(), 3U) << "the tail runs into what the head is joined to";
+  const std::string either = "[[connected]]\nname = \"x\"\nattributes = [\"HREF\", \"TREF\"]\n";
+  EXPECT_EQ(right.hits(either), (Told{"flange-elbow HIT"}));
+  EXPECT_EQ(wrong.hits(either), (Told{"flange-elbow HIT"})) << "which end is which is not said";
+  Row row_of_one;
+  const auto branch = row_of_one.group("/100-B-2", {{"HREF", "pump"}, {"TREF", "tank"}});
+  row_of_one.cube("pump").cube("spool", {}, branch).cube("tank");
+  EXPECT_EQ(row_of_one.hits(named), Told{}) << "one object is both ends";
+}
+
 TEST(RulesPlan, AttributesOfGroupsCountForTheObjectsBelow) {
   Row row;
   const auto skid = row.group("skid", {{"UNIT", "7"}, {"SYSTEM", "oil"}, {"OBST", "0"}});
