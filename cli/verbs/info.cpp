@@ -7,11 +7,13 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "cli/load.hpp"
+#include "cli/object_list.hpp"
 #include "cli/verb.hpp"
 #include "strake/core/number.hpp"
 #include "strake/core/severity.hpp"
@@ -105,7 +107,8 @@ void add_diagnostics(Json& counts, Json& messages, const Diagnostics& diagnostic
                         {"message", d.message}});
 }
 
-std::string info_json(const model::Model& model, const model::Scene& scene) {
+std::string info_json(const model::Model& model, const model::Scene& scene,
+                      const std::optional<std::uint64_t>& objects) {
   Json files = Json::array();
   for (std::size_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
@@ -120,13 +123,14 @@ std::string info_json(const model::Model& model, const model::Scene& scene) {
   Json counts = Json::array(), messages = Json::array();
   add_diagnostics(counts, messages, model.diagnostics);
   add_diagnostics(counts, messages, scene.diagnostics);
-  const Json all{{"schema_version", kSchemaVersion},
-                 {"files", std::move(files)},
-                 {"total", content_json(content_of(model, scene, 0, model.files.size()))},
-                 {"left_out", scene.left_out},
-                 {"skipped", model.diagnostics.skipped() + scene.diagnostics.skipped()},
-                 {"diagnostics", std::move(counts)},
-                 {"messages", std::move(messages)}};
+  Json all{{"schema_version", kSchemaVersion},
+           {"files", std::move(files)},
+           {"total", content_json(content_of(model, scene, 0, model.files.size()))},
+           {"left_out", scene.left_out},
+           {"skipped", model.diagnostics.skipped() + scene.diagnostics.skipped()},
+           {"diagnostics", std::move(counts)},
+           {"messages", std::move(messages)}};
+  if (objects) all["objects"] = object_list_json(model, *objects);
   // Names come from files and may be no UTF-8: a replacement character is better than no answer.
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -174,17 +178,24 @@ std::string info_text(const model::Model& model, const model::Scene& scene) {
 struct InfoOptions {
   InputOptions input;
   SceneInput scene;
+  std::string objects;
 };
 
 Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
   const Result<model::SceneOptions> scene_settings = scene_options(options.scene, kSagMm);
   if (!scene_settings) return scene_settings.error();
+  std::optional<std::uint64_t> objects;
+  if (!options.objects.empty())
+    if (const Status s = whole_number(objects.emplace(), options.objects, "--objects"); !s)
+      return s.error();
   const Result<Loaded> loaded = load(session, options.input, *scene_settings);
   if (!loaded) return loaded.error();
   const model::Model& model = *loaded->model;
   const model::Scene& scene = loaded->scene;
   const Status written =
-      session.write_stdout(session.json() ? info_json(model, scene) : info_text(model, scene));
+      session.write_stdout(session.json() ? info_json(model, scene, objects)
+                                          : info_text(model, scene) +
+                                                (objects ? object_list_text(model, *objects) : ""));
   if (!written) return written.error();
   return outcome(options.input, *loaded);
 }
@@ -197,10 +208,17 @@ Verb add_info(CLI::App& program, CommonOptions& common) {
       program.add_subcommand("info", "What model files hold, and what was skipped and why");
   add_input_options(*command, options->input);
   add_scene_options(*command, options->scene, "0.5mm");
+  command
+      ->add_option(
+          "--objects", options->objects,
+          "List the first N objects with what selections go by: name, id, path, file, type, "
+          "category, colour and attributes")
+      ->type_name("N");
   add_common_options(*command, common);
   command->footer(R"(
 Examples:
   strake info platform.rvm
+  strake info platform.rvm --objects 20
   strake info hvac.rvm steel.glb --json)");
   return {command, [options](Session& session) { return run_info(session, *options); }};
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/selection/evaluate.hpp"
 
-#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -14,26 +13,10 @@
 #include <vector>
 
 #include "strake/core/glob.hpp"
+#include "strake/model/selectable.hpp"
 
 namespace strake::model::selection {
 namespace {
-
-std::string_view name_of(Category category) {
-  switch (category) {
-    case Category::physical:
-      return "physical";
-    case Category::obstruction:
-      return "obstruction";
-    case Category::insulation:
-      return "insulation";
-  }
-  return {};
-}
-
-std::string text_of(const Color& c) {
-  return c.alpha == 255 ? fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue)
-                        : fmt::format("#{:02x}{:02x}{:02x}{:02x}", c.red, c.green, c.blue, c.alpha);
-}
 
 /// Both in millimetres where either has a unit: a number without one is in millimetres then.
 struct Comparable {
@@ -205,8 +188,8 @@ class Asker {
       const Body& body = model_.bodies[object_.first_body + b];
       const bool passes =
           test.field == Field::type ? text_passes(test, kind_name(model_.shapes[index(body.shape)]))
-          : test.field == Field::category ? text_passes(test, name_of(body.category))
-                                          : text_passes(test, text_of(body.color));
+          : test.field == Field::category ? text_passes(test, name(body.category))
+                                          : text_passes(test, color_text(body.color));
       if (passes) return true;
     }
     return false;

@@ -40,6 +40,17 @@ class Info(Scenario):
         self.assertEqual(json.loads(done.stdout)['total']['extents_mm'],
                          {'lo': [-110, -100, 0], 'hi': [-10, 0, 100]})
 
+    def test_objects_are_listed_with_what_selections_go_by(self):
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (50, 50, 50), 100))
+        listed = json.loads(self.run_strake('info', 'a.obj', '--objects', 1, '--json').stdout)['objects']
+        self.assertEqual([(o['name'], o['id'], o['file'], o['types'], o['categories'], o['attributes'])
+                          for o in listed], [('a0', 'a0', 'a.obj', ['mesh'], ['physical'], [])])
+        plain = self.run_strake('info', 'a.obj', '--objects', 1).stdout
+        self.assertIn("name = 'a0'\n  id        a0\n  path      ", plain)
+        self.assertTrue(plain.endswith('… and 1 objects more (--objects)\n'), plain)
+        self.assertEqual(self.run_strake('clash', 'a.obj', '--a', f"color = '{listed[0]['colors'][0]}'",
+                                         '--strict').returncode, 0)
+
     def test_stats_say_where_the_time_went(self):
         self.two_files()
         done = self.run_strake('info', 'a.obj', '--stats', '--quiet', '--json')

@@ -81,6 +81,8 @@ class Schemas(unittest.TestCase):
     def test_info(self):
         ship = self.follows(self.run_strake('info', 'ship.glb', '--json'), 'info')
         self.assertGreaterEqual(ship['total']['objects'], 300)
+        listed = self.follows(self.run_strake('info', 'ship.glb', '--objects', 3, '--json'), 'info')
+        self.assertEqual(len(listed['objects']), 3)
         odd = self.follows(self.run_strake('info', 'odd.obj', 'ship.glb', '--json'), 'info')
         self.assertEqual(len(odd['files']), 2)
         self.assertGreater(odd['skipped'], 0)

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "strake/model/model.hpp"
+
+namespace strake::cli {
+
+/// The first `most` objects with what selections go by (model::Selectable), a block of lines each,
+/// and how many there are besides.
+[[nodiscard]] std::string object_list_text(const model::Model& model, std::uint64_t most);
+/// The same as an array. An attribute is [name, value]: a name may stand there several times.
+[[nodiscard]] nlohmann::ordered_json object_list_json(const model::Model& model,
+                                                      std::uint64_t most);
+
+}  // namespace strake::cli
