@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/report/clash_diff.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <memory>
@@ -25,6 +27,17 @@ bool fails(const report::ClashDiff& diff, const std::string& fail_on) {
   if (fail_on == "new") return diff.has_new(false);
   if (fail_on == "worse") return diff.has_worse();
   return fail_on == "cannot-tell" && !diff.cannot_tell.empty();
+}
+
+/// What the exit code does not say: a result without a lasting id may be new.
+void tell_maybe_new(Session& session, const report::ClashDiff& diff, const std::string& fail_on) {
+  if (fail_on.empty() || fail_on == "cannot-tell") return;
+  const bool hits_only = fail_on == "new-hit";
+  if (const std::size_t count = diff.maybe_new(hits_only); count > 0)
+    session.console().say(
+        fmt::format("{} among 'cannot tell' that may be new, which --fail-on {} "
+                    "does not count: {}",
+                    hits_only ? "hits" : "results", fail_on, count));
 }
 
 /// Both documents, at once where there is a team.
@@ -59,6 +72,7 @@ Result<ExitCode> run_diff(Session& session, const DiffOptions& given) {
           ? session.write_stdout(as_json)
           : session.write_stdout(report::clash_diff_table(diff, {.width = terminal_width()}));
   if (!told) return told.error();
+  tell_maybe_new(session, diff, given.fail_on);
   return fails(diff, given.fail_on) ? ExitCode::clashes : ExitCode::done;
 }
 
@@ -83,7 +97,9 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
   command->footer(R"(
 A clash is the same in both runs when its test, files and durable ids are. It is gone only where the
 new run looked at the pair again: an object that is missing, in no set, or exempted, and tolerances
-that would no longer report it, are 'cannot tell', with the reason. A result that does not have as
+that would no longer report it, are 'cannot tell', with the reason. Where an id is only a position in
+its file (an unnamed node, a repeated name), it is the same when class, place and depth are, and else
+'cannot tell', in the new run as in the old. A result that does not have as
 many pairs as it counts, or otherwise contradicts itself, was cut short or edited and is refused.
 
 Examples:

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "model/file_order.hpp"
 #include "model/text_order.hpp"
@@ -45,6 +46,21 @@ bool sort_objects(const Model& model, Order& order) {
   return distinct;
 }
 
+/// Says of each file how many ids its reader could only count.
+void note_positional_ids(Model& model) {
+  std::vector<std::size_t> counts(model.files.size(), 0);
+  for (const Object& o : model.objects)
+    if (o.positional_id && o.file < counts.size()) ++counts[o.file];
+  for (std::size_t file = 0; file < counts.size(); ++file)
+    if (counts[file] > 0)
+      model.diagnostics.add(
+          Severity::note, "object-id-positional",
+          fmt::format("{} objects have no lasting id: theirs is a position in the "
+                      "file, so runs are compared by place there",
+                      counts[file]),
+          model.files[file].label);
+}
+
 /// Gives every repetition of an id within a file a suffix, in the order of `order`, which is
 /// sorted by (file, id) with the source's order among equals.
 void separate_ids(Model& model, const Order& order) {
@@ -57,6 +73,7 @@ void separate_ids(Model& model, const Order& order) {
            model.objects[order[end]].id == first.id)
       ++end;
     if (end - i > 1) {
+      for (std::size_t k = i; k < end; ++k) model.objects[order[k]].positional_id = true;
       if (taken.empty() || taken_of != first.file) {
         taken.clear();
         taken_of = first.file;
@@ -72,7 +89,7 @@ void separate_ids(Model& model, const Order& order) {
       }
       model.diagnostics.add(Severity::warning, "object-id-repeated",
                             fmt::format("{} objects share one id; all but the first gained a "
-                                        "number",
+                                        "number, so runs are compared by place there",
                                         end - i),
                             fmt::format("{}: {}", model.files[first.file].label, first.id));
     }
@@ -159,7 +176,9 @@ void finish(Model& model) {
   const Order renumbered = order_files(model);
   for (Object& o : model.objects)
     if (o.file < renumbered.size()) o.file = renumbered[o.file];
+  note_positional_ids(model);
   Order order = identity(model.objects.size());
+  // These have a diagnostic of their own.
   if (!sort_objects(model, order)) {
     separate_ids(model, order);
     static_cast<void>(sort_objects(model, order));

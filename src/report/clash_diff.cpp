@@ -8,13 +8,11 @@
 #include <tuple>
 #include <utility>
 
+#include "report/place_match.hpp"
 #include "strake/clash/identity.hpp"
 
 namespace strake::report {
 namespace {
-
-/// Below this a difference of d is that of the grid.
-constexpr double kSameMm = 1e-3;
 
 int severity(clash::Class cls) {
   if (cls == clash::Class::hit) return 2;
@@ -31,7 +29,9 @@ int attention(const DocumentResult& r) {
 void sort_entries(std::vector<DiffEntry>& entries) {
   std::ranges::sort(entries, [](const DiffEntry& x, const DiffEntry& y) {
     const DocumentResult &p = x.either(), &q = y.either();
-    return std::tuple(attention(p), p.d_mm, p.key) < std::tuple(attention(q), q.d_mm, q.key);
+    const bool x_is = x.after != nullptr, y_is = y.after != nullptr;
+    return std::tuple(attention(p), p.d_mm, p.key, x_is) <
+           std::tuple(attention(q), q.d_mm, q.key, y_is);
   });
 }
 
@@ -183,10 +183,23 @@ int more_places(const DocumentResult& before, const DocumentResult& after) {
   return before.regions < after.regions ? 1 : -1;
 }
 
+namespace {
+
+bool counts_as_new(const DiffEntry& e, bool hits_only) {
+  return e.before == nullptr && e.after->rule == 0 &&
+         (!hits_only || e.after->cls == clash::Class::hit);
+}
+
+}  // namespace
+
 bool ClashDiff::has_new(bool hits_only) const {
-  return std::ranges::any_of(added, [&](const DiffEntry& e) {
-    return e.after->rule == 0 && (!hits_only || e.after->cls == clash::Class::hit);
-  });
+  return std::ranges::any_of(added,
+                             [=](const DiffEntry& e) { return counts_as_new(e, hits_only); });
+}
+
+std::size_t ClashDiff::maybe_new(bool hits_only) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      cannot_tell, [=](const DiffEntry& e) { return counts_as_new(e, hits_only); }));
 }
 
 bool ClashDiff::has_worse() const {
@@ -208,14 +221,22 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
     return x.cls == y.cls && std::fabs(x.d_mm - y.d_mm) <= kSameMm && more_places(x, y) == 0 &&
            x.allowed_regions == y.allowed_regions && before.allowed(x) == after.allowed(y);
   };
+  const auto still_there = [&](DiffEntry&& e) {
+    (still_the_same(*e.before, *e.after) ? diff.same : diff.changed).push_back(std::move(e));
+  };
+  const PositionalResults placed_before(before, after), placed_after(after, before);
   diff.same.reserve(std::min(before.results.size(), after.results.size()));
   auto x = before.results.begin();
   auto y = after.results.begin();
   while (x != before.results.end() || y != after.results.end()) {
     const bool is = y != after.results.end() && (x == before.results.end() || y->key <= x->key);
     const bool was = x != before.results.end() && (y == after.results.end() || x->key <= y->key);
-    if (is && was) {
-      (still_the_same(*x, *y) ? diff.same : diff.changed).push_back({&*x, &*y, {}});
+    // Of one key: both or neither are.
+    const bool positional = is ? placed_after.has(*y) : placed_before.has(*x);
+    if (positional) {
+      // A key says nothing of them.
+    } else if (is && was) {
+      still_there({&*x, &*y, {}});
     } else if (is) {
       diff.added.push_back({nullptr, &*y, looks_before.reason(*y, after)});
     } else {
@@ -224,6 +245,12 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
     }
     if (was) ++x;
     if (is) ++y;
+  }
+  for (DiffEntry& e : match_by_place(placed_before, placed_after)) {
+    if (e.before != nullptr && e.after != nullptr)
+      still_there(std::move(e));
+    else
+      diff.cannot_tell.push_back(std::move(e));
   }
   for (std::vector<DiffEntry>* list :
        {&diff.added, &diff.changed, &diff.same, &diff.gone, &diff.cannot_tell})

@@ -35,7 +35,8 @@ void measured(std::string& out, const ClashDocument& run, const DocumentResult& 
     out += ", \"allowed_region_count\": " + std::to_string(r.allowed_regions);
 }
 
-void entry(std::string& out, const ClashDiff& diff, const DiffEntry& e) {
+void entry(std::string& out, const ClashDiff& diff, const std::vector<DiffEntry>& list,
+           const DiffEntry& e) {
   const DocumentResult& r = e.either();
   const ClashDocument& run = diff.run_of(e);
   out += "{\"key\": \"" + clash::key_text(r.key) + "\", \"test\": ";
@@ -48,8 +49,11 @@ void entry(std::string& out, const ClashDiff& diff, const DiffEntry& e) {
   measured(out, run, r);
   if (e.before != nullptr && e.after != nullptr) {
     out += ", \"was\": {";
+    if (e.before->key != r.key) out += "\"key\": \"" + clash::key_text(e.before->key) + "\", ";
     measured(out, *diff.before, *e.before);
     out += "}";
+  } else if (&list == &diff.cannot_tell) {
+    out += e.after != nullptr ? ", \"run\": \"new\"" : ", \"run\": \"old\"";
   }
   if (!e.why.empty()) {
     out += ", \"why\": ";
@@ -65,7 +69,7 @@ void entries(Buffered& buffer, const ClashDiff& diff, std::string_view name,
   append_list(
       out, name, list,
       [&](const DiffEntry& e) {
-        entry(out, diff, e);
+        entry(out, diff, list, e);
         buffer.done();
       },
       "\n  ");

@@ -41,7 +41,7 @@ std::string change(const ClashDiff& diff, const DiffEntry& e) {
 std::string_view label(const DocumentObject& o) { return o.name.empty() ? o.id : o.name; }
 
 std::string block(std::string_view title, const ClashDiff& diff, const std::vector<DiffEntry>& list,
-                  const TableOptions& options) {
+                  const TableOptions& options, std::string_view of = {}) {
   if (list.empty()) return {};
   constexpr std::size_t kLeast = 8, kChange = 34;
   const std::size_t room = options.width > kChange + 6 ? (options.width - kChange - 6) / 2 : kLeast;
@@ -54,8 +54,6 @@ std::string block(std::string_view title, const ClashDiff& diff, const std::vect
     out += "  " + fitted(label(run.a(r)), names) + "  " + fitted(label(run.b(r)), names) + "  " +
            change(diff, list[i]) + "\n";
     const bool told = i > 0 && list[i].why == list[i - 1].why;
-    // Why there was no such result before is said of the run before.
-    const std::string_view of = list[i].before == nullptr ? "in the old run: " : "";
     if (!list[i].why.empty() && !told)
       out += "      " + std::string(of) + printable(list[i].why) + "\n";
   }
@@ -93,11 +91,12 @@ std::string settings_text(const ClashDiff& diff) {
 }  // namespace
 
 std::string clash_diff_table(const ClashDiff& diff, const TableOptions& options) {
-  const std::string out =
-      settings_text(diff) + block("new", diff, diff.added, options) +
-      block("still there, changed", diff, diff.changed, options) +
-      block("gone", diff, diff.gone, options) +
-      block("cannot tell: not looked at again", diff, diff.cannot_tell, options);
+  const std::string out = settings_text(diff) +
+                          // Why there was no such result before is said of the run before.
+                          block("new", diff, diff.added, options, "in the old run: ") +
+                          block("still there, changed", diff, diff.changed, options) +
+                          block("gone", diff, diff.gone, options) +
+                          block("cannot tell", diff, diff.cannot_tell, options);
   return out + std::to_string(diff.added.size()) + " new, " + std::to_string(diff.changed.size()) +
          " changed, " + std::to_string(diff.same.size()) + " unchanged, " +
          std::to_string(diff.gone.size()) + " gone, " + std::to_string(diff.cannot_tell.size()) +

@@ -47,6 +47,8 @@ class Reader {
       if (!there) throw lacks("the document", key);
     document_.elements = read_elements(*elements_);
     if (sheets_) document_.sheets = read_sheets(*sheets_, document_.elements.size());
+    if (positional_ids_)
+      document_.positional_ids = read_positional_ids(*positional_ids_, document_.elements.size());
     document_.tests = read_tests(*tests_, document_.elements.size());
     results();
     count_exempted();
@@ -62,9 +64,9 @@ class Reader {
   };
 
   void section(std::string_view key) {
-    constexpr std::array<std::string_view, 9> kKnown{"schema_version", "elements", "sheets",
-                                                     "tests",          "hash",     "rules",
-                                                     "results",        "exempted", "not_compared"};
+    constexpr std::array<std::string_view, 10> kKnown{
+        "schema_version", "elements", "sheets",  "positional_ids", "tests",
+        "hash",           "rules",    "results", "exempted",       "not_compared"};
     const auto known = static_cast<std::size_t>(std::ranges::find(kKnown, key) - kKnown.begin());
     if (known < kKnown.size() && std::exchange(there_[known], true))
       throw contradicts("the document", "has \"" + std::string(key) + "\" twice");
@@ -74,6 +76,8 @@ class Reader {
       elements_ = text("elements");
     else if (key == "sheets")
       sheets_ = text("sheets");
+    else if (key == "positional_ids")
+      positional_ids_ = text("positional_ids");
     else if (key == "tests")
       json_.copy(tests_.emplace());
     else if (key == "hash")
@@ -128,6 +132,7 @@ class Reader {
       r.b = entries_.must(e.b, "b");
       r.cls = entries_.must(e.cls, "class");
       r.d_mm = entries_.must(e.d_mm, "d_mm");
+      r.point_mm = entries_.must(e.point_mm, "point_mm");
       r.rule = e.rule.value_or(0);
       r.regions = e.regions;
       r.allowed_regions = e.allowed_regions;
@@ -212,9 +217,9 @@ class Reader {
   JsonReader json_;
   EntryReader entries_;
   ClashDocument& document_;
-  std::optional<std::string> elements_, sheets_, tests_;
+  std::optional<std::string> elements_, sheets_, positional_ids_, tests_;
   std::vector<Listed> exempted_, pairs_not_compared_, lacking_;
-  std::array<bool, 9> there_{};  ///< sections met
+  std::array<bool, 10> there_{};  ///< sections met
   bool has_version_ = false, has_results_ = false, has_hash_ = false;
 };
 

@@ -20,6 +20,7 @@ void begin_object(std::string& out, const model::Model& model, model::ObjectId i
   const model::Object& o = model.object(id);
   out += '{';
   append_identity(out, o.id, o.name, model.files[o.file].label);
+  if (o.positional_id) out += ", \"positional_id\": true";
 }
 
 void object(std::string& out, const model::Model& model, model::ObjectId id) {

@@ -113,6 +113,16 @@ std::vector<std::uint8_t> sheets(const clash::Findings& findings) {
   return all;
 }
 
+/// Which objects have such ids; empty: none.
+std::vector<bool> positional_ids(const model::Model& model) {
+  const auto positional = [](const model::Object& o) { return o.positional_id; };
+  if (std::ranges::none_of(model.objects, positional)) return {};
+  std::vector<bool> ids;
+  ids.reserve(model.objects.size());
+  for (const model::Object& o : model.objects) ids.push_back(positional(o));
+  return ids;
+}
+
 void test(std::string& out, const Report& report, const Elements& elements) {
   out += "{\"name\": ";
   append_json(out, report.name);
@@ -147,6 +157,11 @@ void append_tests(std::string& out, const clash::Findings& findings, const model
   out += "\",\n\"sheets\": \"";
   elements.append_bytes(out, sheets(findings));
   out += "\",\n";
+  if (const std::vector<bool> ids = positional_ids(model); !ids.empty()) {
+    out += "\"positional_ids\": \"";
+    elements.append_members(out, ids);
+    out += "\",\n";
+  }
   append_list(
       out, "tests", findings.tests, [&](const Report& report) { test(out, report, elements); },
       "\n  ");

@@ -35,7 +35,9 @@ void EntryReader::take_member(std::string_view key, DocumentEntry& entry) {
   else if (key == "class")
     entry.cls = pair_class();
   else if (key == "d_mm")
-    entry.d_mm = distance();
+    entry.d_mm = millimetres("d_mm");
+  else if (key == "point_mm")
+    entry.point_mm = point();
   else if (key == rule_)
     entry.rule = rule();
   else if (key == "region_count" && json_.kind() != Kind::null)
@@ -51,10 +53,23 @@ std::string_view EntryReader::text(const char* key) {
   return json_.text();
 }
 
-double EntryReader::distance() {
+double EntryReader::millimetres(const char* key) {
   const double d = json_.kind() == Kind::number ? json_.number() : HUGE_VAL;
-  if (!std::isfinite(d)) throw is_not(where(), "d_mm", "number");
+  if (!std::isfinite(d)) throw is_not(where(), key, "number");
   return d;
+}
+
+geometry::Vec3d EntryReader::point() {
+  if (json_.kind() != Kind::array) throw is_not(where(), "point_mm", "point");
+  geometry::Vec3d p;
+  int k = 0;
+  json_.items([&] {
+    const double value = millimetres("point_mm");
+    if (k < 3) p[k] = value;
+    ++k;
+  });
+  if (k != 3) throw is_not(where(), "point_mm", "point");
+  return p;
 }
 
 std::uint32_t EntryReader::whole(const char* key, const char* what) {

@@ -24,6 +24,7 @@ struct DocumentEntry {
   std::optional<std::uint32_t> test, a, b, rule;
   std::optional<clash::Class> cls;
   std::optional<double> d_mm;
+  std::optional<geometry::Vec3d> point_mm;
   std::uint32_t regions = 0, allowed_regions = 0;
 };
 
@@ -61,7 +62,8 @@ class EntryReader {
   void take_member(std::string_view key, DocumentEntry& entry);
   // The value of a member, which comes next.
   [[nodiscard]] std::string_view text(const char* key);
-  [[nodiscard]] double distance();
+  [[nodiscard]] double millimetres(const char* key);
+  [[nodiscard]] geometry::Vec3d point();
   [[nodiscard]] std::uint32_t whole(const char* key, const char* what);
   [[nodiscard]] Hash128 pair_key();
   [[nodiscard]] clash::Class pair_class();

@@ -121,6 +121,13 @@ std::vector<std::uint8_t> read_sheets(std::string_view base64, std::size_t eleme
   return sheets;
 }
 
+std::vector<std::uint8_t> read_positional_ids(std::string_view base64, std::size_t elements) {
+  std::vector<std::uint8_t> bits = bytes(base64, "positional_ids", "the document");
+  if (bits.size() != (elements + 7) / 8)
+    throw DocumentFault{"the document", "\"positional_ids\" does not go with \"elements\""};
+  return bits;
+}
+
 std::vector<DocumentTest> read_tests(std::string_view json, std::size_t elements) {
   try {
     const Json list = Json::parse(json);

@@ -19,6 +19,10 @@ namespace strake::report {
 /// The member `sheets`: a byte for each of so many elements.
 [[nodiscard]] std::vector<std::uint8_t> read_sheets(std::string_view base64, std::size_t elements);
 
+/// The member `positional_ids`: a bit for each of so many elements.
+[[nodiscard]] std::vector<std::uint8_t> read_positional_ids(std::string_view base64,
+                                                            std::size_t elements);
+
 /// The member `tests`, of a model with so many elements.
 [[nodiscard]] std::vector<DocumentTest> read_tests(std::string_view json, std::size_t elements);
 

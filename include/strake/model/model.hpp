@@ -70,7 +70,8 @@ struct Group {
 /// What a user would point at: an RVM group that directly holds primitives, a glTF node with a
 /// mesh, an OBJ o/g group, an STL file.
 struct Object {
-  /// Durable: stays the same while the source element does. Unique within its file.
+  /// Durable: stays the same while the source element does, unless `positional_id`. Unique within
+  /// its file.
   std::string id;
   std::string name;
   std::uint32_t file = 0;          ///< index into Model::files
@@ -81,6 +82,9 @@ struct Object {
   Attributes attributes;    ///< its own; Model::stated() has what it inherits
   /// The source has geometry of it that could not be read; without bodies: none could.
   bool incomplete = false;
+  /// The source says nothing lasting of it: its id counts elements of the file, and is another
+  /// element's when one comes before it.
+  bool positional_id = false;
 };
 
 /// Where a part of the model came from.
@@ -133,9 +137,10 @@ struct Model {
 /// "/SITE" and "/ZONE" are "/SITE/ZONE".
 [[nodiscard]] std::string joined_path(std::span<const std::string_view> names);
 
-/// Makes file labels and object ids unique (a repeated id gains "#2", "#3", … and a diagnostic),
-/// notes the objects' places, and orders objects by (file label, id) and bodies by object. Readers'
-/// output is not a Model until this ran; io::read_models calls it.
+/// Makes file labels and object ids unique (a repeated id gains "#2", "#3", … and a diagnostic, and
+/// all that share it have positional ids), counts positional ids, notes the objects' places, and
+/// orders objects by (file label, id) and bodies by object. Readers' output is not a Model until
+/// this ran; io::read_models calls it.
 void finish(Model& model);
 
 /// Appends the files, groups, shapes, objects, bodies and diagnostics of `other`.

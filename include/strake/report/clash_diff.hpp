@@ -11,7 +11,7 @@
 
 namespace strake::report {
 
-/// One clash in two runs, told by its key.
+/// One clash in two runs, told by its key, or where ids are only positions by its place.
 struct DiffEntry {
   const DocumentResult* before = nullptr;  ///< absent: not a result of the old run
   const DocumentResult* after = nullptr;   ///< absent: not a result of the new run
@@ -38,9 +38,11 @@ struct ClashDiff {
   std::vector<DiffEntry> added;  ///< new
   /// Still there: another class, rule, d (by over a micrometre) or number of places.
   std::vector<DiffEntry> changed;
-  std::vector<DiffEntry> same;         ///< still there
-  std::vector<DiffEntry> gone;         ///< looked at again, and no result any more
-  std::vector<DiffEntry> cannot_tell;  ///< no result any more, but it was not looked at again
+  std::vector<DiffEntry> same;  ///< still there
+  std::vector<DiffEntry> gone;  ///< looked at again, and no result any more
+  /// No result any more, but it was not looked at again; and results of either run that ids do not
+  /// identify, where the other run has no such result at that place.
+  std::vector<DiffEntry> cannot_tell;
   std::vector<SettingChange> settings;
   std::vector<std::string> tests_added, tests_gone;
 
@@ -53,12 +55,18 @@ struct ClashDiff {
   /// over a micrometre, or at more places. What a rule allows in the new run is neither.
   [[nodiscard]] bool has_new(bool hits_only) const;
   [[nodiscard]] bool has_worse() const;
+  /// How many of `cannot_tell` would be new if they were not there before.
+  [[nodiscard]] std::size_t maybe_new(bool hits_only) const;
 };
 
 /// Tests of the two documents go together by name. A result of the old run that the new one does
 /// not have is `gone` only if the new run looked at the pair: both objects are in its model and in
 /// opposite sets of the test, no rule exempts them, and its tolerances would report what the old
 /// run measured.
+///
+/// Where the id of an object is only a position in its file, in either run, keys are not asked:
+/// results of one class, d and point (to a micrometre) between the same objects, as far as these
+/// have ids, are one clash. What has no such partner, or several, is `cannot_tell` in both runs.
 [[nodiscard]] ClashDiff compare(const ClashDocument& before, const ClashDocument& after);
 ClashDiff compare(ClashDocument&& before, const ClashDocument& after) = delete;
 ClashDiff compare(const ClashDocument& before, ClashDocument&& after) = delete;

@@ -14,6 +14,7 @@
 #include "strake/clash/clash.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
 
 /// Results of clash runs read back, and what changed from one to the other.
 ///
@@ -30,6 +31,7 @@ struct DocumentObject {
 struct DocumentResult {
   Hash128 key;  ///< clash::parse_key of its text
   double d_mm = 0;
+  geometry::Vec3d point_mm;
   std::uint32_t test = 0;
   std::uint32_t a = 0, b = 0;         ///< of ClashDocument::objects
   std::uint32_t rule = 0;             ///< that allows it, of ClashDocument::rules
@@ -78,7 +80,7 @@ struct DocumentLacking {
   std::uint32_t code = 0;  ///< of ClashDocument::rules
 };
 
-/// What a comparison needs of a document of schemas/clash.schema.json: of a result some fifty
+/// What a comparison needs of a document of schemas/clash.schema.json: of a result some eighty
 /// bytes, of an object its texts once.
 struct ClashDocument {
   std::string name;  ///< of the file, as given
@@ -88,6 +90,8 @@ struct ClashDocument {
   std::vector<std::uint64_t> elements;  ///< ascending
   /// Of each of them: how many of its parts have no inside; empty: the run did not say.
   std::vector<std::uint8_t> sheets;
+  /// A bit for each of them, as in the document: its id is only a position; empty: none is.
+  std::vector<std::uint8_t> positional_ids;
   std::vector<DocumentObject> objects;  ///< those that are named, each once
   /// Names of rules, and codes of why something was not compared; the first, empty, stands for
   /// none.

@@ -120,10 +120,11 @@ class Importer {
   void adopt_meshes();
   void place_all();
   void place(const Visit& visit, std::size_t self);
-  void place_instances(const Node& node, model::GroupId parent, const Place& here);
+  void place_instances(const Node& node, model::GroupId parent, const Place& here, bool counted);
   struct Element {
     std::string name, id;
     model::Attributes attributes;
+    bool counted = false;  ///< its name, or one above it, is only a number
   };
   void add_object(const Node& node, Element element, model::GroupId parent,
                   std::span<const Place> places);
@@ -144,6 +145,7 @@ class Importer {
     double half_spacing_mm = 0;                   ///< as of a Place
     model::GroupId group = model::GroupId::none;  ///< that its children stand in
     const Fault* fault = nullptr;                 ///< its own or an ancestor's
+    bool counted = false;                         ///< its name or an ancestor's is only a number
   };
   [[nodiscard]] std::optional<Fault> damage_of(const Node& node, const Placed& here) const;
 
@@ -324,6 +326,7 @@ std::string Importer::path_id(model::GroupId parent, const std::string& name) {
 /// One without bodies, at the end of the model.
 model::Object& Importer::new_object(Element element, model::GroupId parent) {
   model::Object object;
+  object.positional_id = element.id.empty() && element.counted;
   object.id = element.id.empty() ? path_id(parent, element.name) : std::move(element.id);
   object.name = std::move(element.name);
   object.parent = parent;
@@ -371,9 +374,10 @@ void Importer::add_object(const Node& node, Element element, model::GroupId pare
   object.body_count = static_cast<std::uint32_t>(model_.bodies.size() - first);
 }
 
-void Importer::place_instances(const Node& node, model::GroupId parent, const Place& here) {
+void Importer::place_instances(const Node& node, model::GroupId parent, const Place& here,
+                               bool counted) {
   Instances instances = read_instances(node, accessors_);
-  const auto whole = [&] { return Element{node.name, node.id, node.attributes}; };
+  const auto whole = [&] { return Element{node.name, node.id, node.attributes, counted}; };
   if (instances.fault) return skip(whole(), parent, *instances.fault);
   const double scale_mm = frame_.unit_mm * scale_of(here.world.linear);
   std::vector<Place> places;
@@ -388,7 +392,9 @@ void Importer::place_instances(const Node& node, model::GroupId parent, const Pl
   const auto group = static_cast<model::GroupId>(model_.groups.size());
   model_.groups.push_back({node.name, parent});
   for (std::size_t i = 0; i < places.size(); ++i)
-    add_object(node, {std::move(instances.names[i]), std::move(instances.ids[i]), node.attributes},
+    add_object(node,
+               {std::move(instances.names[i]), std::move(instances.ids[i]), node.attributes,
+                counted || instances.counted[i]},
                group, std::span(places).subspan(i, 1));
 }
 
@@ -410,6 +416,7 @@ void Importer::place(const Visit& visit, std::size_t self) {
       std::max(above.half_spacing_mm,
                frame_.unit_mm * scale_of(above.world.linear) * half_spacing_of(node.local));
   here.group = above.group;
+  here.counted = above.counted || node.counted;
   here.fault = above.fault != nullptr ? above.fault : node.fault ? &*node.fault : nullptr;
   if (!node.children.empty()) {
     here.group = static_cast<model::GroupId>(model_.groups.size());
@@ -419,9 +426,10 @@ void Importer::place(const Visit& visit, std::size_t self) {
   if (!node.mesh) return;
   const Place at{here.world, here.half_spacing_mm};
   const std::optional<Fault> fault = damage_of(node, here);
-  if (!fault && node.instancing.exists()) return place_instances(node, above.group, at);
+  if (!fault && node.instancing.exists())
+    return place_instances(node, above.group, at, here.counted);
   // Nobody asks for these again: a node is visited once.
-  Element element{node.name, std::move(node.id), std::move(node.attributes)};
+  Element element{node.name, std::move(node.id), std::move(node.attributes), here.counted};
   if (fault) return skip(std::move(element), above.group, *fault);
   add_object(node, std::move(element), above.group, std::span(&at, 1));
 }

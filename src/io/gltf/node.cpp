@@ -118,7 +118,8 @@ Node parse_node(const Json& json, std::size_t index, const std::vector<Json>& me
     else if (node.name.empty())
       node.name = mesh_names[*node.mesh].text_value();
   }
-  if (node.name.empty()) node.name = fmt::format("node {}", index);
+  node.counted = node.name.empty();
+  if (node.counted) node.name = fmt::format("node {}", index);
   children.elements(
       [&](const Json& child) { node.children.push_back(child.index().value_or(UINT64_MAX)); });
   if (const auto local = parse_transform({matrix, translation, rotation, scale}))
@@ -169,6 +170,7 @@ void read_names(const Json& extras, std::size_t count, Instances& out) {
     const Json& item = items[i];
     std::string name = item.is_string() ? item.text_value() : item["name"].text_value();
     std::string id = item["id"].text_value();
+    out.counted.push_back(name.empty() && id.empty());
     if (name.empty()) name = id.empty() ? fmt::format("instance {}", i) : id;
     out.names.push_back(std::move(name));
     out.ids.push_back(std::move(id));

@@ -16,6 +16,7 @@ namespace strake::io::gltf {
 /// A node as it stands in the document, in the file's own frame.
 struct Node {
   std::string name;              ///< its own, else its mesh's, else "node 12"
+  bool counted = false;          ///< it is "node 12"
   std::string id;                ///< extras.id, where it is a string
   model::Attributes attributes;  ///< the rest of its extras, nested keys joined by '.'
   std::optional<std::uint64_t> mesh;
@@ -35,8 +36,10 @@ struct Node {
 /// The instances of a node, in the node's frame.
 struct Instances {
   std::vector<geometry::Placement> placements;
-  double translation_step = 0;          ///< spacing of quantised translations; 0: float32
-  std::vector<std::string> names, ids;  ///< one each per instance, or none at all
+  double translation_step = 0;  ///< spacing of quantised translations; 0: float32
+  /// One each per instance, or none at all; what has neither name nor id is "instance 12".
+  std::vector<std::string> names, ids;
+  std::vector<bool> counted;  ///< it is
   std::optional<Fault> fault;
 
   /// Half the spacing of the numbers that say where an instance is.

@@ -51,6 +51,23 @@ std::optional<std::string> path_id(const Built& built, std::uint32_t group) {
   return id;
 }
 
+/// "BOX 2 of EQUIPMENT /P-101": an element that its database has no name for is called by its type
+/// and its number among those of its owner.
+bool is_counted(std::string_view name) {
+  constexpr std::string_view kDigits = "0123456789";
+  const std::size_t number = name.find(' ') + 1;
+  if (number < 2) return false;
+  const std::size_t end = name.find_first_not_of(kDigits, number);
+  return end != std::string_view::npos && end > number && name.substr(end).starts_with(" of ");
+}
+
+/// Whether a group or one above it is called by a number only.
+bool is_counted(const Built& built, std::uint32_t group) {
+  for (std::uint32_t g = group; g != kNoGroup; g = built.groups[g].parent)
+    if (is_counted(built.model.groups[g].name)) return true;
+  return false;
+}
+
 /// The reference number where attributes give one, else the full name path, else the place in
 /// the file.
 void assign_ids(Built& built) {
@@ -62,8 +79,10 @@ void assign_ids(Built& built) {
       continue;
     }
     object.id = reference_of(object.attributes);
-    if (object.id.empty())
-      object.id = path_id(built, group).value_or(fmt::format("@{}", built.groups[group].offset));
+    if (!object.id.empty()) continue;
+    const std::optional<std::string> path = path_id(built, group);
+    object.positional_id = !path || is_counted(built, group);
+    object.id = path.value_or(fmt::format("@{}", built.groups[group].offset));
   }
 }
 

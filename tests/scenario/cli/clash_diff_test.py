@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """clash_diff_test.py STRAKE: two results of clash compared."""
+import base64
 import json
+import struct
 
 from scenario import Scenario, cube, main
 
@@ -155,6 +157,64 @@ class ClashDiff(Scenario):
         self.assertEqual(len(json.loads((self.folder / 'old.json').read_text())['results']), 1)
         run(lacking, 'new.json')
         self.assertEqual(self.diff()['counts']['gone'], 1)
+
+    def write_unnamed(self, places):
+        """u.gltf: cubes of 100 mm with their lower corners at `places` (x in metres), which nobody named."""
+        corners = b''.join(struct.pack('<3f', x, y, z) for z in (0, .1) for y in (0, .1) for x in (0, .1))
+        faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        indices = [i for a, b, c, d in faces for i in (a, b, c, a, c, d)]
+        data = corners + struct.pack('<36H', *indices)
+        uri = 'data:application/octet-stream;base64,' + base64.b64encode(data).decode()
+        self.write('u.gltf', json.dumps({
+            'asset': {'version': '2.0'}, 'scenes': [{'nodes': list(range(len(places)))}],
+            'nodes': [{'mesh': 0, 'translation': [x, 0, 0]} for x in places],
+            'meshes': [{'primitives': [{'attributes': {'POSITION': 0}, 'indices': 1}]}],
+            'buffers': [{'byteLength': len(data), 'uri': uri}],
+            'bufferViews': [{'buffer': 0, 'byteLength': 96}, {'buffer': 0, 'byteOffset': 96, 'byteLength': 72}],
+            'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 8, 'type': 'VEC3'},
+                          {'bufferView': 1, 'componentType': 5123, 'count': 36, 'type': 'SCALAR'}]}))
+
+    def test_ids_that_are_positions_are_not_trusted(self):
+        """Numbers of nodes that shift, and that a new clash takes over from a mended one."""
+        def run(places, name):
+            self.write_unnamed(places)
+            done = self.run_strake('clash', 'u.gltf', '-o', name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stderr.count('object-id-positional'), 1, done.stderr)
+            self.assertIn(f'u.gltf: {len(places)} objects have no lasting id', done.stderr)
+            return json.loads((self.folder / name).read_text())
+
+        old = run([0, .09], 'old.json')
+        self.assertTrue(all(old['results'][0][side]['positional_id'] for side in 'ab'))
+        same = {'new': 0, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 0}
+        for places in ([0, .09], [.09, 0], [-7, 0, .09], [.09, -7, -8, 0]):
+            run(places, 'new.json')
+            self.assertEqual(self.diff('--fail-on', 'cannot-tell')['counts'], same, places)
+        new = run([-5, -4.91, 1, 1.2], 'new.json')
+        self.assertEqual(new['results'][0]['key'], old['results'][0]['key'], 'two clashes of one key')
+        told = self.diff('--fail-on', 'cannot-tell', exit_code=1)
+        self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 2})
+        self.assertEqual([e['run'] for e in told['cannot_tell']], ['old', 'new'])
+        done = self.run_strake('clash', 'diff', 'old.json', 'new.json', '--fail-on', 'new-hit')
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("hits among 'cannot tell' that may be new, which --fail-on new-hit does not count: 1\n", done.stderr)
+
+    def test_repeated_names_are_not_trusted(self):
+        def run(boxes, name):
+            self.write_box('m.obj', boxes)
+            done = self.run_strake('clash', 'm.obj', '--unit', 'mm', '-o', name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(('object-id-repeated' in done.stderr, 'object-id-positional' in done.stderr), (True, False))
+
+        def at(x):
+            return 'dup', (x, 0, 0), (x + 100, 100, 100)
+
+        wall = 'wall', (90, 0, 0), (200, 100, 100)
+        run([at(0), at(5000), wall], 'old.json')
+        run([wall, at(5000), at(0)], 'new.json')
+        self.assertEqual(self.diff()['counts'], {'new': 0, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 0})
+        run([at(150), at(5000), wall], 'new.json')
+        self.assertEqual(self.diff()['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 2})
 
     def test_a_result_that_was_edited_is_refused(self):
         """Shortened lists with the counts kept, and whatever else no run writes: neither side may be it."""

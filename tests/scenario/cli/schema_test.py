@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 import jsonschema
-from scenario import bar_between_walls
+from scenario import bar_between_walls, cube
 
 STRAKE = SCHEMAS = None
 
@@ -141,6 +141,16 @@ class Schemas(unittest.TestCase):
         diff = self.follows(self.run_strake('clash', 'diff', 'none.toml.json', 'one.toml.json', '--json'),
                             'clash-diff')
         self.assertEqual(diff['changed'][0]['allowed_region_count'], 1)
+
+    def test_positional_ids(self):
+        for name, cubes in (('old', (('dup', 0), ('dup', 50), ('c', 140))), ('new', (('dup', 0), ('dup', 50), ('c', 145)))):
+            (self.folder / 'm.obj').write_text(
+                ''.join(cube(id, n, (x, 0, 0), 100) for n, (id, x) in enumerate(cubes)), encoding='utf-8')
+            self.run_strake('clash', 'm.obj', '--unit', 'mm', '-o', f'{name}.json')
+            report = self.follows((self.folder / f'{name}.json').read_text(encoding='utf-8'), 'clash')
+            self.assertIn('positional_ids', report)
+        diff = self.follows(self.run_strake('clash', 'diff', 'old.json', 'new.json', '--json'), 'clash-diff')
+        self.assertEqual((diff['counts']['same'], diff['counts']['cannot_tell']), (1, 2))
 
     def test_clash_diff(self):
         for name, clearance in (('tight.json', '0'), ('wide.json', '25mm')):

@@ -110,6 +110,18 @@ TEST(GltfReader, FollowsTheHierarchy) {
   EXPECT_EQ(model.shapes.size(), 1U) << "one shape for one mesh";
 }
 
+TEST(GltfReader, SaysWhichIdsAreOnlyPositions) {
+  const model::Model model = read_ok(
+      triangle_glb(R"("nodes":[{"name":"deck","children":[1,2]},{"mesh":0},{"children":[3,4]},)"
+                   R"({"name":"plate","mesh":0},{"name":"bolt","mesh":0,"extras":{"id":"B-7"}},)"
+                   R"({"name":"pump","mesh":0}])"));
+  std::vector<std::string> positions, lasting;
+  for (const model::Object& o : model.objects)
+    (o.positional_id ? positions : lasting).push_back(o.id);
+  EXPECT_EQ(positions, (std::vector<std::string>{"deck/node 2/plate"}));
+  EXPECT_EQ(lasting, (std::vector<std::string>{"deck/m", "B-7", "pump"}));
+}
+
 TEST(GltfReader, TakesExtrasOfAnyType) {
   for (const char* extras : {"[1]", "[1,2,3]", "[]", "{}", "7", "null", R"("text")",
                              R"({"id":[1]})", R"({"instances":{"a":1},"attributes":[1]})"}) {
@@ -365,6 +377,11 @@ TEST(GltfReader, PlacesInstances) {
   EXPECT_EQ(named.objects[1].id, "B2");
   EXPECT_EQ(named.objects[1].name, "right");
   EXPECT_EQ(named.objects[1].first_body, 1U);
+  EXPECT_FALSE(named.objects[0].positional_id || named.objects[1].positional_id);
+  const model::Model half = read_ok(build(R"("extras":{"instances":["left",{}]},)"));
+  EXPECT_EQ(half.objects.at(1).id, "bolts/instance 1");
+  EXPECT_TRUE(half.objects[1].positional_id);
+  EXPECT_FALSE(half.objects[0].positional_id);
 }
 
 TEST(GltfReader, TakesColoursOfMaterials) {

@@ -61,6 +61,23 @@ TEST(RvmAttributes, RefusesOtherFiles) {
             std::string::npos);
 }
 
+/// Elements without a name of their own are numbered by the source, and so is what is below them.
+TEST(RvmAttributes, NumbersOfTheSourceAreNoLastingIds) {
+  RvmWriter w;
+  w.head().modl();
+  w.cntb("/S").prim(9, {1});
+  w.cntb("EQUI 12 of ZONE /S").prim(9, {2}).cntb("/N").prim(9, {3}).cnte().cnte();
+  w.cntb("12 of 13").prim(9, {4}).cnte().cntb("BOX of 1 of /S").prim(9, {5}).cnte();
+  w.cntb("").prim(9, {6}).cnte().cnte();
+  w.finish();
+  const std::string_view bytes(reinterpret_cast<const char*>(w.bytes().data()), w.bytes().size());
+  const auto model = test::read_bytes(*make_rvm_reader(), bytes, "model.rvm");
+  ASSERT_TRUE(model) << model.error().text();
+  std::vector<bool> positional;
+  for (const model::Object& o : model->objects) positional.push_back(o.positional_id);
+  EXPECT_EQ(positional, (std::vector<bool>{false, true, true, false, false, true}));
+}
+
 /// Two sites that both have a child "/X", one of which also exists elsewhere under another parent.
 TEST(RvmAttributes, MatchesByPathThenByUniqueNameAndNeverAmbiguously) {
   const test::TemporaryFolder folder;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -91,6 +92,23 @@ TEST(Model, RepeatedIdsGainNumbersThatAreFree) {
   EXPECT_EQ(keys(m), (std::vector<std::string>{"a.obj:x", "a.obj:x#2", "a.obj:x#3", "a.obj:x#4"}));
   EXPECT_EQ(m.diagnostics.count("object-id-repeated"), 1U);
   EXPECT_EQ(m.bodies[m.objects[2].first_body].color.red, 2);
+}
+
+TEST(Model, IdsThatAreOnlyPositionsAreToldOncePerFile) {
+  Model m = one_file("a.obj", {"x", "y", "x", "node 1", "node 2"});
+  m.objects[3].positional_id = m.objects[4].positional_id = true;
+  append(m, one_file("b.obj", {"x"}));
+  finish(m);
+  std::vector<std::string> positions;
+  for (const Object& o : m.objects)
+    if (o.positional_id) positions.push_back(o.id);
+  EXPECT_EQ(positions, (std::vector<std::string>{"node 1", "node 2", "x", "x#2"}));
+  EXPECT_EQ(m.diagnostics.count("object-id-positional"), 1U);
+  const auto note =
+      std::ranges::find(m.diagnostics.kept(), "object-id-positional", &Diagnostic::code);
+  ASSERT_NE(note, m.diagnostics.kept().end());
+  EXPECT_EQ(note->where, "a.obj");
+  EXPECT_TRUE(note->message.starts_with("2 objects ")) << "repeated ones have their own message";
 }
 
 TEST(Model, EqualIdsInDifferentFilesStay) {
