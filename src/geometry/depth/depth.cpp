@@ -318,29 +318,73 @@ bool settle_tie(const DepthPart& a, const DepthField& fa, const DepthPart& b, co
   return true;
 }
 
-/// Moves b a little way out of a, along the normals where they meet: once no interior point is
-/// shared, the depth was at most the way moved. Ties of a model that stands askew end here.
-void bound_by_parting(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, Depth& depth,
-                      PairWork& work) {
-  std::vector<Vec3d> ways;
-  if (const auto n = outward(*a.treed.placed.part, goal.triangle_a)) ways.push_back(*n);
-  if (const auto n = outward(*b.treed.placed.part, goal.triangle_b)) ways.push_back(-*n);
-  for (const double distance : {4.0, 32.0, 256.0, goal.threshold}) {
-    if (distance > goal.threshold || distance >= depth.upper || distance < depth.lower) continue;
-    for (const Vec3d& way : ways) {
-      const double stretch = distance - 1;  // the snap adds less than one
-      const Vec3l move{std::llround(way.x * stretch), std::llround(way.y * stretch),
-                       std::llround(way.z * stretch)};
-      TreedPart moved = b.treed;
-      moved.placed.origin = moved.placed.origin + move;
-      if (!fits_pair(a.treed.placed, moved.placed)) return;
-      const Meeting meeting = meet(a.treed, moved, work).meeting;
-      if (meeting != Meeting::apart && meeting != Meeting::touching) continue;
-      depth.upper = length(move.as<double>()) * (1 + kFieldError);
-      return;
+/// Moves that take b out of a: once no interior point is shared, the depth was at most the way
+/// moved.
+class Parting {
+ public:
+  Parting(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, PairWork& work)
+      : a_(a), b_(b), goal_(goal), work_(work) {
+    add(outward(*a.treed.placed.part, goal.triangle_a), 1);
+    add(outward(*b.treed.placed.part, goal.triangle_b), -1);
+  }
+
+  /// A little way along the normals where they meet. Ties of a model that stands askew end here.
+  void bound_tie(Depth& depth) {
+    for (const double distance : {4.0, 32.0, 256.0, goal_.threshold}) {
+      if (distance > goal_.threshold || distance >= depth.upper || distance < depth.lower) continue;
+      if (try_all(distance, depth)) return;
     }
   }
-}
+
+  /// As far as the depth that is known, out of the skins nearest to its point and along the
+  /// normals: what stands a little way in a body's cavity leaves it so, and its hull tells nothing.
+  void bound_hit(Depth& depth) {
+    if (!(depth.value > 0)) return;
+    const Vec3d& p = depth.point;
+    const Vec3d shift = (b_.treed.placed.origin - a_.treed.placed.origin).as<double>();
+    for (const double sign : {1.0, -1.0}) {
+      const Vec3d way = sign > 0 ? nearest_on_skin(a_.treed, p).point - p
+                                 : nearest_on_skin(b_.treed, p - shift).point - (p - shift);
+      if (const double size = length(way); size > 0) add(way * (1 / size), sign);
+    }
+    (void)try_all(depth.value + kRoom, depth);
+  }
+
+ private:
+  /// What the snap of a move adds to it, on either side.
+  static constexpr double kRoom = 2;
+  static constexpr double kSameWay = 1 - 1e-6;
+
+  void add(const std::optional<Vec3d>& way, double sign) {
+    if (!way) return;
+    const Vec3d out = *way * sign;
+    if (std::ranges::none_of(ways_, [&](const Vec3d& w) { return dot(w, out) > kSameWay; }))
+      ways_.push_back(out);
+  }
+
+  bool try_all(double distance, Depth& depth) {
+    return std::ranges::any_of(
+        ways_, [&](const Vec3d& way) { return try_move(way * (distance - 1), depth); });
+  }
+
+  /// The snap adds less than one.
+  bool try_move(const Vec3d& way, Depth& depth) {
+    const Vec3l move{std::llround(way.x), std::llround(way.y), std::llround(way.z)};
+    TreedPart moved = b_.treed;
+    moved.placed.origin = moved.placed.origin + move;
+    const double bound = length(move.as<double>()) * (1 + kFieldError);
+    if (bound >= depth.upper || !fits_pair(a_.treed.placed, moved.placed)) return false;
+    const Meeting meeting = meet(a_.treed, moved, work_).meeting;
+    if (meeting != Meeting::apart && meeting != Meeting::touching) return false;
+    depth.upper = bound;
+    return true;
+  }
+
+  const DepthPart &a_, &b_;
+  const DepthGoal& goal_;
+  PairWork& work_;
+  std::vector<Vec3d> ways_;
+};
 
 }  // namespace
 
@@ -363,8 +407,10 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
     try_inwards(a, b, goal, candidates);
     candidates.store(depth);
   }
-  if (depth.lower <= goal.threshold && depth.upper > goal.threshold)
-    bound_by_parting(a, b, goal, depth, work);
+  Parting parting(a, b, goal, work);
+  if (depth.lower <= goal.threshold && depth.upper > goal.threshold) parting.bound_tie(depth);
+  // That a part of the common region is left by a move of the whole is known of the whole.
+  if (!bracket_suffices(depth, goal) && !goal.within) parting.bound_hit(depth);
   if (!bracket_suffices(depth, goal)) search_solid_depth(fa, fb, goal, depth, work);
   depth.upper = std::max(depth.upper, depth.value);
   return depth;

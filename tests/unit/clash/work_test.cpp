@@ -212,6 +212,31 @@ TEST(ClashWork, TheSearchForTheDepthEnds) {
   }
 }
 
+/// The hull of a tank tells nothing of what stands in it: a move as far as it is deep does.
+TEST(ClashWork, WhatIsSunkIntoTheBottomOfACavityNeedsNoSearch) {
+  for (const std::uint32_t sectors : {24U, 48U, 360U})
+    for (const bool askew : {false, true}) {
+      SCOPED_TRACE(std::to_string(sectors) + (askew ? " sides, turned" : " sides"));
+      const Mat3d turn = askew ? kTurn : Mat3d{};
+      const auto stand = [&](double radius, double height, double z) {
+        TriangleMesh m = test::cylinder_mesh(radius, height, 1, sectors);
+        for (Vec3d& v : m.vertices) v = turn * (v + Vec3d{0, 0, z});
+        return m;
+      };
+      TriangleMesh tank = stand(1500, 3101, 0);
+      const TriangleMesh cavity = stand(1100, 3000, 50);
+      const auto first = static_cast<std::uint32_t>(tank.vertices.size());
+      tank.vertices.insert(tank.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
+      for (const auto& t : cavity.triangles)
+        tank.triangles.push_back({first + t[0], first + t[2], first + t[1]});
+      const Looked l = look(stand(1000, 2800, 45), std::move(tank), {}, {});
+      EXPECT_EQ(l.pair.cls, Class::hit);
+      EXPECT_NEAR(l.pair.d_mm, -5, 0.002);
+      EXPECT_LE(l.pair.d_upper_mm - l.pair.d_lower_mm, 0.01);
+      EXPECT_EQ(l.work.depth_cells, 0U);
+    }
+}
+
 TEST(ClashWork, FlushFacesOfATurnedModelNeedNoSearch) {
   ClashModel m;
   m.object("deck").body(test::box_mesh({0, 0, -12}, {6000, 4000, 0}), {kTurn, {}});
