@@ -22,22 +22,21 @@ struct DiffOptions {
   std::vector<std::string> outputs;
 };
 
+/// What may be new, as a result without a lasting id may, counts as new.
 bool fails(const report::ClashDiff& diff, const std::string& fail_on) {
-  if (fail_on == "new-hit") return diff.has_new(true);
-  if (fail_on == "new") return diff.has_new(false);
-  if (fail_on == "worse") return diff.has_worse();
+  if (fail_on == "new-hit") return diff.has_new(true) || diff.maybe_new(true) > 0;
+  if (fail_on == "new") return diff.has_new(false) || diff.maybe_new(false) > 0;
+  if (fail_on == "worse") return diff.has_worse() || diff.maybe_new(false) > 0;
   return fail_on == "cannot-tell" && !diff.cannot_tell.empty();
 }
 
-/// What the exit code does not say: a result without a lasting id may be new.
 void tell_maybe_new(Session& session, const report::ClashDiff& diff, const std::string& fail_on) {
   if (fail_on.empty() || fail_on == "cannot-tell") return;
   const bool hits_only = fail_on == "new-hit";
   if (const std::size_t count = diff.maybe_new(hits_only); count > 0)
     session.console().say(
-        fmt::format("{} among 'cannot tell' that may be new, which --fail-on {} "
-                    "does not count: {}",
-                    hits_only ? "hits" : "results", fail_on, count));
+        fmt::format("--fail-on {}: {} among 'cannot tell' that may be new, and count as such: {}",
+                    fail_on, hits_only ? "hits" : "results", count));
 }
 
 /// Both documents, at once where there is a team.
@@ -91,7 +90,7 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
   add_choice(
       *command, "--fail-on", options->fail_on, {"new-hit", "new", "worse", "cannot-tell"},
       "Exit code 1 where there is a new hit, any new result, a new or worse one, or one that "
-      "cannot be told; what a rule allows does not count");
+      "cannot be told; one that may be new counts as new, what a rule allows does not count");
   add_output_option(*command, options->outputs, "Comparison as .json; may be repeated");
   add_common_options(*command, common);
   command->footer(R"(

@@ -177,7 +177,8 @@ bool ContactWalk::settle_flush(PairWork& work) {
     return left;
   };
   walk_some(rest(done_a), rest(done_b), work);
-  return true;
+  // Contacts in single points have not been looked at; where there are no others, one is a touch.
+  return found_.boundaries_meet;
 }
 
 void ContactWalk::walk_some(std::span<const std::uint32_t> of_a,

@@ -339,7 +339,8 @@ class Parting {
   /// As far as the depth that is known, out of the skins nearest to its point and along the
   /// normals: what stands a little way in a body's cavity leaves it so, and its hull tells nothing.
   void bound_hit(Depth& depth) {
-    if (!(depth.value > 0)) return;
+    // Where the two bounds are near each other, they are so for a cause: a search ends soon.
+    if (!(depth.value > 0 && depth.upper > kApart * depth.value)) return;
     const Vec3d& p = depth.point;
     const Vec3d shift = (b_.treed.placed.origin - a_.treed.placed.origin).as<double>();
     for (const double sign : {1.0, -1.0}) {
@@ -354,6 +355,7 @@ class Parting {
   /// What the snap of a move adds to it, on either side.
   static constexpr double kRoom = 2;
   static constexpr double kSameWay = 1 - 1e-6;
+  static constexpr double kApart = 1.5;
 
   void add(const std::optional<Vec3d>& way, double sign) {
     if (!way) return;

@@ -208,6 +208,56 @@ std::vector<Vec3i> seen_from_origin(Draw& draw) {
   return polygon;
 }
 
+/// A post in a tube, flush with it but clear of it, and a body of the post's that stands on its tip
+/// under the tube's end.
+TEST(FlushMeet, ATouchInOnePointIsATouch) {
+  constexpr int kSides = 400;
+  const auto circle = [](double r) {
+    std::vector<Vec3i> ring;
+    for (int i = 0; i < kSides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kSides;
+      ring.push_back({static_cast<std::int32_t>(std::lround(r * std::cos(angle))),
+                      static_cast<std::int32_t>(std::lround(r * std::sin(angle))), 0});
+    }
+    return ring;
+  };
+  IndexedMesh tube;
+  for (const double r : {200'000.0, 100'000.0})
+    for (const std::int32_t z : {0, 90'000})
+      for (Vec3i p : circle(r)) {
+        p.z = z;
+        tube.vertices.push_back(p);
+      }
+  const auto band = [&](std::uint32_t low, std::uint32_t high) {
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+      const std::uint32_t j = (i + 1) % kSides, p = low * kSides, q = high * kSides;
+      tube.triangles.push_back({p + i, p + j, q + j});
+      tube.triangles.push_back({p + i, q + j, q + i});
+    }
+  };
+  band(0, 1);
+  band(1, 3);
+  band(3, 2);
+  band(2, 0);
+  for (const std::int32_t below : {0, 1}) {
+    IndexedMesh post = prism(circle(99'800), 1, {}, 80'000);
+    const auto v = static_cast<std::uint32_t>(post.vertices.size());
+    for (const Vec3i& p :
+         {Vec3i{0, 0, 0}, Vec3i{900, 0, -5000}, Vec3i{-900, 900, -5000}, Vec3i{-900, -900, -5000}})
+      post.vertices.push_back(p + Vec3i{150'000, 7000, -below});
+    for (const Triangle& t : {Triangle{v, v + 1, v + 2}, Triangle{v, v + 2, v + 3},
+                              Triangle{v, v + 3, v + 1}, Triangle{v + 1, v + 3, v + 2}})
+      post.triangles.push_back(t);
+    const Subject x(tube), y(post);
+    ASSERT_FALSE(flush_planes(PartView(x.treed(), {}), PartView(y.treed(), {})).empty());
+    PairWork work;
+    const MeetingResult found = meet(x.treed(), y.treed(), work);
+    EXPECT_EQ(found.meeting, below == 0 ? Meeting::touching : Meeting::apart);
+    EXPECT_EQ(found.boundaries_meet, below == 0);
+    EXPECT_GT(work.node_pairs, 512 + (x.part.triangles.size() + y.part.triangles.size()) / 4);
+  }
+}
+
 TEST(FlushMeet, FinerFansSayTheSameAsCoarseOnes) {
   std::size_t flush = 0;
   std::map<Meeting, std::size_t> seen;

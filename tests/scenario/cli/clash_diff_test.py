@@ -195,9 +195,10 @@ class ClashDiff(Scenario):
         told = self.diff('--fail-on', 'cannot-tell', exit_code=1)
         self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 2})
         self.assertEqual([e['run'] for e in told['cannot_tell']], ['old', 'new'])
-        done = self.run_strake('clash', 'diff', 'old.json', 'new.json', '--fail-on', 'new-hit')
-        self.assertEqual(done.returncode, 0)
-        self.assertIn("hits among 'cannot tell' that may be new, which --fail-on new-hit does not count: 1\n", done.stderr)
+        for level in ('new-hit', 'new', 'worse'):
+            done = self.run_strake('clash', 'diff', 'old.json', 'new.json', '--fail-on', level)
+            self.assertEqual(done.returncode, 1, level)
+            self.assertIn("among 'cannot tell' that may be new, and count as such: 1\n", done.stderr)
 
     def test_repeated_names_are_not_trusted(self):
         def run(boxes, name):
