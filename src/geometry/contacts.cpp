@@ -29,6 +29,11 @@ namespace {
 constexpr int kSeparationTries = 4;
 constexpr int kPartingTries = 16;
 
+/// Some triangles of a part, or none.
+FlatPiece piece_of(const PartView& view, std::span<const std::uint32_t> triangles) {
+  return {&view.part(), triangles.empty() ? PartTree() : PartTree(view.part(), triangles)};
+}
+
 class ContactWalk {
  public:
   ContactWalk(const PartView& a, const PartView& b) : a_(a), b_(b) {}
@@ -46,10 +51,9 @@ class ContactWalk {
 
   bool settle_by_heights(PairWork& work);
   bool settle_flush(PairWork& work);
-  void walk_some(std::span<const std::uint32_t> of_a, std::span<const std::uint32_t> of_b,
-                 PairWork& work);
+  void walk_some(const FlatPiece& of_a, const FlatPiece& of_b, PairWork& work);
   void walk_piece(const PartView& a, const PartView& b, PairWork& work);
-  void judge_rims(const FlushPlane& plane);
+  void judge_rims(const FlushPlane& plane, const PartTree& tree_a, const PartTree& tree_b);
   WalkEnd go_on(DualWalk& walk, std::uint64_t most);
   void finish(DualWalk& walk, std::uint64_t walked, PairWork& work);
   bool walk_aligned(PairWork& work);
@@ -164,9 +168,11 @@ bool ContactWalk::settle_flush(PairWork& work) {
   if (planes.empty()) return false;
   std::vector<bool> done_a(a_.part().triangles.size()), done_b(b_.part().triangles.size());
   for (const FlushPlane& plane : planes) {
-    judge_rims(plane);
-    walk_some(plane.a, plane.through_b, work);
-    walk_some(plane.through_a, plane.b, work);
+    if (found_.decided()) return true;
+    const FlatPiece in_a = piece_of(a_, plane.a), in_b = piece_of(b_, plane.b);
+    judge_rims(plane, in_a.tree, in_b.tree);
+    walk_some(in_a, piece_of(b_, plane.through_b), work);
+    walk_some(piece_of(a_, plane.through_a), in_b, work);
     for (const std::uint32_t t : plane.a) done_a[t] = true;
     for (const std::uint32_t t : plane.b) done_b[t] = true;
   }
@@ -176,22 +182,19 @@ bool ContactWalk::settle_flush(PairWork& work) {
       if (!done[t]) left.push_back(t);
     return left;
   };
-  walk_some(rest(done_a), rest(done_b), work);
+  walk_some(piece_of(a_, rest(done_a)), piece_of(b_, rest(done_b)), work);
   // Contacts in single points have not been looked at; where there are no others, one is a touch.
   return found_.boundaries_meet;
 }
 
-void ContactWalk::walk_some(std::span<const std::uint32_t> of_a,
-                            std::span<const std::uint32_t> of_b, PairWork& work) {
-  if (found_.decided() || of_a.empty() || of_b.empty()) return;
-  const FlatPiece some_a{&a_.part(), PartTree(a_.part(), of_a)};
-  const FlatPiece some_b{&b_.part(), PartTree(b_.part(), of_b)};
-  walk_piece(some_a.view(a_.shift()), some_b.view(b_.shift()), work);
+void ContactWalk::walk_some(const FlatPiece& of_a, const FlatPiece& of_b, PairWork& work) {
+  if (found_.decided() || of_a.tree.nodes().empty() || of_b.tree.nodes().empty()) return;
+  walk_piece(of_a.view(a_.shift()), of_b.view(b_.shift()), work);
 }
 
-void ContactWalk::judge_rims(const FlushPlane& plane) {
+void ContactWalk::judge_rims(const FlushPlane& plane, const PartTree& tree_a,
+                             const PartTree& tree_b) {
   const PlaneRim rim_a(a_, plane.a, plane.axis), rim_b(b_, plane.b, plane.axis);
-  const PartTree tree_a(a_.part(), plane.a), tree_b(b_.part(), plane.b);
   // Near the other rim the triangles there are looked at, elsewhere a side lies in one face as a
   // whole, or in none.
   const auto judge = [&](const PlaneRim& rim, const PlaneRim& other, const PartView& view,

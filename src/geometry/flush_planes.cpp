@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "strake/geometry/part_edges.hpp"
-#include "strake/geometry/wide_int.hpp"
+#include "strake/geometry/predicates.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -33,9 +33,7 @@ std::vector<Lying> lying(const PartView& view) {
     const auto c = view.corners(t);
     for (int k = 0; k < 3; ++k) {
       if (c[0][k] != c[1][k] || c[0][k] != c[2][k]) continue;
-      const int x = (k + 1) % 3, y = (k + 2) % 3;
-      const Vec3l u = c[1] - c[0], v = c[2] - c[0];
-      all.push_back({k, c[0][k], t, Int128{u[x]} * v[y] > Int128{u[y]} * v[x]});
+      all.push_back({k, c[0][k], t, orient2d(c[0], c[1], c[2], k) > 0});
     }
   }
   std::ranges::sort(all, [](const Lying& p, const Lying& q) {

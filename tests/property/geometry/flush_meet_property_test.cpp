@@ -144,6 +144,19 @@ MeetingResult truth_of(const Profile& a, const Profile& b) {
   return truth;
 }
 
+::testing::AssertionResult says_the_same(const MeetingResult& found, const MeetingResult& truth) {
+  const auto told = [](const MeetingResult& r) {
+    return std::tuple(r.meeting, r.boundaries_meet, r.a_within_b, r.b_within_a);
+  };
+  if (told(found) == told(truth)) return ::testing::AssertionSuccess();
+  const auto shown = [](const MeetingResult& r) {
+    return std::array{static_cast<int>(r.meeting), static_cast<int>(r.boundaries_meet),
+                      static_cast<int>(r.a_within_b), static_cast<int>(r.b_within_a)};
+  };
+  return ::testing::AssertionFailure() << ::testing::PrintToString(shown(found)) << " in place of "
+                                       << ::testing::PrintToString(shown(truth));
+}
+
 TEST(FlushMeet, TurnedBodiesMeetAsTheirProfilesDo) {
   std::size_t flush = 0;
   std::map<Meeting, std::size_t> seen;
@@ -161,10 +174,7 @@ TEST(FlushMeet, TurnedBodiesMeetAsTheirProfilesDo) {
     PairWork work;
     const MeetingResult found = meet(x.treed(), y.treed(), work);
     ++seen[found.meeting];
-    ASSERT_EQ(found.meeting, truth.meeting);
-    ASSERT_EQ(found.boundaries_meet, truth.boundaries_meet);
-    ASSERT_EQ(found.a_within_b, truth.a_within_b);
-    ASSERT_EQ(found.b_within_a, truth.b_within_a);
+    ASSERT_TRUE(says_the_same(found, truth));
   }
   EXPECT_GT(flush, kRounds / 2);
   EXPECT_GT(seen[Meeting::touching], kRounds / 50);
@@ -278,10 +288,7 @@ TEST(FlushMeet, FinerFansSayTheSameAsCoarseOnes) {
     };
     const MeetingResult coarse = meeting(1), fine = meeting(kCuts);
     ++seen[fine.meeting];
-    ASSERT_EQ(fine.meeting, coarse.meeting);
-    ASSERT_EQ(fine.boundaries_meet, coarse.boundaries_meet);
-    ASSERT_EQ(fine.a_within_b, coarse.a_within_b);
-    ASSERT_EQ(fine.b_within_a, coarse.b_within_a);
+    ASSERT_TRUE(says_the_same(fine, coarse));
   }
   EXPECT_GT(flush, kRounds / 4);
   EXPECT_GT(seen[Meeting::touching], kRounds / 20);
