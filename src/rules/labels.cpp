@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "rules/values.hpp"
+#include "model/attribute_values.hpp"
 #include "strake/core/glob.hpp"
 #include "strake/core/number.hpp"
 
@@ -20,8 +20,10 @@ namespace {
 using clash::kNoLabel;
 using clash::SameLabel;
 using model::GroupId;
+using model::listed_values_of;
 using model::Model;
 using model::Object;
+using model::values_of;
 
 /// Numbers texts by their first appearance.
 class Numbers {

@@ -5,15 +5,22 @@
 #include <limits>
 #include <utility>
 
-#include "rules/named_sets.hpp"
 #include "rules/rule_file.hpp"
-#include "rules/table_reader.hpp"
+#include "settings/named_sets.hpp"
+#include "settings/table_reader.hpp"
 
 namespace strake::rules {
 namespace {
 
 using clash::Level;
 using clash::Tolerances;
+using settings::Entry;
+using settings::NamedSets;
+using settings::Place;
+using settings::Reading;
+using settings::Table;
+using settings::TableReader;
+using settings::Value;
 
 constexpr std::string_view kChecked = "checked", kNotChecked = "not checked";
 
@@ -419,7 +426,7 @@ class Parser {
 }  // namespace
 
 Result<RuleFile> parse_rules(std::string_view text, std::string_view file) {
-  const Result<Value> document = read_document(text, file);
+  const Result<Value> document = settings::read_document(text, file);
   if (!document) return document.error();
   Reading reading{std::string(file)};
   RuleFile rules;

@@ -2,20 +2,18 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <span>
 #include <string>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "model/attribute_values.hpp"
 #include "rules/asking.hpp"
 #include "rules/labels.hpp"
 #include "rules/rule_file.hpp"
-#include "rules/values.hpp"
+#include "settings/text_file.hpp"
 #include "strake/rules/rules.hpp"
 
 namespace strake::rules {
@@ -23,8 +21,8 @@ namespace {
 
 using clash::kNoLabel;
 using clash::Level;
-
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 20U;
+using model::bare;
+using model::says_none;
 
 /// The level that an attribute's value says; none where it says something else.
 std::optional<Level> level_of(std::string_view value) {
@@ -271,21 +269,10 @@ const std::string& Rules::file() const { return file_->file; }
 Hash128 Rules::hash() const { return file_->hash; }
 
 Result<Rules> Rules::read(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    return Error{ErrorCode::input, "cannot be opened", file.string(), "does it exist?"};
-  const auto size = std::filesystem::file_size(file, error);
-  if (error || !std::filesystem::is_regular_file(file))
-    return Error{ErrorCode::input, "cannot be read: it is no file", file.string(),
-                 "give the name of a rules file"};
-  if (size > kLargestFile)
-    return Error{ErrorCode::input, "is larger than any rules file", file.string(),
-                 "give a rules file; models come before --rules"};
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream)
-    return Error{ErrorCode::input, "cannot be read", file.string(), "check who may read it"};
-  return parse(text, file.filename().string());
+  const Result<std::string> text =
+      settings::read_text_file(file, "rules file", "; models come before --rules");
+  if (!text) return text.error();
+  return parse(*text, file.filename().string());
 }
 
 model::SceneOptions Rules::scene_options() const {

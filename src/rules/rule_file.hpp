@@ -8,23 +8,14 @@
 #include <variant>
 #include <vector>
 
-#include "rules/document.hpp"
+#include "settings/named_sets.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/core/hash.hpp"
-#include "strake/model/selection.hpp"
 
 namespace strake::rules {
 
-/// A selection and what messages call its place: "steel.toml, line 7: [sets] 'hull'".
-struct Chooser {
-  model::Selection selection;
-  std::string where;
-};
-
-struct NamedSet {
-  std::string name;
-  Chooser chooser;
-};
+using settings::Chooser;
+using settings::NamedSet;
 
 struct TestRule {
   std::string name;

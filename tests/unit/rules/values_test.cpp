@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What attributes say to rules, and what says that there is no value: also within a list.
-#include "rules/values.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
+#include "model/attribute_values.hpp"
 #include "support/rules_row.hpp"
 
 namespace strake::rules {
@@ -20,7 +19,7 @@ using test::warned;
 
 std::vector<std::string> listed(const std::string& value, const std::string& separator = ",") {
   const model::Attributes attributes{{"X", value}};
-  const auto views = listed_values_of(attributes, "X", separator);
+  const auto views = model::listed_values_of(attributes, "X", separator);
   return {views.begin(), views.end()};
 }
 

@@ -9,7 +9,7 @@
 
 #include "strake/core/result.hpp"
 
-namespace strake::rules {
+namespace strake::settings {
 
 /// Where something stands in a file, from 1; columns in bytes.
 struct Place {
@@ -45,4 +45,4 @@ struct Entry {
 /// The text of a TOML 1.0 file; the value is a Table. Errors (input) name file, line and column.
 [[nodiscard]] Result<Value> read_document(std::string_view text, std::string_view file);
 
-}  // namespace strake::rules
+}  // namespace strake::settings

@@ -6,10 +6,22 @@
 #include <string_view>
 #include <vector>
 
-#include "rules/rule_file.hpp"
-#include "rules/table_reader.hpp"
+#include "settings/table_reader.hpp"
+#include "strake/core/result.hpp"
+#include "strake/model/selection.hpp"
 
-namespace strake::rules {
+namespace strake::settings {
+
+/// A selection and what messages call its place: "steel.toml, line 7: [sets] 'hull'".
+struct Chooser {
+  model::Selection selection;
+  std::string where;
+};
+
+struct NamedSet {
+  std::string name;
+  Chooser chooser;
+};
 
 /// The [sets] of a file: selections that name each other in any order, but not in a circle.
 class NamedSets {
@@ -41,4 +53,4 @@ class NamedSets {
   int depth_ = 0;
 };
 
-}  // namespace strake::rules
+}  // namespace strake::settings

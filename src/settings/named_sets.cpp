@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rules/named_sets.hpp"
+#include "settings/named_sets.hpp"
 
 #include <utility>
 
-namespace strake::rules {
+namespace strake::settings {
 namespace {
 
 /// Sets within sets within sets: more than any person follows.
@@ -100,4 +100,4 @@ std::vector<NamedSet> NamedSets::all() {
   return sets;
 }
 
-}  // namespace strake::rules
+}  // namespace strake::settings

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rules/values.hpp"
+#include "model/attribute_values.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-namespace strake::rules {
+namespace strake::model {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -73,18 +73,17 @@ bool says_none(std::string_view value) {
   return std::any_of(kNone.begin(), kNone.end(), same);
 }
 
-std::vector<std::string_view> values_of(const model::Attributes& attributes,
-                                        std::string_view attribute) {
+std::vector<std::string_view> values_of(const Attributes& attributes, std::string_view attribute) {
   return listed_values_of(attributes, attribute, {});
 }
 
-std::vector<std::string_view> values_of(const model::Model& model, const model::Object& object,
+std::vector<std::string_view> values_of(const Model& model, const Object& object,
                                         std::string_view attribute) {
-  const model::Attributes* const stated = model.stated(object, attribute).attributes;
+  const Attributes* const stated = model.stated(object, attribute).attributes;
   return stated == nullptr ? std::vector<std::string_view>() : values_of(*stated, attribute);
 }
 
-std::vector<std::string_view> listed_values_of(const model::Attributes& attributes,
+std::vector<std::string_view> listed_values_of(const Attributes& attributes,
                                                std::string_view attribute,
                                                std::string_view separator) {
   std::vector<std::string_view> values;
@@ -102,4 +101,4 @@ std::vector<std::string_view> listed_values_of(const model::Attributes& attribut
   return values;
 }
 
-}  // namespace strake::rules
+}  // namespace strake::model

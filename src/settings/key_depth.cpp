@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rules/key_depth.hpp"
+#include "settings/key_depth.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
 
-namespace strake::rules {
+namespace strake::settings {
 namespace {
 
 /// A block may end in one or two quotes of its own before those that close it.
@@ -66,4 +66,4 @@ std::optional<Place> first_deep_key(std::string_view text, std::size_t most) {
   return std::nullopt;
 }
 
-}  // namespace strake::rules
+}  // namespace strake::settings

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one source that includes toml++, which is large: everything else sees plain values.
-#include "rules/document.hpp"
+#include "settings/document.hpp"
 
 // Version 3.3 of the library asserts things about its input that it turns into an error a few lines
 // later ("[[[" for one), and its table of blanks ends where no compiler need return (any letter
@@ -26,9 +26,9 @@
 #include <tuple>
 #include <utility>
 
-#include "rules/key_depth.hpp"
+#include "settings/key_depth.hpp"
 
-namespace strake::rules {
+namespace strake::settings {
 namespace {
 
 Place place_of(const toml::source_region& region) {
@@ -78,11 +78,11 @@ Error fault_at(std::string_view file, Place at, std::string message, std::string
 }
 
 Result<Value> read_document(std::string_view text, std::string_view file) {
-  // Twice as deep as any key of a rules file.
+  // Twice as deep as any key of a file of settings.
   constexpr std::size_t kMostParts = 16;
   if (const auto at = first_deep_key(text, kMostParts))
     return fault_at(file, *at, "a key of more than " + std::to_string(kMostParts) + " parts",
-                    "no key of a rules file is so deep; quote a name that has dots in it");
+                    "no key of such a file is so deep; quote a name that has dots in it");
   const toml::parse_result parsed = toml::parse(text);
   if (parsed) return value_of(parsed.table());
   const toml::parse_error& error = parsed.error();
@@ -90,4 +90,4 @@ Result<Value> read_document(std::string_view text, std::string_view file) {
                   "the file is TOML: [tables], key = \"text\", key = [lists]");
 }
 
-}  // namespace strake::rules
+}  // namespace strake::settings

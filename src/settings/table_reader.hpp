@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "rules/document.hpp"
+#include "settings/document.hpp"
 #include "strake/geometry/vec.hpp"
 
-namespace strake::rules {
+namespace strake::settings {
 
 /// A file on its way through the reader, and the first thing found wrong with it.
 class Reading {
@@ -91,4 +91,4 @@ class TableReader {
   std::vector<std::string> known_;  ///< keys asked for, there or not
 };
 
-}  // namespace strake::rules
+}  // namespace strake::settings

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
-#include "rules/document.hpp"
+#include "settings/document.hpp"
 
-namespace strake::rules {
+namespace strake::settings {
 
 /// Where a TOML text has a dotted key of more than `most` parts, as a.b.c has three. Each part is a
 /// table within a table, and the parser, which limits the nesting of values, takes a key of any
@@ -15,4 +15,4 @@ namespace strake::rules {
 /// fault at least, which is as far as the parser gets.
 [[nodiscard]] std::optional<Place> first_deep_key(std::string_view text, std::size_t most);
 
-}  // namespace strake::rules
+}  // namespace strake::settings

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rules/table_reader.hpp"
+#include "settings/table_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "strake/core/units.hpp"
 
-namespace strake::rules {
+namespace strake::settings {
 namespace {
 
 constexpr double kLongestMm = 1e6;
@@ -255,4 +255,4 @@ std::string TableReader::required_text(std::string_view key) {
   return {};
 }
 
-}  // namespace strake::rules
+}  // namespace strake::settings
