@@ -59,18 +59,6 @@ class Density {
   std::vector<double> length_;
 };
 
-Pens choose_pens(const NeutralDrawing& drawing) {
-  Density density(drawing.sheet);
-  for (const Line& line : drawing.lines)
-    if (line.state == LineState::visible) density.add(line);
-  // The share of paper that the middle pen of each group may blacken at most.
-  constexpr double kMost = 0.35;
-  const double per_mm = density.along_lines();
-  for (const Pens& pens : {Pens{0.5, 0.35, 0.25}, Pens{0.35, 0.25, 0.18}, Pens{0.25, 0.18, 0.13}})
-    if (per_mm * pens.edge <= kMost) return pens;
-  return {0.18, 0.13, 0.09};
-}
-
 double width_of(const Line& line, const Pens& pens) {
   if (line.state != LineState::visible || line.kind == hlr::EdgeKind::polyline) return pens.thin;
   return line.kind == hlr::EdgeKind::contour ? pens.outline : pens.edge;
@@ -126,9 +114,21 @@ Status clean_up(Ink& ink, const PaperAxes& axes, const parallel::Context& contex
 
 }  // namespace
 
+Pens choose_pens(const NeutralDrawing& drawing) {
+  Density density(drawing.sheet);
+  for (const Line& line : drawing.lines)
+    if (line.state == LineState::visible) density.add(line);
+  // The share of paper that the middle pen of each group may blacken at most.
+  constexpr double kMost = 0.35;
+  const double per_mm = density.along_lines();
+  for (const Pens& pens : {Pens{0.5, 0.35, 0.25}, Pens{0.35, 0.25, 0.18}, Pens{0.25, 0.18, 0.13}})
+    if (per_mm * pens.edge <= kMost) return pens;
+  return {0.18, 0.13, 0.09};
+}
+
 Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                        const parallel::Context& context) {
-  Ink ink{.pens = choose_pens(drawing), .lines = {}};
+  Ink ink{.pens = options.pens ? *options.pens : choose_pens(drawing), .lines = {}};
   for (const Line& line : drawing.lines)
     if (line.state == LineState::visible || (options.hidden && is_hidden(line.state)))
       ink.lines.push_back(line);

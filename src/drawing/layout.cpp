@@ -32,46 +32,28 @@ LineState line_state(hlr::State state) {
   return LineState::clipped;
 }
 
-/// Places points of the model on a sheet. Points are taken relative to the first one before they
+/// The plane of a view about a point of the model. Points are taken relative to it before they
 /// become doubles, so that a model in map coordinates loses nothing.
-class Projector {
+class Plane {
  public:
-  Projector(const PaperAxes& axes, const Vec3l& origin) : axes_(axes), origin_(origin) {}
+  Plane(const PaperAxes& axes, const Vec3l& origin) : axes_(axes), origin_(origin) {}
 
-  [[nodiscard]] PaperPoint on_plane(const Vec3l& grid) const {
+  [[nodiscard]] PaperPoint operator()(const Vec3l& grid) const {
     const Vec3d p = geometry::to_mm(grid - origin_);
     return {dot(axes_.right, p), dot(axes_.up, p)};
-  }
-  void place(const PlaneBox& box, const Sheet& sheet) {
-    scale_ = sheet.scale;
-    left_ = sheet.width_mm / 2 - (box.left + box.width() / 2) / scale_;
-    top_ = (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / scale_;
-  }
-  [[nodiscard]] PaperPoint on_paper(const Vec3l& grid) const {
-    const PaperPoint plane = on_plane(grid);
-    return {rounded_paper(left_ + plane.x / scale_), rounded_paper(top_ - plane.y / scale_)};
   }
 
  private:
   PaperAxes axes_;
   Vec3l origin_;
-  double scale_ = 1, left_ = 0, top_ = 0;
 };
 
-PlaneBox extent(const std::vector<hlr::Piece>& pieces, const Projector& projector) {
-  constexpr double kBig = std::numeric_limits<double>::max();
-  PlaneBox box{kBig, -kBig, kBig, -kBig};
-  for (const hlr::Piece& piece : pieces) {
-    if (piece.state == hlr::State::clipped) continue;
-    for (const Vec3l& end : {piece.a, piece.b}) {
-      const PaperPoint p = projector.on_plane(end);
-      box.left = std::min(box.left, p.x);
-      box.right = std::max(box.right, p.x);
-      box.bottom = std::min(box.bottom, p.y);
-      box.top = std::max(box.top, p.y);
-    }
-  }
-  return box.left <= box.right ? box : PlaneBox{};
+/// The middle of a box in the middle of the sheet.
+Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& origin) {
+  return {sheet,
+          origin,
+          {sheet.width_mm / 2 - (box.left + box.width() / 2) / sheet.scale,
+           (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / sheet.scale}};
 }
 
 void add_vector(Hasher& hasher, const Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
@@ -103,6 +85,23 @@ Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
 
 }  // namespace
 
+PlaneBox plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes, const Vec3l& origin) {
+  constexpr double kBig = std::numeric_limits<double>::max();
+  const Plane plane(axes, origin);
+  PlaneBox box{kBig, -kBig, kBig, -kBig};
+  for (const hlr::Piece& piece : drawing.pieces) {
+    if (piece.state == hlr::State::clipped) continue;
+    for (const Vec3l& end : {piece.a, piece.b}) {
+      const PaperPoint p = plane(end);
+      box.left = std::min(box.left, p.x);
+      box.right = std::max(box.right, p.x);
+      box.bottom = std::min(box.bottom, p.y);
+      box.top = std::max(box.top, p.y);
+    }
+  }
+  return box.left <= box.right ? box : PlaneBox{};
+}
+
 Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
                                const LayoutOptions& options, const parallel::Context& context) {
   const auto axes = paper_axes(drawing.view);
@@ -111,11 +110,19 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
                  "give another --up"};
   if (options.scale && !(*options.scale > 0 && std::isfinite(*options.scale)))
     return Error{ErrorCode::usage, "the scale is not a positive number", "", "use 1:50, say"};
-  Projector projector(*axes, drawing.pieces.empty() ? Vec3l{} : drawing.pieces.front().a);
-  const PlaneBox box = extent(drawing.pieces, projector);
+  const Placement placement = options.placement ? *options.placement : [&] {
+    const Vec3l origin = drawing.pieces.empty() ? Vec3l{} : drawing.pieces.front().a;
+    const PlaneBox box = plane_extent(drawing, *axes, origin);
+    return in_the_middle(box, choose_sheet(box, options), origin);
+  }();
+  const Plane plane(*axes, placement.anchor);
+  const auto on_paper = [&](const Vec3l& grid) {
+    const PaperPoint p = plane(grid);
+    return PaperPoint{rounded_paper(placement.at.x + p.x / placement.sheet.scale),
+                      rounded_paper(placement.at.y - p.y / placement.sheet.scale)};
+  };
   NeutralDrawing out;
-  out.sheet = choose_sheet(box, options);
-  projector.place(box, out.sheet);
+  out.sheet = placement.sheet;
   out.view_name = options.view_name;
   out.title = options.title.empty() ? options.view_name : options.title;
   out.view = drawing.view;
@@ -127,8 +134,8 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.lines.reserve(drawing.pieces.size());
   for (const hlr::Piece& piece : drawing.pieces)
     out.lines.push_back({piece.object, piece.edge, piece.kind, line_state(piece.state), piece.other,
-                         geometry::to_mm(piece.a), geometry::to_mm(piece.b),
-                         projector.on_paper(piece.a), projector.on_paper(piece.b)});
+                         geometry::to_mm(piece.a), geometry::to_mm(piece.b), on_paper(piece.a),
+                         on_paper(piece.b)});
   // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
   if (options.remove_duplicates) {
     const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);

@@ -64,11 +64,14 @@ std::optional<PaperAxes> paper_axes(const hlr::View& view) {
 
 double rounded_paper(double mm) { return std::nearbyint(mm * 1000) / 1000 + 0.0; }
 
+std::string scale_text(double scale) {
+  return scale >= 1 ? "1:" + shortest(neat(scale)) : shortest(neat(1 / scale)) + ":1";
+}
+
 Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options) {
   Sheet sheet;
   sheet.scale = options.scale.value_or(usual_scale(box, room(kSheets[0], options.margin_mm)));
-  sheet.scale_text = sheet.scale >= 1 ? "1:" + shortest(neat(sheet.scale))
-                                      : shortest(neat(1 / sheet.scale)) + ":1";
+  sheet.scale_text = scale_text(sheet.scale);
   for (const Size& size : kSheets) {
     sheet.width_mm = size.width;
     sheet.height_mm = size.height;

@@ -24,6 +24,13 @@ struct PlaneBox {
   [[nodiscard]] double height() const { return top - bottom; }
 };
 
+/// The box of all that a finished run has within the limits, about a point of the model.
+[[nodiscard]] PlaneBox plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
+                                    const geometry::Vec3l& origin);
+
+/// "1:50", "2:1".
+[[nodiscard]] std::string scale_text(double scale);
+
 /// The sheet on which a box of this size is drawn: A3 where it fits, otherwise the next A size,
 /// otherwise as large as it must be.
 [[nodiscard]] Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options);

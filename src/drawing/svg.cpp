@@ -2,50 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "drawing/chains.hpp"
 #include "drawing/chunked.hpp"
-#include "drawing/duplicates.hpp"
 #include "drawing/pens.hpp"
+#include "drawing/svg_layers.hpp"
 #include "strake/core/number.hpp"
 #include "strake/drawing/write.hpp"
 
 namespace strake::drawing {
 
 namespace {
-
-/// A layer of the sheet: the lines of one kind, seen or hidden.
-struct Layer {
-  bool hidden;
-  hlr::EdgeKind kind;
-  std::string_view label;
-};
-
-// Later layers are drawn over earlier ones: outlines last.
-constexpr std::array<Layer, 12> kLayers = {{
-    {true, hlr::EdgeKind::polyline, "Hidden polylines"},
-    {true, hlr::EdgeKind::boundary, "Hidden boundary"},
-    {true, hlr::EdgeKind::non_manifold, "Hidden non-manifold"},
-    {true, hlr::EdgeKind::sharp, "Hidden sharp"},
-    {true, hlr::EdgeKind::intersection, "Hidden intersections"},
-    {true, hlr::EdgeKind::contour, "Hidden outline"},
-    {false, hlr::EdgeKind::polyline, "Visible polylines"},
-    {false, hlr::EdgeKind::boundary, "Visible boundary"},
-    {false, hlr::EdgeKind::non_manifold, "Visible non-manifold"},
-    {false, hlr::EdgeKind::sharp, "Visible sharp"},
-    {false, hlr::EdgeKind::intersection, "Visible intersections"},
-    {false, hlr::EdgeKind::contour, "Visible outline"},
-}};
-
-bool belongs(const Line& line, const Layer& layer) {
-  if (line.kind != layer.kind) return false;
-  return layer.hidden ? is_hidden(line.state) : line.state == LineState::visible;
-}
 
 void write_style(Chunked& out, const Pens& pens) {
   // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
@@ -94,52 +62,6 @@ void write_head(Chunked& out, const NeutralDrawing& drawing, const Ink& ink) {
   out << fmt::format(" hidden-left-out=\"{}\"", ink.left_out) << "/>\n</drawing>\n</metadata>\n";
 }
 
-void append_point(std::string& out, const PaperPoint& p) {
-  out += shortest(p.x);
-  out += ' ';
-  out += shortest(p.y);
-}
-
-void write_object(Chunked& out, const model::Model& model, std::span<const Line* const> lines) {
-  const std::vector<Chain> chains = join_lines(lines);
-  if (chains.empty()) return;
-  const model::Object& object = model.object(lines.front()->object);
-  out << "<g data-id=\"" << xml_escaped(object.id) << "\" data-name=\"" << xml_escaped(object.name)
-      << "\" data-file=\"" << xml_escaped(model.files[object.file].label) << "\"><path d=\"";
-  for (const Chain& chain : chains) {
-    std::string& text = out.buffer();
-    const bool closed = chain.size() > 3 && chain.front() == chain.back();
-    text += 'M';
-    append_point(text, chain.front());
-    for (std::size_t i = 1; i + (closed ? 1 : 0) < chain.size(); ++i) {
-      text += i == 1 ? 'L' : ' ';
-      append_point(text, chain[i]);
-    }
-    if (closed) text += 'Z';
-    out << "";
-  }
-  out << "\"/></g>\n";
-}
-
-void write_layer(Chunked& out, const Ink& ink, const model::Model& model, const Layer& layer) {
-  std::vector<const Line*> lines;
-  for (const Line& line : ink.lines)
-    if (belongs(line, layer)) lines.push_back(&line);
-  if (lines.empty()) return;
-  const std::string_view state = layer.hidden ? "hidden" : "visible";
-  const std::string_view kind = kind_name(layer.kind);
-  out << fmt::format(
-      "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" id=\"{}-{}\" class=\"{} {}\">\n",
-      layer.label, state, kind, state, kind);
-  for (std::size_t i = 0; i < lines.size();) {
-    std::size_t end = i + 1;
-    while (end < lines.size() && lines[end]->object == lines[i]->object) ++end;
-    write_object(out, model, std::span(lines).subspan(i, end - i));
-    i = end;
-  }
-  out << "</g>\n";
-}
-
 void write_title(Chunked& out, const NeutralDrawing& drawing) {
   const Sheet& sheet = drawing.sheet;
   const double x = sheet.width_mm - 10, y = sheet.height_mm - 6;
@@ -162,7 +84,7 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
-  for (const Layer& layer : kLayers) write_layer(out, ink, model, layer);
+  write_layers(out, ink, model, "");
   out << "</g>\n";
   write_title(out, drawing);
   out << "</svg>\n";

@@ -50,20 +50,28 @@ struct Line {
   PaperPoint a_paper, b_paper;  ///< multiples of a micrometre of paper
 };
 
+struct Sheet {
+  double width_mm = 420, height_mm = 297;
+  double scale = 1;        ///< model mm per paper mm
+  std::string scale_text;  ///< "1:50", "2:1"
+};
+
+/// Where a view lies on a sheet that is known already.
+struct Placement {
+  Sheet sheet;
+  geometry::Vec3l anchor;  ///< a point of the model, grid units …
+  PaperPoint at;  ///< … and where it comes to lie. Views that share the anchor are aligned.
+};
+
 struct LayoutOptions {
   std::string view_name = "view";
   std::string title;            ///< of the sheet; empty: from the view's name
   std::optional<double> scale;  ///< model mm per paper mm; none: chosen to fit A3
   double margin_mm = 10;
+  std::optional<Placement> placement = std::nullopt;  ///< instead of scale, sheet and margin
   /// Find pieces that lie on each other within the contact distance (3 µm at least) in the plane of
   /// the view, and draw one of them.
   bool remove_duplicates = true;
-};
-
-struct Sheet {
-  double width_mm = 420, height_mm = 297;
-  double scale = 1;        ///< model mm per paper mm
-  std::string scale_text;  ///< "1:50", "2:1"
 };
 
 /// A drawing without a format: what SVG and JSON are both written from.

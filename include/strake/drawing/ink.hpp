@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "strake/core/result.hpp"
@@ -10,16 +11,17 @@
 
 namespace strake::drawing {
 
+/// Widths of lines, millimetres of paper (the line groups of ISO 128).
+struct Pens {
+  double outline = 0.5, edge = 0.35, thin = 0.25;
+};
+
 struct InkOptions {
   bool hidden = false;  ///< draw hidden lines, dashed; otherwise leave them out
   /// Leave out what of a hidden line runs along a visible line, or a nearer hidden one, so close
   /// on paper that their ink touches: two dashed lines out of step look like a third, solid one.
   bool clean_up = true;
-};
-
-/// Widths of lines, millimetres of paper (the line groups of ISO 128).
-struct Pens {
-  double outline = 0.5, edge = 0.35, thin = 0.25;
+  std::optional<Pens> pens = std::nullopt;  ///< none: by how dense the drawing is
 };
 
 /// What of a drawing gets ink on paper, and how wide.
@@ -29,8 +31,12 @@ struct Ink {
   std::uint64_t left_out = 0;  ///< hidden lines of which some or all was left out
 };
 
-/// Chooses pens by how dense the drawing is where its lines are (a dense drawing in wide lines is a
-/// black patch), and what is worth drawing with them. Visible lines are never left out.
+/// The pens for a drawing, by how dense it is where its lines are: a dense drawing in wide lines is
+/// a black patch.
+[[nodiscard]] Pens choose_pens(const NeutralDrawing& drawing);
+
+/// Chooses what is worth drawing, with the pens asked for or with those of choose_pens(). Visible
+/// lines are never left out.
 [[nodiscard]] Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                                      const parallel::Context& context);
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "drawing/duplicates.hpp"
+#include "strake/drawing/drawing.hpp"
+
+namespace strake::drawing {
+
+/// A layer of a view: the lines of one kind, seen or hidden.
+struct Layer {
+  bool hidden;
+  hlr::EdgeKind kind;
+  std::string_view label;
+};
+
+// Later layers are drawn over earlier ones: outlines last.
+inline constexpr std::array<Layer, 12> kLayers = {{
+    {true, hlr::EdgeKind::polyline, "Hidden polylines"},
+    {true, hlr::EdgeKind::boundary, "Hidden boundary"},
+    {true, hlr::EdgeKind::non_manifold, "Hidden non-manifold"},
+    {true, hlr::EdgeKind::sharp, "Hidden sharp"},
+    {true, hlr::EdgeKind::intersection, "Hidden intersections"},
+    {true, hlr::EdgeKind::contour, "Hidden outline"},
+    {false, hlr::EdgeKind::polyline, "Visible polylines"},
+    {false, hlr::EdgeKind::boundary, "Visible boundary"},
+    {false, hlr::EdgeKind::non_manifold, "Visible non-manifold"},
+    {false, hlr::EdgeKind::sharp, "Visible sharp"},
+    {false, hlr::EdgeKind::intersection, "Visible intersections"},
+    {false, hlr::EdgeKind::contour, "Visible outline"},
+}};
+
+[[nodiscard]] inline bool belongs(const Line& line, const Layer& layer) {
+  if (line.kind != layer.kind) return false;
+  return layer.hidden ? is_hidden(line.state) : line.state == LineState::visible;
+}
+
+}  // namespace strake::drawing
