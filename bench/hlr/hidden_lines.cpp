@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "strake/drawing/drawing.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/io/reader.hpp"
 #include "strake/model/scene.hpp"
@@ -88,17 +89,15 @@ double paper_length(const hlr::Piece& p, const geometry::Vec3l& direction) {
 }
 
 void report(const hlr::Drawing& drawing) {
-  std::map<std::pair<int, int>, std::pair<std::uint64_t, double>> sums;
+  std::map<std::pair<hlr::EdgeKind, hlr::State>, std::pair<std::uint64_t, double>> sums;
   for (const hlr::Piece& p : drawing.pieces) {
-    auto& [count, length] = sums[{static_cast<int>(p.kind), static_cast<int>(p.state)}];
+    auto& [count, length] = sums[{p.kind, p.state}];
     ++count;
     length += paper_length(p, drawing.view.direction);
   }
-  const char* kinds[] = {"sharp", "contour", "boundary", "non_manifold", "polyline"};
-  const char* states[] = {"visible", "hidden_by_self", "hidden_by_other", "projecting", "clipped"};
   for (const auto& [key, sum] : sums)
-    fmt::print("  {:<13}{:<16}{:>9} pieces {:>16.1f} mm\n", kinds[key.first], states[key.second],
-               sum.first, sum.second);
+    fmt::print("  {:<13}{:<16}{:>9} pieces {:>16.1f} mm\n", drawing::kind_name(key.first),
+               drawing::state_name(drawing::line_state(key.second)), sum.first, sum.second);
   const hlr::Counters& c = drawing.counters;
   fmt::print("  {} edges, {} pieces, {} face tests, {} of them wide, contact distance {} mm\n",
              c.feature_edges, drawing.pieces.size(), c.face_tests, c.exact_fallbacks,

@@ -16,22 +16,6 @@ namespace {
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-LineState line_state(hlr::State state) {
-  switch (state) {
-    case hlr::State::visible:
-      return LineState::visible;
-    case hlr::State::hidden_by_self:
-      return LineState::hidden_by_self;
-    case hlr::State::hidden_by_other:
-      return LineState::hidden_by_other;
-    case hlr::State::projecting:
-      return LineState::projecting;
-    case hlr::State::clipped:
-      return LineState::clipped;
-  }
-  return LineState::clipped;
-}
-
 /// The plane of a view about a point of the model. Points are taken relative to it before they
 /// become doubles, so that a model in map coordinates loses nothing.
 class Plane {

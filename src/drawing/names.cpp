@@ -3,6 +3,22 @@
 
 namespace strake::drawing {
 
+LineState line_state(hlr::State state) {
+  switch (state) {
+    case hlr::State::visible:
+      return LineState::visible;
+    case hlr::State::hidden_by_self:
+      return LineState::hidden_by_self;
+    case hlr::State::hidden_by_other:
+      return LineState::hidden_by_other;
+    case hlr::State::projecting:
+      return LineState::projecting;
+    case hlr::State::clipped:
+      return LineState::clipped;
+  }
+  return LineState::clipped;
+}
+
 std::string_view state_name(LineState state) {
   switch (state) {
     case LineState::visible:

@@ -28,6 +28,8 @@ enum class LineState : std::uint8_t {
 };
 inline constexpr std::size_t kLineStates = 6;
 
+[[nodiscard]] LineState line_state(hlr::State state);
+
 /// Names as files spell them: "hidden_by_self", "non_manifold", "global".
 [[nodiscard]] std::string_view state_name(LineState state);
 [[nodiscard]] std::string_view kind_name(hlr::EdgeKind kind);
