@@ -19,6 +19,7 @@ MAY_USE = {
     'rules': ['core', 'parallel', 'geometry', 'model', 'settings', 'clash'],
     'hlr': ['core', 'parallel', 'geometry', 'model'],
     'drawing': ['core', 'parallel', 'geometry', 'model', 'hlr'],
+    'sheets': ['core', 'parallel', 'geometry', 'model', 'settings', 'hlr', 'drawing'],
     'report': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing'],
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
 }

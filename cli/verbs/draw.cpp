@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/draw_sheet.hpp"
 #include "cli/load.hpp"
 #include "cli/select.hpp"
 #include "cli/verb.hpp"
@@ -27,6 +28,7 @@ constexpr double kSagMm = 0.5;
 struct DrawOptions {
   InputOptions input;
   SceneInput scene;
+  std::string sheet;
   std::string view, direction, up, limits, scale, title;
   std::string stage, solver, hidden, intersections, sharp_angle, contact_distance;
   std::vector<std::string> select, outputs;
@@ -219,6 +221,9 @@ Result<drawing::NeutralDrawing> compute(Session& session, const Request& request
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   const Result<Request> request = request_of(given, session.console());
   if (!request) return request.error();
+  if (!given.sheet.empty())
+    return draw_sheet(session, {given.sheet, given.outputs, request->options.solver}, given.input,
+                      request->scene);
   if (given.outputs.empty() && !session.json())
     return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
   if (const Status status = check_outputs(given.outputs, {".svg", ".json"}, given.input.files);
@@ -290,6 +295,20 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->group("Lines");
 }
 
+/// A sheet says all of this itself.
+void add_sheet(CLI::App& command, DrawOptions& options) {
+  CLI::Option* const sheet =
+      command
+          .add_option("--sheet", options.sheet,
+                      "Several views with frame and title block, as a sheet file (TOML) says")
+          ->type_name("FILE")
+          ->group("Output");
+  for (const char* const other :
+       {"--view", "--direction", "--up", "--limits", "--select", "--hidden", "--stage",
+        "--intersections", "--sharp-angle", "--contact-distance", "--scale", "--title"})
+    sheet->excludes(other);
+}
+
 }  // namespace
 
 Verb add_draw(CLI::App& program, CommonOptions& common) {
@@ -309,13 +328,15 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");
   add_output_option(*command, options->outputs,
                     "Drawing as .svg, or its neutral form as .json; may be repeated");
+  add_sheet(*command, *options);
   add_common_options(*command, common);
   command->footer(R"(
 Examples:
   strake draw platform.rvm --view iso --hidden dashed -o platform.svg
   strake draw ship.glb --direction 1,-2,1 --up 0,0,1 --scale 1:100 -o cut.svg \
       --limits 0,-5000,0,20000,5000,8000
-  strake draw ship.glb --select 'PIPE*' --view top -o pipes.svg -o pipes.json)");
+  strake draw ship.glb --select 'PIPE*' --view top -o pipes.svg -o pipes.json
+  strake draw ship.glb --sheet deck.toml -o deck.svg)");
   return {command, [options](Session& session) { return run_draw(session, *options); }};
 }
 

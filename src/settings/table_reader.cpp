@@ -127,6 +127,43 @@ std::optional<double> TableReader::length_mm(const Value& value, std::string_vie
   return std::nullopt;
 }
 
+std::optional<double> TableReader::quantity(std::string_view key,
+                                            Result<double> (*parse)(std::string_view),
+                                            std::string_view wanted) {
+  const Value* const found = value(key);
+  if (found == nullptr) return std::nullopt;
+  const auto* const text = std::get_if<std::string>(&found->held);
+  if (text == nullptr) {
+    wrong_type(*found, key, wanted);
+    return std::nullopt;
+  }
+  const Result<double> quantity = parse(*text);
+  if (quantity) return *quantity;
+  reading_.fault(found->at, quoted(key) + " of " + what_ + ": " + quantity.error().message,
+                 quantity.error().mend);
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> TableReader::lengths_mm(std::string_view key, std::size_t count,
+                                                           std::string_view wanted) {
+  const Value* const found = value(key);
+  if (found == nullptr) return std::nullopt;
+  const auto* const list = std::get_if<Array>(&found->held);
+  if (list == nullptr || list->size() != count) {
+    reading_.fault(found->at,
+                   quoted(key) + " of " + what_ + " is no list of " + std::to_string(count),
+                   "write " + std::string(key) + " = " + std::string(wanted));
+    return std::nullopt;
+  }
+  std::vector<double> lengths;
+  for (const Value& one : *list) {
+    const auto length = length_mm(one, key);
+    if (!length) return std::nullopt;
+    lengths.push_back(*length);
+  }
+  return lengths;
+}
+
 std::optional<double> TableReader::tolerance_mm(std::string_view key) {
   const Value* const found = value(key);
   const auto length = found != nullptr ? length_mm(*found, key) : std::nullopt;

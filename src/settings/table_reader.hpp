@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -61,6 +62,15 @@ class TableReader {
   std::optional<std::int64_t> whole(std::string_view key);
   /// A text with a unit, as "25mm"; 0 needs none. From 0 to a kilometre.
   std::optional<double> tolerance_mm(std::string_view key);
+  /// A text that a function of units.hpp understands; `wanted` is what to write instead of another
+  /// type, as "an angle in quotes, as \"20deg\"".
+  std::optional<double> quantity(std::string_view key, Result<double> (*parse)(std::string_view),
+                                 std::string_view wanted);
+  /// A list of so many lengths, each with its unit, of any sign; `wanted` as above.
+  std::optional<std::vector<double>> lengths_mm(std::string_view key, std::size_t count,
+                                                std::string_view wanted);
+  /// A value of `key` as a length of any sign.
+  std::optional<double> length_mm(const Value& value, std::string_view key);
   /// One of some words.
   std::optional<std::string> word(std::string_view key, std::span<const std::string_view> words);
   /// One text or a list of them.
@@ -80,7 +90,6 @@ class TableReader {
   void wrong_type(const Value& value, std::string_view key, std::string_view wanted);
   template <class T>
   const T* held(std::string_view key, std::string_view wanted);
-  std::optional<double> length_mm(const Value& value, std::string_view key);
   const Array* three(std::string_view key);
 
   Reading& reading_;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "strake/core/diagnostics.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/drawing/ink.hpp"
+#include "strake/model/model.hpp"
+
+/// Sheets: several views of a model on one piece of paper, with frame, title block, tags and grid
+/// lines. docs/sheets.md defines the files that describe them.
+///
+/// A Sheet is neutral: what SVG is written from, and any other format can be. Coordinates are
+/// millimetres of paper, x to the right, y down, from the upper left corner.
+namespace strake::sheets {
+
+using drawing::PaperPoint;
+
+/// The classes of lines and texts that styles are given for.
+enum class LineClass : std::uint8_t {
+  outline,
+  edge,
+  boundary,
+  intersection,
+  polyline,
+  hidden,
+  grid,
+  grid_label,
+  leader,
+  title,
+  frame,
+  frame_thin,
+};
+inline constexpr std::size_t kLineClasses = 12;
+
+/// As files spell it: "frame_thin".
+[[nodiscard]] std::string_view class_name(LineClass line);
+/// The class of a line of a view.
+[[nodiscard]] LineClass class_of(hlr::EdgeKind kind, bool hidden);
+
+struct LineStyle {
+  double width_mm = 0.25;
+  std::vector<double> dash_mm;  ///< ink and gap by turns; empty: continuous
+  model::Color color{0, 0, 0, 255};
+};
+using LineStyles = std::array<LineStyle, kLineClasses>;
+
+struct PaperBox {
+  double left = 0, top = 0, right = 0, bottom = 0;
+  [[nodiscard]] double width() const { return right - left; }
+  [[nodiscard]] double height() const { return bottom - top; }
+  /// Whether they have more than a rim in common.
+  [[nodiscard]] bool overlaps(const PaperBox& other) const {
+    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+  }
+  [[nodiscard]] bool holds(const PaperBox& other) const {
+    return left <= other.left && top <= other.top && other.right <= right && other.bottom <= bottom;
+  }
+  [[nodiscard]] PaperBox moved(double x, double y) const {
+    return {left + x, top + y, right + x, bottom + y};
+  }
+  friend bool operator==(const PaperBox&, const PaperBox&) = default;
+};
+
+/// Points joined by straight lines; closed when the last is the first.
+struct Path {
+  LineClass line = LineClass::frame;
+  std::vector<PaperPoint> points;
+  bool filled = false;  ///< with the colour of its class
+};
+
+struct Circle {
+  LineClass line = LineClass::frame;
+  PaperPoint center;
+  double radius_mm = 0;
+};
+
+enum class Align : std::uint8_t { start, middle, end };
+
+struct Text {
+  LineClass line = LineClass::title;  ///< whose colour it has
+  PaperPoint at;                      ///< on the base line
+  double height_mm = 3.5;             ///< of a capital letter
+  Align align = Align::start;
+  std::string text;
+  bool clears = false;  ///< the paper behind it: lines end there
+};
+
+/// What is drawn beside the lines of the model.
+struct Marks {
+  std::vector<Path> paths;
+  std::vector<Circle> circles;
+  std::vector<Text> texts;
+};
+
+/// A view on its place.
+struct PlacedView {
+  std::string name, title;
+  drawing::NeutralDrawing drawing;  ///< what is known of it; its lines are in `ink`
+  drawing::Ink ink;
+  PaperBox box;  ///< of what was drawn in the model's plane, hidden lines included
+  Marks caption, grid, tags;
+};
+
+struct Sheet {
+  std::string title;  ///< of the file that is written
+  double width_mm = 420, height_mm = 297;
+  LineStyles styles;
+  std::vector<PlacedView> views;
+  Marks frame;  ///< border and title block, where they are the built-in ones
+  /// Otherwise the template with its fields filled in: elements of SVG and a viewBox of the size of
+  /// the sheet, or what a nested <svg> with that viewBox shows.
+  struct Template {
+    std::string view_box, elements;
+  };
+  std::optional<Template> artwork;
+  /// "view-empty", "selection-matches-nothing", "field-not-filled", "field-not-in-template",
+  /// "view-off-the-sheet", "views-overlap", "tag-no-room" … (docs/sheets.md)
+  Diagnostics diagnostics;
+};
+
+}  // namespace strake::sheets

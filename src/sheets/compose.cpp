@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheets/compose.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drawing/paper.hpp"
+#include "sheets/canvas.hpp"
+#include "sheets/fields.hpp"
+#include "sheets/frame.hpp"
+#include "sheets/grid.hpp"
+#include "sheets/lettering.hpp"
+#include "sheets/placing.hpp"
+#include "sheets/styles.hpp"
+#include "sheets/tags.hpp"
+#include "strake/model/selection.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+using drawing::LineState;
+using drawing::rounded_paper;
+using Picks = std::vector<std::vector<std::uint8_t>>;
+
+class Composer {
+ public:
+  Composer(const Description& what, const model::Scene& scene, hlr::Solver solver,
+           const parallel::Context& context)
+      : what_(what), scene_(scene), solver_(solver), context_(context), room_(room_of(what)) {}
+
+  Result<Sheet> run() {
+    sheet_.width_mm = what_.width_mm;
+    sheet_.height_mm = what_.height_mm;
+    for (const auto step : {&Composer::pick, &Composer::draw, &Composer::place, &Composer::ink})
+      if (const Status status = (this->*step)(); !status) return status.error();
+    check_places();
+    const double scale = main_scale(what_, places_);
+    for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
+    grid();
+    fill_frame(what_, scale, sheet_);
+    tags();
+    for (PlacedView& view : sheet_.views) view.drawing.lines = {};
+    return std::move(sheet_);
+  }
+
+ private:
+  void warn(std::string code, std::string message, std::string where) {
+    sheet_.diagnostics.add(
+        {Severity::warning, std::move(code), std::move(message), std::move(where)});
+  }
+
+  /// Asks all selections about all objects, once.
+  Status pick() {
+    std::vector<model::Selection> selections;
+    std::vector<const settings::Chooser*> choosers;
+    const auto ask = [&](const settings::Chooser& chooser) {
+      selections.push_back(chooser.selection);
+      choosers.push_back(&chooser);
+    };
+    for (const ViewWish& view : what_.views)
+      for (const settings::Chooser& chooser : view.select) ask(chooser);
+    for (const TagWish& tag : what_.tags) ask(*tag.select);
+    Result<Picks> picked = model::pick(selections, scene_, context_);
+    if (!picked) return picked.error();
+    picks_ = std::move(*picked);
+    std::vector<std::string> told;
+    for (std::size_t s = 0; s < picks_.size(); ++s) {
+      const bool some = std::find(picks_[s].begin(), picks_[s].end(), 1) != picks_[s].end();
+      if (some || std::find(told.begin(), told.end(), choosers[s]->where) != told.end()) continue;
+      told.push_back(choosers[s]->where);
+      warn("selection-matches-nothing", "'" + choosers[s]->selection.text() + "' picks no object",
+           choosers[s]->where);
+    }
+    return {};
+  }
+
+  /// The objects of a view; empty: all.
+  [[nodiscard]] std::vector<bool> drawn(std::size_t first, std::size_t count) const {
+    std::vector<bool> any;
+    if (count == 0) return any;
+    any.resize(scene_.model->objects.size());
+    for (std::size_t s = first; s < first + count; ++s)
+      for (std::size_t o = 0; o < any.size(); ++o) any[o] = any[o] || picks_[s][o] != 0;
+    return any;
+  }
+
+  Status draw() {
+    std::size_t asked = 0;
+    for (const ViewWish& view : what_.views) {
+      hlr::Options options = view.options;
+      options.solver = solver_;
+      Result<hlr::Drawing> lines =
+          hlr::draw(scene_, drawn(asked, view.select.size()), view.view, options, context_);
+      if (!lines) {
+        Error error = lines.error();
+        if (error.where.empty() && error.code != ErrorCode::cancelled) error.where = view.where;
+        return error;
+      }
+      asked += view.select.size();
+      drawings_.push_back(std::move(*lines));
+    }
+    return {};
+  }
+
+  Status place() {
+    auto places = place_views(what_, drawings_, room_);
+    if (!places) return places.error();
+    places_ = std::move(*places);
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const ViewWish& wish = what_.views[v];
+      drawing::LayoutOptions options;
+      options.view_name = wish.name;
+      options.title = wish.title;
+      options.placement = placement(v);
+      auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
+      if (!laid_out) return laid_out.error();
+      drawings_[v] = {};
+      sheet_.views.push_back(
+          {wish.name, wish.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}});
+      check_lines(wish, sheet_.views.back().drawing);
+    }
+    return {};
+  }
+
+  [[nodiscard]] drawing::Placement placement(std::size_t v) const {
+    const ViewPlace& place = places_[v];
+    return {{what_.width_mm, what_.height_mm, place.scale, drawing::scale_text(place.scale)},
+            place.anchor,
+            place.at};
+  }
+
+  void check_lines(const ViewWish& wish, const drawing::NeutralDrawing& lines) {
+    const auto of = [&](LineState state) { return lines.count[static_cast<std::size_t>(state)]; };
+    if (of(LineState::visible) > 0) return;
+    const bool nothing = lines.counters.objects == 0;
+    warn("view-empty",
+         "the view '" + wish.name + "' shows nothing: " +
+             (nothing                      ? "it has no objects"
+              : of(LineState::clipped) > 0 ? "nothing lies within its limits"
+                                           : "its objects have no lines to draw"),
+         wish.where);
+  }
+
+  /// One set of pens for the sheet: those that the densest of its views can bear.
+  Status ink() {
+    drawing::Pens pens;
+    for (const PlacedView& view : sheet_.views) {
+      const drawing::Pens own = drawing::choose_pens(view.drawing);
+      if (own.edge < pens.edge) pens = own;
+    }
+    sheet_.styles = styles_of(what_.styles, pens);
+    for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+      const HiddenLines hidden = what_.views[v].hidden;
+      auto chosen = drawing::choose_ink(sheet_.views[v].drawing,
+                                        {.hidden = hidden != HiddenLines::off,
+                                         .clean_up = hidden != HiddenLines::all,
+                                         .pens = pens_of(sheet_.styles)},
+                                        context_);
+      if (!chosen) return chosen.error();
+      sheet_.views[v].ink = std::move(*chosen);
+    }
+    return {};
+  }
+
+  void check_places() {
+    const PaperBox paper{0, 0, what_.width_mm, what_.height_mm};
+    for (std::size_t v = 0; v < places_.size(); ++v) {
+      const ViewWish& view = what_.views[v];
+      const PaperBox& box = places_[v].whole;
+      const std::string name =
+          "the view '" + view.name + "' at " + drawing::scale_text(places_[v].scale);
+      if (!paper.holds(box))
+        warn("view-off-the-sheet", name + " reaches beyond the paper", view.where);
+      else if (!room_.area.holds(box))
+        warn("view-off-the-frame", name + " reaches beyond the frame", view.where);
+      if (std::any_of(room_.keep_free.begin(), room_.keep_free.end(),
+                      [&](const PaperBox& k) { return k.overlaps(box); }))
+        warn("view-on-title-block", name + " covers the title block", view.where);
+      for (std::size_t w = 0; w < v; ++w)
+        if (places_[w].whole.overlaps(box))
+          warn("views-overlap", name + " overlaps '" + what_.views[w].name + "'", view.where);
+    }
+  }
+
+  /// The title below a view, underlined, and its scale where that is not the sheet's.
+  void caption(std::size_t v, double sheet_scale) {
+    PlacedView& view = sheet_.views[v];
+    const PaperBox& box = places_[v].lines;
+    const GridRim rim = grid_rim(what_.grid, what_.views[v]);
+    const double x = rounded_paper((box.left + box.right) / 2);
+    double y = box.bottom + rim.other_mm + kCaptionGap;
+    if (!view.title.empty()) {
+      y = rounded_paper(y + kTitleMm);
+      const double half = rounded_paper(text_width(view.title) * kTitleMm / 2);
+      view.caption.texts.push_back(
+          {LineClass::title, {x, y}, kTitleMm, Align::middle, view.title, false});
+      y = rounded_paper(y + 1.5);
+      view.caption.paths.push_back({LineClass::title, {{x - half, y}, {x + half, y}}, false});
+    }
+    if (places_[v].scale == sheet_scale) return;
+    y = rounded_paper(y + 1.5 + kScaleMm);
+    view.caption.texts.push_back({LineClass::title,
+                                  {x, y},
+                                  kScaleMm,
+                                  Align::middle,
+                                  drawing::scale_text(places_[v].scale),
+                                  false});
+  }
+
+  void grid() {
+    std::vector<bool> somewhere(what_.grid.planes.size());
+    for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+      GridMarks marks = grid_marks(what_.grid, what_.views[v], placement(v), places_[v].lines);
+      for (std::size_t p = 0; p < somewhere.size(); ++p)
+        somewhere[p] = somewhere[p] || marks.drawn[p];
+      if (marks.unlabelled > 0)
+        sheet_.diagnostics.add(Severity::note, "grid-label-no-room",
+                               "in the view '" + what_.views[v].name + "' " +
+                                   std::to_string(marks.unlabelled) +
+                                   " grid lines have no room for their labels",
+                               what_.grid.where);
+      sheet_.views[v].grid = std::move(marks.marks);
+    }
+    for (std::size_t p = 0; p < somewhere.size(); ++p)
+      if (!somewhere[p])
+        warn("grid-line-nowhere",
+             "the grid line '" + what_.grid.planes[p].label + "' shows in no view",
+             what_.grid.where);
+  }
+
+  void tags() {
+    if (what_.tags.empty()) return;
+    Canvas canvas(sheet_.width_mm, sheet_.height_mm);
+    for (const PlacedView& view : sheet_.views) {
+      for (const drawing::Line& line : view.ink.lines) canvas.add_line(line.a_paper, line.b_paper);
+      for (const Path& path : view.grid.paths)
+        canvas.add_line(path.points.front(), path.points.back());
+      for (const Marks* marks : {&view.caption, &view.grid}) {
+        for (const Text& text : marks->texts) canvas.block(box_of(text));
+        for (const Circle& c : marks->circles)
+          canvas.block({c.center.x - c.radius_mm, c.center.y - c.radius_mm,
+                        c.center.x + c.radius_mm, c.center.y + c.radius_mm});
+      }
+    }
+    // Picks of tags come behind those of views.
+    std::size_t pick = picks_.size() - what_.tags.size();
+    for (const TagWish& tag : what_.tags) {
+      const std::vector<std::uint8_t>& picked = picks_[pick++];
+      std::size_t seen = 0;
+      for (PlacedView& view : sheet_.views)
+        if (tag.views.empty() ||
+            std::find(tag.views.begin(), tag.views.end(), view.name) != tag.views.end())
+          seen += tag_view(tag, picked, view, canvas);
+      if (seen == 0 && std::find(picked.begin(), picked.end(), 1) != picked.end())
+        warn("tag-not-seen",
+             "none of the objects of '" + tag.select->selection.text() + "' is seen in a view",
+             tag.where);
+    }
+  }
+
+  /// How many of the objects show in the view.
+  std::size_t tag_view(const TagWish& tag, const std::vector<std::uint8_t>& picked,
+                       PlacedView& view, Canvas& canvas) {
+    const TagCount count = write_tags(tag, picked, *scene_.model, room_, view, canvas);
+    const std::string where = tag.where + ", the view '" + view.name + "'";
+    const auto say = [&](std::size_t number, const char* code, const std::string& what) {
+      if (number > 0) warn(code, std::to_string(number) + " objects " + what, where);
+    };
+    say(count.blank, "tag-attribute-missing", "have nothing to be tagged with");
+    say(count.partly, "tag-attribute-partly-missing", "lack some of what '" + tag.text + "' names");
+    say(count.crowded, "tag-no-room", "are without their tags: there is no room for them");
+    return static_cast<std::size_t>(std::count(picked.begin(), picked.end(), 1)) - count.unseen;
+  }
+
+  const Description& what_;
+  const model::Scene& scene_;
+  hlr::Solver solver_;
+  const parallel::Context& context_;
+  Room room_;
+  Picks picks_;
+  std::vector<hlr::Drawing> drawings_;
+  std::vector<ViewPlace> places_;
+  Sheet sheet_;
+};
+
+}  // namespace
+
+Result<Sheet> compose(const Description& what, const model::Scene& scene, hlr::Solver solver,
+                      const parallel::Context& context) {
+  return Composer(what, scene, solver, context).run();
+}
+
+}  // namespace strake::sheets

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sheets/description.hpp"
+#include "strake/core/result.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
+#include "strake/sheets/sheet.hpp"
+
+namespace strake::sheets {
+
+/// The sheet that a file describes, of this scene.
+[[nodiscard]] Result<Sheet> compose(const Description& what, const model::Scene& scene,
+                                    hlr::Solver solver, const parallel::Context& context);
+
+}  // namespace strake::sheets

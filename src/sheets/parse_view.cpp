@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheets/parse_view.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "strake/core/number.hpp"
+#include "strake/core/units.hpp"
+#include "strake/drawing/view.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+using geometry::Vec3d;
+using geometry::Vec3l;
+using settings::Array;
+using settings::TableReader;
+using settings::Value;
+
+/// [1, -2.5, 1] as "1,-2.5,1"; nothing where it is anything else.
+std::optional<std::string> joined(const Value& value) {
+  const auto* const list = std::get_if<Array>(&value.held);
+  if (list == nullptr || list->size() != 3) return std::nullopt;
+  std::string text;
+  for (const Value& one : *list) {
+    const auto* const whole = std::get_if<std::int64_t>(&one.held);
+    const auto* const number = std::get_if<double>(&one.held);
+    if (whole == nullptr && (number == nullptr || !std::isfinite(*number))) return std::nullopt;
+    text +=
+        (text.empty() ? "" : ",") + (whole != nullptr ? std::to_string(*whole) : shortest(*number));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<Vec3l> ViewReader::vector(TableReader& table, std::string_view key, bool names) {
+  const Value* const value = table.value(key);
+  if (value == nullptr) return std::nullopt;
+  const std::string mend = "write " + std::string(key) + " = [1, -1, 1]" +
+                           (names ? ", or \"top\", \"bottom\", \"front\", \"back\", \"left\", "
+                                    "\"right\" or \"iso\""
+                                  : "");
+  const auto* const text = std::get_if<std::string>(&value->held);
+  if (text != nullptr && names)
+    if (const auto named = drawing::direction_by_name(*text)) return *named;
+  const auto numbers = text != nullptr ? std::optional(*text) : joined(*value);
+  const auto direction = numbers ? std::optional(drawing::parse_direction(*numbers)) : std::nullopt;
+  if (direction && *direction) return (*direction)->vector;
+  reading_.fault(value->at, "'" + std::string(key) + "' of " + table.what() + " is no direction",
+                 mend);
+  return std::nullopt;
+}
+
+void ViewReader::direction(TableReader& table, ViewWish& view) {
+  if (const auto direction = vector(table, "direction", true)) {
+    view.view.direction = *direction;
+    view.view.up = drawing::default_up(*direction);
+  }
+  if (const auto up = vector(table, "up", false)) view.view.up = *up;
+  if (!drawing::can_be_up(view.view.up, view.view.direction))
+    reading_.fault(table.at(), "'up' of " + table.what() + " is parallel to its direction",
+                   "give a direction that shows on paper");
+}
+
+std::optional<double> ViewReader::scale(TableReader& table) {
+  return table.quantity("scale", parse_scale, "a scale in quotes, as \"1:50\"");
+}
+
+void ViewReader::limits(TableReader& outer, ViewWish& view) {
+  const Value* const value = outer.table("limits");
+  if (value == nullptr) return;
+  TableReader table(reading_, *value, "'limits' of " + outer.what());
+  const auto lo = table.point_mm("min"), hi = table.point_mm("max");
+  const std::string mend =
+      "write limits = { min = [\"0m\", \"0m\", \"0m\"], max = [\"9m\", \"9m\", \"3m\"] }";
+  if (!lo || !hi) {
+    reading_.fault(value->at, table.what() + " wants both corners of its box", mend);
+    return;
+  }
+  const auto from = geometry::snap(*lo), to = geometry::snap(*hi);
+  if (!from || !to)
+    reading_.fault(value->at, table.what() + " lies outside what can be placed", mend);
+  else if (geometry::Box3l{*from, *to}.empty())
+    reading_.fault(value->at, table.what() + " ends before it begins",
+                   "put the smaller numbers in min");
+  else
+    view.view.limits = geometry::Box3l{*from, *to};
+}
+
+void ViewReader::select(TableReader& table, ViewWish& view) {
+  const Value* const value = table.value("select");
+  if (value == nullptr) return;
+  view.select.clear();
+  const std::string what = table.what() + ", select";
+  const auto take = [&](const Value& one) {
+    if (auto chooser = sets_.chooser(one, what)) view.select.push_back(std::move(*chooser));
+  };
+  const auto* const list = std::get_if<Array>(&value->held);
+  if (list == nullptr) {
+    take(*value);
+    return;
+  }
+  for (const Value& one : *list) take(one);
+  if (list->empty())
+    reading_.fault(value->at, "'select' of " + table.what() + " picks nothing",
+                   "leave it out to draw everything");
+}
+
+void ViewReader::content(TableReader& table, ViewWish& view) {
+  select(table, view);
+  limits(table, view);
+  constexpr std::array<std::string_view, 3> kHidden{"off", "dashed", "all"};
+  if (const auto word = table.word("hidden", kHidden))
+    view.hidden = *word == "off"      ? HiddenLines::off
+                  : *word == "dashed" ? HiddenLines::dashed
+                                      : HiddenLines::all;
+  constexpr std::array<std::string_view, 3> kStages{"none", "local", "global"};
+  if (const auto word = table.word("stage", kStages))
+    view.options.stage = *word == "none"    ? hlr::Stage::none
+                         : *word == "local" ? hlr::Stage::local
+                                            : hlr::Stage::global;
+  constexpr std::array<std::string_view, 3> kIntersections{"off", "objects", "parts"};
+  if (const auto word = table.word("intersections", kIntersections))
+    view.options.intersections = *word == "off"       ? hlr::Intersections::off
+                                 : *word == "objects" ? hlr::Intersections::objects
+                                                      : hlr::Intersections::parts;
+  if (const auto angle =
+          table.quantity("sharp_angle", parse_angle_deg, "an angle in quotes, as \"20deg\"")) {
+    if (!(*angle >= 0 && *angle <= 180))
+      reading_.fault(table.value("sharp_angle")->at,
+                     "'sharp_angle' of " + table.what() + " is no angle between two faces",
+                     "write \"0deg\" to \"180deg\"");
+    view.options.sharp_angle_deg = *angle;
+  }
+  if (const auto distance = table.tolerance_mm("contact_distance"))
+    view.options.contact_distance_mm = *distance;
+}
+
+}  // namespace strake::sheets

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "settings/named_sets.hpp"
+#include "settings/table_reader.hpp"
+#include "sheets/description.hpp"
+
+namespace strake::sheets {
+
+/// Reads what tables say of views. What a table does not say stays as it is.
+class ViewReader {
+ public:
+  ViewReader(settings::Reading& reading, settings::NamedSets& sets)
+      : reading_(reading), sets_(sets) {}
+
+  /// What may be said of all views at once: what is drawn, and how. (A section belongs here.)
+  void content(settings::TableReader& table, ViewWish& view);
+  /// Direction and up.
+  void direction(settings::TableReader& table, ViewWish& view);
+  /// "1:50".
+  static std::optional<double> scale(settings::TableReader& table);
+
+ private:
+  std::optional<geometry::Vec3l> vector(settings::TableReader& table, std::string_view key,
+                                        bool names);
+  void limits(settings::TableReader& table, ViewWish& view);
+  void select(settings::TableReader& table, ViewWish& view);
+
+  settings::Reading& reading_;
+  settings::NamedSets& sets_;
+};
+
+}  // namespace strake::sheets

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sheets/arrangement.hpp"
+#include "sheets/description.hpp"
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/sheets/sheet.hpp"
+
+namespace strake::sheets {
+
+/// A title below a view: its letters, and the room that it takes.
+inline constexpr double kTitleMm = 5, kScaleMm = 3.5, kCaptionGap = 4;
+
+/// Where a view comes to lie.
+struct ViewPlace {
+  geometry::Vec3l anchor;
+  double scale = 1;
+  PaperPoint at;   ///< where the anchor falls
+  PaperBox lines;  ///< of all lines, hidden ones too
+  PaperBox whole;  ///< with grid ends and caption
+};
+
+/// Gives each view its scale and place: those of the arrangement by arrange(), others where they
+/// say, and views without a scale the largest usual one that is common to them and at which they
+/// fit.
+/// Errors: input, where nothing fits at any scale.
+[[nodiscard]] Result<std::vector<ViewPlace>> place_views(const Description& what,
+                                                         std::span<const hlr::Drawing> drawings,
+                                                         const Room& room);
+
+/// The scale for the title block: that of the arrangement, or of most views.
+[[nodiscard]] double main_scale(const Description& what, std::span<const ViewPlace> places);
+
+}  // namespace strake::sheets

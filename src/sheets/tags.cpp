@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheets/tags.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "drawing/paper.hpp"
+#include "model/attribute_values.hpp"
+#include "sheets/lettering.hpp"
+#include "sheets/placeholders.hpp"
+#include "strake/model/selectable.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+using drawing::Line;
+using drawing::rounded_paper;
+
+constexpr std::array<std::string_view, 5> kNames{"name", "id", "path", "file", "type"};
+
+/// Between two texts, and between a text and its line.
+constexpr double kClearance = 0.7;
+
+/// Where leaders go: unit vectors, the upper right first.
+constexpr std::array<PaperPoint, 12> kWays{{{0.6, -0.8},
+                                            {-0.6, -0.8},
+                                            {0.8, -0.6},
+                                            {-0.8, -0.6},
+                                            {0.6, 0.8},
+                                            {-0.6, 0.8},
+                                            {0.8, 0.6},
+                                            {-0.8, 0.6},
+                                            {0.28, -0.96},
+                                            {-0.28, -0.96},
+                                            {0.28, 0.96},
+                                            {-0.28, 0.96}}};
+constexpr std::array<double, 9> kLengths{6, 9, 13, 18, 24, 32, 42, 55, 70};
+
+/// What an object says to a name of a text; nothing where it lacks it.
+std::string said(const model::Model& model, model::ObjectId id, const std::string& name) {
+  const model::Object& object = model.object(id);
+  if (name == "name") return object.name;
+  if (name == "id") return object.id;
+  if (name == "file") return model.files[object.file].label;
+  if (name == "path" || name == "type") {
+    const model::Selectable all = model::selectable(model, id);
+    if (name == "path") return all.path;
+    return all.types.empty() ? std::string() : *all.types.begin();
+  }
+  const auto values = model::values_of(model, object, std::string_view(name).substr(1));
+  return values.empty() ? std::string() : std::string(values.front());
+}
+
+/// An object as a view shows it.
+struct Seen {
+  model::ObjectId object{};
+  PaperPoint anchor;  ///< the middle of its longest visible line
+  PaperBox box;       ///< of its visible lines
+  double length = 0;  ///< of all of them
+  std::string text;
+};
+
+double length_of(const Line& line) {
+  const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+/// The picked objects that have visible lines, in the order of the model.
+std::vector<Seen> seen_objects(const drawing::Ink& ink, const std::vector<std::uint8_t>& picked) {
+  std::vector<Seen> all;
+  double longest = 0;
+  for (const Line& line : ink.lines) {
+    if (line.state != drawing::LineState::visible || picked[model::index(line.object)] == 0)
+      continue;
+    const double length = length_of(line);
+    if (!(length > 0)) continue;
+    if (all.empty() || all.back().object != line.object) {
+      all.push_back({line.object,
+                     {},
+                     {line.a_paper.x, line.a_paper.y, line.a_paper.x, line.a_paper.y},
+                     0,
+                     {}});
+      longest = 0;
+    }
+    Seen& seen = all.back();
+    seen.length += length;
+    if (length > longest) {
+      longest = length;
+      seen.anchor = {rounded_paper((line.a_paper.x + line.b_paper.x) / 2),
+                     rounded_paper((line.a_paper.y + line.b_paper.y) / 2)};
+    }
+    for (const PaperPoint& p : {line.a_paper, line.b_paper}) {
+      seen.box.left = std::min(seen.box.left, p.x);
+      seen.box.right = std::max(seen.box.right, p.x);
+      seen.box.top = std::min(seen.box.top, p.y);
+      seen.box.bottom = std::max(seen.box.bottom, p.y);
+    }
+  }
+  return all;
+}
+
+/// Of objects with one text the one that shows most, in the order of the model.
+std::vector<Seen> each_text_once(const std::vector<Seen>& all) {
+  std::map<std::string_view, const Seen*> most;
+  for (const Seen& seen : all) {
+    const Seen*& best = most[seen.text];
+    if (best == nullptr || seen.length > best->length) best = &seen;
+  }
+  std::vector<Seen> once;
+  for (const Seen& seen : all)
+    if (most[seen.text] == &seen) once.push_back(seen);
+  return once;
+}
+
+class Writer {
+ public:
+  Writer(const TagWish& wish, const Room& room, PlacedView& view, Canvas& canvas)
+      : wish_(wish), room_(room), view_(view), canvas_(canvas) {}
+
+  bool write(const Seen& seen) { return wish_.leader ? with_leader(seen) : plain(seen); }
+
+ private:
+  [[nodiscard]] bool takes(const PaperBox& box) const {
+    const PaperBox wide{box.left - kClearance, box.top - kClearance, box.right + kClearance,
+                        box.bottom + kClearance};
+    return room_.takes(wide) && canvas_.is_open(wide);
+  }
+
+  void put(const Text& text) {
+    canvas_.block(box_of(text));
+    view_.tags.texts.push_back(text);
+  }
+
+  bool plain(const Seen& seen) {
+    const double h = wish_.height_mm;
+    const PaperPoint middle{rounded_paper((seen.box.left + seen.box.right) / 2),
+                            rounded_paper((seen.box.top + seen.box.bottom) / 2 + h / 2)};
+    for (const double lines : {0.0, -1.0, 1.0, -2.0, 2.0}) {
+      const Text text{LineClass::leader,
+                      {middle.x, rounded_paper(middle.y + lines * 1.6 * h)},
+                      h,
+                      Align::middle,
+                      seen.text,
+                      true};
+      if (!takes(box_of(text))) continue;
+      put(text);
+      return true;
+    }
+    return false;
+  }
+
+  /// A text above a landing, and the line from there to the object.
+  struct Place {
+    Text text;
+    PaperPoint elbow, end;
+  };
+
+  [[nodiscard]] Place place(const Seen& seen, const PaperPoint& way, double length) const {
+    const double width = text_width(seen.text) * wish_.height_mm;
+    Place p;
+    p.elbow = {rounded_paper(seen.anchor.x + way.x * length),
+               rounded_paper(seen.anchor.y + way.y * length)};
+    const bool right = way.x > 0;
+    p.end = {rounded_paper(p.elbow.x + (right ? width : -width)), p.elbow.y};
+    p.text = {LineClass::leader, {p.elbow.x, rounded_paper(p.elbow.y - kClearance)},
+              wish_.height_mm,   right ? Align::start : Align::end,
+              seen.text,         true};
+    return p;
+  }
+
+  bool with_leader(const Seen& seen) {
+    std::optional<Place> best;
+    double least = 0;
+    for (const double length : kLengths) {
+      if (best && length >= least) break;  // nothing farther away can be better
+      for (const PaperPoint& way : kWays) {
+        const Place p = place(seen, way, length);
+        PaperBox box = box_of(p.text);
+        box.bottom = std::max(box.bottom, p.elbow.y);
+        if (!takes(box)) continue;
+        const Canvas::Way line = canvas_.way(seen.anchor, p.elbow);
+        if (!line.open) continue;
+        const double cost = length + 4 * canvas_.ink(box) + 12 * static_cast<double>(line.crossed);
+        if (best && cost >= least) continue;
+        least = cost;
+        best = p;
+      }
+    }
+    if (!best) return false;
+    put(best->text);
+    canvas_.add_leader(seen.anchor, best->elbow);
+    canvas_.add_leader(best->elbow, best->end);
+    view_.tags.paths.push_back({LineClass::leader, {seen.anchor, best->elbow, best->end}, false});
+    view_.tags.paths.push_back(arrow(seen.anchor, best->elbow));
+    return true;
+  }
+
+  /// The head at the object: as long as the letters are high, a third as wide.
+  [[nodiscard]] Path arrow(const PaperPoint& tip, const PaperPoint& from) const {
+    const double dx = from.x - tip.x, dy = from.y - tip.y;
+    const double length = std::sqrt(dx * dx + dy * dy);
+    const double x = dx / length * wish_.height_mm, y = dy / length * wish_.height_mm;
+    const PaperPoint left{rounded_paper(tip.x + x - y / 6), rounded_paper(tip.y + y + x / 6)};
+    const PaperPoint right{rounded_paper(tip.x + x + y / 6), rounded_paper(tip.y + y - x / 6)};
+    return {LineClass::leader, {tip, left, right, tip}, true};
+  }
+
+  const TagWish& wish_;
+  const Room& room_;
+  PlacedView& view_;
+  Canvas& canvas_;
+};
+
+}  // namespace
+
+bool is_tag_name(std::string_view name) {
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end() ||
+         (name.size() > 1 && name.front() == '@');
+}
+
+TagCount write_tags(const TagWish& wish, const std::vector<std::uint8_t>& picked,
+                    const model::Model& model, const Room& room, PlacedView& view, Canvas& canvas) {
+  TagCount count;
+  const auto pieces = split_placeholders(wish.text);
+  if (!pieces) return count;
+  std::vector<Seen> all = seen_objects(view.ink, picked);
+  count.unseen = static_cast<std::size_t>(std::count(picked.begin(), picked.end(), 1)) - all.size();
+  std::vector<Seen> texts;
+  for (Seen& seen : all) {
+    std::size_t named = 0, lacking = 0;
+    seen.text = filled(*pieces, [&](const std::string& name) {
+      std::string value = said(model, seen.object, name);
+      ++named;
+      if (value.empty()) ++lacking;
+      return value;
+    });
+    if (named > 0 && lacking == named) {
+      ++count.blank;
+      continue;
+    }
+    if (lacking > 0) ++count.partly;
+    texts.push_back(std::move(seen));
+  }
+  if (wish.once) texts = each_text_once(texts);
+  Writer writer(wish, room, view, canvas);
+  for (const Seen& seen : texts) ++(writer.write(seen) ? count.written : count.crowded);
+  return count;
+}
+
+}  // namespace strake::sheets

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""sheet_test.py STRAKE EXAMPLES: sheets as a user draws them: the example, threads, and what goes wrong."""
+import re
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from scenario import Scenario, cube, main
+
+EXAMPLES = None
+SVG = '{http://www.w3.org/2000/svg}'
+SHEET = '{urn:strake:sheet:1}'
+SETTINGS = ['--unit', 'mm', '--up-axis', 'z']
+
+
+class Sheet(Scenario):
+    def draw(self, *more, model='m.obj', sheet='s.toml', out='s.svg'):
+        return self.run_strake('draw', model, *SETTINGS, '--sheet', sheet, '-o', out, *more)
+
+    def small(self, sheet):
+        self.write('m.obj', cube('a', 0, (0, 0, 0), 1000) + cube('b', 1, (1500, 0, 0), 500))
+        self.write('s.toml', sheet)
+
+    def root(self, name='s.svg'):
+        return ElementTree.parse(self.folder / name).getroot()
+
+    def test_the_example_is_a_sheet_of_four_views(self):
+        done = self.run_strake('generate', 'ship', '--objects', 1200, '--seed', 1, '-o', 'ship.glb')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        expected = None
+        for threads in (1, 2, 3, 8, 64):
+            done = self.run_strake('draw', 'ship.glb', '--sheet', EXAMPLES / 'ship_sheet.toml', '-o', 's.svg',
+                                   '--threads', threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            got = (self.folder / 's.svg').read_bytes()
+            expected = expected or got
+            self.assertEqual(got, expected, threads)
+        # Nothing is amiss but what the model itself brings along.
+        self.assertEqual([line for line in done.stderr.splitlines() if line.startswith('warning')
+                          and 'mesh-inverted' not in line], [])
+        root = self.root()
+        self.assertEqual((root.get('width'), root.get('height')), ('594mm', '420mm'))
+        views = root.findall(f'.//{SHEET}view')
+        self.assertEqual([view.get('name') for view in views], ['front', 'top', 'left', 'iso'])
+        self.assertEqual({view.get('scale') for view in views}, {'1:100'})
+        for view in views:
+            told = re.search(rf"view '{view.get('name')}': (\d+) visible of", done.stderr)
+            self.assertEqual(told[1], view.get('visible'))
+            self.assertGreater(int(told[1]), 1000)
+        texts = [text.text for text in root.iter(f'{SVG}text')]
+        for wanted in ('STR-1200-001', '1:100', 'A2', 'DECK 1', 'ISOMETRIC VIEW', 'ENG-B0001-L00-D01-0001', 'CL'):
+            self.assertIn(wanted, texts)
+        ids = [element.get('id') for element in root.iter() if element.get('id')]
+        self.assertEqual(len(ids), len(set(ids)))
+
+    def test_hidden_lines_and_the_solver(self):
+        self.small('arrangement = "first-angle"\n[defaults]\nhidden = "dashed"\n')
+        self.assertEqual(self.draw().returncode, 0)
+        ways = (self.folder / 's.svg').read_bytes()
+        self.assertIn(b'class="hidden sharp"', ways)
+        self.assertEqual(self.draw('--solver', 'brute-force').returncode, 0)
+        self.assertEqual((self.folder / 's.svg').read_bytes(), ways)
+
+    def test_what_is_amiss_is_told(self):
+        self.small('[[view]]\nname = "v"\nselect = "nobody"\n[fields]\ncolour = "red"\n')
+        done = self.draw()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for code in ('selection-matches-nothing', 'view-empty', 'field-not-filled', 'field-not-in-template'):
+            self.assertIn(f'warning {code}: s.toml, line', done.stderr)
+        self.assertEqual(self.draw('--strict').returncode, 4)
+
+    def test_a_fault_leaves_no_output_and_keeps_the_last(self):
+        self.small('arrangement = "first-angle"\n')
+        self.assertEqual(self.draw().returncode, 0)
+        before = (self.folder / 's.svg').read_bytes()
+        for sheet, words in (('arrangement = "first-angle"\nsize = "A3"\n', "s.toml, line 2, column 1: the file has no key"),
+                             ('[[view]]\n', "s.toml, line 1, column 1: [[view]] has no 'name'"),
+                             ('[sheet]\ntemplate = "t.svg"\narrangement = 3', 't.svg'),
+                             ('', 'the sheet has no views'),
+                             ('[sheet]\nsize = ["100mm", "100mm"]\n[arrangement]\ngap = "90mm"\n', 'no room on the sheet')):
+            self.write('s.toml', sheet)
+            done = self.draw()
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(words, done.stderr)
+            self.assertEqual((self.folder / 's.svg').read_bytes(), before)
+            self.assertEqual(self.files(), ['m.obj', 's.svg', 's.toml'])
+
+    def test_templates_beside_the_sheet(self):
+        (self.folder / 'yard').mkdir()
+        self.small('')
+        frame = ('<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210">'
+                 '<path d="M5 5H292V205H5Z" fill="none" stroke="#000"/><text x="200" y="200">{{title}} {{scale}}</text></svg>')
+        self.write('yard/a4.svg', frame)
+        self.write('yard/s.toml', '[sheet]\ntemplate = "a4.svg"\n[fields]\ntitle = "T"\n[[view]]\nname = "v"\n')
+        done = self.draw(sheet='yard/s.toml')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn('warning', done.stderr)
+        root = self.root()
+        self.assertEqual(root.get('width'), '297mm')
+        self.assertIn('T 1:20', [text.text for text in root.iter(f'{SVG}text')])
+        for hostile, words in ((frame.replace('<path', '<script>x()</script><path'), 'a4.svg, line 1 (the template of s.toml)'),
+                               ('<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]>' + frame, 'a document type'),
+                               ('no svg at all', 'is it SVG?')):
+            self.write('yard/a4.svg', hostile)
+            done = self.draw(sheet='yard/s.toml')
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(words, done.stderr)
+
+    def test_a_sheet_says_itself_what_options_say_otherwise(self):
+        self.small('arrangement = "first-angle"\n')
+        for more in (['--view', 'top'], ['--scale', '1:50'], ['--select', 'a'], ['--hidden', 'all'], ['--title', 'x'],
+                     ['--json'], ['-o', 's.json'], ['-o', 's.toml']):
+            self.assertEqual(self.draw(*more).returncode, 2, more)
+        self.assertEqual(self.run_strake('draw', 'm.obj', '--sheet', 's.toml').returncode, 2)
+        self.assertEqual(self.draw(sheet='none.toml').returncode, 3)
+        self.assertFalse((self.folder / 's.svg').exists())
+
+    def test_it_renders(self):
+        if not shutil.which('rsvg-convert'):
+            self.skipTest('no rsvg-convert')
+        self.small('arrangement = "third-angle"\n')
+        self.assertEqual(self.draw().returncode, 0)
+        subprocess.run(['rsvg-convert', '--width', '800', '-o', 's.png', 's.svg'], cwd=self.folder, check=True)
+        self.assertGreater((self.folder / 's.png').stat().st_size, 5000)
+
+
+if __name__ == '__main__':
+    EXAMPLES = Path(sys.argv.pop(2)).resolve()
+    main()

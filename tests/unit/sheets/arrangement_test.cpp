@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// First and third angle: who stands where, in line with whom, at which scale.
+#include "sheets/arrangement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace strake::sheets {
+namespace {
+
+using geometry::Vec3l;
+
+/// Views of a body of 4000 x 2000 x 1000 mm about its lower corner.
+std::vector<ToPlace> views_of(const std::vector<Slot>& slots) {
+  std::vector<ToPlace> views;
+  for (const Slot slot : slots) {
+    ToPlace view;
+    view.slot = slot;
+    view.extent = {0, 4000, 0, 1000};
+    if (slot == Slot::top) view.extent = {0, 4000, 0, 2000};
+    if (slot == Slot::bottom) view.extent = {0, 4000, -2000, 0};
+    if (slot == Slot::left) view.extent = {-2000, 0, 0, 1000};
+    if (slot == Slot::right) view.extent = {0, 2000, 0, 1000};
+    if (slot == Slot::iso) view.extent = {-1000, 3333.333, -1500, 1234.567};
+    view.bottom_mm = 12;
+    views.push_back(view);
+  }
+  return views;
+}
+
+const Room kA3{{24, 14, 406, 283}, {{230, 239, 410, 287}}};
+
+Arranged arranged(const std::vector<ToPlace>& views, Projection projection, const Room& room = kA3,
+                  double scale = 0) {
+  const auto found = arrange(views, projection, room, 15, scale);
+  EXPECT_TRUE(found) << found.error().text();
+  return found ? *found : Arranged{};
+}
+
+TEST(Arrangement, DirectionsBesideAFrontView) {
+  const hlr::View front{{0, -1, 0}, {0, 0, 1}, {}};
+  const auto is = [&](Slot slot, Vec3l direction, Vec3l up) {
+    const hlr::View view = view_in_slot(slot, front);
+    return view.direction == direction && view.up == up;
+  };
+  EXPECT_TRUE(is(Slot::top, {0, 0, 1}, {0, 1, 0}));
+  EXPECT_TRUE(is(Slot::bottom, {0, 0, -1}, {0, -1, 0}));
+  EXPECT_TRUE(is(Slot::left, {-1, 0, 0}, {0, 0, 1}));
+  EXPECT_TRUE(is(Slot::right, {1, 0, 0}, {0, 0, 1}));
+  EXPECT_TRUE(is(Slot::back, {0, 1, 0}, {0, 0, 1}));
+  EXPECT_TRUE(is(Slot::iso, {1, -1, 1}, {0, 0, 1}));
+  // Of a plan with x to the right, the view from below has x to the right as well.
+  const hlr::View plan{{0, 0, 1}, {0, 1, 0}, {}};
+  EXPECT_EQ(view_in_slot(Slot::top, plan).direction, Vec3l(0, 1, 0));
+  EXPECT_EQ(view_in_slot(Slot::right, plan).direction, Vec3l(1, 0, 0));
+}
+
+TEST(Arrangement, FirstAngleStandsAcrossThirdAngleBeside) {
+  const auto views = views_of({Slot::front, Slot::top, Slot::bottom, Slot::left, Slot::right});
+  for (const Projection projection : {Projection::first_angle, Projection::third_angle}) {
+    const Arranged a = arranged(views, projection);
+    EXPECT_TRUE(a.fits);
+    std::vector<PaperBox> box;
+    for (std::size_t v = 0; v < views.size(); ++v) box.push_back(views[v].at(a.at[v], a.scale));
+    const bool first = projection == Projection::first_angle;
+    EXPECT_EQ(box[1].top > box[0].bottom, first);  // top view below
+    EXPECT_EQ(box[2].bottom < box[0].top, first);  // bottom view above
+    EXPECT_EQ(box[3].left > box[0].right, first);  // left view at the right
+    EXPECT_EQ(box[4].right < box[0].left, first);  // right view at the left
+    // In line to the bit: one x for a column, one y for a row.
+    EXPECT_EQ(a.at[1].x, a.at[0].x);
+    EXPECT_EQ(a.at[2].x, a.at[0].x);
+    EXPECT_EQ(a.at[3].y, a.at[0].y);
+    EXPECT_EQ(a.at[4].y, a.at[0].y);
+    for (std::size_t v = 0; v < box.size(); ++v) {
+      EXPECT_TRUE(kA3.takes(box[v]));
+      for (std::size_t w = 0; w < v; ++w) EXPECT_FALSE(box[v].overlaps(box[w]));
+    }
+  }
+}
+
+TEST(Arrangement, TheLargestUsualScaleThatFits) {
+  const auto views = views_of({Slot::front, Slot::top, Slot::left, Slot::iso});
+  const Arranged a = arranged(views, Projection::first_angle);
+  EXPECT_TRUE(std::find(usual_scales().begin(), usual_scales().end(), a.scale) !=
+              usual_scales().end());
+  for (const double larger : usual_scales()) {
+    if (larger >= a.scale) break;
+    EXPECT_FALSE(arranged(views, Projection::first_angle, kA3, larger).fits) << larger;
+  }
+  EXPECT_EQ(usual_scales().front(), 0.02);
+  EXPECT_TRUE(std::is_sorted(usual_scales().begin(), usual_scales().end()));
+  // A scale that is given is kept, whether it fits or not.
+  const Arranged given = arranged(views, Projection::first_angle, kA3, 7);
+  EXPECT_EQ(given.scale, 7);
+  EXPECT_FALSE(given.fits);
+  EXPECT_TRUE(arranged(views, Projection::first_angle, kA3, 123).fits);
+}
+
+TEST(Arrangement, ThePictorialViewTakesAFreePlace) {
+  for (const Projection projection : {Projection::first_angle, Projection::third_angle})
+    for (const auto& slots :
+         std::vector<std::vector<Slot>>{{Slot::front, Slot::iso},
+                                        {Slot::front, Slot::top, Slot::iso},
+                                        {Slot::front, Slot::top, Slot::bottom, Slot::left,
+                                         Slot::right, Slot::back, Slot::iso}}) {
+      const auto views = views_of(slots);
+      const Arranged a = arranged(views, projection);
+      for (std::size_t v = 0; v < views.size(); ++v)
+        for (std::size_t w = 0; w < v; ++w)
+          EXPECT_FALSE(views[v].at(a.at[v], a.scale).overlaps(views[w].at(a.at[w], a.scale)));
+    }
+}
+
+TEST(Arrangement, NoRoomAtAnyScaleIsAnError) {
+  auto views = views_of({Slot::front, Slot::top});
+  for (ToPlace& view : views) view.left_mm = 300;
+  const auto found = arrange(views, Projection::first_angle, {{0, 0, 200, 200}, {}}, 10, 0);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::input);
+}
+
+TEST(Arrangement, ViewsWithoutLinesHavePlacesToo) {
+  std::vector<ToPlace> views(2);
+  views[0].slot = Slot::front;
+  views[1].slot = Slot::top;
+  EXPECT_TRUE(arranged(views, Projection::first_angle).fits);
+}
+
+}  // namespace
+}  // namespace strake::sheets

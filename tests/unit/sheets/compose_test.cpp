@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sheets of small models: what stands on them, to the micrometre, and what is told of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sheets/lettering.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/sheet_of.hpp"
+
+namespace strake::sheets {
+namespace {
+
+using test::Drawn;
+
+Drawn drawn(const std::string& text, const test::Templates& templates = {}) {
+  auto result = test::drawn(text, templates);
+  EXPECT_TRUE(result) << result.error().text();
+  return result ? std::move(*result) : Drawn{};
+}
+
+bool told(const Sheet& sheet, const std::string& code, const std::string& words = "") {
+  for (const Diagnostic& d : sheet.diagnostics.kept())
+    if (d.code == code && d.message.find(words) != std::string::npos) return true;
+  return false;
+}
+
+std::size_t count_of(const std::string& text, std::string_view what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    ++count;
+  return count;
+}
+
+std::string with_frame(const std::string& more) {
+  return more +
+         "\n[fields]\ntitle=\"\"\nowner=\"\"\nsubtitle=\"\"\nnumber=\"\"\nrevision=\"\"\n"
+         "sheet=\"\"\ndrawn=\"\"\nchecked=\"\"\napproved=\"\"\ndate=\"\"\n";
+}
+
+const PlacedView& view_of(const Sheet& sheet, const std::string& name) {
+  for (const PlacedView& view : sheet.views)
+    if (view.name == name) return view;
+  ADD_FAILURE() << name;
+  return sheet.views.front();
+}
+
+TEST(Sheet, ViewsAreInLineToTheMicrometre) {
+  for (const char* const projection : {"first-angle", "third-angle"})
+    for (const char* const scale : {"1:7", "1:30", "1:33.3"}) {
+      const Drawn d = drawn(with_frame("[sheet]\nsize=\"A0\"\nscale=\"" + std::string(scale) +
+                                       "\"\n[arrangement]\nprojection=\"" + projection +
+                                       "\"\nviews=[\"top\",\"bottom\",\"left\",\"right\"]"));
+      // Of the model's x, and z: one place on paper in every view that shows it.
+      std::map<double, double> x, z;
+      const auto same = [](std::map<double, double>& places, double model, double paper) {
+        const auto [at, added] = places.try_emplace(model, paper);
+        // Ends of lines that were cut where others lie on them are rounded once more.
+        return added || std::fabs(at->second - paper) < 0.0011;
+      };
+      for (const PlacedView& view : d.sheet.views)
+        for (const drawing::Line& line : view.ink.lines) {
+          const bool plan = view.name == "top" || view.name == "bottom";
+          if (plan || view.name == "front") {
+            EXPECT_TRUE(same(x, line.a_mm.x, line.a_paper.x)) << view.name;
+            EXPECT_TRUE(same(x, line.b_mm.x, line.b_paper.x)) << view.name;
+          }
+          if (!plan) {
+            EXPECT_TRUE(same(z, line.a_mm.z, line.a_paper.y)) << view.name;
+            EXPECT_TRUE(same(z, line.b_mm.z, line.b_paper.y)) << view.name;
+          }
+        }
+      EXPECT_EQ(x.size(), 6U);
+      EXPECT_EQ(z.size(), 4U);
+    }
+}
+
+TEST(Sheet, AnArrangementOfOneWord) {
+  const Drawn d = drawn(with_frame("arrangement = \"third-angle\""));
+  ASSERT_EQ(d.sheet.views.size(), 4U);
+  EXPECT_EQ(d.sheet.views[0].name, "front");
+  EXPECT_EQ(d.sheet.views[2].name, "right");
+  EXPECT_TRUE(d.sheet.diagnostics.counts().empty());
+  EXPECT_LT(view_of(d.sheet, "top").box.bottom, view_of(d.sheet, "front").box.top);
+  EXPECT_GT(view_of(d.sheet, "right").box.left, view_of(d.sheet, "front").box.right);
+}
+
+TEST(Sheet, AViewLiesWhereItSays) {
+  const Drawn d = drawn(with_frame(
+      "[[view]]\nname=\"a\"\ndirection=\"front\"\nscale=\"1:50\"\nposition=[\"100mm\",\"80mm\"]\n"
+      "[[view]]\nname=\"b\"\ndirection=\"front\"\nscale=\"1:100\"\nposition=[\"300mm\",\"100mm\"]\n"
+      "anchor=[\"1m\",0,\"500mm\"]\n"));
+  const PaperBox& box = view_of(d.sheet, "a").box;
+  EXPECT_NEAR((box.left + box.right) / 2, 100, 0.001);
+  EXPECT_NEAR((box.top + box.bottom) / 2, 80, 0.001);
+  EXPECT_NEAR(box.width(), 120, 1e-9);
+  // 1 m right of the anchor's place on paper lies 10 mm.
+  EXPECT_NEAR(view_of(d.sheet, "b").box.left, 290, 1e-9);
+  EXPECT_NEAR(view_of(d.sheet, "b").box.bottom, 105, 1e-9);
+  EXPECT_NE(d.svg.find(">1:100</text>"),
+            std::string::npos);  // beside the view, it is not the sheet's
+}
+
+TEST(Sheet, FreeViewsShareTheLargestScaleThatKeepsThemApart) {
+  const Drawn d =
+      drawn(with_frame("[[view]]\nname=\"a\"\ndirection=\"front\"\nposition=[\"120mm\","
+                       "\"80mm\"]\n[[view]]\nname=\"b\"\ndirection=\"top\"\nposition=["
+                       "\"300mm\",\"80mm\"]\n"));
+  EXPECT_EQ(d.sheet.views[0].drawing.sheet.scale, 50);
+  EXPECT_EQ(d.sheet.views[1].drawing.sheet.scale, 50);
+  EXPECT_TRUE(d.sheet.diagnostics.counts().empty());
+}
+
+TEST(Sheet, WhatIsAmissIsNamed) {
+  const std::string view = "[[view]]\nname=\"v\"\nselect=\"nobody\"\n";
+  const Drawn nobody = drawn(with_frame(view));
+  EXPECT_TRUE(told(nobody.sheet, "selection-matches-nothing", "'nobody' picks no object"));
+  EXPECT_TRUE(told(nobody.sheet, "view-empty", "the view 'v' shows nothing: it has no objects"));
+  const Drawn outside = drawn(
+      with_frame("[[view]]\nname=\"v\"\nlimits={min=[\"90m\",0,0],max=[\"91m\",\"1m\",\"1m\"]}\n"));
+  EXPECT_TRUE(told(outside.sheet, "view-empty", "nothing lies within its limits"));
+  const Drawn off =
+      drawn(with_frame("[[view]]\nname=\"v\"\nscale=\"1:1\"\nposition=[\"10mm\",\"10mm\"]\n"));
+  EXPECT_TRUE(told(off.sheet, "view-off-the-sheet"));
+  const Drawn over =
+      drawn(with_frame("[[view]]\nname=\"a\"\nscale=\"1:50\"\nposition=[\"200mm\",\"100mm\"]\n"
+                       "[[view]]\nname=\"b\"\nscale=\"1:50\"\nposition=[\"210mm\",\"110mm\"]\n"
+                       "[[view]]\nname=\"c\"\ndirection=\"front\"\nscale=\"1:50\"\nposition=["
+                       "\"350mm\",\"250mm\"]\n"));
+  EXPECT_TRUE(told(over.sheet, "views-overlap", "'b' at 1:50 overlaps 'a'"));
+  EXPECT_TRUE(told(over.sheet, "view-off-the-frame", "'c'"));
+  EXPECT_TRUE(told(over.sheet, "view-on-title-block", "'c'"));
+  const Drawn fields = drawn("[fields]\ntitel = \"x\"\n[[view]]\nname=\"v\"\n");
+  EXPECT_TRUE(told(fields.sheet, "field-not-filled", "drawn, checked"));
+  EXPECT_TRUE(told(fields.sheet, "field-not-in-template", "no place for titel"));
+  const Drawn longer =
+      drawn("[fields]\nrevision = \"" + std::string(200, 'W') + "\"\n[[view]]\nname=\"v\"\n");
+  EXPECT_TRUE(told(longer.sheet, "field-too-long", "revision"));
+}
+
+TEST(Sheet, NoRoomIsAnErrorThatNamesTheFile) {
+  const auto none = test::drawn("[sheet]\nsize=[\"100mm\",\"100mm\"]\n[arrangement]\ngap=\"90mm\"");
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().text().find("s.toml: the views have no room"), std::string::npos);
+}
+
+TEST(Sheet, TemplatesReplaceTheFrame) {
+  const test::Templates templates{
+      {"f.svg",
+       "<svg xmlns='http://www.w3.org/2000/svg' width='420mm' height='297mm' viewBox='0 0 420 297'>"
+       "<text>{{title}} {{scale}} {{owner}}</text></svg>"}};
+  const Drawn d = drawn(
+      "[sheet]\ntemplate=\"f.svg\"\n[fields]\ntitle=\"<A & B>\"\nspare=\"x\"\n"
+      "[[view]]\nname=\"v\"\nscale=\"1:50\"\n",
+      templates);
+  EXPECT_NE(d.svg.find("<text>&lt;A &amp; B&gt; 1:50 </text>"), std::string::npos);
+  EXPECT_TRUE(
+      told(d.sheet, "field-not-filled", "the template has fields that are not given: owner"));
+  EXPECT_TRUE(told(d.sheet, "field-not-in-template", "no place for spare"));
+  EXPECT_EQ(d.svg.find("DRAWING NUMBER"), std::string::npos);
+  const Drawn bare = drawn("[sheet]\nframe=false\n[[view]]\nname=\"v\"\n");
+  EXPECT_TRUE(bare.sheet.frame.paths.empty());
+  EXPECT_TRUE(bare.sheet.diagnostics.counts().empty());
+}
+
+TEST(Sheet, StylesAreWhatTheFileSays) {
+  const Drawn d = drawn(with_frame(
+      "[[view]]\nname=\"v\"\nhidden=\"dashed\"\n[styles]\nhidden={width=\"0.2mm\",dash=[\"2mm\","
+      "\"1.5mm\"],color=\"#123ABC\"}\noutline={width=\"0.9mm\"}\n"));
+  EXPECT_NE(
+      d.svg.find(".strake .hidden { stroke: #123abc; stroke-width: 0.2; stroke-dasharray: 2 1.5;"),
+      std::string::npos);
+  EXPECT_NE(
+      d.svg.find(".strake .outline { stroke: #000000; stroke-width: 0.9; stroke-dasharray: none;"),
+      std::string::npos);
+  EXPECT_EQ(d.sheet.views[0].ink.pens.outline, 0.9);
+  // Dashes follow the width where only that is given.
+  const Drawn wide =
+      drawn(with_frame("[[view]]\nname=\"v\"\n[styles]\nhidden={width=\"0.5mm\"}\n"));
+  EXPECT_NE(wide.svg.find("stroke-width: 0.5; stroke-dasharray: 6 1.5;"), std::string::npos);
+}
+
+TEST(Sheet, TagsStandAtTheirObjectsAndTouchNothing) {
+  const Drawn d = drawn(with_frame(
+      "arrangement=\"first-angle\"\n[[tag]]\nselect=\"*\"\ntext=\"{{name}} DN {{@DN}}\"\n"
+      "[[tag]]\nselect=\"@MARK\"\ntext=\"{{@MARK}}\"\nstyle=\"plain\"\nviews=[\"top\"]\n"));
+  const auto& tags = view_of(d.sheet, "top").tags;
+  ASSERT_EQ(tags.texts.size(), 4U);
+  EXPECT_EQ(tags.texts[0].text, "base DN 80");
+  EXPECT_EQ(tags.texts[3].text, "B1");
+  EXPECT_EQ(tags.paths.size(), 6U);  // a leader and its arrow, three times
+  EXPECT_TRUE(told(d.sheet, "tag-attribute-partly-missing", "1 objects lack some"));
+  for (const PlacedView& view : d.sheet.views)
+    for (std::size_t i = 0; i < view.tags.texts.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_FALSE(box_of(view.tags.texts[i]).overlaps(box_of(view.tags.texts[k])));
+  const Drawn none =
+      drawn(with_frame("[[view]]\nname=\"v\"\n[[tag]]\nselect=\"far\"\ntext=\"{{@DN}}\"\n"));
+  EXPECT_TRUE(told(none.sheet, "tag-attribute-missing", "1 objects have nothing"));
+  const Drawn once =
+      drawn(with_frame("[[view]]\nname=\"v\"\ndirection=\"top\"\n[[tag]]\nselect=\"*\"\ntext="
+                       "\"PLATE\"\nonce=true\n"));
+  ASSERT_EQ(once.sheet.views[0].tags.texts.size(), 1U);
+  const Drawn unseen = drawn(with_frame(
+      "[[view]]\nname=\"v\"\nselect=\"base\"\n[[tag]]\nselect=\"far\"\ntext=\"{{name}}\"\n"));
+  EXPECT_TRUE(told(unseen.sheet, "tag-not-seen", "'far'"));
+}
+
+TEST(Sheet, GridLinesShowWhereTheViewLooksAlongThem) {
+  const Drawn d =
+      drawn(with_frame("arrangement=\"first-angle\"\n[sheet]\nscale=\"1:50\"\nsize=\"A1\"\n[grid]"
+                       "\nx=[[\"A\",0],[\"B\",\"2m\"],"
+                       "[\"Z\",\"99m\"]]\nz=[[\"BL\",0]]\n"));
+  EXPECT_EQ(view_of(d.sheet, "front").grid.paths.size(), 3U);
+  EXPECT_EQ(view_of(d.sheet, "top").grid.paths.size(), 2U);
+  EXPECT_EQ(view_of(d.sheet, "left").grid.paths.size(), 1U);
+  EXPECT_TRUE(view_of(d.sheet, "iso").grid.paths.empty());
+  EXPECT_TRUE(told(d.sheet, "grid-line-nowhere", "'Z'"));
+  // 2 m are 40 mm, and front and top have them in one line.
+  const auto& front = view_of(d.sheet, "front").grid.paths;
+  const auto& top = view_of(d.sheet, "top").grid.paths;
+  EXPECT_NEAR(front[1].points[0].x - front[0].points[0].x, 40, 1e-9);
+  EXPECT_EQ(front[1].points[0].x, top[1].points[0].x);
+}
+
+TEST(Sheet, LabelsOfGridLinesThatStandCloseAreThinnedOut) {
+  const Drawn d = drawn(with_frame(
+      "[[view]]\nname=\"v\"\ndirection=\"front\"\nscale=\"1:100\"\nposition=[\"150mm\",\"100mm\"]\n"
+      "[[grid.series]]\naxis=\"x\"\nlabel=\"{{n}}\"\nfirst=0\nlast=60\nat=\"0m\"\nspacing="
+      "\"100mm\"\n"));
+  const Marks& grid = d.sheet.views[0].grid;
+  EXPECT_EQ(grid.paths.size(), 61U);
+  EXPECT_TRUE(told(d.sheet, "grid-label-no-room", "54 grid lines"));
+  ASSERT_EQ(grid.texts.size(), 7U);
+  EXPECT_EQ(grid.texts[1].text, "10");
+}
+
+TEST(Sheet, TheFrameOfASheetIsThatOfIso5457) {
+  const Drawn d = drawn(with_frame("[[view]]\nname=\"v\"\n"));
+  const Path& border = d.sheet.frame.paths.front();
+  EXPECT_EQ(border.line, LineClass::frame);
+  EXPECT_EQ(border.points[0], (PaperPoint{20, 10}));
+  EXPECT_EQ(border.points[2], (PaperPoint{410, 287}));
+}
+
+TEST(Sheet, OneThreadAndManyGiveTheSameBytes) {
+  const std::string text = with_frame(
+      "[defaults]\nhidden=\"dashed\"\n[arrangement]\n[[tag]]\nselect=\"*\"\ntext=\"{{id}}\"\n"
+      "[grid]\nx=[[\"A\",0]]\n");
+  const std::string expected = drawn(text).svg;
+  for (const unsigned workers : {2U, 3U, 8U, 64U}) {
+    parallel::Team team(workers);
+    const auto again = test::drawn(text, {}, {.team = &team});
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->svg, expected) << workers;
+  }
+}
+
+TEST(SheetSvg, IsWellFormedWhateverTheNames) {
+  const Drawn d = drawn(
+      "arrangement=\"first-angle\"\n[fields]\ntitle = \"<&\\\"'>\\u0001\"\n"
+      "[[tag]]\nselect=\"*\"\ntext=\"</text><script>{{name}}\"\n"
+      "[grid]\nx=[[\"<A&\",0]]\n");
+  EXPECT_EQ(d.svg.find("<script"), std::string::npos);
+  EXPECT_EQ(count_of(d.svg, "<g "), count_of(d.svg, "</g>"));
+  EXPECT_EQ(count_of(d.svg, "class=\"view\""), 4U);
+  if (std::system("command -v xmllint >/dev/null 2>&1") != 0) GTEST_SKIP() << "no xmllint";
+  FILE* const pipe = popen("xmllint --noout -", "w");
+  ASSERT_NE(pipe, nullptr);
+  std::fwrite(d.svg.data(), 1, d.svg.size(), pipe);
+  EXPECT_EQ(pclose(pipe), 0);
+}
+
+}  // namespace
+}  // namespace strake::sheets
