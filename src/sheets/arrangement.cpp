@@ -270,7 +270,7 @@ Result<Arranged> arrange(std::span<const ToPlace> views, Projection projection, 
   for (const double usual : usual_scales())
     if (const auto found = arranger.at_scale(usual)) return *found;
   return Error{ErrorCode::input, "the views have no room on the sheet at any scale", "",
-               "take a larger sheet, a smaller gap or fewer views"};
+               "take a larger sheet, a smaller gap, shorter titles or fewer views"};
 }
 
 }  // namespace strake::sheets

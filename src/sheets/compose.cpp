@@ -192,23 +192,21 @@ class Composer {
     const PaperBox& box = places_[v].lines;
     const GridRim rim = grid_rim(what_.grid, what_.views[v]);
     const double x = rounded_paper((box.left + box.right) / 2);
-    double y = box.bottom + rim.other_mm + kCaptionGap;
-    if (!view.title.empty()) {
-      y = rounded_paper(y + kTitleMm);
-      const double half = rounded_paper(text_width(view.title) * kTitleMm / 2);
-      view.caption.texts.push_back(
-          {LineClass::title, {x, y}, kTitleMm, Align::middle, view.title, false});
+    const Lettering letters = lettering_of(what_);
+    double y = box.bottom + rim.other_mm + letters.gap_mm;
+    const auto write = [&](const std::string& text, double height) {
+      y = rounded_paper(y + height);
+      view.caption.texts.push_back({LineClass::title, {x, y}, height, Align::middle, text, false});
       y = rounded_paper(y + 1.5);
+    };
+    if (!view.title.empty()) {
+      write(view.title, letters.title_mm);
+      const double half = rounded_paper(text_width(view.title) * letters.title_mm / 2);
       view.caption.paths.push_back({LineClass::title, {{x - half, y}, {x + half, y}}, false});
+      y += 1.5;
     }
-    if (places_[v].scale == sheet_scale) return;
-    y = rounded_paper(y + 1.5 + kScaleMm);
-    view.caption.texts.push_back({LineClass::title,
-                                  {x, y},
-                                  kScaleMm,
-                                  Align::middle,
-                                  drawing::scale_text(places_[v].scale),
-                                  false});
+    if (places_[v].scale != sheet_scale)
+      write(drawing::scale_text(places_[v].scale), letters.scale_mm);
   }
 
   void grid() {

@@ -7,6 +7,7 @@
 
 #include "drawing/paper.hpp"
 #include "sheets/frame.hpp"
+#include "sheets/lettering.hpp"
 #include "strake/drawing/write.hpp"
 
 namespace strake::sheets {
@@ -29,7 +30,6 @@ class Fields {
   Fields(const Description& what, double scale) : values_(what.fields) {
     const auto own = [&](std::string name, std::string value) {
       if (find(name) != nullptr) return;
-      own_.push_back(name);
       values_.emplace_back(std::move(name), std::move(value));
     };
     own("scale", drawing::scale_text(scale));
@@ -47,7 +47,7 @@ class Fields {
   }
   [[nodiscard]] std::string text(const std::string& name) const {
     const std::string* const value = find(name);
-    return value != nullptr ? *value : std::string();
+    return value != nullptr ? on_one_line(*value) : std::string();
   }
 
   /// Names fields of the frame without a value, and values without a field.
@@ -71,7 +71,6 @@ class Fields {
 
  private:
   std::vector<std::pair<std::string, std::string>> values_;
-  std::vector<std::string> own_;
 };
 
 }  // namespace

@@ -46,11 +46,12 @@ std::string zone_letter(std::size_t zone) {
   return zone < kLetters.size() ? last : zone_letter(zone / kLetters.size() - 1) + last;
 }
 
-/// The reference fields between the border and a line 5 mm outside of it, about 50 mm each, an even
-/// number of them so that the middle is a boundary.
+/// Centring marks, and the reference fields between the border and a line 5 mm outside of it, about
+/// 50 mm each, an even number of them so that the middle is a boundary.
 class Zones {
  public:
-  Zones(const PaperBox& border, Marks& marks) : border_(border), marks_(marks) {}
+  Zones(const PaperBox& border, const PaperBox& block, Marks& marks)
+      : border_(border), block_(block), marks_(marks) {}
 
   void draw() {
     const PaperBox outer{border_.left - kBand, border_.top - kBand, border_.right + kBand,
@@ -111,12 +112,13 @@ class Zones {
       marks_.paths.push_back({LineClass::frame, {a, b}, false});
     };
     mark({x, outer.top}, {x, border_.top + kInset});
-    mark({x, border_.bottom - kInset}, {x, outer.bottom});
+    // Not into the title block, which on small sheets is as wide as they are.
+    mark({x, block_.left < x ? border_.bottom : border_.bottom - kInset}, {x, outer.bottom});
     mark({outer.left, y}, {border_.left + kInset, y});
-    mark({border_.right - kInset, y}, {outer.right, y});
+    mark({block_.top < y ? border_.right : border_.right - kInset, y}, {outer.right, y});
   }
 
-  const PaperBox& border_;
+  const PaperBox &border_, &block_;
   Marks& marks_;
 };
 
@@ -246,8 +248,9 @@ Marks draw_frame(const Description& sheet, Lookup field, std::vector<std::string
   Marks marks;
   const PaperBox border = border_of(sheet);
   marks.paths.push_back(rectangle(LineClass::frame, border));
-  Zones(border, marks).draw();
-  TitleBlock block(block_of(sheet), marks);
+  const PaperBox taken = block_of(sheet);
+  Zones(border, taken, marks).draw();
+  TitleBlock block(taken, marks);
   block.draw(field, narrow);
   if (std::any_of(sheet.views.begin(), sheet.views.end(),
                   [](const ViewWish& view) { return view.slot != Slot::none; }))

@@ -28,6 +28,12 @@ double advance(const TakenCharacter& c) {
 
 }  // namespace
 
+std::string on_one_line(std::string text) {
+  for (char& c : text)
+    if (c == '\n' || c == '\r' || c == '\t') c = ' ';
+  return text;
+}
+
 double text_width(std::string_view text) {
   double width = 0;
   while (!text.empty()) width += advance(take_character(text));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "strake/sheets/sheet.hpp"
@@ -9,6 +10,9 @@ namespace strake::sheets {
 
 /// Size of a font whose capital letters are one high.
 inline constexpr double kFontSize = 1.4;
+
+/// The text with blanks for line breaks and tabs.
+[[nodiscard]] std::string on_one_line(std::string text);
 
 /// How wide a text of capital height 1 is at most in the usual sans-serif fonts.
 [[nodiscard]] double text_width(std::string_view text);

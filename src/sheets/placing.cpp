@@ -60,8 +60,10 @@ class Placer {
     place.top_mm = std::max(rim.top_mm, rim.other_mm);
     place.right_mm = place.bottom_mm = rim.other_mm;
     if (view.title.empty()) return place;
-    place.bottom_mm += kCaptionGap + kTitleMm + 2.5 + (view.scale ? kScaleMm + 2 : 0);
-    place.least_width_mm = text_width(view.title) * kTitleMm + 4;
+    const Lettering letters = lettering_of(what_);
+    place.bottom_mm +=
+        letters.gap_mm + letters.title_mm + 2.5 + (view.scale ? letters.scale_mm + 2 : 0);
+    place.least_width_mm = text_width(view.title) * letters.title_mm + 4;
     return place;
   }
 
@@ -145,6 +147,11 @@ class Placer {
 };
 
 }  // namespace
+
+Lettering lettering_of(const Description& what) {
+  if (std::max(what.width_mm, what.height_mm) > 420) return {};
+  return {3.5, 2.5, 3};
+}
 
 Result<std::vector<ViewPlace>> place_views(const Description& what,
                                            std::span<const hlr::Drawing> drawings,

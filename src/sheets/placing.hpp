@@ -13,8 +13,11 @@
 
 namespace strake::sheets {
 
-/// A title below a view: its letters, and the room that it takes.
-inline constexpr double kTitleMm = 5, kScaleMm = 3.5, kCaptionGap = 4;
+/// Letters of the captions below views, and how far below: smaller ones up to A3.
+struct Lettering {
+  double title_mm = 5, scale_mm = 3.5, gap_mm = 4;
+};
+[[nodiscard]] Lettering lettering_of(const Description& what);
 
 /// Where a view comes to lie.
 struct ViewPlace {

@@ -19,10 +19,11 @@ std::vector<double> in_widths(std::initializer_list<double> dashes, double width
   return lengths;
 }
 
-/// The dashes of a class in widths of its pen, ISO 128-20 types 02 and 04.
+/// The dashes of a class in widths of its pen, ISO 128-20 types 02 and 04; a dot is as long as it
+/// is wide, or else it is not seen in print.
 std::vector<double> usual_dashes(LineClass line, double width) {
   if (line == LineClass::hidden) return in_widths({drawing::kDash, drawing::kDashGap}, width);
-  if (line == LineClass::grid) return in_widths({24, 3, 0.5, 3}, width);
+  if (line == LineClass::grid) return in_widths({24, 3, 1, 3}, width);
   return {};
 }
 

@@ -233,12 +233,12 @@ TagCount write_tags(const TagWish& wish, const std::vector<std::uint8_t>& picked
   std::vector<Seen> texts;
   for (Seen& seen : all) {
     std::size_t named = 0, lacking = 0;
-    seen.text = filled(*pieces, [&](const std::string& name) {
+    seen.text = on_one_line(filled(*pieces, [&](const std::string& name) {
       std::string value = said(model, seen.object, name);
       ++named;
       if (value.empty()) ++lacking;
       return value;
-    });
+    }));
     if (named > 0 && lacking == named) {
       ++count.blank;
       continue;

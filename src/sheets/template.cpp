@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "sheets/lettering.hpp"
 #include "sheets/xml_reader.hpp"
 #include "strake/core/number.hpp"
 #include "strake/core/units.hpp"
@@ -34,12 +35,6 @@ std::string lowered(std::string_view text) {
   for (char& c : lower)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return lower;
-}
-
-std::string on_one_line(std::string text) {
-  for (char& c : text)
-    if (c == '\n' || c == '\r' || c == '\t') c = ' ';
-  return text;
 }
 
 Error fault(std::size_t line, std::string message, std::string mend) {

@@ -8,6 +8,7 @@
 #include "support/io_seeds.hpp"
 #include "support/rules_seeds.hpp"
 #include "support/rvm_writer.hpp"
+#include "support/sheet_seeds.hpp"
 
 namespace {
 
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
   write("gltf", strake::test::gltf_seeds());
   write("rvm", rvm_seeds());
   write("rules", strake::test::rules_seeds());
+  write("sheets", strake::test::sheet_seeds());
   write("clash_document", strake::test::clash_document_seeds());
   return 0;
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "support/io_seeds.hpp"
+
+namespace strake::test {
+
+/// A template that uses what templates may.
+inline constexpr const char* kSheetTemplate =
+    R"svg(<?xml version="1.0" encoding="UTF-8"?>
+<svg xmlns="http://www.w3.org/2000/svg" width="420mm" height="297mm" viewBox="0 0 420 297">
+<style>.a { stroke: #000; fill: url(#p) }</style>
+<!-- the border --><metadata><x:y z="1"/></metadata>
+<g id="b" class="a"><path d="M20 10H410V287H20Z"/><use xlink:href="#b"/></g>
+<text x="300" y="280">{{title}} &amp; {{number}} &#65;<tspan>{{scale}}</tspan></text>
+</svg>
+)svg";
+
+/// Small sheet files and a template that between them use what the language has.
+[[nodiscard]] inline std::vector<Seed> sheet_seeds() {
+  return {{"arranged.toml", R"toml(# Four views.
+[sheet]
+size = "A3"
+template = "f.svg"
+area = ["20mm", "10mm", "410mm", "230mm"]
+[fields]
+title = "Deck"
+number = 17
+[sets]
+a = "name = 'base'"
+[arrangement]
+projection = "third-angle"
+views = ["top", "iso"]
+hidden = "dashed"
+[arrangement.top]
+select = "set(a)"
+[[tag]]
+select = "*"
+text = "{{name}} {{@DN}}"
+once = true
+[grid]
+x = [["A", "0m"], ["B", "2.5m"]]
+[[grid.series]]
+axis = "y"
+label = "{{n}}"
+first = -2
+last = 12
+spacing = "600mm"
+)toml"},
+          {"free.toml", R"toml([sheet]
+size = ["500mm", "300mm"]
+scale = "1:50"
+keep_free = [["300mm", "200mm", "490mm", "290mm"]]
+[defaults]
+sharp_angle = "25deg"
+contact_distance = "5um"
+limits = { min = ["-1m", 0, 0], max = ["9m", "9m", "9m"] }
+[[view]]
+name = "detail"
+title = "D"
+direction = [1, -2.5, 1]
+up = "0,0,1"
+scale = "1:20"
+position = ["200mm", "150mm"]
+anchor = ["1m", "2m", "-3m"]
+stage = "local"
+intersections = "off"
+[[tag]]
+select = "type = mesh"
+text = "{{path}}"
+style = "plain"
+height = "3.5mm"
+[styles]
+hidden = { width = "0.2mm", dash = ["2mm", "1mm"], color = "#123ABC" }
+)toml"},
+          {"frame.svg", kSheetTemplate}};
+}
+
+}  // namespace strake::test
