@@ -31,7 +31,7 @@ struct DrawOptions {
   std::string sheet;
   std::string view, direction, up, limits, scale, title;
   std::string stage, solver, hidden, intersections, sharp_angle, contact_distance;
-  std::vector<std::string> select, outputs;
+  std::vector<std::string> select, outputs, sections;
 };
 
 Result<geometry::Vec3l> direction_of(const std::string& text, const std::string& option,
@@ -63,6 +63,21 @@ Result<geometry::Box3l> limits_of(const std::string& text) {
   return geometry::Box3l{*lo, *hi};
 }
 
+Result<hlr::Section> section_of(const std::string& text, const geometry::Vec3l& direction,
+                                Console& console) {
+  const Result<drawing::SectionText> parsed = drawing::parse_section(text, direction);
+  if (!parsed) {
+    Error error = parsed.error();
+    error.where = "--section";
+    return error;
+  }
+  const geometry::Vec3l& n = parsed->section.normal;
+  if (parsed->rounded && parsed->rounding_error > 0)
+    console.say(fmt::format("--section {} is taken as normal {},{},{}, off by {:.1e} rad", text,
+                            n.x, n.y, n.z, parsed->rounding_error));
+  return parsed->section;
+}
+
 Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
   hlr::View view;
   const Result<geometry::Vec3l> direction =
@@ -84,6 +99,11 @@ Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
     const Result<geometry::Box3l> limits = limits_of(given.limits);
     if (!limits) return limits.error();
     view.limits = *limits;
+  }
+  for (const std::string& text : given.sections) {
+    const Result<hlr::Section> section = section_of(text, view.direction, console);
+    if (!section) return section.error();
+    view.sections.push_back(*section);
   }
   return view;
 }
@@ -147,7 +167,7 @@ void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing) {
                           drawing.sheet.height_mm));
   if (visible > 0) return;
   console.say(of(drawing::LineState::clipped) > 0
-                  ? "warning empty-sheet: nothing lies within the limits"
+                  ? "warning empty-sheet: nothing lies within the limits and before the sections"
                   : "warning empty-sheet: the model has nothing to draw");
 }
 
@@ -214,6 +234,7 @@ Result<drawing::NeutralDrawing> compute(Session& session, const Request& request
     return hlr::draw(scene, *drawn, request.view, request.options, session.context());
   }();
   if (!lines) return lines.error();
+  tell(session.console(), lines->diagnostics);
   const auto timer = session.step("layout");
   return drawing::lay_out(*lines, *scene.model, request.layout, session.context());
 }
@@ -258,6 +279,16 @@ void add_view(CLI::App& command, DrawOptions& options) {
       .add_option("--limits", options.limits,
                   "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm")
       ->type_name("BOX")
+      ->group("View");
+  command
+      .add_option("--section", options.sections,
+                  "Cut away what lies beyond a plane: 'z>4500mm' above, 'z<4500mm' below, z=4500mm "
+                  "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'; may "
+                  "be repeated")
+      ->type_name("PLANE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("View");
   command
       .add_option("--select", options.select,
@@ -336,6 +367,7 @@ Examples:
   strake draw ship.glb --direction 1,-2,1 --up 0,0,1 --scale 1:100 -o cut.svg \
       --limits 0,-5000,0,20000,5000,8000
   strake draw ship.glb --select 'PIPE*' --view top -o pipes.svg -o pipes.json
+  strake draw ship.glb --view top --section z=4500mm -o section.svg
   strake draw ship.glb --sheet deck.toml -o deck.svg)");
   return {command, [options](Session& session) { return run_draw(session, *options); }};
 }

@@ -60,8 +60,16 @@ class Density {
 };
 
 double width_of(const Line& line, const Pens& pens) {
-  if (line.state != LineState::visible || line.kind == hlr::EdgeKind::polyline) return pens.thin;
+  if (line.state != LineState::visible || line.kind == hlr::EdgeKind::polyline ||
+      line.kind == hlr::EdgeKind::hatch)
+    return pens.thin;
+  if (line.kind == hlr::EdgeKind::section) return pens.section;
   return line.kind == hlr::EdgeKind::contour ? pens.outline : pens.edge;
+}
+
+/// Dashed hatching would say that a hidden face is cut.
+bool may_be_dashed(const Line& line) {
+  return is_hidden(line.state) && line.kind != hlr::EdgeKind::hatch;
 }
 
 std::vector<Flat> flatten(const std::vector<Line>& lines, const PaperAxes& axes, const Pens& pens) {
@@ -117,20 +125,21 @@ Status clean_up(Ink& ink, const PaperAxes& axes, const parallel::Context& contex
 Pens choose_pens(const NeutralDrawing& drawing) {
   Density density(drawing.sheet);
   for (const Line& line : drawing.lines)
-    if (line.state == LineState::visible) density.add(line);
+    if (line.state == LineState::visible && line.kind != hlr::EdgeKind::hatch) density.add(line);
   // The share of paper that the middle pen of each group may blacken at most.
   constexpr double kMost = 0.35;
   const double per_mm = density.along_lines();
-  for (const Pens& pens : {Pens{0.5, 0.35, 0.25}, Pens{0.35, 0.25, 0.18}, Pens{0.25, 0.18, 0.13}})
+  for (const Pens& pens :
+       {Pens{0.5, 0.35, 0.25, 0.7}, Pens{0.35, 0.25, 0.18, 0.5}, Pens{0.25, 0.18, 0.13, 0.35}})
     if (per_mm * pens.edge <= kMost) return pens;
-  return {0.18, 0.13, 0.09};
+  return {0.18, 0.13, 0.09, 0.25};
 }
 
 Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                        const parallel::Context& context) {
   Ink ink{.pens = options.pens ? *options.pens : choose_pens(drawing), .lines = {}};
   for (const Line& line : drawing.lines)
-    if (line.state == LineState::visible || (options.hidden && is_hidden(line.state)))
+    if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
       ink.lines.push_back(line);
   const auto axes = paper_axes(drawing.view);
   if (options.hidden && options.clean_up && axes)

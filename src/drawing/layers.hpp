@@ -16,20 +16,23 @@ struct Layer {
   std::string_view label;
 };
 
-// Later layers are drawn over earlier ones: outlines last.
-inline constexpr std::array<Layer, 12> kLayers = {{
+// Later layers are drawn over earlier ones: outlines last, of all those of cuts.
+inline constexpr std::array<Layer, 15> kLayers = {{
     {true, hlr::EdgeKind::polyline, "Hidden polylines"},
     {true, hlr::EdgeKind::boundary, "Hidden boundary"},
     {true, hlr::EdgeKind::non_manifold, "Hidden non-manifold"},
     {true, hlr::EdgeKind::sharp, "Hidden sharp"},
     {true, hlr::EdgeKind::intersection, "Hidden intersections"},
     {true, hlr::EdgeKind::contour, "Hidden outline"},
+    {true, hlr::EdgeKind::section, "Hidden section"},
+    {false, hlr::EdgeKind::hatch, "Hatch"},
     {false, hlr::EdgeKind::polyline, "Visible polylines"},
     {false, hlr::EdgeKind::boundary, "Visible boundary"},
     {false, hlr::EdgeKind::non_manifold, "Visible non-manifold"},
     {false, hlr::EdgeKind::sharp, "Visible sharp"},
     {false, hlr::EdgeKind::intersection, "Visible intersections"},
     {false, hlr::EdgeKind::contour, "Visible outline"},
+    {false, hlr::EdgeKind::section, "Visible section"},
 }};
 
 [[nodiscard]] inline bool belongs(const Line& line, const Layer& layer) {

@@ -50,6 +50,10 @@ Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
     add_vector(hasher, drawing.view.limits->lo);
     add_vector(hasher, drawing.view.limits->hi);
   }
+  for (const hlr::Section& section : drawing.view.sections) {
+    add_vector(hasher, section.normal);
+    add_vector(hasher, section.point);
+  }
   hasher.add(static_cast<std::uint64_t>(drawing.pieces.size()));
   const hlr::Piece* last = nullptr;
   for (const hlr::Piece& piece : drawing.pieces) {

@@ -51,6 +51,10 @@ std::string_view kind_name(hlr::EdgeKind kind) {
       return "polyline";
     case hlr::EdgeKind::intersection:
       return "intersection";
+    case hlr::EdgeKind::section:
+      return "section";
+    case hlr::EdgeKind::hatch:
+      return "hatch";
   }
   return "";
 }

@@ -15,7 +15,7 @@ namespace strake::drawing {
 
 namespace {
 
-void write_style(Chunked& out, const Pens& pens) {
+void write_style(Chunked& out, const Pens& pens, bool sections) {
   // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
   out << fmt::format(
       "<style>\n"
@@ -29,10 +29,15 @@ void write_style(Chunked& out, const Pens& pens) {
       ".hidden.polyline path {{ stroke: #68a; }}\n"
       ".sheet {{ fill: #fff; stroke: none; }}\n"
       "text {{ font-family: sans-serif; font-size: 3.5px; }}\n"
-      ".frame path {{ stroke-width: {2}; }}\n"
-      "</style>\n",
+      ".frame path {{ stroke-width: {2}; }}\n",
       pens.outline, pens.edge, pens.thin, shortest(std::round(pens.thin * kDash * 100) / 100),
       shortest(std::round(pens.thin * kDashGap * 100) / 100));
+  if (sections)
+    out << fmt::format(
+        ".visible.section path {{ stroke-width: {}; }}\n"
+        ".visible.hatch path {{ stroke-width: {}; }}\n",
+        pens.section, pens.thin);
+  out << "</style>\n";
 }
 
 std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
@@ -79,7 +84,7 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
                Sink sink) {
   Chunked out(sink);
   write_head(out, drawing, ink);
-  write_style(out, ink.pens);
+  write_style(out, ink.pens, !drawing.view.sections.empty());
   out << fmt::format("<rect class=\"sheet\" width=\"{}\" height=\"{}\"/>\n",
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)

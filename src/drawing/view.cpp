@@ -12,6 +12,8 @@
 #include <string>
 
 #include "strake/core/number.hpp"
+#include "strake/core/units.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::drawing {
 
@@ -119,6 +121,49 @@ Result<Direction> parse_direction(std::string_view text) {
   direction.rounded = true;
   direction.rounding_error = sine_between(wanted, direction.vector.as<double>());
   return direction;
+}
+
+Result<SectionText> parse_section(std::string_view text, const Vec3l& direction) {
+  const std::string mend =
+      "write z>4500mm to cut away what lies above, z<4500mm what lies below, z=4500mm what is "
+      "nearer to the viewer; for z also x, y or a normal as 1,2,0";
+  const std::size_t at = text.find_first_of("<>=");
+  if (at == std::string_view::npos)
+    return Error{ErrorCode::usage, fmt::format("\"{}\" is no section plane", text), "", mend};
+  const std::string_view axis = trimmed(text.substr(0, at));
+  SectionText result;
+  Vec3l& normal = result.section.normal;
+  const std::size_t named = axis.size() == 1 ? std::string_view("xyz").find(axis) : 3;
+  if (named < 3) {
+    normal = {named == 0 ? 1 : 0, named == 1 ? 1 : 0, named == 2 ? 1 : 0};
+  } else {
+    const Result<Direction> parsed = parse_direction(axis);
+    if (!parsed)
+      return Error{ErrorCode::usage,
+                   fmt::format("\"{}\" is neither an axis nor the normal of a plane", axis), "",
+                   mend};
+    normal = parsed->vector;
+    result.rounded = parsed->rounded;
+    result.rounding_error = parsed->rounding_error;
+  }
+  const Result<double> distance = parse_length_mm(trimmed(text.substr(at + 1)));
+  if (!distance) return distance.error();
+  const Vec3d n = normal.as<double>();
+  const double share = *distance / std::sqrt(dot(n, n));
+  const auto foot = geometry::snap(Vec3d{n.x * share, n.y * share, n.z * share});
+  if (!foot)
+    return Error{ErrorCode::usage, fmt::format("\"{}\" lies outside what can be placed", text), "",
+                 "give a plane of the model"};
+  result.section.point = *foot;
+  const auto towards = static_cast<double>(normal.x) * static_cast<double>(direction.x) +
+                       static_cast<double>(normal.y) * static_cast<double>(direction.y) +
+                       static_cast<double>(normal.z) * static_cast<double>(direction.z);
+  if (text[at] == '=' && towards == 0)
+    return Error{ErrorCode::usage,
+                 fmt::format("the plane \"{}\" is seen edge-on: neither side is nearer", text), "",
+                 "say with > or < which side is cut away"};
+  if (text[at] == '<' || (text[at] == '=' && towards < 0)) normal = -normal;
+  return result;
 }
 
 Vec3l default_up(const Vec3l& direction) {

@@ -39,7 +39,15 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
   } else {
     out << "null";
   }
-  out << "},\n\"settings\":{\"stage\":\"" << stage_name(drawing.stage)
+  out << ",\"sections\":[";
+  for (const hlr::Section& section : drawing.view.sections) {
+    const geometry::Vec3d point = geometry::to_mm(section.point);
+    out << (&section == drawing.view.sections.data() ? "" : ",")
+        << "{\"normal\":" << whole_numbers(section.normal) << ",\"point_mm\":";
+    append_numbers(out.buffer(), {point.x, point.y, point.z});
+    out << "}";
+  }
+  out << "]},\n\"settings\":{\"stage\":\"" << stage_name(drawing.stage)
       << "\",\"sharp_angle_deg\":" << shortest(drawing.sharp_angle_deg)
       << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm)
       << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The definition of docs/hlr.md, taken literally and kept plain: it is what the engine is judged
-// by, so it shares with the engine nothing but the lists of feature edges and intersections.
+// by, so it shares with the engine nothing but the lists of edges and lines, and what sections
+// leave.
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -70,11 +71,11 @@ struct Edge {
   Vec3l a, b;
   EdgeKind kind = EdgeKind::sharp;
   bool projecting = false;
+  bool cut_away = false;
   std::uint32_t body = 0, other_body = 0;  ///< two of an intersection, otherwise one
-  std::uint32_t part = 0;                  ///< unused of an intersection
-
-  [[nodiscard]] bool is_crossing() const { return kind == EdgeKind::intersection; }
+  std::uint32_t part = 0;                  ///< kNoPart of a line that is no edge
 };
+constexpr std::uint32_t kNoPart = 0xffffffffU;
 
 struct Facet {
   Vec3l corner[3];  // counter-clockwise to the viewer
@@ -131,12 +132,13 @@ class Solver {
   void hide(const Edge& e, std::uint32_t body_index, std::uint32_t part_index,
             const Interval& range, Sides& sides) const {
     const model::GridBody& body = job_.scene->bodies[body_index];
-    const geometry::Part& part = job_.scene->shapes[body.grid_shape].parts[part_index];
-    const bool same_part = !e.is_crossing() && e.body == body_index && e.part == part_index;
+    const SeenShape& seen = job_.seen_of(body_index);
+    const geometry::Part& part = seen.shape().parts[part_index];
+    const bool same_part = e.body == body_index && e.part == part_index;
     std::int64_t contact =
         std::max({job_.contact[e.body], job_.contact[e.other_body], job_.contact[body_index]});
-    if (e.is_crossing()) contact = std::max(contact, kCrossingContact);
-    if (same_part) contact = 0;
+    if (e.part == kNoPart) contact = std::max(contact, job_.lines.contact);
+    if (same_part) contact = seen.within;
     for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
       Facet f;
       if (!facet(part, t, job_.offset(body), f)) continue;
@@ -268,7 +270,7 @@ std::vector<Stretch> solve(const Job& job, const Solver& solver, const Edge& e,
                            std::uint64_t& tests) {
   const model::Scene& scene = *job.scene;
   Interval range{{0, 1}, {1, 1}};
-  const bool kept = solver.clip(e, range);
+  const bool kept = !e.cut_away && solver.clip(e, range);
   Sides self, other;
   if (kept && e.projecting) return {{{{0, 1}, {1, 1}}, State::projecting}};
   if (kept && job.options.stage != Stage::none)
@@ -277,7 +279,7 @@ std::vector<Stretch> solve(const Job& job, const Solver& solver, const Edge& e,
                        scene.bodies[b].object == scene.bodies[e.other_body].object;
       if (!job.opaque[b] || (own && e.kind == EdgeKind::polyline)) continue;
       if (!own && job.options.stage == Stage::local) continue;
-      const auto& parts = scene.shapes[scene.bodies[b].grid_shape].parts;
+      const auto& parts = job.seen_of(b).shape().parts;
       for (std::uint32_t p = 0; p < parts.size(); ++p) {
         solver.hide(e, b, p, range, own ? self : other);
         tests += parts[p].triangles.size();
@@ -310,17 +312,18 @@ ObjectLines solve_object(const Job& job, std::uint32_t object) {
   ObjectLines result;
   for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b) {
     const model::GridBody& body = scene.bodies[b];
-    for (const FeatureEdge& f : feature_edges(scene.shapes[body.grid_shape], job.features))
-      solve_edge(job, solver,
-                 {f.a.as<std::int64_t>() + job.offset(body),
-                  f.b.as<std::int64_t>() + job.offset(body), f.kind, f.projecting, b, b, f.part},
-                 result);
+    for (const FeatureEdge& f : edges_of(job.seen_of(b), job.features))
+      solve_edge(
+          job, solver,
+          {f.a.as<std::int64_t>() + job.offset(body), f.b.as<std::int64_t>() + job.offset(body),
+           f.kind, f.projecting, f.cut_away, b, b, f.part},
+          result);
   }
-  for (const Crossing& c : job.crossings.of(object)) {
-    const bool projecting = geometry::cross(c.b - c.a, job.direction()) == Vec3l{};
+  for (const Line& line : job.lines.of(object)) {
+    const bool projecting = geometry::cross(line.b - line.a, job.direction()) == Vec3l{};
     solve_edge(job, solver,
-               {c.a - job.origin, c.b - job.origin, EdgeKind::intersection, projecting, c.body_a,
-                c.body_b, 0},
+               {line.a - job.origin, line.b - job.origin, line.kind, projecting, line.cut_away,
+                line.body_a, line.body_b, kNoPart},
                result);
   }
   return result;

@@ -169,20 +169,14 @@ class Finder {
 
 }  // namespace
 
-Result<Crossings> find_crossings(const model::Scene& scene, const std::vector<bool>& drawn,
-                                 const std::vector<std::int64_t>& contact,
-                                 Intersections intersections, const parallel::Context& context) {
-  Crossings crossings;
-  if (intersections == Intersections::off) return crossings;
+Result<std::vector<Crossing>> find_crossings(const model::Scene& scene,
+                                             const std::vector<bool>& drawn,
+                                             const std::vector<std::int64_t>& contact,
+                                             Intersections intersections,
+                                             const parallel::Context& context) {
+  if (intersections == Intersections::off) return std::vector<Crossing>{};
   const Skins skins = list_skins(scene, drawn, contact);
-  auto all = Finder(scene, skins, context).run(intersections);
-  if (!all) return all.error();
-  crossings.all = std::move(*all);
-  crossings.first.resize(drawn.size() + 1);
-  for (const Crossing& c : crossings.all)
-    ++crossings.first[model::index(scene.bodies[c.body_a].object) + 1];
-  for (std::size_t o = 0; o < drawn.size(); ++o) crossings.first[o + 1] += crossings.first[o];
-  return crossings;
+  return Finder(scene, skins, context).run(intersections);
 }
 
 }  // namespace strake::hlr

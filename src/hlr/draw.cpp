@@ -42,6 +42,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.view = view;
   drawing.options = options;
   drawing.contact_distance_mm = job->contact_distance_mm;
+  drawing.diagnostics = job->diagnostics;
   const Status status = options.solver == Solver::brute_force
                             ? solve_brute_force(*job, context, drawing)
                             : solve_gather(*job, context, drawing);

@@ -26,6 +26,7 @@ struct FeatureEdge {
   std::uint32_t part_edge = 0;  ///< index into Part::edges; kNoPartEdge for a polyline's segment
   EdgeKind kind = EdgeKind::sharp;
   bool projecting = false;  ///< parallel to the view direction
+  bool cut_away = false;    ///< by a section plane: neither hidden nor seen
 };
 
 inline constexpr std::uint32_t kNoPartEdge = 0xffffffffU;

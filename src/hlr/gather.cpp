@@ -34,10 +34,10 @@ class Gatherer {
   void run(const Item& item, std::vector<Piece>& out, Work& work) {
     body_ = item.body;
     own_ = &world_.placed[body_];
-    const auto crossings = job_.crossings.of(own_->object);
+    const auto lines = job_.lines.of(own_->object);
     for (std::uint32_t i = item.first; i < item.last; ++i) {
-      if (item.crossings)
-        take(crossings[i]);
+      if (item.lines)
+        take(lines[i]);
       else
         take(own_->view->edges[i]);
       draw(item.number + (i - item.first), out);
@@ -52,6 +52,7 @@ class Gatherer {
     other_ = own_;
     kind_ = e.edge.kind;
     projecting_ = e.edge.projecting;
+    cut_away_ = e.edge.cut_away;
     contact_ = own_->contact;
     a_ = e.edge.a.as<std::int64_t>() + own_->offset;
     b_ = e.edge.b.as<std::int64_t>() + own_->offset;
@@ -59,15 +60,16 @@ class Gatherer {
     vb_ = e.b + own_->at;
   }
 
-  void take(const Crossing& c) {
+  void take(const Line& line) {
     edge_ = nullptr;
-    body_ = c.body_a;
-    own_ = &world_.placed[c.body_a];
-    other_ = &world_.placed[c.body_b];
-    kind_ = EdgeKind::intersection;
-    contact_ = std::max({own_->contact, other_->contact, kCrossingContact});
-    a_ = c.a - job_.origin;
-    b_ = c.b - job_.origin;
+    body_ = line.body_a;
+    own_ = &world_.placed[line.body_a];
+    other_ = &world_.placed[line.body_b];
+    kind_ = line.kind;
+    cut_away_ = line.cut_away;
+    contact_ = std::max({own_->contact, other_->contact, job_.lines.contact});
+    a_ = line.a - job_.origin;
+    b_ = line.b - job_.origin;
     projecting_ = geometry::cross(b_ - a_, job_.direction()) == Vec3l{};
     va_ = world_.frame(a_);
     vb_ = world_.frame(b_);
@@ -77,7 +79,7 @@ class Gatherer {
     ++work_.edges;
     stretches_.clear();
     Param lo = Param::zero(), hi = Param::one();
-    const bool kept = !(own_->cut || other_->cut) || clip(lo, hi);
+    const bool kept = !cut_away_ && (!(own_->cut || other_->cut) || clip(lo, hi));
     if (!kept)
       stretches_.push_back({Param::zero(), Param::one(), State::clipped});
     else if (projecting_)
@@ -184,7 +186,7 @@ class Gatherer {
     for (const PartView& part : own_->view->parts) {
       const bool same = own_->view->polygons[part.first].part == edge_->edge.part;
       if (same && judged) continue;
-      if (!test_part(local, *own_->view, part, same ? 0 : own_->contact, true)) return;
+      if (!test_part(local, *own_->view, part, same ? own_->within : own_->contact, true)) return;
     }
   }
 
@@ -296,10 +298,11 @@ class Gatherer {
   // The edge in hand.
   std::uint32_t body_ = 0;
   const Placed* own_ = nullptr;
-  const Placed* other_ = nullptr;   ///< of a crossing the second body, otherwise own_
-  const EdgeView* edge_ = nullptr;  ///< null: a crossing
+  const Placed* other_ = nullptr;   ///< of an intersection the second body, otherwise own_
+  const EdgeView* edge_ = nullptr;  ///< null: a line that is no edge
   EdgeKind kind_ = EdgeKind::sharp;
   bool projecting_ = false;
+  bool cut_away_ = false;
   std::int64_t contact_ = 0;
   Vec3l a_, b_;
   ViewPoint va_, vb_;

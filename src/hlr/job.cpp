@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "hlr/section_report.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::hlr {
@@ -64,13 +65,21 @@ void fill_bodies(Job& job) {
   const model::Scene& scene = *job.scene;
   job.opaque.resize(scene.bodies.size());
   job.contact.resize(scene.bodies.size());
-  std::int64_t largest = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const model::GridBody& body = scene.bodies[b];
     if (!job.drawn[model::index(body.object)]) continue;
     const model::Body& placed = scene.model->bodies[body.body];
     job.opaque[b] = placed.color.alpha == 255;
     job.contact[b] = contact_of(placed, job.options);
+  }
+}
+
+// What sections rounded is off by so much.
+void widen_contact(Job& job) {
+  std::int64_t largest = 0;
+  for (std::uint32_t b = 0; b < job.contact.size(); ++b) {
+    if (!job.drawn[model::index(job.scene->bodies[b].object)]) continue;
+    job.contact[b] = std::max(job.contact[b], job.seen_of(b).within);
     largest = std::max(largest, job.contact[b]);
   }
   job.contact_distance_mm = static_cast<double>(largest) * geometry::kMmPerGrid;
@@ -114,6 +123,8 @@ Status place(Job& job) {
 Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, const View& view,
                     const Options& options, const parallel::Context& context) {
   if (const Status status = check(view, options); !status) return status.error();
+  const auto planes = section_planes(view.sections);
+  if (!planes) return planes.error();
   if (scene.model == nullptr)
     return Error{ErrorCode::internal, "the scene has no model", "view", ""};
   const std::size_t objects = scene.model->objects.size();
@@ -128,9 +139,17 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
   fill_bodies(job);
   if (const Status status = place(job); !status) return status.error();
-  auto crossings = find_crossings(scene, job.drawn, job.contact, options.intersections, context);
+  const auto crossings =
+      find_crossings(scene, job.drawn, job.contact, options.intersections, context);
   if (!crossings) return crossings.error();
-  job.crossings = std::move(*crossings);
+  auto seen = seen_shapes(scene, job.drawn, *planes, context);
+  if (!seen) return seen.error();
+  job.seen = std::move(*seen);
+  widen_contact(job);
+  auto lines = gather_lines(job, *crossings, *planes, context);
+  if (!lines) return lines.error();
+  job.lines = std::move(*lines);
+  job.diagnostics = report_sections(scene, job.drawn, job.seen, *planes);
   return job;
 }
 

@@ -5,8 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "hlr/crossings.hpp"
 #include "hlr/feature_edges.hpp"
+#include "hlr/lines.hpp"
+#include "hlr/seen_shapes.hpp"
+#include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -30,16 +32,22 @@ struct Job {
   std::vector<bool> opaque;               ///< per body: drawn, and hides what lies behind it
   std::vector<std::int64_t> contact;      ///< per body: contact distance in grid units
   double contact_distance_mm = 0;         ///< the largest of them
-  Crossings crossings;
+  SeenShapes seen;
+  Lines lines;
+  Diagnostics diagnostics;
 
   [[nodiscard]] const geometry::Vec3l& direction() const { return features.direction; }
   [[nodiscard]] geometry::Vec3l offset(const model::GridBody& body) const {
     return body.origin - origin;
   }
+  /// The shape of a body, as sections leave it.
+  [[nodiscard]] const SeenShape& seen_of(std::uint32_t body) const {
+    return seen.all[seen.of[body]];
+  }
 };
 
 /// Checks view and options, fixes contact distances, reduces the direction, finds the origin and
-/// the intersections.
+/// the intersections, and cuts what section planes cut.
 [[nodiscard]] Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn,
                                   const View& view, const Options& options,
                                   const parallel::Context& context);

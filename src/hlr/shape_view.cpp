@@ -15,6 +15,7 @@ namespace {
 void judge_edges(const geometry::Part& part, const geometry::Vec3l& direction,
                  std::span<EdgeView> edges) {
   for (EdgeView& e : edges) {
+    if (e.edge.part_edge == kNoPartEdge) continue;
     bool away = true, towards = false;
     for (const std::uint32_t t : geometry::triangles_round(part, e.edge.part_edge)) {
       const Int128 facing = along(triangle_normal(part, t), direction);
@@ -28,11 +29,11 @@ void judge_edges(const geometry::Part& part, const geometry::Vec3l& direction,
 
 }  // namespace
 
-ShapeView view_of(const model::GridShape& shape, const Frame& frame,
-                  const FeatureOptions& options) {
+ShapeView view_of(const SeenShape& seen, const Frame& frame, const FeatureOptions& options) {
+  const model::GridShape& shape = seen.shape();
   ShapeView view;
   view.direction = options.direction;
-  const std::vector<FeatureEdge> edges = feature_edges(shape, options);
+  const std::vector<FeatureEdge> edges = edges_of(seen, options);
   view.edges.reserve(edges.size());
   for (const FeatureEdge& e : edges)
     view.edges.push_back({e, frame(e.a.as<std::int64_t>()), frame(e.b.as<std::int64_t>())});
@@ -42,7 +43,9 @@ ShapeView view_of(const model::GridShape& shape, const Frame& frame,
     std::size_t end = begin;
     while (end < edges.size() && edges[end].part == p) ++end;
     const geometry::Part& part = shape.parts[p];
-    if (part.kind != geometry::PartKind::wire && add_polygons(part, p, frame, view))
+    // What was rounded has a contact distance within the part, which the signs know nothing of.
+    if (part.kind != geometry::PartKind::wire && add_polygons(part, p, frame, view) &&
+        seen.within == 0)
       judge_edges(part, options.direction, std::span(view.edges).subspan(begin, end - begin));
     begin = end;
   }

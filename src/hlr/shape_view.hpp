@@ -7,8 +7,8 @@
 
 #include "hlr/feature_edges.hpp"
 #include "hlr/frame.hpp"
+#include "hlr/seen_shapes.hpp"
 #include "hlr/view_tree.hpp"
-#include "strake/model/scene.hpp"
 
 namespace strake::hlr {
 
@@ -66,7 +66,7 @@ struct ShapeView {
   }
 };
 
-[[nodiscard]] ShapeView view_of(const model::GridShape& shape, const Frame& frame,
+[[nodiscard]] ShapeView view_of(const SeenShape& seen, const Frame& frame,
                                 const FeatureOptions& options);
 
 /// Polygons of one part, appended; true when the part is exactly convex and closed.

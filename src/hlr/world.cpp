@@ -21,24 +21,27 @@ bool within(const Box3l& inner, const Box3l& outer) {
 }
 
 Status make_views(World& world, const parallel::Context& context) {
-  const model::Scene& scene = *world.job.scene;
+  const Job& job = world.job;
+  const model::Scene& scene = *job.scene;
   std::vector<std::uint32_t> used;
-  std::vector<bool> seen(scene.shapes.size());
-  for (const model::GridBody& body : scene.bodies) {
-    if (seen[body.grid_shape] || !world.job.drawn[model::index(body.object)]) continue;
-    seen[body.grid_shape] = true;
-    used.push_back(body.grid_shape);
+  std::vector<bool> known(job.seen.all.size());
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    const std::uint32_t seen = job.seen.of[b];
+    if (known[seen] || !job.drawn[model::index(scene.bodies[b].object)]) continue;
+    known[seen] = true;
+    used.push_back(seen);
   }
   const auto order = parallel::longest_first(used.size(), [&](std::size_t i) {
     std::size_t triangles = 0;
-    for (const geometry::Part& part : scene.shapes[used[i]].parts) triangles += part.edges.size();
+    for (const geometry::Part& part : job.seen.all[used[i]].source->parts)
+      triangles += part.edges.size();
     return triangles;
   });
-  world.views.resize(scene.shapes.size());
+  world.views.resize(job.seen.all.size());
   return parallel::for_each(
       context, {.name = "hidden lines: shapes", .n = used.size(), .order = order},
       [&](std::size_t i) {
-        world.views[used[i]] = view_of(scene.shapes[used[i]], world.frame, world.job.features);
+        world.views[used[i]] = view_of(job.seen.all[used[i]], world.frame, job.features);
       });
 }
 
@@ -51,13 +54,15 @@ void place_bodies(World& world) {
     const model::GridBody& body = scene.bodies[b];
     const std::uint32_t object = model::index(body.object);
     if (!job.drawn[object]) continue;
-    const model::GridShape& shape = scene.shapes[body.grid_shape];
+    const SeenShape& seen = job.seen_of(b);
+    const model::GridShape& shape = seen.shape();
     Placed& placed = world.placed[b];
-    placed = {&world.views[body.grid_shape],
+    placed = {&world.views[job.seen.of[b]],
               job.offset(body),
               world.frame(job.offset(body)),
               object,
               job.contact[b],
+              seen.within,
               job.opaque[b],
               false};
     if (job.limits && !shape.box.empty()) {
@@ -74,11 +79,11 @@ void place_bodies(World& world) {
 void make_items(World& world) {
   const model::Scene& scene = *world.job.scene;
   std::uint32_t number = 0;
-  const auto add = [&](std::uint32_t body, std::size_t size, bool crossings) {
+  const auto add = [&](std::uint32_t body, std::size_t size, bool lines) {
     const auto edges = static_cast<std::uint32_t>(size);
     for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
       world.items.push_back(
-          {body, first, std::min(edges, first + kEdgesPerItem), number + first, crossings});
+          {body, first, std::min(edges, first + kEdgesPerItem), number + first, lines});
     number += edges;
   };
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
@@ -86,7 +91,7 @@ void make_items(World& world) {
     const std::uint32_t object = world.placed[b].object;
     if (b == scene.first_body[object]) number = 0;
     add(b, world.placed[b].view->edges.size(), false);
-    if (b + 1 == scene.first_body[object + 1]) add(b, world.job.crossings.of(object).size(), true);
+    if (b + 1 == scene.first_body[object + 1]) add(b, world.job.lines.of(object).size(), true);
   }
 }
 

@@ -20,16 +20,16 @@ struct Placed {
   ViewPoint at;
   std::uint32_t object = 0;
   std::int64_t contact = 0;
-  bool opaque = false;  ///< and, where there are limits, not wholly outside them
-  bool cut = false;     ///< by the limits
+  std::int64_t within = 0;  ///< the same among what is one part
+  bool opaque = false;      ///< and, where there are limits, not wholly outside them
+  bool cut = false;         ///< by the limits
 };
 
-/// A run of edges of one body, or of the crossings that are drawn with its object: the item of
-/// work.
+/// A run of edges of one body, or of the lines that are drawn with its object: the item of work.
 struct Item {
   std::uint32_t body = 0, first = 0, last = 0;
   std::uint32_t number = 0;  ///< of its first edge within the object
-  bool crossings = false;
+  bool lines = false;
 };
 
 /// What the gathering works on.
@@ -43,7 +43,7 @@ struct World {
 
   const Job& job;
   Frame frame;
-  std::vector<ShapeView> views;  ///< per grid shape; empty where not drawn
+  std::vector<ShapeView> views;  ///< per seen shape; empty where not drawn
   std::vector<Placed> placed;    ///< per body
   ViewTree tree;                 ///< over the bodies that may hide
   std::vector<Item> items;

@@ -35,6 +35,9 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
     case LineClass::boundary:
     case LineClass::intersection:
       return pens.edge;
+    case LineClass::section:
+      return pens.section;
+    case LineClass::hatch:
     case LineClass::polyline:
     case LineClass::hidden:
       return pens.thin;
@@ -57,8 +60,8 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
 
 std::string_view class_name(LineClass line) {
   constexpr std::array<std::string_view, kLineClasses> kNames{
-      "outline", "edge",       "boundary", "intersection", "polyline", "hidden",
-      "grid",    "grid_label", "leader",   "title",        "frame",    "frame_thin"};
+      "outline", "edge", "boundary",   "intersection", "section", "hatch", "polyline",
+      "hidden",  "grid", "grid_label", "leader",       "title",   "frame", "frame_thin"};
   return kNames.at(static_cast<std::size_t>(line));
 }
 
@@ -71,6 +74,10 @@ LineClass class_of(hlr::EdgeKind kind, bool hidden) {
       return LineClass::boundary;
     case hlr::EdgeKind::intersection:
       return LineClass::intersection;
+    case hlr::EdgeKind::section:
+      return LineClass::section;
+    case hlr::EdgeKind::hatch:
+      return LineClass::hatch;
     case hlr::EdgeKind::polyline:
       return LineClass::polyline;
     case hlr::EdgeKind::sharp:
@@ -94,7 +101,8 @@ LineStyles styles_of(const std::array<StyleWish, kLineClasses>& wishes, const dr
 drawing::Pens pens_of(const LineStyles& styles) {
   return {.outline = style_of(styles, LineClass::outline).width_mm,
           .edge = style_of(styles, LineClass::edge).width_mm,
-          .thin = style_of(styles, LineClass::hidden).width_mm};
+          .thin = style_of(styles, LineClass::hidden).width_mm,
+          .section = style_of(styles, LineClass::section).width_mm};
 }
 
 }  // namespace strake::sheets

@@ -265,4 +265,22 @@ std::optional<geometry::Box3l> random_limits(Random& random, const LatticeOption
   return box;
 }
 
+hlr::Section random_section(Random& random, const LatticeOptions& options) {
+  hlr::Section section;
+  do {
+    for (int k = 0; k < 3; ++k) section.normal[k] = static_cast<std::int64_t>(random.below(5)) - 2;
+    if (random.one_in(8)) section.normal = direction_of(kDirections - 1 - random.below(2));
+    if (random.one_in(2)) {
+      const int axis = static_cast<int>(random.below(3));
+      section.normal = {};
+      section.normal[axis] = random.one_in(2) ? 1 : -1;
+    }
+  } while (section.normal == Vec3l{});
+  for (int k = 0; k < 3; ++k) {
+    section.point[k] = static_cast<std::int64_t>(random.below(options.steps + 1)) * options.unit;
+    if (random.one_in(3)) section.point[k] += options.unit / (random.one_in(2) ? 2 : 3);
+  }
+  return section;
+}
+
 }  // namespace strake::test

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
 #include "support/scene_builder.hpp"
 
 namespace strake::test {
@@ -48,5 +49,8 @@ inline constexpr std::uint32_t kDirections = 16;
 /// Limits that cut the lattice, now and then with faces on lattice planes; sometimes none.
 [[nodiscard]] std::optional<geometry::Box3l> random_limits(Random& random,
                                                            const LatticeOptions& options);
+
+/// A plane that cuts the lattice, often through lattice points and now and then in a lattice plane.
+[[nodiscard]] hlr::Section random_section(Random& random, const LatticeOptions& options);
 
 }  // namespace strake::test

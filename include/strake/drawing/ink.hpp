@@ -14,6 +14,7 @@ namespace strake::drawing {
 /// Widths of lines, millimetres of paper (the line groups of ISO 128).
 struct Pens {
   double outline = 0.5, edge = 0.35, thin = 0.25;
+  double section = 0.7;  ///< outlines of cuts
 };
 
 struct InkOptions {

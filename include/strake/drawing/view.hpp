@@ -5,6 +5,7 @@
 
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
 
 namespace strake::drawing {
 
@@ -21,6 +22,20 @@ struct Direction {
 /// "1,-2,1" as a direction. Whole numbers up to 2^20 are taken as they are; decimals are scaled
 /// exactly where they can be, otherwise rounded to 20 bits of the largest component and reported.
 [[nodiscard]] Result<Direction> parse_direction(std::string_view text);
+
+/// A section plane, with how far its normal is from what was asked for.
+struct SectionText {
+  hlr::Section section;
+  bool rounded = false;
+  double rounding_error = 0;  ///< sine of the angle between the normals
+};
+
+/// "z>4500mm" cuts away what lies above, "z<4500mm" what lies below, "z=4500mm" what is nearer to
+/// a viewer in `direction`. In the place of the axis (x, y, z) may stand the numbers of a normal,
+/// as of a direction: "1,2,0>4500mm" cuts away what lies farther along it from the model's origin
+/// than that. The plane goes through the grid point nearest to its foot.
+[[nodiscard]] Result<SectionText> parse_section(std::string_view text,
+                                                const geometry::Vec3l& direction);
 
 /// The upward direction that people expect of a view: z, or for plans (viewed along z) y.
 [[nodiscard]] geometry::Vec3l default_up(const geometry::Vec3l& direction);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/model/scene.hpp"
@@ -26,13 +27,23 @@ enum class EdgeKind : std::uint8_t {
   non_manifold,
   polyline,
   intersection,  ///< where the skins of two parts pass through each other
+  section,       ///< where a section plane cuts a part
+  hatch,         ///< on the face of a cut through a solid
 };
 enum class State : std::uint8_t {
   visible,
   hidden_by_self,
   hidden_by_other,
   projecting,  ///< parallel to the view direction: a point on paper
-  clipped,     ///< outside the limits
+  clipped,     ///< outside the limits, or cut away by a section
+};
+
+/// A plane through a grid point that cuts away what lies on it and on the side that `normal` points
+/// to, by the rule of geometry::CutPlane: that is neither drawn nor hides, and solids are closed
+/// where they are cut.
+struct Section {
+  geometry::Vec3l normal{0, 0, 1};  ///< |component| <= 2^20, not zero
+  geometry::Vec3l point;            ///< grid units
 };
 
 /// An orthographic view. Directions are integers so that every decision is exact.
@@ -41,6 +52,13 @@ struct View {
   geometry::Vec3l up{0, 0, 1};
   std::optional<geometry::Box3l>
       limits;  ///< grid units: lines outside are clipped, points outside do not hide
+  std::vector<Section> sections = {};  ///< in any order, 16 at most
+};
+
+/// How the sections of an object are hatched; what is negative is chosen.
+struct Hatch {
+  double angle_deg = -1;   ///< from the horizontal of the paper, seen square; at most 180
+  double spacing_mm = -1;  ///< in the model
 };
 
 struct Options {
@@ -51,6 +69,11 @@ struct Options {
   double contact_distance_mm = -1;
   Intersections intersections = Intersections::objects;
   bool culling = true;  ///< changes the work, never the answer
+  /// The usual distance of hatch lines in the model, mm; 0: no hatch; negative: from the size of
+  /// what is drawn.
+  double hatch_spacing_mm = -1;
+  /// By object; empty: chosen, so that neighbours differ in angle and colours in spacing.
+  std::vector<Hatch> hatches = {};
 };
 
 /// A piece of an edge in one state. Coordinates are grid units, rounded once from exact values.
@@ -76,6 +99,7 @@ struct Drawing {
   double contact_distance_mm = 0;  ///< the largest that was applied
   std::vector<Piece> pieces;       ///< by (object, edge, parameter)
   Counters counters;
+  Diagnostics diagnostics;  ///< of sections: planes that miss, what is cut but not hatched
 };
 
 /// The lines of the scene in one view, each piece with its state. `drawn` selects the objects

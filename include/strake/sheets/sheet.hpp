@@ -29,6 +29,8 @@ enum class LineClass : std::uint8_t {
   edge,
   boundary,
   intersection,
+  section,
+  hatch,
   polyline,
   hidden,
   grid,
@@ -38,7 +40,7 @@ enum class LineClass : std::uint8_t {
   frame,
   frame_thin,
 };
-inline constexpr std::size_t kLineClasses = 12;
+inline constexpr std::size_t kLineClasses = 14;
 
 /// As files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);

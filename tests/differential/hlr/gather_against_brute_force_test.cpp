@@ -17,6 +17,7 @@ struct Settings {
   std::int32_t unit = 1;
   double contact_mm = 0;
   std::uint32_t most_objects = 6;
+  std::uint32_t sections = 0;
 };
 
 std::string run(std::uint64_t seed, const Settings& settings) {
@@ -25,8 +26,10 @@ std::string run(std::uint64_t seed, const Settings& settings) {
                                      .unit = settings.unit,
                                      .steps = 1 + random.below(3)};
   const test::SceneBuilder scene = test::lattice_scene(seed, lattice);
-  const hlr::View view{.direction = test::direction_of(random.below(test::kDirections)),
-                       .limits = test::random_limits(random, lattice)};
+  hlr::View view{.direction = test::direction_of(random.below(test::kDirections)),
+                 .limits = test::random_limits(random, lattice)};
+  for (std::uint32_t i = 0; i < settings.sections; ++i)
+    view.sections.push_back(test::random_section(random, lattice));
   hlr::Options options{.contact_distance_mm = settings.contact_mm};
   if (random.one_in(8)) options.stage = random.one_in(2) ? hlr::Stage::local : hlr::Stage::none;
   if (random.one_in(4)) options.sharp_angle_deg = random.one_in(2) ? 0 : 180;
@@ -71,6 +74,23 @@ TEST(GatherAgainstBruteForce, HugeLattice) {
 TEST(GatherAgainstBruteForce, Crowd) {
   for (std::uint64_t seed = 1; seed <= std::max<std::uint64_t>(12, count(12) / 50); ++seed)
     ASSERT_EQ(run(seed, {.most_objects = 40}), "") << "seed " << seed;
+}
+
+TEST(GatherAgainstBruteForce, Sections) {
+  for (std::uint64_t seed = 1; seed <= count(300); ++seed)
+    for (const std::int32_t unit : {1, 7, 1000})
+      for (const double contact : {0.0, -1.0})
+        ASSERT_EQ(run(seed, {.unit = unit,
+                             .contact_mm = contact,
+                             .sections = 1 + static_cast<std::uint32_t>(seed % 3)}),
+                  "")
+            << "seed " << seed << " unit " << unit << " contact " << contact;
+}
+
+TEST(GatherAgainstBruteForce, SectionsOfAHugeLattice) {
+  for (std::uint64_t seed = 1; seed <= count(100); ++seed)
+    ASSERT_EQ(run(seed, {.unit = 357913941, .contact_mm = -1, .sections = 2}), "")
+        << "seed " << seed;
 }
 
 }  // namespace

@@ -55,6 +55,43 @@ class Draw(Scenario):
         cut = pieces('--limits', '0,0,0,40,40,40')
         self.assertTrue(any(piece['state'] == 'clipped' for piece in cut))
 
+    def test_sections_cut_away_what_they_say(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+
+        def cut(*options):
+            done = self.run_strake('draw', 'a.obj', *options, '-o', 'x.json', '-o', 'x.svg')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))['pieces'], done.stderr
+
+        def heights(pieces):
+            return {end[2] for piece in pieces if piece['state'] != 'clipped'
+                    for end in (piece['a_mm'], piece['b_mm'])}
+
+        self.assertEqual(heights(cut('--section', 'z>40mm')[0]), {0, 40})
+        self.assertEqual(heights(cut('--section', 'z < 40mm')[0]), {40, 100})
+        self.assertEqual(heights(cut('--view', 'top', '--section', 'z=40mm')[0]), {0, 40})
+        self.assertEqual(heights(cut('--view', 'bottom', '--section', 'z=4cm')[0]), {40, 100})
+        outline = [piece for piece in cut('--section', 'z>40mm', '--threads', '3')[0] if piece['kind'] == 'section']
+        self.assertEqual(len(outline), 4)
+        self.assertIn('id="visible-section"', (self.folder / 'x.svg').read_text(encoding='utf-8'))
+        # Three planes leave a corner; with a normal of decimals the rounding is told.
+        self.assertEqual(len({p['edge'] for p in cut('--section', 'x>40mm', '--section', 'y>40mm', '--section',
+                                                     'z>40mm')[0] if p['kind'] == 'section'}), 9)
+        self.assertIn('is taken as normal', cut('--section', '0.3333333,1,0>20mm')[1])
+        self.assertIn('section-misses', cut('--section', 'z>9m')[1])
+        self.assertIn('cuts away everything', cut('--section', 'z>-9m')[1])
+
+    def test_sections_that_make_no_sense_are_told(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        for plane, words in (('0,0,0>1mm', 'neither an axis nor the normal'), ('z', 'no section plane'),
+                             ('z>nan', 'nan'), ('z>12', 'unit'), ('nan,0,1>1mm', 'neither an axis'),
+                             ('w>1mm', 'neither an axis'), ('z>1e300km', '--section'),
+                             ('x=10mm', 'edge-on'), ('z>', '--section')):
+            done = self.run_strake('draw', 'a.obj', '--view', 'top', '--section', plane, '-o', 'x.svg')
+            self.assertEqual(done.returncode, 2, (plane, done.stderr))
+            self.assertIn(words, done.stderr, plane)
+            self.assertIn('--section', done.stderr, plane)
+
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')

@@ -169,6 +169,11 @@ class Schemas(unittest.TestCase):
     def test_view(self):
         self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json')
         self.follows((self.folder / 'view.json').read_text(encoding='utf-8'), 'view')
+        self.run_strake('draw', 'ship.glb', '--view', 'top', '--section', 'z=4500mm', '--section', '1,2,0>9m',
+                        '-o', 'cut.json')
+        cut = self.follows((self.folder / 'cut.json').read_text(encoding='utf-8'), 'view')
+        self.assertEqual([s['normal'] for s in cut['view']['sections']], [[0, 0, 1], [1, 2, 0]])
+        self.assertLessEqual({'section', 'hatch'}, {p['kind'] for p in cut['pieces']})
 
 
 if __name__ == '__main__':
