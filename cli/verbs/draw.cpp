@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/draw_sheet.hpp"
+#include "cli/hatch_option.hpp"
 #include "cli/load.hpp"
 #include "cli/select.hpp"
 #include "cli/verb.hpp"
@@ -31,7 +32,7 @@ struct DrawOptions {
   std::string sheet;
   std::string view, direction, up, limits, scale, title;
   std::string stage, solver, hidden, intersections, sharp_angle, contact_distance;
-  std::vector<std::string> select, outputs, sections;
+  std::vector<std::string> select, outputs, sections, hatches;
 };
 
 Result<geometry::Vec3l> direction_of(const std::string& text, const std::string& option,
@@ -209,6 +210,7 @@ struct Request {
   hlr::Options options;
   drawing::LayoutOptions layout;
   std::vector<model::Selection> selections;
+  std::vector<HatchRule> hatches;
 };
 
 Result<Request> request_of(const DrawOptions& given, Console& console) {
@@ -222,16 +224,22 @@ Result<Request> request_of(const DrawOptions& given, Console& console) {
   if (!layout) return layout.error();
   const auto selections = parse_selections(given.select, "--select");
   if (!selections) return selections.error();
-  return Request{*scene, *view, *options, *layout, *selections};
+  const auto hatches = parse_hatches(given.hatches);
+  if (!hatches) return hatches.error();
+  return Request{*scene, *view, *options, *layout, *selections, *hatches};
 }
 
 Result<drawing::NeutralDrawing> compute(Session& session, const Request& request,
                                         const model::Scene& scene) {
   const Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
   if (!drawn) return drawn.error();
+  auto hatches = hatches_of(session, scene, request.hatches);
+  if (!hatches) return hatches.error();
+  hlr::Options options = request.options;
+  options.hatches = std::move(*hatches);
   const Result<hlr::Drawing> lines = [&] {
     const auto timer = session.step("hidden lines");
-    return hlr::draw(scene, *drawn, request.view, request.options, session.context());
+    return hlr::draw(scene, *drawn, request.view, options, session.context());
   }();
   if (!lines) return lines.error();
   tell(session.console(), lines->diagnostics);
@@ -291,6 +299,17 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("View");
   command
+      .add_option("--hatch", options.hatches,
+                  "How sections are hatched: angle, distance of lines in the model, or both, or "
+                  "off, and of which objects: '30deg,80mm: PIPE*'; may be repeated, the first that "
+                  "picks an object counts (default: neighbours differ in angle, colours in "
+                  "distance)")
+      ->type_name("PATTERN")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("View");
+  command
       .add_option("--select", options.select,
                   "Draw only objects that this picks, as 'PIPE*' or 'type = box and @DN > 80mm'; "
                   "may be repeated")
@@ -335,8 +354,8 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
           ->type_name("FILE")
           ->group("Output");
   for (const char* const other :
-       {"--view", "--direction", "--up", "--limits", "--select", "--hidden", "--stage",
-        "--intersections", "--sharp-angle", "--contact-distance", "--scale", "--title"})
+       {"--view", "--direction", "--up", "--limits", "--section", "--hatch", "--select", "--hidden",
+        "--stage", "--intersections", "--sharp-angle", "--contact-distance", "--scale", "--title"})
     sheet->excludes(other);
 }
 

@@ -57,7 +57,7 @@ Status check(const Job& job, double usual_mm, double side_mm) {
     return fault("the distance of hatch lines is too small for the drawing, or too large",
                  "leave it out to have it chosen");
   for (const Hatch& hatch : job.options.hatches) {
-    if (!(hatch.spacing_mm < 0) && !makes_sense(hatch.spacing_mm))
+    if (!(hatch.spacing_mm <= 0) && !makes_sense(hatch.spacing_mm))
       return fault("the distance of hatch lines is too small for the drawing, or too large",
                    "leave it out to have it chosen");
     if (!(hatch.angle_deg <= 180))
@@ -73,7 +73,7 @@ Status check(const Job& job, double usual_mm, double side_mm) {
 void add_body(const Job& job, std::span<const SectionPlane> planes, std::uint32_t b,
               const Hatch& hatch, std::vector<Line>& out) {
   const SeenShape& seen = job.seen_of(b);
-  if (!seen.cut) return;
+  if (!seen.cut || hatch.spacing_mm == 0) return;
   const Vec3l origin = job.scene->bodies[b].origin;
   for (std::size_t p = 0; p < seen.planes.size(); ++p) {
     const Vec3l& normal = planes[seen.numbers[p]].normal;

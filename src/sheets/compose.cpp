@@ -101,6 +101,7 @@ class Composer {
         return error;
       }
       asked += view.select.size();
+      sheet_.diagnostics.append(lines->diagnostics);
       drawings_.push_back(std::move(*lines));
     }
     return {};

@@ -112,9 +112,32 @@ void ViewReader::select(TableReader& table, ViewWish& view) {
                    "leave it out to draw everything");
 }
 
+void ViewReader::sections(TableReader& table, ViewWish& view) {
+  const Value* const value = table.value("sections");
+  if (value == nullptr) return;
+  view.view.sections.clear();
+  const std::string mend =
+      "write sections = [\"z>4500mm\", \"x<0m\"], with the sign towards what is cut away";
+  const auto take = [&](const Value& one) {
+    const auto* const text = std::get_if<std::string>(&one.held);
+    // Without a direction: what is nearer to the viewer may be another side in every view.
+    const auto parsed =
+        text != nullptr ? std::optional(drawing::parse_section(*text, Vec3l{})) : std::nullopt;
+    if (parsed && *parsed)
+      view.view.sections.push_back((*parsed)->section);
+    else
+      reading_.fault(one.at, "'sections' of " + table.what() + " has what is no section plane",
+                     mend);
+  };
+  const auto* const list = std::get_if<Array>(&value->held);
+  if (list == nullptr) return take(*value);
+  for (const Value& one : *list) take(one);
+}
+
 void ViewReader::content(TableReader& table, ViewWish& view) {
   select(table, view);
   limits(table, view);
+  sections(table, view);
   constexpr std::array<std::string_view, 3> kHidden{"off", "dashed", "all"};
   if (const auto word = table.word("hidden", kHidden))
     view.hidden = *word == "off"      ? HiddenLines::off

@@ -13,7 +13,7 @@ class ViewReader {
   ViewReader(settings::Reading& reading, settings::NamedSets& sets)
       : reading_(reading), sets_(sets) {}
 
-  /// What may be said of all views at once: what is drawn, and how. (A section belongs here.)
+  /// What may be said of all views at once: what is drawn, and how.
   void content(settings::TableReader& table, ViewWish& view);
   /// Direction and up.
   void direction(settings::TableReader& table, ViewWish& view);
@@ -24,6 +24,7 @@ class ViewReader {
   std::optional<geometry::Vec3l> vector(settings::TableReader& table, std::string_view key,
                                         bool names);
   void limits(settings::TableReader& table, ViewWish& view);
+  void sections(settings::TableReader& table, ViewWish& view);
   void select(settings::TableReader& table, ViewWish& view);
 
   settings::Reading& reading_;

@@ -58,7 +58,7 @@ struct View {
 /// How the sections of an object are hatched; what is negative is chosen.
 struct Hatch {
   double angle_deg = -1;   ///< from the horizontal of the paper, seen square; at most 180
-  double spacing_mm = -1;  ///< in the model
+  double spacing_mm = -1;  ///< in the model; 0: none
 };
 
 struct Options {

@@ -223,7 +223,7 @@ TEST(SectionLaws, AMirroredSceneIsCutLikeAMirror) {
         for (auto& v : chain) v.x = -v.x;
       for (geometry::Triangle& t : part.triangles) std::swap(t[1], t[2]);
     };
-    test::SceneBuilder mirrored = test::lattice_scene(seed, options);
+    const test::SceneBuilder mirrored = test::lattice_scene(seed, options);
     auto& bodies = const_cast<model::Scene&>(mirrored.scene()).bodies;  // NOLINT
     for (model::GridBody& body : bodies) body.origin.x = -body.origin.x;
     const std::int64_t at = 360 + 720 * static_cast<std::int64_t>(seed % 2);

@@ -81,6 +81,29 @@ class Draw(Scenario):
         self.assertIn('section-misses', cut('--section', 'z>9m')[1])
         self.assertIn('cuts away everything', cut('--section', 'z>-9m')[1])
 
+    def test_hatches_are_what_the_table_says(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100) + cube('b', 1, (200, 0, 0), 100))
+
+        def hatch(*options):
+            done = self.run_strake('draw', 'a.obj', '--view', 'top', '--section', 'z=50mm', *options, '-o', 'x.json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pieces = json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))['pieces']
+            return [(p['object'], p['a_mm'], p['b_mm']) for p in pieces if p['kind'] == 'hatch']
+
+        # Level lines 10 mm apart through the origin: at 10 to 100 mm, the one along the rim counts as within.
+        level = hatch('--hatch', '0deg,10mm')
+        self.assertEqual({a[1] for _, a, b in level}, {b[1] for _, a, b in level})
+        self.assertIn(len(level), (18, 20, 22))
+        some = hatch('--hatch', '90deg,20mm: a', '--hatch', 'off')
+        self.assertEqual({o for o, _, _ in some}, {level[0][0]})
+        self.assertTrue(all(a[0] == b[0] and a[0] % 20 == 0 for _, a, b in some))
+        self.assertGreater(len(hatch()), 10)
+        self.assertEqual(hatch('--hatch', 'off'), [])
+        for wrong in ('200deg', '-1mm', '0mm', '30furlongs', '', '30deg,', '1nm', '45deg: nobody', '45deg: ((', 'nan'):
+            done = self.run_strake('draw', 'a.obj', '--section', 'z>50mm', '--hatch', wrong, '-o', 'x.json')
+            self.assertEqual(done.returncode, 2, (wrong, done.stderr))
+            self.assertIn('--hatch', done.stderr, wrong)
+
     def test_sections_that_make_no_sense_are_told(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
         for plane, words in (('0,0,0>1mm', 'neither an axis nor the normal'), ('z', 'no section plane'),

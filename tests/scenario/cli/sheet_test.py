@@ -56,6 +56,20 @@ class Sheet(Scenario):
         ids = [element.get('id') for element in root.iter() if element.get('id')]
         self.assertEqual(len(ids), len(set(ids)))
 
+    def test_views_have_sections(self):
+        self.small('[[view]]\nname = "v"\ndirection = "top"\nsections = ["z>400mm", "y<100mm"]\n')
+        done = self.draw()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / 's.svg').read_text(encoding='utf-8')
+        for layer in ('visible section', 'visible hatch'):
+            self.assertIn(f'class="{layer}"', text)
+        self.small('[[view]]\nname = "v"\ndirection = "top"\nsections = "z>4m"\n')
+        self.assertIn('section-misses', self.draw().stderr)
+        self.small('[[view]]\nname = "v"\ndirection = "top"\nsections = ["z=4m"]\n')
+        self.assertIn('no section plane', self.draw().stderr)
+        done = self.draw('--section', 'z>1m')
+        self.assertEqual(done.returncode, 2, done.stderr)
+
     def test_hidden_lines_and_the_solver(self):
         self.small('arrangement = "first-angle"\n[defaults]\nhidden = "dashed"\n')
         self.assertEqual(self.draw().returncode, 0)
