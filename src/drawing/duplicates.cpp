@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drawing/duplicates.hpp"
 
-#include <utility>
-
-#include "drawing/overlaps.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
 
@@ -11,23 +10,31 @@ namespace {
 
 using geometry::Vec3d;
 
-Rank rank_of(LineState state) {
-  if (state == LineState::visible) return Rank::visible;
-  return is_hidden(state) ? Rank::hidden : Rank::none;
+Rank rank_of(hlr::State state) {
+  switch (state) {
+    case hlr::State::visible:
+      return Rank::visible;
+    case hlr::State::hidden_by_self:
+    case hlr::State::hidden_by_other:
+      return Rank::hidden;
+    case hlr::State::projecting:
+    case hlr::State::clipped:
+      break;
+  }
+  return Rank::none;
 }
 
-std::vector<Flat> flatten(const std::vector<Line>& lines, const PaperAxes& axes,
-                          double distance_mm) {
-  std::vector<Flat> flat(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    // Relative to the first line: far from the origin differences keep their digits.
-    const Vec3d a = lines[i].a_mm - lines[0].a_mm, b = lines[i].b_mm - lines[0].a_mm;
-    Flat& f = flat[i];
-    f = Flat(dot(axes.right, a), dot(axes.up, a), dot(axes.right, b), dot(axes.up, b));
-    f.depth = dot(axes.toward, a) + dot(axes.toward, b);
-    f.reach = distance_mm / 2;
-    f.rank = f.length > 0 ? rank_of(lines[i].state) : Rank::none;
-  }
+/// A piece in the plane of the view, relative to a point of the model: far from the origin
+/// differences keep their digits.
+Flat flat_of(const hlr::Piece& piece, const PaperAxes& axes, const Vec3d& origin, double reach) {
+  const Vec3d a = geometry::to_mm(piece.a) - origin, b = geometry::to_mm(piece.b) - origin;
+  Flat flat{.ax = dot(axes.right, a),
+            .ay = dot(axes.up, a),
+            .bx = dot(axes.right, b),
+            .by = dot(axes.up, b),
+            .depth = dot(axes.toward, a) + dot(axes.toward, b),
+            .reach = reach};
+  if (flat.length() > 0) flat.rank = rank_of(piece.state);
   return flat;
 }
 
@@ -60,18 +67,23 @@ Line part_of(const Line& line, double from, double to) {
   return part;
 }
 
-Result<std::vector<Line>> mark_duplicates(std::vector<Line> lines, const PaperAxes& axes,
-                                          double distance_mm, const parallel::Context& context) {
-  const auto stretches = cut_overlaps(flatten(lines, axes, distance_mm),
-                                      {.least = distance_mm, .shortest = distance_mm}, context);
-  if (!stretches) return stretches.error();
-  std::vector<Line> out;
-  out.reserve(stretches->size());
-  for (const Stretch& s : *stretches) {
-    out.push_back(part_of(lines[s.line], s.from, s.to));
-    if (s.covered) out.back().state = LineState::duplicate;
-  }
-  return out;
+Result<std::vector<Flat>> flatten(std::span<const hlr::Piece> pieces, const PaperAxes& axes,
+                                  double distance_mm, const parallel::Context& context) {
+  const Vec3d origin = pieces.empty() ? Vec3d{} : geometry::to_mm(pieces.front().a);
+  return parallel::transform(
+      context, {.name = "lines in the plane", .n = pieces.size(), .grain = 8192},
+      [&](std::size_t i) { return flat_of(pieces[i], axes, origin, distance_mm / 2); });
+}
+
+OverlapRule duplicate_rule(double distance_mm) {
+  return {.least = distance_mm, .shortest = distance_mm};
+}
+
+Result<Stretches> find_duplicates(std::span<const hlr::Piece> pieces, const PaperAxes& axes,
+                                  double distance_mm, const parallel::Context& context) {
+  const auto flat = flatten(pieces, axes, distance_mm, context);
+  if (!flat) return flat.error();
+  return cut_overlaps(*flat, duplicate_rule(distance_mm), context);
 }
 
 }  // namespace strake::drawing

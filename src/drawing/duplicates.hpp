@@ -1,25 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "drawing/overlaps.hpp"
 #include "drawing/paper.hpp"
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
+#include "strake/hlr/hlr.hpp"
 #include "strake/parallel/context.hpp"
 
 namespace strake::drawing {
 
-/// Splits lines where they lie on other lines of the view and marks what is covered as duplicate.
+/// Finds where pieces lie on other pieces of the view; a stretch's line is the number of its piece.
 ///
-/// Two lines coincide where they are at most `distance_mm` apart in the plane of the view, measured
-/// in the model and not on paper, so that the scale decides nothing. Of two that coincide over a
-/// stretch, the visible one stays, then the nearer to the viewer, then that of the lowest object
-/// and edge. Lines that are drawn nowhere (projecting, clipped) take no part. The order of lines
-/// stays; the parts of a split line follow each other from a to b.
-[[nodiscard]] Result<std::vector<Line>> mark_duplicates(std::vector<Line> lines,
-                                                        const PaperAxes& axes, double distance_mm,
-                                                        const parallel::Context& context);
+/// Two pieces coincide where they are at most `distance_mm` apart in the plane of the view,
+/// measured in the model and not on paper, so that the scale decides nothing, and parallel as
+/// OverlapRule says. Of two that coincide over a stretch, the visible one stays, then the nearer to
+/// the viewer, then that of the lowest object and edge. Pieces that are drawn nowhere (projecting,
+/// clipped) take no part.
+[[nodiscard]] Result<Stretches> find_duplicates(std::span<const hlr::Piece> pieces,
+                                                const PaperAxes& axes, double distance_mm,
+                                                const parallel::Context& context);
+
+/// The same in two steps: the pieces in the plane of the view, relative to the first of them, and
+/// when they are duplicates.
+[[nodiscard]] Result<std::vector<Flat>> flatten(std::span<const hlr::Piece> pieces,
+                                                const PaperAxes& axes, double distance_mm,
+                                                const parallel::Context& context);
+[[nodiscard]] OverlapRule duplicate_rule(double distance_mm);
 
 [[nodiscard]] bool is_hidden(LineState state);
 

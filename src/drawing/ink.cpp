@@ -77,11 +77,11 @@ std::vector<Flat> flatten(const std::vector<Line>& lines, const PaperAxes& axes,
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line& line = lines[i];
     Flat& f = flat[i];
-    f = Flat(line.a_paper.x, line.a_paper.y, line.b_paper.x, line.b_paper.y);
+    f = {.ax = line.a_paper.x, .ay = line.a_paper.y, .bx = line.b_paper.x, .by = line.b_paper.y};
     f.depth =
         dot(axes.toward, line.a_mm - lines[0].a_mm) + dot(axes.toward, line.b_mm - lines[0].a_mm);
     f.reach = width_of(line, pens) / 2;
-    if (f.length > 0) f.rank = is_hidden(line.state) ? Rank::hidden : Rank::visible;
+    if (f.length() > 0) f.rank = is_hidden(line.state) ? Rank::hidden : Rank::visible;
   }
   return flat;
 }
@@ -111,11 +111,15 @@ Status clean_up(Ink& ink, const PaperAxes& axes, const parallel::Context& contex
   const std::vector<Line> lines = std::exchange(ink.lines, {});
   ink.lines.reserve(lines.size());
   const std::span<const Stretch> stretches = *found;
-  for (std::size_t i = 0; i < stretches.size();) {
-    std::size_t end = i + 1;
-    while (end < stretches.size() && stretches[end].line == stretches[i].line) ++end;
-    keep(lines[stretches[i].line], stretches.subspan(i, end - i), kDash * thin, ink);
-    i = end;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::size_t end = first;
+    while (end < stretches.size() && stretches[end].line == i) ++end;
+    if (end == first)
+      ink.lines.push_back(lines[i]);
+    else
+      keep(lines[i], stretches.subspan(first, end - first), kDash * thin, ink);
+    first = end;
   }
   return {};
 }

@@ -2,12 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "drawing/duplicates.hpp"
 #include "drawing/paper.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
 
@@ -71,6 +75,43 @@ Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
   return hasher.value();
 }
 
+/// A line for each piece, or one for each of its stretches: what is covered is a duplicate.
+template <class MakeLine>
+Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces,
+                                     std::span<const Stretch> stretches, MakeLine&& make_line,
+                                     const parallel::Context& context) {
+  // The first stretch of each piece that has any: k such pieces before make so many lines fewer
+  // than their stretches.
+  std::vector<std::size_t> firsts;
+  for (std::size_t i = 0; i < stretches.size(); ++i)
+    if (i == 0 || stretches[i].line != stretches[i - 1].line) firsts.push_back(i);
+  Result<std::vector<Line>> lines =
+      parallel::detail::slots<Line>(pieces.size() + stretches.size() - firsts.size());
+  if (!lines) return lines;
+  constexpr std::size_t kPieces = 4096;
+  const Status status = parallel::for_each(
+      context, {.name = "lines on paper", .n = (pieces.size() + kPieces - 1) / kPieces},
+      [&](std::size_t block) {
+        const std::size_t begin = block * kPieces;
+        const auto before =
+            std::partition_point(firsts.begin(), firsts.end(),
+                                 [&](std::size_t first) { return stretches[first].line < begin; });
+        std::size_t next = before == firsts.end() ? stretches.size() : *before;
+        std::size_t at = begin + next - static_cast<std::size_t>(before - firsts.begin());
+        for (std::size_t i = begin; i < std::min(pieces.size(), begin + kPieces); ++i) {
+          const Line line = make_line(pieces[i]);
+          if (next == stretches.size() || stretches[next].line != i) (*lines)[at++] = line;
+          for (; next < stretches.size() && stretches[next].line == i; ++next) {
+            (*lines)[at] = part_of(line, stretches[next].from, stretches[next].to);
+            if (stretches[next].covered) (*lines)[at].state = LineState::duplicate;
+            ++at;
+          }
+        }
+      });
+  if (!status) return status.error();
+  return lines;
+}
+
 }  // namespace
 
 PlaneBox plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes, const Vec3l& origin) {
@@ -119,18 +160,28 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.counters = drawing.counters;
   out.hash = hash_of(drawing, model);
-  out.lines.reserve(drawing.pieces.size());
-  for (const hlr::Piece& piece : drawing.pieces)
-    out.lines.push_back({piece.object, piece.edge, piece.kind, line_state(piece.state), piece.other,
-                         geometry::to_mm(piece.a), geometry::to_mm(piece.b), on_paper(piece.a),
-                         on_paper(piece.b)});
   // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
-  if (options.remove_duplicates) {
-    const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);
-    auto lines = mark_duplicates(std::move(out.lines), *axes, distance, context);
-    if (!lines) return lines.error();
-    out.lines = std::move(*lines);
-  }
+  const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);
+  const auto stretches = options.remove_duplicates
+                             ? find_duplicates(drawing.pieces, *axes, distance, context)
+                             : Result<Stretches>(Stretches{});
+  if (!stretches) return stretches.error();
+  auto lines = make_lines(
+      drawing.pieces, *stretches,
+      [&](const hlr::Piece& piece) {
+        return Line{piece.object,
+                    piece.edge,
+                    piece.kind,
+                    line_state(piece.state),
+                    piece.other,
+                    geometry::to_mm(piece.a),
+                    geometry::to_mm(piece.b),
+                    on_paper(piece.a),
+                    on_paper(piece.b)};
+      },
+      context);
+  if (!lines) return lines.error();
+  out.lines = std::move(*lines);
   for (const Line& line : out.lines) ++out.count[static_cast<std::size_t>(line.state)];
   return out;
 }

@@ -2,149 +2,188 @@
 #include "drawing/overlaps.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <optional>
+#include <cstddef>
 #include <tuple>
 #include <utility>
 
+#include "drawing/line_index.hpp"
+#include "drawing/radix_order.hpp"
 #include "strake/parallel/collect.hpp"
 
 namespace strake::drawing {
 
 namespace {
 
-struct Interval {
-  double from, to;
+/// A stretch that was found to be covered; each line has as many as there are lines on it.
+struct Cover {
+  std::uint32_t line = 0;
+  Interval interval{};
 };
 
-/// A grid over the view; each cell lists the lines that pass through it.
-class CellGrid {
- public:
-  CellGrid(std::span<const Flat> lines, double slack);
+/// Makes one of intervals that have a point in common.
+void unite(std::vector<Interval>& intervals) {
+  std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) {
+    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+  });
+  std::size_t kept = 0;
+  for (const Interval& next : intervals)
+    if (kept > 0 && next.from <= intervals[kept - 1].to)
+      intervals[kept - 1].to = std::max(intervals[kept - 1].to, next.to);
+    else
+      intervals[kept++] = next;
+  intervals.resize(kept);
+}
 
-  /// Calls visit(other) for every line that shares a cell with `line`, some more than once, until
-  /// it returns false.
-  template <class Visit>
-  void neighbours(const Flat& line, Visit&& visit) const {
-    walk(line, slack_, [&](std::size_t cell) {
-      for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k)
-        if (!visit(items_[k])) return false;
-      return true;
-    });
+/// Finds what is covered, leaf by leaf of the index.
+///
+/// The lines of a leaf look for what covers them among lines of their own class of lengths and of
+/// lower ones; what they cover in turn is found on the same way in lower ones, so that a short line
+/// need not look for long ones, which are everywhere.
+class Finder {
+ public:
+  Finder(std::span<const Flat> lines, const OverlapRule& rule, const LineIndex& index)
+      : lines_(lines), rule_(rule), index_(index), wholly_(lines.size()) {}
+
+  [[nodiscard]] Result<std::vector<Cover>> run(const parallel::Context& context) {
+    return parallel::collect_with<Cover>(
+        context, {.name = "overlapping lines", .n = index_.leaves(), .grain = 64},
+        [] { return Lists{}; },
+        [&](Lists& lists, std::size_t number, std::vector<Cover>& out) {
+          visit(index_.leaf(number), lists, out);
+        });
   }
 
  private:
-  template <class Visit>
-  void walk(const Flat& line, double slack, Visit&& visit) const;
-  void measure(std::span<const Flat> lines);
-  [[nodiscard]] std::size_t cell_of(double at, double low, std::size_t count) const {
-    const double cell = std::floor((at - low) / size_);
-    return cell <= 0 ? 0 : std::min(static_cast<std::size_t>(cell), count - 1);
+  /// What covers each line of a leaf.
+  struct List {
+    std::uint32_t line = 0;
+    bool may_go = false;
+    std::vector<Interval> covers;
+    std::size_t many = 0;  ///< so many are worth being made fewer
+  };
+  using Lists = std::array<List, LineIndex::kFan>;
+  static constexpr std::size_t kMany = 64;
+
+  /// Lines that one other covers as a whole: nothing else matters for them. Who sees it when
+  /// changes the work, not the result.
+  [[nodiscard]] bool is_wholly(std::uint32_t line) {
+    return std::atomic_ref(wholly_[line]).load(std::memory_order_relaxed) != 0;
+  }
+  /// Whether the interval is all of the line and the first of which that is known.
+  bool set_wholly(std::uint32_t line) {
+    return std::atomic_ref(wholly_[line]).exchange(1, std::memory_order_relaxed) == 0;
   }
 
-  static constexpr double kRounding = 1e-3;
-  double slack_, left_ = 0, top_ = 0, size_ = 1;
-  std::size_t columns_ = 1, rows_ = 1;
-  std::vector<std::size_t> first_;
-  std::vector<std::uint32_t> items_;
+  void visit(const LineIndex::Leaf& leaf, Lists& lists, std::vector<Cover>& out) {
+    bool any = false;
+    for (std::uint32_t k = leaf.first; k < leaf.last; ++k) {
+      List& list = lists[k - leaf.first];
+      list.line = index_.line(k);
+      list.may_go = may_go(lines_[list.line], rule_) && !is_wholly(list.line);
+      list.covers.clear();
+      list.many = kMany;
+      any = any || list.may_go;
+    }
+    const unsigned own = index_.sector(leaf.sector).length_class;
+    for (unsigned c = 0; c <= own; ++c) {
+      if (c == own && !any) continue;
+      index_.candidates(leaf, c, [&](std::size_t i, std::uint32_t other) {
+        List& list = lists[i];
+        if (other == list.line) return;
+        if (stays(lines_, other, list.line))
+          cover(list, other, out);
+        else if (c < own)
+          cover_shorter(other, list.line, out);
+      });
+    }
+    for (std::uint32_t k = 0; k < leaf.last - leaf.first; ++k) {
+      List& list = lists[k];
+      if (!list.may_go) continue;
+      unite(list.covers);
+      for (const Interval& interval : list.covers) out.push_back({list.line, interval});
+    }
+  }
+
+  void cover(List& list, std::uint32_t other, std::vector<Cover>& out) {
+    if (!list.may_go) return;
+    const auto interval = covered(lines_[list.line], lines_[other], rule_);
+    if (!interval) return;
+    if (interval->from <= 0 && interval->to >= 1) {
+      if (set_wholly(list.line)) out.push_back({list.line, *interval});
+      list.may_go = false;
+      return;
+    }
+    list.covers.push_back(*interval);
+    if (list.covers.size() < list.many) return;
+    unite(list.covers);
+    list.many = std::max(kMany, 2 * list.covers.size());
+  }
+
+  void cover_shorter(std::uint32_t line, std::uint32_t other, std::vector<Cover>& out) {
+    if (!may_go(lines_[line], rule_) || is_wholly(line)) return;
+    const auto interval = covered(lines_[line], lines_[other], rule_);
+    if (!interval) return;
+    if ((interval->from > 0 || interval->to < 1) || set_wholly(line))
+      out.push_back({line, *interval});
+  }
+
+  std::span<const Flat> lines_;
+  const OverlapRule& rule_;
+  const LineIndex& index_;
+  std::vector<std::uint8_t> wholly_;
 };
 
-/// Cells of about half the mean length, so that a line is in few cells and a cell has few lines;
-/// at most 2048 of them along a side.
-void CellGrid::measure(std::span<const Flat> lines) {
-  constexpr double kBig = std::numeric_limits<double>::max();
-  double left = kBig, right = -kBig, top = kBig, bottom = -kBig, total = 0;
-  std::size_t drawn = 0;
-  for (const Flat& line : lines) {
-    if (line.rank == Rank::none) continue;
-    ++drawn;
-    total += line.length;
-    left = std::min({left, line.ax, line.bx});
-    right = std::max({right, line.ax, line.bx});
-    top = std::min({top, line.ay, line.by});
-    bottom = std::max({bottom, line.ay, line.by});
-  }
-  if (drawn == 0) return;
-  left_ = left;
-  top_ = top;
-  const double widest = std::max(right - left, bottom - top);
-  size_ = std::max({total / static_cast<double>(drawn) / 2, widest / 2048, 2 * slack_, 1e-3});
-  columns_ = static_cast<std::size_t>((right - left) / size_) + 1;
-  rows_ = static_cast<std::size_t>((bottom - top) / size_) + 1;
+/// Covers by line, as keys with their numbers.
+Result<std::vector<Keyed>> by_line(std::span<const Cover> covers,
+                                   const parallel::Context& context) {
+  std::vector<Keyed> keys(covers.size());
+  for (std::uint32_t i = 0; i < covers.size(); ++i) keys[i] = {covers[i].line, i};
+  const Status status = radix_order(keys, context);
+  if (!status) return status.error();
+  return keys;
 }
 
-CellGrid::CellGrid(std::span<const Flat> lines, double slack) : slack_(slack) {
-  measure(lines);
-  first_.assign(columns_ * rows_ + 1, 0);
-  for (const Flat& line : lines)
-    if (line.rank != Rank::none)
-      walk(line, kRounding * slack_, [&](std::size_t cell) { return ++first_[cell + 1] > 0; });
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  items_.resize(first_.back());
-  std::vector<std::size_t> at(first_.begin(), first_.end() - 1);
-  for (std::uint32_t i = 0; i < lines.size(); ++i)
-    if (lines[i].rank != Rank::none)
-      walk(lines[i], kRounding * slack_, [&](std::size_t cell) {
-        items_[at[cell]++] = i;
-        return true;
-      });
-}
+}  // namespace
 
-/// Visits, column by column, the cells of the rows that the line spans in that column, widened by
-/// the slack: what is nearer than that to the line passes through one of them.
-template <class Visit>
-void CellGrid::walk(const Flat& line, double slack, Visit&& visit) const {
-  const bool forward = line.ax <= line.bx;
-  const double ax = forward ? line.ax : line.bx, ay = forward ? line.ay : line.by;
-  const double bx = forward ? line.bx : line.ax, by = forward ? line.by : line.ay;
-  const std::size_t from = cell_of(ax - slack, left_, columns_);
-  const std::size_t to = cell_of(bx + slack, left_, columns_);
-  for (std::size_t column = from; column <= to; ++column) {
-    double y0 = ay, y1 = by;
-    if (from != to && bx > ax) {
-      const double x0 = left_ + static_cast<double>(column) * size_;
-      y0 = ay + (by - ay) * std::clamp((x0 - slack - ax) / (bx - ax), 0.0, 1.0);
-      y1 = ay + (by - ay) * std::clamp((x0 + size_ + slack - ax) / (bx - ax), 0.0, 1.0);
-    }
-    const std::size_t low = cell_of(std::min(y0, y1) - slack, top_, rows_);
-    const std::size_t high = cell_of(std::max(y0, y1) + slack, top_, rows_);
-    for (std::size_t row = low; row <= high; ++row)
-      if (!visit(row * columns_ + column)) return;
-  }
-}
-
-/// The stretch of `line` that `other` lies on, when the two coincide there.
 std::optional<Interval> covered(const Flat& line, const Flat& other, const OverlapRule& rule) {
   const double distance = line.reach + other.reach;
-  double d0 = (other.ay - line.ay) * line.dx - (other.ax - line.ax) * line.dy;
-  double d1 = (other.by - line.ay) * line.dx - (other.bx - line.ax) * line.dy;
+  const double length = line.length(), other_length = other.length();
+  const double dx = (line.bx - line.ax) / length, dy = (line.by - line.ay) / length;
+  double d0 = (other.ay - line.ay) * dx - (other.ax - line.ax) * dy;
+  double d1 = (other.by - line.ay) * dx - (other.bx - line.ax) * dy;
   if (std::min(d0, d1) > distance || std::max(d0, d1) < -distance) return std::nullopt;
-  if (std::fabs(d1 - d0) > rule.greatest_sine * other.length) return std::nullopt;
-  double s0 = (other.ax - line.ax) * line.dx + (other.ay - line.ay) * line.dy;
-  double s1 = (other.bx - line.ax) * line.dx + (other.by - line.ay) * line.dy;
+  const double sine = std::fabs(d1 - d0) / other_length;
+  if (sine > rule.greatest_sine || sine * std::min(length, other_length) > 2 * distance)
+    return std::nullopt;
+  double s0 = (other.ax - line.ax) * dx + (other.ay - line.ay) * dy;
+  double s1 = (other.bx - line.ax) * dx + (other.by - line.ay) * dy;
   if (s0 > s1) {
     std::swap(s0, s1);
     std::swap(d0, d1);
   }
-  const double from = std::max(0.0, s0), to = std::min(line.length, s1);
+  const double from = std::max(0.0, s0), to = std::min(length, s1);
   if (to - from <= rule.least) return std::nullopt;
   // The other line's distance at both ends of the common stretch.
   const double slope = (d1 - d0) / (s1 - s0);
   if (std::fabs(d0 + slope * (from - s0)) > distance ||
       std::fabs(d0 + slope * (to - s0)) > distance)
     return std::nullopt;
-  return Interval{from / line.length, to / line.length};
+  return Interval{from / length, to / length};
 }
 
-/// Whether line i stays where both i and j are: a total order.
-bool stays(std::span<const Flat> flat, std::uint32_t i, std::uint32_t j) {
-  return std::tuple(flat[i].rank, -flat[i].depth, i) < std::tuple(flat[j].rank, -flat[j].depth, j);
+bool stays(std::span<const Flat> lines, std::uint32_t i, std::uint32_t j) {
+  return std::tuple(lines[i].rank, -lines[i].depth, i) <
+         std::tuple(lines[j].rank, -lines[j].depth, j);
 }
 
-/// Appends a line cut at its covered intervals. `shortest` is a parameter.
-void append_stretches(std::vector<Stretch>& out, std::uint32_t line, std::vector<Interval>& covers,
+bool may_go(const Flat& line, const OverlapRule& rule) {
+  return line.rank == Rank::hidden || (line.rank == Rank::visible && rule.covers_visible);
+}
+
+void append_stretches(Stretches& out, std::uint32_t line, std::span<Interval> covers,
                       double shortest) {
   std::sort(covers.begin(), covers.end(), [](const Interval& a, const Interval& b) {
     return std::tie(a.from, a.to) < std::tie(b.from, b.to);
@@ -164,43 +203,27 @@ void append_stretches(std::vector<Stretch>& out, std::uint32_t line, std::vector
   if (done < 1) out.push_back({line, false, done, 1});
 }
 
-}  // namespace
-
-Flat::Flat(double from_x, double from_y, double to_x, double to_y)
-    : ax(from_x), ay(from_y), bx(to_x), by(to_y) {
-  const double x = bx - ax, y = by - ay;
-  length = std::sqrt(x * x + y * y);
-  if (!(length > 0)) return;
-  dx = x / length;
-  dy = y / length;
-}
-
-Result<std::vector<Stretch>> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
-                                          const parallel::Context& context) {
-  double reach = 0;
-  for (const Flat& line : lines) reach = std::max(reach, line.reach);
-  const CellGrid grid(lines, 2 * reach);
+Result<Stretches> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
+                               const parallel::Context& context) {
+  Result<std::vector<Cover>> covers = [&]() -> Result<std::vector<Cover>> {
+    const Result<LineIndex> index = LineIndex::build(lines, rule.least, context);
+    if (!index) return index.error();
+    return Finder(lines, rule, *index).run(context);
+  }();
+  if (!covers) return covers.error();
+  const Result<std::vector<Keyed>> order = by_line(*covers, context);
+  if (!order) return order.error();
+  const std::span<const Keyed> keys = *order;
   return parallel::collect_with<Stretch>(
-      context, {.name = "overlapping lines", .n = lines.size(), .grain = 512},
+      context, {.name = "cut lines", .n = keys.size(), .grain = 4096},
       [] { return std::vector<Interval>{}; },
-      [&](std::vector<Interval>& covers, std::size_t n, std::vector<Stretch>& out) {
-        const auto i = static_cast<std::uint32_t>(n);
-        const Flat& line = lines[i];
-        covers.clear();
-        const bool may_go =
-            line.rank == Rank::hidden || (line.rank == Rank::visible && rule.covers_visible);
-        if (may_go && line.length > rule.least)
-          grid.neighbours(line, [&](std::uint32_t other) {
-            if (other == i || !stays(lines, other, i)) return true;
-            const auto interval = covered(line, lines[other], rule);
-            if (!interval) return true;
-            covers.push_back(*interval);
-            return interval->from > 0 || interval->to < 1;
-          });
-        if (covers.empty())
-          out.push_back({i, false, 0, 1});
-        else
-          append_stretches(out, i, covers, rule.shortest / line.length);
+      [&](std::vector<Interval>& of_line, std::size_t i, Stretches& out) {
+        if (i > 0 && keys[i - 1].key == keys[i].key) return;
+        of_line.clear();
+        for (std::size_t k = i; k < keys.size() && keys[k].key == keys[i].key; ++k)
+          of_line.push_back((*covers)[keys[k].item].interval);
+        const auto line = static_cast<std::uint32_t>(keys[i].key);
+        append_stretches(out, line, of_line, rule.shortest / lines[line].length());
       });
 }
 

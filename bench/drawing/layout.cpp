@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole files on paper: seconds of the layout, and in it of finding what lies on what. Lines are
+// drawn as they are, or with hidden ones found first (--stage global). Of a sample of the lines,
+// what they lie on is found again among all lines; a difference ends with an error.
+//
+//     bench_layout [--threads N] [--direction x,y,z] [--stage none|local|global] [--repeat N]
+//                  [--sample N] FILE...
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "drawing/duplicates.hpp"
+#include "drawing/paper.hpp"
+#include "strake/drawing/view.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/io/reader.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace {
+
+using namespace strake;
+
+struct Arguments {
+  std::vector<std::filesystem::path> files;
+  hlr::View view{.direction = {1, -1, 1}, .limits = {}};
+  hlr::Options options{.stage = hlr::Stage::none};
+  unsigned threads = 1;
+  std::size_t sample = 200;
+  int repeat = 3;
+};
+
+Arguments parse(int argc, char** argv) {
+  Arguments a;
+  for (int i = 1; i < argc; ++i) {
+    const std::string key = argv[i];
+    const auto value = [&] { return i + 1 < argc ? argv[++i] : "0"; };
+    if (key == "--threads")
+      a.threads = static_cast<unsigned>(std::atoi(value()));
+    else if (key == "--repeat")
+      a.repeat = std::atoi(value());
+    else if (key == "--sample")
+      a.sample = std::strtoull(value(), nullptr, 10);
+    else if (key == "--stage") {
+      const std::string stage = value();
+      a.options.stage = stage == "global"  ? hlr::Stage::global
+                        : stage == "local" ? hlr::Stage::local
+                                           : hlr::Stage::none;
+    } else if (key == "--direction")
+      std::sscanf(value(), "%ld,%ld,%ld", &a.view.direction.x, &a.view.direction.y,
+                  &a.view.direction.z);
+    else
+      a.files.emplace_back(key);
+  }
+  a.view.up = drawing::default_up(a.view.direction);
+  return a;
+}
+
+struct Clock {
+  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+  double cpu = cpu_s();
+
+  static double cpu_s() {
+    rusage u{};
+    getrusage(RUSAGE_SELF, &u);
+    const auto s = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+    };
+    return s(u.ru_utime) + s(u.ru_stime);
+  }
+  [[nodiscard]] std::string text() const {
+    const std::chrono::duration<double> w = std::chrono::steady_clock::now() - wall;
+    return fmt::format("{:.3f} s, {:.3f} s CPU", w.count(), cpu_s() - cpu);
+  }
+};
+
+double peak_mib() {
+  rusage u{};
+  getrusage(RUSAGE_SELF, &u);
+  return static_cast<double>(u.ru_maxrss) / 1024;
+}
+
+bool same(const drawing::Stretch& a, const drawing::Stretch& b) {
+  return a.line == b.line && a.covered == b.covered && a.from == b.from && a.to == b.to;
+}
+
+/// How many of a sample of lines are cut otherwise when every other line is asked.
+std::size_t wrong(std::span<const drawing::Flat> lines, const drawing::OverlapRule& rule,
+                  const drawing::Stretches& found, std::size_t sample) {
+  std::size_t wrong = 0;
+  for (std::size_t n = 0; n < sample && !lines.empty(); ++n) {
+    const auto i = static_cast<std::uint32_t>(lines.size() * n / sample);
+    if (!drawing::may_go(lines[i], rule)) continue;
+    std::vector<drawing::Interval> covers;
+    for (std::uint32_t j = 0; j < lines.size(); ++j)
+      if (j != i && lines[j].rank != drawing::Rank::none && drawing::stays(lines, j, i))
+        if (const auto interval = drawing::covered(lines[i], lines[j], rule))
+          covers.push_back(*interval);
+    drawing::Stretches expected;
+    if (!covers.empty())
+      drawing::append_stretches(expected, i, covers, rule.shortest / lines[i].length());
+    const auto first = std::partition_point(found.begin(), found.end(),
+                                            [&](const drawing::Stretch& s) { return s.line < i; });
+    const auto last = std::partition_point(first, found.end(),
+                                           [&](const drawing::Stretch& s) { return s.line == i; });
+    if (!std::equal(first, last, expected.begin(), expected.end(), same)) ++wrong;
+  }
+  return wrong;
+}
+
+int run(const Arguments& a) {
+  parallel::Team team(a.threads);
+  const parallel::Context context{.team = a.threads > 1 ? &team : nullptr};
+  const auto model = io::read_models(a.files, {}, context);
+  if (!model) return fmt::print(stderr, "{}\n", model.error().text()), 3;
+  const auto scene = model::make_scene(*model, {}, context);
+  if (!scene) return fmt::print(stderr, "{}\n", scene.error().text()), 3;
+  Clock clock;
+  const auto lines = hlr::draw(*scene, {}, a.view, a.options, context);
+  if (!lines) return fmt::print(stderr, "{}\n", lines.error().text()), 3;
+  fmt::print("draw    {}: {} objects, {} pieces, {:.0f} MiB at most\n", clock.text(),
+             model->objects.size(), lines->pieces.size(), peak_mib());
+  const auto axes = drawing::paper_axes(a.view);
+  if (!axes) return fmt::print(stderr, "no such view\n"), 2;
+  const double distance = std::max(lines->contact_distance_mm, 3 * geometry::kMmPerGrid);
+  for (int i = 0; i < a.repeat; ++i) {
+    clock = {};
+    const auto flat = drawing::flatten(lines->pieces, *axes, distance, context);
+    if (!flat) return 3;
+    const drawing::OverlapRule rule = drawing::duplicate_rule(distance);
+    const auto cut = drawing::cut_overlaps(*flat, rule, context);
+    if (!cut) return 3;
+    fmt::print("overlap {}: {} stretches\n", clock.text(), cut->size());
+    if (i + 1 < a.repeat) continue;
+    const std::size_t faults = wrong(*flat, rule, *cut, a.sample);
+    fmt::print("  {} lines against all: {} wrong\n", a.sample, faults);
+    if (faults > 0) return 5;
+  }
+  for (int i = 0; i < a.repeat; ++i) {
+    clock = {};
+    const auto sheet = drawing::lay_out(*lines, *model, {}, context);
+    if (!sheet) return fmt::print(stderr, "{}\n", sheet.error().text()), 3;
+    fmt::print("layout  {}: {} lines, {} of them duplicates, {:.0f} MiB at most\n", clock.text(),
+               sheet->lines.size(),
+               sheet->count[static_cast<std::size_t>(drawing::LineState::duplicate)], peak_mib());
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return run(parse(argc, argv)); }

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines that lie on each other, found by the index and by every pair, bit by bit.
+#include <gtest/gtest.h>
+
+#include <tuple>
+#include <vector>
+
+#include "drawing/overlaps.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/line_sets.hpp"
+
+namespace strake {
+namespace {
+
+using drawing::Flat;
+using drawing::OverlapRule;
+using drawing::Stretch;
+using drawing::Stretches;
+
+using Row = std::tuple<std::uint32_t, bool, double, double>;
+
+std::vector<Row> rows(const Stretches& stretches) {
+  std::vector<Row> out;
+  for (const Stretch& s : stretches) out.emplace_back(s.line, s.covered, s.from, s.to);
+  return out;
+}
+
+std::vector<Row> found(const std::vector<Flat>& lines, const OverlapRule& rule,
+                       const parallel::Context& context = {}) {
+  const auto stretches = drawing::cut_overlaps(lines, rule, context);
+  EXPECT_TRUE(stretches);
+  return rows(*stretches);
+}
+
+/// As for duplicates, as for ink, and with nothing that is too short to be looked at.
+std::vector<OverlapRule> rules(double reach) {
+  return {{.least = 2 * reach, .shortest = 2 * reach},
+          {.least = 1e-3, .greatest_sine = 0.2, .covers_visible = false, .shortest = 0.5},
+          {}};
+}
+
+/// Counts what is covered, so that a test of nothing fails.
+std::size_t compare(const test::LineSetOptions& options, std::uint64_t seeds) {
+  std::size_t covered = 0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const std::vector<Flat> lines = test::make_lines(seed, options);
+    for (const OverlapRule& rule : rules(options.reach)) {
+      const std::vector<Row> expected = rows(test::cut_by_all_pairs(lines, rule));
+      EXPECT_EQ(found(lines, rule), expected) << "seed " << seed;
+      covered += expected.size();
+    }
+  }
+  return covered;
+}
+
+TEST(Overlaps, AreThoseOfAllPairs) {
+  for (unsigned set = 0; set < test::kLineSets; ++set)
+    for (const double reach : {0.0, 0.002, 0.25, 5.0}) {
+      const std::size_t covered =
+          compare({.set = static_cast<test::LineSet>(set), .reach = reach}, 8);
+      EXPECT_GE(covered, reach > 0 && set != 0 ? 200U : 0U) << set << " " << reach;
+    }
+}
+
+TEST(Overlaps, AreThoseOfAllPairsFarFromTheOrigin) {
+  for (unsigned set = 0; set < test::kLineSets; ++set)
+    for (const double offset : {1e6, 1e9})
+      compare({.set = static_cast<test::LineSet>(set), .reach = 0.01, .offset = offset}, 8);
+}
+
+TEST(Overlaps, AreThoseOfAllPairsWithOneLineFarAway) {
+  for (unsigned set = 0; set < test::kLineSets; ++set) {
+    std::vector<Flat> lines =
+        test::make_lines(set, {.set = static_cast<test::LineSet>(set), .reach = 0.01});
+    lines.front() = {
+        .ax = 1e9, .ay = -1e9, .bx = 1e9 + 1, .by = -1e9, .rank = drawing::Rank::hidden};
+    for (const OverlapRule& rule : rules(0.01))
+      EXPECT_EQ(found(lines, rule), rows(test::cut_by_all_pairs(lines, rule)));
+  }
+}
+
+TEST(Overlaps, AreTheSameForAnyTeam) {
+  for (unsigned set = 0; set < test::kLineSets; ++set) {
+    const std::vector<Flat> lines =
+        test::make_lines(7, {.set = static_cast<test::LineSet>(set), .count = 1500, .reach = 0.05});
+    for (const OverlapRule& rule : rules(0.05)) {
+      const std::vector<Row> expected = found(lines, rule);
+      for (const unsigned workers : {2U, 3U, 8U, 64U}) {
+        parallel::Team team(workers);
+        EXPECT_EQ(found(lines, rule, {.team = &team}), expected) << workers << " workers";
+      }
+    }
+  }
+}
+
+TEST(Overlaps, NeedLinesThatAreParallelForTheirLengths) {
+  // A second line begins 0.02 before the first ends, at an angle: side by side there, and not one.
+  const Flat first{
+      .ax = 0, .ay = 0, .bx = 10, .by = 0, .reach = 0.005, .rank = drawing::Rank::visible};
+  Flat second{.ax = 9.98,
+              .ay = 0,
+              .bx = 19.98,
+              .by = 3,
+              .depth = -1,
+              .reach = 0.005,
+              .rank = drawing::Rank::visible};
+  const OverlapRule rule{.least = 0.01};
+  EXPECT_TRUE(found({first, second}, rule).empty());
+  second.by = 0.015;  // both ends of a line of its length would be within the distance
+  EXPECT_EQ(found({first, second}, rule).size(), 2U);
+}
+
+TEST(Overlaps, OfNothingAreNone) {
+  EXPECT_TRUE(found({}, {}).empty());
+  EXPECT_TRUE(found({Flat{}, Flat{}}, {}).empty());
+}
+
+}  // namespace
+}  // namespace strake
