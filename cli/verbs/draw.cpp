@@ -31,7 +31,7 @@ struct DrawOptions {
   SceneInput scene;
   std::string sheet;
   std::string view, direction, up, limits, scale, title;
-  std::string stage, solver, hidden, intersections, sharp_angle, contact_distance;
+  std::string stage, solver, culling, hidden, intersections, sharp_angle, contact_distance;
   std::vector<std::string> select, outputs, sections, hatches;
 };
 
@@ -114,6 +114,7 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
   if (given.stage == "none") options.stage = hlr::Stage::none;
   if (given.stage == "local") options.stage = hlr::Stage::local;
   if (given.solver == "brute-force") options.solver = hlr::Solver::brute_force;
+  options.culling = given.culling != "off";
   if (given.intersections == "off") options.intersections = hlr::Intersections::off;
   if (given.intersections == "parts") options.intersections = hlr::Intersections::parts;
   if (!given.sharp_angle.empty()) {
@@ -151,6 +152,7 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
   stats.count("objects hidden", work.objects_hidden);
   stats.count("objects clipped", work.objects_clipped);
   stats.count("feature edges", work.feature_edges);
+  stats.count("covered edges", work.covered_edges);
   stats.count("face tests", work.face_tests);
   stats.count("exact fall-backs", work.exact_fallbacks);
   for (std::size_t s = 0; s < drawing::kLineStates; ++s)
@@ -371,6 +373,9 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   add_lines(*command, *options);
   add_choice(*command, "--solver", options->solver, {"gather", "brute-force"},
              "How lines are hidden; the result is the same (default gather)")
+      ->group("Running");
+  add_choice(*command, "--culling", options->culling, {"on", "off"},
+             "Leave out the work that cannot change the result (default on)")
       ->group("Running");
   command->add_option("--scale", options->scale, "Paper to model (default: what fits A3)")
       ->type_name("1:N")

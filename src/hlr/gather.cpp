@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "hlr/job.hpp"
@@ -11,6 +12,7 @@
 #include "hlr/stretches.hpp"
 #include "hlr/world.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -22,14 +24,31 @@ constexpr std::uint32_t kFewBodies = 16;
 constexpr std::uint32_t kNoBody = 0xffffffffU;
 // Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
 constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
+// What covered tiles say of an edge is cut at multiples of this share.
+constexpr std::int64_t kFine = std::int64_t{1} << 30;
 
 struct Work {
-  std::uint64_t edges = 0, tests = 0, wide_tests = 0;
+  std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0;
 };
 
 class Gatherer {
  public:
   explicit Gatherer(const World& world) : world_(world), job_(world.job) {}
+
+  /// What a body's own faces hide of some of its edges.
+  void run_on_itself(const Item& item, OwnHits& out, Work& work) {
+    body_ = item.body;
+    own_ = &world_.placed[body_];
+    for (std::uint32_t i = item.first; i < item.last; ++i) {
+      out.first.push_back(static_cast<std::uint32_t>(out.hits.size()));
+      take(own_->view->edges[i]);
+      hits_.clear();
+      open_ = OpenRange();
+      if (kind_ != EdgeKind::polyline && !projecting_) test_own_body();
+      out.hits.insert(out.hits.end(), hits_.begin(), hits_.end());
+    }
+    work = std::exchange(work_, {});
+  }
 
   void run(const Item& item, std::vector<Piece>& out, Work& work) {
     body_ = item.body;
@@ -42,8 +61,7 @@ class Gatherer {
         take(own_->view->edges[i]);
       draw(item.number + (i - item.first), out);
     }
-    work = work_;
-    work_ = {};
+    work = std::exchange(work_, {});
   }
 
  private:
@@ -162,7 +180,26 @@ class Gatherer {
     }
   }
 
+  /// What other objects hide of either end, by what covers whole tiles. A wire may be seen through
+  /// the solids of its own object, which cover them too.
+  void take_covered_ends() {
+    if (world_.coverage.empty() || kind_ == EdgeKind::polyline) return;
+    const double lo = open_.lo().value, hi = open_.hi().value;
+    const CoveredEnds ends = world_.coverage.covered_ends(va_, vb_, lo, hi);
+    if (ends.from >= ends.to) {
+      ++work_.covered;
+      add(Hit{open_.lo(), open_.hi(), kBothSides, false});
+      return;
+    }
+    const Param from = Param::of(static_cast<std::int64_t>(ends.from * kFine) - 1, kFine);
+    const Param to = Param::of(static_cast<std::int64_t>(ends.to * kFine) + 2, kFine);
+    if (less(open_.lo(), from)) add(Hit{open_.lo(), from, kBothSides, false});
+    if (less(to, open_.hi())) add(Hit{to, open_.hi(), kBothSides, false});
+  }
+
   void gather_others() {
+    take_covered_ends();
+    if (open_.empty()) return;
     const auto consider = [&](std::uint32_t b) {
       const std::uint32_t object = world_.placed[b].object;
       return object == own_->object || object == other_->object || gather_body(b, false);
@@ -176,6 +213,13 @@ class Gatherer {
   }
 
   void gather_own_body() {
+    if (!own_->shares_own_hits) return test_own_body();
+    const OwnHits& known = world_.own_hits[job_.seen.of[body_]];
+    for (const Hit& hit : known.of(static_cast<std::uint32_t>(edge_ - own_->view->edges.data())))
+      if (!add(hit)) return;
+  }
+
+  void test_own_body() {
     // Limits may cut away what hides: then the convex part's short cut does not hold.
     const bool judged = !own_->cut && (edge_->surely_behind_part || edge_->surely_clear_of_part);
     if (judged && edge_->surely_behind_part) {
@@ -315,11 +359,48 @@ class Gatherer {
   StretchMaker maker_;
 };
 
+void add(Counters& counters, const Work& work) {
+  counters.feature_edges += work.edges;
+  counters.covered_edges += work.covered;
+  counters.face_tests += work.tests;
+  counters.exact_fallbacks += work.wide_tests;
+}
+
+/// Works out once what the faces of shared shapes hide of their own edges.
+Status share_own_hits(World& world, const parallel::Context& context, Counters& counters) {
+  const std::vector<Item> items = own_items(world);
+  struct Part {
+    OwnHits hits;
+    Work work;
+  };
+  std::vector<Part> parts(items.size());
+  const Status done = parallel::for_each_with(
+      context, {.name = "hidden lines: shapes on themselves", .n = items.size()},
+      [&] { return Gatherer(world); },
+      [&](Gatherer& gatherer, std::size_t i) {
+        gatherer.run_on_itself(items[i], parts[i].hits, parts[i].work);
+      });
+  if (!done) return done;
+  world.own_hits.resize(world.views.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    OwnHits& all = world.own_hits[world.job.seen.of[items[i].body]];
+    if (!all.first.empty()) all.first.pop_back();
+    const auto base = static_cast<std::uint32_t>(all.hits.size());
+    for (const std::uint32_t first : parts[i].hits.first) all.first.push_back(base + first);
+    all.hits.insert(all.hits.end(), parts[i].hits.hits.begin(), parts[i].hits.hits.end());
+    all.first.push_back(static_cast<std::uint32_t>(all.hits.size()));
+    add(counters, parts[i].work);
+  }
+  return {};
+}
+
 }  // namespace
 
 Status solve_gather(const Job& job, const parallel::Context& context, Drawing& drawing) {
-  const Result<World> made = make_world(job, context);
+  Result<World> made = make_world(job, context);
   if (!made) return made.error();
+  if (const Status status = share_own_hits(*made, context, drawing.counters); !status)
+    return status;
   const World& world = *made;
   std::vector<Work> work(world.items.size());
   Result<std::vector<Piece>> pieces = parallel::collect_with<Piece>(
@@ -330,11 +411,7 @@ Status solve_gather(const Job& job, const parallel::Context& context, Drawing& d
       });
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
-  for (const Work& w : work) {
-    drawing.counters.feature_edges += w.edges;
-    drawing.counters.face_tests += w.tests;
-    drawing.counters.exact_fallbacks += w.wide_tests;
-  }
+  for (const Work& w : work) add(drawing.counters, w);
   return {};
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/order.hpp"
@@ -13,6 +14,8 @@ namespace {
 using geometry::Box3l;
 
 constexpr std::uint32_t kEdgesPerItem = 32;
+/// Of what covers tiles: with more tiles painting them costs more than it spares.
+constexpr std::size_t kEdgesPerTile = 16;
 
 bool within(const Box3l& inner, const Box3l& outer) {
   for (int k = 0; k < 3; ++k)
@@ -76,6 +79,37 @@ void place_bodies(World& world) {
   world.tree = ViewTree(boxes);
 }
 
+/// Bodies of one shape that hide, whole, and take the same contact distance between their parts.
+void find_sharers(World& world) {
+  const SeenShapes& shapes = world.job.seen;
+  constexpr std::uint32_t kNone = 0xffffffffU;
+  std::vector<std::uint32_t> first(shapes.all.size(), kNone);
+  for (std::uint32_t b = 0; b < world.placed.size(); ++b) {
+    Placed& placed = world.placed[b];
+    if (placed.view == nullptr || !placed.opaque || placed.cut) continue;
+    std::uint32_t& one = first[shapes.of[b]];
+    if (one == kNone) {
+      one = b;
+    } else if (placed.contact == world.placed[one].contact) {
+      placed.shares_own_hits = world.placed[one].shares_own_hits = true;
+    }
+  }
+}
+
+Status make_coverage(World& world, const parallel::Context& context) {
+  const Job& job = world.job;
+  if (!job.options.culling || job.options.stage != Stage::global) return {};
+  std::size_t edges = 0;
+  for (const Placed& placed : world.placed)
+    if (placed.view != nullptr) edges += placed.view->edges.size();
+  std::int64_t contact = job.lines.contact;
+  for (const std::int64_t c : job.contact) contact = std::max(contact, c);
+  auto coverage = Coverage::of(world.placed, world.frame, contact, edges / kEdgesPerTile, context);
+  if (!coverage) return coverage.error();
+  world.coverage = std::move(*coverage);
+  return {};
+}
+
 void make_items(World& world) {
   const model::Scene& scene = *world.job.scene;
   std::uint32_t number = 0;
@@ -97,10 +131,26 @@ void make_items(World& world) {
 
 }  // namespace
 
+std::vector<Item> own_items(const World& world) {
+  const SeenShapes& shapes = world.job.seen;
+  std::vector<bool> known(shapes.all.size());
+  std::vector<Item> items;
+  for (std::uint32_t b = 0; b < world.placed.size(); ++b) {
+    if (!world.placed[b].shares_own_hits || known[shapes.of[b]]) continue;
+    known[shapes.of[b]] = true;
+    const auto edges = static_cast<std::uint32_t>(world.placed[b].view->edges.size());
+    for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
+      items.push_back({.body = b, .first = first, .last = std::min(edges, first + kEdgesPerItem)});
+  }
+  return items;
+}
+
 Result<World> make_world(const Job& job, const parallel::Context& context) {
   World world(job);
   if (const Status status = make_views(world, context); !status) return status.error();
   place_bodies(world);
+  if (job.options.culling && job.options.stage != Stage::none) find_sharers(world);
+  if (const Status status = make_coverage(world, context); !status) return status.error();
   make_items(world);
   return world;
 }

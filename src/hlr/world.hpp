@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "hlr/coverage.hpp"
 #include "hlr/frame.hpp"
 #include "hlr/job.hpp"
+#include "hlr/occlusion.hpp"
+#include "hlr/placed.hpp"
 #include "hlr/shape_view.hpp"
 #include "hlr/view_tree.hpp"
 #include "strake/core/result.hpp"
@@ -13,23 +17,21 @@
 
 namespace strake::hlr {
 
-/// A body as the gathering sees it.
-struct Placed {
-  const ShapeView* view = nullptr;  ///< null: not drawn
-  geometry::Vec3l offset;
-  ViewPoint at;
-  std::uint32_t object = 0;
-  std::int64_t contact = 0;
-  std::int64_t within = 0;  ///< the same among what is one part
-  bool opaque = false;      ///< and, where there are limits, not wholly outside them
-  bool cut = false;         ///< by the limits
-};
-
 /// A run of edges of one body, or of the lines that are drawn with its object: the item of work.
 struct Item {
   std::uint32_t body = 0, first = 0, last = 0;
   std::uint32_t number = 0;  ///< of its first edge within the object
   bool lines = false;
+};
+
+/// What a shape's own faces hide of its edges: the same for all bodies that place it whole.
+struct OwnHits {
+  std::vector<std::uint32_t> first;  ///< per edge, and the end
+  std::vector<Hit> hits;
+
+  [[nodiscard]] std::span<const Hit> of(std::uint32_t edge) const {
+    return std::span(hits).subspan(first[edge], first[edge + 1] - first[edge]);
+  }
 };
 
 /// What the gathering works on.
@@ -43,14 +45,19 @@ struct World {
 
   const Job& job;
   Frame frame;
-  std::vector<ShapeView> views;  ///< per seen shape; empty where not drawn
-  std::vector<Placed> placed;    ///< per body
-  ViewTree tree;                 ///< over the bodies that may hide
+  std::vector<ShapeView> views;   ///< per seen shape; empty where not drawn
+  std::vector<OwnHits> own_hits;  ///< per seen shape; empty where no two bodies share it
+  std::vector<Placed> placed;     ///< per body
+  ViewTree tree;                  ///< over the bodies that may hide
+  Coverage coverage;              ///< by them; of nothing where there is no culling
   std::vector<Item> items;
 };
 
 /// Sees the shapes, places the bodies and cuts the edges into work. The job must outlive the
 /// result. Errors: cancelled.
 [[nodiscard]] Result<World> make_world(const Job& job, const parallel::Context& context);
+
+/// The edges of one body of each shape whose bodies share what it hides of itself.
+[[nodiscard]] std::vector<Item> own_items(const World& world);
 
 }  // namespace strake::hlr

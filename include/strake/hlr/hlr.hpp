@@ -89,7 +89,8 @@ struct Piece {
 struct Counters {
   std::uint64_t objects = 0, objects_drawn = 0, objects_hidden = 0, objects_clipped = 0;
   std::uint64_t feature_edges = 0;
-  std::uint64_t face_tests = 0;  ///< edge against face
+  std::uint64_t covered_edges = 0;  ///< the rest of which whole tiles of paper hide
+  std::uint64_t face_tests = 0;     ///< edge against face
   std::uint64_t exact_fallbacks = 0;
 };
 

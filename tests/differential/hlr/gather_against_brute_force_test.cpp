@@ -66,6 +66,13 @@ TEST(GatherAgainstBruteForce, ContactDistanceOfTheLatticesOwnSize) {
     ASSERT_EQ(run(seed, {.unit = 6, .contact_mm = 0.003}), "") << "seed " << seed;
 }
 
+// Steps of the lattice are sides of the tiles that are asked whether they are covered.
+TEST(GatherAgainstBruteForce, TilesOnTheLattice) {
+  for (std::uint64_t seed = 1; seed <= count(300); ++seed)
+    ASSERT_EQ(run(seed, {.unit = 1 << 20, .contact_mm = -1, .most_objects = 12}), "")
+        << "seed " << seed;
+}
+
 TEST(GatherAgainstBruteForce, HugeLattice) {
   for (std::uint64_t seed = 1; seed <= count(300); ++seed)
     ASSERT_EQ(run(seed, {.unit = 357913941, .contact_mm = -1}), "") << "seed " << seed;

@@ -45,6 +45,7 @@ class Draw(Scenario):
 
         whole = pieces()
         self.assertEqual(whole, pieces('--solver', 'brute-force'))
+        self.assertEqual(whole, pieces('--culling', 'off'))
         self.assertEqual(pieces('--view', 'front'), pieces('--direction', '0,-7,0'))
         one = pieces('--select', 'a0')
         self.assertLess(len(one), len(whole))

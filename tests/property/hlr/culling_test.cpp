@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// What covers whole tiles, and what bodies of one shape share, changes the work and not the answer.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "strake/hlr/hlr.hpp"
+#include "support/hlr_oracle.hpp"
+#include "support/lattice_scene.hpp"
+
+namespace strake {
+namespace {
+
+using geometry::Vec3i;
+using geometry::Vec3l;
+using test::hand_box;
+using test::HandBody;
+using test::HandPart;
+using test::Random;
+using test::SceneBuilder;
+
+constexpr std::int32_t kExtent = 1 << 20;
+
+Vec3i some_point(Random& random, std::int32_t step) {
+  const auto at = [&] {
+    return static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(kExtent / step))) *
+           step;
+  };
+  return {at(), at(), at()};
+}
+
+/// A plate across one axis, now and then askew by a shear so that its faces are in no plane of
+/// coordinates, and now and then so small that it holds a few tiles at most.
+HandPart plate(Random& random, std::int32_t step) {
+  const int across = static_cast<int>(random.below(3));
+  const Vec3i lo = some_point(random, step);
+  Vec3i size = some_point(random, step) + Vec3i{step, step, step};
+  if (random.one_in(3)) size = {size.x / 8 + 1, size.y / 8 + 1, size.z / 8 + 1};
+  size[across] = random.one_in(4) ? 3 : 2000;
+  HandPart part = hand_box(lo, lo + size);
+  if (random.one_in(3)) {
+    const int other = (across + 1) % 3;
+    for (Vec3i& v : part.vertices) v[across] += (v[other] - lo[other]) / 4;
+    part.faces.clear();
+  }
+  return part;
+}
+
+SceneBuilder crowd(std::uint64_t seed) {
+  Random random(seed);
+  // Steps of a power of two put edges on the sides of tiles.
+  const std::int32_t step = random.one_in(2) ? 1 : kExtent / 64;
+  SceneBuilder scene;
+  const std::uint32_t plates = 4 + random.below(12), boxes = 1 + random.below(4);
+  for (std::uint32_t i = 0; i < plates; ++i) {
+    std::vector<HandBody> bodies;
+    const std::uint32_t count = random.one_in(4) ? 2 : 1;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      HandBody body{.parts = {plate(random, step)},
+                    .origin = {},
+                    .alpha = static_cast<std::uint8_t>(random.one_in(8) ? 128 : 255)};
+      if (random.one_in(4)) body.parts.push_back(plate(random, step));
+      bodies.push_back(body);
+    }
+    if (random.one_in(6))
+      bodies.push_back({.parts = {{.vertices = {},
+                                   .triangles = {},
+                                   .faces = {},
+                                   .chains = {{some_point(random, step), some_point(random, step),
+                                               some_point(random, step)}}}},
+                        .origin = {}});
+    scene.object(bodies);
+  }
+  std::uint32_t next = plates;
+  for (std::uint32_t i = 0; i < boxes; ++i) {
+    const Vec3i lo = some_point(random, step);
+    const std::int32_t size = 1000 + static_cast<std::int32_t>(random.below(30000));
+    const HandPart one = hand_box(lo, lo + Vec3i{size, size, 2 * size});
+    const HandPart two =
+        hand_box(lo + Vec3i{size / 2, 0, size}, lo + Vec3i{3 * size, size, 3 * size});
+    scene.object({{.parts = {one, two}, .origin = {}}});
+    const std::uint32_t first = next++;
+    for (std::uint32_t k = random.below(20); k > 0; --k, ++next)
+      scene.instance(first, (some_point(random, step) - lo).as<std::int64_t>());
+  }
+  return scene;
+}
+
+Vec3l some_direction(Random& random) {
+  if (random.one_in(2)) return test::direction_of(random.below(test::kDirections));
+  const auto component = [&] {
+    return static_cast<std::int64_t>(random.below(1U << 21)) - (1 << 20);
+  };
+  return {component(), component(), 1 + static_cast<std::int64_t>(random.below(1U << 20))};
+}
+
+std::optional<geometry::Box3l> some_limits(Random& random) {
+  if (!random.one_in(4)) return std::nullopt;
+  const auto third = static_cast<std::int64_t>(random.below(kExtent / 3));
+  return geometry::Box3l{{third, third / 2, -kExtent}, {kExtent, 2 * kExtent, kExtent + third}};
+}
+
+std::uint64_t face_tests(const SceneBuilder& scene, hlr::Stage stage) {
+  const auto drawing = hlr::draw(scene.scene(), {}, {.limits = {}},
+                                 {.stage = stage, .intersections = hlr::Intersections::off}, {});
+  return drawing ? drawing->counters.face_tests : 0;
+}
+
+TEST(Culling, ChangesNothingButTheWork) {
+  std::uint64_t covered = 0, culled_tests = 0, all_tests = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    const SceneBuilder scene = crowd(seed);
+    Random random(seed * 31);
+    const hlr::View view{.direction = some_direction(random), .limits = some_limits(random)};
+    hlr::Options options{
+        .contact_distance_mm = random.one_in(4) ? 0.5 : -1.0,
+        .intersections = random.one_in(2) ? hlr::Intersections::off : hlr::Intersections::objects};
+    const auto culled = hlr::draw(scene.scene(), {}, view, options, {});
+    options.culling = false;
+    const auto plain = hlr::draw(scene.scene(), {}, view, options, {});
+    ASSERT_TRUE(culled.has_value() && plain.has_value()) << "seed " << seed;
+    ASSERT_EQ(test::difference(plain->pieces, culled->pieces), "") << "seed " << seed;
+    ASSERT_EQ(plain->counters.covered_edges, 0U);
+    covered += culled->counters.covered_edges;
+    if (options.intersections != hlr::Intersections::off) continue;
+    culled_tests += culled->counters.face_tests;
+    all_tests += plain->counters.face_tests;
+  }
+  EXPECT_GT(covered, 5000U);
+  EXPECT_LT(3 * culled_tests, all_tests);
+}
+
+TEST(Culling, OneShapeIsTestedAgainstItselfOnce) {
+  const HandPart one = hand_box({0, 0, 0}, {9000, 9000, 900});
+  const HandPart two = hand_box({1000, 1000, 2000}, {8000, 8000, 2500});
+  SceneBuilder scene;
+  scene.object({{.parts = {one, two}, .origin = {}}}).instance(0, {1000, 0, 0});
+  const std::uint64_t tests = face_tests(scene, hlr::Stage::local);
+  EXPECT_GT(tests, 0U);
+  for (int i = 2; i < 50; ++i) scene.instance(0, {1000 * i, 0, 0});
+  EXPECT_EQ(face_tests(scene, hlr::Stage::local), tests);
+}
+
+}  // namespace
+}  // namespace strake
