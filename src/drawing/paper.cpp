@@ -48,6 +48,11 @@ double neat(double value) {
   return std::fabs(rounded - value) <= 1e-12 * value ? rounded : value;
 }
 
+/// 100000, not 1e+05.
+std::string plain(double value) {
+  return value == std::nearbyint(value) ? fixed(value, 0) : shortest(value);
+}
+
 double next_ten(double mm) { return std::ceil(mm / 10) * 10; }
 
 }  // namespace
@@ -65,7 +70,7 @@ std::optional<PaperAxes> paper_axes(const hlr::View& view) {
 double rounded_paper(double mm) { return std::nearbyint(mm * 1000) / 1000 + 0.0; }
 
 std::string scale_text(double scale) {
-  return scale >= 1 ? "1:" + shortest(neat(scale)) : shortest(neat(1 / scale)) + ":1";
+  return scale >= 1 ? "1:" + plain(neat(scale)) : plain(neat(1 / scale)) + ":1";
 }
 
 Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options) {

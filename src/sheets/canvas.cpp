@@ -9,7 +9,8 @@ namespace strake::sheets {
 namespace {
 
 std::size_t clamped(double cell, std::size_t count) {
-  return cell <= 0 ? 0 : std::min(static_cast<std::size_t>(cell), count - 1);
+  if (cell <= 0) return 0;
+  return cell < static_cast<double>(count) ? static_cast<std::size_t>(cell) : count - 1;
 }
 
 }  // namespace

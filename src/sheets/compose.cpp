@@ -111,6 +111,7 @@ class Composer {
     auto places = place_views(what_, drawings_, room_);
     if (!places) return places.error();
     places_ = std::move(*places);
+    if (const Status status = check_reach(); !status) return status;
     for (std::size_t v = 0; v < what_.views.size(); ++v) {
       const ViewWish& wish = what_.views[v];
       drawing::LayoutOptions options;
@@ -124,6 +125,19 @@ class Composer {
           {wish.name, wish.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}});
       check_lines(wish, sheet_.views.back().drawing);
     }
+    return {};
+  }
+
+  /// Far off the sheet coordinates would not be micrometres any more.
+  [[nodiscard]] Status check_reach() const {
+    constexpr double kFarthest = 1e9;
+    const PaperBox reach{-kFarthest, -kFarthest, kFarthest, kFarthest};
+    for (std::size_t v = 0; v < places_.size(); ++v)
+      if (!reach.holds(places_[v].whole))
+        return Error{ErrorCode::input,
+                     "at " + drawing::scale_text(places_[v].scale) +
+                         " its lines lie more than 1000 km of paper off the sheet",
+                     what_.views[v].where, "mend its anchor, its limits or its scale"};
     return {};
   }
 

@@ -27,7 +27,7 @@ using settings::Reading;
 using settings::TableReader;
 using settings::Value;
 
-constexpr double kLeastSheetMm = 100, kLargestSheetMm = 20000;
+constexpr double kLeastSheetMm = 100, kLargestSheetMm = 20000, kFarthestMm = 1e6;
 constexpr std::size_t kMostViews = 100;
 
 struct PaperSize {
@@ -101,9 +101,11 @@ class Parser {
 
   PaperBox paper_box(TableReader& table, std::string_view key, const std::vector<double>& sides) {
     const PaperBox box{sides[0], sides[1], sides[2], sides[3]};
-    if (!(box.width() > 0 && box.height() > 0))
+    const bool near = std::all_of(sides.begin(), sides.end(),
+                                  [](double mm) { return std::fabs(mm) <= kFarthestMm; });
+    if (!near || !(box.width() > 0 && box.height() > 0))
       reading_.fault(table.value(key)->at,
-                     "'" + std::string(key) + "' of [sheet] ends before it begins",
+                     "'" + std::string(key) + "' of [sheet] is no box of paper",
                      "write left, top, right, bottom, from the upper left corner of the sheet");
     return box;
   }
@@ -327,6 +329,10 @@ class Parser {
     view.scale = ViewReader::scale(table);
     if (const auto at = table.lengths_mm("position", 2, "[\"150mm\", \"120mm\"]"))
       view.position = PaperPoint{(*at)[0], (*at)[1]};
+    if (view.position &&
+        !(std::fabs(view.position->x) <= kFarthestMm && std::fabs(view.position->y) <= kFarthestMm))
+      reading_.fault(value.at, "'position' of " + table.what() + " is far off any sheet",
+                     "write millimetres of paper from the upper left corner");
     if (const auto anchor = table.point_mm("anchor")) {
       view.anchor = geometry::snap(*anchor);
       if (!view.anchor)

@@ -149,6 +149,10 @@ TEST(Layout, ScalesAndSheets) {
   EXPECT_EQ(laid_out(ship, stated).sheet.width_mm, 15020);
   stated.scale = 0.5;
   EXPECT_EQ(laid_out(rectangle(), stated).sheet.scale_text, "2:1");
+  stated.scale = 200000;
+  EXPECT_EQ(laid_out(rectangle(), stated).sheet.scale_text, "1:200000");
+  stated.scale = 1.0 / 100000;
+  EXPECT_EQ(laid_out(rectangle(), stated).sheet.scale_text, "100000:1");
   stated.scale = 0;
   EXPECT_FALSE(lay_out(ship, two_objects(), stated, {}));
   EXPECT_EQ(laid_out(from_top({})).sheet.scale_text, "1:1");

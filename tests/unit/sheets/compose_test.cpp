@@ -149,6 +149,22 @@ TEST(Sheet, NoRoomIsAnErrorThatNamesTheFile) {
   EXPECT_NE(none.error().text().find("s.toml: the views have no room"), std::string::npos);
 }
 
+TEST(Sheet, ViewsOffAnyPaperAreAnError) {
+  const auto far = test::drawn(
+      "[[view]]\nname=\"v\"\nscale=\"1000000:1\"\nposition=[0,0]\n"
+      "anchor=[\"1e9m\",0,0]\n[[tag]]\nselect=\"*\"\ntext=\"x\"\n");
+  ASSERT_FALSE(far);
+  EXPECT_NE(far.error().text().find("s.toml, line 1: [[view]] 'v': at 1000000:1"),
+            std::string::npos)
+      << far.error().text();
+  // Far, but not that far: tags have no room there, and nothing else happens.
+  const auto off = test::drawn(
+      "[[view]]\nname=\"v\"\nscale=\"1:1\"\nposition=[\"1km\",0]\n"
+      "[[tag]]\nselect=\"*\"\ntext=\"x\"\n");
+  ASSERT_TRUE(off);
+  EXPECT_TRUE(told(off->sheet, "tag-no-room"));
+}
+
 TEST(Sheet, TemplatesReplaceTheFrame) {
   const test::Templates templates{
       {"f.svg",
