@@ -63,14 +63,16 @@ class LineIndex {
   [[nodiscard]] const Sector& sector(std::uint32_t number) const { return sectors_[number]; }
 
   /// Calls visit(line of the leaf, counted from its first; other line) for every pair that may lie
-  /// on each other, with the others of one class of lengths, the leaf's own or a lower one.
+  /// on each other, with the others of one class of lengths, the leaf's own or a lower one. Where
+  /// it returns false that line of the leaf is done with this class.
   template <class Visit>
   void candidates(const Leaf& leaf, unsigned length_class, Visit&& visit) const {
     const Target target(*this, leaf);
+    unsigned open = (1U << (leaf.last - leaf.first)) - 1;
     for (const std::uint32_t number : sectors_near(target, length_class))
-      if (sectors_[number].first < sectors_[number].last) {
+      if (open != 0 && sectors_[number].first < sectors_[number].last) {
         const Query query(*this, target, number);
-        descend(query, visit);
+        descend(query, open, visit);
       }
   }
 
@@ -117,7 +119,7 @@ class LineIndex {
   [[nodiscard]] Status make_nodes(const parallel::Context& context);
 
   template <class Visit>
-  void descend(const Query& query, Visit&& visit) const;
+  void descend(const Query& query, unsigned& open, Visit&& visit) const;
 
   std::span<const Flat> lines_;
   double reach_ = 0;      ///< up to which two lines lie on each other, at most
@@ -131,7 +133,7 @@ class LineIndex {
 };
 
 template <class Visit>
-void LineIndex::descend(const Query& query, Visit&& visit) const {
+void LineIndex::descend(const Query& query, unsigned& open, Visit&& visit) const {
   struct Level {
     std::size_t base, count;
   };
@@ -161,8 +163,11 @@ void LineIndex::descend(const Query& query, Visit&& visit) const {
         continue;
       }
       const std::uint32_t other = order_[query.sector->first + child];
-      for (unsigned lines = query.lines.meeting(node[k]); lines != 0; lines &= lines - 1)
-        visit(static_cast<std::size_t>(std::countr_zero(lines)), other);
+      for (unsigned lines = query.lines.meeting(node[k]) & open; lines != 0; lines &= lines - 1) {
+        const auto line = static_cast<std::size_t>(std::countr_zero(lines));
+        if (!visit(line, other)) open &= ~(1U << line);
+      }
+      if (open == 0) return;
     }
   }
 }

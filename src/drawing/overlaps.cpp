@@ -92,11 +92,13 @@ class Finder {
       if (c == own && !any) continue;
       index_.candidates(leaf, c, [&](std::size_t i, std::uint32_t other) {
         List& list = lists[i];
-        if (other == list.line) return;
-        if (stays(lines_, other, list.line))
-          cover(list, other, out);
-        else if (c < own)
-          cover_shorter(other, list.line, out);
+        if (other != list.line) {
+          if (stays(lines_, other, list.line))
+            cover(list, other, out);
+          else if (c < own)
+            cover_shorter(other, list.line, out);
+        }
+        return c < own || list.may_go;
       });
     }
     for (std::uint32_t k = 0; k < leaf.last - leaf.first; ++k) {
