@@ -25,6 +25,7 @@ struct LengthClass {
 constexpr std::array<LengthClass, LineIndex::kClasses> kLengths = {
     {{0, 1, 0, 0}, {32, 8, 1, 2}, {512, 128, 9, 6}, {8192, 2048, 137, 10}}};
 constexpr std::uint32_t kSectors = 137 + 2048;
+constexpr double kSmallSine = 0.125;  ///< half a sector of the lowest class that has any
 constexpr unsigned kPlaceBits = 52;
 constexpr std::size_t kGrain = 8192;
 
@@ -86,9 +87,10 @@ bool takes_part(const Flat& line, double least) {
 
 }  // namespace
 
-Result<LineIndex> LineIndex::build(std::span<const Flat> lines, double least,
+Result<LineIndex> LineIndex::build(std::span<const Flat> lines, double least, double greatest_sine,
                                    const parallel::Context& context) {
   LineIndex index;
+  index.greatest_sine_ = greatest_sine;
   index.lines_ = lines;
   Status status = index.measure(least, context);
   if (!status) return status.error();
@@ -152,7 +154,9 @@ void LineIndex::choose_frames(double least) {
 std::uint32_t LineIndex::sector_of(const Flat& line) const {
   const double length = line.length();
   unsigned c = kClasses - 1;
-  while (c > 0 && !(length >= kLengths[c].shortest * reach_)) --c;
+  // Where no angle is large the shortest have sectors too, those of the class above.
+  const unsigned lowest = greatest_sine_ <= 2 * kSmallSine ? 1 : 0;
+  while (c > lowest && !(length >= kLengths[c].shortest * reach_)) --c;
   return kLengths[c].sectors == 1 ? kLengths[c].first : sector_at(slant(line), kLengths[c]);
 }
 
@@ -278,7 +282,9 @@ LineIndex::Numbers LineIndex::sectors_near(const Target& target, unsigned length
     return out;
   }
   // Of the angle's sine, with room for the angle and for rounding.
-  const double window = 1.05 * 2 / c.shortest;
+  const double bound = 2 / c.shortest;
+  const double window =
+      1.05 * (greatest_sine_ <= 2 * kSmallSine && length_class == 1 ? greatest_sine_ : bound);
   const double per = c.sectors / 2.0;
   const auto from = static_cast<std::int64_t>(std::floor((target.from - window) * per));
   const auto to = static_cast<std::int64_t>(std::floor((target.to + window) * per));

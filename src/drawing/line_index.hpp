@@ -29,8 +29,10 @@ namespace strake::drawing {
 /// 1966), the distance across weighed by how fine the sectors are.
 class LineIndex {
  public:
-  /// Lines of rank none, and those no longer than `least`, are left out. The same for any team.
+  /// Lines of rank none, and those no longer than `least`, are left out, and so may pairs at a
+  /// greater angle. The same for any team.
   [[nodiscard]] static Result<LineIndex> build(std::span<const Flat> lines, double least,
+                                               double greatest_sine,
                                                const parallel::Context& context);
 
   static constexpr std::size_t kFan = BoxLanes::kCount;
@@ -124,8 +126,9 @@ class LineIndex {
   std::span<const Flat> lines_;
   double reach_ = 0;      ///< up to which two lines lie on each other, at most
   double x_ = 0, y_ = 0;  ///< middle of all
-  double radius_ = 0;     ///< round it
-  double pad_ = 0;        ///< what rounding may take from a box, and the reach
+  double greatest_sine_ = 1;
+  double radius_ = 0;  ///< round it
+  double pad_ = 0;     ///< what rounding may take from a box, and the reach
   std::vector<Sector> sectors_;
   std::vector<std::uint32_t> order_;
   std::vector<BoxLanes> nodes_;  ///< widened for rounding only

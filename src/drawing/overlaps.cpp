@@ -208,7 +208,8 @@ void append_stretches(Stretches& out, std::uint32_t line, std::span<Interval> co
 Result<Stretches> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
                                const parallel::Context& context) {
   Result<std::vector<Cover>> covers = [&]() -> Result<std::vector<Cover>> {
-    const Result<LineIndex> index = LineIndex::build(lines, rule.least, context);
+    const Result<LineIndex> index =
+        LineIndex::build(lines, rule.least, rule.greatest_sine, context);
     if (!index) return index.error();
     return Finder(lines, rule, *index).run(context);
   }();
