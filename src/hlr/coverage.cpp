@@ -11,6 +11,7 @@ namespace strake::hlr {
 namespace {
 
 constexpr float kNothing = -std::numeric_limits<float>::infinity();
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostAcross = 4096;
 constexpr std::size_t kBandRows = 64;
 /// Room for rounding: doubles hold view coordinates and what is computed from them to far less than
@@ -67,6 +68,9 @@ class Planes {
     const double w = dot(along_w_);
     const double facing =
         std::fabs(n[0] * direction_.x + n[1] * direction_.y + n[2] * direction_.z);
+    // Nearly edge-on, rounding of the normal would tell in the slope by more than kShare.
+    const double size = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    if (!(facing * facing > 1e-4 * size * squared_)) return {.behind = kNever};
     return {-dot(along_u_) / w, -dot(along_v_) / w, contact_ * sum * squared_ / facing};
   }
 
@@ -83,7 +87,7 @@ class Coverage::Painter {
  public:
   Painter(Coverage& coverage, std::span<const Placed> placed, const Frame& frame,
           std::int64_t contact)
-      : coverage_(coverage), placed_(placed), planes_(frame, contact) {}
+      : coverage_(coverage), placed_(placed), frame_(frame), planes_(frame, contact) {}
 
   /// The polygons of a body whose box holds a tile.
   void list(std::uint32_t body, std::vector<Large>& out) const {
@@ -128,7 +132,7 @@ class Coverage::Painter {
     };
     const std::size_t from = std::max(first_row, row_of(large.v0));
     const std::size_t to = std::min(last_row, row_of(large.v1) + 1);
-    const ViewPoint at = point(placed, polygon);
+    const ViewPoint at = frame_(polygon.at.as<std::int64_t>()) + placed.at;
     for (std::size_t row = from; row < to; ++row) {
       const double v0 = coverage_.v0_ + coverage_.height_ * static_cast<double>(row);
       const double v1 = v0 + coverage_.height_;
@@ -136,11 +140,6 @@ class Coverage::Painter {
       paint_row(row, {std::max(lower.lo, upper.lo), std::min(lower.hi, upper.hi)}, at, slope);
     }
   }
-
-  [[nodiscard]] ViewPoint point(const Placed& placed, const Polygon& polygon) const {
-    return frame_of(placed)(polygon.at.as<std::int64_t>()) + placed.at;
-  }
-  static Frame frame_of(const Placed& placed) { return Frame(placed.view->direction); }
 
   /// The open stretch of a polygon at height v, shortened by what rounding may make of it.
   static Span chord(std::span<const Corner> corners, const ViewPoint& at, double v) {
@@ -196,6 +195,7 @@ class Coverage::Painter {
 
   Coverage& coverage_;
   std::span<const Placed> placed_;
+  const Frame& frame_;
   Planes planes_;
 };
 
