@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/gatherer.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace strake::hlr {
+namespace {
+
+constexpr std::uint32_t kFewBodies = 16;
+constexpr std::uint32_t kNoBody = 0xffffffffU;
+// Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
+constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
+// What covered tiles say of an edge is cut at multiples of this share.
+constexpr std::int64_t kFine = std::int64_t{1} << 30;
+
+}  // namespace
+
+std::span<const Hit> Gatherer::hits(const AskedEdge& edge, const Param& lo, const Param& hi) {
+  edge_ = edge;
+  hits_.clear();
+  if (job_.options.stage == Stage::none) return hits_;
+  open_ = OpenRange(lo, hi);
+  if (edge_.kind != EdgeKind::polyline) gather_own_objects();
+  if (!open_.empty() && job_.options.stage == Stage::global) gather_others();
+  return hits_;
+}
+
+std::span<const Hit> Gatherer::hits_of_own_body(const AskedEdge& edge) {
+  edge_ = edge;
+  hits_.clear();
+  open_ = OpenRange();
+  if (edge_.kind != EdgeKind::polyline && !edge_.projecting) test_own_body();
+  return hits_;
+}
+
+// Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
+// edge wholly, completely.
+void Gatherer::gather_own_objects() {
+  if (edge_.feature != nullptr && edge_.own->opaque) gather_own_body();
+  gather_object(edge_.own->object);
+  if (edge_.other->object != edge_.own->object) gather_object(edge_.other->object);
+}
+
+// Its bodies, but for the one that has been gathered already.
+void Gatherer::gather_object(std::uint32_t object) {
+  const std::uint32_t known = edge_.feature != nullptr ? edge_.body : kNoBody;
+  const auto& first_body = job_.scene->first_body;
+  const std::uint32_t first = first_body[object], last = first_body[object + 1];
+  if ((known != kNoBody && last - first == 1) || (job_.options.culling && open_.empty())) return;
+  const auto consider = [&](std::uint32_t b) {
+    if (b == known || world_.placed[b].object != object) return true;
+    return gather_body(b, true);
+  };
+  if (last - first <= kFewBodies || !job_.options.culling) {
+    for (std::uint32_t b = first; b < last; ++b)
+      if (!consider(b)) return;
+  } else {
+    refresh_segment();
+    world_.tree.walk(segment_, consider);
+  }
+}
+
+/// What other objects hide of either end, by what covers whole tiles. A wire may be seen through
+/// the solids of its own object, which cover them too.
+void Gatherer::take_covered_ends() {
+  if (world_.coverage.empty() || edge_.kind == EdgeKind::polyline) return;
+  const double lo = open_.lo().value, hi = open_.hi().value;
+  const CoveredEnds ends = world_.coverage.covered_ends(edge_.va, edge_.vb, lo, hi);
+  if (ends.from >= ends.to) {
+    ++work.covered;
+    add(Hit{open_.lo(), open_.hi(), kBothSides, false});
+    return;
+  }
+  const Param from = Param::of(static_cast<std::int64_t>(ends.from * kFine) - 1, kFine);
+  const Param to = Param::of(static_cast<std::int64_t>(ends.to * kFine) + 2, kFine);
+  if (less(open_.lo(), from)) add(Hit{open_.lo(), from, kBothSides, false});
+  if (less(to, open_.hi())) add(Hit{to, open_.hi(), kBothSides, false});
+}
+
+void Gatherer::gather_others() {
+  take_covered_ends();
+  if (open_.empty()) return;
+  const auto consider = [&](std::uint32_t b) {
+    const std::uint32_t object = world_.placed[b].object;
+    return object == edge_.own->object || object == edge_.other->object || gather_body(b, false);
+  };
+  if (job_.options.culling) {
+    refresh_segment();
+    world_.tree.walk(segment_, consider);
+  } else {
+    for (std::uint32_t b = 0; b < world_.placed.size(); ++b) consider(b);
+  }
+}
+
+void Gatherer::gather_own_body() {
+  if (!edge_.own->shares_own_hits) return test_own_body();
+  const OwnHits& known = world_.own_hits[job_.seen.of[edge_.body]];
+  for (const Hit& hit :
+       known.of(static_cast<std::uint32_t>(edge_.feature - edge_.own->view->edges.data())))
+    if (!add(hit)) return;
+}
+
+void Gatherer::test_own_body() {
+  // Limits may cut away what hides: then the convex part's short cut does not hold.
+  const bool judged =
+      !edge_.own->cut && (edge_.feature->surely_behind_part || edge_.feature->surely_clear_of_part);
+  if (judged && edge_.feature->surely_behind_part) {
+    add(Hit{Param::zero(), Param::one(), kBothSides, true});
+    if (job_.options.culling) return;
+  }
+  const LocalEdge local = localized(*edge_.own);
+  for (const PartView& part : edge_.own->view->parts) {
+    const bool same = edge_.own->view->polygons[part.first].part == edge_.feature->edge.part;
+    if (same && judged) continue;
+    if (!test_part(local, *edge_.own->view, part, same ? edge_.own->within : edge_.own->contact,
+                   true))
+      return;
+  }
+}
+
+// False when nothing of the edge is left.
+bool Gatherer::gather_body(std::uint32_t b, bool self) {
+  const Placed& other = world_.placed[b];
+  if (!other.opaque) return true;
+  const LocalEdge local = localized(other);
+  const std::int64_t contact = std::max(edge_.contact, other.contact);
+  for (const PartView& part : other.view->parts)
+    if (!test_part(local, *other.view, part, contact, self)) return false;
+  return true;
+}
+
+bool Gatherer::test_part(const LocalEdge& local, const ShapeView& view, const PartView& part,
+                         std::int64_t contact, bool self) {
+  if (!may_hide(local, part.box)) return true;
+  if (is_deep_under(local, part, contact)) {
+    ++work.tests;
+    work.wide_tests += local.narrow ? 0 : 1;
+    return add(outlined_stretch(local, view, part.outline), self);
+  }
+  if (part.tree.empty()) {
+    for (std::uint32_t i = part.first; i < part.last; ++i)
+      if (!test_polygon(local, view, view.polygons[i], contact, self)) return false;
+    return true;
+  }
+  bool more = true;
+  part.tree.walk(loose(local.va, local.vb), [&](std::uint32_t i) {
+    return more = test_polygon(local, view, view.polygons[part.first + i], contact, self);
+  });
+  return more;
+}
+
+bool Gatherer::test_polygon(const LocalEdge& local, const ShapeView& view, const Polygon& p,
+                            std::int64_t contact, bool self) {
+  if (!may_hide(local, p.box)) return true;
+  ++work.tests;
+  work.wide_tests += local.narrow ? 0 : 1;
+  return add(hidden_stretch(local, view, p, contact), self);
+}
+
+bool Gatherer::is_deep_under(const LocalEdge& local, const PartView& part,
+                             std::int64_t contact) const {
+  if (!part.has_outline || !job_.options.culling || local.limits != nullptr) return false;
+  const std::int64_t depth = part.box.lo.w - std::max(local.va.w, local.vb.w);
+  if (contact == 0) return depth > 0;
+  const double least = static_cast<double>(contact) * part.deep_per_contact + 1;
+  return static_cast<double>(depth) > least * (1 + 1e-9);
+}
+
+bool Gatherer::add(std::optional<Hit> hit, bool self) {
+  if (!hit) return true;
+  hit->self = self;
+  return add(*hit);
+}
+
+bool Gatherer::add(const Hit& hit) {
+  hits_.push_back(hit);
+  if (!job_.options.culling) return true;
+  if (!open_.shrink_all(hits_)) return true;
+  if (open_.empty()) return false;
+  refresh_segment();
+  return true;
+}
+
+LocalEdge Gatherer::localized(const Placed& other) {
+  LocalEdge local{edge_.a - other.offset, edge_.b - other.offset, edge_.va - other.at,
+                  edge_.vb - other.at};
+  const std::int64_t reach =
+      std::max({std::abs(local.va.u), std::abs(local.va.v), std::abs(local.vb.u),
+                std::abs(local.vb.v), other.view->reach});
+  local.narrow = fits_narrow(reach);
+  if (other.cut) {
+    limits_ = {job_.limits->lo - other.offset, job_.limits->hi - other.offset};
+    local.limits = &limits_;
+  }
+  return local;
+}
+
+// The part of the edge that is still open, for a query.
+LooseSegment Gatherer::loose(const ViewPoint& a, const ViewPoint& b) const {
+  LooseSegment s;
+  const bool exact =
+      std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kExactInDouble;
+  const double du = static_cast<double>(b.u) - static_cast<double>(a.u);
+  const double dv = static_cast<double>(b.v) - static_cast<double>(a.v);
+  const double dw = static_cast<double>(b.w) - static_cast<double>(a.w);
+  s.au = static_cast<double>(a.u);
+  s.av = static_cast<double>(a.v);
+  s.du = exact ? du : 0;
+  s.dv = exact ? dv : 0;
+  const auto range = [&](double from, double step, double& least, double& most) {
+    const double p = from + step * open_.lo().value, q = from + step * open_.hi().value;
+    const double slack = 1e-12 * (std::abs(from) + std::abs(step));
+    least = std::min(p, q) - slack;
+    most = std::max(p, q) + slack;
+  };
+  double w1 = 0;
+  range(s.au, du, s.u0, s.u1);
+  range(s.av, dv, s.v0, s.v1);
+  range(static_cast<double>(a.w), dw, s.w0, w1);
+  return s;
+}
+
+}  // namespace strake::hlr

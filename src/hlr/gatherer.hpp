@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hlr/asked_edge.hpp"
+#include "hlr/occlusion.hpp"
+#include "hlr/stretches.hpp"
+#include "hlr/view_tree.hpp"
+#include "hlr/world.hpp"
+
+namespace strake::hlr {
+
+struct Work {
+  std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0;
+};
+
+/// Gathers what hides one edge after another: front to back, until nothing is left to be seen.
+/// For one worker; it keeps its memory from edge to edge.
+class Gatherer {
+ public:
+  explicit Gatherer(const World& world) : world_(world), job_(world.job) {}
+
+  /// What hides an edge between two parameters, as far as the job's stage asks: hits in no
+  /// particular order. The own object's come first and, unless it hides the edge wholly,
+  /// completely.
+  [[nodiscard]] std::span<const Hit> hits(const AskedEdge& edge, const Param& lo, const Param& hi);
+
+  /// What a body's own faces hide of an edge of it.
+  [[nodiscard]] std::span<const Hit> hits_of_own_body(const AskedEdge& edge);
+
+  /// The work so far.
+  Work work;
+
+ private:
+  void gather_own_objects();
+  void gather_object(std::uint32_t object);
+  void gather_others();
+  void take_covered_ends();
+  void gather_own_body();
+  void test_own_body();
+
+  // These say false when nothing of the edge is left.
+  bool gather_body(std::uint32_t body, bool self);
+  bool test_part(const LocalEdge& local, const ShapeView& view, const PartView& part,
+                 std::int64_t contact, bool self);
+  bool test_polygon(const LocalEdge& local, const ShapeView& view, const Polygon& polygon,
+                    std::int64_t contact, bool self);
+  bool add(std::optional<Hit> hit, bool self);
+  bool add(const Hit& hit);
+
+  [[nodiscard]] bool is_deep_under(const LocalEdge& local, const PartView& part,
+                                   std::int64_t contact) const;
+  [[nodiscard]] LocalEdge localized(const Placed& other);
+  [[nodiscard]] LooseSegment loose(const ViewPoint& a, const ViewPoint& b) const;
+  void refresh_segment() { segment_ = loose(edge_.va, edge_.vb); }
+
+  const World& world_;
+  const Job& job_;
+  AskedEdge edge_;
+  OpenRange open_;
+  LooseSegment segment_;
+  geometry::Box3l limits_;  ///< in the coordinates of the body that is asked
+  std::vector<Hit> hits_;
+};
+
+}  // namespace strake::hlr
