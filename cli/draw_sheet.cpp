@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "cli/draw_account.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/sheets/sheet_file.hpp"
 #include "strake/sheets/write.hpp"
@@ -25,6 +26,8 @@ void tell_sheet(Session& session, const sheets::Sheet& sheet) {
     };
     console.say(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
                             of(drawing::LineState::visible), lines, view.drawing.sheet.scale_text));
+    console.say(fmt::format("view '{}': {}", view.name, account_line(view.drawing.account)));
+    count_objects(session.stats(), view.drawing.account, view.name + ": ");
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)
       session.stats().count(fmt::format("{}: lines {}", view.name,
                                         drawing::state_name(static_cast<drawing::LineState>(s))),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/draw_account.hpp"
 #include "cli/draw_sheet.hpp"
 #include "cli/hatch_option.hpp"
 #include "cli/load.hpp"
@@ -148,9 +149,7 @@ Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
 
 void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
   const hlr::Counters& work = drawing.counters;
-  stats.count("objects drawn", work.objects_drawn);
-  stats.count("objects hidden", work.objects_hidden);
-  stats.count("objects clipped", work.objects_clipped);
+  count_objects(stats, drawing.account, "");
   stats.count("feature edges", work.feature_edges);
   stats.count("covered edges", work.covered_edges);
   stats.count("face tests", work.face_tests);
@@ -165,6 +164,7 @@ void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing) {
     return drawing.count[static_cast<std::size_t>(state)];
   };
   const std::uint64_t visible = of(drawing::LineState::visible);
+  console.say(account_line(drawing.account));
   console.say(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
                           drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
                           drawing.sheet.height_mm));
@@ -244,12 +244,14 @@ Result<drawing::NeutralDrawing> compute(Session& session, const Request& request
     return hlr::draw(scene, *drawn, request.view, options, session.context());
   }();
   if (!lines) return lines.error();
-  tell(session.console(), lines->diagnostics);
+  tell_drawn(session.console(), lines->diagnostics);
   const auto timer = session.step("layout");
   return drawing::lay_out(*lines, *scene.model, request.layout, session.context());
 }
 
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
+  if (given.input.files.empty())
+    return Error{ErrorCode::usage, "no model file is given", {}, "'strake draw --help' tells more"};
   const Result<Request> request = request_of(given, session.console());
   if (!request) return request.error();
   if (!given.sheet.empty())
@@ -368,6 +370,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   CLI::App* const command =
       program.add_subcommand("draw", "Line drawings of models, hidden lines removed exactly");
   add_input_options(*command, options->input);
+  command->get_option("files")->required(false);  // 'strake draw diff' has files of its own
   add_scene_options(*command, options->scene, "0.5mm");
   add_view(*command, *options);
   add_lines(*command, *options);

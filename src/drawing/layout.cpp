@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "drawing/account.hpp"
 #include "drawing/duplicates.hpp"
 #include "drawing/paper.hpp"
 #include "strake/drawing/drawing.hpp"
@@ -182,7 +183,8 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
       context);
   if (!lines) return lines.error();
   out.lines = std::move(*lines);
-  for (const Line& line : out.lines) ++out.count[static_cast<std::size_t>(line.state)];
+  out.account = drawing.account;
+  if (const Status status = count_lines(out, context); !status) return status.error();
   return out;
 }
 

@@ -71,4 +71,26 @@ std::string_view stage_name(hlr::Stage stage) {
   return "";
 }
 
+std::string_view fate_name(hlr::Fate fate) {
+  switch (fate) {
+    case hlr::Fate::unselected:
+      return "unselected";
+    case hlr::Fate::drawn:
+      return "drawn";
+    case hlr::Fate::coincident:
+      return "coincident";
+    case hlr::Fate::hidden:
+      return "hidden";
+    case hlr::Fate::clipped:
+      return "clipped";
+    case hlr::Fate::degenerate:
+      return "degenerate";
+    case hlr::Fate::failed:
+      return "failed";
+    case hlr::Fate::left_out:
+      return "left_out";
+  }
+  return "";
+}
+
 }  // namespace strake::drawing

@@ -57,7 +57,7 @@ void write_head(Chunked& out, const NeutralDrawing& drawing, const Ink& ink) {
       << sheet.scale_text << "\" contact-distance-mm=\"" << shortest(drawing.contact_distance_mm)
       << "\" hash=\"" << drawing.hash.text() << "\">\n"
       << fmt::format("<counts objects=\"{}\" objects-drawn=\"{}\" feature-edges=\"{}\"",
-                     drawing.counters.objects, drawing.counters.objects_drawn,
+                     drawing.account.objects(), drawing.account.of(hlr::Fate::drawn),
                      drawing.counters.feature_edges);
   for (std::size_t s = 0; s < kLineStates; ++s) {
     std::string name(state_name(static_cast<LineState>(s)));

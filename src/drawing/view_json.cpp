@@ -57,15 +57,39 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
 }
 
 void write_counts(Chunked& out, const NeutralDrawing& drawing) {
-  const hlr::Counters& c = drawing.counters;
-  out << fmt::format(
-      "\"counts\":{{\"objects\":{},\"objects_drawn\":{},\"objects_hidden\":{},"
-      "\"objects_clipped\":{},\"feature_edges\":{},\"pieces\":{}",
-      c.objects, c.objects_drawn, c.objects_hidden, c.objects_clipped, c.feature_edges,
-      drawing.lines.size());
+  out << fmt::format("\"counts\":{{\"objects\":{}", drawing.account.objects());
+  for (std::size_t f = 1; f < hlr::kFates; ++f) {
+    const auto fate = static_cast<hlr::Fate>(f);
+    out << fmt::format(",\"objects_{}\":{}", fate_name(fate), drawing.account.of(fate));
+  }
+  out << fmt::format(",\"objects_in_part\":{},\"feature_edges\":{},\"pieces\":{}",
+                     drawing.account.in_part, drawing.counters.feature_edges, drawing.lines.size());
   for (std::size_t s = 0; s < kLineStates; ++s)
     out << fmt::format(",\"{}\":{}", state_name(static_cast<LineState>(s)), drawing.count[s]);
   out << "},\n";
+}
+
+void append_object(std::string& out, const model::Model& model, model::ObjectId id) {
+  const model::Object& object = model.object(id);
+  out += "{\"id\":" + json_quoted(object.id) + ",\"name\":" + json_quoted(object.name) +
+         ",\"file\":" + json_quoted(model.files[object.file].label);
+}
+
+/// Objects of which something could not be drawn, each with all that says why.
+void write_defects(Chunked& out, const NeutralDrawing& drawing, const model::Model& model) {
+  const std::vector<hlr::Defect>& defects = drawing.account.defects;
+  out << "\"defects\":[";
+  for (std::size_t d = 0; d < defects.size();) {
+    const model::ObjectId id = defects[d].object;
+    out << (d == 0 ? "\n" : ",\n");
+    append_object(out.buffer(), model, id);
+    out << ",\"fate\":\"" << fate_name(drawing.account.fates[model::index(id)]) << "\",\"why\":";
+    const char* separator = "[";
+    for (; d < defects.size() && defects[d].object == id; ++d, separator = ",")
+      out << separator << json_quoted(defects[d].code);
+    out << "]}";
+  }
+  out << "],\n";
 }
 
 /// The objects that lines name, each once, in the order of the model.
@@ -118,13 +142,13 @@ void write_view_json(const NeutralDrawing& drawing, const model::Model& model, S
       << json_quoted(version()) << "},\n";
   write_view(out, drawing);
   write_counts(out, drawing);
+  write_defects(out, drawing, model);
   out << "\"hash\":\"" << drawing.hash.text() << "\",\n\"objects\":[";
   const Listed listed(drawing.lines, model.objects.size());
   for (const model::ObjectId o : listed.objects()) {
-    const model::Object& object = model.object(o);
-    out << (listed.number(o) == 0 ? "\n" : ",\n") << "{\"id\":" << json_quoted(object.id)
-        << ",\"name\":" << json_quoted(object.name)
-        << ",\"file\":" << json_quoted(model.files[object.file].label) << "}";
+    out << (listed.number(o) == 0 ? "\n" : ",\n");
+    append_object(out.buffer(), model, o);
+    out << "}";
   }
   out << "],\n\"pieces\":[";
   const Line* last = nullptr;

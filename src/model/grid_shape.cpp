@@ -102,8 +102,10 @@ GridShapeResult GridShapeMaker::make(const Shape& shape, const Mat3d& linear, do
   else
     add_primitive(std::get<geometry::Primitive>(shape), linear, sag_mm, result);
   for (const Part& part : result.shape.parts) result.shape.box.include(part.box);
-  if (result.shape.parts.empty() && result.fault.empty())
+  if (result.shape.parts.empty() && result.fault.empty()) {
+    result.vanished = result.bad_triangles == 0 && result.bad_points == 0;
     result.fault = "nothing is left of it on the grid";
+  }
   return result;
 }
 

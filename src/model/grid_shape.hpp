@@ -17,6 +17,7 @@ struct GridShapeResult {
   std::uint64_t bad_triangles = 0;
   std::uint64_t bad_points = 0;
   std::string_view fault;  ///< why the shape has no parts; empty when it has some
+  bool vanished = false;   ///< for nothing is left on the grid of what is sound
 };
 
 /// Makes shapes one after another in memory that it keeps: one per worker.

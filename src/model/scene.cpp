@@ -252,7 +252,9 @@ void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made) 
     if (shape.bad_triangles > 0) scene.lacking.push_back({body.object, "mesh-bad-triangle"});
     if (shape.bad_points > 0) scene.lacking.push_back({body.object, "polyline-bad-point"});
     if (!shape.fault.empty() || !origin) {
-      const std::string_view code = shape.fault.empty() ? "body-unplaceable" : "shape-unplaceable";
+      const std::string_view code = shape.fault.empty() ? "body-unplaceable"
+                                    : shape.vanished    ? kVanished
+                                                        : "shape-unplaceable";
       scene.lacking.push_back({body.object, code});
       report(scene.diagnostics, Severity::skipped, code, model, body.object, [&] {
         return shape.fault.empty() ? std::string(

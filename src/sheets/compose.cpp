@@ -151,7 +151,7 @@ class Composer {
   void check_lines(const ViewWish& wish, const drawing::NeutralDrawing& lines) {
     const auto of = [&](LineState state) { return lines.count[static_cast<std::size_t>(state)]; };
     if (of(LineState::visible) > 0) return;
-    const bool nothing = lines.counters.objects == 0;
+    const bool nothing = lines.account.objects() == 0;
     warn("view-empty",
          "the view '" + wish.name + "' shows nothing: " +
              (nothing                      ? "it has no objects"

@@ -86,7 +86,7 @@ void write_metadata(Chunked& out, const Sheet& sheet) {
         << drawing.sheet.scale_text << "\" contact-distance-mm=\""
         << shortest(drawing.contact_distance_mm) << "\" hash=\"" << drawing.hash.text() << "\""
         << fmt::format(" objects=\"{}\" objects-drawn=\"{}\" feature-edges=\"{}\"",
-                       drawing.counters.objects, drawing.counters.objects_drawn,
+                       drawing.account.objects(), drawing.account.of(hlr::Fate::drawn),
                        drawing.counters.feature_edges);
     for (std::size_t s = 0; s < drawing::kLineStates; ++s) {
       std::string name(drawing::state_name(static_cast<drawing::LineState>(s)));

@@ -34,6 +34,7 @@ inline constexpr std::size_t kLineStates = 6;
 [[nodiscard]] std::string_view state_name(LineState state);
 [[nodiscard]] std::string_view kind_name(hlr::EdgeKind kind);
 [[nodiscard]] std::string_view stage_name(hlr::Stage stage);
+[[nodiscard]] std::string_view fate_name(hlr::Fate fate);
 
 /// Millimetres on the sheet: x to the right, y down, from the upper left corner.
 struct PaperPoint {
@@ -89,10 +90,12 @@ struct NeutralDrawing {
   std::vector<Line> lines;
   std::array<std::uint64_t, kLineStates> count{};  ///< of lines, by state
   hlr::Counters counters;
+  hlr::Account account;
   Hash128 hash;  ///< of the view and of every line in the model; not of the sheet or of settings
 };
 
 /// Puts a finished hidden-line run on paper: axes from direction and up, the scale, the sheet.
+/// Objects whose visible lines all are duplicates become Fate::coincident.
 /// Deterministic: + - * / and sqrt only.
 [[nodiscard]] Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
                                              const LayoutOptions& options,

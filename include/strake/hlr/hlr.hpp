@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "strake/core/diagnostics.hpp"
@@ -87,11 +90,45 @@ struct Piece {
 };
 
 struct Counters {
-  std::uint64_t objects = 0, objects_drawn = 0, objects_hidden = 0, objects_clipped = 0;
   std::uint64_t feature_edges = 0;
   std::uint64_t covered_edges = 0;  ///< the rest of which whole tiles of paper hide
   std::uint64_t face_tests = 0;     ///< edge against face
   std::uint64_t exact_fallbacks = 0;
+};
+
+/// What became of an object. Each that was selected has one fate other than `unselected`: none
+/// vanishes silently.
+enum class Fate : std::uint8_t {
+  unselected,
+  drawn,       ///< a line of it is visible
+  coincident,  ///< visible, but all that is lies on lines of others, which are drawn: see lay_out()
+  hidden,      ///< no line of it is visible, some are hidden
+  clipped,     ///< its lines are all outside the limits, or cut away
+  degenerate,  ///< it makes no line in this view: nothing but points, or too small for the grid
+  failed,      ///< none of its geometry could be read or placed
+  left_out,    ///< all of its bodies are of categories that the scene was not asked for
+};
+inline constexpr std::size_t kFates = 8;
+
+/// Why an object is degenerate or failed, or drawn without some of its geometry.
+struct Defect {
+  model::ObjectId object{};
+  /// "only-points", "no-lines", or that of model::Lacking; a literal.
+  std::string_view code;
+  friend bool operator==(const Defect&, const Defect&) = default;
+};
+
+struct Account {
+  std::vector<Fate> fates;  ///< by object of the model
+  std::array<std::uint64_t, kFates> count{};
+  std::uint64_t in_part = 0;    ///< objects that lack some of their geometry, but not all
+  std::vector<Defect> defects;  ///< by object: of degenerate, failed and partial ones
+
+  [[nodiscard]] std::uint64_t of(Fate fate) const { return count[static_cast<std::size_t>(fate)]; }
+  /// Those that were asked for.
+  [[nodiscard]] std::uint64_t objects() const {
+    return std::accumulate(count.begin() + 1, count.end(), std::uint64_t{0});
+  }
 };
 
 struct Drawing {
@@ -100,7 +137,9 @@ struct Drawing {
   double contact_distance_mm = 0;  ///< the largest that was applied
   std::vector<Piece> pieces;       ///< by (object, edge, parameter)
   Counters counters;
-  Diagnostics diagnostics;  ///< of sections: planes that miss, what is cut but not hatched
+  Account account;
+  /// Of sections: planes that miss, what is cut but not hatched. Of objects: defects.
+  Diagnostics diagnostics;
 };
 
 /// The lines of the scene in one view, each piece with its state. `drawn` selects the objects

@@ -43,6 +43,9 @@ struct GridBody {
   }
 };
 
+/// The code of a shape that is too small for the grid, or has no geometry at all.
+inline constexpr std::string_view kVanished = "shape-vanished";
+
 /// An object of which a scene has not all geometry, and so finds less than there is.
 struct Lacking {
   ObjectId object{};

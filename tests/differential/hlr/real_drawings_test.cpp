@@ -153,7 +153,7 @@ TEST(RealDrawings, CutsEqualTheBruteForceSolver) {
       const auto expected = hlr::draw(ha->scene, selection, view, options, {});
       ASSERT_TRUE(got && expected);
       EXPECT_EQ(test::difference(expected->pieces, got->pieces), "") << "object " << object;
-      objects += got->counters.objects;
+      objects += got->account.objects();
       hidden += static_cast<std::uint64_t>(
           std::count_if(got->pieces.begin(), got->pieces.end(),
                         [](const hlr::Piece& p) { return p.state == State::hidden_by_other; }));

@@ -116,6 +116,26 @@ class Draw(Scenario):
             self.assertIn(words, done.stderr, plane)
             self.assertIn('--section', done.stderr, plane)
 
+    def test_no_object_vanishes_silently(self):
+        self.write('odd.obj', cube('good', 0, (0, 0, 0), 100) + cube('behind', 1, (20, 20, -500), 50)
+                   + 'o wire\nv 10 10 200\nv 10 10 300\nl 17 18\no nowhere\nv nan 0 0\nf 19 1 2\n'
+                   + 'o speck\nv 500 0 0\nv 500.0001 0 0\nv 500 0.0001 0\nf 20 21 22\n')
+        done = self.run_strake('draw', 'odd.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top', '--stats', '-o',
+                               'x.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        drawing = json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))
+        counts = drawing['counts']
+        fates = ('drawn', 'coincident', 'hidden', 'clipped', 'degenerate', 'failed', 'left_out')
+        self.assertEqual(sum(counts[f'objects_{fate}'] for fate in fates), counts['objects'])
+        self.assertEqual([counts[f'objects_{fate}'] for fate in fates], [1, 0, 1, 0, 2, 1, 0])
+        self.assertEqual({d['name']: (d['fate'], d['why']) for d in drawing['defects']},
+                         {'wire': ('degenerate', ['only-points']), 'speck': ('degenerate', ['shape-vanished']),
+                          'nowhere': ('failed', ['object-skipped'])})
+        self.assertIn('5 objects: 1 drawn, 1 hidden, 2 degenerate, 1 failed\n', done.stderr)
+        for name in ('wire', 'speck', 'nowhere'):
+            self.assertRegex(done.stderr, f'warning object-.*: odd.obj: {name}: ', name)
+        self.assertRegex(done.stderr, r'objects hidden +1\n')
+
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')

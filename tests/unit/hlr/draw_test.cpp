@@ -133,7 +133,7 @@ TEST(Draw, LimitsCutLinesAndWhatHides) {
   const hlr::Drawing cut = drawn(scene, top);
   EXPECT_EQ(states(cut)[State::hidden_by_other], 0);
   EXPECT_EQ(states(cut)[State::clipped], 12);
-  EXPECT_EQ(cut.counters.objects_clipped, 1U);
+  EXPECT_EQ(cut.account.of(hlr::Fate::clipped), 1U);
 }
 
 TEST(Draw, EqualCubesOneBehindTheOtherShareAnOutline) {
@@ -154,7 +154,7 @@ TEST(Draw, StagesHideNothingOwnOrAll) {
   EXPECT_EQ(local[State::hidden_by_other], 0);
   const hlr::Drawing full = drawn(scene, kIso);
   EXPECT_GT(states(full)[State::hidden_by_other], 0);
-  EXPECT_EQ(full.counters.objects_hidden, 1U);
+  EXPECT_EQ(full.account.of(hlr::Fate::hidden), 1U);
 }
 
 TEST(Draw, RefusesWhatMakesNoSense) {

@@ -119,7 +119,8 @@ TEST(Scene, WhatCannotBePlacedIsSkippedByName) {
   const Scene s = b.scene();
   EXPECT_EQ(s.bodies.size(), 1U);
   EXPECT_EQ(s.diagnostics.count("body-unplaceable"), 1U);
-  EXPECT_EQ(s.diagnostics.count("shape-unplaceable"), 3U);
+  EXPECT_EQ(s.diagnostics.count("shape-unplaceable"), 2U);
+  EXPECT_EQ(s.diagnostics.count("shape-vanished"), 1U);
   EXPECT_EQ(s.diagnostics.count("body-without-shape"), 1U);
   ASSERT_FALSE(s.diagnostics.kept().empty());
   EXPECT_EQ(s.diagnostics.kept().back().where, "t.obj: 4");
@@ -130,7 +131,7 @@ TEST(Scene, WhatCannotBePlacedIsSkippedByName) {
                                         {2, "mesh-bad-triangle"},
                                         {2, "shape-unplaceable"},
                                         {3, "shape-unplaceable"},
-                                        {4, "shape-unplaceable"},
+                                        {4, "shape-vanished"},
                                         {5, "body-without-shape"}}));
 }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "cli/console.hpp"
+#include "cli/stats.hpp"
+#include "strake/core/diagnostics.hpp"
+#include "strake/hlr/hlr.hpp"
+
+namespace strake::cli {
+
+/// What a drawing noticed, every object by name that it could not draw, or not whole.
+void tell_drawn(Console& console, const Diagnostics& diagnostics);
+
+/// "900 objects: 400 drawn, 496 hidden, 4 failed; 2 without some of their geometry": fates
+/// add up.
+[[nodiscard]] std::string account_line(const hlr::Account& account);
+
+/// The same for --stats, every fate, each name behind `prefix`.
+void count_objects(Stats& stats, const hlr::Account& account, std::string_view prefix);
+
+}  // namespace strake::cli
