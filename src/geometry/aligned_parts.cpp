@@ -22,11 +22,6 @@ constexpr std::size_t kSamples = 64, kLeastAlike = 16;
 constexpr double kElongation = 6;
 /// Cosine of the angle within which needles run one way.
 constexpr double kOneWay = 0.9999;
-/// Turned coordinates may not be larger: they are kept in 32 bits.
-constexpr double kFarthest = 2147483000;
-
-using Axes = std::array<Vec3d, 3>;
-
 struct Needle {
   Vec3d along, normal;  ///< not unit vectors
 };
@@ -72,27 +67,6 @@ std::optional<Axes> axes_of(const std::vector<Needle>& needles) {
   const Vec3d y = cross(z, best->normal * (1 / length(best->normal)));
   const Vec3d unit_y = y * (1 / length(y));
   return Axes{cross(unit_y, z), unit_y, z};
-}
-
-/// Over the triangles of a view's own tree; nothing where the part is too large to be turned.
-std::optional<TurnedPart> turned_part(const PartView& view, const Axes& axes,
-                                      const parallel::Context& context) {
-  Part turned;
-  turned.triangles = view.part().triangles;
-  turned.vertices.resize(view.part().vertices.size());
-  for (std::uint32_t v = 0; v < turned.vertices.size(); ++v) {
-    const Vec3d p = view.vertex(v).as<double>();
-    for (int k = 0; k < 3; ++k) {
-      const double at = dot(axes[static_cast<std::size_t>(k)], p);
-      if (!(std::fabs(at) < kFarthest)) return std::nullopt;
-      turned.vertices[v][k] = static_cast<std::int32_t>(std::llround(at));
-    }
-  }
-  const std::vector<std::uint32_t>& some = view.tree().order();
-  PartTree tree =
-      some.size() == turned.triangles.size() ? PartTree(turned, context) : PartTree(turned, some);
-  if (tree.nodes().empty()) return std::nullopt;
-  return TurnedPart{std::move(turned), std::move(tree)};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "geometry/aligned_parts.hpp"
 #include "geometry/box.hpp"
+#include "geometry/boxed_tree.hpp"
 #include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/triangle_distance.hpp"
@@ -79,34 +80,6 @@ class NearWalk {
   }
 
  private:
-  /// A tree with the boxes of its nodes in a frame that two have in common.
-  class BoxedTree {
-   public:
-    explicit BoxedTree(const PartView& view)
-        : tree_(&view.tree()), shift_(view.shift().as<double>()) {}
-    explicit BoxedTree(const TurnedPart& turned)
-        : tree_(&turned.tree), turned_(&turned.part), margin_(kTurnRounding) {}
-
-    [[nodiscard]] const PartTree& tree() const { return *tree_; }
-    /// Exact for a part's own tree.
-    [[nodiscard]] Box3d box(std::uint32_t node) const {
-      return tree_->nodes()[node].box.as<double>().moved(shift_).inflated(margin_);
-    }
-    /// Of a triangle, which is given in the part's own frame too.
-    [[nodiscard]] Box3d box(std::uint32_t number, const DoubleTriangle& triangle) const {
-      if (turned_ == nullptr) return triangle.box;
-      const Triangle& t = turned_->triangles[number];
-      const auto& v = turned_->vertices;
-      return box_of(std::array{v[t[0]], v[t[1]], v[t[2]]}).as<double>().inflated(margin_);
-    }
-
-   private:
-    const PartTree* tree_;
-    const Part* turned_ = nullptr;
-    Vec3d shift_;
-    double margin_ = 0;
-  };
-
   [[nodiscard]] const PartTree& tree_a() const { return boxes_a_.tree(); }
   [[nodiscard]] const PartTree& tree_b() const { return boxes_b_.tree(); }
 

@@ -3,18 +3,35 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "geometry/heavy_loop.hpp"
+#include "geometry/point_placer.hpp"
+#include "geometry/z_order.hpp"
 #include "strake/geometry/part_pair.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::geometry {
 namespace {
 
+/// Vertices that tell what one costs, and nodes of the tree that all of the others may look at each
+/// before a frame for them is worth its while.
+constexpr std::size_t kSamples = 32, kManyNodes = 256;
+/// Fewer vertices are not worth a frame.
+constexpr std::size_t kWorthAFrame = 1024;
+
 /// What some vertices say, up to the first that is outside.
 struct Vertices {
   PartCover cover{.within = true, .on_surface = true};
   PairCost cost;
+
+  /// Whether to look at the next one.
+  bool add(PointPlace place) {
+    cover.on_surface = cover.on_surface && place == PointPlace::near_skin;
+    cover.within = place != PointPlace::outside;
+    return cover.within;
+  }
 };
 
 class CoverSearch {
@@ -25,12 +42,44 @@ class CoverSearch {
         shift_(a.placed.origin - b.placed.origin),
         band_(band) {}
 
-  PartCover run(PairWork& work) const {
+  PartCover run(PairWork& work) {
+    if (vertices_.size() >= kWorthAFrame) {
+      const Vertices some = look_at_samples();
+      work += some.cost;
+      if (!some.cover.within) return some.cover;
+      if (some.cost.node_pairs > kSamples * kManyNodes) prepare(work.context());
+    }
     if (vertices_.size() < kWorthATeam) {
       const Vertices all = look_at(0, vertices_.size());
       work += all.cost;
       return all.cover;
     }
+    return look_at_blocks(work);
+  }
+
+ private:
+  [[nodiscard]] std::size_t blocks() const {
+    return (vertices_.size() + kTeamGrain - 1) / kTeamGrain;
+  }
+  [[nodiscard]] Vec3l at(std::size_t vertex) const {
+    return vertices_[vertex].as<std::int64_t>() + shift_;
+  }
+
+  static void lower(std::atomic<std::size_t>& last, std::size_t block) {
+    std::size_t now = last.load(std::memory_order_relaxed);
+    while (block < now && !last.compare_exchange_weak(now, block, std::memory_order_relaxed)) {
+    }
+  }
+
+  /// For points that cost too much one by one.
+  void prepare(const parallel::Context& context) {
+    frame_ = frame_along_faces(b_, context);
+    if (!frame_) return;
+    order_ = z_order(vertices_.size(),
+                     [&](std::size_t v) { return turned(frame_->axes, at(v).as<double>()); });
+  }
+
+  PartCover look_at_blocks(PairWork& work) const {
     // Blocks behind one that lies outside are left out; those before it are all looked at, so that
     // the cost is the same for any team.
     std::atomic<std::size_t> last{blocks()};
@@ -53,26 +102,22 @@ class CoverSearch {
     return cover;
   }
 
- private:
-  [[nodiscard]] std::size_t blocks() const {
-    return (vertices_.size() + kTeamGrain - 1) / kTeamGrain;
-  }
-
-  static void lower(std::atomic<std::size_t>& last, std::size_t block) {
-    std::size_t now = last.load(std::memory_order_relaxed);
-    while (block < now && !last.compare_exchange_weak(now, block, std::memory_order_relaxed)) {
-    }
+  [[nodiscard]] Vertices look_at_samples() const {
+    Vertices looked;
+    PairWork work;
+    PointPlacer placer(b_, band_, nullptr);
+    for (std::size_t i = 0; i < kSamples; ++i)
+      if (!looked.add(placer.place(at(i * vertices_.size() / kSamples), work))) break;
+    looked.cost = work;
+    return looked;
   }
 
   [[nodiscard]] Vertices look_at(std::size_t first, std::size_t end) const {
     Vertices looked;
     PairWork work;
-    for (std::size_t i = first; i < end && looked.cover.within; ++i) {
-      const Vec3l at = vertices_[i].as<std::int64_t>() + shift_;
-      if (distance_to_surface(b_, at.as<double>(), band_ + 1) <= band_) continue;
-      looked.cover.on_surface = false;
-      looked.cover.within = side_of(b_, at, 1, work) != PointSide::outside;
-    }
+    PointPlacer placer(b_, band_, frame_ ? &*frame_ : nullptr);
+    for (std::size_t i = first; i < end; ++i)
+      if (!looked.add(placer.place(at(order_.empty() ? i : order_[i]), work))) break;
     looked.cost = work;
     return looked;
   }
@@ -81,6 +126,9 @@ class CoverSearch {
   const TreedPart& b_;
   Vec3l shift_;
   double band_;
+  std::optional<TurnedFrame> frame_;
+  std::vector<std::uint32_t>
+      order_;  ///< of the vertices, near ones after each other; empty: theirs
 };
 
 }  // namespace

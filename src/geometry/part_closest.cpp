@@ -12,6 +12,7 @@
 #include "geometry/flat_pieces.hpp"
 #include "geometry/heavy_walk.hpp"
 #include "geometry/pair_view.hpp"
+#include "geometry/point_distance.hpp"
 #include "geometry/samples.hpp"
 #include "geometry/slab_faces.hpp"
 #include "geometry/tree_walk.hpp"
@@ -32,23 +33,6 @@ constexpr double kProbeSlack = 4;
 
 /// Triangles at an end of a slab between two parts up to which all pairs of them are tried.
 constexpr std::size_t kSlabFaces = 32;
-
-/// Squared distance of a point to a triangle, in doubles.
-double squared_distance(const Vec3d& p, const Corners& t) {
-  const Vec3d u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
-  double least = std::numeric_limits<double>::infinity();
-  bool inside = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3d &from = t[i], e = t[(i + 1) % 3] - from, d = p - from;
-    inside = inside && dot(cross(e, d), n) >= 0;
-    const double along = std::clamp(dot(e, d) / dot(e, e), 0.0, 1.0);
-    const Vec3d off = d - e * along;
-    least = std::min(least, dot(off, off));
-  }
-  if (!inside) return least;
-  const double height = dot(n, p - t[0]);
-  return std::min(least, height * height / dot(n, n));
-}
 
 class ClosestSearch {
  public:
