@@ -26,6 +26,7 @@ Examples:
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
   strake clash diff monday.json tuesday.json
   strake draw ship.glb --view iso --hidden dashed -o ship.svg
+  strake draw diff monday.json tuesday.json -o changes.svg
   strake generate ship --objects 20000 --seed 1 -o ship.glb --truth ship.truth.json
 
 'strake VERB --help' tells the options of a verb.
@@ -103,8 +104,12 @@ int run(int argc, char** argv) {
   CommonOptions common;
   const Verb clash = add_clash(program, common);
   // A verb within a verb goes first: both count as parsed.
-  const std::vector<Verb> verbs{add_clash_diff(*clash.command, common), clash,
-                                add_info(program, common), add_draw(program, common),
+  const Verb draw = add_draw(program, common);
+  const std::vector<Verb> verbs{add_clash_diff(*clash.command, common),
+                                clash,
+                                add_draw_diff(*draw.command, common),
+                                draw,
+                                add_info(program, common),
                                 add_generate(program, common)};
   try {
     program.parse(argc, argv);

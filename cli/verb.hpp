@@ -21,6 +21,8 @@ struct Verb {
 /// `clash` is the command of add_clash().
 [[nodiscard]] Verb add_clash_diff(CLI::App& clash, CommonOptions& common);
 [[nodiscard]] Verb add_draw(CLI::App& program, CommonOptions& common);
+/// `draw` is the command of add_draw().
+[[nodiscard]] Verb add_draw_diff(CLI::App& draw, CommonOptions& common);
 [[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
 
 }  // namespace strake::cli

@@ -8,13 +8,13 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
 #include "report/document_check.hpp"
 #include "report/document_entries.hpp"
 #include "report/document_fault.hpp"
+#include "report/document_file.hpp"
 #include "report/document_tests.hpp"
 #include "report/json_reader.hpp"
 #include "report/schema_version.hpp"
@@ -223,45 +223,22 @@ class Reader {
   bool has_version_ = false, has_results_ = false, has_hash_ = false;
 };
 
-Error unreadable(const std::string& file, const JsonReader::Fault& fault) {
-  const bool cut = fault.what == JsonReader::Fault::What::cut;
-  return {ErrorCode::input, cut ? "the file ends too soon" : "this is no JSON",
-          file + ":" + std::to_string(fault.line),
-          cut ? "it was cut off: run the test again or copy the file anew"
-              : "give a file that 'strake clash -o FILE.json' wrote"};
-}
-
-Error no_document(const std::string& file, const DocumentFault& fault) {
-  return {ErrorCode::input, fault.where + " " + fault.what, file,
-          fault.edited ? "it was cut short or edited: run the test again or copy the file anew"
-                       : "give a file that 'strake clash -o FILE.json' of this version wrote"};
-}
+constexpr DocumentKind kClashResult{"strake clash -o FILE.json", "run the test again"};
 
 }  // namespace
 
 Result<ClashDocument> parse_clash_document(std::istream& in, const std::string& name) {
   ClashDocument document;
   document.name = name;
-  try {
-    Reader(in, document).read();
-  } catch (const DocumentFault& fault) {
-    return no_document(name, fault);
-  } catch (const JsonReader::Fault& fault) {
-    if (fault.what == JsonReader::Fault::What::deep)
-      return no_document(name, {"the document", "is nested too deeply"});
-    return unreadable(name, fault);
-  }
+  const Status status = read_guarded(name, kClashResult, [&] { Reader(in, document).read(); });
+  if (!status) return status.error();
   return document;
 }
 
 Result<ClashDocument> read_clash_document(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    return Error{ErrorCode::input, "is a folder", name, "name a file in it"};
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return Error{ErrorCode::input, "cannot be opened", name, "does it exist?"};
-  return parse_clash_document(in, name);
+  Result<std::ifstream> in = open_document(file);
+  if (!in) return in.error();
+  return parse_clash_document(*in, file.string());
 }
 
 }  // namespace strake::report

@@ -9,6 +9,7 @@
 #include "support/rules_seeds.hpp"
 #include "support/rvm_writer.hpp"
 #include "support/sheet_seeds.hpp"
+#include "support/view_documents.hpp"
 
 namespace {
 
@@ -47,5 +48,6 @@ int main(int argc, char** argv) {
   write("rules", strake::test::rules_seeds());
   write("sheets", strake::test::sheet_seeds());
   write("clash_document", strake::test::clash_document_seeds());
+  write("view_document", strake::test::view_document_seeds());
   return 0;
 }

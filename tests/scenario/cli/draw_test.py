@@ -46,6 +46,8 @@ class Draw(Scenario):
         whole = pieces()
         self.assertEqual(whole, pieces('--solver', 'brute-force'))
         self.assertEqual(whole, pieces('--culling', 'off'))
+        for threads in (1, 3):
+            self.assertEqual(whole, pieces('--global', 'push', '--threads', threads))
         self.assertEqual(pieces('--view', 'front'), pieces('--direction', '0,-7,0'))
         one = pieces('--select', 'a0')
         self.assertLess(len(one), len(whole))

@@ -88,6 +88,17 @@ class Schemas(unittest.TestCase):
         self.assertGreater(odd['skipped'], 0)
         self.assertEqual(odd['files'][0]['inverted'], 1)
 
+    def test_view_diff(self):
+        for name, at in (('old', 0), ('new', 30)):
+            (self.folder / 'pair.obj').write_text(cube('a', 0, (0, 0, 0), 100) + cube('b', 1, (50, 50, 50 + at), 100),
+                                                  encoding='utf-8')
+            self.run_strake('draw', 'pair.obj', '-o', f'{name}.json')
+        diff = self.follows(self.run_strake('draw', 'diff', 'old.json', 'new.json', '--json'), 'view-diff')
+        self.assertGreater(diff['counts']['new']['lines'], 0)
+        self.assertTrue(any('other' in line for line in diff['lines']))
+        self.assertTrue(any('was' in line for line in diff['lines']))
+        self.follows(self.run_strake('draw', 'diff', 'old.json', 'old.json', '--json'), 'view-diff')
+
     def test_truth(self):
         truth = self.follows((self.folder / 'truth.json').read_text(encoding='utf-8'), 'truth')
         self.assertEqual(truth['generator']['seed'], 7)

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/report/view_diff.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "report/view_places.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/draw.hpp"
+#include "support/view_documents.hpp"
+
+namespace strake::report {
+namespace {
+
+using drawing::LineState;
+using hlr::EdgeKind;
+
+std::uint64_t lines(const ViewDiff& diff, LineChange change) {
+  return diff.total.at(static_cast<std::size_t>(change)).lines;
+}
+double length(const ViewDiff& diff, LineChange change) {
+  return diff.total.at(static_cast<std::size_t>(change)).length_mm;
+}
+
+ViewDiff compared(const ViewDocument& before, const ViewDocument& after,
+                  const ViewDiffOptions& options = {}, const parallel::Context& context = {}) {
+  auto diff = compare(before, after, options, context);
+  EXPECT_TRUE(diff) << diff.error().text();
+  return diff ? std::move(*diff) : ViewDiff{};
+}
+
+model::Model crowd(double moved) {
+  test::ClashModel m;
+  test::Draw draw(3);
+  for (int i = 0; i < 12; ++i) {
+    const geometry::Vec3d lo{draw.between(0, 300), draw.between(0, 300), draw.between(0, 300)};
+    const geometry::Vec3d size{draw.between(20, 90), draw.between(20, 90), draw.between(20, 90)};
+    m.box("box" + std::to_string(i), lo, lo + size);
+  }
+  m.model.bodies[5].placement.translation = {moved, 0, 0};
+  return std::move(m.model);
+}
+
+/// A document of lines made by hand, of two objects.
+ViewDocument drawn(std::vector<ViewPiece> pieces) {
+  ViewDocument document;
+  document.name = "hand.json";
+  document.width_mm = 420;
+  document.height_mm = 297;
+  document.objects = {{"a", "A", "f"}, {"b", "B", "f"}};
+  document.pieces = std::move(pieces);
+  return document;
+}
+
+ViewPiece line(const geometry::Vec3l& a, const geometry::Vec3l& b, std::uint32_t object = 0,
+               LineState state = LineState::visible, EdgeKind kind = EdgeKind::sharp) {
+  return {a, b, {}, {}, object, object, kind, state};
+}
+
+TEST(ViewDiff, ADrawingIsTheSameAsItself) {
+  const ViewDocument document = test::view_document(test::view_json(crowd(0)));
+  const ViewDiff diff = compared(document, document);
+  EXPECT_EQ(lines(diff, LineChange::same), document.pieces.size());
+  EXPECT_FALSE(diff.differs(false));
+  EXPECT_TRUE(diff.by_object.empty());
+  EXPECT_TRUE(diff.settings.empty());
+}
+
+TEST(ViewDiff, ScaleAndPlaceOnPaperChangeNoLine) {
+  test::Drawn how;
+  const ViewDocument before = test::view_document(test::view_json(crowd(0), how));
+  how.layout.scale = 20;
+  const ViewDocument after = test::view_document(test::view_json(crowd(0), how));
+  EXPECT_FALSE(compared(before, after).differs(false));
+}
+
+TEST(ViewDiff, OfABoxThatMovedTheObjectIsTold) {
+  const ViewDocument before = test::view_document(test::view_json(crowd(0)));
+  const ViewDocument after = test::view_document(test::view_json(crowd(11)));
+  const ViewDiff diff = compared(before, after);
+  ASSERT_FALSE(diff.by_object.empty());
+  bool told = false;
+  for (const auto& [object, counts] : diff.by_object)
+    told = told || diff.objects[object]->id == "box5";
+  EXPECT_TRUE(told);
+  EXPECT_TRUE(diff.differs(true));
+  // What is gone and new of it is all of its edges but what still lies along x.
+  EXPECT_GT(lines(diff, LineChange::gone), 8U);
+  const ViewDiff back = compared(after, before);
+  EXPECT_NEAR(length(diff, LineChange::gone), length(back, LineChange::added), 0.1);
+  EXPECT_NEAR(length(diff, LineChange::added), length(back, LineChange::gone), 0.1);
+  EXPECT_NEAR(length(diff, LineChange::changed), length(back, LineChange::changed), 0.1);
+}
+
+TEST(ViewDiff, StageTurnsHiddenLinesIntoVisibleOnes) {
+  test::Drawn how;
+  how.layout.remove_duplicates = false;
+  const ViewDocument before = test::view_document(test::view_json(crowd(0), how));
+  how.options.stage = hlr::Stage::none;
+  const ViewDocument after = test::view_document(test::view_json(crowd(0), how));
+  const ViewDiff diff = compared(before, after);
+  EXPECT_EQ(lines(diff, LineChange::added), 0U);
+  EXPECT_EQ(lines(diff, LineChange::gone), 0U);
+  for (const LineStretch& s : diff.stretches) {
+    if (s.change != LineChange::changed) continue;
+    EXPECT_NE(s.was.state, LineState::visible);
+    EXPECT_EQ(diff.piece(s).state, LineState::visible);
+  }
+  ASSERT_EQ(diff.settings.size(), 1U);
+  EXPECT_EQ(diff.settings[0].setting, "settings.stage");
+}
+
+TEST(ViewDiff, ALineCutInTwoIsTheSameLine) {
+  // The cut is off the line by what rounding to the grid makes.
+  const ViewDocument whole = drawn({line({0, 0, 0}, {100'000, 70'001, 30'007})});
+  const ViewDocument cut = drawn({line({0, 0, 0}, {33'333, 23'334, 10'002}),
+                                  line({33'333, 23'334, 10'002}, {100'000, 70'001, 30'007})});
+  EXPECT_FALSE(compared(whole, cut).differs(false));
+  EXPECT_FALSE(compared(cut, whole).differs(false));
+  // The other way round, and overlapping.
+  const ViewDocument turned = drawn({line({100'000, 70'001, 30'007}, {33'333, 23'334, 10'002}),
+                                     line({0, 0, 0}, {50'000, 35'000, 15'004})});
+  EXPECT_FALSE(compared(whole, turned).differs(false));
+}
+
+TEST(ViewDiff, TheGapOfACutLineIsGone) {
+  const ViewDocument whole = drawn({line({0, 0, 0}, {100'000, 0, 0})});
+  const ViewDocument gap =
+      drawn({line({0, 0, 0}, {40'000, 0, 0}), line({60'000, 0, 0}, {100'000, 0, 0})});
+  const ViewDiff diff = compared(whole, gap);
+  EXPECT_EQ(lines(diff, LineChange::gone), 1U);
+  EXPECT_NEAR(length(diff, LineChange::gone), 20, 1e-4);
+  EXPECT_EQ(lines(diff, LineChange::added), 0U);
+  EXPECT_EQ(lines(diff, LineChange::same), 2U);
+  EXPECT_NEAR(length(compared(gap, whole), LineChange::added), 20, 1e-4);
+}
+
+TEST(ViewDiff, AnotherStateKindOrObjectIsAChange) {
+  const geometry::Vec3l a{0, 0, 0}, b{50'000, 0, 0}, c{100'000, 0, 0};
+  const ViewDocument before = drawn({line(a, c)});
+  for (const ViewPiece& half : {line(b, c, 0, LineState::hidden_by_other), line(b, c, 1),
+                                line(b, c, 0, LineState::visible, EdgeKind::contour)}) {
+    const ViewDiff diff = compared(before, drawn({line(a, b), half}));
+    EXPECT_EQ(lines(diff, LineChange::changed), 1U);
+    EXPECT_NEAR(length(diff, LineChange::changed), 50, 1e-4);
+    EXPECT_EQ(lines(diff, LineChange::gone) + lines(diff, LineChange::added), 0U);
+  }
+}
+
+TEST(ViewDiff, OfTwoLinesAtOnePlaceTheOneThatWentIsGone) {
+  const geometry::Vec3l a{0, 0, 0}, c{100'000, 0, 0};
+  const ViewDocument two = drawn({line(a, c), line(a, c, 1, LineState::duplicate)});
+  const ViewDiff diff = compared(two, drawn({line(a, c)}));
+  EXPECT_EQ(lines(diff, LineChange::gone), 1U);
+  EXPECT_EQ(lines(diff, LineChange::changed), 0U);
+  EXPECT_EQ(lines(diff, LineChange::same), 1U);
+  EXPECT_FALSE(diff.differs(true));
+}
+
+TEST(ViewDiff, LinesThatCrossOrRunBesideEachOtherAreNotOne) {
+  const ViewDocument before = drawn({line({0, 0, 0}, {100'000, 0, 0})});
+  for (const ViewPiece& other :
+       {line({50'000, -50'000, 0}, {50'000, 50'000, 0}), line({0, 3, 0}, {100'000, 3, 0}),
+        line({0, 0, 0}, {100'000, 40, 0}), line({100'000, 0, 0}, {200'000, 0, 0})}) {
+    const ViewDiff diff = compared(before, drawn({other}));
+    EXPECT_EQ(lines(diff, LineChange::gone), 1U);
+    EXPECT_EQ(lines(diff, LineChange::added), 1U);
+  }
+  // Within the tolerance they are.
+  const ViewDocument beside = drawn({line({0, 3, 0}, {100'000, 3, 0})});
+  EXPECT_FALSE(compared(before, beside, {.tolerance_mm = 0.01}).differs(false));
+}
+
+TEST(ViewDiff, PointsAreCompared) {
+  const ViewDocument point = drawn({line({5, 5, 5}, {5, 5, 5})});
+  EXPECT_FALSE(compared(point, point).differs(false));
+  EXPECT_FALSE(compared(point, drawn({line({5, 5, 5}, {5, 6, 5})})).differs(false));
+  EXPECT_EQ(lines(compared(point, drawn({})), LineChange::gone), 1U);
+  EXPECT_EQ(lines(compared(point, drawn({line({50, 5, 5}, {50, 5, 5})})), LineChange::added), 1U);
+}
+
+// However the lines of a drawing are cut anew, nothing changed; and what is taken away is gone.
+TEST(ViewDiff, RandomCutsChangeNothing) {
+  const ViewDocument before = test::view_document(test::view_json(crowd(0)));
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    test::Draw draw(seed);
+    ViewDocument cut = before;
+    cut.pieces.clear();
+    double taken = 0;
+    for (const ViewPiece& piece : before.pieces) {
+      const geometry::Vec3d along = (piece.b - piece.a).as<double>();
+      const double t = draw.between(0.3, 0.7);
+      const geometry::Vec3d offset = along * t;
+      const geometry::Vec3l at{piece.a.x + std::llround(offset.x),
+                               piece.a.y + std::llround(offset.y),
+                               piece.a.z + std::llround(offset.z)};
+      ViewPiece first = piece, second = piece;
+      first.b = at;
+      second.a = at;
+      if (draw.one_in(2)) std::swap(second.a, second.b);
+      cut.pieces.push_back(first);
+      if (seed % 2 == 0 || !draw.one_in(30) || piece.state == LineState::projecting)
+        cut.pieces.push_back(second);
+      else
+        taken += std::sqrt(dot(along, along)) * (1 - t) / 1000;
+    }
+    const ViewDiff diff = compared(before, cut);
+    EXPECT_NEAR(length(diff, LineChange::gone), taken, 0.05 + taken * 1e-6) << seed;
+    EXPECT_EQ(lines(diff, LineChange::added) + lines(diff, LineChange::changed), 0U) << seed;
+  }
+}
+
+TEST(ViewDiff, IsTheSameForAnyNumberOfThreads) {
+  const ViewDocument before = test::view_document(test::view_json(crowd(0)), "a.json");
+  const ViewDocument after = test::view_document(test::view_json(crowd(11)), "b.json");
+  const auto texts = [&](unsigned threads) {
+    parallel::Team team(threads);
+    const ViewDiff diff = compared(before, after, {}, {.team = &team});
+    std::string all = view_diff_table(diff, {});
+    write_view_diff_json(diff, [&](std::string_view piece) { all += piece; });
+    write_view_diff_svg(diff, [&](std::string_view piece) { all += piece; });
+    return all;
+  };
+  const std::string one = texts(1);
+  for (const unsigned threads : {2U, 3U, 8U}) EXPECT_EQ(texts(threads), one) << threads;
+}
+
+TEST(ViewDiff, JsonListsWhatChanged) {
+  const ViewDocument before = test::view_document(test::view_json(crowd(0)));
+  const ViewDocument after = test::view_document(test::view_json(crowd(11)));
+  const ViewDiff diff = compared(before, after);
+  std::string text;
+  write_view_diff_json(diff, [&](std::string_view piece) { text += piece; });
+  const auto json = nlohmann::json::parse(text);
+  std::uint64_t listed = 0;
+  for (const char* const change : {"new", "gone", "changed"})
+    listed += json["counts"][change]["lines"].get<std::uint64_t>();
+  EXPECT_EQ(json["lines"].size(), listed);
+  EXPECT_EQ(json["objects"].size(), diff.by_object.size());
+}
+
+TEST(ViewDiff, DrawingsFromDifferentSidesAreRefused) {
+  test::Drawn how;
+  const ViewDocument before = test::view_document(test::view_json(crowd(0), how));
+  how.view.direction = {1, -2, 1};
+  const ViewDocument after = test::view_document(test::view_json(crowd(0), how));
+  const auto diff = compare(before, after, {}, {});
+  ASSERT_FALSE(diff);
+  EXPECT_EQ(diff.error().code, ErrorCode::input);
+  EXPECT_NE(diff.error().text().find("view.direction"), std::string::npos);
+  for (const double tolerance : {-1.0, std::nan(""), 1e300})
+    EXPECT_EQ(compare(before, before, {.tolerance_mm = tolerance}, {}).error().code,
+              ErrorCode::usage);
+}
+
+TEST(ViewDocument, WhatContradictsItselfIsRefused) {
+  const std::string sound = test::view_document_seeds()[0].bytes;
+  const auto error_of = [](const std::string& text) {
+    std::istringstream in(text);
+    const auto document = parse_view_document(in, "x.json");
+    return document ? std::string() : document.error().text();
+  };
+  const auto with = [&](const std::string& what, const std::string& by) {
+    std::string text = sound;
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return text.replace(at, what.size(), by);
+  };
+  EXPECT_EQ(error_of(sound), "");
+  for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
+           {"", "ends too soon"},
+           {"{}", "is no drawing"},
+           {"[1,2]", "is no drawing"},
+           {"<svg/>", "no JSON"},
+           {sound.substr(0, sound.size() / 2), "ends too soon"},
+           {with("\"schema_version\":1", "\"schema_version\":7"), "version 7"},
+           {with("\"a_mm\":[", "\"a_mm\":[1e300,"), "\"a_mm\" is no point"},
+           {with("\"a_mm\":[", "\"a_mm\":[NaN,"), "no JSON"},
+           {with("\"a_mm\":[", "\"a_mm\":[0,"), "\"a_mm\" is no point"},
+           {with("\"object_index\":0", "\"object_index\":7000"), "is of object 7000"},
+           {with("\"object_index\":0", "\"object_index\":-1"), "number of an object"},
+           {with("\"kind\":\"sharp\"", "\"kind\":\"wavy\""), "kind of line"},
+           {with("\"state\":\"visible\"", "\"state\":\"maybe\""), "is no state"},
+           {with("\"state\":\"visible\"", "\"state\":\"clipped\""), "counts"},
+           {with("\"id\":\"b\"", "\"id\":\"a\""), "twice"},
+           {with("\"scale\":", "\"scale\":-"), "positive"},
+           {with("\"hash\"", "\"hush\""), "has no \"hash\""}}) {
+    EXPECT_NE(error_of(text).find(words), std::string::npos) << words << ": " << error_of(text);
+    EXPECT_NE(error_of(text).find("x.json"), std::string::npos) << error_of(text);
+  }
+}
+
+}  // namespace
+}  // namespace strake::report
