@@ -4,10 +4,13 @@
 // rays through random points of the pieces; a wrong one ends with an error instead of a time.
 //
 //     bench_hidden_lines [--threads N] [--direction x,y,z] [--angle DEG] [--rays N] [--repeat N]
-//                        [--no-culling] [--sag MM] FILE...
+//                        [--no-culling] [--global gather|push|both] [--sag MM] FILE...
+//
+// --global both draws by the baseline as well and compares the pieces.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -36,6 +39,7 @@ struct Arguments {
   unsigned threads = 1;
   std::uint64_t rays = 1000;
   int repeat = 3;
+  bool both = false;  ///< the baseline after the engine
 };
 
 Arguments parse(int argc, char** argv) {
@@ -55,7 +59,11 @@ Arguments parse(int argc, char** argv) {
       a.scene.sag_mm = std::atof(value());
     else if (key == "--no-culling")
       a.options.culling = false;
-    else if (key == "--direction")
+    else if (key == "--global") {
+      const std::string how = value();
+      if (how == "push") a.options.solver = hlr::Solver::push;
+      a.both = how == "both";
+    } else if (key == "--direction")
       std::sscanf(value(), "%ld,%ld,%ld", &a.view.direction.x, &a.view.direction.y,
                   &a.view.direction.z);
     else
@@ -104,6 +112,26 @@ void report(const hlr::Drawing& drawing) {
              drawing.contact_distance_mm);
 }
 
+bool same(const hlr::Piece& p, const hlr::Piece& q) {
+  return p.object == q.object && p.edge == q.edge && p.kind == q.kind && p.state == q.state &&
+         p.other == q.other && p.a == q.a && p.b == q.b;
+}
+
+/// Draws by the baseline, says how long that took, and whether the pieces are the same.
+bool baseline_agrees(const model::Scene& scene, const Arguments& a,
+                     const parallel::Context& context, const hlr::Drawing& expected) {
+  hlr::Options options = a.options;
+  options.solver = hlr::Solver::push;
+  const Clock clock;
+  const auto drawing = hlr::draw(scene, {}, a.view, options, context);
+  if (!drawing) return fmt::print(stderr, "{}\n", drawing.error().text()), false;
+  const bool equal = std::equal(expected.pieces.begin(), expected.pieces.end(),
+                                drawing->pieces.begin(), drawing->pieces.end(), same);
+  fmt::print("push   {}, {} face tests, pieces {}\n", clock.text(), drawing->counters.face_tests,
+             equal ? "the same" : "DIFFERENT");
+  return equal;
+}
+
 int run(const Arguments& a) {
   parallel::Team team(a.threads);
   const parallel::Context context{.team = a.threads > 1 ? &team : nullptr};
@@ -131,6 +159,7 @@ int run(const Arguments& a) {
     fmt::print("  {} exact rays: {} wrong; {} pieces too short to ask\n", check.rays, check.wrong,
                check.too_short);
     if (check.wrong > 0) return fmt::print(stderr, "{}\n", check.first_wrong), 5;
+    if (a.both && !baseline_agrees(*scene, a, context, *drawing)) return 5;
   }
   return 0;
 }

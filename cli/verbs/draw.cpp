@@ -32,7 +32,8 @@ struct DrawOptions {
   SceneInput scene;
   std::string sheet;
   std::string view, direction, up, limits, scale, title;
-  std::string stage, solver, culling, hidden, intersections, sharp_angle, contact_distance;
+  std::string stage, solver, global, culling, hidden, intersections, smooth, sharp_angle,
+      contact_distance;
   std::vector<std::string> select, outputs, sections, hatches;
 };
 
@@ -115,9 +116,11 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
   if (given.stage == "none") options.stage = hlr::Stage::none;
   if (given.stage == "local") options.stage = hlr::Stage::local;
   if (given.solver == "brute-force") options.solver = hlr::Solver::brute_force;
+  if (given.global == "push") options.solver = hlr::Solver::push;
   options.culling = given.culling != "off";
   if (given.intersections == "off") options.intersections = hlr::Intersections::off;
   if (given.intersections == "parts") options.intersections = hlr::Intersections::parts;
+  options.smooth = given.smooth == "on";
   if (!given.sharp_angle.empty()) {
     const Result<double> angle = quantity(given.sharp_angle, "--sharp-angle", parse_angle_deg);
     if (!angle) return angle.error();
@@ -336,6 +339,9 @@ void add_lines(CLI::App& command, DrawOptions& options) {
              "Lines where bodies pass through each other: none, those of different objects, or of "
              "all parts (default objects)")
       ->group("Lines");
+  add_choice(command, "--smooth", options.smooth, {"on", "off"},
+             "Edges where faces turn by less than the sharp angle, as thin lines (default off)")
+      ->group("Lines");
   command
       .add_option("--sharp-angle", options.sharp_angle,
                   "An edge is drawn where its faces turn by more than this (default 20deg)")
@@ -359,7 +365,8 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
           ->group("Output");
   for (const char* const other :
        {"--view", "--direction", "--up", "--limits", "--section", "--hatch", "--select", "--hidden",
-        "--stage", "--intersections", "--sharp-angle", "--contact-distance", "--scale", "--title"})
+        "--stage", "--intersections", "--smooth", "--sharp-angle", "--contact-distance", "--scale",
+        "--title"})
     sheet->excludes(other);
 }
 
@@ -376,6 +383,13 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   add_lines(*command, *options);
   add_choice(*command, "--solver", options->solver, {"gather", "brute-force"},
              "How lines are hidden; the result is the same (default gather)")
+      ->group("Running");
+  add_choice(
+      *command, "--global", options->global, {"gather", "push"},
+      "How objects hide each other: each edge gathers what hides it, or each object "
+      "publishes what it hides, the baseline that benchmarks compare with; the result is the "
+      "same (default gather)")
+      ->excludes("--solver")
       ->group("Running");
   add_choice(*command, "--culling", options->culling, {"on", "off"},
              "Leave out the work that cannot change the result (default on)")

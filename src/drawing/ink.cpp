@@ -61,15 +61,16 @@ class Density {
 
 double width_of(const Line& line, const Pens& pens) {
   if (line.state != LineState::visible || line.kind == hlr::EdgeKind::polyline ||
-      line.kind == hlr::EdgeKind::hatch)
+      line.kind == hlr::EdgeKind::hatch || line.kind == hlr::EdgeKind::smooth)
     return pens.thin;
   if (line.kind == hlr::EdgeKind::section) return pens.section;
   return line.kind == hlr::EdgeKind::contour ? pens.outline : pens.edge;
 }
 
-/// Dashed hatching would say that a hidden face is cut.
+/// Dashed hatching would say that a hidden face is cut, and a smooth edge is worth a hint only.
 bool may_be_dashed(const Line& line) {
-  return is_hidden(line.state) && line.kind != hlr::EdgeKind::hatch;
+  return is_hidden(line.state) && line.kind != hlr::EdgeKind::hatch &&
+         line.kind != hlr::EdgeKind::smooth;
 }
 
 std::vector<Flat> flatten(const std::vector<Line>& lines, const PaperAxes& axes, const Pens& pens) {

@@ -17,7 +17,7 @@ struct Layer {
 };
 
 // Later layers are drawn over earlier ones: outlines last, of all those of cuts.
-inline constexpr std::array<Layer, 15> kLayers = {{
+inline constexpr std::array<Layer, 16> kLayers = {{
     {true, hlr::EdgeKind::polyline, "Hidden polylines"},
     {true, hlr::EdgeKind::boundary, "Hidden boundary"},
     {true, hlr::EdgeKind::non_manifold, "Hidden non-manifold"},
@@ -26,6 +26,7 @@ inline constexpr std::array<Layer, 15> kLayers = {{
     {true, hlr::EdgeKind::contour, "Hidden outline"},
     {true, hlr::EdgeKind::section, "Hidden section"},
     {false, hlr::EdgeKind::hatch, "Hatch"},
+    {false, hlr::EdgeKind::smooth, "Visible smooth"},
     {false, hlr::EdgeKind::polyline, "Visible polylines"},
     {false, hlr::EdgeKind::boundary, "Visible boundary"},
     {false, hlr::EdgeKind::non_manifold, "Visible non-manifold"},

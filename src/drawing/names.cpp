@@ -55,6 +55,8 @@ std::string_view kind_name(hlr::EdgeKind kind) {
       return "section";
     case hlr::EdgeKind::hatch:
       return "hatch";
+    case hlr::EdgeKind::smooth:
+      return "smooth";
   }
   return "";
 }

@@ -15,7 +15,8 @@ namespace strake::drawing {
 
 namespace {
 
-void write_style(Chunked& out, const Pens& pens, bool sections) {
+void write_style(Chunked& out, const Ink& ink, bool sections) {
+  const Pens& pens = ink.pens;
   // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
   out << fmt::format(
       "<style>\n"
@@ -37,6 +38,9 @@ void write_style(Chunked& out, const Pens& pens, bool sections) {
         ".visible.section path {{ stroke-width: {}; }}\n"
         ".visible.hatch path {{ stroke-width: {}; }}\n",
         pens.section, pens.thin);
+  const bool smooth = std::ranges::any_of(
+      ink.lines, [](const Line& line) { return line.kind == hlr::EdgeKind::smooth; });
+  if (smooth) out << fmt::format(".visible.smooth path {{ stroke-width: {}; }}\n", pens.thin);
   out << "</style>\n";
 }
 
@@ -84,7 +88,7 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
                Sink sink) {
   Chunked out(sink);
   write_head(out, drawing, ink);
-  write_style(out, ink.pens, !drawing.view.sections.empty());
+  write_style(out, ink, !drawing.view.sections.empty());
   out << fmt::format("<rect class=\"sheet\" width=\"{}\" height=\"{}\"/>\n",
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)

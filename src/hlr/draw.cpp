@@ -6,19 +6,35 @@
 #include "strake/hlr/hlr.hpp"
 
 namespace strake::hlr {
+namespace {
+
+Status solve(const Job& job, const parallel::Context& context, Drawing& drawing) {
+  switch (job.options.solver) {
+    case Solver::brute_force:
+      return solve_brute_force(job, context, drawing);
+    case Solver::push:
+      return solve_push(job, context, drawing);
+    case Solver::gather:
+      break;
+  }
+  return solve_gather(job, context, drawing);
+}
+
+}  // namespace
+
 Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, const View& view,
                      const Options& options, const parallel::Context& context) {
-  const Result<Job> job = prepare(scene, drawn, view, options, context);
+  Options asked = options;
+  // The baseline knows no culling.
+  if (options.solver == Solver::push) asked.culling = false;
+  const Result<Job> job = prepare(scene, drawn, view, asked, context);
   if (!job) return job.error();
   Drawing drawing;
   drawing.view = view;
   drawing.options = options;
   drawing.contact_distance_mm = job->contact_distance_mm;
   drawing.diagnostics = job->diagnostics;
-  const Status status = options.solver == Solver::brute_force
-                            ? solve_brute_force(*job, context, drawing)
-                            : solve_gather(*job, context, drawing);
-  if (!status) return status.error();
+  if (const Status status = solve(*job, context, drawing); !status) return status.error();
   Result<Account> account = account_of(*job->scene, job->drawn, drawing.pieces, context);
   if (!account) return account.error();
   drawing.account = std::move(*account);

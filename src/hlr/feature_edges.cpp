@@ -100,6 +100,22 @@ Faces faces_of(const Part& part) {
   return result;
 }
 
+// Whether two triangles lie in one plane but for what rounding to the grid bends: each corner is
+// off by half a unit along each axis, so the third corner of `t` by no more than two from the plane
+// of `s`, unless that is a sliver.
+bool bends(const Part& part, const geometry::PartEdge& e, std::uint32_t s, std::uint32_t t) {
+  const NormalVector n = triangle_normal(part, s);
+  const Vec3l from = part.vertices[e.v0].as<std::int64_t>();
+  for (const std::uint32_t v : part.triangles[t]) {
+    if (v == e.v0 || v == e.v1) continue;
+    Int128 off = along(n, part.vertices[v].as<std::int64_t>() - from), size = 0;
+    for (const Int128 component : n) size += component < 0 ? -component : component;
+    if (off < 0) off = -off;
+    if (off > 2 * size) return true;
+  }
+  return false;
+}
+
 std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Faces& faces,
                                 const FeatureOptions& options) {
   const geometry::PartEdge& e = part.edges[edge];
@@ -126,6 +142,9 @@ std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Face
   // face exactly one line is the contour.
   const bool front_m = along(m, options.direction) > 0, front_n = along(n, options.direction) > 0;
   if (front_m != front_n) return EdgeKind::contour;
+  // Between two facets of a curved side there is no edge at all.
+  if (options.smooth && !smooth && (bends(part, e, s, t) || bends(part, e, t, s)))
+    return EdgeKind::smooth;
   return std::nullopt;
 }
 

@@ -34,6 +34,7 @@ inline constexpr std::uint32_t kNoPartEdge = 0xffffffffU;
 struct FeatureOptions {
   geometry::Vec3l direction;
   double cos_sharp = 0;  ///< an edge is sharp when the cosine between its faces is below this
+  bool smooth = false;   ///< take the others, too
 };
 
 /// The cosine of an angle in [0, 180] degrees from additions and multiplications alone, the same

@@ -9,7 +9,7 @@
 #include "hlr/asked_edge.hpp"
 #include "hlr/gatherer.hpp"
 #include "hlr/job.hpp"
-#include "hlr/stretches.hpp"
+#include "hlr/piece_maker.hpp"
 #include "hlr/world.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -20,7 +20,7 @@ namespace {
 /// Draws the edges of items; for one worker.
 class Drawer {
  public:
-  explicit Drawer(const World& world) : world_(world), gatherer_(world) {}
+  explicit Drawer(const World& world) : world_(world), gatherer_(world), maker_(world) {}
 
   Work run(const Item& item, std::vector<Piece>& out) {
     const auto lines = world_.job.lines.of(world_.placed[item.body].object);
@@ -34,37 +34,14 @@ class Drawer {
  private:
   void draw(const AskedEdge& edge, std::uint32_t number, std::vector<Piece>& out) {
     ++gatherer_.work.edges;
-    stretches_.clear();
-    Param lo = Param::zero(), hi = Param::one();
-    const bool limited = edge.own->cut || edge.other->cut;
-    if (edge.cut_away || (limited && !edge.clip(*world_.job.limits, lo, hi)))
-      stretches_.push_back({Param::zero(), Param::one(), State::clipped});
-    else if (edge.projecting)
-      stretches_.push_back({Param::zero(), Param::one(), State::projecting});
-    else
-      decide(edge, lo, hi);
-    const geometry::Vec3l& origin = world_.job.origin;
-    for (const Stretch& s : stretches_)
-      out.push_back({model::ObjectId{edge.own->object}, number, edge.kind, s.state,
-                     model::ObjectId{edge.other->object}, edge.at(s.lo, origin),
-                     edge.at(s.hi, origin)});
-  }
-
-  void decide(const AskedEdge& edge, const Param& lo, const Param& hi) {
-    const std::span<const Hit> hits = gatherer_.hits(edge, lo, hi);
-    if (lo.num > 0) stretches_.push_back({Param::zero(), lo, State::clipped});
-    if (hits.empty())
-      stretches_.push_back({lo, hi, State::visible});
-    else
-      maker_.run(hits, lo, hi, stretches_);
-    if (hi.num < hi.den) stretches_.push_back({hi, Param::one(), State::clipped});
+    std::span<const Hit> hits;
+    if (maker_.begin(edge)) hits = gatherer_.hits(edge, maker_.lo(), maker_.hi());
+    maker_.finish(number, hits, out);
   }
 
   const World& world_;
   Gatherer gatherer_;
-  // Scratch that keeps its memory from edge to edge.
-  std::vector<Stretch> stretches_;
-  StretchMaker maker_;
+  PieceMaker maker_;
 };
 
 /// What a body's own faces hide of some of its edges.
@@ -75,13 +52,6 @@ void run_on_itself(const World& world, Gatherer& gatherer, const Item& item, Own
     const auto hits = gatherer.hits_of_own_body(AskedEdge(world, item.body, edges[i]));
     out.hits.insert(out.hits.end(), hits.begin(), hits.end());
   }
-}
-
-void add(Counters& counters, const Work& work) {
-  counters.feature_edges += work.edges;
-  counters.covered_edges += work.covered;
-  counters.face_tests += work.tests;
-  counters.exact_fallbacks += work.wide_tests;
 }
 
 /// Works out once what the faces of shared shapes hide of their own edges.

@@ -16,14 +16,36 @@ constexpr std::int64_t kFine = std::int64_t{1} << 30;
 
 }  // namespace
 
+void add(Counters& counters, const Work& work) {
+  counters.feature_edges += work.edges;
+  counters.covered_edges += work.covered;
+  counters.face_tests += work.tests;
+  counters.exact_fallbacks += work.wide_tests;
+}
+
 std::span<const Hit> Gatherer::hits(const AskedEdge& edge, const Param& lo, const Param& hi) {
-  edge_ = edge;
-  hits_.clear();
-  if (job_.options.stage == Stage::none) return hits_;
-  open_ = OpenRange(lo, hi);
-  if (edge_.kind != EdgeKind::polyline) gather_own_objects();
+  static_cast<void>(own_hits(edge, lo, hi));
   if (!open_.empty() && job_.options.stage == Stage::global) gather_others();
   return hits_;
+}
+
+std::span<const Hit> Gatherer::own_hits(const AskedEdge& edge, const Param& lo, const Param& hi) {
+  begin(edge, lo, hi);
+  if (edge_.kind != EdgeKind::polyline && job_.options.stage != Stage::none) gather_own_objects();
+  return hits_;
+}
+
+std::span<const Hit> Gatherer::hits_of_body(const AskedEdge& edge, std::uint32_t body,
+                                            const Param& lo, const Param& hi) {
+  begin(edge, lo, hi);
+  gather_body(body, false);
+  return hits_;
+}
+
+void Gatherer::begin(const AskedEdge& edge, const Param& lo, const Param& hi) {
+  edge_ = edge;
+  hits_.clear();
+  open_ = OpenRange(lo, hi);
 }
 
 std::span<const Hit> Gatherer::hits_of_own_body(const AskedEdge& edge) {

@@ -18,6 +18,8 @@ struct Work {
   std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0;
 };
 
+void add(Counters& counters, const Work& work);
+
 /// Gathers what hides one edge after another: front to back, until nothing is left to be seen.
 /// For one worker; it keeps its memory from edge to edge.
 class Gatherer {
@@ -29,6 +31,12 @@ class Gatherer {
   /// completely.
   [[nodiscard]] std::span<const Hit> hits(const AskedEdge& edge, const Param& lo, const Param& hi);
 
+  /// Of this what the edge's own object hides, or another body: one of another object.
+  [[nodiscard]] std::span<const Hit> own_hits(const AskedEdge& edge, const Param& lo,
+                                              const Param& hi);
+  [[nodiscard]] std::span<const Hit> hits_of_body(const AskedEdge& edge, std::uint32_t body,
+                                                  const Param& lo, const Param& hi);
+
   /// What a body's own faces hide of an edge of it.
   [[nodiscard]] std::span<const Hit> hits_of_own_body(const AskedEdge& edge);
 
@@ -36,6 +44,7 @@ class Gatherer {
   Work work;
 
  private:
+  void begin(const AskedEdge& edge, const Param& lo, const Param& hi);
   void gather_own_objects();
   void gather_object(std::uint32_t object);
   void gather_others();

@@ -135,7 +135,8 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   job.scene = &scene;
   job.view = view;
   job.options = options;
-  job.features = {reduced(view.direction), cosine_of_degrees(options.sharp_angle_deg)};
+  job.features = {reduced(view.direction), cosine_of_degrees(options.sharp_angle_deg),
+                  options.smooth};
   job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
   fill_bodies(job);
   if (const Status status = place(job); !status) return status.error();

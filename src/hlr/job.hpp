@@ -57,6 +57,9 @@ struct Job {
 [[nodiscard]] Status solve_brute_force(const Job& job, const parallel::Context& context,
                                        Drawing& drawing);
 
+/// The baseline of the benchmarks: objects publish what they hide into those under them.
+[[nodiscard]] Status solve_push(const Job& job, const parallel::Context& context, Drawing& drawing);
+
 /// The engine.
 [[nodiscard]] Status solve_gather(const Job& job, const parallel::Context& context,
                                   Drawing& drawing);

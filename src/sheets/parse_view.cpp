@@ -153,6 +153,8 @@ void ViewReader::content(TableReader& table, ViewWish& view) {
     view.options.intersections = *word == "off"       ? hlr::Intersections::off
                                  : *word == "objects" ? hlr::Intersections::objects
                                                       : hlr::Intersections::parts;
+  constexpr std::array<std::string_view, 2> kSwitch{"off", "on"};
+  if (const auto word = table.word("smooth", kSwitch)) view.options.smooth = *word == "on";
   if (const auto angle =
           table.quantity("sharp_angle", parse_angle_deg, "an angle in quotes, as \"20deg\"")) {
     if (!(*angle >= 0 && *angle <= 180))

@@ -39,6 +39,7 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
       return pens.section;
     case LineClass::hatch:
     case LineClass::polyline:
+    case LineClass::smooth:
     case LineClass::hidden:
       return pens.thin;
     case LineClass::grid:
@@ -60,7 +61,7 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
 
 std::string_view class_name(LineClass line) {
   constexpr std::array<std::string_view, kLineClasses> kNames{
-      "outline", "edge", "boundary",   "intersection", "section", "hatch", "polyline",
+      "outline", "edge", "boundary",   "intersection", "section", "hatch", "polyline",  "smooth",
       "hidden",  "grid", "grid_label", "leader",       "title",   "frame", "frame_thin"};
   return kNames.at(static_cast<std::size_t>(line));
 }
@@ -80,6 +81,8 @@ LineClass class_of(hlr::EdgeKind kind, bool hidden) {
       return LineClass::hatch;
     case hlr::EdgeKind::polyline:
       return LineClass::polyline;
+    case hlr::EdgeKind::smooth:
+      return LineClass::smooth;
     case hlr::EdgeKind::sharp:
     case hlr::EdgeKind::non_manifold:
       break;

@@ -18,7 +18,9 @@
 namespace strake::hlr {
 
 enum class Stage : std::uint8_t { none, local, global };
-enum class Solver : std::uint8_t { gather, brute_force };
+/// How lines are hidden; the pieces are the same. `push` is the scheme of the source thesis, whose
+/// counters of work depend on the schedule.
+enum class Solver : std::uint8_t { gather, brute_force, push };
 
 /// Whose skins' intersections are drawn: those of different objects, or of all parts.
 enum class Intersections : std::uint8_t { off, objects, parts };
@@ -32,6 +34,7 @@ enum class EdgeKind : std::uint8_t {
   intersection,  ///< where the skins of two parts pass through each other
   section,       ///< where a section plane cuts a part
   hatch,         ///< on the face of a cut through a solid
+  smooth,        ///< where two faces turn by no more than the sharp angle, if asked for
 };
 enum class State : std::uint8_t {
   visible,
@@ -68,6 +71,7 @@ struct Options {
   Stage stage = Stage::global;
   Solver solver = Solver::gather;
   double sharp_angle_deg = 20;
+  bool smooth = false;  ///< draw smooth edges
   /// Contact distance δ, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
   Intersections intersections = Intersections::objects;

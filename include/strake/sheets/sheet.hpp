@@ -32,6 +32,7 @@ enum class LineClass : std::uint8_t {
   section,
   hatch,
   polyline,
+  smooth,
   hidden,
   grid,
   grid_label,
@@ -40,7 +41,7 @@ enum class LineClass : std::uint8_t {
   frame,
   frame_thin,
 };
-inline constexpr std::size_t kLineClasses = 14;
+inline constexpr std::size_t kLineClasses = 15;
 
 /// As files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);

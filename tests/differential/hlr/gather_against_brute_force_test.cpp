@@ -7,6 +7,7 @@
 #include <string>
 
 #include "strake/hlr/hlr.hpp"
+#include "strake/parallel/team.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
 
@@ -39,11 +40,17 @@ std::string run(std::uint64_t seed, const Settings& settings) {
   const auto got = hlr::draw(scene.scene(), {}, view, options, {});
   options.culling = false;
   const auto unculled = hlr::draw(scene.scene(), {}, view, options, {});
-  if (!expected || !got || !unculled) return "no drawing";
+  // The baseline, whose workers write into each other's edges.
+  static parallel::Team team(3);
+  options.solver = hlr::Solver::push;
+  const auto pushed = hlr::draw(scene.scene(), {}, view, options, {.team = &team});
+  if (!expected || !got || !unculled || !pushed) return "no drawing";
   const std::string culled = test::difference(expected->pieces, got->pieces);
   if (!culled.empty()) return culled;
   const std::string plain = test::difference(expected->pieces, unculled->pieces);
-  return plain.empty() ? plain : "without culling: " + plain;
+  if (!plain.empty()) return "without culling: " + plain;
+  const std::string baseline = test::difference(expected->pieces, pushed->pieces);
+  return baseline.empty() ? baseline : "pushed: " + baseline;
 }
 
 std::uint64_t count(std::uint64_t usual) {

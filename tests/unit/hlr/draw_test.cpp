@@ -113,6 +113,46 @@ TEST(Draw, ThinPipeShowsNoFacets) {
   EXPECT_EQ(drawn(scene, kIso).counters.feature_edges, 18U);  // two rims and two contours
 }
 
+TEST(Draw, SmoothEdgesAreDrawnOnDemand) {
+  test::SceneBuilder scene;
+  const std::uint32_t sides = 24;
+  scene.object({{.parts = {cylinder(sides, 5000, 60000)}, .origin = {}}});
+  const auto smooth = [&](double sharp_deg) {
+    int count = 0;
+    for (const hlr::Piece& p :
+         drawn(scene, kIso, {.sharp_angle_deg = sharp_deg, .smooth = true}).pieces)
+      if (p.kind == EdgeKind::smooth) ++count;
+    return count;
+  };
+  // Of a mesh every edge of the mantle but for the contours, and none within the flat ends.
+  EXPECT_EQ(drawn(scene, kIso).counters.feature_edges, 2 * sides + 2U);
+  EXPECT_EQ(drawn(scene, kIso, {.smooth = true}).counters.feature_edges, 3 * sides);
+  EXPECT_GE(smooth(20), 22);
+  EXPECT_EQ(smooth(0), 0);
+  // Of a cylinder none.
+  scene.primitive(0, geometry::CylinderPrimitive{5, 60});
+  EXPECT_EQ(smooth(20), 0);
+}
+
+// What rounding bends is flat.
+TEST(Draw, TrianglesInOnePlaneHaveNoSmoothEdge) {
+  test::SceneBuilder scene;
+  const auto quad = [](std::int32_t lift) {
+    return test::HandPart{{{0, 0, 0}, {90000, 0, 7}, {90000, 50000, 11 + lift}, {0, 50000, 4}},
+                          {{0, 1, 2}, {0, 2, 3}},
+                          {},
+                          {}};
+  };
+  const auto edges = [&](std::int32_t lift) {
+    test::SceneBuilder one;
+    one.object({{.parts = {quad(lift)}, .origin = {}}});
+    return drawn(one, kIso, {.smooth = true}).counters.feature_edges;
+  };
+  EXPECT_EQ(edges(0), 4U);
+  EXPECT_EQ(edges(2), 4U);
+  EXPECT_EQ(edges(200), 5U);
+}
+
 TEST(Draw, GlassIsHiddenButHidesNothing) {
   test::SceneBuilder scene;
   scene.object({{.parts = {box(0, 0, 0)}, .origin = {}}});
