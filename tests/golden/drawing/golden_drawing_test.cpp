@@ -32,15 +32,15 @@ const Golden kSafe[] = {
     {"iso",
      {16107, 13640, 12248, 2, 0, 10309},
      "3735ac3e250c54b4b6fc68ec5fed3af5",
-     "09156b70015b2b40693493c98a556638"},
+     "12a316e23973a1c94f98db4412d25e4a"},
     {"top",
      {9867, 3505, 5852, 2298, 0, 28513},
      "412223151c514ab3097c395f9956d839",
-     "af4bf56a7c9ea6a5baee9bf13e7dae2a"},
+     "fb267029321e4ff143ad287d13218f20"},
     {"front",
      {9635, 2351, 4569, 2972, 0, 30751},
      "943f260aea90a3072830fd4bafcda438",
-     "32176193e3b954a9ce454722dcd91b13"},
+     "1dd04cc1594ec53d28938bb88303086b"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {
