@@ -5,6 +5,15 @@
 
 namespace strake::geometry {
 
+bool is_round(const Primitive& primitive) {
+  return std::holds_alternative<CylinderPrimitive>(primitive) ||
+         std::holds_alternative<SnoutPrimitive>(primitive) ||
+         std::holds_alternative<SpherePrimitive>(primitive) ||
+         std::holds_alternative<EllipticalDishPrimitive>(primitive) ||
+         std::holds_alternative<SphericalDishPrimitive>(primitive) ||
+         std::holds_alternative<CircularTorusPrimitive>(primitive);
+}
+
 std::string_view kind_name(const Primitive& primitive) {
   static constexpr std::array<std::string_view, std::variant_size_v<Primitive>> kNames{
       "box",

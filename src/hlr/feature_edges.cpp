@@ -36,17 +36,6 @@ bool is_sharp(const NormalVector& m, const NormalVector& n, double cos_sharp) {
   return dot < cos_sharp * lengths;
 }
 
-// Round primitives: all but boxes, pyramids and rectangular tori, whose quads meet at real edges.
-bool is_round(const Part& part) {
-  return part.primitive &&
-         (std::holds_alternative<geometry::CylinderPrimitive>(*part.primitive) ||
-          std::holds_alternative<geometry::SnoutPrimitive>(*part.primitive) ||
-          std::holds_alternative<geometry::SpherePrimitive>(*part.primitive) ||
-          std::holds_alternative<geometry::EllipticalDishPrimitive>(*part.primitive) ||
-          std::holds_alternative<geometry::SphericalDishPrimitive>(*part.primitive) ||
-          std::holds_alternative<geometry::CircularTorusPrimitive>(*part.primitive));
-}
-
 // For each triangle the area vector of the whole source face that it is a piece of. That sum
 // depends on the outline of the face alone, so neither the triangulation nor the way that
 // snapping bends a polygon decides whether it faces the viewer.
@@ -89,7 +78,7 @@ struct Faces {
 
 Faces faces_of(const Part& part) {
   Faces result{face_vectors(part), {}};
-  if (!is_round(part) || part.faces.empty()) return result;
+  if (!part.primitive || !geometry::is_round(*part.primitive) || part.faces.empty()) return result;
   std::vector<std::uint32_t> sorted = part.faces.to_vector();
   std::sort(sorted.begin(), sorted.end());
   result.facet.reserve(part.faces.size());

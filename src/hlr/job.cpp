@@ -10,6 +10,7 @@
 
 #include "hlr/section_report.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/model/view_scene.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -132,25 +133,28 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
     return Error{ErrorCode::internal, "the selection and the model differ in size", "view", ""};
 
   Job job;
-  job.scene = &scene;
   job.view = view;
   job.options = options;
   job.features = {reduced(view.direction), cosine_of_degrees(options.sharp_angle_deg),
                   options.smooth};
   job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
+  auto own = model::seen_from(scene, job.drawn, job.direction(), context);
+  if (!own) return own.error();
+  if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
+  job.scene = job.own ? job.own.get() : &scene;
   fill_bodies(job);
   if (const Status status = place(job); !status) return status.error();
   const auto crossings =
-      find_crossings(scene, job.drawn, job.contact, options.intersections, context);
+      find_crossings(*job.scene, job.drawn, job.contact, options.intersections, context);
   if (!crossings) return crossings.error();
-  auto seen = seen_shapes(scene, job.drawn, *planes, context);
+  auto seen = seen_shapes(*job.scene, job.drawn, *planes, context);
   if (!seen) return seen.error();
   job.seen = std::move(*seen);
   widen_contact(job);
   auto lines = gather_lines(job, *crossings, *planes, context);
   if (!lines) return lines.error();
   job.lines = std::move(*lines);
-  job.diagnostics = report_sections(scene, job.drawn, job.seen, *planes);
+  job.diagnostics = report_sections(*job.scene, job.drawn, job.seen, *planes);
   return job;
 }
 

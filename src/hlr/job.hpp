@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,7 +23,8 @@ namespace strake::hlr {
 /// Coordinates are relative to `origin`, the middle of what is drawn, and small enough that every
 /// value a solver forms (orientation, depth, limit) stays below 2^124: see `prepare`.
 struct Job {
-  const model::Scene* scene = nullptr;
+  const model::Scene* scene = nullptr;  ///< as the view sees it: `own`, or what was given
+  std::unique_ptr<model::Scene> own;    ///< with contours of round primitives; null where none
   View view;
   Options options;
   FeatureOptions features;  ///< direction in lowest terms

@@ -73,8 +73,9 @@ void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& l
 }
 
 void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const Mat3d& linear,
-                                   double sag_mm, GridShapeResult& result) {
-  const geometry::Tessellation made = geometry::tessellate(primitive, linear, sag_mm);
+                                   double sag_mm, const std::optional<geometry::Vec3d>& towards,
+                                   GridShapeResult& result) {
+  const geometry::Tessellation made = geometry::tessellate(primitive, linear, sag_mm, towards);
   result.fault = made.fault;
   if (!made.fault.empty()) return;
   if (!made.mesh.triangles.empty())
@@ -93,14 +94,15 @@ void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const M
   }
 }
 
-GridShapeResult GridShapeMaker::make(const Shape& shape, const Mat3d& linear, double sag_mm) {
+GridShapeResult GridShapeMaker::make(const Shape& shape, const Mat3d& linear, double sag_mm,
+                                     const std::optional<geometry::Vec3d>& towards) {
   GridShapeResult result;
   if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
     add_mesh(*mesh, linear, result);
   else if (const auto* lines = std::get_if<geometry::Polylines>(&shape))
     add_lines(*lines, linear, result);
   else
-    add_primitive(std::get<geometry::Primitive>(shape), linear, sag_mm, result);
+    add_primitive(std::get<geometry::Primitive>(shape), linear, sag_mm, towards, result);
   for (const Part& part : result.shape.parts) result.shape.box.include(part.box);
   if (result.shape.parts.empty() && result.fault.empty()) {
     result.vanished = result.bad_triangles == 0 && result.bad_points == 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "strake/geometry/analyse.hpp"
@@ -23,14 +24,17 @@ struct GridShapeResult {
 /// Makes shapes one after another in memory that it keeps: one per worker.
 class GridShapeMaker {
  public:
+  /// Primitives with their contours for a view, if `towards` is one; see geometry::tessellate.
   [[nodiscard]] GridShapeResult make(const Shape& shape, const geometry::Mat3d& linear,
-                                     double sag_mm);
+                                     double sag_mm,
+                                     const std::optional<geometry::Vec3d>& towards = std::nullopt);
 
  private:
   void add_mesh(const geometry::TriangleMesh& mesh, const geometry::Mat3d& linear,
                 GridShapeResult& result);
   void add_primitive(const geometry::Primitive& primitive, const geometry::Mat3d& linear,
-                     double sag_mm, GridShapeResult& result);
+                     double sag_mm, const std::optional<geometry::Vec3d>& towards,
+                     GridShapeResult& result);
 
   geometry::MeshPlacer placer_;
   geometry::MeshAnalyser analyser_;

@@ -290,6 +290,7 @@ Result<Scene> make_scene(const Model& model, const SceneOptions& options,
   place_bodies(assembly, made);
   Scene& scene = assembly.scene;
   scene.model = &model;
+  scene.sag_mm = options.sag_mm;
   scene.shapes.reserve(made.size());
   for (GridShapeResult& m : made) scene.shapes.push_back(std::move(m.shape));
   return std::move(assembly.scene);

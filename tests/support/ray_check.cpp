@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "strake/geometry/wide_int.hpp"
+#include "strake/model/view_scene.hpp"
 #include "support/lattice_scene.hpp"
 
 namespace strake::test {
@@ -385,7 +386,9 @@ RayCheck check_by_rays(const model::Scene& scene, const hlr::Drawing& drawing, s
   RayCheck result;
   const Candidates candidates(drawing);
   if (candidates.piece.empty()) return result;
-  Checker checker(scene, drawing);
+  const auto seen = model::seen_from(scene, {}, drawing.view.direction, {});
+  if (!seen) return result;
+  Checker checker(*seen ? **seen : scene, drawing);
   if (!checker.within_reach()) {
     result.wrong = 1;
     result.first_wrong = "the scene is too large for this check";

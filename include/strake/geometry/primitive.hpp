@@ -67,6 +67,10 @@ using Primitive = std::variant<BoxPrimitive, PyramidPrimitive, CylinderPrimitive
                                SpherePrimitive, EllipticalDishPrimitive, SphericalDishPrimitive,
                                CircularTorusPrimitive, RectangularTorusPrimitive, LinePrimitive>;
 
+/// Whether a primitive is curved all round: a cylinder, snout, sphere, dish or circular torus. Its
+/// facets stand for a smooth skin, the outline of which depends on where it is seen from.
+[[nodiscard]] bool is_round(const Primitive& primitive);
+
 /// Stable name of a primitive's kind, as reports and JSON spell it ("circular_torus").
 [[nodiscard]] std::string_view kind_name(const Primitive& primitive);
 

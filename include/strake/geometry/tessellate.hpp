@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -29,7 +30,16 @@ struct Tessellation {
 /// 3. Triangles of one planar face share a face id; a curved side has one id per planar quad.
 ///
 /// Definitions of the kinds: docs/formats/primitives.md.
+///
+/// For a view, `towards` points to the viewer in the placed frame, its length does not matter. The
+/// contours of round primitives in that direction then are edges of the mesh: on one side of them
+/// facets look towards the viewer, on the other away. Rims start at the contour of the pipe that
+/// they are the rim of, so that 2. holds in each view too; where that is along the direction, as
+/// above. Contours that run within a quarter of a step of each other or of a rim are left out. A
+/// regular vertex within a quarter of a step of a contour makes way for it, so that chords may be
+/// a quarter longer: `sag_mm` of the mesh says what that comes to.
 [[nodiscard]] Tessellation tessellate(const Primitive& primitive, const Mat3d& linear,
-                                      double sag_mm);
+                                      double sag_mm,
+                                      const std::optional<Vec3d>& towards = std::nullopt);
 
 }  // namespace strake::geometry

@@ -67,6 +67,7 @@ struct Scene {
   std::uint64_t left_out = 0;         ///< bodies of categories that were not asked for
   Diagnostics diagnostics;            ///< inverted, open, degenerate, unplaceable …
   std::vector<Lacking> lacking = {};  ///< ascending; of what was asked for
+  double sag_mm = 0;  ///< that primitives were tessellated with; 0: not by make_scene
 
   [[nodiscard]] std::span<const GridBody> bodies_of(ObjectId id) const {
     return std::span(bodies).subspan(first_body[index(id)],

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/tessellate/build.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace strake::geometry::tessellation {
@@ -29,11 +30,63 @@ SinCos canonical_phase(const Vec3d& image_x, const Vec3d& image_y) {
   return {y / length, x / length};
 }
 
+std::optional<SinCos> contour_phase(double x, double y, double along) {
+  const double across = x * x + y * y;
+  // The square of a milliradian: below it rounding could tell a pipe from the elbow at its end.
+  if (!(across > 1e-6 * (across + along * along))) return std::nullopt;
+  const double length = std::sqrt(across);
+  return SinCos{x / length, -y / length};
+}
+
+SinCos rim_phase(const Target& target) {
+  if (const auto& d = target.towards)
+    if (const auto phase = contour_phase(d->x, d->y, d->z)) return *phase;
+  return canonical_phase(column(target.linear, 0), column(target.linear, 1));
+}
+
 std::vector<SinCos> rim(int segments, const SinCos& phase) {
   std::vector<SinCos> points = unit_circle(segments);
   for (SinCos& p : points)
     p = {p.sin * phase.cos + p.cos * phase.sin, p.cos * phase.cos - p.sin * phase.sin};
   return points;
+}
+
+std::vector<SinCos> rim_with(int segments, const SinCos& phase,
+                             const std::array<SinCos, 2>& contours) {
+  const std::vector<SinCos> regular = rim(segments, phase);
+  // In steps from the phase, of [0, segments).
+  std::array<double, 2> at{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const SinCos& c = contours[i];
+    const double angle =
+        arc_tan2(c.sin * phase.cos - c.cos * phase.sin, c.cos * phase.cos + c.sin * phase.sin);
+    at[i] = angle / (2 * kPi) * segments;
+    if (at[i] < 0) at[i] += segments;
+    if (!(at[i] < segments)) at[i] = 0;
+  }
+  const auto near = [&](double a, double b) {
+    const double apart = std::fabs(a - b);
+    return std::min(apart, segments - apart) < 0.25;
+  };
+  if (near(at[0], at[1])) return regular;
+  std::vector<std::pair<double, SinCos>> points{{at[0], contours[0]}, {at[1], contours[1]}};
+  for (int k = 0; k < segments; ++k)
+    if (!near(k, at[0]) && !near(k, at[1]))
+      points.emplace_back(k, regular[static_cast<std::size_t>(k)]);
+  std::ranges::sort(points, {}, [](const auto& point) { return point.first; });
+  std::vector<SinCos> result;
+  for (const auto& point : points) result.push_back(point.second);
+  return result;
+}
+
+double widest_step(std::span<const SinCos> rim) {
+  double widest = 0;
+  for (std::size_t k = 0; k < rim.size(); ++k) {
+    const SinCos &a = rim[k], &b = rim[k + 1 == rim.size() ? 0 : k + 1];
+    const double step = arc_tan2(b.sin * a.cos - b.cos * a.sin, b.cos * a.cos + b.sin * a.sin);
+    widest = std::max(widest, step < 0 ? step + 2 * kPi : step);
+  }
+  return widest;
 }
 
 std::uint32_t Builder::vertex(const Vec3d& v) {
@@ -65,8 +118,28 @@ void Builder::polygon(std::span<const std::uint32_t> ring, bool reversed) {
 
 void Builder::quad_of(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c,
                       std::uint32_t d) {
+  if (other_diagonal(a, b, c, d)) {
+    triangle(face, a, b, d);
+    triangle(face, b, c, d);
+    return;
+  }
   triangle(face, a, b, c);
   triangle(face, a, c, d);
+}
+
+bool Builder::other_diagonal(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                             std::uint32_t d) const {
+  if (!towards_ || a == b || b == c || c == d || d == a) return false;
+  const auto& v = mesh_.vertices;
+  const auto facing = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    return dot(cross(v[j] - v[i], v[k] - v[i]), *towards_);
+  };
+  const double whole = dot(cross(v[c] - v[a], v[d] - v[b]), *towards_);
+  const double sign = whole < 0 ? -1 : 1;
+  const double usual = std::min(sign * facing(a, b, c), sign * facing(a, c, d));
+  const double other = std::min(sign * facing(a, b, d), sign * facing(b, c, d));
+  // What rounding made of a planar quad turns no diagonal.
+  return other > usual + 1e-9 * std::fabs(whole);
 }
 
 void Builder::quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {

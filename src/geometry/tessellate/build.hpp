@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,8 @@ namespace strake::geometry::tessellation {
 struct Target {
   Mat3d linear;
   double sag = 0;
+  /// Unit local direction to the viewer whose contours are edges; none: no view.
+  std::optional<Vec3d> towards;
 };
 
 /// The share of the sag that the chords of a rim may take. The rest is for the other direction of
@@ -29,15 +33,34 @@ inline constexpr double kRimShare = 0.75;
 /// plane, or of X when the normal is within 26 degrees of Z.
 [[nodiscard]] SinCos canonical_phase(const Vec3d& image_x, const Vec3d& image_y);
 
+/// Where the contour of a pipe lies in its section: at right angles to the direction to the viewer,
+/// given along two axes of the section and along the pipe. None where that is along the pipe.
+[[nodiscard]] std::optional<SinCos> contour_phase(double x, double y, double along);
+
+/// Where a rim about local Z starts: at the contour in a view, else at the canonical phase.
+[[nodiscard]] SinCos rim_phase(const Target& target);
+
 /// The images of the local axes.
 [[nodiscard]] Vec3d column(const Mat3d& m, int axis);
 
 /// Points of a unit circle with a vertex at `phase`.
 [[nodiscard]] std::vector<SinCos> rim(int segments, const SinCos& phase);
 
+/// The same with two more that lie anywhere: regular points within a quarter of a step of one are
+/// dropped, and the two are left out where they lie so near to each other.
+[[nodiscard]] std::vector<SinCos> rim_with(int segments, const SinCos& phase,
+                                           const std::array<SinCos, 2>& contours);
+
+/// The widest angle between neighbours of a rim, which run counter-clockwise.
+[[nodiscard]] double widest_step(std::span<const SinCos> rim);
+
 /// Triangles in local coordinates, gathered face by face.
 class Builder {
  public:
+  /// For a view: the diagonal of a quad that is not planar is the one of which no triangle looks
+  /// the other way than the whole quad.
+  explicit Builder(const std::optional<Vec3d>& towards = std::nullopt) : towards_(towards) {}
+
   std::uint32_t vertex(const Vec3d& v);
   /// A planar convex polygon, counter-clockwise seen from outside; `reversed` turns it.
   void polygon(std::span<const std::uint32_t> ring, bool reversed = false);
@@ -51,6 +74,10 @@ class Builder {
 
  private:
   void triangle(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  [[nodiscard]] bool other_diagonal(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                    std::uint32_t d) const;
+
+  std::optional<Vec3d> towards_;
   TriangleMesh mesh_;
   std::uint32_t faces_ = 0;
 };

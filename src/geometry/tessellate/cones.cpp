@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "geometry/tessellate/build.hpp"
 
@@ -66,6 +68,19 @@ struct Snout {
     return {p.offset_x * (cut - 0.5) + r * a.cos, p.offset_y * (cut - 0.5) + r * a.sin,
             p.height * (cut - 0.5)};
   }
+  /// The two generators along which the skin turns away from a viewer. The normal is the same all
+  /// along a generator: (h cos a, h sin a, -(offset_x cos a + offset_y sin a + growth)).
+  [[nodiscard]] std::optional<std::array<SinCos, 2>> contours(const Vec3d& towards) const {
+    const double x = p.height * towards.x - towards.z * p.offset_x;
+    const double y = p.height * towards.y - towards.z * p.offset_y;
+    const double against = towards.z * (p.top_radius - p.bottom_radius);
+    const double square = x * x + y * y, rest = square - against * against;
+    if (!(rest > 0)) return std::nullopt;
+    const double half = std::sqrt(rest);
+    return std::array<SinCos, 2>{
+        {{(against * y + half * x) / square, (against * x - half * y) / square},
+         {(against * y - half * x) / square, (against * x + half * y) / square}}};
+  }
   static constexpr double kNever = 1e300;
 };
 
@@ -90,7 +105,7 @@ Tessellation make(const CylinderPrimitive& p, const Target& target) {
   if (!are_lengths({p.radius, p.height})) return fault("a length is negative or not finite");
   if (p.radius == 0) return fault("a cylinder of no radius");
   const int n = circle_segments(p.radius, kRimShare * target.sag);
-  const auto angles = rim(n, canonical_phase(column(target.linear, 0), column(target.linear, 1)));
+  const auto angles = rim(n, rim_phase(target));
   std::vector<Vec3d> lower, upper;
   for (const SinCos& a : angles) {
     lower.push_back({p.radius * a.cos, p.radius * a.sin, -p.height / 2});
@@ -108,21 +123,23 @@ Tessellation make(const SnoutPrimitive& p, const Target& target) {
                     end_plane(p.top_shear_x, p.top_shear_y)};
   const double steepness = std::max(snout.bottom.steepness(), snout.top.steepness());
   if (!(steepness < 100)) return fault("an end plane of a snout is too steep");
-  const SinCos phase = canonical_phase(column(target.linear, 0), column(target.linear, 1));
+  const SinCos phase = rim_phase(target);
   // The cuts decide the widest radius, which decides the number of segments: look first.
   double radius = widest(snout, rim(256, phase));
   if (radius < 0) return fault("the end planes of a snout cross or pass its apex");
   // Between the looks the radius grows by less than this.
   radius = std::max({radius * (1 + 1e-3 * (steepness - 1)), p.bottom_radius, p.top_radius});
   const int n = circle_segments(radius, kRimShare * target.sag / steepness);
-  const auto angles = rim(n, phase);
+  const auto contours = target.towards ? snout.contours(*target.towards) : std::nullopt;
+  const auto angles = contours ? rim_with(n, phase, *contours) : rim(n, phase);
   if (widest(snout, angles) < 0) return fault("the end planes of a snout cross or pass its apex");
   std::vector<Vec3d> lower, upper;
   for (const SinCos& a : angles) {
     lower.push_back(snout.point(a, snout.bottom_cut(a)));
     upper.push_back(snout.point(a, snout.top_cut(a)));
   }
-  return frustum(lower, upper, sagitta(radius, 2 * kPi / n) * steepness);
+  const double step = contours ? widest_step(angles) : 2 * kPi / n;
+  return frustum(lower, upper, sagitta(radius, step) * steepness);
 }
 
 }  // namespace strake::geometry::tessellation

@@ -27,13 +27,21 @@ Basis world_basis(const Mat3d& linear) {
   return {x, cross(z, x), z};
 }
 
+/// The same with z towards the viewer, so that the contour is an equator.
+Basis view_basis(const Mat3d& linear, const Vec3d& towards) {
+  const Basis world = world_basis(linear);
+  const bool steep = std::fabs(dot(world.z, towards)) > 0.9;
+  const Vec3d helper = steep ? world.x : world.z;
+  const Vec3d x = unit(helper - towards * dot(helper, towards));
+  return {x, cross(towards, x), towards};
+}
+
 Sweep full_circle(int segments, const SinCos& phase) { return {rim(segments, phase), true}; }
 
 /// A dome over a base disc: the profile runs from the base to the pole.
 Tessellation dome(const std::vector<ProfilePoint>& profile, int segments, const Target& target,
                   double sag) {
-  const Sweep sweep =
-      full_circle(segments, canonical_phase(column(target.linear, 0), column(target.linear, 1)));
+  const Sweep sweep = full_circle(segments, rim_phase(target));
   Builder builder;
   const auto grid = revolve(builder, sweep, profile.size(), false,
                             [&](std::size_t i, std::size_t) { return profile[i]; });
@@ -46,12 +54,78 @@ Tessellation disc(double radius, const Target& target) {
   const int n = circle_segments(radius, kRimShare * target.sag);
   Builder builder;
   std::vector<std::uint32_t> ring;
-  for (const SinCos& a :
-       rim(n, canonical_phase(column(target.linear, 0), column(target.linear, 1))))
+  for (const SinCos& a : rim(n, rim_phase(target)))
     ring.push_back(builder.vertex({radius * a.cos, radius * a.sin, 0}));
   builder.polygon(ring);
   return std::move(builder).take(sagitta(radius, 2 * kPi / n), true);
 }
+
+/// Half an ellipsoid of revolution over its base disc, whose contour runs from rim to rim: it is
+/// the image of half a ball, and the contour that of a great circle. The net is that of the degrees
+/// whose poles are where that circle meets the rim: both are meridians.
+class ContouredDome {
+ public:
+  /// `rows` from the base to the apex at least; `phase` is the contour's on the rim.
+  ContouredDome(double radius, double height, int segments, int rows, const SinCos& phase)
+      : radius_(radius), height_(height), rows_(rows), rim_(rim(segments, phase)) {}
+
+  [[nodiscard]] Tessellation make(const Vec3d& towards) && {
+    // The ball's own direction: towards the rim away from the poles, and up.
+    const Vec3d across{rim_[0].sin, -rim_[0].cos, 0};
+    const double out = dot(towards, across) / radius_, up = towards.z / height_;
+    const std::vector<double> meridians = divided(arc_tan2(out, -up));
+    const std::size_t half = rim_.size() / 2;
+    const std::uint32_t first = builder_.vertex(at(0, {0, 1}));
+    const std::uint32_t last = builder_.vertex(at(half, {0, 1}));
+    std::vector<std::uint32_t> before, base;
+    for (const double m : meridians) {
+      const SinCos a = sin_cos(m);
+      std::vector<std::uint32_t> row{first};
+      for (std::size_t k = 1; k < half; ++k) row.push_back(builder_.vertex(at(k, a)));
+      row.push_back(last);
+      for (std::size_t k = 0; k < half && !before.empty(); ++k)
+        builder_.quad(before[k], row[k], row[k + 1], before[k + 1]);
+      if (before.empty()) base.assign(row.rbegin(), row.rend() - 1);
+      before = std::move(row);
+    }
+    base.insert(base.end(), before.begin(), before.end() - 1);
+    builder_.polygon(base, true);
+    const double axis = std::max(radius_, height_);
+    const double along = 2 * kPi / static_cast<double>(rim_.size()), step = kPi / (2 * rows_);
+    return std::move(builder_).take(axis * (along * along + step * step) / 8, true);
+  }
+
+ private:
+  /// Angles of the meridians from one half of the rim to the other, with the contour among them.
+  [[nodiscard]] std::vector<double> divided(double contour) const {
+    const double step = kPi / (2 * rows_);
+    std::vector<double> corners{0, kPi};
+    if (contour > step / 4 && kPi - contour > step / 4) corners = {0, contour, kPi};
+    std::vector<double> meridians{0};
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      const double from = corners[i], span = corners[i + 1] - from;
+      const int parts = std::max(1, static_cast<int>(std::ceil(span / step * (1 - 1e-9))));
+      for (int k = 1; k <= parts; ++k) meridians.push_back(from + span * k / parts);
+    }
+    meridians.back() = kPi;
+    return meridians;
+  }
+  /// Point k of a meridian, counted from the pole. The two on the rim take its very points.
+  [[nodiscard]] Vec3d at(std::size_t k, const SinCos& meridian) const {
+    const std::size_t n = rim_.size();
+    const SinCos &left = rim_[k], &right = rim_[(n - k) % n];
+    // Half of what they have in common is along the poles, half of what differs across.
+    const double x = (left.cos + right.cos) / 2, y = (left.sin + right.sin) / 2;
+    const double dx = (right.cos - left.cos) / 2, dy = (right.sin - left.sin) / 2;
+    const double up = std::sqrt(dx * dx + dy * dy) * meridian.sin;
+    return {radius_ * (x + dx * meridian.cos), radius_ * (y + dy * meridian.cos), height_ * up};
+  }
+
+  double radius_, height_;
+  int rows_;
+  std::vector<SinCos> rim_;
+  Builder builder_;
+};
 
 }  // namespace
 
@@ -75,7 +149,8 @@ Tessellation make(const SpherePrimitive& p, const Target& target) {
                                       (k < 0 ? -radius : radius) * (pole ? 1 : a.sin)};
                 });
   Tessellation t = std::move(builder).take(rim_sag + sagitta(radius, kPi / rows), true);
-  const Basis b = world_basis(target.linear);
+  const Basis b =
+      target.towards ? view_basis(target.linear, *target.towards) : world_basis(target.linear);
   for (Vec3d& v : t.mesh.vertices) v = b.x * v.x + b.y * v.y + b.z * v.z;
   return t;
 }
@@ -91,6 +166,9 @@ Tessellation make(const EllipticalDishPrimitive& p, const Target& target) {
   const double wanted = kPi / 2 * std::sqrt(axis / (8 * rest));
   constexpr int kMostRows = kMostSegments / 4;
   const int rows = wanted < kMostRows ? std::max(2, static_cast<int>(wanted) + 1) : kMostRows;
+  if (const auto& d = target.towards)
+    if (const auto phase = contour_phase(d->x, d->y, d->z))
+      return ContouredDome(p.radius, p.height, n, rows, *phase).make(*d);
   std::vector<ProfilePoint> profile;
   for (int k = 0; k < rows; ++k) {
     const SinCos a = sin_cos(kPi / 2 * k / rows);

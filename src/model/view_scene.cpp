@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/model/view_scene.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <variant>
+
+#include "model/grid_shape.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::model {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+/// By shape the first body that is drawn with it, or none.
+std::vector<std::uint32_t> first_bodies(const Scene& scene, const std::vector<bool>& drawn) {
+  std::vector<std::uint32_t> first(scene.shapes.size(), kNone);
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    const GridBody& body = scene.bodies[b];
+    if ((drawn.empty() || drawn[index(body.object)]) && first[body.grid_shape] == kNone)
+      first[body.grid_shape] = b;
+  }
+  return first;
+}
+
+bool changes(const Scene& scene, std::uint32_t shape) {
+  const auto* primitive =
+      std::get_if<geometry::Primitive>(&scene.model->shapes[index(scene.shapes[shape].shape)]);
+  return primitive != nullptr && geometry::is_round(*primitive);
+}
+
+/// A shape anew; as it was where that has no place on the grid.
+GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3d& linear,
+                   const geometry::Vec3d& towards, GridShapeMaker& maker) {
+  const GridShape& old = scene.shapes[shape];
+  GridShapeResult made =
+      maker.make(scene.model->shapes[index(old.shape)], linear, scene.sag_mm, towards);
+  if (!made.fault.empty()) return old;
+  made.shape.shape = old.shape;
+  return std::move(made.shape);
+}
+
+}  // namespace
+
+Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<bool>& drawn,
+                                       const geometry::Vec3l& towards,
+                                       const parallel::Context& context) {
+  if (scene.model == nullptr || !(scene.sag_mm > 0)) return std::optional<Scene>();
+  const std::vector<std::uint32_t> first = first_bodies(scene, drawn);
+  bool any = false;
+  for (std::uint32_t s = 0; s < first.size() && !any; ++s)
+    any = first[s] != kNone && changes(scene, s);
+  if (!any) return std::optional<Scene>();
+
+  constexpr std::size_t kGrain = 16;
+  auto shapes = parallel::transform_with(
+      context, {.name = "shapes of the view", .n = first.size(), .grain = kGrain},
+      [] { return GridShapeMaker(); },
+      [&](GridShapeMaker& maker, std::size_t i) {
+        const auto s = static_cast<std::uint32_t>(i);
+        if (first[s] == kNone) {
+          GridShape empty;
+          empty.shape = scene.shapes[s].shape;
+          empty.base = scene.shapes[s].base;
+          return empty;
+        }
+        if (!changes(scene, s)) return scene.shapes[s];
+        const Body& body = scene.model->bodies[scene.bodies[first[s]].body];
+        return made_for(scene, s, body.placement.linear, towards.as<double>(), maker);
+      });
+  if (!shapes) return shapes.error();
+  Scene seen;
+  seen.model = scene.model;
+  seen.bodies = scene.bodies;
+  seen.first_body = scene.first_body;
+  seen.left_out = scene.left_out;
+  seen.diagnostics = scene.diagnostics;
+  seen.lacking = scene.lacking;
+  seen.sag_mm = scene.sag_mm;
+  for (GridBody& body : seen.bodies)
+    body.origin =
+        body.origin - scene.shapes[body.grid_shape].base + (*shapes)[body.grid_shape].base;
+  seen.shapes = std::move(*shapes);
+  return std::optional<Scene>(std::move(seen));
+}
+
+}  // namespace strake::model

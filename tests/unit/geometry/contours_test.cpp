@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tessellations for a view: the contours of round primitives are edges, and lie on the true ones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "strake/geometry/analyse.hpp"
+#include "strake/geometry/place.hpp"
+#include "strake/geometry/tessellate.hpp"
+#include "strake/geometry/trig.hpp"
+#include "support/random_primitives.hpp"
+#include "support/true_surface.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using test::PrimitiveDraw;
+
+Vec3d unit(const Vec3d& v) { return v * (1 / std::sqrt(dot(v, v))); }
+
+/// The outward normal of the curved skin of a primitive at one of its points.
+Vec3d normal_at(const Primitive& primitive, const Vec3d& p) {
+  if (std::holds_alternative<CylinderPrimitive>(primitive)) return unit({p.x, p.y, 0});
+  if (const auto* s = std::get_if<SnoutPrimitive>(&primitive)) {
+    const double grow = s->top_radius - s->bottom_radius, k = p.z / s->height + 0.5;
+    const Vec3d out = unit({p.x - s->offset_x * (k - 0.5), p.y - s->offset_y * (k - 0.5), 0});
+    return unit({out.x * s->height, out.y * s->height,
+                 -(s->offset_x * out.x + s->offset_y * out.y + grow)});
+  }
+  if (std::holds_alternative<SpherePrimitive>(primitive)) return unit(p);
+  if (const auto* d = std::get_if<EllipticalDishPrimitive>(&primitive))
+    return unit(
+        {p.x / d->radius / d->radius, p.y / d->radius / d->radius, p.z / d->height / d->height});
+  if (const auto* d = std::get_if<SphericalDishPrimitive>(&primitive)) {
+    const double radius = (d->radius * d->radius / d->height + d->height) / 2;
+    return unit({p.x, p.y, p.z - d->height + radius});
+  }
+  const auto& t = std::get<CircularTorusPrimitive>(primitive);
+  const Vec3d out = unit({p.x, p.y, 0});
+  return unit(p - out * t.centre_radius);
+}
+
+/// A mesh's faces, by edge of two vertices.
+struct Net {
+  const TriangleMesh& mesh;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> faces;
+  std::map<std::uint32_t, Vec3d> area;
+  std::map<std::uint32_t, int> triangles;
+
+  explicit Net(const TriangleMesh& m) : mesh(m) {
+    for (std::size_t t = 0; t < m.triangles.size(); ++t) {
+      const Triangle& w = m.triangles[t];
+      const auto& v = m.vertices;
+      area[m.faces[t]] = area[m.faces[t]] + cross(v[w[1]] - v[w[0]], v[w[2]] - v[w[0]]);
+      ++triangles[m.faces[t]];
+      for (std::size_t k = 0; k < 3; ++k)
+        faces[std::minmax(w[k], w[(k + 1) % 3])].push_back(m.faces[t]);
+    }
+  }
+  /// Edges between two facets of the curved side of which one looks towards the viewer.
+  [[nodiscard]] std::vector<std::pair<Vec3d, Vec3d>> contours(const Vec3d& towards) const {
+    std::vector<std::pair<Vec3d, Vec3d>> result;
+    for (const auto& [edge, of] : faces) {
+      EXPECT_EQ(of.size(), 2U);
+      if (of.size() != 2 || of[0] == of[1]) continue;
+      if (triangles.at(of[0]) > 2 || triangles.at(of[1]) > 2) continue;
+      if ((dot(area.at(of[0]), towards) > 0) != (dot(area.at(of[1]), towards) > 0))
+        result.emplace_back(mesh.vertices[edge.first], mesh.vertices[edge.second]);
+    }
+    return result;
+  }
+};
+
+/// How far |normal · direction| of the true surface is from 0 at the ends of the contours.
+double worst_end(const Primitive& primitive, const Tessellation& t, const Vec3d& towards) {
+  double worst = 0;
+  for (const auto& [a, b] : Net(t.mesh).contours(towards))
+    for (const Vec3d& p : {a, b})
+      worst = std::max(worst, std::fabs(dot(normal_at(primitive, p), towards)));
+  return worst;
+}
+
+TEST(Contours, OfACylinderAreTwoGenerators) {
+  PrimitiveDraw draw(1);
+  for (int i = 0; i < 200; ++i) {
+    const CylinderPrimitive pipe{draw.between(1, 500), draw.between(1, 3000)};
+    const Vec3d towards = draw.direction();
+    if (std::hypot(towards.x, towards.y) < 0.01) continue;
+    const Tessellation t = tessellate(pipe, {}, 0.5, towards);
+    ASSERT_EQ(t.fault, "");
+    EXPECT_LE(t.mesh.sag_mm, 0.5);
+    const auto contours = Net(t.mesh).contours(towards);
+    EXPECT_EQ(contours.size(), 2U);
+    EXPECT_LT(worst_end(pipe, t, towards), 1e-12);
+  }
+}
+
+TEST(Contours, OfASnoutAreTwoGeneratorsOrNone) {
+  PrimitiveDraw draw(2);
+  int two = 0;
+  for (int i = 0; i < 400; ++i) {
+    SnoutPrimitive s{draw.between(20, 80), draw.between(0, 80), draw.between(60, 200)};
+    if (i % 2 == 0) s.offset_x = draw.between(-60, 60), s.offset_y = draw.between(-60, 60);
+    if (i % 3 == 0) s.bottom_shear_x = draw.between(-0.2, 0.2);
+    const Vec3d towards = draw.direction();
+    const Tessellation t = tessellate(s, {}, 0.5, towards);
+    if (!t.fault.empty()) continue;
+    EXPECT_LE(t.mesh.sag_mm, 0.8);
+    const auto contours = Net(t.mesh).contours(towards);
+    if (contours.size() != 2) {
+      // None, or two within a quarter of a step of each other.
+      EXPECT_LE(contours.size(), 2U);
+      continue;
+    }
+    ++two;
+    if (worst_end(s, t, towards) > 1e-9) --two;
+  }
+  EXPECT_GT(two, 250);
+}
+
+TEST(Contours, OfABallAreItsEquator) {
+  PrimitiveDraw draw(3);
+  for (int i = 0; i < 100; ++i) {
+    const SpherePrimitive ball{draw.between(2, 900)};
+    const Vec3d towards = draw.direction();
+    const Tessellation t = tessellate(ball, {}, 0.5, towards);
+    const auto contours = Net(t.mesh).contours(towards);
+    EXPECT_GE(contours.size(), 8U);
+    EXPECT_LT(worst_end(ball, t, towards), 1e-12);
+    EXPECT_LE(t.mesh.sag_mm, 0.5);
+  }
+}
+
+TEST(Contours, OfAnEllipticalDishRunFromRimToRim) {
+  PrimitiveDraw draw(4);
+  int seen = 0;
+  for (int i = 0; i < 200; ++i) {
+    const EllipticalDishPrimitive dish{draw.between(10, 900), draw.between(10, 900)};
+    const Vec3d towards = draw.direction();
+    const Tessellation t = tessellate(dish, {}, 0.5, towards);
+    const auto contours = Net(t.mesh).contours(towards);
+    const double worst = worst_end(dish, t, towards);
+    if (worst > 1e-9) continue;  // near the rim it is left out
+    ++seen;
+    std::map<std::array<double, 3>, int> ends;
+    for (const auto& [a, b] : contours) ++ends[{a.x, a.y, a.z}], ++ends[{b.x, b.y, b.z}];
+    int loose = 0;
+    for (const auto& [p, n] : ends) {
+      EXPECT_LE(n, 2);
+      if (n == 1) {
+        ++loose;
+        EXPECT_NEAR(p[2], 0, 1e-9);
+      }
+    }
+    EXPECT_EQ(loose, contours.empty() ? 0 : 2);
+  }
+  EXPECT_GT(seen, 150);
+}
+
+TEST(Contours, OfATorusLieOnTheTrueOnes) {
+  PrimitiveDraw draw(5);
+  double worst = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double tube = draw.between(10, 200);
+    const CircularTorusPrimitive bend{tube * draw.between(1.2, 5), tube,
+                                      i % 4 == 0   ? 2 * kPi
+                                      : i % 4 == 1 ? kPi / 2
+                                                   : draw.between(0.2, 6)};
+    const Vec3d towards = draw.direction();
+    if (std::fabs(towards.z) < 0.1) continue;
+    const Tessellation t = tessellate(bend, {}, 0.5, towards);
+    ASSERT_EQ(t.fault, "");
+    EXPECT_LE(t.mesh.sag_mm, 2);
+    EXPECT_LT(worst_end(bend, t, towards), 1e-9) << i;
+    worst = std::max(worst, worst_end(bend, t, towards));
+  }
+  RecordProperty("worst", std::to_string(worst));
+}
+
+/// Local frame at an end of an elbow, z along the pipe.
+Mat3d pipe_frame(const Mat3d& elbow, double angle, double roll) {
+  const Vec3d x = elbow * Vec3d{std::cos(angle), std::sin(angle), 0};
+  const Vec3d y = elbow * Vec3d{0, 0, 1};
+  const Vec3d z = elbow * Vec3d{-std::sin(angle), std::cos(angle), 0};
+  const Vec3d u = x * std::cos(roll) + y * std::sin(roll),
+              v = y * std::cos(roll) - x * std::sin(roll);
+  Mat3d m;
+  m.row = {Vec3d{u.x, v.x, z.x}, Vec3d{u.y, v.y, z.y}, Vec3d{u.z, v.z, z.z}};
+  return m;
+}
+
+// In every view, whatever frames they were drawn in.
+TEST(Contours, RimsOfPipeAndElbowMeet) {
+  PrimitiveDraw draw(6);
+  for (int i = 0; i < 60; ++i) {
+    const double tube = draw.between(10, 300), bend = tube * draw.between(1.2, 4);
+    const double angle = i % 2 == 0 ? kPi / 2 : draw.between(0.1, 3);
+    const Mat3d elbow = i % 3 == 0 ? Mat3d{} : draw.rotation();
+    const Vec3d towards = i % 5 == 0   ? Vec3d{0, 0, 1}
+                          : i % 5 == 1 ? Vec3d{1, -1, 1}
+                          : i % 5 == 2 ? Vec3d{0, -1, 0}
+                                       : draw.direction();
+    const Tessellation t =
+        tessellate(CircularTorusPrimitive{bend, tube, angle}, elbow, 0.5, towards);
+    ASSERT_EQ(t.fault, "");
+    for (const double at : {0.0, angle}) {
+      const Mat3d frame = pipe_frame(elbow, at, draw.between(0, 6));
+      const Tessellation pipe = tessellate(CylinderPrimitive{tube, 2000}, frame, 0.5, towards);
+      const Vec3d centre = elbow * Vec3d{bend * std::cos(at), bend * std::sin(at), 0};
+      const Vec3d along = frame * Vec3d{0, 0, 1};
+      std::size_t rim = 0;
+      for (const Vec3d& v : pipe.mesh.vertices) {
+        if (dot(v, along) < 0) continue;
+        ++rim;
+        double nearest = 1e9;
+        for (const Vec3d& w : t.mesh.vertices) {
+          const Vec3d off = v - along * 1000.0 + centre - w;
+          nearest = std::min(nearest, std::sqrt(dot(off, off)));
+        }
+        EXPECT_LT(nearest, 1e-6) << i;
+      }
+      EXPECT_GE(rim, 8U);
+    }
+  }
+}
+
+// Closed, turned outward, and as near to the true surface as they say.
+TEST(Contours, MeshesKeepWhatTheySay) {
+  PrimitiveDraw draw(7);
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    const double tube = draw.between(10, 60);
+    const Primitive primitive =
+        i % 3 == 0 ? Primitive(CircularTorusPrimitive{tube * draw.between(0.5, 4), tube,
+                                                      i % 2 == 0 ? 2 * kPi : draw.between(0.1, 6)})
+                   : draw.convex(2 + draw.below(5), 400);
+    const Mat3d linear = draw.linear(i % 2 == 0);
+    const Vec3d towards = draw.direction();
+    const Tessellation t = tessellate(primitive, linear, 0.5, towards);
+    if (!t.fault.empty()) continue;
+    auto placed = place(t.mesh, {});
+    ASSERT_TRUE(placed.has_value());
+    const MeshAnalysis analysis = analyse(std::move(placed->mesh));
+    ASSERT_EQ(analysis.parts.size(), 1U);
+    EXPECT_EQ(analysis.parts[0].kind, PartKind::solid);
+    EXPECT_FALSE(analysis.parts[0].flags.inverted);
+    if (i % 2 != 0) continue;
+    for (int k = 0; k < 60; ++k) {
+      const Triangle& w = t.mesh.triangles[random() % t.mesh.triangles.size()];
+      const double a = std::sqrt(draw.between(0, 1)), b = draw.between(0, 1);
+      const Vec3d p = t.mesh.vertices[w[0]] * (1 - a) + t.mesh.vertices[w[1]] * (a * (1 - b)) +
+                      t.mesh.vertices[w[2]] * (a * b);
+      const Mat3d inverse = [&] {
+        Mat3d m;  // of a rotation or mirror
+        const auto& r = linear.row;
+        m.row = {Vec3d{r[0].x, r[1].x, r[2].x}, Vec3d{r[0].y, r[1].y, r[2].y},
+                 Vec3d{r[0].z, r[1].z, r[2].z}};
+        return m;
+      }();
+      ASSERT_LE(test::distance_to_primitive(primitive, inverse * p), t.mesh.sag_mm + 1e-3);
+    }
+    for (const Vec3d& p : test::surface_points(primitive, 8, random))
+      ASSERT_LE(test::distance_to_mesh(t.mesh, linear * p), t.mesh.sag_mm + 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace strake::geometry
