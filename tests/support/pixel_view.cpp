@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "strake/model/view_scene.hpp"
+
 namespace strake::test {
 namespace {
 
@@ -314,8 +316,11 @@ void check_jumps(const PixelView& view, const std::vector<bool>& inked, PixelChe
 }  // namespace
 
 PixelCheck check_by_pixels(const model::Scene& scene, const hlr::Drawing& drawing, int width) {
-  const PixelView view(scene, drawing.view, width);
   PixelCheck check;
+  // The meshes that the view is made of, with contours of round primitives.
+  const auto seen = model::seen_from(scene, {}, drawing.view.direction, {});
+  if (!seen) return check;
+  const PixelView view(*seen ? **seen : scene, drawing.view, width);
   std::vector<bool> inked(static_cast<std::size_t>(view.width()) *
                           static_cast<std::size_t>(view.height()));
   check_lines(view, drawing, inked, check);
