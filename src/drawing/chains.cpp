@@ -32,7 +32,7 @@ class Joiner {
     std::sort(ends_.begin(), ends_.end());
   }
 
-  std::vector<Chain> join() {
+  std::vector<JoinedLines> join() {
     for (const bool free_ends : {true, false})
       for (std::uint32_t i = 0; i < lines_.size(); ++i) {
         if (used_[i]) continue;
@@ -57,11 +57,12 @@ class Joiner {
   }
 
   void follow(std::uint32_t line, bool from_a) {
-    Chain chain{from_a ? lines_[line]->a_paper : lines_[line]->b_paper};
+    JoinedLines chain{{from_a ? lines_[line]->a_paper : lines_[line]->b_paper}, {}};
     for (;;) {
       used_[line] = true;
       const PaperPoint& next = from_a ? lines_[line]->b_paper : lines_[line]->a_paper;
-      chain.push_back(next);
+      chain.points.push_back(next);
+      chain.lines.push_back(lines_[line]);
       const Key key = key_of(next);
       const auto [first, last] = at(key);
       const auto found = std::find_if(first, last, [&](const End& e) { return !used_[e.second]; });
@@ -75,11 +76,13 @@ class Joiner {
   std::span<const Line* const> lines_;
   std::vector<bool> used_;
   std::vector<End> ends_;
-  std::vector<Chain> chains_;
+  std::vector<JoinedLines> chains_;
 };
 
 }  // namespace
 
-std::vector<Chain> join_lines(std::span<const Line* const> lines) { return Joiner(lines).join(); }
+std::vector<JoinedLines> join_lines(std::span<const Line* const> lines) {
+  return Joiner(lines).join();
+}
 
 }  // namespace strake::drawing

@@ -11,11 +11,17 @@ namespace strake::drawing {
 /// Points to be joined by straight lines; closed when the last is the first.
 using Chain = std::vector<PaperPoint>;
 
+/// A chain, and by stretch between two of its points the line that it is of.
+struct JoinedLines {
+  Chain points;
+  std::vector<const Line*> lines;
+};
+
 /// Joins lines that meet end to end on paper into chains, each line once.
 ///
 /// A chain begins with the first line not yet drawn that has a free end, or failing that with the
 /// first not yet drawn, and at a fork goes on with the first: the order of the lines alone decides.
 /// Lines without length are left out.
-[[nodiscard]] std::vector<Chain> join_lines(std::span<const Line* const> lines);
+[[nodiscard]] std::vector<JoinedLines> join_lines(std::span<const Line* const> lines);
 
 }  // namespace strake::drawing

@@ -37,6 +37,26 @@ class Plane {
   Vec3l origin_;
 };
 
+/// Curves as they lie on the sheet.
+PaperCurves curves_on_paper(const hlr::Curves& curves, const PaperAxes& axes,
+                            const Placement& placement) {
+  const Plane plane(axes, placement.anchor);
+  const double scale = placement.sheet.scale;
+  const auto along = [&](const Vec3d& v) {
+    return PaperPoint{dot(axes.right, v) / scale, -dot(axes.up, v) / scale};
+  };
+  PaperCurves result{{}, curves.edges};
+  result.all.reserve(curves.all.size());
+  for (const hlr::Curve& curve : curves.all) {
+    const PaperPoint origin = plane(curve.origin), centre = along(curve.at.centre);
+    result.all.push_back({{placement.at.x + origin.x / scale + centre.x,
+                           placement.at.y - origin.y / scale + centre.y},
+                          along(curve.at.u),
+                          along(curve.at.v)});
+  }
+  return result;
+}
+
 /// The middle of a box in the middle of the sheet.
 Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& origin) {
   return {sheet,
@@ -115,6 +135,13 @@ Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces,
 
 }  // namespace
 
+const PaperCurve* PaperCurves::of(const Line& line) const {
+  const auto key = [](const auto& l) { return std::pair(model::index(l.object), l.edge); };
+  const auto found = std::ranges::lower_bound(edges, key(line), {},
+                                              [&](const hlr::CurvedEdge& e) { return key(e); });
+  return found != edges.end() && key(*found) == key(line) ? &all[found->curve] : nullptr;
+}
+
 PlaneBox plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes, const Vec3l& origin) {
   constexpr double kBig = std::numeric_limits<double>::max();
   const Plane plane(axes, origin);
@@ -161,6 +188,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.counters = drawing.counters;
   out.hash = hash_of(drawing, model);
+  out.curves = curves_on_paper(drawing.curves, *axes, placement);
   // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
   const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);
   const auto stretches = options.remove_duplicates

@@ -93,7 +93,7 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
-  write_layers(out, ink, model, "");
+  write_layers(out, drawing.curves, ink, model, "");
   out << "</g>\n";
   write_title(out, drawing);
   out << "</svg>\n";

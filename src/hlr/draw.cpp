@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "hlr/account.hpp"
+#include "hlr/curves.hpp"
 #include "hlr/job.hpp"
 #include "strake/hlr/hlr.hpp"
 
@@ -35,6 +36,9 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.contact_distance_mm = job->contact_distance_mm;
   drawing.diagnostics = job->diagnostics;
   if (const Status status = solve(*job, context, drawing); !status) return status.error();
+  Result<Curves> curves = find_curves(*job, context);
+  if (!curves) return curves.error();
+  drawing.curves = std::move(*curves);
   Result<Account> account = account_of(*job->scene, job->drawn, drawing.pieces, context);
   if (!account) return account.error();
   drawing.account = std::move(*account);

@@ -12,6 +12,7 @@
 #include "drawing/layers.hpp"
 #include "drawing/paper.hpp"
 #include "drawing/svg_layers.hpp"
+#include "drawing/svg_path.hpp"
 #include "sheets/lettering.hpp"
 #include "sheets/styles.hpp"
 #include "strake/core/number.hpp"
@@ -141,7 +142,7 @@ void write_view(Chunked& out, const PlacedView& view, const model::Model& model,
   out << "<g class=\"view\" id=\"" << id << "\" inkscape:groupmode=\"layer\" inkscape:label=\""
       << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
       << view.drawing.sheet.scale_text << "\">\n";
-  drawing::write_layers(out, view.ink, model, id + "-");
+  drawing::write_layers(out, view.drawing.curves, view.ink, model, id + "-");
   write_layer(out, view.grid, id + "-grid", "Grid");
   write_layer(out, view.tags, id + "-tags", "Tags");
   write_layer(out, view.caption, id + "-title", "Title");

@@ -53,6 +53,20 @@ struct Line {
   PaperPoint a_paper, b_paper;  ///< multiples of a micrometre of paper
 };
 
+/// An ellipse on the sheet: centre + u cos t + v sin t, with conjugate half-diameters.
+struct PaperCurve {
+  PaperPoint centre, u, v;
+};
+
+/// Curves that straight lines stand for.
+struct PaperCurves {
+  std::vector<PaperCurve> all;
+  std::vector<hlr::CurvedEdge> edges;  ///< by (object, edge); of `all`
+
+  /// The curve that a line is a chord of; null: it is straight.
+  [[nodiscard]] const PaperCurve* of(const Line& line) const;
+};
+
 struct Sheet {
   double width_mm = 420, height_mm = 297;
   double scale = 1;        ///< model mm per paper mm
@@ -88,6 +102,7 @@ struct NeutralDrawing {
   double contact_distance_mm = 0;
   Sheet sheet;
   std::vector<Line> lines;
+  PaperCurves curves;
   std::array<std::uint64_t, kLineStates> count{};  ///< of lines, by state
   hlr::Counters counters;
   hlr::Account account;

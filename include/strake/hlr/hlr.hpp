@@ -11,6 +11,7 @@
 
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
+#include "strake/geometry/ellipse.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
@@ -135,11 +136,32 @@ struct Account {
   }
 };
 
+/// A circle of a round primitive, or what its placement makes of it: millimetres from `origin`,
+/// which is in grid units.
+struct Curve {
+  geometry::Vec3l origin;
+  geometry::Ellipse at;
+};
+
+/// An edge that is a chord of a curve: its ends lie on it but for the snap.
+struct CurvedEdge {
+  model::ObjectId object{};
+  std::uint32_t edge = 0;   ///< as Piece::edge
+  std::uint32_t curve = 0;  ///< index into Curves::all
+};
+
+/// Which of the straight edges of a drawing stand for curves.
+struct Curves {
+  std::vector<Curve> all;
+  std::vector<CurvedEdge> edges;  ///< by (object, edge)
+};
+
 struct Drawing {
   View view;
   Options options;
   double contact_distance_mm = 0;  ///< the largest that was applied
   std::vector<Piece> pieces;       ///< by (object, edge, parameter)
+  Curves curves;
   Counters counters;
   Account account;
   /// Of sections: planes that miss, what is cut but not hatched. Of objects: defects.

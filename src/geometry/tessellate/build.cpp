@@ -30,6 +30,14 @@ SinCos canonical_phase(const Vec3d& image_x, const Vec3d& image_y) {
   return {y / length, x / length};
 }
 
+std::optional<Vec3d> local_direction(const Mat3d& linear, const Vec3d& placed) {
+  const Vec3d x = column(linear, 0), y = column(linear, 1), z = column(linear, 2);
+  const Vec3d local{dot(cross(y, z), placed), dot(cross(z, x), placed), dot(cross(x, y), placed)};
+  const double square = dot(local, local);
+  if (!(square > 0) || !std::isfinite(square)) return std::nullopt;
+  return local * (1 / std::sqrt(square));
+}
+
 std::optional<SinCos> contour_phase(double x, double y, double along) {
   const double across = x * x + y * y;
   // The square of a milliradian: below it rounding could tell a pipe from the elbow at its end.

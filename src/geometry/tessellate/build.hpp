@@ -33,6 +33,11 @@ inline constexpr double kRimShare = 0.75;
 /// plane, or of X when the normal is within 26 degrees of Z.
 [[nodiscard]] SinCos canonical_phase(const Vec3d& image_x, const Vec3d& image_y);
 
+/// The unit direction that a map takes to the given one, up to its length: what has its local
+/// normal at right angles to it has its placed one so to the given one. None where the map flattens
+/// it.
+[[nodiscard]] std::optional<Vec3d> local_direction(const Mat3d& linear, const Vec3d& placed);
+
 /// Where the contour of a pipe lies in its section: at right angles to the direction to the viewer,
 /// given along two axes of the section and along the pipe. None where that is along the pipe.
 [[nodiscard]] std::optional<SinCos> contour_phase(double x, double y, double along);

@@ -22,17 +22,6 @@ bool fits(const Tessellation& t) {
   return true;
 }
 
-/// The direction that a map takes to the given one, up to its length: where local normals are at
-/// right angles to it, placed ones are to the given one. None where the map flattens it.
-std::optional<Vec3d> local_direction(const Mat3d& linear, const Vec3d& placed) {
-  using tessellation::column;
-  const Vec3d x = column(linear, 0), y = column(linear, 1), z = column(linear, 2);
-  const Vec3d local{dot(cross(y, z), placed), dot(cross(z, x), placed), dot(cross(x, y), placed)};
-  const double square = dot(local, local);
-  if (!(square > 0) || !std::isfinite(square)) return std::nullopt;
-  return local * (1 / std::sqrt(square));
-}
-
 }  // namespace
 
 Tessellation tessellate(const Primitive& primitive, const Mat3d& linear, double sag_mm,
@@ -41,7 +30,7 @@ Tessellation tessellate(const Primitive& primitive, const Mat3d& linear, double 
   if (!(scale > 0) || !std::isfinite(scale))
     return tessellation::fault("the placement is not finite or flattens everything");
   tessellation::Target target{linear, sag_mm / scale, std::nullopt};
-  if (towards) target.towards = local_direction(linear, *towards);
+  if (towards) target.towards = tessellation::local_direction(linear, *towards);
   Tessellation t =
       std::visit([&](const auto& p) { return tessellation::make(p, target); }, primitive);
   t.mesh.sag_mm *= scale;

@@ -32,15 +32,15 @@ const Golden kSafe[] = {
     {"iso",
      {16409, 14353, 12584, 7, 0, 9771},
      "146130d0758f9653aa2ffa726174efbf",
-     "c6d34586a87f3d5c2cf11d03c165a081"},
+     "712092743963da792d7c0c126aae917d"},
     {"top",
      {9877, 3519, 5782, 2320, 0, 28484},
      "b2be256789a3e0d87c6e6f7c7ce204e2",
-     "bdfa1f5abddbfdfd6bb0319c51fc9e10"},
+     "cb05871f7c34ced65bb75677cd2aa832"},
     {"front",
      {9659, 2482, 4500, 2981, 0, 30775},
      "c7a386872f682a90fe593a339393cf84",
-     "e5838e311460c7780540dbf97afe3ae8"},
+     "bd3b5038cc4529ddf150fa259719613c"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {

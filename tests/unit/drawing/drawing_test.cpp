@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "drawing/chains.hpp"
+#include "drawing/svg_path.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
 
@@ -217,13 +219,49 @@ TEST(Chains, JoinEndToEnd) {
   for (const Line& line : lines) all.push_back(&line);
   const auto closed = join_lines(all);
   ASSERT_EQ(closed.size(), 1U);
-  EXPECT_EQ(closed[0].size(), 5U);
-  EXPECT_EQ(closed[0].front(), closed[0].back());
+  EXPECT_EQ(closed[0].points.size(), 5U);
+  EXPECT_EQ(closed[0].points.front(), closed[0].points.back());
   all.pop_back();
   std::swap(all[0], all[1]);
   const auto open = join_lines(all);
   ASSERT_EQ(open.size(), 1U);
-  EXPECT_EQ(open[0].size(), 4U);
+  EXPECT_EQ(open[0].points.size(), 4U);
+}
+
+/// A regular polygon in an ellipse, whose edges from `first` on are chords of it.
+std::string polygon_path(std::uint32_t corners, std::uint32_t first, const PaperCurve& curve) {
+  std::vector<Line> lines(corners);
+  PaperCurves curves{{curve}, {}};
+  const auto at = [&](std::uint32_t k) {
+    const double turn = 2 * std::acos(-1.0) * k / corners;
+    const double x = std::cos(turn), y = std::sin(turn);
+    const auto rounded = [](double mm) { return std::round(mm * 1000) / 1000; };
+    return PaperPoint{rounded(curve.centre.x + curve.u.x * x + curve.v.x * y),
+                      rounded(curve.centre.y + curve.u.y * x + curve.v.y * y)};
+  };
+  std::vector<const Line*> all;
+  for (std::uint32_t k = 0; k < corners; ++k) {
+    lines[k].edge = k;
+    lines[k].a_paper = at(k);
+    lines[k].b_paper = at((k + 1) % corners);
+    if (k >= first) curves.edges.push_back({{}, k, 0});
+    all.push_back(&lines[k]);
+  }
+  std::string path;
+  for (const JoinedLines& chain : join_lines(all)) append_svg_path(path, chain, curves);
+  return path;
+}
+
+TEST(Svg, ChordsOfACurveAreArcs) {
+  const PaperCurve circle{{50, 50}, {40, 0}, {0, 40}};
+  EXPECT_EQ(polygon_path(8, 0, circle),
+            "M90 50A40 40 0 0 1 50 90A40 40 0 0 1 10 50A40 40 0 0 1 50 10A40 40 0 0 1 90 50Z");
+  EXPECT_EQ(polygon_path(8, 8, circle).find('A'), std::string::npos);
+  // Two straight edges and the rest of the ellipse.
+  const std::string some = polygon_path(4, 2, {{50, 50}, {40, 0}, {0, 20}});
+  EXPECT_EQ(some, "M90 50L50 70 10 50A40 20 0 0 1 50 30A40 20 0 0 1 90 50Z");
+  // Seen edge-on it is a line.
+  EXPECT_EQ(polygon_path(8, 0, {{50, 50}, {40, 0}, {1e-6, 0}}).find('A'), std::string::npos);
 }
 
 TEST(Svg, HoldsLayersGroupsAndPathsInMillimetres) {

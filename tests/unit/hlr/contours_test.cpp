@@ -218,6 +218,30 @@ TEST(ContourLines, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(ContourLines, KnowTheCirclesThatTheyAreChordsOf) {
+  Plant plant;
+  test::PrimitiveDraw draw(12);
+  plant.object(geometry::BoxPrimitive{100, 100, 100});
+  plant.object(geometry::CylinderPrimitive{200, 900}, draw.rotation(), {5000, 0, 77});
+  plant.object(geometry::SpherePrimitive{500}, draw.rotation(), {-5000, 300, 0});
+  plant.object(geometry::EllipticalDishPrimitive{300, 120}, draw.rotation(), {0, 9000, 0});
+  const hlr::Drawing drawing = drawn(plant.scene(), {1, 2, 3}, {.stage = hlr::Stage::none});
+  std::size_t curved = 0;
+  for (const Piece& p : drawing.pieces) {
+    const auto found = std::ranges::find_if(drawing.curves.edges, [&](const auto& e) {
+      return e.object == p.object && e.edge == p.edge;
+    });
+    const bool generator = p.kind == EdgeKind::contour && model::index(p.object) == 1;
+    ASSERT_EQ(found == drawing.curves.edges.end(), generator || model::index(p.object) == 0);
+    if (found == drawing.curves.edges.end()) continue;
+    ++curved;
+    const hlr::Curve& curve = drawing.curves.all[found->curve];
+    for (const Vec3l& end : {p.a, p.b})
+      EXPECT_TRUE(curve.at.passes((end - curve.origin).as<double>() * 0.001, 0.002));
+  }
+  EXPECT_GT(curved, 80U);
+}
+
 TEST(SceneOfAView, ChangesNothingWhereNothingIsRound) {
   Plant plant;
   plant.object(geometry::BoxPrimitive{10, 20, 30});
