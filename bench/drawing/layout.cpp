@@ -133,7 +133,7 @@ int run(const Arguments& a) {
   const double distance = std::max(lines->contact_distance_mm, 3 * geometry::kMmPerGrid);
   for (int i = 0; i < a.repeat; ++i) {
     clock = {};
-    const auto flat = drawing::flatten(lines->pieces, *axes, distance, context);
+    const auto flat = drawing::flatten(*lines, *axes, distance, context);
     if (!flat) return 3;
     const drawing::OverlapRule rule = drawing::duplicate_rule(distance);
     const auto cut = drawing::cut_overlaps(*flat, rule, context);

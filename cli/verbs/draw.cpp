@@ -35,6 +35,7 @@ struct DrawOptions {
   std::string stage, solver, global, culling, hidden, intersections, smooth, sharp_angle,
       contact_distance;
   std::vector<std::string> select, outputs, sections, hatches;
+  bool visible_only = false;
 };
 
 Result<geometry::Vec3l> direction_of(const std::string& text, const std::string& option,
@@ -118,6 +119,10 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
   if (given.solver == "brute-force") options.solver = hlr::Solver::brute_force;
   if (given.global == "push") options.solver = hlr::Solver::push;
   options.culling = given.culling != "off";
+  options.hidden = !given.visible_only;
+  if (given.visible_only && !given.hidden.empty() && given.hidden != "off")
+    return Error{ErrorCode::usage, "hidden lines cannot be drawn and left out", "--visible-only",
+                 "leave out --hidden or --visible-only"};
   if (given.intersections == "off") options.intersections = hlr::Intersections::off;
   if (given.intersections == "parts") options.intersections = hlr::Intersections::parts;
   options.smooth = given.smooth == "on";
@@ -157,6 +162,7 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
   stats.count("covered edges", work.covered_edges);
   stats.count("face tests", work.face_tests);
   stats.count("exact fall-backs", work.exact_fallbacks);
+  stats.count("edges with hidden pieces left out", work.left_out);
   for (std::size_t s = 0; s < drawing::kLineStates; ++s)
     stats.count(fmt::format("lines {}", drawing::state_name(static_cast<drawing::LineState>(s))),
                 drawing.count[s]);
@@ -332,6 +338,10 @@ void add_lines(CLI::App& command, DrawOptions& options) {
              "Hidden lines in the SVG: none, dashed where no line runs beside them, or all "
              "(default off)")
       ->group("Lines");
+  command
+      .add_flag("--visible-only", options.visible_only,
+                "Leave hidden lines out of everything, of .json too: less time and memory")
+      ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")
       ->group("Lines");
@@ -365,8 +375,8 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
           ->group("Output");
   for (const char* const other :
        {"--view", "--direction", "--up", "--limits", "--section", "--hatch", "--select", "--hidden",
-        "--stage", "--intersections", "--smooth", "--sharp-angle", "--contact-distance", "--scale",
-        "--title"})
+        "--visible-only", "--stage", "--intersections", "--smooth", "--sharp-angle",
+        "--contact-distance", "--scale", "--title"})
     sheet->excludes(other);
 }
 

@@ -67,9 +67,10 @@ Line part_of(const Line& line, double from, double to) {
   return part;
 }
 
-Result<std::vector<Flat>> flatten(std::span<const hlr::Piece> pieces, const PaperAxes& axes,
+Result<std::vector<Flat>> flatten(const hlr::Drawing& drawing, const PaperAxes& axes,
                                   double distance_mm, const parallel::Context& context) {
-  const Vec3d origin = pieces.empty() ? Vec3d{} : geometry::to_mm(pieces.front().a);
+  const std::span<const hlr::Piece> pieces = drawing.pieces;
+  const Vec3d origin = geometry::to_mm(drawing.origin);
   return parallel::transform(
       context, {.name = "lines in the plane", .n = pieces.size(), .grain = 8192},
       [&](std::size_t i) { return flat_of(pieces[i], axes, origin, distance_mm / 2); });
@@ -79,9 +80,9 @@ OverlapRule duplicate_rule(double distance_mm) {
   return {.least = distance_mm, .shortest = distance_mm};
 }
 
-Result<Stretches> find_duplicates(std::span<const hlr::Piece> pieces, const PaperAxes& axes,
+Result<Stretches> find_duplicates(const hlr::Drawing& drawing, const PaperAxes& axes,
                                   double distance_mm, const parallel::Context& context) {
-  const auto flat = flatten(pieces, axes, distance_mm, context);
+  const auto flat = flatten(drawing, axes, distance_mm, context);
   if (!flat) return flat.error();
   return cut_overlaps(*flat, duplicate_rule(distance_mm), context);
 }

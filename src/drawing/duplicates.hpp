@@ -20,14 +20,14 @@ namespace strake::drawing {
 /// OverlapRule says. Of two that coincide over a stretch, the visible one stays, then the nearer to
 /// the viewer, then that of the lowest object and edge. Pieces that are drawn nowhere (projecting,
 /// clipped) take no part.
-[[nodiscard]] Result<Stretches> find_duplicates(std::span<const hlr::Piece> pieces,
-                                                const PaperAxes& axes, double distance_mm,
+[[nodiscard]] Result<Stretches> find_duplicates(const hlr::Drawing& drawing, const PaperAxes& axes,
+                                                double distance_mm,
                                                 const parallel::Context& context);
 
-/// The same in two steps: the pieces in the plane of the view, relative to the first of them, and
-/// when they are duplicates.
-[[nodiscard]] Result<std::vector<Flat>> flatten(std::span<const hlr::Piece> pieces,
-                                                const PaperAxes& axes, double distance_mm,
+/// The same in two steps: the pieces in the plane of the view, relative to the drawing's origin, so
+/// that what else is drawn decides nothing; and when they are duplicates.
+[[nodiscard]] Result<std::vector<Flat>> flatten(const hlr::Drawing& drawing, const PaperAxes& axes,
+                                                double distance_mm,
                                                 const parallel::Context& context);
 [[nodiscard]] OverlapRule duplicate_rule(double distance_mm);
 

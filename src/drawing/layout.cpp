@@ -168,9 +168,8 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   if (options.scale && !(*options.scale > 0 && std::isfinite(*options.scale)))
     return Error{ErrorCode::usage, "the scale is not a positive number", "", "use 1:50, say"};
   const Placement placement = options.placement ? *options.placement : [&] {
-    const Vec3l origin = drawing.pieces.empty() ? Vec3l{} : drawing.pieces.front().a;
-    const PlaneBox box = plane_extent(drawing, *axes, origin);
-    return in_the_middle(box, choose_sheet(box, options), origin);
+    const PlaneBox box = plane_extent(drawing, *axes, drawing.origin);
+    return in_the_middle(box, choose_sheet(box, options), drawing.origin);
   }();
   const Plane plane(*axes, placement.anchor);
   const auto on_paper = [&](const Vec3l& grid) {
@@ -192,7 +191,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
   const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);
   const auto stretches = options.remove_duplicates
-                             ? find_duplicates(drawing.pieces, *axes, distance, context)
+                             ? find_duplicates(drawing, *axes, distance, context)
                              : Result<Stretches>(Stretches{});
   if (!stretches) return stretches.error();
   auto lines = make_lines(

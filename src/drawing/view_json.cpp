@@ -62,8 +62,10 @@ void write_counts(Chunked& out, const NeutralDrawing& drawing) {
     const auto fate = static_cast<hlr::Fate>(f);
     out << fmt::format(",\"objects_{}\":{}", fate_name(fate), drawing.account.of(fate));
   }
-  out << fmt::format(",\"objects_in_part\":{},\"feature_edges\":{},\"pieces\":{}",
-                     drawing.account.in_part, drawing.counters.feature_edges, drawing.lines.size());
+  out << fmt::format(
+      ",\"objects_in_part\":{},\"feature_edges\":{},\"edges_left_out\":{},\"pieces\":{}",
+      drawing.account.in_part, drawing.counters.feature_edges, drawing.counters.left_out,
+      drawing.lines.size());
   for (std::size_t s = 0; s < kLineStates; ++s)
     out << fmt::format(",\"{}\":{}", state_name(static_cast<LineState>(s)), drawing.count[s]);
   out << "},\n";

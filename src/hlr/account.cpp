@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "strake/parallel/for_each.hpp"
@@ -18,8 +19,10 @@ constexpr std::size_t kObjectsPerItem = 4096;
 std::uint32_t object_of(const Piece& piece) { return model::index(piece.object); }
 
 /// Of an object that is on the grid, by its lines; advances `next` beyond them.
-Fate fate_of(std::uint32_t object, std::span<const Piece> pieces, std::size_t& next) {
-  bool visible = false, hidden = false, clipped = false;
+Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
+  const std::span<const Piece> pieces = drawing.pieces;
+  bool visible = false, clipped = false;
+  bool hidden = !drawing.left_out.empty() && drawing.left_out[object] > 0;
   for (; next < pieces.size() && object_of(pieces[next]) == object; ++next) {
     const State state = pieces[next].state;
     visible = visible || state == State::visible;
@@ -64,7 +67,8 @@ void list_defects(const model::Scene& scene, std::span<const Piece> pieces, Acco
 }  // namespace
 
 Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& drawn,
-                           std::span<const Piece> pieces, const parallel::Context& context) {
+                           const Drawing& drawing, const parallel::Context& context) {
+  const std::span<const Piece> pieces = drawing.pieces;
   Account account;
   account.fates.resize(drawn.size());
   const Status status = parallel::for_each(
@@ -80,7 +84,7 @@ Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& d
           if (!drawn[object]) continue;
           const bool placed = scene.first_body[object] < scene.first_body[object + 1];
           account.fates[object] =
-              placed ? fate_of(object, pieces, next) : fate_without_body(scene, object);
+              placed ? fate_of(object, drawing, next) : fate_without_body(scene, object);
         }
       });
   if (!status) return status.error();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "strake/core/diagnostics.hpp"
@@ -12,11 +11,10 @@
 
 namespace strake::hlr {
 
-/// What became of every object of a scene: `drawn` by object, `pieces` by object. Errors:
-/// cancelled.
+/// What became of every object of a scene: `drawn` by object; pieces and what was left out, of a
+/// drawing that has its lines. Errors: cancelled.
 [[nodiscard]] Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& drawn,
-                                         std::span<const Piece> pieces,
-                                         const parallel::Context& context);
+                                         const Drawing& drawing, const parallel::Context& context);
 
 /// A warning for each object that is degenerate, failed, or drawn without some of its geometry.
 void report_defects(const model::Model& model, const Account& account, Diagnostics& diagnostics);

@@ -291,6 +291,7 @@ std::vector<Stretch> solve(const Job& job, const Solver& solver, const Edge& e,
 struct ObjectLines {
   std::vector<Piece> pieces;
   std::uint64_t edges = 0, tests = 0;
+  std::uint32_t left_out = 0;
 };
 
 void solve_edge(const Job& job, const Solver& solver, const Edge& e, ObjectLines& result) {
@@ -301,9 +302,16 @@ void solve_edge(const Job& job, const Solver& solver, const Edge& e, ObjectLines
     return p;
   };
   const auto number = static_cast<std::uint32_t>(result.edges++);
-  for (const Stretch& s : solve(job, solver, e, result.tests))
+  bool left_out = false;
+  for (const Stretch& s : solve(job, solver, e, result.tests)) {
+    if (!keeps(job.options, s.state)) {
+      left_out = true;
+      continue;
+    }
     result.pieces.push_back({scene.bodies[e.body].object, number, e.kind, s.state,
                              scene.bodies[e.other_body].object, at(s.range.lo), at(s.range.hi)});
+  }
+  result.left_out += left_out ? 1 : 0;
 }
 
 ObjectLines solve_object(const Job& job, std::uint32_t object) {
@@ -339,7 +347,9 @@ Status solve_brute_force(const Job& job, const parallel::Context& context, Drawi
         if (job.drawn[i]) lines[i] = solve_object(job, static_cast<std::uint32_t>(i));
       });
   if (!status) return status;
-  for (const ObjectLines& one : lines) {
+  for (std::size_t i = 0; i < objects; ++i) {
+    const ObjectLines& one = lines[i];
+    if (!drawing.left_out.empty()) drawing.left_out[i] = one.left_out;
     drawing.pieces.insert(drawing.pieces.end(), one.pieces.begin(), one.pieces.end());
     drawing.counters.feature_edges += one.edges;
     drawing.counters.face_tests += one.tests;

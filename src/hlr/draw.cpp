@@ -35,13 +35,16 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.options = options;
   drawing.contact_distance_mm = job->contact_distance_mm;
   drawing.diagnostics = job->diagnostics;
+  drawing.origin = job->origin;
+  if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
   if (const Status status = solve(*job, context, drawing); !status) return status.error();
   Result<Curves> curves = find_curves(*job, context);
   if (!curves) return curves.error();
   drawing.curves = std::move(*curves);
-  Result<Account> account = account_of(*job->scene, job->drawn, drawing.pieces, context);
+  Result<Account> account = account_of(*job->scene, job->drawn, drawing, context);
   if (!account) return account.error();
   drawing.account = std::move(*account);
+  for (const std::uint32_t edges : drawing.left_out) drawing.counters.left_out += edges;
   report_defects(*job->scene->model, drawing.account, drawing.diagnostics);
   return drawing;
 }

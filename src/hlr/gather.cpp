@@ -36,7 +36,7 @@ class Drawer {
     ++gatherer_.work.edges;
     std::span<const Hit> hits;
     if (maker_.begin(edge)) hits = gatherer_.hits(edge, maker_.lo(), maker_.hi());
-    maker_.finish(number, hits, out);
+    if (maker_.finish(number, hits, out)) ++gatherer_.work.left_out;
   }
 
   const World& world_;
@@ -100,7 +100,12 @@ Status solve_gather(const Job& job, const parallel::Context& context, Drawing& d
       });
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
-  for (const Work& w : work) add(drawing.counters, w);
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    add(drawing.counters, work[i]);
+    if (work[i].left_out > 0)
+      drawing.left_out[world.placed[world.items[i].body].object] +=
+          static_cast<std::uint32_t>(work[i].left_out);
+  }
   return {};
 }
 

@@ -24,14 +24,19 @@ void add(Counters& counters, const Work& work) {
 }
 
 std::span<const Hit> Gatherer::hits(const AskedEdge& edge, const Param& lo, const Param& hi) {
-  static_cast<void>(own_hits(edge, lo, hi));
-  if (!open_.empty() && job_.options.stage == Stage::global) gather_others();
+  begin(edge, lo, hi);
+  // Who hides what is of no interest where hidden pieces are left out: then the cheapest first.
+  const bool global = job_.options.stage == Stage::global, any_order = !job_.options.hidden;
+  if (global && any_order) take_covered_ends();
+  if (!open_.empty()) gather_own_objects();
+  if (global && !any_order && !open_.empty()) take_covered_ends();
+  if (global && !open_.empty()) gather_others();
   return hits_;
 }
 
 std::span<const Hit> Gatherer::own_hits(const AskedEdge& edge, const Param& lo, const Param& hi) {
   begin(edge, lo, hi);
-  if (edge_.kind != EdgeKind::polyline && job_.options.stage != Stage::none) gather_own_objects();
+  gather_own_objects();
   return hits_;
 }
 
@@ -59,6 +64,7 @@ std::span<const Hit> Gatherer::hits_of_own_body(const AskedEdge& edge) {
 // Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
 // edge wholly, completely.
 void Gatherer::gather_own_objects() {
+  if (edge_.kind == EdgeKind::polyline || job_.options.stage == Stage::none) return;
   if (edge_.feature != nullptr && edge_.own->opaque) gather_own_body();
   gather_object(edge_.own->object);
   if (edge_.other->object != edge_.own->object) gather_object(edge_.other->object);
@@ -101,8 +107,6 @@ void Gatherer::take_covered_ends() {
 }
 
 void Gatherer::gather_others() {
-  take_covered_ends();
-  if (open_.empty()) return;
   const auto consider = [&](std::uint32_t b) {
     const std::uint32_t object = world_.placed[b].object;
     return object == edge_.own->object || object == edge_.other->object || gather_body(b, false);

@@ -54,6 +54,11 @@ struct Job {
                                   const View& view, const Options& options,
                                   const parallel::Context& context);
 
+/// Whether a piece in this state stays in the drawing.
+[[nodiscard]] inline bool keeps(const Options& options, State state) {
+  return options.hidden || (state != State::hidden_by_self && state != State::hidden_by_other);
+}
+
 /// The definition, taken literally: every edge against every triangle. `pieces` and the counters
 /// of a drawing whose header is filled.
 [[nodiscard]] Status solve_brute_force(const Job& job, const parallel::Context& context,

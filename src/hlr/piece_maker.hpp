@@ -25,8 +25,10 @@ class PieceMaker {
   [[nodiscard]] const Param& lo() const { return lo_; }
   [[nodiscard]] const Param& hi() const { return hi_; }
 
-  /// Appends the pieces of the edge in hand, which has this number within its object.
-  void finish(std::uint32_t number, std::span<const Hit> hits, std::vector<Piece>& out);
+  /// Appends the pieces of the edge in hand, which has this number within its object. True when
+  /// hidden ones were left out.
+  [[nodiscard]] bool finish(std::uint32_t number, std::span<const Hit> hits,
+                            std::vector<Piece>& out);
 
  private:
   const World& world_;

@@ -215,7 +215,7 @@ Status solve_push(const Job& job, const parallel::Context& context, Drawing& dra
         for (std::uint32_t e = 0; e < objects[o].edges.size(); ++e) {
           const Under& under = objects[o].edges[e];
           static_cast<void>(maker.begin(under.edge));
-          maker.finish(e, under.hits, out);
+          if (maker.finish(e, under.hits, out)) ++drawing.left_out[o];
         }
       });
   if (!pieces) return pieces.error();

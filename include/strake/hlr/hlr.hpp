@@ -77,6 +77,9 @@ struct Options {
   double contact_distance_mm = -1;
   Intersections intersections = Intersections::objects;
   bool culling = true;  ///< changes the work, never the answer
+  /// Keep hidden pieces. Without them a drawing is found in less time and memory; its other pieces
+  /// and the fates of its objects are the same.
+  bool hidden = true;
   /// The usual distance of hatch lines in the model, mm; 0: no hatch; negative: from the size of
   /// what is drawn.
   double hatch_spacing_mm = -1;
@@ -99,6 +102,7 @@ struct Counters {
   std::uint64_t covered_edges = 0;  ///< the rest of which whole tiles of paper hide
   std::uint64_t face_tests = 0;     ///< edge against face
   std::uint64_t exact_fallbacks = 0;
+  std::uint64_t left_out = 0;  ///< edges with hidden pieces that Options::hidden did not ask for
 };
 
 /// What became of an object. Each that was selected has one fate other than `unselected`: none
@@ -162,6 +166,9 @@ struct Drawing {
   double contact_distance_mm = 0;  ///< the largest that was applied
   std::vector<Piece> pieces;       ///< by (object, edge, parameter)
   Curves curves;
+  /// By object: edges of which hidden pieces were left out, see Options::hidden. Empty: none were.
+  std::vector<std::uint32_t> left_out;
+  geometry::Vec3l origin;  ///< grid units: the middle of all that is drawn
   Counters counters;
   Account account;
   /// Of sections: planes that miss, what is cut but not hatched. Of objects: defects.

@@ -132,6 +132,35 @@ TEST(Culling, ChangesNothingButTheWork) {
   EXPECT_LT(3 * culled_tests, all_tests);
 }
 
+TEST(Culling, LeavingHiddenPiecesOutChangesNoOther) {
+  std::uint64_t left_out = 0;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    const SceneBuilder scene = crowd(seed);
+    Random random(seed * 17);
+    const hlr::View view{.direction = some_direction(random), .limits = some_limits(random)};
+    hlr::Options options;
+    auto full = hlr::draw(scene.scene(), {}, view, options, {});
+    options.hidden = false;
+    const auto culled = hlr::draw(scene.scene(), {}, view, options, {});
+    options.culling = random.one_in(2);
+    options.solver = seed % 8 == 0 ? hlr::Solver::brute_force : hlr::Solver::gather;
+    const auto other = hlr::draw(scene.scene(), {}, view, options, {});
+    ASSERT_TRUE(full.has_value() && culled.has_value() && other.has_value()) << "seed " << seed;
+    std::erase_if(full->pieces, [](const hlr::Piece& piece) {
+      return piece.state == hlr::State::hidden_by_self ||
+             piece.state == hlr::State::hidden_by_other;
+    });
+    ASSERT_EQ(test::difference(full->pieces, culled->pieces), "") << "seed " << seed;
+    ASSERT_EQ(test::difference(full->pieces, other->pieces), "") << "seed " << seed;
+    ASSERT_EQ(full->account.fates, culled->account.fates) << "seed " << seed;
+    ASSERT_EQ(full->account.fates, other->account.fates) << "seed " << seed;
+    ASSERT_EQ(full->counters.left_out, 0U);
+    ASSERT_EQ(culled->counters.left_out, other->counters.left_out) << "seed " << seed;
+    left_out += culled->counters.left_out;
+  }
+  EXPECT_GT(left_out, 5000U);
+}
+
 TEST(Culling, OneShapeIsTestedAgainstItselfOnce) {
   const HandPart one = hand_box({0, 0, 0}, {9000, 9000, 900});
   const HandPart two = hand_box({1000, 1000, 2000}, {8000, 8000, 2500});

@@ -58,6 +58,27 @@ class Draw(Scenario):
         cut = pieces('--limits', '0,0,0,40,40,40')
         self.assertTrue(any(piece['state'] == 'clipped' for piece in cut))
 
+    def test_visible_only_leaves_out_the_rest_and_nothing_else(self):
+        self.two_files()
+        found = []
+        for more in ((), ('--visible-only',), ('--visible-only', '--culling', 'off', '--threads', 3)):
+            done = self.run_strake('draw', 'a.obj', 'b.obj', '-o', 'x.svg', '-o', 'x.json', *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawing = json.loads((self.folder / 'x.json').read_text())
+            ink = (self.folder / 'x.svg').read_text().split('</metadata>')[1]
+            visible = [[piece[key] for key in ('object', 'edge', 'kind', 'a_mm', 'b_mm', 'a_paper_mm')]
+                       for piece in drawing['pieces'] if piece['state'] == 'visible']
+            fates = {key: n for key, n in drawing['counts'].items() if key.startswith('objects')}
+            found.append((visible, fates, ink))
+            hidden = drawing['counts']['hidden_by_self'] + drawing['counts']['hidden_by_other']
+            self.assertEqual(hidden > 0, not more)
+            self.assertEqual(drawing['counts']['edges_left_out'] > 0, bool(more))
+        self.assertEqual(found[0], found[1])
+        self.assertEqual(found[0], found[2])
+        done = self.run_strake('draw', 'a.obj', '--visible-only', '--hidden', 'dashed', '-o', 'y.svg')
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn('--visible-only', done.stderr)
+
     def test_sections_cut_away_what_they_say(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
 
