@@ -5,7 +5,26 @@
 
 namespace strake::hlr {
 
+using geometry::Int128;
 using geometry::Vec3l;
+
+namespace {
+
+/// Cuts [lo, hi] down to where an affine function, known at 0 and 1, is not negative.
+bool clip_affine(Int128 at_a, Int128 at_b, Param& lo, Param& hi) {
+  if (at_a >= 0 && at_b >= 0) return true;
+  if (at_a <= 0 && at_b <= 0) return false;
+  if (at_a < at_b) {
+    const Param root = Param::of(-at_a, at_b - at_a);
+    if (less(lo, root)) lo = root;
+  } else {
+    const Param root = Param::of(at_a, at_a - at_b);
+    if (less(root, hi)) hi = root;
+  }
+  return less(lo, hi);
+}
+
+}  // namespace
 
 AskedEdge::AskedEdge(const World& world, std::uint32_t body_index, const EdgeView& e)
     : body(body_index),
@@ -30,9 +49,9 @@ AskedEdge::AskedEdge(const World& world, const Line& line)
       contact(std::max({own->contact, other->contact, world.job.lines.contact})),
       a(line.a - world.job.origin),
       b(line.b - world.job.origin),
-      va(world.frame(a)),
-      vb(world.frame(b)) {
-  projecting = geometry::cross(b - a, world.job.direction()) == Vec3l{};
+      va(world.picture ? ViewPoint{} : world.frame(a)),
+      vb(world.picture ? ViewPoint{} : world.frame(b)) {
+  projecting = world.job.viewer.sees_as_point(a, b);
 }
 
 Vec3l AskedEdge::at(const Param& t, const Vec3l& origin) const {
@@ -46,20 +65,17 @@ Vec3l AskedEdge::at(const Param& t, const Vec3l& origin) const {
 
 bool AskedEdge::clip(const geometry::Box3l& limits, Param& lo, Param& hi) const {
   for (int k = 0; k < 3; ++k)
-    for (const int sign : {1, -1}) {
-      const std::int64_t limit = sign > 0 ? limits.lo[k] : limits.hi[k];
-      const std::int64_t at_a = sign * (a[k] - limit), at_b = sign * (b[k] - limit);
-      if (at_a >= 0 && at_b >= 0) continue;
-      if (at_a <= 0 && at_b <= 0) return false;
-      if (at_a < at_b) {
-        const Param root = Param::of(-at_a, at_b - at_a);
-        if (less(lo, root)) lo = root;
-      } else {
-        const Param root = Param::of(at_a, at_a - at_b);
-        if (less(root, hi)) hi = root;
-      }
-      if (!less(lo, hi)) return false;
-    }
+    if (!clip_affine(a[k] - limits.lo[k], b[k] - limits.lo[k], lo, hi) ||
+        !clip_affine(limits.hi[k] - a[k], limits.hi[k] - b[k], lo, hi))
+      return false;
+  return true;
+}
+
+bool AskedEdge::clip(std::span<const HalfSpace> window, Param& lo, Param& hi) const {
+  for (const HalfSpace& half : window) {
+    const NormalVector n{half.normal.x, half.normal.y, half.normal.z};
+    if (!clip_affine(along(n, a) - half.least, along(n, b) - half.least, lo, hi)) return false;
+  }
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "hlr/frame.hpp"
 #include "hlr/param.hpp"
@@ -22,7 +23,7 @@ struct AskedEdge {
   bool cut_away = false;
   std::int64_t contact = 0;
   geometry::Vec3l a, b;
-  ViewPoint va, vb;
+  ViewPoint va, vb;  ///< orthographic
 
   AskedEdge() = default;
   AskedEdge(const World& world, std::uint32_t body_index, const EdgeView& e);
@@ -31,8 +32,10 @@ struct AskedEdge {
   /// In the model, rounded to the grid.
   [[nodiscard]] geometry::Vec3l at(const Param& t, const geometry::Vec3l& origin) const;
 
-  /// Cuts [lo, hi] down to what lies within the limits; false when nothing of any length does.
+  /// Cuts [lo, hi] down to what lies within the limits, or the window; false when nothing of any
+  /// length does.
   [[nodiscard]] bool clip(const geometry::Box3l& limits, Param& lo, Param& hi) const;
+  [[nodiscard]] bool clip(std::span<const HalfSpace> window, Param& lo, Param& hi) const;
 };
 
 }  // namespace strake::hlr

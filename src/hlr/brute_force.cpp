@@ -112,13 +112,30 @@ Int128 orientation(const Vec3l& p, const Vec3l& q, const Vec3l& r, const Vec3l& 
          minor(u.x, u.y, v.x, v.y) * d.z;
 }
 
+NormalVector cross(const Vec3l& u, const Vec3l& v) {
+  return {static_cast<Int128>(u.y) * v.z - static_cast<Int128>(u.z) * v.y,
+          static_cast<Int128>(u.z) * v.x - static_cast<Int128>(u.x) * v.z,
+          static_cast<Int128>(u.x) * v.y - static_cast<Int128>(u.y) * v.x};
+}
+
 class Solver {
  public:
-  explicit Solver(const Job& job) : job_(job), d_(job.direction()) {}
+  explicit Solver(const Job& job)
+      : job_(job), d_(job.direction()), from_eye_(job.viewer.eye.has_value()) {}
 
-  // The part of the edge within the limits; false when there is none.
+  // Whether the edge is a point on paper. The eye is the origin.
+  bool is_point(const Vec3l& a, const Vec3l& b) const {
+    return is_zero(from_eye_ ? cross(a, b) : cross(b - a, d_));
+  }
+
+  // The part of the edge within the window and the limits; false when there is none.
   bool clip(const Edge& e, Interval& range) const {
     bool empty = false;
+    for (const HalfSpace& h : job_.window) {
+      const NormalVector n{h.normal.x, h.normal.y, h.normal.z};
+      apply({dot(n, e.a) - h.least, dot(n, e.b) - h.least, 1}, range, empty);
+      if (empty) return false;
+    }
     if (!job_.limits) return true;
     for (int k = 0; k < 3; ++k) {
       apply({e.a[k] - job_.limits->lo[k], e.b[k] - job_.limits->lo[k], 1}, range, empty);
@@ -150,10 +167,10 @@ class Solver {
  private:
   bool facet(const geometry::Part& part, std::uint32_t t, const Vec3l& offset, Facet& f) const {
     f.normal = triangle_normal(part, t);
-    f.facing = along(f.normal, d_);
-    if (f.facing == 0) return false;
     for (std::size_t k = 0; k < 3; ++k)
       f.corner[k] = part.vertices[part.triangles[t][k]].as<std::int64_t>() + offset;
+    f.facing = from_eye_ ? -dot(f.normal, f.corner[0]) : dot(f.normal, d_);
+    if (f.facing == 0) return false;
     if (f.facing < 0) {
       std::swap(f.corner[1], f.corner[2]);
       for (Int128& x : f.normal) x = -x;
@@ -169,8 +186,7 @@ class Solver {
     bool empty = false;
     for (std::size_t k = 0; k < 3 && !empty; ++k) {
       const Vec3l &q = f.corner[k], &r = f.corner[(k + 1) % 3];
-      apply({orientation(q, r, e.a, d_), orientation(q, r, e.b, d_), side * same_way(e, q, r)},
-            range, empty);
+      apply({turn(q, r, e.a), turn(q, r, e.b), side * same_way(e, q, r)}, range, empty);
     }
     if (empty) return;
     Int128 size = 0;
@@ -180,9 +196,10 @@ class Solver {
     apply({depth_a - contact * size, depth_b - contact * size, -1}, range, empty);
     if (job_.limits)
       for (int k = 0; k < 3 && !empty; ++k) {
-        // The hiding point is p + (depth / facing) d; times `facing` all is integer.
+        // The hiding point is p + (depth / facing) d; times `facing` all is integer. From the
+        // eye, the origin, it is p·facing / (facing + depth), and that sum is positive.
         const auto above = [&](const Vec3l& p, Int128 depth, std::int64_t limit) {
-          return (p[k] - limit) * f.facing + depth * d_[k];
+          return (p[k] - limit) * f.facing + depth * (from_eye_ ? -limit : d_[k]);
         };
         const std::int64_t lo = job_.limits->lo[k], hi = job_.limits->hi[k];
         apply({above(e.a, depth_a, lo), above(e.b, depth_b, lo), 1}, range, empty);
@@ -191,15 +208,16 @@ class Solver {
     if (!empty) out.push_back(range);
   }
 
+  // Positive where x lies to the left of q->r on paper.
+  Int128 turn(const Vec3l& q, const Vec3l& r, const Vec3l& x) const {
+    return from_eye_ ? -dot(cross(q, r), x) : orientation(q, r, x, d_);
+  }
+
   // +1 when q->r and a->b, parallel on paper, run the same way there.
   int same_way(const Edge& e, const Vec3l& q, const Vec3l& r) const {
-    // Both lie in a plane that holds d; cross products with d turn them alike.
-    const auto turned = [&](const Vec3l& v) {
-      return NormalVector{static_cast<Int128>(v.y) * d_.z - static_cast<Int128>(v.z) * d_.y,
-                          static_cast<Int128>(v.z) * d_.x - static_cast<Int128>(v.x) * d_.z,
-                          static_cast<Int128>(v.x) * d_.y - static_cast<Int128>(v.y) * d_.x};
-    };
-    const NormalVector s = turned(r - q), t = turned(e.b - e.a);
+    // Both lie in a plane that holds d, or the eye: these are normals of it.
+    const NormalVector s = from_eye_ ? cross(q, r) : cross(r - q, d_);
+    const NormalVector t = from_eye_ ? cross(e.a, e.b) : cross(e.b - e.a, d_);
     for (std::size_t k = 0; k < 3; ++k)
       if (t[k] != 0) return (s[k] > 0) == (t[k] > 0) ? 1 : -1;
     return 0;
@@ -207,6 +225,7 @@ class Solver {
 
   const Job& job_;
   const Vec3l& d_;
+  bool from_eye_;  // which is then the origin
 };
 
 // The union as disjoint intervals; intervals that share an end are one.
@@ -320,7 +339,7 @@ ObjectLines solve_object(const Job& job, std::uint32_t object) {
   ObjectLines result;
   for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b) {
     const model::GridBody& body = scene.bodies[b];
-    for (const FeatureEdge& f : edges_of(job.seen_of(b), job.features))
+    for (const FeatureEdge& f : edges_of(job.seen_of(b), job.features_of(body)))
       solve_edge(
           job, solver,
           {f.a.as<std::int64_t>() + job.offset(body), f.b.as<std::int64_t>() + job.offset(body),
@@ -328,11 +347,11 @@ ObjectLines solve_object(const Job& job, std::uint32_t object) {
           result);
   }
   for (const Line& line : job.lines.of(object)) {
-    const bool projecting = geometry::cross(line.b - line.a, job.direction()) == Vec3l{};
-    solve_edge(job, solver,
-               {line.a - job.origin, line.b - job.origin, line.kind, projecting, line.cut_away,
-                line.body_a, line.body_b, kNoPart},
-               result);
+    const Vec3l p = line.a - job.origin, q = line.b - job.origin;
+    solve_edge(
+        job, solver,
+        {p, q, line.kind, solver.is_point(p, q), line.cut_away, line.body_a, line.body_b, kNoPart},
+        result);
   }
   return result;
 }

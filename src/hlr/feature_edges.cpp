@@ -19,8 +19,6 @@ using geometry::Triangle;
 using geometry::Vec3i;
 using geometry::Vec3l;
 
-bool is_zero(const NormalVector& n) { return n[0] == 0 && n[1] == 0 && n[2] == 0; }
-
 NormalVector negated(const NormalVector& n) { return {-n[0], -n[1], -n[2]}; }
 
 // A fixed expression of doubles: the normals are rounded once each, so the decision depends on
@@ -36,13 +34,25 @@ bool is_sharp(const NormalVector& m, const NormalVector& n, double cos_sharp) {
   return dot < cos_sharp * lengths;
 }
 
-// For each triangle the area vector of the whole source face that it is a piece of. That sum
-// depends on the outline of the face alone, so neither the triangulation nor the way that
-// snapping bends a polygon decides whether it faces the viewer.
-std::vector<NormalVector> face_vectors(const Part& part) {
+/// The plane that says to which side a face looks.
+struct FacePlane {
+  NormalVector normal{};
+  Vec3i on{};
+};
+
+FacePlane plane_of(const Part& part, std::uint32_t t) {
+  const Triangle& i = part.triangles[t];
+  return {triangle_normal(part, t),
+          std::min({part.vertices[i[0]], part.vertices[i[1]], part.vertices[i[2]]})};
+}
+
+// For each triangle the area vector and the lexicographically least corner of the whole source
+// face that it is a piece of. They depend on the outline of the face alone, so neither the
+// triangulation nor the way that snapping bends a polygon decides whether it faces the viewer.
+std::vector<FacePlane> face_planes(const Part& part) {
   const std::size_t count = part.triangles.size();
-  std::vector<NormalVector> own(count);
-  for (std::uint32_t t = 0; t < count; ++t) own[t] = triangle_normal(part, t);
+  std::vector<FacePlane> own(count);
+  for (std::uint32_t t = 0; t < count; ++t) own[t] = plane_of(part, t);
   if (part.faces.empty()) return own;
 
   std::vector<std::uint32_t> order;
@@ -54,13 +64,15 @@ std::vector<NormalVector> face_vectors(const Part& part) {
   };
   if (!std::is_sorted(order.begin(), order.end(), by_face))
     std::sort(order.begin(), order.end(), by_face);
-  std::vector<NormalVector> result = own;
+  std::vector<FacePlane> result = own;
   for (std::size_t i = 0; i < order.size();) {
     std::size_t end = i;
-    NormalVector sum{};
-    for (; end < order.size() && part.faces[order[end]] == part.faces[order[i]]; ++end)
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += own[order[end]][k];
-    if (!is_zero(sum))
+    FacePlane sum{{}, own[order[i]].on};
+    for (; end < order.size() && part.faces[order[end]] == part.faces[order[i]]; ++end) {
+      for (std::size_t k = 0; k < 3; ++k) sum.normal[k] += own[order[end]].normal[k];
+      sum.on = std::min(sum.on, own[order[end]].on);
+    }
+    if (!is_zero(sum.normal))
       for (std::size_t j = i; j < end; ++j) result[order[j]] = sum;
     i = end;
   }
@@ -69,7 +81,7 @@ std::vector<NormalVector> face_vectors(const Part& part) {
 
 // What a part's edges are judged by, per triangle.
 struct Faces {
-  std::vector<NormalVector> vectors;
+  std::vector<FacePlane> planes;
   /// A quad or triangle of a curved side, told from the flat ends by its few triangles: between
   /// two of them there is no edge however coarse the tessellation of a thin pipe is. Empty where
   /// the part has no curved side.
@@ -77,7 +89,7 @@ struct Faces {
 };
 
 Faces faces_of(const Part& part) {
-  Faces result{face_vectors(part), {}};
+  Faces result{face_planes(part), {}};
   if (!part.primitive || !geometry::is_round(*part.primitive) || part.faces.empty()) return result;
   std::vector<std::uint32_t> sorted = part.faces.to_vector();
   std::sort(sorted.begin(), sorted.end());
@@ -123,13 +135,15 @@ std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Face
   const std::uint32_t s = round[0], t = round[1];
   const bool consistent =
       runs_along(part.triangles[s], e.v0, e.v1) != runs_along(part.triangles[t], e.v0, e.v1);
-  const NormalVector& m = faces.vectors[s];
-  const NormalVector n = consistent ? faces.vectors[t] : negated(faces.vectors[t]);
+  const auto& [m, on_s] = faces.planes[s];
+  const auto& [of_t, on_t] = faces.planes[t];
+  const NormalVector n = consistent ? of_t : negated(of_t);
   const bool smooth = !faces.facet.empty() && faces.facet[s] && faces.facet[t];
   if (!smooth && is_sharp(m, n, options.cos_sharp)) return EdgeKind::sharp;
   // A face seen edge-on counts as turned away: between a front face, an edge-on strip and a back
   // face exactly one line is the contour.
-  const bool front_m = along(m, options.direction) > 0, front_n = along(n, options.direction) > 0;
+  const bool front_m = options.viewer.is_towards(m, on_s.as<std::int64_t>());
+  const bool front_n = options.viewer.is_towards(n, on_t.as<std::int64_t>());
   if (front_m != front_n) return EdgeKind::contour;
   // Between two facets of a curved side there is no edge at all.
   if (options.smooth && !smooth && (bends(part, e, s, t) || bends(part, e, t, s)))
@@ -137,24 +151,22 @@ std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Face
   return std::nullopt;
 }
 
-bool is_parallel(const Vec3l& v, const Vec3l& d) { return geometry::cross(v, d) == Vec3l{0, 0, 0}; }
-
 void add_edge(std::vector<FeatureEdge>& edges, const Part& part, FeatureEdge e, std::uint32_t v0,
-              std::uint32_t v1, const Vec3l& direction) {
+              std::uint32_t v1, const Viewer& viewer) {
   e.a = std::min(part.vertices[v0], part.vertices[v1]);
   e.b = std::max(part.vertices[v0], part.vertices[v1]);
   if (e.a == e.b) return;
-  e.projecting = is_parallel(e.b.as<std::int64_t>() - e.a.as<std::int64_t>(), direction);
+  e.projecting = viewer.sees_as_point(e.a.as<std::int64_t>(), e.b.as<std::int64_t>());
   edges.push_back(e);
 }
 
 void add_chains(std::vector<FeatureEdge>& edges, const Part& part, std::uint32_t part_index,
-                const Vec3l& direction) {
+                const Viewer& viewer) {
   for (std::size_t c = 0; c + 1 < part.chain_first.size(); ++c)
     for (std::uint32_t v = part.chain_first[c]; v + 1 < part.chain_first[c + 1]; ++v)
       add_edge(edges, part,
                {.part = part_index, .part_edge = kNoPartEdge, .kind = EdgeKind::polyline}, v, v + 1,
-               direction);
+               viewer);
 }
 
 }  // namespace
@@ -174,10 +186,7 @@ NormalVector triangle_normal(const Part& part, std::uint32_t triangle) {
   const Vec3l p = part.vertices[t[0]].as<std::int64_t>();
   const Vec3l u = part.vertices[t[1]].as<std::int64_t>() - p;
   const Vec3l v = part.vertices[t[2]].as<std::int64_t>() - p;
-  const auto minor = [](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
-    return static_cast<Int128>(a) * d - static_cast<Int128>(b) * c;
-  };
-  return {minor(u.y, u.z, v.y, v.z), minor(u.z, u.x, v.z, v.x), minor(u.x, u.y, v.x, v.y)};
+  return wide_cross(u, v);
 }
 
 std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,
@@ -187,13 +196,13 @@ std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,
     const Part& part = shape.parts[p];
     const std::size_t begin = edges.size();
     if (part.kind == geometry::PartKind::wire) {
-      add_chains(edges, part, p, options.direction);
+      add_chains(edges, part, p, options.viewer);
     } else if (!part.edges.empty()) {
       const Faces faces = faces_of(part);
       for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e)
         if (const auto kind = kind_of(part, e, faces, options))
           add_edge(edges, part, {.part = p, .part_edge = e, .kind = *kind}, part.edges[e].v0,
-                   part.edges[e].v1, options.direction);
+                   part.edges[e].v1, options.viewer);
     }
     std::sort(edges.begin() + static_cast<std::ptrdiff_t>(begin), edges.end(),
               [](const FeatureEdge& x, const FeatureEdge& y) {

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "hlr/viewer.hpp"
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/vec.hpp"
-#include "strake/geometry/wide_int.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
 
 namespace strake::hlr {
-
-// The 128-bit integer that the compiler has: a normal of a part within ±2^30 units needs 65 bits.
-using geometry::Int128;
-using NormalVector = std::array<Int128, 3>;
 
 /// A line to draw, in the coordinates of its shape. `a` < `b` in lexicographic order, so that a
 /// line does not depend on the order in which a file lists triangles.
@@ -25,14 +20,14 @@ struct FeatureEdge {
   std::uint32_t part = 0;
   std::uint32_t part_edge = 0;  ///< index into Part::edges; kNoPartEdge for a polyline's segment
   EdgeKind kind = EdgeKind::sharp;
-  bool projecting = false;  ///< parallel to the view direction
+  bool projecting = false;  ///< a point on paper
   bool cut_away = false;    ///< by a section plane: neither hidden nor seen
 };
 
 inline constexpr std::uint32_t kNoPartEdge = 0xffffffffU;
 
 struct FeatureOptions {
-  geometry::Vec3l direction;
+  Viewer viewer;         ///< in the coordinates of the shape
   double cos_sharp = 0;  ///< an edge is sharp when the cosine between its faces is below this
   bool smooth = false;   ///< take the others, too
 };
@@ -44,12 +39,7 @@ struct FeatureOptions {
 /// Twice the area vector of a triangle of a part: exact, outward for solids.
 [[nodiscard]] NormalVector triangle_normal(const geometry::Part& part, std::uint32_t triangle);
 
-/// The exact dot product of a normal with a view direction.
-[[nodiscard]] constexpr Int128 along(const NormalVector& n, const geometry::Vec3l& d) {
-  return n[0] * d.x + n[1] * d.y + n[2] * d.z;
-}
-
-/// The lines of a shape in one direction: by part, then by (a, b).
+/// The lines of a shape for one viewer: by part, then by (a, b).
 [[nodiscard]] std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,
                                                      const FeatureOptions& options);
 

@@ -51,6 +51,15 @@ void Gatherer::begin(const AskedEdge& edge, const Param& lo, const Param& hi) {
   edge_ = edge;
   hits_.clear();
   open_ = OpenRange(lo, hi);
+  if (world_.picture) look_at_picture(lo.value, hi.value);
+}
+
+ViewBox Gatherer::box() const {
+  if (world_.picture) return picture_box_;
+  ViewBox box;
+  box.include(edge_.va);
+  box.include(edge_.vb);
+  return box;
 }
 
 std::span<const Hit> Gatherer::hits_of_own_body(const AskedEdge& edge) {
@@ -187,7 +196,7 @@ bool Gatherer::test_polygon(const LocalEdge& local, const ShapeView& view, const
 bool Gatherer::is_deep_under(const LocalEdge& local, const PartView& part,
                              std::int64_t contact) const {
   if (!part.has_outline || !job_.options.culling || local.limits != nullptr) return false;
-  const std::int64_t depth = part.box.lo.w - std::max(local.va.w, local.vb.w);
+  const std::int64_t depth = part.farthest - local.nearest;
   if (contact == 0) return depth > 0;
   const double least = static_cast<double>(contact) * part.deep_per_contact + 1;
   return static_cast<double>(depth) > least * (1 + 1e-9);
@@ -209,21 +218,50 @@ bool Gatherer::add(const Hit& hit) {
 }
 
 LocalEdge Gatherer::localized(const Placed& other) {
-  LocalEdge local{edge_.a - other.offset, edge_.b - other.offset, edge_.va - other.at,
-                  edge_.vb - other.at};
-  const std::int64_t reach =
-      std::max({std::abs(local.va.u), std::abs(local.va.v), std::abs(local.vb.u),
-                std::abs(local.vb.v), other.view->reach});
-  local.narrow = fits_narrow(reach);
+  LocalEdge local;
+  local.a = edge_.a - other.offset;
+  local.b = edge_.b - other.offset;
   if (other.cut) {
     limits_ = {job_.limits->lo - other.offset, job_.limits->hi - other.offset};
     local.limits = &limits_;
   }
+  if (world_.picture) {
+    local.box = picture_box_;
+    local.nearest = std::max(dot(edge_.a, job_.direction()), dot(edge_.b, job_.direction()));
+    local.narrow = true;
+    return local;
+  }
+  local.va = edge_.va - other.at;
+  local.vb = edge_.vb - other.at;
+  local.box.include(local.va);
+  local.box.include(local.vb);
+  local.nearest = local.box.hi.w;
+  const std::int64_t reach =
+      std::max({std::abs(local.va.u), std::abs(local.va.v), std::abs(local.vb.u),
+                std::abs(local.vb.v), other.view->reach});
+  local.narrow = fits_narrow(reach);
   return local;
+}
+
+void Gatherer::look_at_picture(double from, double to) {
+  in_picture_ = world_.picture->segment(edge_.a, edge_.b, from, to);
+  constexpr auto kRim = static_cast<std::int64_t>(Picture::kRim);
+  picture_box_ =
+      in_picture_ ? in_picture_->box() : ViewBox{{-kRim, -kRim, -kRim}, {kRim, kRim, kRim}};
+}
+
+LooseSegment Gatherer::loose_in_picture() const {
+  if (in_picture_) return in_picture_->loose(open_.lo().value, open_.hi().value);
+  constexpr double kRim = Picture::kRim;
+  LooseSegment everywhere;
+  everywhere.u0 = everywhere.v0 = everywhere.w0 = -kRim;
+  everywhere.u1 = everywhere.v1 = kRim;
+  return everywhere;
 }
 
 // The part of the edge that is still open, for a query.
 LooseSegment Gatherer::loose(const ViewPoint& a, const ViewPoint& b) const {
+  if (world_.picture) return loose_in_picture();
   LooseSegment s;
   const bool exact =
       std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kExactInDouble;

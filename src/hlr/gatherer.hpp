@@ -37,6 +37,9 @@ class Gatherer {
   [[nodiscard]] std::span<const Hit> hits_of_body(const AskedEdge& edge, std::uint32_t body,
                                                   const Param& lo, const Param& hi);
 
+  /// Where the edge that was asked about last lies on paper.
+  [[nodiscard]] ViewBox box() const;
+
   /// What a body's own faces hide of an edge of it.
   [[nodiscard]] std::span<const Hit> hits_of_own_body(const AskedEdge& edge);
 
@@ -64,7 +67,9 @@ class Gatherer {
   [[nodiscard]] bool is_deep_under(const LocalEdge& local, const PartView& part,
                                    std::int64_t contact) const;
   [[nodiscard]] LocalEdge localized(const Placed& other);
+  void look_at_picture(double from, double to);
   [[nodiscard]] LooseSegment loose(const ViewPoint& a, const ViewPoint& b) const;
+  [[nodiscard]] LooseSegment loose_in_picture() const;
   void refresh_segment() { segment_ = loose(edge_.va, edge_.vb); }
 
   const World& world_;
@@ -72,6 +77,9 @@ class Gatherer {
   AskedEdge edge_;
   OpenRange open_;
   LooseSegment segment_;
+  // In perspective; nothing where the edge may be anywhere in the picture.
+  std::optional<PictureSegment> in_picture_;
+  ViewBox picture_box_;
   geometry::Box3l limits_;  ///< in the coordinates of the body that is asked
   std::vector<Hit> hits_;
 };

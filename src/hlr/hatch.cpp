@@ -69,6 +69,11 @@ Status check(const Job& job, double usual_mm, double side_mm) {
   return {};
 }
 
+bool is_towards(const Job& job, const SectionPlane& plane) {
+  if (job.view.perspective) return plane.height(job.view.perspective->eye) > 0;
+  return along({plane.normal.x, plane.normal.y, plane.normal.z}, job.direction()) > 0;
+}
+
 /// The hatch of one body.
 void add_body(const Job& job, std::span<const SectionPlane> planes, std::uint32_t b,
               const Hatch& hatch, std::vector<Line>& out) {
@@ -76,10 +81,9 @@ void add_body(const Job& job, std::span<const SectionPlane> planes, std::uint32_
   if (!seen.cut || hatch.spacing_mm == 0) return;
   const Vec3l origin = job.scene->bodies[b].origin;
   for (std::size_t p = 0; p < seen.planes.size(); ++p) {
-    const Vec3l& normal = planes[seen.numbers[p]].normal;
-    const NormalVector wide{normal.x, normal.y, normal.z};
-    if (along(wide, job.direction()) <= 0 || seen.cut->rims[p].empty()) continue;
-    const HatchGrid grid(normal, job.view, hatch.angle_deg,
+    const SectionPlane& plane = planes[seen.numbers[p]];
+    if (!is_towards(job, plane) || seen.cut->rims[p].empty()) continue;
+    const HatchGrid grid(plane.normal, job.view, hatch.angle_deg,
                          hatch.spacing_mm * geometry::kGridPerMm);
     for (const geometry::Segment& line : grid.within(seen.cut->rims[p], seen.planes[p], origin))
       out.push_back({line[0] + origin, line[1] + origin, b, b, EdgeKind::hatch, false});

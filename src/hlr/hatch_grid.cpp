@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "hlr/view_axes.hpp"
 #include "strake/geometry/trig.hpp"
 #include "strake/geometry/wide_int.hpp"
 
@@ -20,14 +21,6 @@ using geometry::Vec3l;
 constexpr double kFinest = 1048576;  // 20 bits of direction
 
 Vec3d unit(const Vec3d& v) { return v * (1 / std::sqrt(dot(v, v))); }
-
-/// To the right on paper; where the upward direction does not show there, as it is in plans.
-Vec3d rightward(const View& view) {
-  Vec3l right = cross(view.up, view.direction);
-  if (right == Vec3l{}) right = cross(Vec3l{0, 1, 0}, view.direction);
-  if (right == Vec3l{}) right = {1, 0, 0};
-  return unit(right.as<double>());
-}
 
 /// Where a hatch line meets a rim: (u, v) = num / den, and whether it enters or leaves.
 struct Meeting {
@@ -45,7 +38,7 @@ std::int64_t floor_quotient(Int128 a, std::int64_t b) {
 HatchGrid::HatchGrid(const Vec3l& normal, const View& view, double angle_deg, double spacing)
     : axes_(normal) {
   const Vec3d n = unit(normal.as<double>());
-  const Vec3d paper = rightward(view);
+  const Vec3d paper = axes_of(view).right;
   const Vec3d level = unit(paper - n * dot(paper, n));
   const geometry::SinCos turn = geometry::sin_cos(angle_deg / 180 * geometry::kPi);
   const Vec3d along = level * turn.cos + cross(n, level) * turn.sin;

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 #include <string>
 #include <utility>
 
 #include "hlr/section_report.hpp"
+#include "hlr/view_axes.hpp"
+#include "hlr/window.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/model/view_scene.hpp"
 
@@ -25,6 +26,11 @@ constexpr std::int64_t kLeastContact = 3;
 // Largest |coordinate| · |direction component|: with part coordinates within ±2^30 the largest
 // value formed, a hiding point against a limit, then stays below 2^124.
 constexpr double kMaxReach = 72057594037927936.0;  // 2^56
+// In perspective, with r the largest |coordinate| from the eye and s the longest side of a shape:
+// orientations are 3x3 determinants of coordinates, below 12·r^3 with their differences; depths are
+// 3·s^2·2·r at most, s being below 2^32, and hiding points against limits 24·s^2·r^2.
+constexpr double kMaxFromEye = 1099511627776.0;            // 2^40: 1,100 km
+constexpr double kMaxSideFromEye = 1152921504606846976.0;  // 2^60, s·r where there are limits
 
 Error usage(std::string message, std::string mend) {
   return {ErrorCode::usage, std::move(message), "view", std::move(mend)};
@@ -45,12 +51,7 @@ Status check(const View& view, const Options& options) {
                  "leave it out to have it derived from the sources");
   if (view.limits && view.limits->empty())
     return usage("the limits are empty", "give lowest coordinates first");
-  return {};
-}
-
-Vec3l reduced(const Vec3l& d) {
-  const std::int64_t g = std::gcd(std::gcd(d.x, d.y), d.z);
-  return {d.x / g, d.y / g, d.z / g};
+  return check_perspective(view);
 }
 
 std::int64_t contact_of(const model::Body& body, const Options& options) {
@@ -95,9 +96,44 @@ Box3l drawn_box(const Job& job) {
   return box;
 }
 
-Status place(Job& job) {
-  const Box3l box = drawn_box(job);
-  if (box.empty()) return {};
+// One unit beyond what is drawn decides nothing and keeps the numbers small.
+void place_limits(Job& job, const Box3l& box) {
+  if (!job.view.limits) return;
+  Box3l limits = *job.view.limits;
+  for (int k = 0; k < 3; ++k) {
+    limits.lo[k] = std::clamp(limits.lo[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
+    limits.hi[k] = std::clamp(limits.hi[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
+  }
+  job.limits = limits;
+}
+
+double longest_side(const Job& job) {
+  std::int64_t side = 0;
+  for (const model::GridBody& body : job.scene->bodies) {
+    const geometry::Box3i& box = job.scene->shapes[body.grid_shape].box;
+    if (!job.drawn[model::index(body.object)] || box.empty()) continue;
+    for (int k = 0; k < 3; ++k)
+      side = std::max(side, std::int64_t{box.hi[k]} - std::int64_t{box.lo[k]});
+  }
+  return static_cast<double>(side);
+}
+
+Status place_eye(Job& job, const Box3l& box) {
+  job.origin = job.view.perspective->eye;
+  double reach = 0;
+  for (int k = 0; k < 3; ++k)
+    reach = std::max({reach, std::fabs(static_cast<double>(box.lo[k] - job.origin[k])),
+                      std::fabs(static_cast<double>(box.hi[k] - job.origin[k]))});
+  if (reach > kMaxFromEye)
+    return Error{ErrorCode::input, "the eye is more than 1,000 km away from what is drawn", "view",
+                 "move the eye nearer, draw fewer objects, or use an orthographic view"};
+  if (job.view.limits && reach * longest_side(job) > kMaxSideFromEye)
+    return Error{ErrorCode::input, "the eye is too far away from objects of this size for limits",
+                 "view", "move the eye nearer, draw fewer objects, or leave out the limits"};
+  return {};
+}
+
+Status place_middle(Job& job, const Box3l& box) {
   double reach = 0;
   const Vec3l& d = job.direction();
   const auto largest = static_cast<double>(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
@@ -108,15 +144,15 @@ Status place(Job& job) {
   if (reach > kMaxReach)
     return Error{ErrorCode::input, "the drawn objects are too far apart for this direction", "view",
                  "draw fewer objects, or use a direction with smaller numbers"};
-  if (!job.view.limits) return {};
-  // One unit beyond what is drawn decides nothing and keeps the numbers small.
-  Box3l limits = *job.view.limits;
-  for (int k = 0; k < 3; ++k) {
-    limits.lo[k] = std::clamp(limits.lo[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
-    limits.hi[k] = std::clamp(limits.hi[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
-  }
-  job.limits = limits;
   return {};
+}
+
+Status place(Job& job) {
+  const Box3l box = drawn_box(job);
+  if (box.empty()) return {};
+  const Status placed = job.view.perspective ? place_eye(job, box) : place_middle(job, box);
+  if (placed) place_limits(job, box);
+  return placed;
 }
 
 }  // namespace
@@ -135,12 +171,17 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   Job job;
   job.view = view;
   job.options = options;
-  job.features = {reduced(view.direction), cosine_of_degrees(options.sharp_angle_deg),
-                  options.smooth};
+  job.viewer.direction = in_lowest_terms(view.direction);
+  if (view.perspective) job.viewer.eye = Vec3l{};
+  job.cos_sharp = cosine_of_degrees(options.sharp_angle_deg);
+  job.window = window(view);
   job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
-  auto own = model::seen_from(scene, job.drawn, job.direction(), context);
-  if (!own) return own.error();
-  if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
+  // Contours along a direction are no contours from an eye.
+  if (!view.perspective) {
+    auto own = model::seen_from(scene, job.drawn, job.direction(), context);
+    if (!own) return own.error();
+    if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
+  }
   job.scene = job.own ? job.own.get() : &scene;
   fill_bodies(job);
   if (const Status status = place(job); !status) return status.error();

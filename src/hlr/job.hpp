@@ -20,14 +20,17 @@ namespace strake::hlr {
 
 /// A drawing that was asked for, checked and made ready: what both solvers work on.
 ///
-/// Coordinates are relative to `origin`, the middle of what is drawn, and small enough that every
-/// value a solver forms (orientation, depth, limit) stays below 2^124: see `prepare`.
+/// Coordinates are relative to `origin`, the middle of what is drawn or, in perspective, the eye,
+/// and small enough that every value a solver forms (orientation, depth, limit) stays below 2^126:
+/// see `prepare`.
 struct Job {
   const model::Scene* scene = nullptr;  ///< as the view sees it: `own`, or what was given
   std::unique_ptr<model::Scene> own;    ///< with contours of round primitives; null where none
   View view;
   Options options;
-  FeatureOptions features;  ///< direction in lowest terms
+  Viewer viewer;  ///< direction in lowest terms; the eye is the origin
+  double cos_sharp = 0;
+  std::vector<HalfSpace> window;  ///< relative to origin
   geometry::Vec3l origin;
   std::optional<geometry::Box3l> limits;  ///< relative to origin, cut down to what is drawn
   std::vector<bool> drawn;                ///< per object
@@ -38,9 +41,13 @@ struct Job {
   Lines lines;
   Diagnostics diagnostics;
 
-  [[nodiscard]] const geometry::Vec3l& direction() const { return features.direction; }
+  [[nodiscard]] const geometry::Vec3l& direction() const { return viewer.direction; }
   [[nodiscard]] geometry::Vec3l offset(const model::GridBody& body) const {
     return body.origin - origin;
+  }
+  /// As a body's shape sees it.
+  [[nodiscard]] FeatureOptions features_of(const model::GridBody& body) const {
+    return {viewer.seen_at(offset(body)), cos_sharp, options.smooth};
   }
   /// The shape of a body, as sections leave it.
   [[nodiscard]] const SeenShape& seen_of(std::uint32_t body) const {

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hlr/occlusion.hpp"
 
+#include <cmath>
+#include <span>
+#include <utility>
+
 namespace strake::hlr {
 namespace {
 
+using geometry::Vec3d;
 using geometry::Vec3l;
 
 // num / den of an end, in the integer type of the orientations.
@@ -55,6 +60,55 @@ bool clip_outline(const LocalEdge& e, const Corner* corner, std::uint32_t count,
   return true;
 }
 
+// A value in doubles, and by how much it may be off.
+struct Rough {
+  double value = 0, error = 0;
+
+  [[nodiscard]] bool surely_positive() const { return value > error; }
+  [[nodiscard]] bool surely_negative() const { return value < -error; }
+};
+
+// -det(q, r, p). Each product is rounded a few times, by 2^-53 of its size.
+Rough rough_turn(const Vec3d& q, const Vec3d& r, const Vec3d& p) {
+  const auto size = [](const Vec3d& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); };
+  return {-dot(cross(q, r), p), 1e-15 * size(q) * size(r) * size(p)};
+}
+
+// The same for a cone from the eye through the corners; all is relative to the eye. The turn of a
+// point, -det(q, r, p), is linear in the point, and so affine along the edge.
+bool clip_cone(const Vec3l& a, const Vec3l& b, std::span<const Vec3l> corner, Hit& hit) {
+  const auto da = a.as<double>(), db = b.as<double>();
+  Param lo = Param::zero(), hi = Param::one();
+  Vec3l q = corner.back();
+  for (const Vec3l& r : corner) {
+    const Vec3l p = std::exchange(q, r);
+    const Rough near_a = rough_turn(p.as<double>(), r.as<double>(), da);
+    const Rough near_b = rough_turn(p.as<double>(), r.as<double>(), db);
+    if (near_a.surely_positive() && near_b.surely_positive()) continue;
+    if (near_a.surely_negative() && near_b.surely_negative()) return false;
+    const NormalVector side = wide_cross(p, r);
+    const Int128 at_a = -along(side, a), at_b = -along(side, b);
+    if (at_a > 0 && at_b > 0) continue;
+    if (at_a <= 0 && at_b <= 0) {
+      if (at_a != 0 || at_b != 0) return false;
+      // The edge runs along the outline: the inside lies on the left of either.
+      const NormalVector own = wide_cross(a, b);
+      const std::size_t k = own[0] != 0 ? 0 : own[1] != 0 ? 1 : 2;
+      hit.sides &= (side[k] > 0) == (own[k] > 0) ? kLeft : kRight;
+      if (hit.sides == 0) return false;
+    } else if (at_a < at_b) {
+      const Param root = Param::of(-at_a, at_b - at_a);
+      if (at_a < 0 && less(lo, root)) lo = root;
+    } else {
+      const Param root = Param::of(at_a, at_a - at_b);
+      if (at_b < 0 && less(root, hi)) hi = root;
+    }
+  }
+  hit.lo = lo;
+  hit.hi = hi;
+  return less(lo, hi);
+}
+
 // Cuts the hit down to where an affine function is positive (closed: or zero throughout).
 bool clip_affine(Int128 at_a, Int128 at_b, bool closed, Hit& hit) {
   if (at_a >= 0 && at_b >= 0) return closed || at_a > 0 || at_b > 0;
@@ -92,11 +146,14 @@ Depth depth_of(const LocalEdge& e, const ShapeView& shape, const Polygon& p) {
 }
 
 // A hiding point outside the limits does not hide. It is p + (depth / facing)·d; times `facing`
-// everything is integer.
-bool clip_limits(const LocalEdge& e, const Depth& depth, Int128 facing, const Vec3l& d, Hit& hit) {
+// everything is integer. With an eye at e it is p + (depth / (facing + depth))·(e - p), and what it
+// is times that positive sum, less the limit, is again affine.
+bool clip_limits(const LocalEdge& e, const Depth& depth, Int128 facing, const Viewer& viewer,
+                 Hit& hit) {
   for (int k = 0; k < 3; ++k) {
     const auto above = [&](const Vec3l& p, Int128 at, std::int64_t limit) {
-      return (p[k] - limit) * facing + at * d[k];
+      const std::int64_t way = viewer.eye ? (*viewer.eye)[k] - limit : viewer.direction[k];
+      return (p[k] - limit) * facing + at * way;
     };
     const std::int64_t lo = e.limits->lo[k], hi = e.limits->hi[k];
     if (!clip_affine(above(e.a, depth.at_a, lo), above(e.b, depth.at_b, lo), true, hit) ||
@@ -111,6 +168,12 @@ bool clip_limits(const LocalEdge& e, const Depth& depth, Int128 facing, const Ve
 std::optional<Hit> outlined_stretch(const LocalEdge& edge, const ShapeView& shape,
                                     const Polygon& outline) {
   Hit hit{.lo = Param::zero(), .hi = Param::one(), .sides = kBothSides};
+  if (shape.viewer.eye) {
+    const Vec3l& eye = *shape.viewer.eye;
+    const auto rays = std::span(shape.rays).subspan(outline.first_corner, outline.corners);
+    if (!clip_cone(edge.a - eye, edge.b - eye, rays, hit)) return std::nullopt;
+    return hit;
+  }
   const Corner* corners = shape.corners.data() + outline.first_corner;
   if (!(edge.narrow ? clip_outline<std::int64_t>(edge, corners, outline.corners, hit)
                     : clip_outline<Int128>(edge, corners, outline.corners, hit)))
@@ -127,9 +190,8 @@ std::optional<Hit> hidden_stretch(const LocalEdge& edge, const ShapeView& shape,
   const Int128 least = contact * depth.size;
   if (!clip_affine(depth.at_a - least, depth.at_b - least, false, hit)) return std::nullopt;
   if (edge.limits != nullptr) {
-    const NormalVector n = shape.normal(polygon);
-    if (!clip_limits(edge, depth, along(n, shape.direction), shape.direction, hit))
-      return std::nullopt;
+    const Int128 facing = shape.viewer.facing(shape.normal(polygon), polygon.at.as<std::int64_t>());
+    if (!clip_limits(edge, depth, facing, shape.viewer, hit)) return std::nullopt;
   }
   return found;
 }

@@ -23,7 +23,9 @@ struct Hit {
 /// An edge in the coordinates of the shape that may hide it.
 struct LocalEdge {
   geometry::Vec3l a, b;
-  ViewPoint va, vb;
+  ViewPoint va, vb;                         ///< orthographic
+  ViewBox box;                              ///< on paper, of what is drawn of it
+  std::int64_t nearest = 0;                 ///< of its ends the greater product with the direction
   const geometry::Box3l* limits = nullptr;  ///< in the same coordinates; null where none cut
   bool narrow = false;  ///< 64-bit integers suffice for orientations of this edge and shape
 };
@@ -45,9 +47,8 @@ struct LocalEdge {
 
 /// False when the boxes alone show that nothing in `box` hides any of the edge.
 [[nodiscard]] inline bool may_hide(const LocalEdge& e, const ViewBox& box) {
-  return std::max(e.va.u, e.vb.u) >= box.lo.u && std::min(e.va.u, e.vb.u) <= box.hi.u &&
-         std::max(e.va.v, e.vb.v) >= box.lo.v && std::min(e.va.v, e.vb.v) <= box.hi.v &&
-         std::min(e.va.w, e.vb.w) < box.hi.w;
+  return e.box.hi.u >= box.lo.u && e.box.lo.u <= box.hi.u && e.box.hi.v >= box.lo.v &&
+         e.box.lo.v <= box.hi.v && e.box.lo.w < box.hi.w;
 }
 
 }  // namespace strake::hlr

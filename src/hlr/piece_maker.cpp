@@ -9,7 +9,8 @@ bool PieceMaker::begin(const AskedEdge& edge) {
   hi_ = Param::one();
   whole_ = State::visible;
   const bool limited = edge.own->cut || edge.other->cut;
-  if (edge.cut_away || (limited && !edge.clip(*world_.job.limits, lo_, hi_)))
+  if (edge.cut_away || !edge.clip(world_.job.window, lo_, hi_) ||
+      (limited && !edge.clip(*world_.job.limits, lo_, hi_)))
     whole_ = State::clipped;
   else if (edge.projecting)
     whole_ = State::projecting;

@@ -127,8 +127,7 @@ UnderObject local_step(const World& world, std::uint32_t object, Gatherer& gathe
       const auto hits = gatherer.own_hits(edge, under.lo, under.hi);
       under.hits.assign(hits.begin(), hits.end());
       if (!hits.empty()) under.open.shrink_all(hits);
-      result.box.include(edge.va);
-      result.box.include(edge.vb);
+      result.box.include(gatherer.box());
     }
     result.edges.push_back(std::move(under));
   };

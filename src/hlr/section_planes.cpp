@@ -47,10 +47,12 @@ geometry::CutPlane SectionPlane::at(const Vec3l& origin) const {
   return {normal, static_cast<std::int64_t>(std::clamp(local, -kBeyond, kBeyond))};
 }
 
+Int128 SectionPlane::height(const Vec3l& p) const { return product(normal, p) - offset; }
+
 Int128 SectionPlane::least(const geometry::Box3l& box) const {
   Vec3l p;
   for (int k = 0; k < 3; ++k) p[k] = normal[k] < 0 ? box.hi[k] : box.lo[k];
-  return product(normal, p) - offset;
+  return height(p);
 }
 
 Int128 SectionPlane::greatest(const geometry::Box3l& box) const {

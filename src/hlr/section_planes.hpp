@@ -21,6 +21,7 @@ struct SectionPlane {
   /// The same for a body at `origin`. Beyond what a body can reach the offset is cut down: there
   /// it decides nothing.
   [[nodiscard]] geometry::CutPlane at(const geometry::Vec3l& origin) const;
+  [[nodiscard]] geometry::Int128 height(const geometry::Vec3l& p) const;
   /// The least and the greatest height of a box that is not empty over the plane: what is not
   /// below zero is cut away.
   [[nodiscard]] geometry::Int128 least(const geometry::Box3l& box) const;

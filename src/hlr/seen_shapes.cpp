@@ -136,7 +136,7 @@ class EdgeCutter {
     e.b = std::max(at[0], at[1]).as<std::int32_t>();
     e.cut_away = cut_away;
     // What rounding laid along the direction, or turned a little off it, is a point on paper.
-    e.projecting = e.projecting || cross(at[1] - at[0], options_.direction) == Vec3l{};
+    e.projecting = e.projecting || options_.viewer.sees_as_point(at[0], at[1]);
     if (e.part_edge != kNoPartEdge && seen_.cut)
       e.part_edge = cut_away ? kNoPartEdge : edge_in(seen_.shape().parts[e.part], e.a, e.b);
     edges_.push_back(e);

@@ -9,16 +9,29 @@
 namespace strake::hlr {
 namespace {
 
-// On the boundary of a convex body an edge of a face towards the viewer lies on the body's upper
-// side, where nothing of the body is nearer; an edge between two faces turned away is behind the
-// body all along. One with a face edge-on lies on the outline and may be behind on one side.
-void judge_edges(const geometry::Part& part, const geometry::Vec3l& direction,
-                 std::span<EdgeView> edges) {
+Int128 facing_of(const geometry::Part& part, std::uint32_t t, const Viewer& viewer) {
+  return viewer.facing(triangle_normal(part, t),
+                       part.vertices[part.triangles[t][0]].as<std::int64_t>());
+}
+
+/// Of an exactly convex part: some face looks towards the viewer.
+bool is_outside(const geometry::Part& part, const Viewer& viewer) {
+  if (!viewer.eye) return true;
+  for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
+    if (facing_of(part, t, viewer) > 0) return true;
+  return false;
+}
+
+// The viewer is outside. On the boundary of a convex body an edge of a face towards the viewer lies
+// on the body's upper side, where nothing of the body is nearer; an edge between two faces turned
+// away is behind the body all along. One with a face edge-on lies on the outline and may be behind
+// on one side.
+void judge_edges(const geometry::Part& part, const Viewer& viewer, std::span<EdgeView> edges) {
   for (EdgeView& e : edges) {
     if (e.edge.part_edge == kNoPartEdge) continue;
     bool away = true, towards = false;
     for (const std::uint32_t t : geometry::triangles_round(part, e.edge.part_edge)) {
-      const Int128 facing = along(triangle_normal(part, t), direction);
+      const Int128 facing = facing_of(part, t, viewer);
       away = away && facing < 0;
       towards = towards || facing > 0;
     }
@@ -29,14 +42,19 @@ void judge_edges(const geometry::Part& part, const geometry::Vec3l& direction,
 
 }  // namespace
 
-ShapeView view_of(const SeenShape& seen, const Frame& frame, const FeatureOptions& options) {
+ShapeView view_of(const SeenShape& seen, const Sight& sight) {
   const model::GridShape& shape = seen.shape();
+  const Viewer& viewer = sight.features.viewer;
   ShapeView view;
-  view.direction = options.direction;
-  const std::vector<FeatureEdge> edges = edges_of(seen, options);
+  view.viewer = viewer;
+  const std::vector<FeatureEdge> edges = edges_of(seen, sight.features);
   view.edges.reserve(edges.size());
-  for (const FeatureEdge& e : edges)
-    view.edges.push_back({e, frame(e.a.as<std::int64_t>()), frame(e.b.as<std::int64_t>())});
+  for (const FeatureEdge& e : edges) {
+    view.edges.push_back({.edge = e, .a = {}, .b = {}});
+    if (viewer.eye) continue;
+    view.edges.back().a = sight.frame(e.a.as<std::int64_t>());
+    view.edges.back().b = sight.frame(e.b.as<std::int64_t>());
+  }
 
   std::size_t begin = 0;
   for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
@@ -44,9 +62,9 @@ ShapeView view_of(const SeenShape& seen, const Frame& frame, const FeatureOption
     while (end < edges.size() && edges[end].part == p) ++end;
     const geometry::Part& part = shape.parts[p];
     // What was rounded has a contact distance within the part, which the signs know nothing of.
-    if (part.kind != geometry::PartKind::wire && add_polygons(part, p, frame, view) &&
-        seen.within == 0)
-      judge_edges(part, options.direction, std::span(view.edges).subspan(begin, end - begin));
+    if (part.kind != geometry::PartKind::wire && add_polygons(part, p, sight, view) &&
+        seen.within == 0 && is_outside(part, viewer))
+      judge_edges(part, viewer, std::span(view.edges).subspan(begin, end - begin));
     begin = end;
   }
   for (const PartView& part : view.parts) view.box.include(part.box);

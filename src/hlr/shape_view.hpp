@@ -7,6 +7,7 @@
 
 #include "hlr/feature_edges.hpp"
 #include "hlr/frame.hpp"
+#include "hlr/picture.hpp"
 #include "hlr/seen_shapes.hpp"
 #include "hlr/view_tree.hpp"
 
@@ -31,10 +32,11 @@ struct Polygon {
 /// A part of a shape as something that hides.
 struct PartView {
   ViewBox box;                        ///< of its polygons
+  std::int64_t farthest = 0;          ///< least product of a corner with the direction
   std::uint32_t first = 0, last = 0;  ///< its polygons
   ViewTree tree;                      ///< over them, where there are many
   /// Exactly convex: the outline, a polygon without a plane. It hides all that lies under it and
-  /// below `box.lo.w` by more than `deep_per_contact` times the contact distance, because that
+  /// below `farthest` by more than `deep_per_contact` times the contact distance, because that
   /// lies deep enough under whichever face is above.
   bool has_outline = false;
   Polygon outline;
@@ -44,16 +46,25 @@ struct PartView {
 /// A feature edge with what the view needs of it.
 struct EdgeView {
   FeatureEdge edge;
-  ViewPoint a, b;
+  ViewPoint a, b;  ///< orthographic
   /// On a part that is exactly convex: does the part hide its own edge? Neither where unknown.
   bool surely_clear_of_part = false, surely_behind_part = false;
 };
 
-/// A shape seen in one direction, shared by all bodies that place it.
+/// How a shape is seen.
+struct Sight {
+  const Frame& frame;
+  FeatureOptions features;           ///< in the coordinates of the shape
+  const Picture* picture = nullptr;  ///< null: orthographic
+};
+
+/// A shape seen in one direction, shared by all bodies that place it; or in perspective, of one
+/// body. Then boxes are those of the picture and hold for the body where it is.
 struct ShapeView {
-  geometry::Vec3l direction;
-  std::vector<Corner> corners;
-  std::vector<Polygon> polygons;  ///< by part
+  Viewer viewer;                      ///< in the coordinates of the shape
+  std::vector<Corner> corners;        ///< orthographic
+  std::vector<geometry::Vec3l> rays;  ///< in perspective: corners relative to the eye
+  std::vector<Polygon> polygons;      ///< by part
   std::vector<NormalVector> wide_normals;
   std::vector<PartView> parts;  ///< those that can hide
   ViewBox box;                  ///< of the polygons
@@ -66,11 +77,10 @@ struct ShapeView {
   }
 };
 
-[[nodiscard]] ShapeView view_of(const SeenShape& seen, const Frame& frame,
-                                const FeatureOptions& options);
+[[nodiscard]] ShapeView view_of(const SeenShape& seen, const Sight& sight);
 
 /// Polygons of one part, appended; true when the part is exactly convex and closed.
-bool add_polygons(const geometry::Part& part, std::uint32_t part_index, const Frame& frame,
+bool add_polygons(const geometry::Part& part, std::uint32_t part_index, const Sight& sight,
                   ShapeView& view);
 
 }  // namespace strake::hlr

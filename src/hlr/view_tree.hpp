@@ -19,6 +19,7 @@ struct LooseBox {
 struct LooseSegment {
   double au = 0, av = 0, du = 0, dv = 0;          ///< the line: any point, and its direction
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0, w0 = 0;  ///< box of the part that is asked about
+  double beside = 0;  ///< room at the line, where it is known roughly: an area
 
   /// False only when the box cannot hold anything that hides a point of the segment.
   [[nodiscard]] bool may_hide(const LooseBox& b) const {
@@ -29,7 +30,7 @@ struct LooseSegment {
     const double reach = (du < 0 ? -du : du) * hv + (dv < 0 ? -dv : dv) * hu;
     const double slack = ((p < 0 ? -p : p) + (q < 0 ? -q : q) + reach) * 1e-12;
     const double off = p - q;
-    return (off < 0 ? -off : off) <= reach + slack;
+    return (off < 0 ? -off : off) <= reach + slack + beside;
   }
 };
 

@@ -2,9 +2,12 @@
 #include "hlr/world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
+#include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/order.hpp"
 
@@ -23,28 +26,53 @@ bool within(const Box3l& inner, const Box3l& outer) {
   return true;
 }
 
+/// About the least distance before the eye of what is drawn, its near plane apart.
+double nearest_depth(const Job& job) {
+  const ViewAxes axes = axes_of(job.view);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const model::GridBody& body : job.scene->bodies) {
+    const geometry::Box3i& box = job.scene->shapes[body.grid_shape].box;
+    if (!job.drawn[model::index(body.object)] || box.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      geometry::Vec3l p = job.offset(body);
+      for (int k = 0; k < 3; ++k) p[k] += (corner >> k & 1) != 0 ? box.hi[k] : box.lo[k];
+      nearest = std::min(nearest, -dot(axes.toward, p.as<double>()));
+    }
+  }
+  const double near_plane = job.view.perspective->near_mm * geometry::kGridPerMm;
+  return std::isfinite(nearest) ? std::max(nearest, near_plane) : near_plane;
+}
+
+/// A view of a body's shape for all bodies that share it; in perspective, of each body.
 Status make_views(World& world, const parallel::Context& context) {
   const Job& job = world.job;
   const model::Scene& scene = *job.scene;
-  std::vector<std::uint32_t> used;
+  struct Task {
+    std::uint32_t view = 0, body = 0;
+  };
+  std::vector<Task> tasks;
   std::vector<bool> known(job.seen.all.size());
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     const std::uint32_t seen = job.seen.of[b];
-    if (known[seen] || !job.drawn[model::index(scene.bodies[b].object)]) continue;
+    if (!job.drawn[model::index(scene.bodies[b].object)]) continue;
+    if (world.picture) tasks.push_back({b, b});
+    if (!world.picture && !known[seen]) tasks.push_back({seen, b});
     known[seen] = true;
-    used.push_back(seen);
   }
-  const auto order = parallel::longest_first(used.size(), [&](std::size_t i) {
+  const auto order = parallel::longest_first(tasks.size(), [&](std::size_t i) {
     std::size_t triangles = 0;
-    for (const geometry::Part& part : job.seen.all[used[i]].source->parts)
+    for (const geometry::Part& part : job.seen_of(tasks[i].body).source->parts)
       triangles += part.edges.size();
     return triangles;
   });
-  world.views.resize(job.seen.all.size());
+  world.views.resize(world.picture ? scene.bodies.size() : job.seen.all.size());
+  const Picture* const picture = world.picture ? &*world.picture : nullptr;
   return parallel::for_each(
-      context, {.name = "hidden lines: shapes", .n = used.size(), .order = order},
+      context, {.name = "hidden lines: shapes", .n = tasks.size(), .order = order},
       [&](std::size_t i) {
-        world.views[used[i]] = view_of(job.seen.all[used[i]], world.frame, job.features);
+        const auto [view, body] = tasks[i];
+        world.views[view] =
+            view_of(job.seen_of(body), {world.frame, job.features_of(scene.bodies[body]), picture});
       });
 }
 
@@ -60,9 +88,9 @@ void place_bodies(World& world) {
     const SeenShape& seen = job.seen_of(b);
     const model::GridShape& shape = seen.shape();
     Placed& placed = world.placed[b];
-    placed = {&world.views[job.seen.of[b]],
+    placed = {&world.views[world.picture ? b : job.seen.of[b]],
               job.offset(body),
-              world.frame(job.offset(body)),
+              world.picture ? ViewPoint{} : world.frame(job.offset(body)),
               object,
               job.contact[b],
               seen.within,
@@ -98,7 +126,7 @@ void find_sharers(World& world) {
 
 Status make_coverage(World& world, const parallel::Context& context) {
   const Job& job = world.job;
-  if (!job.options.culling || job.options.stage != Stage::global) return {};
+  if (!job.options.culling || job.options.stage != Stage::global || world.picture) return {};
   std::size_t edges = 0;
   for (const Placed& placed : world.placed)
     if (placed.view != nullptr) edges += placed.view->edges.size();
@@ -147,9 +175,11 @@ std::vector<Item> own_items(const World& world) {
 
 Result<World> make_world(const Job& job, const parallel::Context& context) {
   World world(job);
+  if (job.view.perspective) world.picture.emplace(job.view, nearest_depth(job));
   if (const Status status = make_views(world, context); !status) return status.error();
   place_bodies(world);
-  if (job.options.culling && job.options.stage != Stage::none) find_sharers(world);
+  if (job.options.culling && job.options.stage != Stage::none && !world.picture)
+    find_sharers(world);
   if (const Status status = make_coverage(world, context); !status) return status.error();
   make_items(world);
   return world;

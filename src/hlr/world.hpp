@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,7 +46,9 @@ struct World {
 
   const Job& job;
   Frame frame;
-  std::vector<ShapeView> views;   ///< per seen shape; empty where not drawn
+  std::optional<Picture> picture;  ///< in perspective
+  std::vector<ShapeView>
+      views;  ///< per seen shape or, in perspective, per body; empty where not drawn
   std::vector<OwnHits> own_hits;  ///< per seen shape; empty where no two bodies share it
   std::vector<Placed> placed;     ///< per body
   ViewTree tree;                  ///< over the bodies that may hide

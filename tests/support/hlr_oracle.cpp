@@ -50,11 +50,21 @@ struct Tile {
   std::uint32_t object = 0, body = 0, part = 0;
 };
 
+/// From where all is seen: along a direction, or from a point.
+struct Sight {
+  Vec direction;
+  std::optional<Vec> eye;
+
+  /// From p to the viewer.
+  [[nodiscard]] Vec from(const Vec& p) const { return eye ? *eye - p : direction; }
+};
+
 // Lines of one part, decided from the vertex coordinates of its triangles alone.
 class PartLines {
  public:
-  PartLines(const geometry::Part& part, const geometry::Vec3l& origin, const Vec& d, double angle)
-      : part_(part), origin_(origin), d_(d), angle_(angle) {}
+  PartLines(const geometry::Part& part, const geometry::Vec3l& origin, const Sight& sight,
+            double angle)
+      : part_(part), origin_(origin), sight_(sight), angle_(angle) {}
 
   std::vector<Line> lines() {
     std::vector<Line> result;
@@ -123,13 +133,27 @@ class PartLines {
     const double lengths = std::sqrt(dot(m, m).get_d()) * std::sqrt(dot(n, n).get_d());
     const double turn = std::acos(std::clamp(dot(m, n).get_d() / lengths, -1.0, 1.0));
     if (turn > angle_ * std::acos(-1.0) / 180) return EdgeKind::sharp;
-    if ((dot(m, d_) > 0) != (dot(n, d_) > 0)) return EdgeKind::contour;
+    const bool front_m = dot(m, sight_.from(least_corner(triangles[0]))) > 0;
+    const bool front_n = dot(n, sight_.from(least_corner(triangles[1]))) > 0;
+    if (front_m != front_n) return EdgeKind::contour;
     return std::nullopt;
+  }
+
+  // Of the face whose area decides.
+  Vec least_corner(std::uint32_t t) const {
+    const bool alone = part_.faces.empty() || face_area(t) == triangle_area(t);
+    std::optional<Vec> least;
+    for (std::uint32_t s = 0; s < part_.triangles.size(); ++s) {
+      if (alone ? s != t : part_.faces[s] != part_.faces[t]) continue;
+      for (const std::uint32_t v : part_.triangles[s])
+        if (!least || corner(v) < *least) least = corner(v);
+    }
+    return *least;
   }
 
   const geometry::Part& part_;
   geometry::Vec3l origin_;
-  const Vec& d_;
+  const Sight& sight_;
   double angle_;
 };
 
@@ -143,7 +167,13 @@ class Oracle {
  public:
   Oracle(const model::Scene& scene, const hlr::View& view, const hlr::Options& options,
          const std::vector<Piece>& lines)
-      : scene_(scene), view_(view), options_(options), given_(lines), d_(vec(view.direction)) {
+      : scene_(scene),
+        view_(view),
+        options_(options),
+        given_(lines),
+        sight_{vec(view.direction), std::nullopt},
+        window_(hlr::window(view)) {
+    if (view.perspective) sight_.eye = vec(view.perspective->eye);
     contact_ = options.contact_distance_mm < 0
                    ? mpq_class(3)
                    : number(std::llround(options.contact_distance_mm * 1000));
@@ -162,7 +192,7 @@ class Oracle {
         const auto& parts = scene_.shapes[body.grid_shape].parts;
         for (std::uint32_t p = 0; p < parts.size(); ++p)
           for (const Line& line :
-               PartLines(parts[p], body.origin, d_, options_.sharp_angle_deg).lines())
+               PartLines(parts[p], body.origin, sight_, options_.sharp_angle_deg).lines())
             draw_line(line, o, b, p);
       }
       for (const Piece& p : given_)
@@ -179,7 +209,7 @@ class Oracle {
       if (scene_.model->bodies[body.body].color.alpha != 255) continue;
       const auto& parts = scene_.shapes[body.grid_shape].parts;
       for (std::uint32_t p = 0; p < parts.size(); ++p) {
-        const PartLines corners(parts[p], body.origin, d_, 0);
+        const PartLines corners(parts[p], body.origin, sight_, 0);
         for (const auto& t : parts[p].triangles) {
           Tile tile{{corners.corner(t[0]), corners.corner(t[1]), corners.corner(t[2])},
                     {},
@@ -187,7 +217,7 @@ class Oracle {
                     b,
                     p};
           tile.n = cross(tile.v[1] - tile.v[0], tile.v[2] - tile.v[0]);
-          if (dot(tile.n, d_) != 0) tiles_.push_back(tile);
+          if (dot(tile.n, sight_.from(tile.v[0])) != 0) tiles_.push_back(tile);
         }
       }
     }
@@ -200,30 +230,43 @@ class Oracle {
     return true;
   }
 
-  // How far along d the plane of the tile lies above p.
-  static mpq_class height(const Tile& tile, const Vec& p, const Vec& d) {
-    return dot(tile.n, tile.v[0] - p) / dot(tile.n, d);
+  bool inside_window(const Vec& p) const {
+    return std::ranges::all_of(window_, [&](const hlr::HalfSpace& h) {
+      return dot(vec(h.normal), p - *sight_.eye) >= number(h.least);
+    });
+  }
+
+  // The share of the way to the eye, or along the direction, at which the tile's plane lies above
+  // p; nothing where the way does not meet it, or only beyond the eye.
+  std::optional<mpq_class> height(const Tile& tile, const Vec& p) const {
+    const mpq_class rise = dot(tile.n, sight_.from(p));
+    if (rise == 0) return std::nullopt;
+    const mpq_class h = dot(tile.n, tile.v[0] - p) / rise;
+    return sight_.eye && h >= 1 ? std::nullopt : std::optional(h);
   }
 
   // An intersection is off the faces that it lies on by what its ends were rounded.
-  mpq_class least_height(const Tile& tile, const Line& e, std::uint32_t body,
-                         std::uint32_t part) const {
+  mpq_class least_distance(const Tile& tile, const Line& e, std::uint32_t body,
+                           std::uint32_t part) const {
     if (!e.crosses() && tile.body == body && tile.part == part) return 0;
     mpq_class size = 0;
     for (const mpq_class& x : tile.n) size += abs(x);
-    const mpq_class contact = e.crosses() && contact_ < 1 ? mpq_class(1) : contact_;
-    return contact * size / abs(dot(tile.n, d_));
+    return size * (e.crosses() && contact_ < 1 ? mpq_class(1) : contact_);
   }
 
-  // Barycentric weights of the projection of p, moved by an infinitesimal along `sideways`.
+  // Barycentric weights of the point of the tile's plane between p, moved by an infinitesimal along
+  // `sideways`, and the viewer.
   bool covers(const Tile& tile, const Vec& p, const Vec& sideways) const {
-    const mpq_class whole = dot(tile.n, d_);
+    const Vec d = sight_.from(p);
+    const mpq_class whole = dot(tile.n, d);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec &q = tile.v[(k + 1) % 3], &r = tile.v[(k + 2) % 3];
-      const Vec line = cross(r - q, d_);
       // det(r - q, p - q, d) = -(p - q) . ((r - q) x d), over the whole: the weight of corner k.
-      const Moved weight{-dot(p - q, line) / whole, -dot(sideways, line) / whole};
-      if (!weight.positive()) return false;
+      // From the eye d is e - p, and moves too.
+      const Vec line = cross(r - q, d);
+      mpq_class slope = -dot(sideways, line);
+      if (sight_.eye) slope += dot(p - q, cross(r - q, sideways));
+      if (!Moved{-dot(p - q, line) / whole, slope / whole}.positive()) return false;
     }
     return true;
   }
@@ -246,39 +289,63 @@ class Oracle {
         cut(result, e, axis, low_);
         cut(result, e, axis, high_);
       }
+    for (const hlr::HalfSpace& h : window_)
+      cut(result, e, vec(h.normal), *sight_.eye, number(h.least));
     for (const Tile& tile : tiles_) {
-      for (std::size_t k = 0; k < 3; ++k)
-        cut(result, e, cross(tile.v[(k + 1) % 3] - tile.v[k], d_), tile.v[k]);
-      const mpq_class up = dot(tile.n, d_);
-      cut(result, e, tile.n, tile.v[0], -least_height(tile, e, body, part) * up);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec &q = tile.v[k], &r = tile.v[(k + 1) % 3];
+        cut(result, e, cross(r - q, sight_.from(q)), q);
+      }
+      const mpq_class up = dot(tile.n, sight_.from(tile.v[0]));
+      const mpq_class excess = least_distance(tile, e, body, part);
+      cut(result, e, tile.n, tile.v[0], up > 0 ? mpq_class(-excess) : excess);
       if (view_.limits)
-        for (std::size_t k = 0; k < 3; ++k) {
-          // x_k of the hiding point is p_k + height * d_k: a plane in p.
-          Vec normal = (-d_[k] / up) * tile.n;
-          normal[k] += 1;
-          const mpq_class base = dot(tile.n, tile.v[0]) / up * d_[k];
-          cut(result, e, normal, {0, 0, 0}, low_[k] - base);
-          cut(result, e, normal, {0, 0, 0}, high_[k] - base);
-        }
+        for (std::size_t k = 0; k < 3; ++k)
+          for (const Vec* limit : {&low_, &high_}) cut_at_limit(result, e, tile, k, (*limit)[k]);
     }
     return result;
+  }
+
+  // Where the point of the tile's plane between an edge and the viewer passes a limit.
+  void cut_at_limit(std::set<mpq_class>& events, const Line& e, const Tile& tile, std::size_t k,
+                    const mpq_class& limit) const {
+    if (sight_.eye) {
+      // The plane through the eye and the line that the limit cuts out of the tile's plane.
+      Vec axis{0, 0, 0};
+      axis[k] = 1;
+      const Vec along = cross(tile.n, axis);
+      if (dot(along, along) == 0) return;
+      Vec on = tile.v[0];
+      // In the tile's plane, square to `along`, as far as the limit.
+      const Vec across = cross(along, tile.n);
+      on = on + ((limit - on[k]) / across[k]) * across;
+      cut(events, e, cross(along, *sight_.eye - on), on);
+      return;
+    }
+    // x_k of the hiding point is p_k + height * d_k: a plane in p.
+    const mpq_class up = dot(tile.n, sight_.direction);
+    Vec normal = (-sight_.direction[k] / up) * tile.n;
+    normal[k] += 1;
+    const mpq_class base = dot(tile.n, tile.v[0]) / up * sight_.direction[k];
+    cut(events, e, normal, {0, 0, 0}, limit - base);
   }
 
   State state_at(const Line& e, const mpq_class& t, std::uint32_t object, std::uint32_t body,
                  std::uint32_t part) const {
     const Vec p = e.a + t * (e.b - e.a);
-    if (!inside_limits(p)) return State::clipped;
+    if (!inside_limits(p) || !inside_window(p)) return State::clipped;
     if (options_.stage == hlr::Stage::none) return State::visible;
-    const Vec left = cross(d_, e.b - e.a), right = mpq_class(-1) * left;
+    const Vec left = cross(sight_.from(p), e.b - e.a), right = mpq_class(-1) * left;
     bool self[2] = {false, false}, any[2] = {false, false};
     for (const Tile& tile : tiles_) {
       const bool own = tile.object == object || (e.crosses() && tile.object == e.other);
       if (own && e.wire) continue;
       if (!own && options_.stage == hlr::Stage::local) continue;
       if (any[0] && any[1] && (!own || (self[0] && self[1]))) continue;
-      const mpq_class h = height(tile, p, d_);
-      if (h <= least_height(tile, e, body, part)) continue;
-      if (!inside_limits(p + h * d_)) continue;
+      const std::optional<mpq_class> h = height(tile, p);
+      if (!h || *h <= 0) continue;
+      if (abs(dot(tile.n, tile.v[0] - p)) <= least_distance(tile, e, body, part)) continue;
+      if (!inside_limits(p + *h * sight_.from(p))) continue;
       for (int side = 0; side < 2; ++side)
         if (covers(tile, p, side == 0 ? left : right)) {
           any[side] = true;
@@ -302,17 +369,17 @@ class Oracle {
       const Vec p = e.a + t * (e.b - e.a);
       return geometry::Vec3l{rounded(p[0]), rounded(p[1]), rounded(p[2])};
     };
-    const Vec turned = cross(d_, e.b - e.a);
+    const Vec turned = cross(sight_.from(e.a), e.b - e.a);
     const bool projecting = dot(turned, turned) == 0;
     const std::set<mpq_class> cuts = events(e, body, part);
     std::vector<std::tuple<mpq_class, mpq_class, State>> runs;
     bool within = false;
     for (auto i = cuts.begin(), j = std::next(i); j != cuts.end(); ++i, ++j) {
       const mpq_class middle = (*i + *j) / 2;
-      const State state =
-          projecting
-              ? (inside_limits(e.a + middle * (e.b - e.a)) ? State::projecting : State::clipped)
-              : state_at(e, middle, object, body, part);
+      const Vec at = e.a + middle * (e.b - e.a);
+      const State state = !projecting ? state_at(e, middle, object, body, part)
+                          : inside_limits(at) && inside_window(at) ? State::projecting
+                                                                   : State::clipped;
       within = within || state != State::clipped;
       if (!runs.empty() && std::get<2>(runs.back()) == state)
         std::get<1>(runs.back()) = *j;
@@ -334,7 +401,9 @@ class Oracle {
   const hlr::View& view_;
   const hlr::Options& options_;
   const std::vector<Piece>& given_;
-  Vec d_, low_, high_;
+  Sight sight_;
+  std::vector<hlr::HalfSpace> window_;
+  Vec low_, high_;
   mpq_class contact_;
   std::vector<Tile> tiles_;
   std::vector<Piece> out_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 #include "strake/geometry/wide_int.hpp"
@@ -263,6 +264,35 @@ std::optional<geometry::Box3l> random_limits(Random& random, const LatticeOption
     box.hi[k] = std::max(p, q);
   }
   return box;
+}
+
+hlr::View random_perspective(Random& random, const LatticeOptions& options) {
+  const auto steps = static_cast<std::int64_t>(options.steps);
+  const std::int64_t half = options.unit % 2 == 0 ? options.unit / 2 : 0;
+  const auto coordinate = [&](std::int64_t lo, std::int64_t hi) {
+    const std::int64_t step = lo + random.below(static_cast<std::uint32_t>(hi - lo + 1));
+    return step * options.unit + (random.one_in(4) ? half : 0);
+  };
+  hlr::Perspective p;
+  do {
+    const std::int64_t far = random.one_in(6) ? 50 : random.one_in(2) ? 3 * steps : steps;
+    for (int k = 0; k < 3; ++k) {
+      p.eye[k] = coordinate(-far, far + steps);
+      p.target[k] = coordinate(0, steps);
+    }
+  } while (p.eye == p.target);
+  p.near_mm = 0.001;
+  p.field_of_view_deg = random.one_in(3) ? 160 : 20 + random.below(120);
+  hlr::View view{.limits = std::nullopt, .perspective = p};
+  const Vec3l way = p.eye - p.target;
+  const std::int64_t largest =
+      std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)}) / (std::int64_t{1} << 20) + 1;
+  for (int k = 0; k < 3; ++k) view.direction[k] = way[k] / largest;
+  // Now and then the paper is not square to the way to the target.
+  const Vec3l other = direction_of(random.below(kDirections));
+  const std::int64_t size = std::abs(other.x) + std::abs(other.y) + std::abs(other.z);
+  if (random.one_in(4) && dot(other, way) > size) view.direction = other;
+  return view;
 }
 
 hlr::Section random_section(Random& random, const LatticeOptions& options) {

@@ -50,6 +50,10 @@ inline constexpr std::uint32_t kDirections = 16;
 [[nodiscard]] std::optional<geometry::Box3l> random_limits(Random& random,
                                                            const LatticeOptions& options);
 
+/// A view from a point of the lattice or around it, now and then from afar, at another of its
+/// points: most of what is before the eye lies in the window.
+[[nodiscard]] hlr::View random_perspective(Random& random, const LatticeOptions& options);
+
 /// A plane that cuts the lattice, often through lattice points and now and then in a lattice plane.
 [[nodiscard]] hlr::Section random_section(Random& random, const LatticeOptions& options);
 

@@ -41,8 +41,8 @@ enum class State : std::uint8_t {
   visible,
   hidden_by_self,
   hidden_by_other,
-  projecting,  ///< parallel to the view direction: a point on paper
-  clipped,     ///< outside the limits, or cut away by a section
+  projecting,  ///< parallel to the view direction, or towards the eye: a point on paper
+  clipped,     ///< outside the limits or the window, or cut away by a section
 };
 
 /// A plane through a grid point that cuts away what lies on it and on the side that `normal` points
@@ -53,14 +53,37 @@ struct Section {
   geometry::Vec3l point;            ///< grid units
 };
 
-/// An orthographic view. Directions are integers so that every decision is exact.
+/// Seen from a point. The paper is square to View::direction; lengths on it are true in the plane
+/// through the target.
+struct Perspective {
+  geometry::Vec3l eye;     ///< grid units
+  geometry::Vec3l target;  ///< grid units; lies before the eye
+  /// What is nearer to the eye than this, measured along the view, is not drawn (but hides).
+  double near_mm = 100;
+  double field_of_view_deg = 90;  ///< from side to side of the square that is drawn; 1 to 160
+};
+
+/// An orthographic view, or one in perspective. Directions are integers so that every decision is
+/// exact.
 struct View {
   geometry::Vec3l direction{1, -1, 1};  ///< points to the viewer; |component| <= 2^20
   geometry::Vec3l up{0, 0, 1};
   std::optional<geometry::Box3l>
       limits;  ///< grid units: lines outside are clipped, points outside do not hide
   std::vector<Section> sections = {};  ///< in any order, 16 at most
+  std::optional<Perspective> perspective = std::nullopt;
 };
+
+/// Where normal · p >= least, p relative to the eye in grid units.
+struct HalfSpace {
+  geometry::Vec3l normal;
+  std::int64_t least = 0;
+};
+
+/// What is drawn in perspective lies in all of these, exactly: before the near plane and within
+/// the four sides of the field of view, whose normals are rounded to 20 bits. None otherwise.
+/// For a view that draw() takes.
+[[nodiscard]] std::vector<HalfSpace> window(const View& view);
 
 /// How the sections of an object are hatched; what is negative is chosen.
 struct Hatch {

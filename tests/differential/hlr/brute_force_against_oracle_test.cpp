@@ -16,7 +16,21 @@ struct Case {
   std::uint64_t seed = 0;
   std::int32_t unit = 1;
   double contact_mm = 0;
+  bool perspective = false;
 };
+
+/// The intersections from end to end, where the window cuts them too.
+std::vector<hlr::Piece> whole_lines(const std::vector<hlr::Piece>& pieces) {
+  std::vector<hlr::Piece> lines;
+  for (const hlr::Piece& p : pieces) {
+    if (p.kind != hlr::EdgeKind::intersection) continue;
+    if (!lines.empty() && lines.back().object == p.object && lines.back().edge == p.edge)
+      lines.back().b = p.b;
+    else
+      lines.push_back(p);
+  }
+  return lines;
+}
 
 /// `crossings`: how many lines were intersections, added up.
 std::string run(const Case& c, std::size_t& crossings) {
@@ -25,19 +39,22 @@ std::string run(const Case& c, std::size_t& crossings) {
                                      .steps = 2 + static_cast<std::uint32_t>(c.seed % 2)};
   const test::SceneBuilder scene = test::lattice_scene(c.seed, lattice);
   test::Random random(c.seed ^ 0x5eedU);
-  const hlr::View view{.direction = test::direction_of(random.below(test::kDirections)),
-                       .limits = test::random_limits(random, lattice)};
+  hlr::View view;
+  if (c.perspective)
+    view = test::random_perspective(random, lattice);
+  else
+    view.direction = test::direction_of(random.below(test::kDirections));
+  const hlr::View plain_view = view;
+  view.limits = test::random_limits(random, lattice);
   hlr::Options options{.solver = hlr::Solver::brute_force, .contact_distance_mm = c.contact_mm};
   options.intersections = static_cast<hlr::Intersections>(c.seed % 3);
   if (random.one_in(6)) options.stage = random.one_in(2) ? hlr::Stage::local : hlr::Stage::none;
   const auto drawing = hlr::draw(scene.scene(), {}, view, options, {});
   if (!drawing) return drawing.error().text();
   options.stage = hlr::Stage::none;
-  const auto plain =
-      hlr::draw(scene.scene(), {}, {.direction = view.direction, .limits = {}}, options, {});
+  const auto plain = hlr::draw(scene.scene(), {}, plain_view, options, {});
   options.stage = drawing->options.stage;
-  std::vector<hlr::Piece> lines = plain->pieces;
-  std::erase_if(lines, [](const auto& p) { return p.kind != hlr::EdgeKind::intersection; });
+  std::vector<hlr::Piece> lines = whole_lines(plain->pieces);
   crossings += lines.size();
   return test::difference(test::oracle_pieces(scene.scene(), view, options, lines),
                           drawing->pieces);
@@ -68,6 +85,26 @@ TEST(BruteForceAgainstOracle, ContactDistanceOfTheLatticesOwnSize) {
   for (std::uint64_t seed = 1; seed <= count(12); ++seed)
     ASSERT_EQ(run({.seed = seed, .unit = 6, .contact_mm = 0.003}, crossings), "")
         << "seed " << seed;
+  EXPECT_GT(crossings, 0U);
+}
+
+TEST(BruteForceAgainstOracle, Perspective) {
+  std::size_t crossings = 0;
+  for (std::uint64_t seed = 1; seed <= count(12); ++seed)
+    ASSERT_EQ(run({.seed = seed, .perspective = true}, crossings), "") << "seed " << seed;
+  EXPECT_GT(crossings, 0U);
+}
+
+TEST(BruteForceAgainstOracle, PerspectiveAndContactDistance) {
+  std::size_t crossings = 0;
+  for (std::uint64_t seed = 1; seed <= count(4); ++seed) {
+    ASSERT_EQ(run({.seed = seed, .unit = 6, .contact_mm = 0.003, .perspective = true}, crossings),
+              "")
+        << "seed " << seed;
+    ASSERT_EQ(run({.seed = seed, .unit = 1000, .contact_mm = -1, .perspective = true}, crossings),
+              "")
+        << "seed " << seed;
+  }
   EXPECT_GT(crossings, 0U);
 }
 

@@ -19,6 +19,7 @@ struct Settings {
   double contact_mm = 0;
   std::uint32_t most_objects = 6;
   std::uint32_t sections = 0;
+  bool perspective = false;
 };
 
 std::string run(std::uint64_t seed, const Settings& settings) {
@@ -27,8 +28,12 @@ std::string run(std::uint64_t seed, const Settings& settings) {
                                      .unit = settings.unit,
                                      .steps = 1 + random.below(3)};
   const test::SceneBuilder scene = test::lattice_scene(seed, lattice);
-  hlr::View view{.direction = test::direction_of(random.below(test::kDirections)),
-                 .limits = test::random_limits(random, lattice)};
+  hlr::View view;
+  if (settings.perspective)
+    view = test::random_perspective(random, lattice);
+  else
+    view.direction = test::direction_of(random.below(test::kDirections));
+  view.limits = test::random_limits(random, lattice);
   for (std::uint32_t i = 0; i < settings.sections; ++i)
     view.sections.push_back(test::random_section(random, lattice));
   hlr::Options options{.contact_distance_mm = settings.contact_mm};
@@ -44,7 +49,8 @@ std::string run(std::uint64_t seed, const Settings& settings) {
   static parallel::Team team(3);
   options.solver = hlr::Solver::push;
   const auto pushed = hlr::draw(scene.scene(), {}, view, options, {.team = &team});
-  if (!expected || !got || !unculled || !pushed) return "no drawing";
+  if (!expected || !got || !unculled || !pushed)
+    return expected ? "no drawing" : expected.error().text();
   const std::string culled = test::difference(expected->pieces, got->pieces);
   if (!culled.empty()) return culled;
   const std::string plain = test::difference(expected->pieces, unculled->pieces);
@@ -104,6 +110,37 @@ TEST(GatherAgainstBruteForce, Sections) {
 TEST(GatherAgainstBruteForce, SectionsOfAHugeLattice) {
   for (std::uint64_t seed = 1; seed <= count(100); ++seed)
     ASSERT_EQ(run(seed, {.unit = 357913941, .contact_mm = -1, .sections = 2}), "")
+        << "seed " << seed;
+}
+
+TEST(GatherAgainstBruteForce, PerspectiveOnTheFinestLattice) {
+  for (std::uint64_t seed = 1; seed <= count(900); ++seed)
+    ASSERT_EQ(run(seed, {.perspective = true}), "") << "seed " << seed;
+}
+
+TEST(GatherAgainstBruteForce, PerspectiveAndContactDistance) {
+  for (std::uint64_t seed = 1; seed <= count(300); ++seed) {
+    ASSERT_EQ(run(seed, {.unit = 1000, .contact_mm = -1, .perspective = true}), "")
+        << "seed " << seed;
+    ASSERT_EQ(run(seed, {.unit = 6, .contact_mm = 0.003, .perspective = true}), "")
+        << "seed " << seed;
+  }
+}
+
+TEST(GatherAgainstBruteForce, PerspectiveOfALargeCrowd) {
+  for (std::uint64_t seed = 1; seed <= count(200); ++seed)
+    ASSERT_EQ(
+        run(seed, {.unit = 1 << 20, .contact_mm = -1, .most_objects = 16, .perspective = true}), "")
+        << "seed " << seed;
+}
+
+TEST(GatherAgainstBruteForce, PerspectiveAndSections) {
+  for (std::uint64_t seed = 1; seed <= count(200); ++seed)
+    ASSERT_EQ(run(seed, {.unit = seed % 2 == 0 ? 1 : 1000,
+                         .contact_mm = -1,
+                         .sections = 1 + static_cast<std::uint32_t>(seed % 3),
+                         .perspective = true}),
+              "")
         << "seed " << seed;
 }
 
