@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "cli/draw_sheet.hpp"
 #include "cli/hatch_option.hpp"
 #include "cli/load.hpp"
+#include "cli/perspective_option.hpp"
 #include "cli/select.hpp"
 #include "cli/verb.hpp"
 #include "strake/core/units.hpp"
@@ -30,6 +32,7 @@ constexpr double kSagMm = 0.5;
 struct DrawOptions {
   InputOptions input;
   SceneInput scene;
+  PerspectiveOptions perspective;
   std::string sheet;
   std::string view, direction, up, limits, scale, title;
   std::string stage, solver, global, culling, hidden, intersections, smooth, sharp_angle,
@@ -67,9 +70,9 @@ Result<geometry::Box3l> limits_of(const std::string& text) {
   return geometry::Box3l{*lo, *hi};
 }
 
-Result<hlr::Section> section_of(const std::string& text, const geometry::Vec3l& direction,
-                                Console& console) {
-  const Result<drawing::SectionText> parsed = drawing::parse_section(text, direction);
+Result<hlr::Section> section_of(const std::string& text, const hlr::View& view, Console& console) {
+  const auto eye = view.perspective ? std::optional(view.perspective->eye) : std::nullopt;
+  const Result<drawing::SectionText> parsed = drawing::parse_section(text, view.direction, eye);
   if (!parsed) {
     Error error = parsed.error();
     error.where = "--section";
@@ -90,6 +93,8 @@ Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
           : drawing::direction_by_name(given.view.empty() ? "iso" : given.view);
   if (!direction) return direction.error();
   view.direction = *direction;
+  if (const Status status = set_perspective(given.perspective, view, console); !status)
+    return status.error();
   view.up = drawing::default_up(view.direction);
   if (!given.up.empty()) {
     const Result<geometry::Vec3l> up = direction_of(given.up, "--up", console);
@@ -105,7 +110,7 @@ Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
     view.limits = *limits;
   }
   for (const std::string& text : given.sections) {
-    const Result<hlr::Section> section = section_of(text, view.direction, console);
+    const Result<hlr::Section> section = section_of(text, view, console);
     if (!section) return section.error();
     view.sections.push_back(*section);
   }
@@ -143,9 +148,10 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
 
 Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
   drawing::LayoutOptions options;
-  options.view_name = !given.direction.empty() ? given.direction
-                      : given.view.empty()     ? "iso"
-                                               : given.view;
+  options.view_name = !given.perspective.eye.empty() ? "perspective"
+                      : !given.direction.empty()     ? given.direction
+                      : given.view.empty()           ? "iso"
+                                                     : given.view;
   options.title = given.title;
   if (!given.scale.empty()) {
     const Result<double> scale = quantity(given.scale, "--scale", parse_scale);
@@ -179,7 +185,8 @@ void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing) {
                           drawing.sheet.height_mm));
   if (visible > 0) return;
   console.say(of(drawing::LineState::clipped) > 0
-                  ? "warning empty-sheet: nothing lies within the limits and before the sections"
+                  ? "warning empty-sheet: nothing lies within the limits, the field of view and "
+                    "before the sections"
                   : "warning empty-sheet: the model has nothing to draw");
 }
 
@@ -287,12 +294,14 @@ void add_view(CLI::App& command, DrawOptions& options) {
                                        {"top", "bottom", "front", "back", "left", "right", "iso"},
                                        "A view by name (default iso)")
                                 ->group("View");
-  command
-      .add_option("--direction", options.direction,
-                  "A view by the direction that points to the viewer, in whole numbers")
-      ->type_name("X,Y,Z")
-      ->excludes(view)
-      ->group("View");
+  CLI::Option* const direction =
+      command
+          .add_option("--direction", options.direction,
+                      "A view by the direction that points to the viewer, in whole numbers")
+          ->type_name("X,Y,Z")
+          ->excludes(view)
+          ->group("View");
+  add_perspective_options(command, options.perspective, view, direction);
   command.add_option("--up", options.up, "The direction that is up on paper (default z, plans y)")
       ->type_name("X,Y,Z")
       ->group("View");
@@ -374,8 +383,8 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
           ->type_name("FILE")
           ->group("Output");
   for (const char* const other :
-       {"--view", "--direction", "--up", "--limits", "--section", "--hatch", "--select", "--hidden",
-        "--visible-only", "--stage", "--intersections", "--smooth", "--sharp-angle",
+       {"--view", "--direction", "--eye", "--up", "--limits", "--section", "--hatch", "--select",
+        "--hidden", "--visible-only", "--stage", "--intersections", "--smooth", "--sharp-angle",
         "--contact-distance", "--scale", "--title"})
     sheet->excludes(other);
 }
@@ -419,6 +428,7 @@ Examples:
       --limits 0,-5000,0,20000,5000,8000
   strake draw ship.glb --select 'PIPE*' --view top -o pipes.svg -o pipes.json
   strake draw ship.glb --view top --section z=4500mm -o section.svg
+  strake draw ship.glb --eye 2000,-9000,6000 --target 9000,0,3000 -o seen.svg
   strake draw ship.glb --sheet deck.toml -o deck.svg)");
   return {command, [options](Session& session) { return run_draw(session, *options); }};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drawing/duplicates.hpp"
 
+#include <algorithm>
+
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -24,16 +26,15 @@ Rank rank_of(hlr::State state) {
   return Rank::none;
 }
 
-/// A piece in the plane of the view, relative to a point of the model: far from the origin
-/// differences keep their digits.
-Flat flat_of(const hlr::Piece& piece, const PaperAxes& axes, const Vec3d& origin, double reach) {
-  const Vec3d a = geometry::to_mm(piece.a) - origin, b = geometry::to_mm(piece.b) - origin;
-  Flat flat{.ax = dot(axes.right, a),
-            .ay = dot(axes.up, a),
-            .bx = dot(axes.right, b),
-            .by = dot(axes.up, b),
-            .depth = dot(axes.toward, a) + dot(axes.toward, b),
-            .reach = reach};
+/// A piece in the plane of the view.
+Flat flat_of(const hlr::Piece& piece, const ViewPlane& plane, double reach) {
+  const PlanePoint a = plane(piece.a), b = plane(piece.b);
+  Flat flat{.ax = a.x,
+            .ay = a.y,
+            .bx = b.x,
+            .by = b.y,
+            .depth = a.toward + b.toward,
+            .reach = reach * std::max(a.magnification, b.magnification)};
   if (flat.length() > 0) flat.rank = rank_of(piece.state);
   return flat;
 }
@@ -48,9 +49,10 @@ bool is_hidden(LineState state) {
   return state == LineState::hidden_by_self || state == LineState::hidden_by_other;
 }
 
-Line part_of(const Line& line, double from, double to) {
+Line part_of(const Line& line, const PaperAxes& axes, double from, double to) {
   Line part = line;
-  const auto at = [&](double t) {
+  const auto at = [&](double share) {
+    const double t = axes.share_in_model(line.a_mm, line.b_mm, share);
     // The grid's micrometre: more digits would say nothing.
     return Vec3d{rounded_paper(line.a_mm.x + (line.b_mm.x - line.a_mm.x) * t),
                  rounded_paper(line.a_mm.y + (line.b_mm.y - line.a_mm.y) * t),
@@ -70,10 +72,10 @@ Line part_of(const Line& line, double from, double to) {
 Result<std::vector<Flat>> flatten(const hlr::Drawing& drawing, const PaperAxes& axes,
                                   double distance_mm, const parallel::Context& context) {
   const std::span<const hlr::Piece> pieces = drawing.pieces;
-  const Vec3d origin = geometry::to_mm(drawing.origin);
+  const ViewPlane plane(axes, drawing.origin);
   return parallel::transform(
       context, {.name = "lines in the plane", .n = pieces.size(), .grain = 8192},
-      [&](std::size_t i) { return flat_of(pieces[i], axes, origin, distance_mm / 2); });
+      [&](std::size_t i) { return flat_of(pieces[i], plane, distance_mm / 2); });
 }
 
 OverlapRule duplicate_rule(double distance_mm) {

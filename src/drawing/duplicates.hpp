@@ -33,7 +33,7 @@ namespace strake::drawing {
 
 [[nodiscard]] bool is_hidden(LineState state);
 
-/// The part of a line between two parameters, 0 at a and 1 at b.
-[[nodiscard]] Line part_of(const Line& line, double from, double to);
+/// The part of a line between two shares of its way on paper, 0 at a and 1 at b.
+[[nodiscard]] Line part_of(const Line& line, const PaperAxes& axes, double from, double to);
 
 }  // namespace strake::drawing

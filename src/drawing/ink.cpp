@@ -89,7 +89,8 @@ std::vector<Flat> flatten(const std::vector<Line>& lines, const PaperAxes& axes,
 
 /// Appends what is kept of a line. One shorter than a dash goes or stays as a whole: crumbs of the
 /// many short lines that make a circle would say nothing.
-void keep(const Line& line, std::span<const Stretch> stretches, double dash, Ink& ink) {
+void keep(const Line& line, const PaperAxes& axes, std::span<const Stretch> stretches, double dash,
+          Ink& ink) {
   double covered = 0;
   for (const Stretch& s : stretches)
     if (s.covered) covered += s.to - s.from;
@@ -99,7 +100,7 @@ void keep(const Line& line, std::span<const Stretch> stretches, double dash, Ink
   if (whole && covered <= 0.5) ink.lines.push_back(line);
   if (whole) return;
   for (const Stretch& s : stretches)
-    if (!s.covered) ink.lines.push_back(part_of(line, s.from, s.to));
+    if (!s.covered) ink.lines.push_back(part_of(line, axes, s.from, s.to));
 }
 
 Status clean_up(Ink& ink, const PaperAxes& axes, const parallel::Context& context) {
@@ -119,7 +120,7 @@ Status clean_up(Ink& ink, const PaperAxes& axes, const parallel::Context& contex
     if (end == first)
       ink.lines.push_back(lines[i]);
     else
-      keep(lines[i], stretches.subspan(first, end - first), kDash * thin, ink);
+      keep(lines[i], axes, stretches.subspan(first, end - first), kDash * thin, ink);
     first = end;
   }
   return {};

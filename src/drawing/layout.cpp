@@ -21,26 +21,10 @@ namespace {
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-/// The plane of a view about a point of the model. Points are taken relative to it before they
-/// become doubles, so that a model in map coordinates loses nothing.
-class Plane {
- public:
-  Plane(const PaperAxes& axes, const Vec3l& origin) : axes_(axes), origin_(origin) {}
-
-  [[nodiscard]] PaperPoint operator()(const Vec3l& grid) const {
-    const Vec3d p = geometry::to_mm(grid - origin_);
-    return {dot(axes_.right, p), dot(axes_.up, p)};
-  }
-
- private:
-  PaperAxes axes_;
-  Vec3l origin_;
-};
-
-/// Curves as they lie on the sheet.
+/// Curves as they lie on the sheet: of orthographic views, which alone have any.
 PaperCurves curves_on_paper(const hlr::Curves& curves, const PaperAxes& axes,
                             const Placement& placement) {
-  const Plane plane(axes, placement.anchor);
+  const ViewPlane plane(axes, placement.anchor);
   const double scale = placement.sheet.scale;
   const auto along = [&](const Vec3d& v) {
     return PaperPoint{dot(axes.right, v) / scale, -dot(axes.up, v) / scale};
@@ -48,7 +32,8 @@ PaperCurves curves_on_paper(const hlr::Curves& curves, const PaperAxes& axes,
   PaperCurves result{{}, curves.edges};
   result.all.reserve(curves.all.size());
   for (const hlr::Curve& curve : curves.all) {
-    const PaperPoint origin = plane(curve.origin), centre = along(curve.at.centre);
+    const PlanePoint origin = plane(curve.origin);
+    const PaperPoint centre = along(curve.at.centre);
     result.all.push_back({{placement.at.x + origin.x / scale + centre.x,
                            placement.at.y - origin.y / scale + centre.y},
                           along(curve.at.u),
@@ -79,6 +64,11 @@ Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
     add_vector(hasher, section.normal);
     add_vector(hasher, section.point);
   }
+  if (const auto& perspective = drawing.view.perspective) {
+    add_vector(hasher, perspective->eye);
+    add_vector(hasher, perspective->target);
+    hasher.add(perspective->near_mm).add(perspective->field_of_view_deg);
+  }
   hasher.add(static_cast<std::uint64_t>(drawing.pieces.size()));
   const hlr::Piece* last = nullptr;
   for (const hlr::Piece& piece : drawing.pieces) {
@@ -99,8 +89,8 @@ Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
 /// A line for each piece, or one for each of its stretches: what is covered is a duplicate.
 template <class MakeLine>
 Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces,
-                                     std::span<const Stretch> stretches, MakeLine&& make_line,
-                                     const parallel::Context& context) {
+                                     std::span<const Stretch> stretches, const PaperAxes& axes,
+                                     MakeLine&& make_line, const parallel::Context& context) {
   // The first stretch of each piece that has any: k such pieces before make so many lines fewer
   // than their stretches.
   std::vector<std::size_t> firsts;
@@ -123,7 +113,7 @@ Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces,
           const Line line = make_line(pieces[i]);
           if (next == stretches.size() || stretches[next].line != i) (*lines)[at++] = line;
           for (; next < stretches.size() && stretches[next].line == i; ++next) {
-            (*lines)[at] = part_of(line, stretches[next].from, stretches[next].to);
+            (*lines)[at] = part_of(line, axes, stretches[next].from, stretches[next].to);
             if (stretches[next].covered) (*lines)[at].state = LineState::duplicate;
             ++at;
           }
@@ -144,12 +134,12 @@ const PaperCurve* PaperCurves::of(const Line& line) const {
 
 PlaneBox plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes, const Vec3l& origin) {
   constexpr double kBig = std::numeric_limits<double>::max();
-  const Plane plane(axes, origin);
+  const ViewPlane plane(axes, origin);
   PlaneBox box{kBig, -kBig, kBig, -kBig};
   for (const hlr::Piece& piece : drawing.pieces) {
     if (piece.state == hlr::State::clipped) continue;
     for (const Vec3l& end : {piece.a, piece.b}) {
-      const PaperPoint p = plane(end);
+      const PlanePoint p = plane(end);
       box.left = std::min(box.left, p.x);
       box.right = std::max(box.right, p.x);
       box.bottom = std::min(box.bottom, p.y);
@@ -171,9 +161,9 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
     const PlaneBox box = plane_extent(drawing, *axes, drawing.origin);
     return in_the_middle(box, choose_sheet(box, options), drawing.origin);
   }();
-  const Plane plane(*axes, placement.anchor);
+  const ViewPlane plane(*axes, placement.anchor);
   const auto on_paper = [&](const Vec3l& grid) {
-    const PaperPoint p = plane(grid);
+    const PlanePoint p = plane(grid);
     return PaperPoint{rounded_paper(placement.at.x + p.x / placement.sheet.scale),
                       rounded_paper(placement.at.y - p.y / placement.sheet.scale)};
   };
@@ -195,7 +185,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
                              : Result<Stretches>(Stretches{});
   if (!stretches) return stretches.error();
   auto lines = make_lines(
-      drawing.pieces, *stretches,
+      drawing.pieces, *stretches, *axes,
       [&](const hlr::Piece& piece) {
         return Line{piece.object,
                     piece.edge,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "strake/core/number.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::drawing {
 
@@ -64,7 +65,49 @@ std::optional<PaperAxes> paper_axes(const hlr::View& view) {
   const auto r = unit(right.as<double>()), u = unit(up.as<double>()),
              d = unit(view.direction.as<double>());
   if (!r || !u || !d) return std::nullopt;
-  return PaperAxes{*r, *u, *d};
+  PaperAxes axes{*r, *u, *d};
+  if (view.perspective) {
+    const hlr::Perspective& p = *view.perspective;
+    axes.eye = Eye{p.eye, p.target, dot(*d, geometry::to_mm(p.eye - p.target)), p.near_mm};
+  }
+  return axes;
+}
+
+double PaperAxes::magnification(const Vec3d& mm) const {
+  if (!eye) return 1;
+  const double depth = dot(toward, geometry::to_mm(eye->at) - mm);
+  return eye->distance_mm / std::max(depth, eye->near_mm);
+}
+
+double PaperAxes::share_in_model(const Vec3d& a_mm, const Vec3d& b_mm, double t) const {
+  if (!eye) return t;
+  // Depths are the inverses of what they magnify by.
+  const double of_b = t / magnification(a_mm), of_a = (1 - t) / magnification(b_mm);
+  return of_b / (of_a + of_b);
+}
+
+ViewPlane::ViewPlane(const PaperAxes& axes, const geometry::Vec3l& origin)
+    : axes_(axes), from_(axes.eye ? axes.eye->at : origin) {
+  const PlanePoint p = seen(origin);
+  x_ = p.x;
+  y_ = p.y;
+}
+
+PlanePoint ViewPlane::operator()(const geometry::Vec3l& grid) const {
+  PlanePoint p = seen(grid);
+  p.x -= x_;
+  p.y -= y_;
+  return p;
+}
+
+PlanePoint ViewPlane::seen(const geometry::Vec3l& grid) const {
+  const Vec3d p = geometry::to_mm(grid - from_);
+  PlanePoint at{dot(axes_.right, p), dot(axes_.up, p), dot(axes_.toward, p)};
+  if (!axes_.eye) return at;
+  at.magnification = axes_.eye->distance_mm / std::max(-at.toward, axes_.eye->near_mm);
+  at.x *= at.magnification;
+  at.y *= at.magnification;
+  return at;
 }
 
 double rounded_paper(double mm) { return std::nearbyint(mm * 1000) / 1000 + 0.0; }

@@ -9,9 +9,47 @@
 
 namespace strake::drawing {
 
+/// Where a view in perspective is seen from.
+struct Eye {
+  geometry::Vec3l at;      ///< grid units
+  geometry::Vec3l target;  ///< grid units
+  double distance_mm = 0;  ///< before the eye, of the plane through the target: the view's plane
+  double near_mm = 0;      ///< what is nearer is taken to be as far away as this
+};
+
 /// The plane of a view: unit vectors to the right, up and to the viewer, in the model.
 struct PaperAxes {
   geometry::Vec3d right, up, toward;
+  std::optional<Eye> eye = std::nullopt;  ///< in perspective
+
+  /// By how much lengths at a point of the model, mm, grow in the view's plane: 1 without an eye.
+  [[nodiscard]] double magnification(const geometry::Vec3d& mm) const;
+  /// Of a segment in the model the share at which its picture has gone the share t of its way.
+  [[nodiscard]] double share_in_model(const geometry::Vec3d& a_mm, const geometry::Vec3d& b_mm,
+                                      double t) const;
+};
+
+/// A point in the plane of a view, in millimetres of the model.
+struct PlanePoint {
+  double x = 0, y = 0;
+  double toward = 0;  ///< larger is nearer to the viewer
+  double magnification = 1;
+};
+
+/// The plane of a view about a point of the model. Points are taken relative to it, or to the eye,
+/// before they become doubles, so that a model in map coordinates loses nothing.
+class ViewPlane {
+ public:
+  ViewPlane(const PaperAxes& axes, const geometry::Vec3l& origin);
+
+  [[nodiscard]] PlanePoint operator()(const geometry::Vec3l& grid) const;
+
+ private:
+  [[nodiscard]] PlanePoint seen(const geometry::Vec3l& grid) const;
+
+  PaperAxes axes_;
+  geometry::Vec3l from_;  ///< the eye, or the origin
+  double x_ = 0, y_ = 0;  ///< of the origin
 };
 
 /// Nothing when the direction is zero or up is parallel to it.

@@ -78,6 +78,17 @@ double sine_between(const Vec3d& a, const Vec3d& b) {
   return std::sqrt(dot(normal, normal) / (dot(a, a) * dot(b, b)));
 }
 
+/// Of a vector whose largest component is 1.
+Direction rounded_direction(const Vec3d& wanted) {
+  Direction direction;
+  for (int k = 0; k < 3; ++k)
+    direction.vector[k] = std::llround(wanted[k] * static_cast<double>(kLargest));
+  direction.vector = reduced(direction.vector);
+  direction.rounded = true;
+  direction.rounding_error = sine_between(wanted, direction.vector.as<double>());
+  return direction;
+}
+
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -114,16 +125,18 @@ Result<Direction> parse_direction(std::string_view text) {
   Direction direction;
   if (scale_exactly(parts, direction.vector)) return direction;
   // Divided first, so that neither huge nor tiny components overflow on the way.
-  const Vec3d wanted{values[0] / largest, values[1] / largest, values[2] / largest};
-  for (int k = 0; k < 3; ++k)
-    direction.vector[k] = std::llround(wanted[k] * static_cast<double>(kLargest));
-  direction.vector = reduced(direction.vector);
-  direction.rounded = true;
-  direction.rounding_error = sine_between(wanted, direction.vector.as<double>());
-  return direction;
+  return rounded_direction({values[0] / largest, values[1] / largest, values[2] / largest});
 }
 
-Result<SectionText> parse_section(std::string_view text, const Vec3l& direction) {
+Direction direction_between(const Vec3l& from, const Vec3l& to) {
+  Direction direction{reduced(to - from)};
+  const auto largest = static_cast<double>(largest_of(direction.vector));
+  if (largest <= static_cast<double>(kLargest)) return direction;
+  return rounded_direction(direction.vector.as<double>() * (1 / largest));
+}
+
+Result<SectionText> parse_section(std::string_view text, const Vec3l& direction,
+                                  const std::optional<Vec3l>& eye) {
   const std::string mend =
       "write z>4500mm to cut away what lies above, z<4500mm what lies below, z=4500mm what is "
       "nearer to the viewer; for z also x, y or a normal as 1,2,0";
@@ -155,9 +168,8 @@ Result<SectionText> parse_section(std::string_view text, const Vec3l& direction)
     return Error{ErrorCode::usage, fmt::format("\"{}\" lies outside what can be placed", text), "",
                  "give a plane of the model"};
   result.section.point = *foot;
-  const auto towards = static_cast<double>(normal.x) * static_cast<double>(direction.x) +
-                       static_cast<double>(normal.y) * static_cast<double>(direction.y) +
-                       static_cast<double>(normal.z) * static_cast<double>(direction.z);
+  const double towards =
+      dot(normal.as<double>(), (eye ? *eye - result.section.point : direction).as<double>());
   if (text[at] == '=' && towards == 0)
     return Error{ErrorCode::usage,
                  fmt::format("the plane \"{}\" is seen edge-on: neither side is nearer", text), "",

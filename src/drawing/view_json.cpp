@@ -28,9 +28,21 @@ std::string whole_numbers(const geometry::Vec3l& v) {
   return fmt::format("[{},{},{}]", v.x, v.y, v.z);
 }
 
+void write_perspective(Chunked& out, const hlr::Perspective& perspective) {
+  const geometry::Vec3d eye = geometry::to_mm(perspective.eye);
+  const geometry::Vec3d target = geometry::to_mm(perspective.target);
+  out << ",\"perspective\":{\"eye_mm\":";
+  append_numbers(out.buffer(), {eye.x, eye.y, eye.z});
+  out << ",\"target_mm\":";
+  append_numbers(out.buffer(), {target.x, target.y, target.z});
+  out << ",\"near_mm\":" << shortest(perspective.near_mm)
+      << ",\"field_of_view_deg\":" << shortest(perspective.field_of_view_deg) << "}";
+}
+
 void write_view(Chunked& out, const NeutralDrawing& drawing) {
-  out << "\"view\":{\"name\":" << json_quoted(drawing.view_name)
-      << ",\"projection\":\"orthographic\",\"direction\":" << whole_numbers(drawing.view.direction)
+  out << "\"view\":{\"name\":" << json_quoted(drawing.view_name) << ",\"projection\":\""
+      << (drawing.view.perspective ? "perspective" : "orthographic")
+      << "\",\"direction\":" << whole_numbers(drawing.view.direction)
       << ",\"up\":" << whole_numbers(drawing.view.up) << ",\"limits_mm\":";
   if (drawing.view.limits) {
     const geometry::Vec3d lo = geometry::to_mm(drawing.view.limits->lo);
@@ -47,7 +59,9 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
     append_numbers(out.buffer(), {point.x, point.y, point.z});
     out << "}";
   }
-  out << "]},\n\"settings\":{\"stage\":\"" << stage_name(drawing.stage)
+  out << "]";
+  if (drawing.view.perspective) write_perspective(out, *drawing.view.perspective);
+  out << "},\n\"settings\":{\"stage\":\"" << stage_name(drawing.stage)
       << "\",\"sharp_angle_deg\":" << shortest(drawing.sharp_angle_deg)
       << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm)
       << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "hlr/object_text.hpp"
 #include "strake/parallel/for_each.hpp"
 
 namespace strake::hlr {
@@ -111,10 +112,8 @@ void report_defects(const model::Model& model, const Account& account, Diagnosti
       diagnostics.add(Severity::warning, code, {}, {});
       continue;
     }
-    const model::Object& object = model.object(id);
     diagnostics.add(Severity::warning, code, fmt::format("{} ({})", words, codes),
-                    fmt::format("{}: {}", model.files[object.file].label,
-                                object.name.empty() ? object.id : object.name));
+                    object_text(model, id));
   }
 }
 

@@ -35,7 +35,8 @@ std::vector<std::vector<geometry::Ellipse>> circles_of_parts(const model::GridSh
 
 ShapeCurves curves_of(const Job& job, const SeenShape& seen, const geometry::Mat3d& linear) {
   ShapeCurves result;
-  const std::vector<FeatureEdge> edges = edges_of(seen, job.features);
+  const std::vector<FeatureEdge> edges =
+      edges_of(seen, {job.viewer, job.cos_sharp, job.options.smooth});
   result.edges = static_cast<std::uint32_t>(edges.size());
   const auto circles = circles_of_parts(*seen.source, linear, job.direction().as<double>());
   const auto placed = [&](const geometry::Vec3i& v) {
@@ -65,7 +66,7 @@ ShapeCurves curves_of(const Job& job, const SeenShape& seen, const geometry::Mat
 
 Result<Curves> find_curves(const Job& job, const parallel::Context& context) {
   Curves curves;
-  // Where the view has no meshes of its own nothing is round.
+  // Where the view has no meshes of its own, as in perspective, nothing is round.
   if (!job.own) return curves;
   const model::Scene& scene = *job.scene;
   std::vector<std::uint32_t> first(job.seen.all.size(), kNone);

@@ -35,7 +35,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.options = options;
   drawing.contact_distance_mm = job->contact_distance_mm;
   drawing.diagnostics = job->diagnostics;
-  drawing.origin = job->origin;
+  drawing.origin = view.perspective ? view.perspective->target : job->origin;
   if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
   if (const Status status = solve(*job, context, drawing); !status) return status.error();
   Result<Curves> curves = find_curves(*job, context);

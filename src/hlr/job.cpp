@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "hlr/eye_report.hpp"
 #include "hlr/section_report.hpp"
 #include "hlr/view_axes.hpp"
 #include "hlr/window.hpp"
@@ -196,6 +197,7 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   if (!lines) return lines.error();
   job.lines = std::move(*lines);
   job.diagnostics = report_sections(*job.scene, job.drawn, job.seen, *planes);
+  job.diagnostics.append(report_eye(job));
   return job;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "hlr/object_text.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::hlr {
@@ -40,14 +41,6 @@ void report_misses(const model::Scene& scene, const std::vector<bool>& drawn,
   }
 }
 
-std::string text_of(const model::Model& model, model::ObjectId id) {
-  const model::Object& object = model.object(id);
-  const std::string& name = object.name.empty() ? object.id : object.name;
-  return object.file < model.files.size() && !model.files[object.file].label.empty()
-             ? fmt::format("{}: {}", model.files[object.file].label, name)
-             : name;
-}
-
 }  // namespace
 
 Diagnostics report_sections(const model::Scene& scene, const std::vector<bool>& drawn,
@@ -63,7 +56,8 @@ Diagnostics report_sections(const model::Scene& scene, const std::vector<bool>& 
         not_filled += cut->not_filled;
       }
     const auto add = [&](std::string_view code, const std::string& message) {
-      diagnostics.add(Severity::warning, code, message, text_of(*scene.model, model::ObjectId{o}));
+      diagnostics.add(Severity::warning, code, message,
+                      object_text(*scene.model, model::ObjectId{o}));
     };
     if (open_ends > 0)
       add("section-open",

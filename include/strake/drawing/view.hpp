@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "strake/core/result.hpp"
@@ -23,6 +24,10 @@ struct Direction {
 /// exactly where they can be, otherwise rounded to 20 bits of the largest component and reported.
 [[nodiscard]] Result<Direction> parse_direction(std::string_view text);
 
+/// The direction from one point to another that is not the same: exact where 20 bits suffice,
+/// otherwise rounded and reported.
+[[nodiscard]] Direction direction_between(const geometry::Vec3l& from, const geometry::Vec3l& to);
+
 /// A section plane, with how far its normal is from what was asked for.
 struct SectionText {
   hlr::Section section;
@@ -31,11 +36,12 @@ struct SectionText {
 };
 
 /// "z>4500mm" cuts away what lies above, "z<4500mm" what lies below, "z=4500mm" what is nearer to
-/// a viewer in `direction`. In the place of the axis (x, y, z) may stand the numbers of a normal,
-/// as of a direction: "1,2,0>4500mm" cuts away what lies farther along it from the model's origin
-/// than that. The plane goes through the grid point nearest to its foot.
+/// a viewer in `direction`, or at `eye`. In the place of the axis (x, y, z) may stand the numbers
+/// of a normal, as of a direction: "1,2,0>4500mm" cuts away what lies farther along it from the
+/// model's origin than that. The plane goes through the grid point nearest to its foot.
 [[nodiscard]] Result<SectionText> parse_section(std::string_view text,
-                                                const geometry::Vec3l& direction);
+                                                const geometry::Vec3l& direction,
+                                                const std::optional<geometry::Vec3l>& eye = {});
 
 /// The upward direction that people expect of a view: z, or for plans (viewed along z) y.
 [[nodiscard]] geometry::Vec3l default_up(const geometry::Vec3l& direction);

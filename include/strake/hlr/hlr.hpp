@@ -191,7 +191,8 @@ struct Drawing {
   Curves curves;
   /// By object: edges of which hidden pieces were left out, see Options::hidden. Empty: none were.
   std::vector<std::uint32_t> left_out;
-  geometry::Vec3l origin;  ///< grid units: the middle of all that is drawn
+  /// To reckon from, grid units: the middle of all that is drawn; in perspective the target.
+  geometry::Vec3l origin;
   Counters counters;
   Account account;
   /// Of sections: planes that miss, what is cut but not hatched. Of objects: defects.

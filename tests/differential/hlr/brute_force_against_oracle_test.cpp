@@ -54,7 +54,7 @@ std::string run(const Case& c, std::size_t& crossings) {
   options.stage = hlr::Stage::none;
   const auto plain = hlr::draw(scene.scene(), {}, plain_view, options, {});
   options.stage = drawing->options.stage;
-  std::vector<hlr::Piece> lines = whole_lines(plain->pieces);
+  const std::vector<hlr::Piece> lines = whole_lines(plain->pieces);
   crossings += lines.size();
   return test::difference(test::oracle_pieces(scene.scene(), view, options, lines),
                           drawing->pieces);

@@ -79,6 +79,47 @@ class Draw(Scenario):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn('--visible-only', done.stderr)
 
+    def test_perspective(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 1000))
+        where = ('draw', 'a.obj', '--unit', 'mm', '--up-axis', 'z')
+
+        def view(*more):
+            done = self.run_strake(*where, *more, '--json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads(done.stdout)
+
+        # Square to a face: its sides are true in the plane of the target, shorter by half twice as far away.
+        seen = view('--eye', '500,-1000,500', '--target', '500,0,500', '--scale', '1:10')
+        self.assertEqual(seen['view']['projection'], 'perspective')
+        self.assertEqual(seen['view']['perspective']['eye_mm'], [500, -1000, 500])
+        lengths = {'visible': set(), 'hidden_by_self': set()}
+        for piece in seen['pieces']:
+            (ax, ay), (bx, by) = piece['a_paper_mm'], piece['b_paper_mm']
+            if piece['a_mm'][1] == piece['b_mm'][1]:
+                lengths[piece['state']].add(round(abs(ax - bx) + abs(ay - by), 3))
+        self.assertEqual(lengths, {'visible': {100.0}, 'hidden_by_self': {50.0}})
+
+        # An oblique one, by both solvers, with and without culling.
+        oblique = ('--eye', '-700.5,-1300,1900', '--target', '500,400,300', '--field-of-view', '70deg')
+        whole = view(*oblique)
+        self.assertEqual(whole, view(*oblique, '--solver', 'brute-force'))
+        self.assertEqual(whole, view(*oblique, '--culling', 'off'))
+        narrow = view(*oblique[:4], '--field-of-view', '10deg')
+        self.assertTrue(any(piece['state'] == 'clipped' for piece in narrow['pieces']))
+
+        for bad in (('--eye', '1,2,3'), ('--target', '1,2,3'), ('--eye', '1,2,3', '--target', '1,2,3'),
+                    ('--eye', '1,2,nan', '--target', '1,2,3'), ('--eye', '1,2,3', '--target', '1,2,4'),
+                    (*oblique, '--near', '1e9mm'), (*oblique[:4], '--field-of-view', '170deg'),
+                    (*oblique, '--view', 'top'), ('--eye', '1e30,2,3', '--target', '1,2,3')):
+            done = self.run_strake(*where, *bad, '-o', 'x.svg')
+            self.assertEqual(done.returncode, 2, (bad, done.stderr))
+        done = self.run_strake(*where, '--eye', '500,500,500', '--target', '500,900,500', '-o', 'x.svg')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('eye-in-solid', done.stderr)
+        done = self.run_strake(*where, '--eye', '500,-500,500', '--target', '500,-900,500', '-o', 'x.svg')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('empty-sheet', done.stderr)
+
     def test_sections_cut_away_what_they_say(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
 
