@@ -11,6 +11,7 @@ namespace strake::drawing {
 namespace {
 
 using geometry::Vec3d;
+using geometry::Vec3l;
 
 Rank rank_of(hlr::State state) {
   switch (state) {
@@ -27,13 +28,14 @@ Rank rank_of(hlr::State state) {
 }
 
 /// A piece in the plane of the view.
-Flat flat_of(const hlr::Piece& piece, const ViewPlane& plane, double reach) {
+Flat flat_of(const hlr::Piece& piece, const Vec3l& direction, const ViewPlane& plane,
+             double reach) {
   const PlanePoint a = plane(piece.a), b = plane(piece.b);
   Flat flat{.ax = a.x,
             .ay = a.y,
             .bx = b.x,
             .by = b.y,
-            .depth = a.toward + b.toward,
+            .depth = nearness(direction, piece.a, piece.b),
             .reach = reach * std::max(a.magnification, b.magnification)};
   if (flat.length() > 0) flat.rank = rank_of(piece.state);
   return flat;
@@ -75,7 +77,7 @@ Result<std::vector<Flat>> flatten(const hlr::Drawing& drawing, const PaperAxes& 
   const ViewPlane plane(axes, drawing.origin);
   return parallel::transform(
       context, {.name = "lines in the plane", .n = pieces.size(), .grain = 8192},
-      [&](std::size_t i) { return flat_of(pieces[i], plane, distance_mm / 2); });
+      [&](std::size_t i) { return flat_of(pieces[i], drawing.view.direction, plane, distance_mm / 2); });
 }
 
 OverlapRule duplicate_rule(double distance_mm) {

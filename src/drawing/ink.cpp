@@ -10,10 +10,14 @@
 #include "drawing/duplicates.hpp"
 #include "drawing/overlaps.hpp"
 #include "drawing/pens.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::drawing {
 
 namespace {
+
+using geometry::Vec3d;
+using geometry::Vec3l;
 
 /// Length of lines per area of paper, in squares.
 class Density {
@@ -73,14 +77,16 @@ bool may_be_dashed(const Line& line) {
          line.kind != hlr::EdgeKind::smooth;
 }
 
-std::vector<Flat> flatten(const std::vector<Line>& lines, const PaperAxes& axes, const Pens& pens) {
+Vec3l on_grid(const Vec3d& mm) { return geometry::snap(mm).value_or(Vec3l{}); }
+
+std::vector<Flat> flatten(const std::vector<Line>& lines, const Vec3l& direction,
+                          const Pens& pens) {
   std::vector<Flat> flat(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line& line = lines[i];
     Flat& f = flat[i];
     f = {.ax = line.a_paper.x, .ay = line.a_paper.y, .bx = line.b_paper.x, .by = line.b_paper.y};
-    f.depth =
-        dot(axes.toward, line.a_mm - lines[0].a_mm) + dot(axes.toward, line.b_mm - lines[0].a_mm);
+    f.depth = nearness(direction, on_grid(line.a_mm), on_grid(line.b_mm));
     f.reach = width_of(line, pens) / 2;
     if (f.length() > 0) f.rank = is_hidden(line.state) ? Rank::hidden : Rank::visible;
   }
@@ -103,12 +109,13 @@ void keep(const Line& line, const PaperAxes& axes, std::span<const Stretch> stre
     if (!s.covered) ink.lines.push_back(part_of(line, axes, s.from, s.to));
 }
 
-Status clean_up(Ink& ink, const PaperAxes& axes, const parallel::Context& context) {
+Status clean_up(Ink& ink, const Vec3l& direction, const PaperAxes& axes,
+                const parallel::Context& context) {
   // Lines that cross, or of which one begins on the other, do not run along each other.
   const double thin = ink.pens.thin;
   const OverlapRule rule{
       .least = 1e-3, .greatest_sine = 0.2, .covers_visible = false, .shortest = kDashGap * thin};
-  const auto found = cut_overlaps(flatten(ink.lines, axes, ink.pens), rule, context);
+  const auto found = cut_overlaps(flatten(ink.lines, direction, ink.pens), rule, context);
   if (!found) return found.error();
   const std::vector<Line> lines = std::exchange(ink.lines, {});
   ink.lines.reserve(lines.size());
@@ -149,7 +156,7 @@ Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
       ink.lines.push_back(line);
   const auto axes = paper_axes(drawing.view);
   if (options.hidden && options.clean_up && axes)
-    if (const Status status = clean_up(ink, *axes, context); !status) return status.error();
+    if (const Status status = clean_up(ink, drawing.view.direction, *axes, context); !status) return status.error();
   return ink;
 }
 

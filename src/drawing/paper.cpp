@@ -7,6 +7,7 @@
 
 #include "strake/core/number.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/geometry/wide_int.hpp"
 
 namespace strake::drawing {
 
@@ -71,6 +72,12 @@ std::optional<PaperAxes> paper_axes(const hlr::View& view) {
     axes.eye = Eye{p.eye, p.target, dot(*d, geometry::to_mm(p.eye - p.target)), p.near_mm};
   }
   return axes;
+}
+
+double nearness(const geometry::Vec3l& direction, const geometry::Vec3l& a,
+                const geometry::Vec3l& b) {
+  return static_cast<double>(
+      dot(direction.as<geometry::Int128>(), (a + b).as<geometry::Int128>()));
 }
 
 double PaperAxes::magnification(const Vec3d& mm) const {

@@ -52,6 +52,12 @@ class ViewPlane {
   double x_ = 0, y_ = 0;  ///< of the origin
 };
 
+/// How near to the viewer a segment is, larger is nearer: the same number for the same depth,
+/// whatever else is drawn. The sum over both ends, exact but for one last rounding, in grid units
+/// times the direction's length.
+[[nodiscard]] double nearness(const geometry::Vec3l& direction, const geometry::Vec3l& a,
+                              const geometry::Vec3l& b);
+
 /// Nothing when the direction is zero or up is parallel to it.
 [[nodiscard]] std::optional<PaperAxes> paper_axes(const hlr::View& view);
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "hlr/object_text.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -18,6 +19,10 @@ namespace {
 constexpr std::size_t kObjectsPerItem = 4096;
 
 std::uint32_t object_of(const Piece& piece) { return model::index(piece.object); }
+
+/// Of an object all of whose lines run along the view direction. Every wire of a model may be seen
+/// end-on in some view, so this is told but no defect of the data.
+constexpr std::string_view kOnlyPoints = "only-points";
 
 /// Of an object that is on the grid, by its lines; advances `next` beyond them.
 Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
@@ -61,7 +66,7 @@ void list_defects(const model::Scene& scene, std::span<const Piece> pieces, Acco
     for (const model::Lacking& l : lacking) account.defects.push_back({l.object, l.code});
     if (fate != Fate::degenerate || !lacking.empty()) continue;
     const bool points = std::ranges::binary_search(pieces, object, {}, object_of);
-    account.defects.push_back({model::ObjectId{object}, points ? "only-points" : "no-lines"});
+    account.defects.push_back({model::ObjectId{object}, points ? kOnlyPoints : "no-lines"});
   }
 }
 
@@ -100,6 +105,7 @@ void report_defects(const model::Model& model, const Account& account, Diagnosti
     std::string codes;
     for (; d < account.defects.size() && account.defects[d].object == id; ++d)
       codes.append(codes.empty() ? "" : ", ").append(account.defects[d].code);
+    if (codes == kOnlyPoints) continue;
     const Fate fate = account.fates[model::index(id)];
     const bool degenerate = fate == Fate::degenerate, failed = fate == Fate::failed;
     const std::string_view code = degenerate ? "object-degenerate"

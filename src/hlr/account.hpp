@@ -16,7 +16,8 @@ namespace strake::hlr {
 [[nodiscard]] Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& drawn,
                                          const Drawing& drawing, const parallel::Context& context);
 
-/// A warning for each object that is degenerate, failed, or drawn without some of its geometry.
+/// A warning for each object that is degenerate, failed, or drawn without some of its geometry; not
+/// for wires that are seen end-on.
 void report_defects(const model::Model& model, const Account& account, Diagnostics& diagnostics);
 
 }  // namespace strake::hlr

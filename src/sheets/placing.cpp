@@ -24,7 +24,7 @@ class Placer {
     geometry::Vec3l common;
     const auto some = std::find_if(drawings.begin(), drawings.end(),
                                    [](const hlr::Drawing& d) { return !d.pieces.empty(); });
-    if (some != drawings.end()) common = some->pieces.front().a;
+    if (some != drawings.end()) common = some->origin;
     for (std::size_t v = 0; v < what.views.size(); ++v) {
       places_[v].anchor = what.views[v].anchor.value_or(common);
       wanted_.push_back(to_place(v));
