@@ -77,7 +77,9 @@ Result<std::vector<Flat>> flatten(const hlr::Drawing& drawing, const PaperAxes& 
   const ViewPlane plane(axes, drawing.origin);
   return parallel::transform(
       context, {.name = "lines in the plane", .n = pieces.size(), .grain = 8192},
-      [&](std::size_t i) { return flat_of(pieces[i], drawing.view.direction, plane, distance_mm / 2); });
+      [&](std::size_t i) {
+        return flat_of(pieces[i], drawing.view.direction, plane, distance_mm / 2);
+      });
 }
 
 OverlapRule duplicate_rule(double distance_mm) {

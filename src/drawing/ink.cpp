@@ -156,7 +156,8 @@ Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
       ink.lines.push_back(line);
   const auto axes = paper_axes(drawing.view);
   if (options.hidden && options.clean_up && axes)
-    if (const Status status = clean_up(ink, drawing.view.direction, *axes, context); !status) return status.error();
+    if (const Status status = clean_up(ink, drawing.view.direction, *axes, context); !status)
+      return status.error();
   return ink;
 }
 

@@ -76,8 +76,7 @@ std::optional<PaperAxes> paper_axes(const hlr::View& view) {
 
 double nearness(const geometry::Vec3l& direction, const geometry::Vec3l& a,
                 const geometry::Vec3l& b) {
-  return static_cast<double>(
-      dot(direction.as<geometry::Int128>(), (a + b).as<geometry::Int128>()));
+  return static_cast<double>(dot(direction.as<geometry::Int128>(), (a + b).as<geometry::Int128>()));
 }
 
 double PaperAxes::magnification(const Vec3d& mm) const {

@@ -30,17 +30,17 @@ struct Golden {
 
 const Golden kSafe[] = {
     {"iso",
-     {16409, 14353, 12584, 7, 0, 9771},
+     {16401, 14348, 12572, 7, 0, 9772},
      "146130d0758f9653aa2ffa726174efbf",
-     "712092743963da792d7c0c126aae917d"},
+     "f5fc56d37adf06abec329bd0cabc5486"},
     {"top",
-     {9877, 3519, 5782, 2320, 0, 28484},
+     {9874, 3519, 5782, 2320, 0, 28487},
      "b2be256789a3e0d87c6e6f7c7ce204e2",
-     "cb05871f7c34ced65bb75677cd2aa832"},
+     "9ac72f945a4a0f85865545fbb3fac08e"},
     {"front",
-     {9659, 2482, 4500, 2981, 0, 30775},
+     {9662, 2482, 4500, 2981, 0, 30772},
      "c7a386872f682a90fe593a339393cf84",
-     "bd3b5038cc4529ddf150fa259719613c"},
+     "f0c8234815dd7ba485cf15ecb70d92b8"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {
