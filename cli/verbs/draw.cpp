@@ -203,22 +203,24 @@ Status write_drawing(Session& session, const DrawOptions& given,
     if (!chosen) return chosen.error();
     ink = std::move(*chosen);
   }
+  const auto as_json = [&](Session::Sink sink) {
+    return drawing::write_view_json(drawing, model, sink, session.context());
+  };
+  const auto as_rows = [&](Session::Sink sink) {
+    return drawing::write_view_rows(drawing, model, sink, session.context());
+  };
+  const auto as_svg = [&](Session::Sink sink) {
+    drawing::write_svg(drawing, ink, model, sink);
+    return Status{};
+  };
   for (const std::string& file : given.outputs) {
-    const Status status = session.write(file, [&](Session::Sink sink) {
-      if (suffix_of(file) == ".json") {
-        drawing::write_view_json(drawing, model, sink);
-      } else {
-        drawing::write_svg(drawing, ink, model, sink);
-      }
-      return Status{};
-    });
+    const std::string suffix = suffix_of(file);
+    const Status status = suffix == ".json"   ? session.write(file, as_json)
+                          : suffix == ".view" ? session.write(file, as_rows)
+                                              : session.write(file, as_svg);
     if (!status) return status;
   }
-  if (!session.json()) return {};
-  return session.write_stdout([&](Session::Sink sink) {
-    drawing::write_view_json(drawing, model, sink);
-    return Status{};
-  });
+  return session.json() ? session.write_stdout(as_json) : Status{};
 }
 
 /// What the options ask for, once they are understood.
@@ -275,7 +277,8 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
                       request->scene);
   if (given.outputs.empty() && !session.json())
     return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
-  if (const Status status = check_outputs(given.outputs, {".svg", ".json"}, given.input.files);
+  if (const Status status =
+          check_outputs(given.outputs, {".svg", ".json", ".view"}, given.input.files);
       !status)
     return status.error();
   const Result<Loaded> loaded = load(session, given.input, request->scene);
@@ -348,8 +351,9 @@ void add_lines(CLI::App& command, DrawOptions& options) {
              "(default off)")
       ->group("Lines");
   command
-      .add_flag("--visible-only", options.visible_only,
-                "Leave hidden lines out of everything, of .json too: less time and memory")
+      .add_flag(
+          "--visible-only", options.visible_only,
+          "Leave hidden lines out of everything, of .json and .view too: less time and memory")
       ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")
@@ -417,8 +421,10 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->type_name("1:N")
       ->group("Output");
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");
-  add_output_option(*command, options->outputs,
-                    "Drawing as .svg, or its neutral form as .json; may be repeated");
+  add_output_option(
+      *command, options->outputs,
+      "Drawing as .svg, or its neutral form as .json, or .view for millions of lines; may be "
+      "repeated");
   add_sheet(*command, *options);
   add_common_options(*command, common);
   command->footer(R"(

@@ -79,10 +79,10 @@ Verb add_draw_diff(CLI::App& draw, CommonOptions& common) {
       "diff",
       "What changed between two drawings of a view: lines that are new, gone, of another "
       "class, with a picture");
-  command->add_option("old", options->before, "Neutral form of the older drawing, .json")
+  command->add_option("old", options->before, "Neutral form of the older drawing, .json or .view")
       ->type_name("OLD")
       ->required();
-  command->add_option("new", options->after, "Neutral form of the newer drawing, .json")
+  command->add_option("new", options->after, "Neutral form of the newer drawing, .json or .view")
       ->type_name("NEW")
       ->required();
   add_choice(*command, "--fail-on", options->fail_on, {"visible", "any"},

@@ -125,11 +125,16 @@ Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces,
 
 }  // namespace
 
-const PaperCurve* PaperCurves::of(const Line& line) const {
+std::uint32_t PaperCurves::index_of(const Line& line) const {
   const auto key = [](const auto& l) { return std::pair(model::index(l.object), l.edge); };
   const auto found = std::ranges::lower_bound(edges, key(line), {},
                                               [&](const hlr::CurvedEdge& e) { return key(e); });
-  return found != edges.end() && key(*found) == key(line) ? &all[found->curve] : nullptr;
+  return found != edges.end() && key(*found) == key(line) ? found->curve : kNone;
+}
+
+const PaperCurve* PaperCurves::of(const Line& line) const {
+  const std::uint32_t index = index_of(line);
+  return index == kNone ? nullptr : &all[index];
 }
 
 PlaneBox plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes, const Vec3l& origin) {
@@ -173,6 +178,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.title = options.title.empty() ? options.view_name : options.title;
   out.view = drawing.view;
   out.stage = drawing.options.stage;
+  out.hidden_lines = drawing.options.hidden;
   out.sharp_angle_deg = drawing.options.sharp_angle_deg;
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.counters = drawing.counters;

@@ -5,52 +5,60 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
 
+#include "drawing/view_rows.hpp"
 #include "report/document_fault.hpp"
+#include "report/document_fields.hpp"
 #include "report/document_file.hpp"
 #include "report/json_reader.hpp"
-#include "strake/geometry/grid.hpp"
+#include "report/view_pieces.hpp"
+#include "report/view_rows.hpp"
 
 namespace strake::report {
 namespace {
 
 using Kind = JsonReader::Kind;
 
-constexpr DocumentKind kView{"strake draw -o FILE.json", "draw it again"};
+constexpr DocumentKind kView{"strake draw -o FILE.json or FILE.view", "draw it again"};
 constexpr std::string_view kVersion = "1";
 /// No part of the schema is nested more deeply.
 constexpr int kMaxDepth = 8;
-/// Nothing can be placed farther out (geometry::snap), in the model or on a sheet.
-constexpr double kFarthestMm = 2e12;
-constexpr std::uint32_t kNone = 0xffffffffU;
-
-template <class Enum, class Name>
-std::optional<Enum> named(std::string_view text, Name&& name) {
-  for (std::uint8_t i = 0; !name(static_cast<Enum>(i)).empty(); ++i)
-    if (name(static_cast<Enum>(i)) == text) return static_cast<Enum>(i);
-  return std::nullopt;
-}
-
-/// Pieces are taken as they come; the rest is small.
+/// Takes the text of a document; pieces as they come, the rest is small.
 class Reader {
  public:
-  Reader(std::istream& in, ViewDocument& document) : json_(in, kMaxDepth), document_(document) {}
+  /// In a binary document the lines stand behind the text, as rows.
+  Reader(std::istream& text, bool binary, ViewDocument& document)
+      : json_(text, kMaxDepth), lines_key_(binary ? "rows" : "pieces"), document_(document) {}
 
-  void read() {
+  void read_text() {
     if (json_.kind() == Kind::object)
       json_.members([this](std::string_view key) { section(key); });
     else
       json_.skip();
     json_.end();
     if (!met_.contains("schema_version")) throw DocumentFault{"the document", "is no drawing"};
-    for (const char* const key :
-         {"view", "settings", "sheet", "counts", "hash", "objects", "pieces"})
+    for (const std::string_view key : std::initializer_list<std::string_view>{
+             "view", "settings", "sheet", "counts", "hash", "objects", lines_key_})
       if (!met_.contains(key)) throw lacks("the document", key);
+  }
+
+  /// Those that the text announces.
+  void read_rows(std::istream& in) {
+    const double count = said("pieces");
+    if (!(count >= 0) || count != std::floor(count))
+      throw is_not("counts", "pieces", "number of lines");
+    document_.pieces = report::read_rows(in, *rows_, static_cast<std::uint64_t>(count));
+  }
+
+  void check() const {
     check_objects();
     check_counts();
   }
@@ -68,28 +76,15 @@ class Reader {
     else if (key == "counts")
       counts();
     else if (key == "hash")
-      document_.hash = text("the document", "hash");
+      document_.hash = fields_.text("the document", "hash");
     else if (key == "objects")
       objects();
-    else if (key == "pieces")
-      pieces();
-    else
+    else if (key != lines_key_)
       json_.skip();
-  }
-
-  void must_be(Kind kind, const std::string& where, std::string_view key, const char* what) {
-    if (json_.kind() != kind) throw is_not(where, key, what);
-  }
-
-  std::string text(const std::string& where, std::string_view key) {
-    must_be(Kind::string, where, key, "text");
-    return std::string(json_.text());
-  }
-
-  double number(const std::string& where, std::string_view key) {
-    const double value = json_.kind() == Kind::number ? json_.number() : HUGE_VAL;
-    if (!(std::fabs(value) <= kFarthestMm)) throw is_not(where, key, "number that makes sense");
-    return value;
+    else if (key == "rows")
+      rows_ = take_row_form(json_);
+    else
+      pieces();
   }
 
   /// At once: drawings of other versions look otherwise.
@@ -102,7 +97,7 @@ class Reader {
   }
 
   void settings(const std::string& section) {
-    must_be(Kind::object, "the document", section, "object");
+    fields_.must_be(Kind::object, "the document", section, "object");
     json_.members([&](std::string_view key) {
       std::string& value = document_.settings[section + "." + std::string(key)];
       if (!value.empty()) throw contradicts(section, "has \"" + std::string(key) + "\" twice");
@@ -111,7 +106,7 @@ class Reader {
   }
 
   void sheet() {
-    must_be(Kind::object, "the document", "sheet", "object");
+    fields_.must_be(Kind::object, "the document", "sheet", "object");
     const std::array<std::pair<std::string_view, double*>, 3> known{
         {{"width_mm", &document_.width_mm},
          {"height_mm", &document_.height_mm},
@@ -120,22 +115,22 @@ class Reader {
       const std::string name(key);
       const auto* const at = std::ranges::find(known, name, [](const auto& k) { return k.first; });
       if (at == known.end()) return json_.skip();
-      *at->second = number("sheet", name);
+      *at->second = fields_.number("sheet", name);
     });
     for (const auto& [key, value] : known)
       if (!(*value > 0)) throw is_not("sheet", key, "positive number");
   }
 
   void counts() {
-    must_be(Kind::object, "the document", "counts", "object");
+    fields_.must_be(Kind::object, "the document", "counts", "object");
     json_.members([&](std::string_view key) {
       const std::string name(key);
-      counted_[name] = number("counts", name);
+      counted_[name] = fields_.number("counts", name);
     });
   }
 
   void objects() {
-    must_be(Kind::array, "the document", "objects", "list");
+    fields_.must_be(Kind::array, "the document", "objects", "list");
     json_.items([this] {
       const std::string where = "objects[" + std::to_string(document_.objects.size()) + "]";
       if (json_.kind() != Kind::object) throw DocumentFault{where, "is no object"};
@@ -144,7 +139,7 @@ class Reader {
       json_.members([&](std::string_view key) {
         const std::string name(key);
         const auto take = [&](std::size_t i, std::string& into) {
-          into = text(where, name);
+          into = fields_.text(where, name);
           there.at(i) = true;
         };
         if (name == "id")
@@ -163,91 +158,9 @@ class Reader {
   }
 
   void pieces() {
-    must_be(Kind::array, "the document", "pieces", "list");
-    json_.items([this] { piece(); });
-  }
-
-  [[nodiscard]] std::string where() const {
-    return "pieces[" + std::to_string(document_.pieces.size()) + "]";
-  }
-
-  void piece() {
-    if (json_.kind() != Kind::object) throw DocumentFault{where(), "is no object"};
-    ViewPiece piece;
-    piece.object = piece.other = kNone;
-    there_ = {};
-    json_.members([&](std::string_view key) { piece_member(key, piece); });
-    constexpr std::array<const char*, kMembers> kKeys{
-        "object_index", "kind", "state", "a_mm", "b_mm", "a_paper_mm", "b_paper_mm"};
-    for (std::size_t i = 0; i < kMembers; ++i)
-      if (!there_.at(i)) throw lacks(where(), kKeys.at(i));
-    if (piece.kind == hlr::EdgeKind::intersection && piece.other == kNone)
-      throw lacks(where(), "other_index");
-    if (piece.kind != hlr::EdgeKind::intersection) piece.other = piece.object;
-    document_.pieces.push_back(piece);
-  }
-
-  void piece_member(std::string_view key, ViewPiece& piece) {
-    if (key == "object_index") {
-      piece.object = index("object_index");
-      there_[0] = true;
-    } else if (key == "other_index") {
-      piece.other = index("other_index");
-    } else if (key == "kind") {
-      if (json_.kind() != Kind::string) throw is_not(where(), "kind", "text");
-      const auto kind = named<hlr::EdgeKind>(json_.text(), drawing::kind_name);
-      if (!kind) throw is_not(where(), "kind", "kind of line that this version knows");
-      piece.kind = *kind;
-      there_[1] = true;
-    } else if (key == "state") {
-      if (json_.kind() != Kind::string) throw is_not(where(), "state", "text");
-      const auto state = named<drawing::LineState>(json_.text(), drawing::state_name);
-      if (!state) throw is_not(where(), "state", "state that this version knows");
-      piece.state = *state;
-      there_[2] = true;
-    } else if (key == "a_mm" || key == "b_mm") {
-      (key[0] == 'a' ? piece.a : piece.b) = model_point(key[0] == 'a' ? "a_mm" : "b_mm");
-    } else if (key == "a_paper_mm" || key == "b_paper_mm") {
-      (key[0] == 'a' ? piece.a_paper : piece.b_paper) =
-          paper_point(key[0] == 'a' ? "a_paper_mm" : "b_paper_mm");
-    } else {
-      json_.skip();
-    }
-  }
-
-  std::uint32_t index(const char* key) {
-    const double value = json_.kind() == Kind::number ? json_.number() : -1;
-    if (!(value >= 0 && value < kNone) || value != std::floor(value))
-      throw is_not(where(), key, "number of an object");
-    return static_cast<std::uint32_t>(value);
-  }
-
-  /// So many numbers.
-  template <std::size_t N>
-  std::array<double, N> numbers(const char* key) {
-    if (json_.kind() != Kind::array) throw is_not(where(), key, "point");
-    std::array<double, N> values{};
-    std::size_t k = 0;
-    json_.items([&] {
-      const double value = json_.kind() == Kind::number ? json_.number() : HUGE_VAL;
-      if (!(std::fabs(value) <= kFarthestMm) || k >= N) throw is_not(where(), key, "point");
-      values.at(k++) = value;
-    });
-    if (k != N) throw is_not(where(), key, "point");
-    return values;
-  }
-
-  geometry::Vec3l model_point(const char* key) {
-    const auto mm = numbers<3>(key);
-    there_[key[0] == 'a' ? 3 : 4] = true;
-    const auto um = [](double v) { return static_cast<std::int64_t>(std::llround(v * 1000)); };
-    return {um(mm[0]), um(mm[1]), um(mm[2])};
-  }
-
-  std::array<float, 2> paper_point(const char* key) {
-    const auto mm = numbers<2>(key);
-    there_[key[0] == 'a' ? 5 : 6] = true;
-    return {static_cast<float>(mm[0]), static_cast<float>(mm[1])};
+    fields_.must_be(Kind::array, "the document", "pieces", "list");
+    ViewPieceReader reader(json_, document_.pieces);
+    json_.items([&] { reader.take(); });
   }
 
   void check_objects() const {
@@ -273,31 +186,66 @@ class Reader {
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)
       there[std::string(drawing::state_name(static_cast<drawing::LineState>(s)))] = of_state.at(s);
     there["pieces"] = static_cast<double>(document_.pieces.size());
-    for (const auto& [key, count] : there) {
-      const auto said = counted_.find(key);
-      if (said == counted_.end()) throw lacks("counts", key);
-      if (said->second != count)
-        throw contradicts("the document", "counts " + whole(said->second) + " of \"" + key +
+    for (const auto& [key, count] : there)
+      if (said(key) != count)
+        throw contradicts("the document", "counts " + whole(said(key)) + " of \"" + key +
                                               "\", but lists " + whole(count));
-    }
+  }
+
+  [[nodiscard]] double said(const std::string& key) const {
+    const auto at = counted_.find(key);
+    if (at == counted_.end()) throw lacks("counts", key);
+    return at->second;
   }
 
   static std::string whole(double value) { return std::to_string(static_cast<long long>(value)); }
 
-  static constexpr std::size_t kMembers = 7;
   JsonReader json_;
+  DocumentFields fields_{json_};
+  std::string_view lines_key_;
   ViewDocument& document_;
   std::set<std::string, std::less<>> met_;
   std::map<std::string, double> counted_;
-  std::array<bool, kMembers> there_{};  ///< members of the piece in hand
+  std::optional<RowForm> rows_;
 };
+
+/// What a binary document has between its magic, which is taken already, and its rows.
+std::string take_text(std::istream& in) {
+  std::uint64_t size = 0, got = 0;
+  in.read(reinterpret_cast<char*>(&size), sizeof size);
+  std::string text;
+  // Piece by piece: a file that claims more than it has must not claim memory.
+  for (constexpr std::uint64_t kPiece = 1U << 20U; in && got < size; got = text.size()) {
+    text.resize(got + std::min(kPiece, size - got));
+    in.read(text.data() + got, static_cast<std::streamsize>(text.size() - got));
+  }
+  if (!in) throw contradicts("the document", "ends before its rows begin");
+  return text;
+}
+
+void read_into(ViewDocument& document, std::istream& in) {
+  if (in.peek() != drawing::kViewMagic[0]) {
+    Reader reader(in, false, document);
+    reader.read_text();
+    return reader.check();
+  }
+  std::array<char, drawing::kViewMagic.size()> magic{};
+  in.read(magic.data(), magic.size());
+  if (std::string_view(magic.data(), magic.size()) != drawing::kViewMagic)
+    throw DocumentFault{"the document", "is no drawing"};
+  std::istringstream text(take_text(in));
+  Reader reader(text, true, document);
+  reader.read_text();
+  reader.read_rows(in);
+  reader.check();
+}
 
 }  // namespace
 
 Result<ViewDocument> parse_view_document(std::istream& in, const std::string& name) {
   ViewDocument document;
   document.name = name;
-  const Status status = read_guarded(name, kView, [&] { Reader(in, document).read(); });
+  const Status status = read_guarded(name, kView, [&] { read_into(document, in); });
   if (!status) return status.error();
   return document;
 }

@@ -24,8 +24,11 @@ struct Drawn {
   drawing::LayoutOptions layout{};
 };
 
+enum class ViewForm : std::uint8_t { text, rows };
+
 /// The view file of a model.
-[[nodiscard]] inline std::string view_json(const model::Model& model, const Drawn& how = {}) {
+[[nodiscard]] inline std::string view_file(const model::Model& model, const Drawn& how = {},
+                                           ViewForm form = ViewForm::text) {
   const auto scene = model::make_scene(model, {}, {});
   if (!scene) std::abort();
   const auto lines = hlr::draw(*scene, {}, how.view, how.options, {});
@@ -33,7 +36,11 @@ struct Drawn {
   const auto paper = drawing::lay_out(*lines, model, how.layout, {});
   if (!paper) std::abort();
   std::string text;
-  drawing::write_view_json(*paper, model, [&](std::string_view piece) { text += piece; });
+  const auto append = [&](std::string_view piece) { text += piece; };
+  const Status written = form == ViewForm::rows
+                             ? drawing::write_view_rows(*paper, model, append, {})
+                             : drawing::write_view_json(*paper, model, append, {});
+  if (!written) std::abort();
   return text;
 }
 
@@ -47,12 +54,14 @@ struct Drawn {
 
 /// Drawings of a small model, before and after something moved.
 [[nodiscard]] inline std::vector<Seed> view_document_seeds() {
-  const auto written = [](double from) {
+  const auto written = [](double from, ViewForm form) {
     ClashModel m;
     m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {90, 20, 20}, {from, 60, 60});
-    return view_json(m.model);
+    return view_file(m.model, {}, form);
   };
-  return {{"before.json", written(180)}, {"after.json", written(210)}};
+  return {{"before.json", written(180, ViewForm::text)},
+          {"after.json", written(210, ViewForm::text)},
+          {"before.view", written(180, ViewForm::rows)}};
 }
 
 }  // namespace strake::test

@@ -65,6 +65,9 @@ struct PaperCurves {
 
   /// The curve that a line is a chord of; null: it is straight.
   [[nodiscard]] const PaperCurve* of(const Line& line) const;
+  /// Its index into `all`; kNone: it is straight.
+  [[nodiscard]] std::uint32_t index_of(const Line& line) const;
+  static constexpr std::uint32_t kNone = 0xffffffffU;
 };
 
 struct Sheet {
@@ -98,6 +101,7 @@ struct NeutralDrawing {
   std::string view_name, title;
   hlr::View view;
   hlr::Stage stage = hlr::Stage::global;
+  bool hidden_lines = true;  ///< false: left out, see hlr::Options::hidden
   double sharp_angle_deg = 20;
   double contact_distance_mm = 0;
   Sheet sheet;

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """draw_test.py STRAKE: drawings do not depend on order or threads; selections and limits."""
 import json
+import struct
 
 from scenario import Scenario, cube, main
 
@@ -78,6 +79,47 @@ class Draw(Scenario):
         done = self.run_strake('draw', 'a.obj', '--visible-only', '--hidden', 'dashed', '-o', 'y.svg')
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn('--visible-only', done.stderr)
+
+    def test_binary_rows_say_what_json_says(self):
+        self.two_files()
+        expected = None
+        for threads in (1, 3, 8):
+            done = self.run_strake('draw', 'a.obj', 'b.obj', '-o', 'x.json', '-o', 'x.view', '--threads', threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            content = (self.folder / 'x.view').read_bytes()
+            expected = expected or content
+            self.assertEqual(content, expected)
+        text = json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))
+        # As docs/drawing.md says, and nothing more.
+        magic, size = struct.unpack_from('<8sQ', content)
+        self.assertEqual(magic, b'STRKVIEW')
+        head = json.loads(content[16:16 + size])
+        rows = head.pop('rows')
+        letters = {'uint8': 'B', 'uint32': 'I', 'int32': 'i', 'int64': 'q'}
+        pieces = []
+        for at in range(16 + size, len(content), rows['bytes']):
+            row = {field['name']: struct.unpack_from(f"<{field['count']}{letters[field['type']]}", content,
+                                                     at + field['offset']) for field in rows['fields']}
+            piece = {'object': head['objects'][row['object_index'][0]]['id'], 'object_index': row['object_index'][0],
+                     'edge': row['edge'][0], 'kind': rows['kinds'][row['kind'][0]],
+                     'state': rows['states'][row['state'][0]]}
+            if piece['kind'] == 'intersection':
+                piece['other_index'] = row['other_index'][0]
+            if row['curve_index'][0] != 2**32 - 1:
+                piece['curve_index'] = row['curve_index'][0]
+            for name in ('a', 'b'):
+                piece[f'{name}_mm'] = [(um + origin) / 1000 for um, origin in zip(row[f'{name}_um'], rows['origin_um'])]
+                piece[f'{name}_paper_mm'] = [um / 1000 for um in row[f'{name}_paper_um']]
+            pieces.append(piece)
+        self.assertGreater(len(pieces), 20)
+        self.assertEqual(pieces, text.pop('pieces'))
+        self.assertEqual(head, text)
+        done = self.run_strake('draw', 'diff', 'x.json', 'x.view', '--fail-on', 'any')
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        (self.folder / 'y.view').write_bytes(content[:-1])
+        done = self.run_strake('draw', 'diff', 'x.json', 'y.view')
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r'y\.view: .*ends in row')
 
     def test_perspective(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 1000))

@@ -178,8 +178,10 @@ class Schemas(unittest.TestCase):
         self.assertEqual(ruled['new']['rules']['file'], 'd.toml')
 
     def test_view(self):
-        self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json')
+        self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json', '-o', 'rows.view')
         self.follows((self.folder / 'view.json').read_text(encoding='utf-8'), 'view')
+        rows = (self.folder / 'rows.view').read_bytes()
+        self.follows(rows[16:16 + int.from_bytes(rows[8:16], 'little')], 'view')
         self.run_strake('draw', 'ship.glb', '--view', 'top', '--section', 'z=4500mm', '--section', '1,2,0>9m',
                         '-o', 'cut.json')
         cut = self.follows((self.folder / 'cut.json').read_text(encoding='utf-8'), 'view')

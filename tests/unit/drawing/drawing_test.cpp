@@ -71,7 +71,8 @@ std::string svg_of(const NeutralDrawing& drawing, bool hidden = true) {
 
 std::string json_of(const NeutralDrawing& drawing) {
   std::string text;
-  write_view_json(drawing, two_objects(), [&](std::string_view part) { text += part; });
+  EXPECT_TRUE(
+      write_view_json(drawing, two_objects(), [&](std::string_view part) { text += part; }, {}));
   return text;
 }
 
@@ -320,6 +321,23 @@ TEST(ViewJson, SaysWhatTheDrawingHolds) {
   EXPECT_EQ(first["b_mm"], nlohmann::json({100.0, 0.0, 0.0}));
   EXPECT_EQ(first["a_paper_mm"], nlohmann::json({160.0, 169.5}));
   EXPECT_EQ(json["pieces"][4]["object_index"], 1);
+}
+
+TEST(ViewJson, ChordsNameTheirCurve) {
+  NeutralDrawing drawing = laid_out(rectangle());
+  drawing.curves.all = {{{10, 20}, {4, 0}, {0, 4}}, {{50, 50}, {40, 0}, {0, 40.5}}};
+  drawing.curves.edges = {{drawing.lines[1].object, drawing.lines[1].edge, 1}};
+  const auto json = nlohmann::json::parse(json_of(drawing));
+  ASSERT_EQ(json["curves"].size(), 2U);
+  EXPECT_EQ(json["curves"][1]["centre_paper_mm"], nlohmann::json({50.0, 50.0}));
+  EXPECT_EQ(json["curves"][1]["v_paper_mm"], nlohmann::json({0.0, 40.5}));
+  for (const auto& piece : json["pieces"]) {
+    const bool chord = piece["object_index"] == 0 && piece["edge"] == drawing.lines[1].edge;
+    EXPECT_EQ(piece.contains("curve_index"), chord);
+    if (chord) {
+      EXPECT_EQ(piece["curve_index"], 1);
+    }
+  }
 }
 
 TEST(ViewJson, FollowsItsSchema) {

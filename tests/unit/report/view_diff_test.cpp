@@ -61,7 +61,7 @@ ViewPiece line(const geometry::Vec3l& a, const geometry::Vec3l& b, std::uint32_t
 }
 
 TEST(ViewDiff, ADrawingIsTheSameAsItself) {
-  const ViewDocument document = test::view_document(test::view_json(crowd(0)));
+  const ViewDocument document = test::view_document(test::view_file(crowd(0)));
   const ViewDiff diff = compared(document, document);
   EXPECT_EQ(lines(diff, LineChange::same), document.pieces.size());
   EXPECT_FALSE(diff.differs(false));
@@ -71,15 +71,15 @@ TEST(ViewDiff, ADrawingIsTheSameAsItself) {
 
 TEST(ViewDiff, ScaleAndPlaceOnPaperChangeNoLine) {
   test::Drawn how;
-  const ViewDocument before = test::view_document(test::view_json(crowd(0), how));
+  const ViewDocument before = test::view_document(test::view_file(crowd(0), how));
   how.layout.scale = 20;
-  const ViewDocument after = test::view_document(test::view_json(crowd(0), how));
+  const ViewDocument after = test::view_document(test::view_file(crowd(0), how));
   EXPECT_FALSE(compared(before, after).differs(false));
 }
 
 TEST(ViewDiff, OfABoxThatMovedTheObjectIsTold) {
-  const ViewDocument before = test::view_document(test::view_json(crowd(0)));
-  const ViewDocument after = test::view_document(test::view_json(crowd(11)));
+  const ViewDocument before = test::view_document(test::view_file(crowd(0)));
+  const ViewDocument after = test::view_document(test::view_file(crowd(11)));
   const ViewDiff diff = compared(before, after);
   ASSERT_FALSE(diff.by_object.empty());
   bool told = false;
@@ -98,9 +98,9 @@ TEST(ViewDiff, OfABoxThatMovedTheObjectIsTold) {
 TEST(ViewDiff, StageTurnsHiddenLinesIntoVisibleOnes) {
   test::Drawn how;
   how.layout.remove_duplicates = false;
-  const ViewDocument before = test::view_document(test::view_json(crowd(0), how));
+  const ViewDocument before = test::view_document(test::view_file(crowd(0), how));
   how.options.stage = hlr::Stage::none;
-  const ViewDocument after = test::view_document(test::view_json(crowd(0), how));
+  const ViewDocument after = test::view_document(test::view_file(crowd(0), how));
   const ViewDiff diff = compared(before, after);
   EXPECT_EQ(lines(diff, LineChange::added), 0U);
   EXPECT_EQ(lines(diff, LineChange::gone), 0U);
@@ -184,7 +184,7 @@ TEST(ViewDiff, PointsAreCompared) {
 
 // However the lines of a drawing are cut anew, nothing changed; and what is taken away is gone.
 TEST(ViewDiff, RandomCutsChangeNothing) {
-  const ViewDocument before = test::view_document(test::view_json(crowd(0)));
+  const ViewDocument before = test::view_document(test::view_file(crowd(0)));
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     test::Draw draw(seed);
     ViewDocument cut = before;
@@ -214,8 +214,8 @@ TEST(ViewDiff, RandomCutsChangeNothing) {
 }
 
 TEST(ViewDiff, IsTheSameForAnyNumberOfThreads) {
-  const ViewDocument before = test::view_document(test::view_json(crowd(0)), "a.json");
-  const ViewDocument after = test::view_document(test::view_json(crowd(11)), "b.json");
+  const ViewDocument before = test::view_document(test::view_file(crowd(0)), "a.json");
+  const ViewDocument after = test::view_document(test::view_file(crowd(11)), "b.json");
   const auto texts = [&](unsigned threads) {
     parallel::Team team(threads);
     const ViewDiff diff = compared(before, after, {}, {.team = &team});
@@ -229,8 +229,8 @@ TEST(ViewDiff, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(ViewDiff, JsonListsWhatChanged) {
-  const ViewDocument before = test::view_document(test::view_json(crowd(0)));
-  const ViewDocument after = test::view_document(test::view_json(crowd(11)));
+  const ViewDocument before = test::view_document(test::view_file(crowd(0)));
+  const ViewDocument after = test::view_document(test::view_file(crowd(11)));
   const ViewDiff diff = compared(before, after);
   std::string text;
   write_view_diff_json(diff, [&](std::string_view piece) { text += piece; });
@@ -244,9 +244,9 @@ TEST(ViewDiff, JsonListsWhatChanged) {
 
 TEST(ViewDiff, DrawingsFromDifferentSidesAreRefused) {
   test::Drawn how;
-  const ViewDocument before = test::view_document(test::view_json(crowd(0), how));
+  const ViewDocument before = test::view_document(test::view_file(crowd(0), how));
   how.view.direction = {1, -2, 1};
-  const ViewDocument after = test::view_document(test::view_json(crowd(0), how));
+  const ViewDocument after = test::view_document(test::view_file(crowd(0), how));
   const auto diff = compare(before, after, {}, {});
   ASSERT_FALSE(diff);
   EXPECT_EQ(diff.error().code, ErrorCode::input);

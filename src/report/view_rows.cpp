@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/view_rows.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "drawing/view_rows.hpp"
+#include "report/document_fields.hpp"
+
+namespace strake::report {
+namespace {
+
+using Kind = JsonReader::Kind;
+
+/// The names of an enumeration's values, as the writer numbered them.
+template <class Enum, class Name>
+std::vector<Enum> take_names(JsonReader& json, std::string_view key, Name&& name) {
+  DocumentFields fields(json);
+  fields.must_be(Kind::array, "rows", key, "list");
+  std::vector<Enum> values;
+  json.items([&] {
+    const std::string text = fields.text("rows", key);
+    const auto value = named<Enum>(text, name);
+    if (!value || values.size() > 0xff)
+      throw DocumentFault{"rows", "\"" + std::string(key) + "\" has '" + text +
+                                      "', which this version does not know"};
+    values.push_back(*value);
+  });
+  return values;
+}
+
+[[noreturn]] void cut_off(std::uint64_t row, std::uint64_t count) {
+  throw contradicts("the document",
+                    "ends in row " + std::to_string(row) + " of " + std::to_string(count));
+}
+
+template <class Int>
+ViewPiece piece_of(const drawing::Row<Int>& row, const RowForm& form, std::uint64_t number) {
+  const auto wrong = [&](const char* key, const char* what) {
+    return is_not("row " + std::to_string(number), key, what);
+  };
+  if (row.kind >= form.kinds.size()) throw wrong("kind", "kind of line that the document names");
+  if (row.state >= form.states.size()) throw wrong("state", "state that the document names");
+  constexpr auto kFarthest = static_cast<std::int64_t>(DocumentFields::kFarthestMm * 1000);
+  const auto model = [&](const std::array<Int, 3>& v, const char* key) {
+    for (const Int k : v)
+      if (k > kFarthest || k < -kFarthest) throw wrong(key, "point");
+    return geometry::Vec3l{v[0], v[1], v[2]} + form.origin;
+  };
+  const auto paper = [](const std::array<Int, 2>& v) {
+    return std::array<float, 2>{static_cast<float>(static_cast<double>(v[0]) / 1000),
+                                static_cast<float>(static_cast<double>(v[1]) / 1000)};
+  };
+  ViewPiece piece;
+  piece.a = model(row.a, "a_um");
+  piece.b = model(row.b, "b_um");
+  piece.a_paper = paper(row.a_paper);
+  piece.b_paper = paper(row.b_paper);
+  piece.object = row.object;
+  piece.kind = form.kinds[row.kind];
+  piece.state = form.states[row.state];
+  piece.other = piece.kind == hlr::EdgeKind::intersection ? row.other : row.object;
+  return piece;
+}
+
+/// A run at a time: a file that claims more rows than it has must not claim memory.
+template <class Int>
+std::vector<ViewPiece> read_all(std::istream& in, const RowForm& form, std::uint64_t count) {
+  constexpr std::uint64_t kRun = 16384;
+  std::vector<ViewPiece> pieces;
+  std::vector<drawing::Row<Int>> rows;
+  while (pieces.size() < count) {
+    rows.resize(std::min<std::uint64_t>(kRun, count - pieces.size()));
+    const std::size_t bytes = rows.size() * sizeof rows[0];
+    in.read(reinterpret_cast<char*>(rows.data()), static_cast<std::streamsize>(bytes));
+    const auto got = static_cast<std::size_t>(in.gcount());
+    if (got < bytes) cut_off(pieces.size() + got / sizeof rows[0], count);
+    for (const drawing::Row<Int>& row : rows) pieces.push_back(piece_of(row, form, pieces.size()));
+  }
+  if (in.peek() != std::istream::traits_type::eof())
+    throw contradicts("the document", "goes on behind its last row");
+  return pieces;
+}
+
+template <class Int>
+bool is_of(const RowForm& form) {
+  return form.bytes == sizeof(drawing::Row<Int>) && form.fields == drawing::row_fields<Int>();
+}
+
+}  // namespace
+
+RowForm take_row_form(JsonReader& json) {
+  DocumentFields fields(json);
+  fields.must_be(Kind::object, "the document", "rows", "object");
+  RowForm form;
+  std::set<std::string, std::less<>> met;
+  json.members([&](std::string_view key) {
+    const std::string name(key);
+    if (!met.insert(name).second) throw contradicts("rows", "has \"" + name + "\" twice");
+    if (name == "bytes") {
+      form.bytes = static_cast<std::uint64_t>(std::max(0.0, fields.number("rows", name)));
+    } else if (name == "fields") {
+      json.copy(form.fields);
+    } else if (name == "origin_um") {
+      const auto um = fields.numbers<3>([] { return std::string("rows"); }, name,
+                                        DocumentFields::kFarthestMm * 1000);
+      for (int k = 0; k < 3; ++k)
+        form.origin[k] = static_cast<std::int64_t>(um.at(static_cast<std::size_t>(k)));
+    } else if (name == "kinds") {
+      form.kinds = take_names<hlr::EdgeKind>(json, name, drawing::kind_name);
+    } else if (name == "states") {
+      form.states = take_names<drawing::LineState>(json, name, drawing::state_name);
+    } else {
+      json.skip();
+    }
+  });
+  for (const char* const key : {"bytes", "fields", "origin_um", "kinds", "states"})
+    if (!met.contains(key)) throw lacks("rows", key);
+  return form;
+}
+
+std::vector<ViewPiece> read_rows(std::istream& in, const RowForm& form, std::uint64_t count) {
+  if (is_of<std::int32_t>(form)) return read_all<std::int32_t>(in, form, count);
+  if (is_of<std::int64_t>(form)) return read_all<std::int64_t>(in, form, count);
+  throw is_not("rows", "fields", "form of rows that this version knows");
+}
+
+}  // namespace strake::report

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binary neutral drawings: they say what the text says, and what is wrong with them is told.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/view_documents.hpp"
+
+namespace strake::report {
+namespace {
+
+using test::ViewForm;
+
+model::Model crowd(double apart) {
+  test::ClashModel m;
+  m.box("a", {0, 0, 0}, {100, 100, 100});
+  m.box("b", {90, 20, 20}, {180, 60, 60});
+  m.box("c", {apart, 0, 0}, {apart + 50, 50, 50});
+  return std::move(m.model);
+}
+
+void expect_same(const ViewDocument& text, const ViewDocument& rows) {
+  EXPECT_EQ(text.hash, rows.hash);
+  EXPECT_EQ(text.settings, rows.settings);
+  EXPECT_EQ(text.width_mm, rows.width_mm);
+  EXPECT_EQ(text.scale, rows.scale);
+  ASSERT_EQ(text.objects.size(), rows.objects.size());
+  ASSERT_EQ(text.pieces.size(), rows.pieces.size());
+  for (std::size_t i = 0; i < text.pieces.size(); ++i) {
+    const ViewPiece &t = text.pieces[i], &r = rows.pieces[i];
+    EXPECT_EQ(t.a, r.a);
+    EXPECT_EQ(t.b, r.b);
+    EXPECT_EQ(t.a_paper, r.a_paper);
+    EXPECT_EQ(t.b_paper, r.b_paper);
+    EXPECT_EQ(t.object, r.object);
+    EXPECT_EQ(t.other, r.other);
+    EXPECT_EQ(t.kind, r.kind);
+    EXPECT_EQ(t.state, r.state);
+  }
+}
+
+TEST(ViewRows, SayWhatTheTextSays) {
+  // 3 km apart, numbers of 32 bits suffice; 30,000 km apart they do not.
+  for (const auto& [apart, bytes] :
+       {std::pair(500.0, 64), std::pair(3e6, 64), std::pair(3e10, 104)}) {
+    const model::Model model = crowd(apart);
+    test::Drawn how;
+    how.view.direction = {1, -2, 3};
+    const std::string rows = test::view_file(model, how, ViewForm::rows);
+    EXPECT_NE(rows.find("\"rows\":{\"bytes\":" + std::to_string(bytes)), std::string::npos)
+        << apart;
+    const ViewDocument read = test::view_document(rows);
+    expect_same(test::view_document(test::view_file(model, how)), read);
+    EXPECT_GT(read.pieces.size(), 30U);
+  }
+}
+
+TEST(ViewRows, WhatIsWrongIsTold) {
+  const std::string sound = test::view_file(crowd(500), {}, ViewForm::rows);
+  const auto error_of = [](const std::string& bytes) {
+    std::istringstream in(bytes);
+    const auto document = parse_view_document(in, "x.view");
+    return document ? std::string() : document.error().text();
+  };
+  const auto with = [&](const std::string& what, const std::string& by) {
+    std::string bytes = sound;
+    const std::size_t at = bytes.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    EXPECT_EQ(what.size(), by.size());
+    return bytes.replace(at, what.size(), by);
+  };
+  // In the last row: what stands so many bytes behind its beginning.
+  const auto in_row = [&](std::size_t offset, std::uint32_t value) {
+    std::string bytes = sound;
+    std::memcpy(bytes.data() + bytes.size() - 64 + offset, &value, sizeof value);
+    return bytes;
+  };
+  const auto with_length = [&](std::uint64_t length) {
+    std::string bytes = sound;
+    std::memcpy(bytes.data() + 8, &length, sizeof length);
+    return bytes;
+  };
+  std::uint64_t length = 0;
+  std::memcpy(&length, sound.data() + 8, sizeof length);
+  EXPECT_EQ(length % 16, 0U);
+  EXPECT_EQ(error_of(sound), "");
+  for (const auto& [bytes, words] : std::vector<std::pair<std::string, std::string>>{
+           {sound.substr(0, 5), "is no drawing"},
+           {"STRIPES!" + sound.substr(8), "is no drawing"},
+           {sound.substr(0, 12), "before its rows"},
+           {sound.substr(0, 500), "before its rows"},
+           {with_length(~std::uint64_t{0}), "before its rows"},
+           {with_length(length + 3), "no JSON"},
+           {with_length(length - 40), "ends too soon"},
+           {sound.substr(0, sound.size() - 65), "ends in row"},
+           {sound.substr(0, sound.size() - 1), "ends in row"},
+           {sound + "x", "goes on"},
+           {in_row(0, 7000), "is of object 7000"},
+           {in_row(16, 0x000000ff), "kind of line"},
+           {in_row(16, 0x0000ff00), "state"},
+           {with("\"bytes\":64", "\"bytes\":96"), "form of rows"},
+           {with("\"offset\":24", "\"offset\":25"), "form of rows"},
+           {with("\"a_um\"", "\"z_um\""), "form of rows"},
+           {with("\"contour\"", "\"contort\""), "'contort', which this version does not know"},
+           {with("\"origin_um\"", "\"origin_mm\""), "has no \"origin_um\""},
+           {with("\"kinds\"", "\"bytes\""), "twice"},
+           {with("\"rows\"", "\"nows\""), "has no \"rows\""},
+           {with("\"pieces\":", "\"pierce\":"), "has no \"pieces\""}}) {
+    EXPECT_NE(error_of(bytes).find(words), std::string::npos) << words << ": " << error_of(bytes);
+    EXPECT_NE(error_of(bytes).find("x.view"), std::string::npos) << error_of(bytes);
+  }
+}
+
+}  // namespace
+}  // namespace strake::report
