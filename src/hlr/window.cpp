@@ -29,7 +29,9 @@ Error usage(std::string message, std::string mend) {
 }
 
 bool within_reach(const Vec3l& p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kMaxPoint;
+  for (int k = 0; k < 3; ++k)
+    if (p[k] > kMaxPoint || p[k] < -kMaxPoint) return false;  // abs() of the least does not exist
+  return true;
 }
 
 HalfSpace near_plane(const View& view) {
