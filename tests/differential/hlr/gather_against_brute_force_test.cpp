@@ -10,6 +10,7 @@
 #include "strake/parallel/team.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
+#include "support/rounds.hpp"
 
 namespace strake {
 namespace {
@@ -61,7 +62,7 @@ std::string run(std::uint64_t seed, const Settings& settings) {
 
 std::uint64_t count(std::uint64_t usual) {
   const char* more = std::getenv("STRAKE_ORACLE_SCENES");
-  return more != nullptr ? std::strtoull(more, nullptr, 10) : usual;
+  return more != nullptr ? std::strtoull(more, nullptr, 10) : test::rounds(usual);
 }
 
 TEST(GatherAgainstBruteForce, FinestLattice) {

@@ -9,6 +9,7 @@
 
 #include "feed_clash_document.hpp"
 #include "fuzz/damage.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::report {
 namespace {
@@ -41,7 +42,7 @@ TEST(ClashDocumentDamage, NoBytesDoHarm) {
   test::truncate_everywhere(seeds[0], feed);
   test::flip_everywhere(seeds[0], feed);
   test::replace_numbers(seeds[0], feed);
-  test::splice(seeds, splices != nullptr ? std::atoi(splices) : 2000, feed);
+  test::splice(seeds, splices != nullptr ? std::atoi(splices) : test::rounds(2000), feed);
 }
 
 }  // namespace

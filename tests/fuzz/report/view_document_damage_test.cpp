@@ -9,6 +9,7 @@
 
 #include "feed_view_document.hpp"
 #include "fuzz/damage.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::report {
 namespace {
@@ -27,7 +28,7 @@ TEST(ViewDocumentDamage, NoBytesDoHarm) {
     test::flip_everywhere(seeds[s], feed);
     test::replace_numbers(seeds[s], feed);
   }
-  test::splice(seeds, splices != nullptr ? std::atoi(splices) : 2000, feed);
+  test::splice(seeds, splices != nullptr ? std::atoi(splices) : test::rounds(2000), feed);
 }
 
 }  // namespace

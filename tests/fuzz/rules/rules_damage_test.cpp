@@ -8,6 +8,7 @@
 
 #include "feed_rules.hpp"
 #include "fuzz/damage.hpp"
+#include "support/rounds.hpp"
 #include "support/rules_seeds.hpp"
 
 namespace strake::rules {
@@ -28,7 +29,8 @@ TEST(RulesDamage, NoBytesDoHarm) {
     test::flip_everywhere(seed, feed);
     test::replace_numbers(seed, feed);
   }
-  test::splice(test::rules_seeds(), splices != nullptr ? std::atoi(splices) : 2000, feed);
+  test::splice(test::rules_seeds(), splices != nullptr ? std::atoi(splices) : test::rounds(2000),
+               feed);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "feed_sheet.hpp"
 #include "fuzz/damage.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::sheets {
 namespace {
@@ -28,7 +29,8 @@ TEST(SheetsDamage, NoBytesDoHarm) {
     test::flip_everywhere(seed, feed);
     test::replace_numbers(seed, feed);
   }
-  test::splice(test::sheet_seeds(), splices != nullptr ? std::atoi(splices) : 2000, feed);
+  test::splice(test::sheet_seeds(), splices != nullptr ? std::atoi(splices) : test::rounds(2000),
+               feed);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "strake/hlr/hlr.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
+#include "support/rounds.hpp"
 
 namespace strake {
 namespace {
@@ -102,6 +103,8 @@ std::optional<geometry::Box3l> some_limits(Random& random) {
   return geometry::Box3l{{third, third / 2, -kExtent}, {kExtent, 2 * kExtent, kExtent + third}};
 }
 
+constexpr auto kSeeds = test::rounds<std::uint64_t>(300);
+
 std::uint64_t face_tests(const SceneBuilder& scene, hlr::Stage stage) {
   const auto drawing = hlr::draw(scene.scene(), {}, {.limits = {}},
                                  {.stage = stage, .intersections = hlr::Intersections::off}, {});
@@ -110,7 +113,7 @@ std::uint64_t face_tests(const SceneBuilder& scene, hlr::Stage stage) {
 
 TEST(Culling, ChangesNothingButTheWork) {
   std::uint64_t covered = 0, culled_tests = 0, all_tests = 0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const SceneBuilder scene = crowd(seed);
     Random random(seed * 31);
     const hlr::View view{.direction = some_direction(random), .limits = some_limits(random)};
@@ -128,13 +131,13 @@ TEST(Culling, ChangesNothingButTheWork) {
     culled_tests += culled->counters.face_tests;
     all_tests += plain->counters.face_tests;
   }
-  EXPECT_GT(covered, 5000U);
+  EXPECT_GT(covered, 16 * kSeeds);
   EXPECT_LT(3 * culled_tests, all_tests);
 }
 
 TEST(Culling, LeavingHiddenPiecesOutChangesNoOther) {
   std::uint64_t left_out = 0;
-  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kSeeds * 2 / 5; ++seed) {
     const SceneBuilder scene = crowd(seed);
     Random random(seed * 17);
     const hlr::View view{.direction = some_direction(random), .limits = some_limits(random)};
@@ -158,7 +161,7 @@ TEST(Culling, LeavingHiddenPiecesOutChangesNoOther) {
     ASSERT_EQ(culled->counters.left_out, other->counters.left_out) << "seed " << seed;
     left_out += culled->counters.left_out;
   }
-  EXPECT_GT(left_out, 5000U);
+  EXPECT_GT(left_out, 16 * kSeeds);
 }
 
 TEST(Culling, OneShapeIsTestedAgainstItselfOnce) {

@@ -15,6 +15,7 @@
 #include "strake/parallel/team.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
+#include "support/rounds.hpp"
 
 namespace strake {
 namespace {
@@ -25,7 +26,7 @@ using hlr::Piece;
 using hlr::Section;
 using hlr::State;
 
-constexpr std::uint64_t kSeeds = 100;
+constexpr auto kSeeds = test::rounds<std::uint64_t>(100);
 const hlr::Options kUnhatched{.hatch_spacing_mm = 0};
 
 test::LatticeOptions lattice(std::uint64_t seed, std::int32_t unit = 1000) {
@@ -143,7 +144,7 @@ TEST(SectionLaws, WhatIsCutAwayDoesNotHideAndIsClipped) {
       for (Piece& p : *list) p.edge = 0;
     ASSERT_EQ(test::difference(expected, kept), "") << "seed " << seed;
   }
-  EXPECT_GT(away, 500U);
+  EXPECT_GT(away, 5 * kSeeds);
 }
 
 TEST(SectionLaws, EdgesAreDrawnFromEndToEndWhateverCutsThem) {
@@ -242,7 +243,7 @@ TEST(SectionLaws, AMirroredSceneIsCutLikeAMirror) {
     }
     some += expected.size();
   }
-  EXPECT_GT(some, 300U);
+  EXPECT_GT(some, 3 * kSeeds);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
 #include "support/revolved.hpp"
+#include "support/rounds.hpp"
 
 namespace strake::clash {
 namespace {
@@ -71,7 +73,8 @@ void check(Scene scene) {
   const Report alone = m.detect(scene.options);
   expect_truth(scene, alone);
   const std::vector<std::uint64_t> expected = bits_of(alone);
-  for (const unsigned threads : {2U, 3U, 8U, 64U}) {
+  constexpr std::array kThreads{2U, 64U, 3U, 8U};
+  for (const unsigned threads : std::span(kThreads).first(test::kSanitized ? 2 : 4)) {
     parallel::Team team(threads);
     parallel::RunReport costs;
     const Report report = m.detect(scene.options, {.team = &team, .report = &costs});
