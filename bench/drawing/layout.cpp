@@ -94,7 +94,7 @@ bool same(const drawing::Stretch& a, const drawing::Stretch& b) {
 
 /// How many of a sample of lines are cut otherwise when every other line is asked.
 std::size_t wrong(std::span<const drawing::Flat> lines, const drawing::OverlapRule& rule,
-                  const drawing::Stretches& found, std::size_t sample) {
+                  const drawing::Overlaps& found, std::size_t sample) {
   std::size_t wrong = 0;
   for (std::size_t n = 0; n < sample && !lines.empty(); ++n) {
     const auto i = static_cast<std::uint32_t>(lines.size() * n / sample);
@@ -107,11 +107,14 @@ std::size_t wrong(std::span<const drawing::Flat> lines, const drawing::OverlapRu
     drawing::Stretches expected;
     if (!covers.empty())
       drawing::append_stretches(expected, i, covers, rule.shortest / lines[i].length());
-    const auto first = std::partition_point(found.begin(), found.end(),
+    const drawing::Stretches& stretches = found.stretches;
+    const auto first = std::partition_point(stretches.begin(), stretches.end(),
                                             [&](const drawing::Stretch& s) { return s.line < i; });
-    const auto last = std::partition_point(first, found.end(),
+    const auto last = std::partition_point(first, stretches.end(),
                                            [&](const drawing::Stretch& s) { return s.line == i; });
-    if (!std::equal(first, last, expected.begin(), expected.end(), same)) ++wrong;
+    drawing::Stretches got(first, last);
+    if (found.wholly[i] != 0) got.push_back({i, true, 0, 1});
+    if (!std::equal(got.begin(), got.end(), expected.begin(), expected.end(), same)) ++wrong;
   }
   return wrong;
 }
@@ -138,7 +141,8 @@ int run(const Arguments& a) {
     const drawing::OverlapRule rule = drawing::duplicate_rule(distance);
     const auto cut = drawing::cut_overlaps(*flat, rule, context);
     if (!cut) return 3;
-    fmt::print("overlap {}: {} stretches\n", clock.text(), cut->size());
+    fmt::print("overlap {}: {} lines wholly, {} stretches\n", clock.text(),
+               std::count(cut->wholly.begin(), cut->wholly.end(), 1), cut->stretches.size());
     if (i + 1 < a.repeat) continue;
     const std::size_t faults = wrong(*flat, rule, *cut, a.sample);
     fmt::print("  {} lines against all: {} wrong\n", a.sample, faults);

@@ -86,8 +86,8 @@ OverlapRule duplicate_rule(double distance_mm) {
   return {.least = distance_mm, .shortest = distance_mm};
 }
 
-Result<Stretches> find_duplicates(const hlr::Drawing& drawing, const PaperAxes& axes,
-                                  double distance_mm, const parallel::Context& context) {
+Result<Overlaps> find_duplicates(const hlr::Drawing& drawing, const PaperAxes& axes,
+                                 double distance_mm, const parallel::Context& context) {
   const auto flat = flatten(drawing, axes, distance_mm, context);
   if (!flat) return flat.error();
   return cut_overlaps(*flat, duplicate_rule(distance_mm), context);

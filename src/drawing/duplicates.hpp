@@ -13,16 +13,17 @@
 
 namespace strake::drawing {
 
-/// Finds where pieces lie on other pieces of the view; a stretch's line is the number of its piece.
+/// Finds where pieces lie on other pieces of the view; a line of the result is the number of a
+/// piece.
 ///
 /// Two pieces coincide where they are at most `distance_mm` apart in the plane of the view,
 /// measured in the model and not on paper, so that the scale decides nothing, and parallel as
 /// OverlapRule says. Of two that coincide over a stretch, the visible one stays, then the nearer to
 /// the viewer, then that of the lowest object and edge. Pieces that are drawn nowhere (projecting,
 /// clipped) take no part.
-[[nodiscard]] Result<Stretches> find_duplicates(const hlr::Drawing& drawing, const PaperAxes& axes,
-                                                double distance_mm,
-                                                const parallel::Context& context);
+[[nodiscard]] Result<Overlaps> find_duplicates(const hlr::Drawing& drawing, const PaperAxes& axes,
+                                               double distance_mm,
+                                               const parallel::Context& context);
 
 /// The same in two steps: the pieces in the plane of the view, relative to the drawing's origin, so
 /// that what else is drawn decides nothing; and when they are duplicates.

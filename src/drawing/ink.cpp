@@ -119,9 +119,13 @@ Status clean_up(Ink& ink, const Vec3l& direction, const PaperAxes& axes,
   if (!found) return found.error();
   const std::vector<Line> lines = std::exchange(ink.lines, {});
   ink.lines.reserve(lines.size());
-  const std::span<const Stretch> stretches = *found;
+  const std::span<const Stretch> stretches = found->stretches;
   std::size_t first = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (found->wholly[i] != 0) {
+      ++ink.left_out;
+      continue;
+    }
     std::size_t end = first;
     while (end < stretches.size() && stretches[end].line == i) ++end;
     if (end == first)

@@ -9,9 +9,11 @@
 #include "drawing/account.hpp"
 #include "drawing/duplicates.hpp"
 #include "drawing/paper.hpp"
+#include "drawing/view_hash.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
@@ -50,47 +52,13 @@ Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& or
            (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / sheet.scale}};
 }
 
-void add_vector(Hasher& hasher, const Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
-
-Hash128 hash_of(const hlr::Drawing& drawing, const model::Model& model) {
-  Hasher hasher;
-  add_vector(hasher, drawing.view.direction);
-  add_vector(hasher, drawing.view.up);
-  if (drawing.view.limits) {
-    add_vector(hasher, drawing.view.limits->lo);
-    add_vector(hasher, drawing.view.limits->hi);
-  }
-  for (const hlr::Section& section : drawing.view.sections) {
-    add_vector(hasher, section.normal);
-    add_vector(hasher, section.point);
-  }
-  if (const auto& perspective = drawing.view.perspective) {
-    add_vector(hasher, perspective->eye);
-    add_vector(hasher, perspective->target);
-    hasher.add(perspective->near_mm).add(perspective->field_of_view_deg);
-  }
-  hasher.add(static_cast<std::uint64_t>(drawing.pieces.size()));
-  const hlr::Piece* last = nullptr;
-  for (const hlr::Piece& piece : drawing.pieces) {
-    if (last == nullptr || last->object != piece.object) {
-      const model::Object& object = model.object(piece.object);
-      hasher.add(std::string_view(model.files[object.file].label)).add(std::string_view(object.id));
-    }
-    hasher.add(static_cast<std::uint32_t>(piece.kind)).add(static_cast<std::uint32_t>(piece.state));
-    if (piece.kind == hlr::EdgeKind::intersection)
-      hasher.add(std::string_view(model.object(piece.other).id));
-    add_vector(hasher, piece.a);
-    add_vector(hasher, piece.b);
-    last = &piece;
-  }
-  return hasher.value();
-}
-
-/// A line for each piece, or one for each of its stretches: what is covered is a duplicate.
+/// A line for each piece, or one for each of its stretches: what is covered is a duplicate. Without
+/// overlaps there are none.
 template <class MakeLine>
-Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces,
-                                     std::span<const Stretch> stretches, const PaperAxes& axes,
-                                     MakeLine&& make_line, const parallel::Context& context) {
+Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces, const Overlaps& overlaps,
+                                     const PaperAxes& axes, MakeLine&& make_line,
+                                     const parallel::Context& context) {
+  const std::span<const Stretch> stretches = overlaps.stretches;
   // The first stretch of each piece that has any: k such pieces before make so many lines fewer
   // than their stretches.
   std::vector<std::size_t> firsts;
@@ -110,7 +78,9 @@ Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces,
         std::size_t next = before == firsts.end() ? stretches.size() : *before;
         std::size_t at = begin + next - static_cast<std::size_t>(before - firsts.begin());
         for (std::size_t i = begin; i < std::min(pieces.size(), begin + kPieces); ++i) {
-          const Line line = make_line(pieces[i]);
+          Line line = make_line(pieces[i]);
+          if (!overlaps.wholly.empty() && overlaps.wholly[i] != 0)
+            line.state = LineState::duplicate;
           if (next == stretches.size() || stretches[next].line != i) (*lines)[at++] = line;
           for (; next < stretches.size() && stretches[next].line == i; ++next) {
             (*lines)[at] = part_of(line, axes, stretches[next].from, stretches[next].to);
@@ -137,21 +107,24 @@ const PaperCurve* PaperCurves::of(const Line& line) const {
   return index == kNone ? nullptr : &all[index];
 }
 
-PlaneBox plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes, const Vec3l& origin) {
+Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
+                              const Vec3l& origin, const parallel::Context& context) {
   constexpr double kBig = std::numeric_limits<double>::max();
   const ViewPlane plane(axes, origin);
-  PlaneBox box{kBig, -kBig, kBig, -kBig};
-  for (const hlr::Piece& piece : drawing.pieces) {
-    if (piece.state == hlr::State::clipped) continue;
-    for (const Vec3l& end : {piece.a, piece.b}) {
-      const PlanePoint p = plane(end);
-      box.left = std::min(box.left, p.x);
-      box.right = std::max(box.right, p.x);
-      box.bottom = std::min(box.bottom, p.y);
-      box.top = std::max(box.top, p.y);
-    }
-  }
-  return box.left <= box.right ? box : PlaneBox{};
+  Result<PlaneBox> box = parallel::reduce(
+      context, {.name = "extent on the plane", .n = drawing.pieces.size(), .grain = 65536},
+      PlaneBox{kBig, -kBig, kBig, -kBig},
+      [&](PlaneBox& part, std::size_t i) {
+        const hlr::Piece& piece = drawing.pieces[i];
+        if (piece.state == hlr::State::clipped) return;
+        for (const Vec3l& end : {piece.a, piece.b}) {
+          const PlanePoint p = plane(end);
+          part.include({p.x, p.x, p.y, p.y});
+        }
+      },
+      [](PlaneBox& into, const PlaneBox& part) { into.include(part); });
+  if (box && box->left > box->right) *box = {};
+  return box;
 }
 
 Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
@@ -162,10 +135,14 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
                  "give another --up"};
   if (options.scale && !(*options.scale > 0 && std::isfinite(*options.scale)))
     return Error{ErrorCode::usage, "the scale is not a positive number", "", "use 1:50, say"};
-  const Placement placement = options.placement ? *options.placement : [&] {
-    const PlaneBox box = plane_extent(drawing, *axes, drawing.origin);
-    return in_the_middle(box, choose_sheet(box, options), drawing.origin);
-  }();
+  Placement placement;
+  if (options.placement) {
+    placement = *options.placement;
+  } else {
+    const Result<PlaneBox> box = plane_extent(drawing, *axes, drawing.origin, context);
+    if (!box) return box.error();
+    placement = in_the_middle(*box, choose_sheet(*box, options), drawing.origin);
+  }
   const ViewPlane plane(*axes, placement.anchor);
   const auto on_paper = [&](const Vec3l& grid) {
     const PlanePoint p = plane(grid);
@@ -182,16 +159,18 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.sharp_angle_deg = drawing.options.sharp_angle_deg;
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.counters = drawing.counters;
-  out.hash = hash_of(drawing, model);
+  const Result<Hash128> hash = hash_of(drawing, model, context);
+  if (!hash) return hash.error();
+  out.hash = *hash;
   out.curves = curves_on_paper(drawing.curves, *axes, placement);
   // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
   const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);
-  const auto stretches = options.remove_duplicates
-                             ? find_duplicates(drawing, *axes, distance, context)
-                             : Result<Stretches>(Stretches{});
-  if (!stretches) return stretches.error();
+  const auto duplicates = options.remove_duplicates
+                              ? find_duplicates(drawing, *axes, distance, context)
+                              : Result<Overlaps>(Overlaps{});
+  if (!duplicates) return duplicates.error();
   auto lines = make_lines(
-      drawing.pieces, *stretches, *axes,
+      drawing.pieces, *duplicates, *axes,
       [&](const hlr::Piece& piece) {
         return Line{piece.object,
                     piece.edge,

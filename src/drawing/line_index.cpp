@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "drawing/radix_order.hpp"
+#include "drawing/twins.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
 
@@ -87,16 +87,22 @@ bool takes_part(const Flat& line, double least) {
 
 }  // namespace
 
-Result<LineIndex> LineIndex::build(std::span<const Flat> lines, double least, double greatest_sine,
+Result<LineIndex> LineIndex::build(std::span<const Flat> lines, const OverlapRule& rule,
+                                   std::vector<std::uint8_t>& gone,
                                    const parallel::Context& context) {
   LineIndex index;
-  index.greatest_sine_ = greatest_sine;
-  index.lines_ = lines;
-  Status status = index.measure(least, context);
+  index.greatest_sine_ = rule.greatest_sine;
+  Status status = index.measure(lines, rule.least, context);
   if (!status) return status.error();
-  index.choose_frames(least);
-  status = index.sort(least, context);
-  if (!status) return status.error();
+  index.choose_frames(lines, rule.least);
+  {
+    auto keys = index.sorted(lines, rule.least, context);
+    if (!keys) return keys.error();
+    status = drop_twins(*keys, lines, rule, gone, context);
+    if (!status) return status.error();
+    status = index.take(lines, *keys, context);
+    if (!status) return status.error();
+  }
   index.lay_out_sectors();
   status = index.make_leaves(context);
   if (!status) return status.error();
@@ -105,11 +111,12 @@ Result<LineIndex> LineIndex::build(std::span<const Flat> lines, double least, do
   return index;
 }
 
-Status LineIndex::measure(double least, const parallel::Context& context) {
+Status LineIndex::measure(std::span<const Flat> lines, double least,
+                          const parallel::Context& context) {
   const auto extent = parallel::reduce(
-      context, {.name = "extent of lines", .n = lines_.size(), .grain = kGrain}, Extent{},
+      context, {.name = "extent of lines", .n = lines.size(), .grain = kGrain}, Extent{},
       [&](Extent& e, std::size_t i) {
-        if (takes_part(lines_[i], least)) e.add(lines_[i]);
+        if (takes_part(lines[i], least)) e.add(lines[i]);
       },
       [](Extent& into, const Extent& e) { into.add(e); });
   if (!extent) return extent.error();
@@ -127,7 +134,7 @@ Status LineIndex::measure(double least, const parallel::Context& context) {
 
 /// That of the longest line of each sector, of a sample: in a model of plates and bars most lines
 /// of a sector are exactly parallel, and along their own axes they are thin.
-void LineIndex::choose_frames(double least) {
+void LineIndex::choose_frames(std::span<const Flat> lines, double least) {
   for (const LengthClass& c : kLengths)
     for (std::uint32_t k = 0; k < c.sectors; ++k) {
       Sector& sector = sectors_[c.first + k];
@@ -140,8 +147,8 @@ void LineIndex::choose_frames(double least) {
     }
   constexpr std::size_t kSample = 65536;
   std::vector<double> longest(kSectors, 0);
-  for (std::size_t i = 0; i < lines_.size(); i += lines_.size() / kSample + 1) {
-    const Flat& line = lines_[i];
+  for (std::size_t i = 0; i < lines.size(); i += lines.size() / kSample + 1) {
+    const Flat& line = lines[i];
     const double length = line.length();
     if (!takes_part(line, least)) continue;
     const std::uint32_t number = sector_of(line);
@@ -174,19 +181,25 @@ std::uint64_t LineIndex::key_of(const Flat& line) const {
          spread(u);
 }
 
-Status LineIndex::sort(double least, const parallel::Context& context) {
+Result<std::vector<Keyed>> LineIndex::sorted(std::span<const Flat> lines, double least,
+                                             const parallel::Context& context) const {
   constexpr std::uint64_t kLeftOut = std::uint64_t{kSectors} << kPlaceBits;
-  std::vector<Keyed> keys(lines_.size());
+  std::vector<Keyed> keys(lines.size());
   Status status = parallel::for_each(
-      context, {.name = "keys of lines", .n = lines_.size(), .grain = kGrain}, [&](std::size_t i) {
-        const Flat& line = lines_[i];
+      context, {.name = "keys of lines", .n = lines.size(), .grain = kGrain}, [&](std::size_t i) {
+        const Flat& line = lines[i];
         keys[i] = {takes_part(line, least) ? key_of(line) : kLeftOut,
                    static_cast<std::uint32_t>(i)};
       });
-  if (!status) return status;
+  if (!status) return status.error();
   std::erase_if(keys, [](const Keyed& k) { return k.key == kLeftOut; });
   status = radix_order(keys, context);
-  if (!status) return status;
+  if (!status) return status.error();
+  return keys;
+}
+
+Status LineIndex::take(std::span<const Flat> lines, std::span<const Keyed> keys,
+                       const parallel::Context& context) {
   std::uint32_t at = 0;
   for (std::uint32_t number = 0; number < kSectors; ++number) {
     sectors_[number].first = at;
@@ -197,8 +210,12 @@ Status LineIndex::sort(double least, const parallel::Context& context) {
     sectors_[number].last = at;
   }
   order_.resize(keys.size());
+  flats_.resize(keys.size());
   return parallel::for_each(context, {.name = "order of lines", .n = keys.size(), .grain = kGrain},
-                            [&](std::size_t i) { order_[i] = keys[i].item; });
+                            [&](std::size_t i) {
+                              order_[i] = keys[i].item;
+                              flats_[i] = lines[keys[i].item];
+                            });
 }
 
 void LineIndex::lay_out_sectors() {
@@ -242,7 +259,7 @@ Status LineIndex::make_leaves(const parallel::Context& context) {
         const Sector& sector = sectors_[of.sector];
         BoxLanes& boxes = nodes_[sector.nodes + (number - sector.leaf)];
         for (std::uint32_t k = 0; k < kFan; ++k)
-          boxes.set(k, of.first + k < of.last ? box_of(lines_[order_[of.first + k]], sector.frame)
+          boxes.set(k, of.first + k < of.last ? box_of(flats_[of.first + k], sector.frame)
                                               : Box2::nothing());
       });
 }
@@ -266,7 +283,7 @@ Status LineIndex::make_nodes(const parallel::Context& context) {
 
 LineIndex::Target::Target(const LineIndex& index, const Leaf& of) : leaf(of) {
   for (std::uint32_t k = of.first; k < of.last; ++k) {
-    const double at = slant(index.lines_[index.order_[k]]);
+    const double at = slant(index.flats_[k]);
     from = std::min(from, at);
     to = std::max(to, at);
   }
@@ -303,8 +320,7 @@ LineIndex::Query::Query(const LineIndex& index, const Target& target, std::uint3
   for (std::uint32_t i = 0; i < kFan; ++i) {
     Box2 box = Box2::nothing();
     if (i < count)
-      box = turned ? index.box_of(index.lines_[index.order_[first + i]], sector->frame)
-                   : as_stored[i];
+      box = turned ? index.box_of(index.flats_[first + i], sector->frame) : as_stored[i];
     lines.set(i, box.widened(static_cast<float>(slack)));
   }
   all = lines.all();

@@ -12,6 +12,8 @@
 
 #include "drawing/box_lanes.hpp"
 #include "drawing/flat.hpp"
+#include "drawing/overlaps.hpp"
+#include "drawing/radix_order.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
@@ -29,10 +31,12 @@ namespace strake::drawing {
 /// 1966), the distance across weighed by how fine the sectors are.
 class LineIndex {
  public:
-  /// Lines of rank none, and those no longer than `least`, are left out, and so may pairs at a
-  /// greater angle. The same for any team.
-  [[nodiscard]] static Result<LineIndex> build(std::span<const Flat> lines, double least,
-                                               double greatest_sine,
+  /// Lines of rank none, those no longer than the rule's least, and those that are `gone`, by line,
+  /// are left out, and so may be pairs at a greater angle. A line that a twin covers, one with the
+  /// same ends, is left out too and marked in `gone`: the twin covers whatever the line does. The
+  /// same for any team.
+  [[nodiscard]] static Result<LineIndex> build(std::span<const Flat> lines, const OverlapRule& rule,
+                                               std::vector<std::uint8_t>& gone,
                                                const parallel::Context& context);
 
   static constexpr std::size_t kFan = BoxLanes::kCount;
@@ -60,13 +64,15 @@ class LineIndex {
   [[nodiscard]] std::size_t leaves() const { return leaves_; }
   [[nodiscard]] Leaf leaf(std::size_t number) const;
 
-  /// The line at a position.
+  /// The line at a position: its number and a copy, beside those of its neighbours.
   [[nodiscard]] std::uint32_t line(std::uint32_t position) const { return order_[position]; }
+  [[nodiscard]] const Flat& flat(std::uint32_t position) const { return flats_[position]; }
+  [[nodiscard]] std::size_t size() const { return order_.size(); }
   [[nodiscard]] const Sector& sector(std::uint32_t number) const { return sectors_[number]; }
 
-  /// Calls visit(line of the leaf, counted from its first; other line) for every pair that may lie
-  /// on each other, with the others of one class of lengths, the leaf's own or a lower one. Where
-  /// it returns false that line of the leaf is done with this class.
+  /// Calls visit(line of the leaf, counted from its first; other position) for every pair that may
+  /// lie on each other, with the others of one class of lengths, the leaf's own or a lower one.
+  /// Where it returns false that line of the leaf is done with this class.
   template <class Visit>
   void candidates(const Leaf& leaf, unsigned length_class, Visit&& visit) const {
     const Target target(*this, leaf);
@@ -112,10 +118,14 @@ class LineIndex {
   [[nodiscard]] Numbers sectors_near(const Target& target, unsigned length_class) const;
   [[nodiscard]] Box2 box_of(const Flat& line, const Frame& frame) const;
   [[nodiscard]] std::uint32_t sector_of(const Flat& line) const;
-  [[nodiscard]] Status measure(double least, const parallel::Context& context);
-  void choose_frames(double least);
+  [[nodiscard]] Status measure(std::span<const Flat> lines, double least,
+                               const parallel::Context& context);
+  void choose_frames(std::span<const Flat> lines, double least);
   [[nodiscard]] std::uint64_t key_of(const Flat& line) const;
-  [[nodiscard]] Status sort(double least, const parallel::Context& context);
+  [[nodiscard]] Result<std::vector<Keyed>> sorted(std::span<const Flat> lines, double least,
+                                                  const parallel::Context& context) const;
+  [[nodiscard]] Status take(std::span<const Flat> lines, std::span<const Keyed> keys,
+                            const parallel::Context& context);
   void lay_out_sectors();
   [[nodiscard]] Status make_leaves(const parallel::Context& context);
   [[nodiscard]] Status make_nodes(const parallel::Context& context);
@@ -123,7 +133,6 @@ class LineIndex {
   template <class Visit>
   void descend(const Query& query, unsigned& open, Visit&& visit) const;
 
-  std::span<const Flat> lines_;
   double reach_ = 0;      ///< up to which two lines lie on each other, at most
   double x_ = 0, y_ = 0;  ///< middle of all
   double greatest_sine_ = 1;
@@ -131,6 +140,7 @@ class LineIndex {
   double pad_ = 0;     ///< what rounding may take from a box, and the reach
   std::vector<Sector> sectors_;
   std::vector<std::uint32_t> order_;
+  std::vector<Flat> flats_;
   std::vector<BoxLanes> nodes_;  ///< widened for rounding only
   std::size_t leaves_ = 0;
 };
@@ -165,7 +175,7 @@ void LineIndex::descend(const Query& query, unsigned& open, Visit&& visit) const
         stack[top++] = {level - 1, child};
         continue;
       }
-      const std::uint32_t other = order_[query.sector->first + child];
+      const auto other = static_cast<std::uint32_t>(query.sector->first + child);
       for (unsigned lines = query.lines.meeting(node[k]) & open; lines != 0; lines &= lines - 1) {
         const auto line = static_cast<std::size_t>(std::countr_zero(lines));
         if (!visit(line, other)) open &= ~(1U << line);

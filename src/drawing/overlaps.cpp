@@ -44,9 +44,11 @@ void unite(std::vector<Interval>& intervals) {
 /// need not look for long ones, which are everywhere.
 class Finder {
  public:
-  Finder(std::span<const Flat> lines, const OverlapRule& rule, const LineIndex& index)
-      : lines_(lines), rule_(rule), index_(index), wholly_(lines.size()) {}
+  /// `wholly`, by line: marks what one other covers as a whole.
+  Finder(const OverlapRule& rule, const LineIndex& index, std::vector<std::uint8_t>& wholly)
+      : rule_(rule), index_(index), wholly_(wholly) {}
 
+  /// Of lines that are covered in part.
   [[nodiscard]] Result<std::vector<Cover>> run(const parallel::Context& context) {
     return parallel::collect_with<Cover>(
         context, {.name = "overlapping lines", .n = index_.leaves(), .grain = 64},
@@ -59,7 +61,7 @@ class Finder {
  private:
   /// What covers each line of a leaf.
   struct List {
-    std::uint32_t line = 0;
+    std::uint32_t position = 0;
     bool may_go = false;
     std::vector<Interval> covers;
     std::size_t many = 0;  ///< so many are worth being made fewer
@@ -67,22 +69,26 @@ class Finder {
   using Lists = std::array<List, LineIndex::kFan>;
   static constexpr std::size_t kMany = 64;
 
-  /// Lines that one other covers as a whole: nothing else matters for them. Who sees it when
-  /// changes the work, not the result.
-  [[nodiscard]] bool is_wholly(std::uint32_t line) {
-    return std::atomic_ref(wholly_[line]).load(std::memory_order_relaxed) != 0;
+  /// Nothing else matters for lines that one other covers. Who sees it when changes the work, not
+  /// the result.
+  [[nodiscard]] bool is_wholly(std::uint32_t position) {
+    return std::atomic_ref(wholly_[index_.line(position)]).load(std::memory_order_relaxed) != 0;
   }
-  /// Whether the interval is all of the line and the first of which that is known.
-  bool set_wholly(std::uint32_t line) {
-    return std::atomic_ref(wholly_[line]).exchange(1, std::memory_order_relaxed) == 0;
+  void set_wholly(std::uint32_t position) {
+    std::atomic_ref(wholly_[index_.line(position)]).store(1, std::memory_order_relaxed);
+  }
+
+  [[nodiscard]] bool stays_over(std::uint32_t position, std::uint32_t other) const {
+    return stays(index_.flat(position), index_.line(position), index_.flat(other),
+                 index_.line(other));
   }
 
   void visit(const LineIndex::Leaf& leaf, Lists& lists, std::vector<Cover>& out) {
     bool any = false;
     for (std::uint32_t k = leaf.first; k < leaf.last; ++k) {
       List& list = lists[k - leaf.first];
-      list.line = index_.line(k);
-      list.may_go = may_go(lines_[list.line], rule_) && !is_wholly(list.line);
+      list.position = k;
+      list.may_go = may_go(index_.flat(k), rule_) && !is_wholly(k);
       list.covers.clear();
       list.many = kMany;
       any = any || list.may_go;
@@ -92,11 +98,11 @@ class Finder {
       if (c == own && !any) continue;
       index_.candidates(leaf, c, [&](std::size_t i, std::uint32_t other) {
         List& list = lists[i];
-        if (other != list.line) {
-          if (stays(lines_, other, list.line))
-            cover(list, other, out);
+        if (other != list.position) {
+          if (stays_over(other, list.position))
+            cover(list, other);
           else if (c < own)
-            cover_shorter(other, list.line, out);
+            cover_shorter(other, list.position, out);
         }
         return c < own || list.may_go;
       });
@@ -105,16 +111,17 @@ class Finder {
       List& list = lists[k];
       if (!list.may_go) continue;
       unite(list.covers);
-      for (const Interval& interval : list.covers) out.push_back({list.line, interval});
+      for (const Interval& interval : list.covers)
+        out.push_back({index_.line(list.position), interval});
     }
   }
 
-  void cover(List& list, std::uint32_t other, std::vector<Cover>& out) {
+  void cover(List& list, std::uint32_t other) {
     if (!list.may_go) return;
-    const auto interval = covered(lines_[list.line], lines_[other], rule_);
+    const auto interval = covered(index_.flat(list.position), index_.flat(other), rule_);
     if (!interval) return;
-    if (interval->from <= 0 && interval->to >= 1) {
-      if (set_wholly(list.line)) out.push_back({list.line, *interval});
+    if (is_all(*interval)) {
+      set_wholly(list.position);
       list.may_go = false;
       return;
     }
@@ -124,18 +131,23 @@ class Finder {
     list.many = std::max(kMany, 2 * list.covers.size());
   }
 
-  void cover_shorter(std::uint32_t line, std::uint32_t other, std::vector<Cover>& out) {
-    if (!may_go(lines_[line], rule_) || is_wholly(line)) return;
-    const auto interval = covered(lines_[line], lines_[other], rule_);
+  void cover_shorter(std::uint32_t position, std::uint32_t other, std::vector<Cover>& out) {
+    if (!may_go(index_.flat(position), rule_) || is_wholly(position)) return;
+    const auto interval = covered(index_.flat(position), index_.flat(other), rule_);
     if (!interval) return;
-    if ((interval->from > 0 || interval->to < 1) || set_wholly(line))
-      out.push_back({line, *interval});
+    if (is_all(*interval))
+      set_wholly(position);
+    else
+      out.push_back({index_.line(position), *interval});
   }
 
-  std::span<const Flat> lines_;
+  [[nodiscard]] static bool is_all(const Interval& interval) {
+    return interval.from <= 0 && interval.to >= 1;
+  }
+
   const OverlapRule& rule_;
   const LineIndex& index_;
-  std::vector<std::uint8_t> wholly_;
+  std::vector<std::uint8_t>& wholly_;
 };
 
 /// Covers by line, as keys with their numbers.
@@ -153,6 +165,7 @@ Result<std::vector<Keyed>> by_line(std::span<const Cover> covers,
 std::optional<Interval> covered(const Flat& line, const Flat& other, const OverlapRule& rule) {
   const double distance = line.reach + other.reach;
   const double length = line.length(), other_length = other.length();
+  if (length > rule.least && line.ends() == other.ends()) return Interval{0, 1};
   const double dx = (line.bx - line.ax) / length, dy = (line.by - line.ay) / length;
   double d0 = (other.ay - line.ay) * dx - (other.ax - line.ax) * dy;
   double d1 = (other.by - line.ay) * dx - (other.bx - line.ax) * dy;
@@ -176,9 +189,11 @@ std::optional<Interval> covered(const Flat& line, const Flat& other, const Overl
   return Interval{from / length, to / length};
 }
 
+bool stays(const Flat& a, std::uint32_t i, const Flat& b, std::uint32_t j) {
+  return std::tuple(a.rank, -a.depth, i) < std::tuple(b.rank, -b.depth, j);
+}
 bool stays(std::span<const Flat> lines, std::uint32_t i, std::uint32_t j) {
-  return std::tuple(lines[i].rank, -lines[i].depth, i) <
-         std::tuple(lines[j].rank, -lines[j].depth, j);
+  return stays(lines[i], i, lines[j], j);
 }
 
 bool may_go(const Flat& line, const OverlapRule& rule) {
@@ -205,29 +220,33 @@ void append_stretches(Stretches& out, std::uint32_t line, std::span<Interval> co
   if (done < 1) out.push_back({line, false, done, 1});
 }
 
-Result<Stretches> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
-                               const parallel::Context& context) {
-  Result<std::vector<Cover>> covers = [&]() -> Result<std::vector<Cover>> {
-    const Result<LineIndex> index =
-        LineIndex::build(lines, rule.least, rule.greatest_sine, context);
+Result<Overlaps> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
+                              const parallel::Context& context) {
+  Overlaps found;
+  found.wholly.resize(lines.size());
+  const Result<std::vector<Cover>> covers = [&]() -> Result<std::vector<Cover>> {
+    const Result<LineIndex> index = LineIndex::build(lines, rule, found.wholly, context);
     if (!index) return index.error();
-    return Finder(lines, rule, *index).run(context);
+    return Finder(rule, *index, found.wholly).run(context);
   }();
   if (!covers) return covers.error();
   const Result<std::vector<Keyed>> order = by_line(*covers, context);
   if (!order) return order.error();
   const std::span<const Keyed> keys = *order;
-  return parallel::collect_with<Stretch>(
+  auto stretches = parallel::collect_with<Stretch>(
       context, {.name = "cut lines", .n = keys.size(), .grain = 4096},
       [] { return std::vector<Interval>{}; },
       [&](std::vector<Interval>& of_line, std::size_t i, Stretches& out) {
-        if (i > 0 && keys[i - 1].key == keys[i].key) return;
+        const auto line = static_cast<std::uint32_t>(keys[i].key);
+        if ((i > 0 && keys[i - 1].key == keys[i].key) || found.wholly[line] != 0) return;
         of_line.clear();
         for (std::size_t k = i; k < keys.size() && keys[k].key == keys[i].key; ++k)
           of_line.push_back((*covers)[keys[k].item].interval);
-        const auto line = static_cast<std::uint32_t>(keys[i].key);
         append_stretches(out, line, of_line, rule.shortest / lines[line].length());
       });
+  if (!stretches) return stretches.error();
+  found.stretches = std::move(*stretches);
+  return found;
 }
 
 }  // namespace strake::drawing

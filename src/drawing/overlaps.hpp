@@ -32,18 +32,23 @@ struct Stretch {
   double from = 0, to = 1;
 };
 
-/// Stretches of the lines that lie on others: by line, then from a to b, without a gap. Lines that
-/// are not named lie on nothing.
+/// By line, then from a to b, without a gap.
 using Stretches = std::vector<Stretch>;
+
+/// What of lines lies on others.
+struct Overlaps {
+  std::vector<std::uint8_t> wholly;  ///< by line, 1: all of it lies on one other
+  Stretches stretches;               ///< of other lines that lie on some
+};
 
 /// Cuts lines where they lie on lines that stay: of two, the one of lower rank, then the nearer,
 /// then the first.
 ///
-/// Cost: a line is compared with those of its direction in its place (LineIndex), longer and
-/// shorter ones. 24 bytes a line and as many for each stretch that is covered in part, 32 while
-/// they are sorted. The same for any team.
-[[nodiscard]] Result<Stretches> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
-                                             const parallel::Context& context);
+/// Cost: lines with the same ends are one. A line is compared with those of its direction in its
+/// place (LineIndex), longer and shorter ones. 32 bytes a line while all are sorted, then 84 for
+/// each that has no twin, and 24 for each stretch that is covered in part. The same for any team.
+[[nodiscard]] Result<Overlaps> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
+                                            const parallel::Context& context);
 
 /// Parameters of a line.
 struct Interval {
@@ -51,12 +56,14 @@ struct Interval {
 };
 
 /// The definition, line by line: the stretch of `line` that `other` lies on, when the two coincide
-/// there.
+/// there. All of it where they have the same ends, whatever rounding would make of that.
 [[nodiscard]] std::optional<Interval> covered(const Flat& line, const Flat& other,
                                               const OverlapRule& rule);
 
 /// Whether line i stays where both i and j are: a total order.
 [[nodiscard]] bool stays(std::span<const Flat> lines, std::uint32_t i, std::uint32_t j);
+
+[[nodiscard]] bool stays(const Flat& a, std::uint32_t i, const Flat& b, std::uint32_t j);
 
 /// Whether a line may be covered at all.
 [[nodiscard]] bool may_go(const Flat& line, const OverlapRule& rule);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::drawing {
 
@@ -66,11 +69,19 @@ struct PlaneBox {
   double left = 0, right = 0, bottom = 0, top = 0;
   [[nodiscard]] double width() const { return right - left; }
   [[nodiscard]] double height() const { return top - bottom; }
+  void include(const PlaneBox& other) {
+    left = std::min(left, other.left);
+    right = std::max(right, other.right);
+    bottom = std::min(bottom, other.bottom);
+    top = std::max(top, other.top);
+  }
 };
 
-/// The box of all that a finished run has within the limits, about a point of the model.
-[[nodiscard]] PlaneBox plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
-                                    const geometry::Vec3l& origin);
+/// The box of all that a finished run has within the limits, about a point of the model. Errors:
+/// cancelled.
+[[nodiscard]] Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
+                                            const geometry::Vec3l& origin,
+                                            const parallel::Context& context);
 
 /// "1:50", "2:1".
 [[nodiscard]] std::string scale_text(double scale);

@@ -108,7 +108,7 @@ class Composer {
   }
 
   Status place() {
-    auto places = place_views(what_, drawings_, room_);
+    auto places = place_views(what_, drawings_, room_, context_);
     if (!places) return places.error();
     places_ = std::move(*places);
     if (const Status status = check_reach(); !status) return status;

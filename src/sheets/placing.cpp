@@ -18,17 +18,27 @@ using drawing::rounded_paper;
 
 class Placer {
  public:
-  Placer(const Description& what, std::span<const hlr::Drawing> drawings, const Room& room)
-      : what_(what), drawings_(drawings), room_(room), places_(what.views.size()) {
+  Placer(const Description& what, const Room& room)
+      : what_(what), room_(room), places_(what.views.size()) {}
+
+  /// To be done first.
+  Status measure(std::span<const hlr::Drawing> drawings, const parallel::Context& context) {
     // One for all that say none, so that they are aligned.
     geometry::Vec3l common;
     const auto some = std::find_if(drawings.begin(), drawings.end(),
                                    [](const hlr::Drawing& d) { return !d.pieces.empty(); });
     if (some != drawings.end()) common = some->origin;
-    for (std::size_t v = 0; v < what.views.size(); ++v) {
-      places_[v].anchor = what.views[v].anchor.value_or(common);
-      wanted_.push_back(to_place(v));
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      places_[v].anchor = what_.views[v].anchor.value_or(common);
+      ToPlace place = to_place(v);
+      if (const auto axes = drawing::paper_axes(what_.views[v].view)) {
+        const auto extent = drawing::plane_extent(drawings[v], *axes, places_[v].anchor, context);
+        if (!extent) return extent.error();
+        place.extent = *extent;
+      }
+      wanted_.push_back(place);
     }
+    return {};
   }
 
   Result<std::vector<ViewPlace>> run() {
@@ -53,8 +63,6 @@ class Placer {
     const ViewWish& view = what_.views[v];
     ToPlace place;
     place.slot = view.slot;
-    if (const auto axes = drawing::paper_axes(view.view))
-      place.extent = drawing::plane_extent(drawings_[v], *axes, places_[v].anchor);
     const GridRim rim = grid_rim(what_.grid, view);
     place.left_mm = std::max(rim.left_mm, rim.other_mm);
     place.top_mm = std::max(rim.top_mm, rim.other_mm);
@@ -140,7 +148,6 @@ class Placer {
   }
 
   const Description& what_;
-  std::span<const hlr::Drawing> drawings_;
   const Room& room_;
   std::vector<ViewPlace> places_;
   std::vector<ToPlace> wanted_;
@@ -154,9 +161,11 @@ Lettering lettering_of(const Description& what) {
 }
 
 Result<std::vector<ViewPlace>> place_views(const Description& what,
-                                           std::span<const hlr::Drawing> drawings,
-                                           const Room& room) {
-  return Placer(what, drawings, room).run();
+                                           std::span<const hlr::Drawing> drawings, const Room& room,
+                                           const parallel::Context& context) {
+  Placer placer(what, room);
+  if (const Status status = placer.measure(drawings, context); !status) return status.error();
+  return placer.run();
 }
 
 double main_scale(const Description& what, std::span<const ViewPlace> places) {

@@ -9,6 +9,7 @@
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
+#include "strake/parallel/context.hpp"
 #include "strake/sheets/sheet.hpp"
 
 namespace strake::sheets {
@@ -31,10 +32,11 @@ struct ViewPlace {
 /// Gives each view its scale and place: those of the arrangement by arrange(), others where they
 /// say, and views without a scale the largest usual one that is common to them and at which they
 /// fit.
-/// Errors: input, where nothing fits at any scale.
+/// Errors: input, where nothing fits at any scale; cancelled.
 [[nodiscard]] Result<std::vector<ViewPlace>> place_views(const Description& what,
                                                          std::span<const hlr::Drawing> drawings,
-                                                         const Room& room);
+                                                         const Room& room,
+                                                         const parallel::Context& context);
 
 /// The scale for the title block: that of the arrangement, or of most views.
 [[nodiscard]] double main_scale(const Description& what, std::span<const ViewPlace> places);

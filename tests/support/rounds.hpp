@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 namespace strake::test {
 
 #ifdef STRAKE_LONG_RUN
@@ -21,16 +23,24 @@ inline constexpr bool kSanitized = false;
 inline constexpr bool kSanitized = false;
 #endif
 
-/// How often a test goes round: `few` times in the fast set, `many` in the nightly one. Sanitized
-/// programs are five to fifteen times as slow and look for other faults: a third of the few.
+/// How often a test goes round: `few` times in the fast set, `many` in the nightly one.
 template <class T>
 [[nodiscard]] constexpr T rounds(T few, T many) {
-  if (kLongRun) return many;
-  return kSanitized ? (few + 2) / 3 : few;
+  return kLongRun ? many : few;
 }
+
+// Sanitized programs are five to fifteen times as slow and look for other faults than tests do.
+
+/// How often a test goes round that is sure of itself after a third of it: so often, sanitized.
 template <class T>
-[[nodiscard]] constexpr T rounds(T few) {
-  return rounds(few, few);
+[[nodiscard]] constexpr T rounds(T usual) {
+  return kSanitized ? (usual + 2) / 3 : usual;
+}
+
+/// The numbers 1 to `usual`, from each of which a test draws all it needs: sanitized, 1 alone.
+template <class T>
+[[nodiscard]] auto seeds(T usual) {
+  return ::testing::Range(T{1}, kSanitized ? T{2} : usual + 1);
 }
 
 }  // namespace strake::test

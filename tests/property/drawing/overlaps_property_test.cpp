@@ -2,7 +2,10 @@
 // Lines that lie on each other, found by the index and by every pair, bit by bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "drawing/overlaps.hpp"
@@ -27,9 +30,17 @@ std::vector<Row> rows(const Stretches& stretches) {
 
 std::vector<Row> found(const std::vector<Flat>& lines, const OverlapRule& rule,
                        const parallel::Context& context = {}) {
-  const auto stretches = drawing::cut_overlaps(lines, rule, context);
-  EXPECT_TRUE(stretches);
-  return rows(*stretches);
+  const auto overlaps = drawing::cut_overlaps(lines, rule, context);
+  EXPECT_TRUE(overlaps);
+  std::vector<Row> all = rows(overlaps->stretches);
+  for (std::uint32_t i = 0; i < lines.size(); ++i)
+    if (overlaps->wholly[i] != 0) all.emplace_back(i, true, 0, 1);
+  std::sort(all.begin(), all.end(),
+            [](const Row& a, const Row& b) {  // of a line cut in parts by place
+              return std::pair(std::get<0>(a), std::get<2>(a)) <
+                     std::pair(std::get<0>(b), std::get<2>(b));
+            });
+  return all;
 }
 
 /// As for duplicates, as for ink, and with nothing that is too short to be looked at.
@@ -108,6 +119,23 @@ TEST(Overlaps, NeedLinesThatAreParallelForTheirLengths) {
   EXPECT_TRUE(found({first, second}, rule).empty());
   second.by = 0.015;  // both ends of a line of its length would be within the distance
   EXPECT_EQ(found({first, second}, rule).size(), 2U);
+}
+
+TEST(Overlaps, OfLinesWithTheSameEndsOneStays) {
+  // Twins lie on each other whatever rounding makes of them, whichever way they run; the one with
+  // the greater reach covers a neighbour that the others do not.
+  Flat twin{.ax = 0.1, .ay = 0.2, .bx = 7.3, .by = 3.7, .rank = drawing::Rank::hidden};
+  Flat back{.ax = 7.3, .ay = 3.7, .bx = 0.1, .by = 0.2, .depth = 1, .rank = drawing::Rank::hidden};
+  Flat wide = twin;
+  wide.depth = -1;
+  wide.reach = 0.5;
+  Flat beside{
+      .ax = 1.1, .ay = 0.9, .bx = 6.3, .by = 3.4, .depth = -2, .rank = drawing::Rank::hidden};
+  const std::vector<Flat> lines{twin, back, wide, beside, twin};
+  const std::vector<Row> all = found(lines, {});
+  EXPECT_EQ(all, rows(test::cut_by_all_pairs(lines, {})));
+  EXPECT_EQ(all,
+            (std::vector<Row>{{0, true, 0, 1}, {2, true, 0, 1}, {3, true, 0, 1}, {4, true, 0, 1}}));
 }
 
 TEST(Overlaps, OfNothingAreNone) {

@@ -137,7 +137,7 @@ TEST_P(ClosestProperty, PointAndBox) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, ClosestProperty, ::testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, ClosestProperty, strake::test::seeds(3));
 
 TEST(Closest, PlacesAreExactWhereDoublesAreNot) {
   // The foot of (1, 0, 0) on the line through (0, 0, 0) and (1, 2, 3) is a fourteenth of it.

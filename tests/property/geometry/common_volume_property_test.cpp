@@ -91,7 +91,7 @@ TEST_P(CommonVolumeProperty, PlaceShowsInNoBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, CommonVolumeProperty, ::testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Seeds, CommonVolumeProperty, strake::test::seeds<std::uint64_t>(4));
 
 TEST(CommonVolume, WallsNestsAndCopies) {
   const Subject wall(box_mesh({0, 0, 0}, {200'000, 5'000'000, 3'000'000}));

@@ -164,7 +164,7 @@ TEST_P(InsideProperty, PointsOfPolyhedraWithAndWithoutATree) {
   for (const int n : seen) EXPECT_GT(n, 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, InsideProperty, ::testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, InsideProperty, strake::test::seeds(3));
 
 }  // namespace
 }  // namespace strake::geometry

@@ -250,7 +250,7 @@ TEST_P(IntersectProperty, MotionsOfTheGridKeepTheAnswerAtTheEdgeOfTheRange) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, IntersectProperty, ::testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, IntersectProperty, strake::test::seeds(3));
 
 }  // namespace
 }  // namespace strake::geometry

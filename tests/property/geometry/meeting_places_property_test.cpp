@@ -394,7 +394,7 @@ TEST_P(MeetingPlacesProperty, WithinReachAsTheCellsOfALatticeHaveIt) {
   EXPECT_GT(more, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, MeetingPlacesProperty, ::testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, MeetingPlacesProperty, strake::test::seeds<std::uint64_t>(3));
 
 }  // namespace
 }  // namespace strake::geometry

@@ -241,7 +241,7 @@ TEST_P(SeparatingAxisProperty, ConvexShapesOfEveryDimension) {
   for (const int n : seen) EXPECT_GT(n, kRounds / 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, SeparatingAxisProperty, ::testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, SeparatingAxisProperty, strake::test::seeds(3));
 
 }  // namespace
 }  // namespace strake::geometry

@@ -152,7 +152,7 @@ TEST_P(SheetCrossing, IsThatOfTheWalks) {
   EXPECT_GT(flush, kRounds / 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, SheetCrossing, ::testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Seeds, SheetCrossing, strake::test::seeds<std::uint64_t>(2));
 
 }  // namespace
 }  // namespace strake::geometry

@@ -411,7 +411,7 @@ TEST_P(ThinPair, PolylinesOnTheLatticeAreExact) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, ThinPair, ::testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Seeds, ThinPair, strake::test::seeds(2));
 
 TEST(ThinBodies, WhatHasNoPlaceOrNoSizeIsRefused) {
   EXPECT_FALSE(thin_point({NAN, 0, 0}));
