@@ -31,16 +31,16 @@ struct Golden {
 const Golden kSafe[] = {
     {"iso",
      {16401, 14348, 12572, 7, 0, 9772},
-     "146130d0758f9653aa2ffa726174efbf",
-     "f5fc56d37adf06abec329bd0cabc5486"},
+     "c3a74b2a6bce8944173ff1b70ed7b3b2",
+     "3692ef09f21ba3126879c32fa091ef33"},
     {"top",
      {9874, 3519, 5782, 2320, 0, 28487},
-     "b2be256789a3e0d87c6e6f7c7ce204e2",
-     "9ac72f945a4a0f85865545fbb3fac08e"},
+     "ec380df9e99d081d17ce219dc2c8c950",
+     "567170c8c59c00cbe7803b1da6b04ea5"},
     {"front",
      {9662, 2482, 4500, 2981, 0, 30772},
-     "c7a386872f682a90fe593a339393cf84",
-     "f0c8234815dd7ba485cf15ecb70d92b8"},
+     "5873e8cc9c7869aea82de63b315c807f",
+     "eac8b1e61170e75c12d1c35ef206a416"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {
