@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
+#include <new>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,28 +18,42 @@ namespace strake::parallel {
 
 namespace detail {
 
-/// Where the results of one block lie among those of the worker that ran it.
-struct Piece {
-  unsigned worker = 0;
-  std::size_t first = 0, count = 0;
+/// Results of some blocks, as one worker made them.
+template <class T>
+struct Chunk {
+  struct Part {
+    std::size_t block = 0, first = 0;  ///< index into items
+  };
+  std::vector<T> items;
+  std::vector<Part> parts;
 };
 
+/// A worker hands over what it has when it is so large, so that nothing large is moved to grow.
+inline constexpr std::size_t kChunkBytes = std::size_t{4} << 20U;
+
+/// Puts chunks together. `first`: by block, the index of its first result, and one more.
 template <class T>
-Result<std::vector<T>> gather(std::span<const Piece> pieces, std::span<std::vector<T>> of_worker) {
-  std::size_t total = 0;
-  for (const Piece& piece : pieces) total += piece.count;
-  try {
-    std::vector<T> all;
-    all.reserve(total);
-    for (const Piece& piece : pieces) {
-      const auto from = of_worker[piece.worker].begin() + static_cast<std::ptrdiff_t>(piece.first);
-      all.insert(all.end(), std::make_move_iterator(from),
-                 std::make_move_iterator(from + static_cast<std::ptrdiff_t>(piece.count)));
+Result<std::vector<T>> put_together(const Context& context, std::span<Chunk<T>> chunks,
+                                    std::span<const std::size_t> first) {
+  Result<std::vector<T>> all = slots<T>(first.back(), context);
+  if (!all) return all;
+  const auto move_chunk = [&](std::size_t c) {
+    Chunk<T> chunk = std::exchange(chunks[c], {});
+    for (const typename Chunk<T>::Part& part : chunk.parts) {
+      const std::size_t count = first[part.block + 1] - first[part.block];
+      const auto from = chunk.items.begin() + static_cast<std::ptrdiff_t>(part.first);
+      std::move(from, from + static_cast<std::ptrdiff_t>(count),
+                all->begin() + static_cast<std::ptrdiff_t>(first[part.block]));
     }
+  };
+  if (first.back() * sizeof(T) < kChunkBytes) {
+    for (std::size_t c = 0; c < chunks.size(); ++c) move_chunk(c);
     return all;
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
   }
+  const Status status =
+      for_each(context, {.name = "results put together", .n = chunks.size()}, move_chunk);
+  if (!status) return status.error();
+  return all;
 }
 
 }  // namespace detail
@@ -48,42 +65,64 @@ Result<std::vector<T>> gather(std::span<const Piece> pieces, std::span<std::vect
 ///         [&](std::size_t i, std::vector<Pair>& out) { ... out.push_back(...) ... });
 ///
 /// Workers append to vectors of their own without a lock; at the end the blocks are put together
-/// in ascending order, so the result is the same for any team. Errors as in for_each.
+/// in ascending order, so the result is the same for any team. T must be default-constructible.
+/// Errors as in for_each.
 template <class T, class Make, class Body>
 [[nodiscard]] Result<std::vector<T>> collect_with(const Context& context, const Region& region,
                                                   Make&& make, Body&& body) {
   using Local = std::invoke_result_t<Make&>;
   const unsigned workers = context.team != nullptr ? context.team->size() : 1;
-  Result<std::vector<detail::Piece>> pieces = detail::slots<detail::Piece>(region.blocks());
-  if (!pieces) return pieces.error();
-  std::vector<std::vector<T>> of_worker(workers);
+  // The number of results of each block, after its own place.
+  Result<std::vector<std::size_t>> first = detail::slots<std::size_t>(region.blocks() + 1);
+  if (!first) return first.error();
+  std::vector<std::vector<detail::Chunk<T>>> of_worker(workers);
   const std::size_t size = region.block_size();
   detail::RegionRun run(context, region);
   const Status status = run.run([&](detail::Cursor& cursor) {
     std::optional<Local> local;
     // On the worker's own stack while it grows: neighbours in of_worker share cache lines.
-    std::vector<T> out;
+    std::vector<detail::Chunk<T>> done;
+    detail::Chunk<T> chunk;
+    std::vector<T>& out = chunk.items;
     detail::Range range;
     while (run.next(cursor, range)) {
       std::size_t i = range.first;
       try {
         if (!local) local.emplace(make());
         for (bool good = true; good && i < range.last && i < run.limit();) {
-          const std::size_t first = out.size();
+          const std::size_t before = out.size();
           const std::size_t block = i / size;
           const std::size_t last = std::min(range.last, (block + 1) * size);
           for (; good && i < last && i < run.limit(); ++i)
             good = detail::run_item(run, i, body, *local, i, out);
-          (*pieces)[block] = {cursor.seat.index, first, out.size() - first};
+          (*first)[block + 1] = out.size() - before;
+          if (out.size() > before) chunk.parts.push_back({block, before});
+          if (out.size() * sizeof(T) >= detail::kChunkBytes) {
+            done.push_back(std::exchange(chunk, {}));
+            out.reserve(detail::kChunkBytes / sizeof(T) * 5 / 4);
+          }
         }
       } catch (...) {
         run.fail_with_current_exception(i);
       }
     }
-    of_worker[cursor.seat.index] = std::move(out);
+    try {
+      if (!out.empty()) done.push_back(std::move(chunk));
+    } catch (...) {
+      run.fail_with_current_exception(region.n);
+    }
+    of_worker[cursor.seat.index] = std::move(done);
   });
   if (!status) return status.error();
-  return detail::gather<T>(*pieces, of_worker);
+  std::inclusive_scan(first->begin(), first->end(), first->begin());
+  try {
+    std::vector<detail::Chunk<T>> chunks;
+    for (std::vector<detail::Chunk<T>>& of_one : of_worker)
+      std::move(of_one.begin(), of_one.end(), std::back_inserter(chunks));
+    return detail::put_together<T>(context, chunks, *first);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 /// The same for a body(i, out) that needs no worker context.

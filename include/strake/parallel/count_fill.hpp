@@ -37,7 +37,7 @@ template <class T, class Count, class Fill>
   const Status counted = for_each(context, region, [&](std::size_t i) { at[i + 1] = count(i); });
   if (!counted) return counted.error();
   for (std::size_t i = 0; i < region.n; ++i) at[i + 1] += at[i];
-  Result<std::vector<T>> values = detail::slots<T>(at[region.n]);
+  Result<std::vector<T>> values = detail::slots<T>(at[region.n], context);
   if (!values) return values.error();
   const std::span<T> all(*values);
   const Status filled = for_each(context, region, [&](std::size_t i) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/large_pages.hpp"
 
 namespace strake::parallel {
 
@@ -25,9 +26,14 @@ using unwrapped_t = typename Unwrapped<std::remove_cvref_t<T>>::type;
 
 /// A vector of n values, or the error that says that the memory does not suffice.
 template <class T>
-Result<std::vector<T>> slots(std::size_t n) {
+Result<std::vector<T>> slots(std::size_t n, const Context& context = {}) {
   try {
-    return std::vector<T>(n);
+    std::vector<T> values;
+    values.reserve(n);
+    const Status status = provide_pages(context, values.data(), n * sizeof(T));
+    if (!status) return status.error();
+    values.resize(n);
+    return values;
   } catch (const std::exception&) {
     return out_of_memory();
   }
@@ -46,7 +52,7 @@ template <class Make, class Body>
   using Returned = std::invoke_result_t<Body&, Local&, std::size_t>;
   using T = detail::unwrapped_t<Returned>;
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: return uint8_t");
-  Result<std::vector<T>> results = detail::slots<T>(region.n);
+  Result<std::vector<T>> results = detail::slots<T>(region.n, context);
   if (!results) return results;
   std::vector<T>& slot = *results;
   const Status status =

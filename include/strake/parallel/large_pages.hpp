@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::parallel::detail {
+
+/// Has the system provide memory that nobody has touched yet: in large pages where it has them, and
+/// by all workers at once, since clearing gigabytes takes one of them seconds. Does nothing where
+/// the memory is small. Errors: cancelled.
+[[nodiscard]] Status provide_pages(const Context& context, void* memory, std::size_t bytes);
+
+}  // namespace strake::parallel::detail

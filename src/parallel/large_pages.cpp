@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/parallel/large_pages.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "strake/parallel/for_each.hpp"
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace strake::parallel::detail {
+
+namespace {
+
+constexpr std::size_t kSmallPage = 4096, kLargePage = std::size_t{2} << 20U;
+constexpr std::size_t kWorthIt = 32 * kLargePage;
+
+void prefer_large(char* memory, std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  const std::size_t before =
+      (kLargePage - reinterpret_cast<std::uintptr_t>(memory) % kLargePage) % kLargePage;
+  // A wish: what the system answers changes nothing.
+  (void)madvise(memory + before, (bytes - before) / kLargePage * kLargePage, MADV_HUGEPAGE);
+#else
+  (void)memory;
+  (void)bytes;
+#endif
+}
+
+}  // namespace
+
+Status provide_pages(const Context& context, void* memory, std::size_t bytes) {
+  if (bytes < kWorthIt) return {};
+  char* const first = static_cast<char*>(memory);
+  prefer_large(first, bytes);
+  if (context.team == nullptr) return {};
+  return for_each(context, {.name = "pages of memory", .n = (bytes + kLargePage - 1) / kLargePage},
+                  [&](std::size_t i) {
+                    const std::size_t end = std::min(bytes, (i + 1) * kLargePage);
+                    for (std::size_t at = i * kLargePage; at < end; at += kSmallPage)
+                      *static_cast<volatile char*>(first + at) = 0;
+                  });
+}
+
+}  // namespace strake::parallel::detail
