@@ -50,16 +50,26 @@ State StretchMaker::state() const {
 
 void StretchMaker::run(std::span<const Hit> hits, const Param& lo, const Param& hi,
                        std::vector<Stretch>& out) {
-  events_.clear();
-  for (unsigned side = 0; side < 2; ++side) self_[side] = all_[side] = 0;
+  const std::size_t first = out.size();
+  bool hidden = false;  // all of it, by others at least
   for (const Hit& hit : hits) {
+    if (hit.sides != kBothSides || less(lo, hit.lo) || less(hit.hi, hi)) continue;
+    if (hit.self) return append(out, first, lo, hi, State::hidden_by_self);
+    hidden = true;
+  }
+  for (unsigned side = 0; side < 2; ++side) {
+    self_[side] = 0;
+    all_[side] = hidden ? 1 : 0;
+  }
+  events_.clear();
+  for (const Hit& hit : hits) {
+    if (hidden && !hit.self) continue;  // what else hides it makes no difference
     events_.push_back({&hit.lo, hit.sides, hit.self, true});
     events_.push_back({&hit.hi, hit.sides, hit.self, false});
   }
   // Ends of one parameter may come in any order: between them lies nothing.
   std::sort(events_.begin(), events_.end(),
             [](const Event& x, const Event& y) { return less(*x.at, *y.at); });
-  const std::size_t first = out.size();
   const Param* from = &lo;
   for (const Event& event : events_) {
     if (!less(*event.at, hi)) break;
