@@ -101,7 +101,7 @@ a drawing at another scale. A line of another kind, state or object at the same 
 that look from different sides are refused, and so is a file that does not have as many lines as it counts.
 
 Examples:
-  strake draw diff monday.json tuesday.json
+  strake draw diff monday.view tuesday.view
   strake draw diff monday.json tuesday.json -o changes.svg -o changes.json --fail-on visible)");
   return {command, [options](Session& session) { return run_diff(session, *options); }};
 }

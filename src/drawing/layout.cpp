@@ -44,6 +44,11 @@ PaperCurves curves_on_paper(const hlr::Curves& curves, const PaperAxes& axes,
   return result;
 }
 
+/// What is clipped may lie anywhere, behind the eye even: it is kept within what files can say.
+double paper_coordinate(double mm) {
+  return rounded_paper(std::clamp(mm, -kFarthestPaperMm, kFarthestPaperMm));
+}
+
 /// The middle of a box in the middle of the sheet.
 Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& origin) {
   return {sheet,
@@ -141,13 +146,17 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   } else {
     const Result<PlaneBox> box = plane_extent(drawing, *axes, drawing.origin, context);
     if (!box) return box.error();
-    placement = in_the_middle(*box, choose_sheet(*box, options), drawing.origin);
+    const Sheet sheet = choose_sheet(*box, options);
+    if (!(std::max(sheet.width_mm, sheet.height_mm) <= kFarthestPaperMm))
+      return Error{ErrorCode::usage, "the sheet would be more than 1,000 km wide", "",
+                   "give a smaller --scale, or let it be chosen"};
+    placement = in_the_middle(*box, sheet, drawing.origin);
   }
   const ViewPlane plane(*axes, placement.anchor);
   const auto on_paper = [&](const Vec3l& grid) {
     const PlanePoint p = plane(grid);
-    return PaperPoint{rounded_paper(placement.at.x + p.x / placement.sheet.scale),
-                      rounded_paper(placement.at.y - p.y / placement.sheet.scale)};
+    return PaperPoint{paper_coordinate(placement.at.x + p.x / placement.sheet.scale),
+                      paper_coordinate(placement.at.y - p.y / placement.sheet.scale)};
   };
   NeutralDrawing out;
   out.sheet = placement.sheet;

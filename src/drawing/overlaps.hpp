@@ -13,7 +13,7 @@
 namespace strake::drawing {
 
 struct OverlapRule {
-  /// Common stretches no longer than this are not looked at, unless a whole line lies in one.
+  /// Common stretches no longer than this are not looked at.
   double least = 0;
   /// Of the angle between two lines that lie on each other; no more in any case than twice their
   /// distance over the shorter one's length, within which a line that lies on another as a whole
@@ -45,8 +45,9 @@ struct Overlaps {
 /// then the first.
 ///
 /// Cost: lines with the same ends are one. A line is compared with those of its direction in its
-/// place (LineIndex), longer and shorter ones. 32 bytes a line while all are sorted, then 84 for
-/// each that has no twin, and 24 for each stretch that is covered in part. The same for any team.
+/// place (LineIndex), longer and shorter ones. 32 bytes a line while all are sorted, then 16, and
+/// 84 for each that has no twin, and 24 for each stretch that is covered in part. The same for any
+/// team.
 [[nodiscard]] Result<Overlaps> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
                                             const parallel::Context& context);
 

@@ -2,10 +2,8 @@
 #include "drawing/twins.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <tuple>
-#include <utility>
 
 #include "strake/parallel/for_each.hpp"
 

@@ -17,10 +17,12 @@ void add_vector(Hasher& hasher, const geometry::Vec3l& v) { hasher.add(v.x).add(
 void add_view(Hasher& hasher, const hlr::View& view) {
   add_vector(hasher, view.direction);
   add_vector(hasher, view.up);
+  hasher.add(static_cast<std::uint64_t>(view.limits ? 1 : 0));
   if (view.limits) {
     add_vector(hasher, view.limits->lo);
     add_vector(hasher, view.limits->hi);
   }
+  hasher.add(static_cast<std::uint64_t>(view.sections.size()));
   for (const hlr::Section& section : view.sections) {
     add_vector(hasher, section.normal);
     add_vector(hasher, section.point);

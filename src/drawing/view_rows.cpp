@@ -33,7 +33,7 @@ Vec3l micrometres(const geometry::Vec3d& mm) {
 }
 
 /// Where the lines are.
-struct Extent {
+struct Reach {
   static constexpr std::int64_t kBig = std::int64_t{1} << 62U;
   geometry::Box3l model{{kBig, kBig, kBig}, {-kBig, -kBig, -kBig}};
   std::int64_t farthest_on_paper = 0;
@@ -44,7 +44,7 @@ struct Extent {
     for (const double mm : {line.a_paper.x, line.a_paper.y, line.b_paper.x, line.b_paper.y})
       farthest_on_paper = std::max(farthest_on_paper, std::abs(micrometres(mm)));
   }
-  void add(const Extent& other) {
+  void add(const Reach& other) {
     model.include(other.model);
     farthest_on_paper = std::max(farthest_on_paper, other.farthest_on_paper);
   }
@@ -64,11 +64,11 @@ struct Extent {
   }
 };
 
-Result<Extent> extent_of(const std::vector<Line>& lines, const parallel::Context& context) {
+Result<Reach> reach_of(const std::vector<Line>& lines, const parallel::Context& context) {
   return parallel::reduce(
-      context, {.name = "extent of lines", .n = lines.size(), .grain = 65536}, Extent{},
-      [&](Extent& part, std::size_t i) { part.add(lines[i]); },
-      [](Extent& into, const Extent& part) { into.add(part); });
+      context, {.name = "reach of lines", .n = lines.size(), .grain = 65536}, Reach{},
+      [&](Reach& part, std::size_t i) { part.add(lines[i]); },
+      [](Reach& into, const Reach& part) { into.add(part); });
 }
 
 template <class Int>
@@ -174,11 +174,11 @@ template std::string row_fields<std::int64_t>();
 
 Status write_view_rows(const NeutralDrawing& drawing, const model::Model& model, Sink sink,
                        const parallel::Context& context) {
-  const Result<Extent> extent = extent_of(drawing.lines, context);
-  if (!extent) return extent.error();
-  const Vec3l origin = extent->origin();
-  return extent->fits_32_bits() ? write_all<std::int32_t>(drawing, model, origin, sink, context)
-                                : write_all<std::int64_t>(drawing, model, origin, sink, context);
+  const Result<Reach> reach = reach_of(drawing.lines, context);
+  if (!reach) return reach.error();
+  const Vec3l origin = reach->origin();
+  return reach->fits_32_bits() ? write_all<std::int32_t>(drawing, model, origin, sink, context)
+                               : write_all<std::int64_t>(drawing, model, origin, sink, context);
 }
 
 }  // namespace strake::drawing

@@ -8,8 +8,6 @@
 #include <string_view>
 #include <type_traits>
 
-#include "strake/geometry/vec.hpp"
-
 // The binary neutral drawing (docs/drawing.md): kMagic; the number of bytes of a text; the text, a
 // document of schemas/view.schema.json that has "rows" in the place of "pieces"; the rows. Numbers
 // are little-endian.

@@ -27,17 +27,18 @@ constexpr std::string_view kOnlyPoints = "only-points";
 /// Of an object that is on the grid, by its lines; advances `next` beyond them.
 Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
   const std::span<const Piece> pieces = drawing.pieces;
-  bool visible = false, clipped = false;
+  bool visible = false, clipped = false, point = false;
   bool hidden = !drawing.left_out.empty() && drawing.left_out[object] > 0;
   for (; next < pieces.size() && object_of(pieces[next]) == object; ++next) {
     const State state = pieces[next].state;
     visible = visible || state == State::visible;
     hidden = hidden || state == State::hidden_by_self || state == State::hidden_by_other;
     clipped = clipped || state == State::clipped;
+    point = point || state == State::projecting;
   }
   if (visible) return Fate::drawn;
   if (hidden) return Fate::hidden;
-  return clipped ? Fate::clipped : Fate::degenerate;
+  return clipped && !point ? Fate::clipped : Fate::degenerate;
 }
 
 std::span<const model::Lacking> lacking_of(const model::Scene& scene, std::uint32_t object) {

@@ -17,14 +17,17 @@ namespace {
 constexpr std::size_t kSmallPage = 4096, kLargePage = std::size_t{2} << 20U;
 constexpr std::size_t kWorthIt = 32 * kLargePage;
 
-void prefer_large(char* memory, std::size_t bytes) {
+/// Up to the first large page.
+std::size_t bytes_before(const char* memory) {
+  return (kLargePage - reinterpret_cast<std::uintptr_t>(memory) % kLargePage) % kLargePage;
+}
+
+void prefer_large(char* first, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  const std::size_t before =
-      (kLargePage - reinterpret_cast<std::uintptr_t>(memory) % kLargePage) % kLargePage;
   // A wish: what the system answers changes nothing.
-  (void)madvise(memory + before, (bytes - before) / kLargePage * kLargePage, MADV_HUGEPAGE);
+  (void)madvise(first, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #else
-  (void)memory;
+  (void)first;
   (void)bytes;
 #endif
 }
@@ -33,12 +36,15 @@ void prefer_large(char* memory, std::size_t bytes) {
 
 Status provide_pages(const Context& context, void* memory, std::size_t bytes) {
   if (bytes < kWorthIt) return {};
-  char* const first = static_cast<char*>(memory);
-  prefer_large(first, bytes);
+  // No item ends within a large page: two workers would clear it, one in vain.
+  const std::size_t before = bytes_before(static_cast<char*>(memory));
+  char* const first = static_cast<char*>(memory) + before;
+  const std::size_t size = bytes - before;
+  prefer_large(first, size);
   if (context.team == nullptr) return {};
-  return for_each(context, {.name = "pages of memory", .n = (bytes + kLargePage - 1) / kLargePage},
+  return for_each(context, {.name = "pages of memory", .n = (size + kLargePage - 1) / kLargePage},
                   [&](std::size_t i) {
-                    const std::size_t end = std::min(bytes, (i + 1) * kLargePage);
+                    const std::size_t end = std::min(size, (i + 1) * kLargePage);
                     for (std::size_t at = i * kLargePage; at < end; at += kSmallPage)
                       *static_cast<volatile char*>(first + at) = 0;
                   });

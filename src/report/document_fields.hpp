@@ -11,6 +11,7 @@
 
 #include "report/document_fault.hpp"
 #include "report/json_reader.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::report {
 
@@ -25,8 +26,9 @@ std::optional<Enum> named(std::string_view text, Name&& name) {
 /// Takes values that must be of some kind; `where` and `key` are what a DocumentFault names.
 class DocumentFields {
  public:
-  /// Nothing can be placed farther out (geometry::snap), in the model or on a sheet.
-  static constexpr double kFarthestMm = 2e12;
+  /// No number of a drawing is larger. Nothing can be placed farther out than geometry::kMaxGridMm;
+  /// where placed bodies meet sections and limits, twice that is plenty.
+  static constexpr double kFarthestMm = 2 * geometry::kMaxGridMm;
 
   explicit DocumentFields(JsonReader& json) : json_(json) {}
 
@@ -44,6 +46,13 @@ class DocumentFields {
     const double value = json_.kind() == JsonReader::Kind::number ? json_.number() : HUGE_VAL;
     if (!(std::fabs(value) <= kFarthestMm)) throw is_not(where, key, "number that makes sense");
     return value;
+  }
+
+  /// A whole number from 0 on.
+  [[nodiscard]] std::uint64_t count(const std::string& where, std::string_view key) {
+    const double value = number(where, key);
+    if (!(value >= 0) || value != std::floor(value)) throw is_not(where, key, "whole number");
+    return static_cast<std::uint64_t>(value);
   }
 
   /// So many numbers up to `farthest`; where() is asked only where something is wrong.

@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <optional>
 #include <set>
-#include <sstream>
+#include <streambuf>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "drawing/view_rows.hpp"
@@ -27,16 +25,20 @@ namespace {
 
 using Kind = JsonReader::Kind;
 
-constexpr DocumentKind kView{"strake draw -o FILE.json or FILE.view", "draw it again"};
+constexpr DocumentKind kView{"strake draw -o", "draw it again"};
 constexpr std::string_view kVersion = "1";
 /// No part of the schema is nested more deeply.
 constexpr int kMaxDepth = 8;
+
 /// Takes the text of a document; pieces as they come, the rest is small.
 class Reader {
  public:
   /// In a binary document the lines stand behind the text, as rows.
   Reader(std::istream& text, bool binary, ViewDocument& document)
-      : json_(text, kMaxDepth), lines_key_(binary ? "rows" : "pieces"), document_(document) {}
+      : json_(text, kMaxDepth),
+        binary_(binary),
+        lines_key_(binary ? "rows" : "pieces"),
+        document_(document) {}
 
   void read_text() {
     if (json_.kind() == Kind::object)
@@ -52,10 +54,7 @@ class Reader {
 
   /// Those that the text announces.
   void read_rows(std::istream& in) {
-    const double count = said("pieces");
-    if (!(count >= 0) || count != std::floor(count))
-      throw is_not("counts", "pieces", "number of lines");
-    document_.pieces = report::read_rows(in, *rows_, static_cast<std::uint64_t>(count));
+    document_.pieces = report::read_rows(in, *rows_, said("pieces"));
   }
 
   void check() const {
@@ -79,12 +78,13 @@ class Reader {
       document_.hash = fields_.text("the document", "hash");
     else if (key == "objects")
       objects();
-    else if (key != lines_key_)
-      json_.skip();
-    else if (key == "rows")
-      rows_ = take_row_form(json_);
+    else if (key == lines_key_)
+      lines();
+    else if (key == "pieces" || key == "rows")
+      throw DocumentFault{"the document", "has \"" + std::string(key) +
+                                              "\" beside or instead of its " + lines_key_};
     else
-      pieces();
+      json_.skip();
   }
 
   /// At once: drawings of other versions look otherwise.
@@ -125,7 +125,8 @@ class Reader {
     fields_.must_be(Kind::object, "the document", "counts", "object");
     json_.members([&](std::string_view key) {
       const std::string name(key);
-      counted_[name] = fields_.number("counts", name);
+      if (!counted_.emplace(name, fields_.count("counts", name)).second)
+        throw contradicts("counts", "has \"" + name + "\" twice");
     });
   }
 
@@ -157,7 +158,11 @@ class Reader {
     });
   }
 
-  void pieces() {
+  void lines() {
+    if (binary_) {
+      rows_ = take_row_form(json_);
+      return;
+    }
     fields_.must_be(Kind::array, "the document", "pieces", "list");
     ViewPieceReader reader(json_, document_.pieces);
     json_.items([&] { reader.take(); });
@@ -172,71 +177,84 @@ class Reader {
     for (std::size_t p = 0; p < document_.pieces.size(); ++p) {
       const ViewPiece& piece = document_.pieces[p];
       if (std::max(piece.object, piece.other) >= document_.objects.size())
-        throw contradicts("pieces[" + std::to_string(p) + "]",
+        throw contradicts((binary_ ? "row " : "piece ") + std::to_string(p),
                           "is of object " + std::to_string(std::max(piece.object, piece.other)) +
                               ", but there are " + std::to_string(document_.objects.size()));
     }
   }
 
   void check_counts() const {
-    std::map<std::string, double> there;
-    std::array<double, drawing::kLineStates> of_state{};
+    std::map<std::string, std::uint64_t> there;
+    std::array<std::uint64_t, drawing::kLineStates> of_state{};
     for (const ViewPiece& piece : document_.pieces)
       ++of_state.at(static_cast<std::size_t>(piece.state));
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)
       there[std::string(drawing::state_name(static_cast<drawing::LineState>(s)))] = of_state.at(s);
-    there["pieces"] = static_cast<double>(document_.pieces.size());
+    there["pieces"] = document_.pieces.size();
     for (const auto& [key, count] : there)
       if (said(key) != count)
-        throw contradicts("the document", "counts " + whole(said(key)) + " of \"" + key +
-                                              "\", but lists " + whole(count));
+        throw contradicts("the document", "counts " + std::to_string(said(key)) + " of \"" + key +
+                                              "\", but lists " + std::to_string(count));
   }
 
-  [[nodiscard]] double said(const std::string& key) const {
+  [[nodiscard]] std::uint64_t said(const std::string& key) const {
     const auto at = counted_.find(key);
     if (at == counted_.end()) throw lacks("counts", key);
     return at->second;
   }
 
-  static std::string whole(double value) { return std::to_string(static_cast<long long>(value)); }
-
   JsonReader json_;
   DocumentFields fields_{json_};
-  std::string_view lines_key_;
+  bool binary_;
+  std::string lines_key_;
   ViewDocument& document_;
   std::set<std::string, std::less<>> met_;
-  std::map<std::string, double> counted_;
+  std::map<std::string, std::uint64_t> counted_;
   std::optional<RowForm> rows_;
 };
 
-/// What a binary document has between its magic, which is taken already, and its rows.
-std::string take_text(std::istream& in) {
-  std::uint64_t size = 0, got = 0;
-  in.read(reinterpret_cast<char*>(&size), sizeof size);
-  std::string text;
-  // Piece by piece: a file that claims more than it has must not claim memory.
-  for (constexpr std::uint64_t kPiece = 1U << 20U; in && got < size; got = text.size()) {
-    text.resize(got + std::min(kPiece, size - got));
-    in.read(text.data() + got, static_cast<std::streamsize>(text.size() - got));
-  }
-  if (!in) throw contradicts("the document", "ends before its rows begin");
-  return text;
-}
+/// The first bytes of another stream, as a stream of their own: the text of a binary document.
+class FirstBytes : public std::streambuf {
+ public:
+  FirstBytes(std::istream& from, std::uint64_t size) : from_(from), left_(size) {}
+  [[nodiscard]] std::uint64_t left() const { return left_; }
 
-void read_into(ViewDocument& document, std::istream& in) {
-  if (in.peek() != drawing::kViewMagic[0]) {
-    Reader reader(in, false, document);
-    reader.read_text();
-    return reader.check();
+ private:
+  int_type underflow() override {
+    from_.read(buffer_.data(),
+               static_cast<std::streamsize>(std::min<std::uint64_t>(left_, buffer_.size())));
+    const std::streamsize got = from_.gcount();
+    left_ -= static_cast<std::uint64_t>(got);
+    setg(buffer_.data(), buffer_.data(), buffer_.data() + got);
+    return got == 0 ? traits_type::eof() : traits_type::to_int_type(buffer_[0]);
   }
+
+  std::istream& from_;
+  std::uint64_t left_;
+  std::array<char, 65536> buffer_{};
+};
+
+void read_binary(ViewDocument& document, std::istream& in) {
   std::array<char, drawing::kViewMagic.size()> magic{};
   in.read(magic.data(), magic.size());
   if (std::string_view(magic.data(), magic.size()) != drawing::kViewMagic)
     throw DocumentFault{"the document", "is no drawing"};
-  std::istringstream text(take_text(in));
+  std::uint64_t size = 0;
+  if (!in.read(reinterpret_cast<char*>(&size), sizeof size))
+    throw contradicts("the document", "ends before its rows begin");
+  FirstBytes first(in, size);
+  std::istream text(&first);
   Reader reader(text, true, document);
   reader.read_text();
+  if (first.left() > 0) throw contradicts("the document", "ends before its rows begin");
   reader.read_rows(in);
+  reader.check();
+}
+
+void read_into(ViewDocument& document, std::istream& in) {
+  if (in.peek() == drawing::kViewMagic[0]) return read_binary(document, in);
+  Reader reader(in, false, document);
+  reader.read_text();
   reader.check();
 }
 

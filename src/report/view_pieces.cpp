@@ -79,7 +79,7 @@ geometry::Vec3l ViewPieceReader::model_point(const char* key) {
 }
 
 std::array<float, 2> ViewPieceReader::paper_point(const char* key) {
-  const auto mm = fields_.numbers<2>([this] { return here(); }, key, DocumentFields::kFarthestMm);
+  const auto mm = fields_.numbers<2>([this] { return here(); }, key, drawing::kFarthestPaperMm);
   there_[key[0] == 'a' ? 5 : 6] = true;
   return {static_cast<float>(mm[0]), static_cast<float>(mm[1])};
 }

@@ -2,6 +2,8 @@
 #include "report/view_rows.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <set>
 #include <string_view>
@@ -44,21 +46,31 @@ ViewPiece piece_of(const drawing::Row<Int>& row, const RowForm& form, std::uint6
   };
   if (row.kind >= form.kinds.size()) throw wrong("kind", "kind of line that the document names");
   if (row.state >= form.states.size()) throw wrong("state", "state that the document names");
-  constexpr auto kFarthest = static_cast<std::int64_t>(DocumentFields::kFarthestMm * 1000);
-  const auto model = [&](const std::array<Int, 3>& v, const char* key) {
-    for (const Int k : v)
-      if (k > kFarthest || k < -kFarthest) throw wrong(key, "point");
-    return geometry::Vec3l{v[0], v[1], v[2]} + form.origin;
+  const auto within = [](auto um, double farthest_mm) {
+    return std::fabs(static_cast<double>(um)) <= farthest_mm * 1000;
   };
-  const auto paper = [](const std::array<Int, 2>& v) {
+  const auto model = [&](const std::array<Int, 3>& v, const char* key) {
+    geometry::Vec3l p = form.origin;
+    for (int k = 0; k < 3; ++k) {
+      const Int um = v.at(static_cast<std::size_t>(k));
+      // Each is small enough for the sum to exist.
+      if (!within(um, DocumentFields::kFarthestMm)) throw wrong(key, "point");
+      p[k] += um;
+      if (!within(p[k], DocumentFields::kFarthestMm)) throw wrong(key, "point");
+    }
+    return p;
+  };
+  const auto paper = [&](const std::array<Int, 2>& v, const char* key) {
+    if (!within(v[0], drawing::kFarthestPaperMm) || !within(v[1], drawing::kFarthestPaperMm))
+      throw wrong(key, "point");
     return std::array<float, 2>{static_cast<float>(static_cast<double>(v[0]) / 1000),
                                 static_cast<float>(static_cast<double>(v[1]) / 1000)};
   };
   ViewPiece piece;
   piece.a = model(row.a, "a_um");
   piece.b = model(row.b, "b_um");
-  piece.a_paper = paper(row.a_paper);
-  piece.b_paper = paper(row.b_paper);
+  piece.a_paper = paper(row.a_paper, "a_paper_um");
+  piece.b_paper = paper(row.b_paper, "b_paper_um");
   piece.object = row.object;
   piece.kind = form.kinds[row.kind];
   piece.state = form.states[row.state];
@@ -101,14 +113,17 @@ RowForm take_row_form(JsonReader& json) {
     const std::string name(key);
     if (!met.insert(name).second) throw contradicts("rows", "has \"" + name + "\" twice");
     if (name == "bytes") {
-      form.bytes = static_cast<std::uint64_t>(std::max(0.0, fields.number("rows", name)));
+      form.bytes = fields.count("rows", name);
     } else if (name == "fields") {
       json.copy(form.fields);
     } else if (name == "origin_um") {
       const auto um = fields.numbers<3>([] { return std::string("rows"); }, name,
                                         DocumentFields::kFarthestMm * 1000);
-      for (int k = 0; k < 3; ++k)
-        form.origin[k] = static_cast<std::int64_t>(um.at(static_cast<std::size_t>(k)));
+      for (int k = 0; k < 3; ++k) {
+        const double value = um.at(static_cast<std::size_t>(k));
+        if (value != std::floor(value)) throw is_not("rows", name, "point in whole micrometres");
+        form.origin[k] = static_cast<std::int64_t>(value);
+      }
     } else if (name == "kinds") {
       form.kinds = take_names<hlr::EdgeKind>(json, name, drawing::kind_name);
     } else if (name == "states") {

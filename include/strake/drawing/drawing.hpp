@@ -42,6 +42,9 @@ struct PaperPoint {
   friend bool operator==(const PaperPoint&, const PaperPoint&) = default;
 };
 
+/// No point of a drawing lies farther out on paper.
+inline constexpr double kFarthestPaperMm = 1e9;
+
 /// A straight piece of an edge, in the model and on the sheet.
 struct Line {
   model::ObjectId object{};

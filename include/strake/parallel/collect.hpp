@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct Chunk {
   std::vector<Part> parts;
 };
 
-/// A worker hands over what it has when it is so large, so that nothing large is moved to grow.
+/// A worker hands over what it has when a block has made it so large: then less is moved to grow.
 inline constexpr std::size_t kChunkBytes = std::size_t{4} << 20U;
 
 /// Puts chunks together. `first`: by block, the index of its first result, and one more.
@@ -46,12 +47,9 @@ Result<std::vector<T>> put_together(const Context& context, std::span<Chunk<T>> 
                 all->begin() + static_cast<std::ptrdiff_t>(first[part.block]));
     }
   };
-  if (first.back() * sizeof(T) < kChunkBytes) {
-    for (std::size_t c = 0; c < chunks.size(); ++c) move_chunk(c);
-    return all;
-  }
-  const Status status =
-      for_each(context, {.name = "results put together", .n = chunks.size()}, move_chunk);
+  const bool few = first.back() * sizeof(T) < kChunkBytes;
+  const Status status = for_each(few ? Context{.stop = context.stop} : context,
+                                 {.name = "results put together", .n = chunks.size()}, move_chunk);
   if (!status) return status.error();
   return all;
 }
@@ -70,6 +68,7 @@ Result<std::vector<T>> put_together(const Context& context, std::span<Chunk<T>> 
 template <class T, class Make, class Body>
 [[nodiscard]] Result<std::vector<T>> collect_with(const Context& context, const Region& region,
                                                   Make&& make, Body&& body) {
+  static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
   using Local = std::invoke_result_t<Make&>;
   const unsigned workers = context.team != nullptr ? context.team->size() : 1;
   // The number of results of each block, after its own place.

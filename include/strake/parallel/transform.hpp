@@ -24,7 +24,7 @@ struct Unwrapped<Result<T>> {
 template <class T>
 using unwrapped_t = typename Unwrapped<std::remove_cvref_t<T>>::type;
 
-/// A vector of n values, or the error that says that the memory does not suffice.
+/// A vector of n values, its memory provided by the whole team. Errors: out of memory, cancelled.
 template <class T>
 Result<std::vector<T>> slots(std::size_t n, const Context& context = {}) {
   try {

@@ -5,6 +5,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "io/encoding.hpp"
+
 namespace strake::io::obj {
 namespace {
 
@@ -40,14 +42,14 @@ std::uint32_t Assembler::material_index(const std::string& name) {
 void Assembler::apply(const Statement& statement) {
   switch (statement.kind) {
     case StatementKind::object:
-      object_name_ = statement.text;
+      object_name_ = TextDecoder()(statement.text);
       group_name_.clear();
       groups_.clear();
       ++object_;
       entry_ = kNoEntry;
       break;
     case StatementKind::group:
-      group_name_ = statement.text;
+      group_name_ = TextDecoder()(statement.text);
       entry_ = kNoEntry;
       break;
     case StatementKind::material:

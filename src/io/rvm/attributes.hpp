@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/encoding.hpp"
 #include "io/rvm/builder.hpp"
-#include "io/rvm/encoding.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "io/encoding.hpp"
 #include "io/rvm/big_endian.hpp"
 #include "io/rvm/builder.hpp"
-#include "io/rvm/encoding.hpp"
 #include "io/rvm/log.hpp"
 #include "strake/parallel/context.hpp"
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "io/encoding.hpp"
 #include "io/reading.hpp"
 #include "io/rvm/attributes.hpp"
 #include "io/rvm/binary.hpp"
 #include "io/rvm/builder.hpp"
-#include "io/rvm/encoding.hpp"
 #include "io/rvm/log.hpp"
 #include "io/rvm/text.hpp"
 

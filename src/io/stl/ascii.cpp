@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/encoding.hpp"
+
 namespace strake::io::stl {
 namespace {
 
@@ -50,7 +52,7 @@ class AsciiParser {
 
 void AsciiParser::begin(std::string_view name) {
   end_solid();
-  solids_.push_back({std::string(name), {}, {}, {}});
+  solids_.push_back({TextDecoder()(name), {}, {}, {}});
   open_ = true;
 }
 

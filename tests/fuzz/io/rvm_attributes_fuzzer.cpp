@@ -4,15 +4,15 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "io/encoding.hpp"
 #include "io/rvm/attributes.hpp"
-#include "io/rvm/encoding.hpp"
 #include "strake/core/text.hpp"
 
 /// Any bytes as an attribute file: nodes whose parents come before them, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace strake::io;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const rvm::TextDecoder decode;
+  const TextDecoder decode;
   if (!strake::is_utf8(decode(text))) std::abort();
   const auto file = rvm::parse_attributes(text);
   if (!file) return 0;

@@ -121,6 +121,39 @@ class Draw(Scenario):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertRegex(done.stderr, r'y\.view: .*ends in row')
 
+    def test_what_is_clipped_far_out_is_within_what_files_can_say(self):
+        self.write('one.obj', cube('a', 0, (0, 0, 0), 300) + cube('b', 1, (50, 50, 50), 300))
+        for target, scale, code in (('1000000,0,0', '100:1', 0), ('100000000,0,0', '1:1', 0),
+                                    ('1000000,0,0', '1000000:1', 2)):
+            done = self.run_strake('draw', 'one.obj', '--unit', 'mm', '--up-axis', 'z', '--eye', '60,60,60', '--target',
+                                   target, '--near', '0.001mm', '--scale', scale, '-o', 'p.view', '-o', 'p.json')
+            self.assertEqual(done.returncode, code, (target, scale, done.stderr))
+            if code == 0:
+                done = self.run_strake('draw', 'diff', 'p.view', 'p.json', '--fail-on', 'any')
+                self.assertEqual(done.returncode, 0, (target, scale, done.stderr))
+            else:
+                self.assertIn('--scale', done.stderr)
+
+    def test_names_that_are_no_utf8_stay_apart(self):
+        square = 'v 0 {0} 0\nv 1 {0} 0\nv 0 {0} 1\nf -3 -2 -1\n'
+        text = 'o VENTIL-\xc4\n' + square.format(0) + 'o VENTIL-\xd6\n' + square.format(9)
+        (self.folder / 'lat.obj').write_bytes(text.encode('latin-1'))
+        done = self.run_strake('draw', 'lat.obj', '--unit', 'mm', '--up-axis', 'z', '-o', 'l.json', '-o', 'l.view')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        drawing = json.loads((self.folder / 'l.json').read_text(encoding='utf-8'))
+        self.assertEqual([o['name'] for o in drawing['objects']], ['VENTIL-\u00c4', 'VENTIL-\u00d6'])
+        self.assertEqual(self.run_strake('draw', 'diff', 'l.json', 'l.view', '--fail-on', 'any').returncode, 0)
+
+    def test_a_wire_seen_end_on_is_no_more_clipped_than_the_rest(self):
+        self.write('w.obj', 'o wire\nv 10 10 0\nv 10 10 100\nl 1 2\n'
+                   'o plate\nv 50 50 0\nv 90 50 0\nv 50 90 0\nf 3 4 5\n')
+        for more in (('--limits', '-10,-10,-10,1000,1000,50'), ('--section', 'z=50mm'), ()):
+            done = self.run_strake('draw', 'w.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top', '-o', 'w.json',
+                                   *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawing = json.loads((self.folder / 'w.json').read_text(encoding='utf-8'))
+            self.assertEqual([(d['name'], d['why']) for d in drawing['defects']], [('wire', ['only-points'])], more)
+
     def test_perspective(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 1000))
         where = ('draw', 'a.obj', '--unit', 'mm', '--up-axis', 'z')

@@ -61,6 +61,19 @@ TEST(ViewRows, SayWhatTheTextSays) {
   }
 }
 
+TEST(ViewRows, PointsThatNothingCanHaveAreTold) {
+  const std::string sound = test::view_file(crowd(3e10), {}, ViewForm::rows);
+  for (const auto& [offset, key] : {std::pair(24, "a_um"), std::pair(88, "b_paper_um")})
+    for (const std::int64_t um : {INT64_MAX, INT64_MIN, std::int64_t{4} << 60U}) {
+      std::string bytes = sound;
+      std::memcpy(bytes.data() + bytes.size() - 104 + offset, &um, sizeof um);
+      std::istringstream in(bytes);
+      const auto document = parse_view_document(in, "x.view");
+      ASSERT_FALSE(document) << key << " " << um;
+      EXPECT_NE(document.error().text().find(key), std::string::npos) << document.error().text();
+    }
+}
+
 TEST(ViewRows, WhatIsWrongIsTold) {
   const std::string sound = test::view_file(crowd(500), {}, ViewForm::rows);
   const auto error_of = [](const std::string& bytes) {
@@ -94,14 +107,16 @@ TEST(ViewRows, WhatIsWrongIsTold) {
            {sound.substr(0, 5), "is no drawing"},
            {"STRIPES!" + sound.substr(8), "is no drawing"},
            {sound.substr(0, 12), "before its rows"},
-           {sound.substr(0, 500), "before its rows"},
-           {with_length(~std::uint64_t{0}), "before its rows"},
+           {sound.substr(0, 500), "ends too soon"},
+           {sound.substr(0, length + 15), "before its rows"},
+           {with_length(~std::uint64_t{0}), "no JSON"},
            {with_length(length + 3), "no JSON"},
            {with_length(length - 40), "ends too soon"},
            {sound.substr(0, sound.size() - 65), "ends in row"},
            {sound.substr(0, sound.size() - 1), "ends in row"},
            {sound + "x", "goes on"},
            {in_row(0, 7000), "is of object 7000"},
+           {in_row(0, 7000), "row "},
            {in_row(16, 0x000000ff), "kind of line"},
            {in_row(16, 0x0000ff00), "state"},
            {with("\"bytes\":64", "\"bytes\":96"), "form of rows"},
@@ -110,6 +125,11 @@ TEST(ViewRows, WhatIsWrongIsTold) {
            {with("\"contour\"", "\"contort\""), "'contort', which this version does not know"},
            {with("\"origin_um\"", "\"origin_mm\""), "has no \"origin_um\""},
            {with("\"kinds\"", "\"bytes\""), "twice"},
+           {with("\"bytes\":64", "\"bytes\":6."), "no JSON"},
+           {with("\"bytes\":64", "\"bytes\":.5"), "no JSON"},
+           {with("\"origin_um\":[", "\"origin_um\":{"), "no point"},
+           {with("\"curves\":[]", "\"pieces\":[]"), "beside or instead of its rows"},
+           {with("\"projecting\":", "\"duplicate\": "), "twice"},
            {with("\"rows\"", "\"nows\""), "has no \"rows\""},
            {with("\"pieces\":", "\"pierce\":"), "has no \"pieces\""}}) {
     EXPECT_NE(error_of(bytes).find(words), std::string::npos) << words << ": " << error_of(bytes);

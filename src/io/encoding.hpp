@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "io/rvm/big_endian.hpp"
 #include "strake/core/result.hpp"
 
-namespace strake::io::rvm {
+namespace strake::io {
 
 /// Windows-1252 bytes (a superset of printable ISO-8859-1) as UTF-8.
 [[nodiscard]] std::string from_windows_1252(std::string_view text);
@@ -24,7 +25,7 @@ class TextDecoder {
   [[nodiscard]] static Result<TextDecoder> for_encoding(const std::string& name);
 
   [[nodiscard]] std::string operator()(std::string_view text) const;
-  [[nodiscard]] std::string operator()(Bytes bytes) const {
+  [[nodiscard]] std::string operator()(std::span<const std::byte> bytes) const {
     return (*this)(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   }
 
@@ -33,4 +34,4 @@ class TextDecoder {
   std::shared_ptr<Converter> converter_;
 };
 
-}  // namespace strake::io::rvm
+}  // namespace strake::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/rvm/encoding.hpp"
+#include "io/encoding.hpp"
 
 #include <iconv.h>
 
@@ -9,7 +9,7 @@
 
 #include "strake/core/text.hpp"
 
-namespace strake::io::rvm {
+namespace strake::io {
 
 std::string from_windows_1252(std::string_view text) {
   // 0x80 to 0x9F; the five holes keep their C1 code as the WHATWG encoding standard has it.
@@ -66,4 +66,4 @@ std::string TextDecoder::operator()(std::string_view text) const {
   return out;
 }
 
-}  // namespace strake::io::rvm
+}  // namespace strake::io
