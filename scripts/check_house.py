@@ -25,7 +25,8 @@ MAY_USE = {
 }
 LINES = {'.hpp': 300, '.cpp': 600}
 IN_ROOT = {'.clang-format', '.clang-tidy', '.gitattributes', '.gitignore', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CMakeLists.txt',
-           'CMakePresets.json', 'CONTRIBUTING.md', 'HACKING.md', 'LICENSE', 'README.md', 'SECURITY.md', 'packages.txt', 'run'}
+           'CMakePresets.json', 'CONTRIBUTING.md', 'HACKING.md', 'LICENSE', 'NOTICE', 'README.md', 'SECURITY.md',
+           'packages.txt', 'run'}
 NEEDS_SPDX = {'.cpp', '.hpp', '.py', '.sh', '.cmake'}
 IMPURE = re.compile(r'\bstd::(cout|cerr|abort|exit|getenv)\b|(?<![\w:.])(printf|puts|abort|exit|getenv)\s*\('
                     r'|\bthread_local\b|\bfmt::print\b')

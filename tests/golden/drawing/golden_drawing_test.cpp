@@ -31,16 +31,16 @@ struct Golden {
 const Golden kSafe[] = {
     {"iso",
      {16401, 14348, 12572, 7, 0, 9772},
-     "c3a74b2a6bce8944173ff1b70ed7b3b2",
-     "3692ef09f21ba3126879c32fa091ef33"},
+     "536e83e7787889daef83aefbd9d69224",
+     "7c6b5ad73ca4c2b54c9eaa48c9d79b5e"},
     {"top",
      {9874, 3519, 5782, 2320, 0, 28487},
-     "ec380df9e99d081d17ce219dc2c8c950",
-     "567170c8c59c00cbe7803b1da6b04ea5"},
+     "3703e403f1ab3f96ecac90cf42e2e49e",
+     "1cfa446ffabf2d8baf1f205426843d65"},
     {"front",
      {9662, 2482, 4500, 2981, 0, 30772},
-     "5873e8cc9c7869aea82de63b315c807f",
-     "eac8b1e61170e75c12d1c35ef206a416"},
+     "3cb1493d2a645f65a5d11dbdc9f91f2d",
+     "b3f6ab0cabb27a82ebe4b6ee645b909c"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {
