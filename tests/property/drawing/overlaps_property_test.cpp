@@ -124,12 +124,13 @@ TEST(Overlaps, NeedLinesThatAreParallelForTheirLengths) {
 TEST(Overlaps, OfLinesWithTheSameEndsOneStays) {
   // Twins lie on each other whatever rounding makes of them, whichever way they run; the one with
   // the greater reach covers a neighbour that the others do not.
-  Flat twin{.ax = 0.1, .ay = 0.2, .bx = 7.3, .by = 3.7, .rank = drawing::Rank::hidden};
-  Flat back{.ax = 7.3, .ay = 3.7, .bx = 0.1, .by = 0.2, .depth = 1, .rank = drawing::Rank::hidden};
+  const Flat twin{.ax = 0.1, .ay = 0.2, .bx = 7.3, .by = 3.7, .rank = drawing::Rank::hidden};
+  const Flat back{
+      .ax = 7.3, .ay = 3.7, .bx = 0.1, .by = 0.2, .depth = 1, .rank = drawing::Rank::hidden};
   Flat wide = twin;
   wide.depth = -1;
   wide.reach = 0.5;
-  Flat beside{
+  const Flat beside{
       .ax = 1.1, .ay = 0.9, .bx = 6.3, .by = 3.4, .depth = -2, .rank = drawing::Rank::hidden};
   const std::vector<Flat> lines{twin, back, wide, beside, twin};
   const std::vector<Row> all = found(lines, {});
