@@ -22,15 +22,9 @@ namespace {
 
 using geometry::Vec3l;
 
-/// The nearest: not llround(), a call that takes longer than all else here.
-std::int64_t micrometres(double mm) {
-  const double um = mm * geometry::kGridPerMm;
-  return static_cast<std::int64_t>(um + (um < 0 ? -0.5 : 0.5));
-}
-
-Vec3l micrometres(const geometry::Vec3d& mm) {
-  return {micrometres(mm.x), micrometres(mm.y), micrometres(mm.z)};
-}
+// Numbers of a drawing are whole micrometres within what the grid holds.
+std::int64_t micrometres(double mm) { return geometry::snap(mm).value_or(0); }
+Vec3l micrometres(const geometry::Vec3d& mm) { return geometry::snap(mm).value_or(Vec3l{}); }
 
 /// Where the lines are.
 struct Reach {
