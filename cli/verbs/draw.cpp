@@ -35,7 +35,7 @@ struct DrawOptions {
   PerspectiveOptions perspective;
   std::string sheet;
   std::string view, direction, up, limits, scale, title;
-  std::string stage, solver, global, culling, hidden, intersections, smooth, sharp_angle,
+  std::string stage, solver, global, culling, bucketing, hidden, intersections, smooth, sharp_angle,
       contact_distance;
   std::vector<std::string> select, outputs, sections, hatches;
   bool visible_only = false;
@@ -117,6 +117,20 @@ Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
   return view;
 }
 
+Status read_bucketing(const std::string& text, std::int32_t& bucketing) {
+  bucketing = hlr::Options::kBucketsByData;
+  if (text.empty() || text == "auto") return {};
+  bucketing = hlr::Options::kNoBuckets;
+  if (text == "off") return {};
+  std::uint64_t side = 0;
+  if (!whole_number(side, text, "--bucketing") || side == 0 || side > hlr::Options::kMostBuckets)
+    return Error{
+        ErrorCode::usage, "'" + text + "' is no number of buckets", "--bucketing",
+        fmt::format("write off, auto, or a number from 1 to {}", hlr::Options::kMostBuckets)};
+  bucketing = static_cast<std::int32_t>(side);
+  return {};
+}
+
 Result<hlr::Options> engine_options(const DrawOptions& given) {
   hlr::Options options;
   if (given.stage == "none") options.stage = hlr::Stage::none;
@@ -124,6 +138,7 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
   if (given.solver == "brute-force") options.solver = hlr::Solver::brute_force;
   if (given.global == "push") options.solver = hlr::Solver::push;
   options.culling = given.culling != "off";
+  if (const Status s = read_bucketing(given.bucketing, options.bucketing); !s) return s.error();
   options.hidden = !given.visible_only;
   if (given.visible_only && !given.hidden.empty() && given.hidden != "off")
     return Error{ErrorCode::usage, "hidden lines cannot be drawn and left out", "--visible-only",
@@ -416,6 +431,14 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->group("Running");
   add_choice(*command, "--culling", options->culling, {"on", "off"},
              "Leave out the work that cannot change the result (default on)")
+      ->group("Running");
+  command
+      ->add_option(
+          "--bucketing", options->bucketing,
+          "How the faces of complex objects are found: in a grid of at most N by N buckets, "
+          "in as many as suit the faces (auto), or each is asked (off); the result is the "
+          "same (default auto)")
+      ->type_name("off|N|auto")
       ->group("Running");
   command->add_option("--scale", options->scale, "Paper to model (default: what fits A3)")
       ->type_name("1:N")

@@ -16,7 +16,7 @@ namespace strake::cli {
 namespace {
 
 struct GenerateOptions {
-  std::string objects, seed, output, truth;
+  std::string objects, seed, imported_detail, imported_triangles, output, truth;
   bool turned = false;
 };
 
@@ -57,6 +57,14 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
   if (const Status s = whole_number(options.objects, given.objects, "--objects"); !s)
     return s.error();
   if (const Status s = whole_number(options.seed, given.seed, "--seed"); !s) return s.error();
+  if (const Status s =
+          whole_number(options.imported_detail, given.imported_detail, "--imported-detail");
+      !s)
+    return s.error();
+  if (const Status s = whole_number(options.imported_triangles, given.imported_triangles,
+                                    "--imported-triangles");
+      !s)
+    return s.error();
   if (const Status s = check_outputs({given.output}, {".glb", ".obj"}, {}); !s) return s.error();
   if (!given.truth.empty())
     if (const Status s = check_other_output("--truth", given.truth, ".json", {}, {given.output});
@@ -104,6 +112,16 @@ Verb add_generate(CLI::App& program, CommonOptions& common) {
       ->type_name("N");
   command->add_flag("--turned", options->turned,
                     "Turn the whole ship so that no face lies along an axis");
+  command
+      ->add_option("--imported-detail", options->imported_detail,
+                   "So many of the objects are meshes with far too much detail, no two alike, as "
+                   "imported from elsewhere (default 0)")
+      ->type_name("N");
+  command
+      ->add_option("--imported-triangles", options->imported_triangles,
+                   fmt::format("About how many triangles each of those has (default {})",
+                               defaults.imported_triangles))
+      ->type_name("N");
   command->add_option("-o,--output", options->output, "The model, as .glb or .obj")
       ->type_name("FILE")
       ->required();

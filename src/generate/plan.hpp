@@ -34,6 +34,7 @@ inline constexpr int kLongitudinals = 5;
 struct Plan {
   int bays = 1, lanes = 2, levels = 1;
   std::uint64_t seed = 1;
+  std::uint64_t imported = 0, imported_triangles = 0;  ///< see ShipOptions
 
   /// Deck k (0: inner bottom, levels: weather deck) covers bays [0, deck_bays(k)); rooms of level
   /// k stand on deck k.
@@ -126,6 +127,8 @@ void build_fan_room(Room& room);
 void build_cabin(Room& room);
 void build_store(Room& room);
 void build_stairs(Room& room);
+/// One closed mesh of about `triangles` triangles on a foundation, as no other in the ship.
+void build_imported(Room& room, std::uint64_t triangles);
 /// Something wrong (or nearly), in a free space of 640 x 640 x 2000 mm.
 void plant(Room& corner);
 

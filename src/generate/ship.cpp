@@ -41,6 +41,8 @@ std::vector<Plan> candidate_plans(const ShipOptions& options) {
     for (int lanes = std::max(2, size); lanes <= std::max(2, size) + more; ++lanes) {
       Plan plan;
       plan.seed = options.seed;
+      plan.imported = options.imported_detail;
+      plan.imported_triangles = options.imported_triangles;
       plan.lanes = lanes;
       plan.levels = levels;
       plans.push_back(plan);
@@ -85,7 +87,7 @@ Result<Yard> build_best(const ShipOptions& options, const std::stop_token& stop)
 }
 
 /// Which objects stay: spare ones go first, evenly spread over the ship; if they are too few, the
-/// last built go too.
+/// last built go too, but for what is imported.
 std::vector<bool> choose_kept(const Yard& yard, std::uint64_t wanted) {
   const std::vector<Built>& objects = yard.objects();
   std::vector<bool> kept(objects.size(), true);
@@ -102,7 +104,7 @@ std::vector<bool> choose_kept(const Yard& yard, std::uint64_t wanted) {
   }
   excess -= drop;
   for (std::size_t i = objects.size(); excess > 0 && i-- > 0;)
-    if (kept[i]) kept[i] = false, --excess;
+    if (kept[i] && objects[i].kind != Kind::imported) kept[i] = false, --excess;
   return kept;
 }
 
@@ -248,16 +250,37 @@ void drop_unused_shapes(model::Model& model) {
   model.shapes = std::move(used);
 }
 
-}  // namespace
-
-Result<Ship> generate_ship(const ShipOptions& options, const parallel::Context& context) {
+Status check(const ShipOptions& options) {
   if (options.objects < ShipOptions::kMinObjects || options.objects > ShipOptions::kMaxObjects)
     return Error{ErrorCode::usage,
                  fmt::format("a ship of {} objects cannot be built", options.objects), "--objects",
                  fmt::format("give a number from {} to {}", ShipOptions::kMinObjects,
                              ShipOptions::kMaxObjects)};
+  if (options.imported_triangles < ShipOptions::kMinTriangles ||
+      options.imported_triangles > ShipOptions::kMaxTriangles)
+    return Error{
+        ErrorCode::usage,
+        fmt::format("an imported mesh of {} triangles cannot be made", options.imported_triangles),
+        "--imported-triangles",
+        fmt::format("give a number from {} to {}", ShipOptions::kMinTriangles,
+                    ShipOptions::kMaxTriangles)};
+  return {};
+}
+
+}  // namespace
+
+Result<Ship> generate_ship(const ShipOptions& options, const parallel::Context& context) {
+  if (const Status status = check(options); !status) return status.error();
   Result<Yard> yard = build_best(options, context.stop);
   if (!yard) return yard.error();
+  const auto room =
+      static_cast<std::uint64_t>(std::ranges::count(yard->objects(), Kind::imported, &Built::kind));
+  if (room < options.imported_detail)
+    return Error{ErrorCode::usage,
+                 fmt::format("the deck of a ship of {} objects has no room for {} imported ones",
+                             options.objects, options.imported_detail),
+                 "--imported-detail", fmt::format("give {} at most, or more objects", room)};
+  yard->make_late_shapes();
   const std::vector<bool> kept = choose_kept(*yard, options.objects);
   const std::vector<Handle> order = id_order(*yard, kept);
   Ship ship;

@@ -25,18 +25,24 @@ std::string_view class_text(clash::Class cls) {
   }
 }
 
+std::string imported_text(const ShipOptions& options) {
+  if (options.imported_detail == 0) return {};
+  return fmt::format(", \"imported_detail\": {}, \"imported_triangles\": {}",
+                     options.imported_detail, options.imported_triangles);
+}
+
 void write_head(const Ship& ship, fmt::memory_buffer& text) {
   std::array<std::uint64_t, 4> counts{};
   for (const TruthPair& pair : ship.truth.pairs) ++counts[static_cast<std::size_t>(pair.cls)];
   fmt::format_to(std::back_inserter(text),
                  "{{\n  \"schema_version\": 1,\n"
                  "  \"generator\": {{\"kind\": \"ship\", \"objects\": {}, \"seed\": {}, "
-                 "\"turned\": {}}},\n"
+                 "\"turned\": {}{}}},\n"
                  "  \"settings\": {{\"clearance_mm\": {}, \"touch_gap_mm\": 1, "
                  "\"touch_overlap_mm\": 1, \"thickness_cap\": true}},\n"
                  "  \"counts\": {{\"HIT\": {}, \"CONTACT\": {}, \"CLEARANCE_VIOLATION\": {}}},\n",
-                 ship.options.objects, ship.options.seed, ship.options.turned, Truth::kClearanceMm,
-                 counts[3], counts[2], counts[1]);
+                 ship.options.objects, ship.options.seed, ship.options.turned,
+                 imported_text(ship.options), Truth::kClearanceMm, counts[3], counts[2], counts[1]);
 }
 
 }  // namespace

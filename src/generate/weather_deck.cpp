@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "generate/plan.hpp"
 
@@ -244,17 +246,33 @@ void build_weather_deck(const Plan& plan, const Steel& steel, Yard& yard) {
   constexpr std::array<Builder, 5> kGear{build_containers, build_mooring, build_vents,
                                          build_containers, build_boat};
   const int level = plan.levels, bays = plan.deck_bays(level), middle = plan.lanes / 2;
+  const auto is_funnel = [&](int bay, int lane) { return bay % 24 == 0 && lane == middle; };
+  const auto is_mast = [&](int bay, int lane) {
+    return bay + 1 == bays && bays > 1 && lane == middle;
+  };
+  std::uint64_t free = 0, place = 0;
+  for (int bay = 0; bay < bays; ++bay)
+    for (int lane = 0; lane < plan.lanes; ++lane)
+      free += is_funnel(bay, lane) || is_mast(bay, lane) ? 0U : 1U;
+  const std::uint64_t imported = std::min(plan.imported, free);
   for (int bay = 0; bay < bays; ++bay)
     for (int lane = 0; lane < plan.lanes; ++lane) {
       Random random = plan.random(41, bay, lane, level);
       Room room{plan.site(yard, bay, lane, level).moved({260, 350, 0}),
                 steel.deck(level, bay, lane), random.at(1)};
-      const bool funnel = bay % 24 == 0 && lane == middle;
-      const bool mast = bay + 1 == bays && bays > 1 && lane == middle;
-      if (funnel)
+      if (is_funnel(bay, lane)) {
         build_funnel(room);
-      else if (mast)
+        continue;
+      }
+      if (is_mast(bay, lane)) {
         build_mast(room);
+        continue;
+      }
+      // Bresenham: evenly over the deck.
+      const bool heavy = (place + 1) * imported / free != place * imported / free;
+      ++place;
+      if (heavy)
+        build_imported(room, plan.imported_triangles);
       else
         kGear[random.below(kGear.size())](room);
     }

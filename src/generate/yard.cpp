@@ -105,6 +105,23 @@ std::uint32_t Yard::shape(const Recipe& recipe, const std::function<GridMesh()>&
   return place->second;
 }
 
+std::uint32_t Yard::late_shape(std::function<GridMesh()> make) {
+  const auto shape = static_cast<std::uint32_t>(shapes_.size());
+  late_.emplace_back(shape, std::move(make));
+  shapes_.emplace_back(geometry::TriangleMesh{});
+  volumes_.push_back(0);
+  return shape;
+}
+
+void Yard::make_late_shapes() {
+  for (const auto& [shape, make] : late_) {
+    const GridMesh mesh = make();
+    shapes_[shape] = to_mesh(mesh);
+    volumes_[shape] = volume_mm3(mesh);
+  }
+  late_.clear();
+}
+
 std::uint32_t Yard::reversed(std::uint32_t shape) {
   const auto [place, fresh] =
       reversed_.try_emplace(shape, static_cast<std::uint32_t>(shapes_.size()));

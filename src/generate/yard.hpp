@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "generate/kinds.hpp"
@@ -89,6 +90,9 @@ class Yard {
   std::uint32_t shape(const Recipe& recipe, const std::function<GridMesh()>& make);
   /// The same shape with reversed triangles.
   std::uint32_t reversed(std::uint32_t shape);
+  /// A shape of one object that takes long to make: it is empty until make_late_shapes().
+  std::uint32_t late_shape(std::function<GridMesh()> make);
+  void make_late_shapes();
   std::uint32_t lines(const Recipe& recipe, const std::function<geometry::Polylines()>& make);
 
   Handle add(Kind kind, const Cell& cell, std::uint32_t shape, const Frame& frame);
@@ -111,6 +115,7 @@ class Yard {
   std::map<std::uint32_t, std::uint32_t> reversed_;
   std::vector<model::Shape> shapes_;
   std::vector<double> volumes_;
+  std::vector<std::pair<std::uint32_t, std::function<GridMesh()>>> late_;
   std::vector<Built> objects_;
   std::vector<Declared> pairs_;
   std::map<std::array<std::uint32_t, 4>, std::uint16_t> next_number_;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hlr/job.hpp"
-#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -333,13 +333,15 @@ void solve_edge(const Job& job, const Solver& solver, const Edge& e, ObjectLines
   result.left_out += left_out ? 1 : 0;
 }
 
-ObjectLines solve_object(const Job& job, std::uint32_t object) {
+Result<ObjectLines> solve_object(const Job& job, std::uint32_t object) {
   const model::Scene& scene = *job.scene;
   const Solver solver(job);
   ObjectLines result;
   for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b) {
     const model::GridBody& body = scene.bodies[b];
-    for (const FeatureEdge& f : edges_of(job.seen_of(b), job.features_of(body)))
+    const auto edges = edges_of(job.seen_of(b), job.features_of(body), {});
+    if (!edges) return edges.error();
+    for (const FeatureEdge& f : *edges)
       solve_edge(
           job, solver,
           {f.a.as<std::int64_t>() + job.offset(body), f.b.as<std::int64_t>() + job.offset(body),
@@ -360,14 +362,15 @@ ObjectLines solve_object(const Job& job, std::uint32_t object) {
 
 Status solve_brute_force(const Job& job, const parallel::Context& context, Drawing& drawing) {
   const std::size_t objects = job.scene->model->objects.size();
-  std::vector<ObjectLines> lines(objects);
-  const Status status = parallel::for_each(
-      context, {.name = "hidden lines (brute force)", .n = objects}, [&](std::size_t i) {
-        if (job.drawn[i]) lines[i] = solve_object(job, static_cast<std::uint32_t>(i));
-      });
-  if (!status) return status;
+  const auto lines =
+      parallel::transform(context, {.name = "hidden lines (brute force)", .n = objects},
+                          [&](std::size_t i) -> Result<ObjectLines> {
+                            if (!job.drawn[i]) return ObjectLines{};
+                            return solve_object(job, static_cast<std::uint32_t>(i));
+                          });
+  if (!lines) return lines.error();
   for (std::size_t i = 0; i < objects; ++i) {
-    const ObjectLines& one = lines[i];
+    const ObjectLines& one = (*lines)[i];
     if (!drawing.left_out.empty()) drawing.left_out[i] = one.left_out;
     drawing.pieces.insert(drawing.pieces.end(), one.pieces.begin(), one.pieces.end());
     drawing.counters.feature_edges += one.edges;

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <utility>
 
+#include "hlr/by_size.hpp"
 #include "strake/geometry/bvh.hpp"
 #include "strake/geometry/crossing_lines.hpp"
 #include "strake/geometry/part_tree.hpp"
 #include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/distinct.hpp"
+#include "strake/parallel/heavy.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -131,17 +133,13 @@ class Finder {
   Status plant(const std::vector<std::uint32_t>& some) {
     std::vector<bool> wanted(skins_.unique.size());
     for (const std::uint32_t i : some) wanted[a(i).unique] = wanted[b(i).unique] = true;
-    const auto order = parallel::longest_first(wanted.size(), [&](std::size_t u) {
-      return wanted[u] ? skins_.unique[u]->triangles.size() : 0;
-    });
-    auto trees = parallel::transform(
-        context_, {.name = "intersections: trees", .n = wanted.size(), .order = order},
+    trees_.resize(wanted.size());
+    return parallel::for_each_by_weight(
+        context_, {.name = "intersections: trees", .n = wanted.size()}, kBigShape,
+        [&](std::size_t u) { return wanted[u] ? skins_.unique[u]->triangles.size() : 0; },
         [&](std::size_t u) {
-          return wanted[u] ? geometry::PartTree(*skins_.unique[u]) : geometry::PartTree();
+          if (wanted[u]) trees_[u] = geometry::PartTree(*skins_.unique[u], context_);
         });
-    if (!trees) return trees.error();
-    trees_ = std::move(*trees);
-    return {};
   }
 
   /// By pair, which is by object of the first part.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hlr/curves.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
 #include "strake/geometry/ellipse.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/geometry/primitive.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
@@ -33,10 +35,12 @@ std::vector<std::vector<geometry::Ellipse>> circles_of_parts(const model::GridSh
   return circles;
 }
 
-ShapeCurves curves_of(const Job& job, const SeenShape& seen, const geometry::Mat3d& linear) {
+Result<ShapeCurves> curves_of(const Job& job, const SeenShape& seen,
+                              const geometry::Mat3d& linear) {
   ShapeCurves result;
-  const std::vector<FeatureEdge> edges =
-      edges_of(seen, {job.viewer, job.cos_sharp, job.options.smooth});
+  const auto found = edges_of(seen, {job.viewer, job.cos_sharp, job.options.smooth}, {});
+  if (!found) return found.error();
+  const std::vector<FeatureEdge>& edges = *found;
   result.edges = static_cast<std::uint32_t>(edges.size());
   const auto circles = circles_of_parts(*seen.source, linear, job.direction().as<double>());
   const auto placed = [&](const geometry::Vec3i& v) {
@@ -62,6 +66,28 @@ ShapeCurves curves_of(const Job& job, const SeenShape& seen, const geometry::Mat
   return result;
 }
 
+bool is_round(const SeenShape& seen) {
+  return std::ranges::any_of(seen.source->parts, [](const geometry::Part& part) {
+    return part.primitive && geometry::is_round(*part.primitive);
+  });
+}
+
+/// By seen shape the first body drawn with it, where its edges matter: it is round, or comes before
+/// a round one of its object, whose edges are numbered after its own.
+std::vector<std::uint32_t> first_bodies(const Job& job) {
+  const model::Scene& scene = *job.scene;
+  std::vector<std::uint32_t> first(job.seen.all.size(), kNone);
+  for (std::size_t o = 0; o + 1 < scene.first_body.size(); ++o) {
+    if (!job.drawn[o]) continue;
+    bool matters = false;
+    for (std::uint32_t b = scene.first_body[o + 1]; b-- > scene.first_body[o];) {
+      matters = matters || is_round(job.seen_of(b));
+      if (matters && first[job.seen.of[b]] == kNone) first[job.seen.of[b]] = b;
+    }
+  }
+  return first;
+}
+
 }  // namespace
 
 Result<Curves> find_curves(const Job& job, const parallel::Context& context) {
@@ -69,13 +95,10 @@ Result<Curves> find_curves(const Job& job, const parallel::Context& context) {
   // Where the view has no meshes of its own, as in perspective, nothing is round.
   if (!job.own) return curves;
   const model::Scene& scene = *job.scene;
-  std::vector<std::uint32_t> first(job.seen.all.size(), kNone);
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
-    if (job.drawn[model::index(scene.bodies[b].object)] && first[job.seen.of[b]] == kNone)
-      first[job.seen.of[b]] = b;
+  const std::vector<std::uint32_t> first = first_bodies(job);
   const auto shapes = parallel::transform(
       context, {.name = "hidden lines: curves", .n = first.size(), .grain = 16},
-      [&](std::size_t s) {
+      [&](std::size_t s) -> Result<ShapeCurves> {
         if (first[s] == kNone) return ShapeCurves{};
         const model::Body& body = scene.model->bodies[scene.bodies[first[s]].body];
         return curves_of(job, job.seen.all[s], body.placement.linear);

@@ -6,8 +6,9 @@
 #include <optional>
 #include <span>
 #include <tuple>
-#include <variant>
+#include <utility>
 
+#include "hlr/by_size.hpp"
 #include "strake/geometry/part_edges.hpp"
 
 namespace strake::hlr {
@@ -49,11 +50,14 @@ FacePlane plane_of(const Part& part, std::uint32_t t) {
 // For each triangle the area vector and the lexicographically least corner of the whole source
 // face that it is a piece of. They depend on the outline of the face alone, so neither the
 // triangulation nor the way that snapping bends a polygon decides whether it faces the viewer.
-std::vector<FacePlane> face_planes(const Part& part) {
+Result<std::vector<FacePlane>> face_planes(const Part& part, const parallel::Context& context) {
   const std::size_t count = part.triangles.size();
-  std::vector<FacePlane> own(count);
-  for (std::uint32_t t = 0; t < count; ++t) own[t] = plane_of(part, t);
-  if (part.faces.empty()) return own;
+  std::vector<FacePlane> result(count);
+  const Status status = for_elements(context, "hidden lines: faces", count, [&](std::size_t t) {
+    result[t] = plane_of(part, static_cast<std::uint32_t>(t));
+  });
+  if (!status) return status.error();
+  if (part.faces.empty()) return result;
 
   std::vector<std::uint32_t> order;
   order.reserve(count);
@@ -64,13 +68,13 @@ std::vector<FacePlane> face_planes(const Part& part) {
   };
   if (!std::is_sorted(order.begin(), order.end(), by_face))
     std::sort(order.begin(), order.end(), by_face);
-  std::vector<FacePlane> result = own;
   for (std::size_t i = 0; i < order.size();) {
     std::size_t end = i;
-    FacePlane sum{{}, own[order[i]].on};
+    FacePlane sum{{}, result[order[i]].on};
     for (; end < order.size() && part.faces[order[end]] == part.faces[order[i]]; ++end) {
-      for (std::size_t k = 0; k < 3; ++k) sum.normal[k] += own[order[end]].normal[k];
-      sum.on = std::min(sum.on, own[order[end]].on);
+      const FacePlane& own = result[order[end]];
+      for (std::size_t k = 0; k < 3; ++k) sum.normal[k] += own.normal[k];
+      sum.on = std::min(sum.on, own.on);
     }
     if (!is_zero(sum.normal))
       for (std::size_t j = i; j < end; ++j) result[order[j]] = sum;
@@ -88,8 +92,10 @@ struct Faces {
   std::vector<bool> facet;
 };
 
-Faces faces_of(const Part& part) {
-  Faces result{face_planes(part), {}};
+Result<Faces> faces_of(const Part& part, const parallel::Context& context) {
+  auto planes = face_planes(part, context);
+  if (!planes) return planes.error();
+  Faces result{std::move(*planes), {}};
   if (!part.primitive || !geometry::is_round(*part.primitive) || part.faces.empty()) return result;
   std::vector<std::uint32_t> sorted = part.faces.to_vector();
   std::sort(sorted.begin(), sorted.end());
@@ -151,6 +157,7 @@ std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Face
   return std::nullopt;
 }
 
+// Nothing where the edge has no length.
 void add_edge(std::vector<FeatureEdge>& edges, const Part& part, FeatureEdge e, std::uint32_t v0,
               std::uint32_t v1, const Viewer& viewer) {
   e.a = std::min(part.vertices[v0], part.vertices[v1]);
@@ -167,6 +174,14 @@ void add_chains(std::vector<FeatureEdge>& edges, const Part& part, std::uint32_t
       add_edge(edges, part,
                {.part = part_index, .part_edge = kNoPartEdge, .kind = EdgeKind::polyline}, v, v + 1,
                viewer);
+}
+
+void sort_edges(std::vector<FeatureEdge>& edges) {
+  const auto before = [](const FeatureEdge& x, const FeatureEdge& y) {
+    return std::tie(x.a, x.b, x.part_edge) < std::tie(y.a, y.b, y.part_edge);
+  };
+  // Most come so: vertices and edges of a part are sorted.
+  if (!std::ranges::is_sorted(edges, before)) std::ranges::sort(edges, before);
 }
 
 }  // namespace
@@ -189,25 +204,36 @@ NormalVector triangle_normal(const Part& part, std::uint32_t triangle) {
   return wide_cross(u, v);
 }
 
-std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,
-                                       const FeatureOptions& options) {
+Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
+                                               const FeatureOptions& options,
+                                               const parallel::Context& context) {
   std::vector<FeatureEdge> edges;
   for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
     const Part& part = shape.parts[p];
-    const std::size_t begin = edges.size();
     if (part.kind == geometry::PartKind::wire) {
-      add_chains(edges, part, p, options.viewer);
-    } else if (!part.edges.empty()) {
-      const Faces faces = faces_of(part);
-      for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e)
-        if (const auto kind = kind_of(part, e, faces, options))
-          add_edge(edges, part, {.part = p, .part_edge = e, .kind = *kind}, part.edges[e].v0,
-                   part.edges[e].v1, options.viewer);
+      std::vector<FeatureEdge> chains;
+      add_chains(chains, part, p, options.viewer);
+      sort_edges(chains);
+      edges.insert(edges.end(), chains.begin(), chains.end());
+      continue;
     }
-    std::sort(edges.begin() + static_cast<std::ptrdiff_t>(begin), edges.end(),
-              [](const FeatureEdge& x, const FeatureEdge& y) {
-                return std::tie(x.a, x.b, x.part_edge) < std::tie(y.a, y.b, y.part_edge);
-              });
+    if (part.edges.empty()) continue;
+    const Result<Faces> faces = faces_of(part, context);
+    if (!faces) return faces.error();
+    auto own = collect_elements<FeatureEdge>(
+        context, "hidden lines: feature edges", part.edges.size() - 1,
+        [&](std::size_t i, std::vector<FeatureEdge>& out) {
+          const auto e = static_cast<std::uint32_t>(i);
+          if (const auto kind = kind_of(part, e, *faces, options))
+            add_edge(out, part, {.part = p, .part_edge = e, .kind = *kind}, part.edges[e].v0,
+                     part.edges[e].v1, options.viewer);
+        });
+    if (!own) return own.error();
+    sort_edges(*own);
+    if (edges.empty())
+      edges = std::move(*own);
+    else
+      edges.insert(edges.end(), own->begin(), own->end());
   }
   return edges;
 }

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "hlr/viewer.hpp"
+#include "strake/core/result.hpp"
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::hlr {
 
@@ -39,8 +41,9 @@ struct FeatureOptions {
 /// Twice the area vector of a triangle of a part: exact, outward for solids.
 [[nodiscard]] NormalVector triangle_normal(const geometry::Part& part, std::uint32_t triangle);
 
-/// The lines of a shape for one viewer: by part, then by (a, b).
-[[nodiscard]] std::vector<FeatureEdge> feature_edges(const model::GridShape& shape,
-                                                     const FeatureOptions& options);
+/// The lines of a shape for one viewer: by part, then by (a, b). Errors: cancelled.
+[[nodiscard]] Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
+                                                             const FeatureOptions& options,
+                                                             const parallel::Context& context);
 
 }  // namespace strake::hlr

@@ -173,15 +173,17 @@ bool Gatherer::test_part(const LocalEdge& local, const ShapeView& view, const Pa
     work.wide_tests += local.narrow ? 0 : 1;
     return add(outlined_stretch(local, view, part.outline), self);
   }
-  if (part.tree.empty()) {
-    for (std::uint32_t i = part.first; i < part.last; ++i)
-      if (!test_polygon(local, view, view.polygons[i], contact, self)) return false;
-    return true;
-  }
   bool more = true;
-  part.tree.walk(loose(local.va, local.vb), [&](std::uint32_t i) {
+  const auto test = [&](std::uint32_t i) {
     return more = test_polygon(local, view, view.polygons[part.first + i], contact, self);
-  });
+  };
+  if (!part.tree.empty()) {
+    part.tree.walk(loose(local.va, local.vb), test);
+  } else if (!part.buckets.empty()) {
+    part.buckets.walk(loose(local.va, local.vb), marks_, test);
+  } else {
+    for (std::uint32_t i = 0; more && i < part.last - part.first; ++i) test(i);
+  }
   return more;
 }
 

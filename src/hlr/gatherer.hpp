@@ -82,6 +82,7 @@ class Gatherer {
   ViewBox picture_box_;
   geometry::Box3l limits_;  ///< in the coordinates of the body that is asked
   std::vector<Hit> hits_;
+  BucketMarks marks_;
 };
 
 }  // namespace strake::hlr

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <string_view>
 
+#include "hlr/by_size.hpp"
 #include "strake/geometry/part_edges.hpp"
 
 namespace strake::hlr {
@@ -33,13 +35,19 @@ struct InPlane {
 
 }  // namespace
 
-void PartSight::project(const Frame& frame) {
+Status PartSight::project(const Frame& frame, const parallel::Context& context) {
+  const std::size_t count = part.vertices.size();
+  constexpr std::string_view kName = "hidden lines: vertices on paper";
   if (viewer.eye) {
-    for (const Vec3i& v : part.vertices) rays.push_back(v.as<std::int64_t>() - *viewer.eye);
-    return;
+    rays.resize(count);
+    return for_elements(context, kName, count, [&](std::size_t v) {
+      rays[v] = part.vertices[v].as<std::int64_t>() - *viewer.eye;
+    });
   }
-  points.reserve(part.vertices.size());
-  for (const Vec3i& v : part.vertices) points.push_back(frame(v.as<std::int64_t>()));
+  points.resize(count);
+  return for_elements(context, kName, count, [&](std::size_t v) {
+    points[v] = frame(part.vertices[v].as<std::int64_t>());
+  });
 }
 
 std::int64_t PartSight::farthest() const {
@@ -49,16 +57,16 @@ std::int64_t PartSight::farthest() const {
   return least;
 }
 
-void PartSight::find_planes() {
+Status PartSight::find_planes(const parallel::Context& context) {
   planes.resize(part.triangles.size());
-  for (std::size_t t = 0; t < planes.size(); ++t) {
+  return for_elements(context, "hidden lines: planes", planes.size(), [&](std::size_t t) {
     const Triangle& i = part.triangles[t];
     const Vec3l p = part.vertices[i[0]].as<std::int64_t>();
     const Vec3l n = cross(part.vertices[i[1]].as<std::int64_t>() - p,
                           part.vertices[i[2]].as<std::int64_t>() - p);
     planes[t].n = {n.x, n.y, n.z};
     planes[t].facing = viewer.facing({n.x, n.y, n.z}, p);
-  }
+  });
 }
 
 std::array<std::int64_t, 3> PartSight::towards_viewer(std::uint32_t t) const {

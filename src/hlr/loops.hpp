@@ -9,8 +9,10 @@
 #include "hlr/convexity.hpp"
 #include "hlr/frame.hpp"
 #include "hlr/viewer.hpp"
+#include "strake/core/result.hpp"
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::hlr {
 
@@ -22,8 +24,9 @@ struct PartSight {
   std::vector<geometry::Vec3l> rays = {};  ///< from the eye to the vertices; in perspective
   std::vector<TrianglePlane> planes = {};  ///< for parts within 2^30
 
-  void project(const Frame& frame);
-  void find_planes();
+  // Errors: cancelled.
+  [[nodiscard]] Status project(const Frame& frame, const parallel::Context& context);
+  [[nodiscard]] Status find_planes(const parallel::Context& context);
 
   /// The least product of a vertex, or its ray, with the direction.
   [[nodiscard]] std::int64_t farthest() const;

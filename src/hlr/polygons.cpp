@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
+#include "hlr/by_size.hpp"
 #include "hlr/convexity.hpp"
 #include "hlr/loops.hpp"
+#include "hlr/polygon_maker.hpp"
 #include "hlr/shape_view.hpp"
 #include "strake/core/disjoint_sets.hpp"
 #include "strake/geometry/part_edges.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -16,14 +20,15 @@ namespace {
 using geometry::corner_off;
 using geometry::Part;
 using geometry::runs_along;
-using geometry::Triangle;
 using geometry::Vec3i;
 using geometry::Vec3l;
 
-// A tree pays from this many polygons on.
-constexpr std::uint32_t kTreeFrom = 12;
+// Buckets or a tree pay from this many polygons on.
+constexpr std::uint32_t kIndexFrom = 12;
 // The faces of convex parts are seldom asked: their outline is.
-constexpr std::uint32_t kTreeFromIfConvex = 64;
+constexpr std::uint32_t kIndexFromIfConvex = 64;
+// Buckets::crowding() from which on a tree is better (measured: it is as good at about 15).
+constexpr double kCrowded = 12;
 // Parts up to this size have normals of 62 bits.
 constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
 
@@ -34,82 +39,128 @@ Int128 height(const std::array<std::int64_t, 3>& n, const Vec3i& p, const Vec3i&
          static_cast<Int128>(n[2]) * (std::int64_t{p.z} - q.z);
 }
 
+/// What the triangles at an edge are to each other.
+enum class Bend : std::uint8_t {
+  convex,
+  not_convex,  ///< concave, or not two triangles that run through it both ways
+  folded,      ///< they lie upon each other
+  flat,
+};
+
 class PartMerger {
  public:
-  PartMerger(const Part& part, std::uint32_t part_index, const Sight& sight, ShapeView& view)
+  PartMerger(const Part& part, std::uint32_t part_index, const Sight& sight,
+             std::span<const EdgeView> edges, ShapeView& view)
       : part_(part),
         part_index_(part_index),
         sight_(sight),
         viewer_(sight.features.viewer),
+        edges_(edges),
         view_(view),
-        seen_{.part = part, .viewer = sight.features.viewer},
-        loops_(seen_) {}
+        seen_{.part = part, .viewer = sight.features.viewer} {}
 
-  bool run() {
+  Result<bool> run() {
     first_ = static_cast<std::uint32_t>(view_.polygons.size());
-    seen_.project(sight_.frame);
+    if (const Status s = seen_.project(sight_.frame, sight_.context); !s) return s.error();
+    PolygonMaker maker(seen_, part_index_, sight_.picture);
     if (!narrow()) {
-      for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) add_wide(t);
-      if (PartView part = finished(kTreeFrom); part.first < part.last)
-        view_.parts.push_back(std::move(part));
-      return false;
+      for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) maker.add_wide(t, view_);
+      return finish({}, false);
     }
-    seen_.find_planes();
-    const bool convex = walk_edges() && bounds_convex_body(part_, seen_.planes);
-    add_groups();
-    PartView part = finished(convex ? kTreeFromIfConvex : kTreeFrom);
+    if (const Status s = seen_.find_planes(sight_.context); !s) return s.error();
+    const Result<bool> locally_convex = walk_edges();
+    if (!locally_convex) return locally_convex.error();
+    const bool convex = *locally_convex && bounds_convex_body(part_, seen_.planes);
+    if (const Status s = add_groups(maker); !s) return s.error();
+    PartView part;
     part.farthest = seen_.farthest();
-    if (convex) add_outline(part);
-    if (part.first < part.last) view_.parts.push_back(std::move(part));
-    return convex;
+    if (convex) add_outline(maker, part);
+    return finish(std::move(part), convex);
   }
 
  private:
-  [[nodiscard]] PartView finished(std::uint32_t tree_from) const {
-    PartView part;
-    part.first = first_;
-    part.last = static_cast<std::uint32_t>(view_.polygons.size());
-    std::vector<ViewBox> boxes;
-    for (const Polygon& p : std::span(view_.polygons).subspan(first_)) {
-      part.box.include(p.box);
-      if (part.last - part.first >= tree_from) boxes.push_back(p.box);
-    }
-    if (!boxes.empty()) part.tree = ViewTree(boxes);
-    return part;
-  }
-
   [[nodiscard]] bool narrow() const {
     const auto lo = part_.box.lo.as<std::int64_t>(), hi = part_.box.hi.as<std::int64_t>();
     return hi.x - lo.x <= kNarrow && hi.y - lo.y <= kNarrow && hi.z - lo.z <= kNarrow;
   }
 
+  Result<bool> finish(PartView part, bool convex) {
+    part.first = first_;
+    part.last = static_cast<std::uint32_t>(view_.polygons.size());
+    if (part.first == part.last) return convex;
+    const auto polygons = std::span(view_.polygons).subspan(first_);
+    for (const Polygon& p : polygons) part.box.include(p.box);
+    part.outline.box = part.box;
+    if (polygons.size() >= index_from(convex))
+      if (const Status s = index(polygons, part); !s) return s.error();
+    view_.parts.push_back(std::move(part));
+    return convex;
+  }
+
+  [[nodiscard]] std::size_t index_from(bool convex) const {
+    if (sight_.bucketing != Options::kBucketsByData) return 2;
+    return convex ? kIndexFromIfConvex : kIndexFrom;
+  }
+
+  Status index(std::span<const Polygon> polygons, PartView& part) const {
+    if (sight_.bucketing == Options::kNoBuckets) return {};
+    std::vector<ViewBox> boxes(polygons.size());
+    const Status s = for_elements(sight_.context, "hidden lines: boxes", boxes.size(),
+                                  [&](std::size_t i) { boxes[i] = polygons[i].box; });
+    if (!s) return s;
+    const bool by_data = sight_.bucketing == Options::kBucketsByData;
+    if (by_data && viewer_.eye) {
+      part.tree = ViewTree(boxes);
+      return {};
+    }
+    const BucketPlan plan(boxes);
+    const std::uint32_t side =
+        by_data ? plan.best_side(edge_lengths()) : static_cast<std::uint32_t>(sight_.bucketing);
+    auto buckets = Buckets::of(boxes, plan.axes(side), sight_.context);
+    if (!buckets) return buckets.error();
+    // A cluster of small faces in a wide part: a tree finds its way into it, a grid does not.
+    if (by_data && buckets->crowding() > kCrowded)
+      part.tree = ViewTree(boxes);
+    else
+      part.buckets = std::move(*buckets);
+    return {};
+  }
+
+  [[nodiscard]] EdgeLengths edge_lengths() const {
+    EdgeLengths lengths{.count = static_cast<double>(edges_.size())};
+    for (const EdgeView& e : edges_)
+      lengths.sum +=
+          static_cast<double>(std::max(std::abs(e.b.u - e.a.u), std::abs(e.b.v - e.a.v)));
+    return lengths;
+  }
+
+  [[nodiscard]] Bend bend_at(std::size_t k) const {
+    const geometry::PartEdge& e = part_.edges[k];
+    if (part_.edges[k + 1].first_triangle - e.first_triangle != 2) return Bend::not_convex;
+    const std::uint32_t s = part_.edge_triangles[e.first_triangle];
+    const std::uint32_t t = part_.edge_triangles[e.first_triangle + 1];
+    if (runs_along(part_.triangles[s], e.v0, e.v1) == runs_along(part_.triangles[t], e.v0, e.v1))
+      return Bend::not_convex;
+    const Int128 bend = height(seen_.planes[s].n, part_.vertices[corner_off(part_.triangles[t], e)],
+                               part_.vertices[e.v0]);
+    if (bend != 0) return bend > 0 ? Bend::not_convex : Bend::convex;
+    return is_folded(s, t) ? Bend::folded : Bend::flat;
+  }
+
   // Groups coplanar neighbours; true when every edge is manifold, consistent and not concave.
-  bool walk_edges() {
+  Result<bool> walk_edges() {
+    const std::size_t edges = part_.edges.empty() ? 0 : part_.edges.size() - 1;
+    std::vector<Bend> bends(edges);
+    const Status status = for_elements(sight_.context, "hidden lines: bends", edges,
+                                       [&](std::size_t k) { bends[k] = bend_at(k); });
+    if (!status) return status.error();
     DisjointSets groups(part_.triangles.size());
     bool convex = part_.kind == geometry::PartKind::solid && part_.shell_count == 1;
-    for (std::size_t k = 0; k + 1 < part_.edges.size(); ++k) {
-      const geometry::PartEdge& e = part_.edges[k];
-      if (part_.edges[k + 1].first_triangle - e.first_triangle != 2) {
-        convex = false;
-        continue;
-      }
-      const std::uint32_t s = part_.edge_triangles[e.first_triangle];
-      const std::uint32_t t = part_.edge_triangles[e.first_triangle + 1];
-      if (runs_along(part_.triangles[s], e.v0, e.v1) ==
-          runs_along(part_.triangles[t], e.v0, e.v1)) {
-        convex = false;
-        continue;
-      }
-      const Int128 bend =
-          height(seen_.planes[s].n, part_.vertices[corner_off(part_.triangles[t], e)],
-                 part_.vertices[e.v0]);
-      if (bend > 0) convex = false;
-      if (bend != 0) continue;
-      if (is_folded(s, t)) {
-        convex = false;
-      } else {
-        groups.join(s, t);
-      }
+    for (std::size_t k = 0; k < edges; ++k) {
+      convex = convex && bends[k] != Bend::not_convex && bends[k] != Bend::folded;
+      if (bends[k] != Bend::flat) continue;
+      const std::uint32_t first = part_.edges[k].first_triangle;
+      groups.join(part_.edge_triangles[first], part_.edge_triangles[first + 1]);
     }
     group_.resize(part_.triangles.size());
     for (std::uint32_t t = 0; t < group_.size(); ++t) group_[t] = groups.root(t);
@@ -124,60 +175,19 @@ class PartMerger {
     return true;
   }
 
-  void add_wide(std::uint32_t t) {
-    NormalVector n = triangle_normal(part_, t);
-    Triangle i = part_.triangles[t];
-    const Int128 facing = viewer_.facing(n, part_.vertices[i[0]].as<std::int64_t>());
-    if (facing == 0) return;
-    if (facing < 0) {
-      for (Int128& x : n) x = -x;
-      std::swap(i[1], i[2]);
-    }
-    Polygon& p = start(i[0]);
-    p.wide = static_cast<std::int32_t>(view_.wide_normals.size());
-    view_.wide_normals.push_back(n);
-    add_corners(p, i);
-  }
-
-  Polygon& start(std::uint32_t vertex) {
-    Polygon& p = view_.polygons.emplace_back();
-    p.at = part_.vertices[vertex];
-    p.part = part_index_;
-    return p;
-  }
-
-  void add_corners(Polygon& p, std::span<const std::uint32_t> vertices) {
-    p.corners = static_cast<std::uint32_t>(vertices.size());
-    if (viewer_.eye) {
-      p.first_corner = static_cast<std::uint32_t>(view_.rays.size());
-      for (const std::uint32_t v : vertices) view_.rays.push_back(seen_.rays[v]);
-      p.box = sight_.picture->box_of(std::span(view_.rays).last(vertices.size()));
-      return;
-    }
-    p.first_corner = static_cast<std::uint32_t>(view_.corners.size());
-    for (const std::uint32_t v : vertices) {
-      p.box.include(seen_.points[v]);
-      view_.corners.push_back({seen_.points[v].u, seen_.points[v].v});
-    }
-  }
-
   // The outline of a certified convex part, as one polygon.
-  void add_outline(PartView& view) {
-    if (!loops_.find_contour()) return;
-    view.outline.part = part_index_;
-    add_corners(view.outline, loops_.found());
-    view.outline.box = view.box;
+  void add_outline(PolygonMaker& maker, PartView& part) {
+    if (!maker.make_outline(part.outline, view_)) return;
     double steepest = 0;
-    for (std::uint32_t i = view.first; i < view.last; ++i) {
-      const Polygon& p = view_.polygons[i];
+    for (const Polygon& p : std::span(view_.polygons).subspan(first_)) {
       const geometry::Vec3d n = geometry::Vec3l{p.normal[0], p.normal[1], p.normal[2]}.as<double>();
       const auto facing =
           static_cast<double>(viewer_.facing(view_.normal(p), p.at.as<std::int64_t>()));
       steepest = std::max(steepest, (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) / facing);
     }
     // Rounding of the few operations above is far below the share added.
-    view.deep_per_contact = steepest * reach() * (1 + 1e-9);
-    view.has_outline = true;
+    part.deep_per_contact = steepest * reach() * (1 + 1e-9);
+    part.has_outline = true;
   }
 
   // By this times |n|_1 / facing a point must lie deeper along the direction than the point of a
@@ -192,37 +202,50 @@ class PartMerger {
     return std::sqrt(dot(d, d) * farthest);
   }
 
-  void add_polygon(std::uint32_t t) {
-    Polygon& p = start(loops_.found()[0]);
-    p.normal = seen_.towards_viewer(t);
-    add_corners(p, loops_.found());
+  // Triangles that are not seen edge-on, group by group and in their order: by counting, a group
+  // being the number of its first triangle.
+  [[nodiscard]] std::vector<std::uint32_t> in_groups() const {
+    std::vector<std::uint32_t> next(group_.size() + 1, 0);
+    for (std::uint32_t t = 0; t < group_.size(); ++t)
+      if (seen_.planes[t].facing != 0) ++next[group_[t] + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<std::uint32_t> order(next.back());
+    for (std::uint32_t t = 0; t < group_.size(); ++t)
+      if (seen_.planes[t].facing != 0) order[next[group_[t]]++] = t;
+    return order;
   }
 
-  void add_groups() {
-    std::vector<std::uint32_t> order;
-    order.reserve(seen_.planes.size());
-    for (std::uint32_t t = 0; t < seen_.planes.size(); ++t)
-      if (seen_.planes[t].facing != 0) order.push_back(t);
-    const auto by_group = [&](std::uint32_t s, std::uint32_t t) {
-      return group_[s] < group_[t] || (group_[s] == group_[t] && s < t);
+  Status add_groups(PolygonMaker& maker) {
+    const std::vector<std::uint32_t> order = in_groups();
+    const auto add = [&](PolygonMaker& own, std::size_t first, std::size_t last, Polygons& out) {
+      for (std::size_t i = first, end = 0; i < last; i = end) {
+        end = i + 1;
+        while (end < order.size() && group_[order[end]] == group_[order[i]]) ++end;
+        own.add_group(std::span(order).subspan(i, end - i), out);
+      }
     };
-    if (!std::is_sorted(order.begin(), order.end(), by_group))
-      std::sort(order.begin(), order.end(), by_group);
-    for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
-      while (end < order.size() && group_[order[end]] == group_[order[i]]) ++end;
-      add_group(std::span(order).subspan(i, end - i));
+    if (order.size() < kBigShape) {
+      add(maker, 0, order.size(), view_);
+      return {};
     }
-  }
-
-  void add_group(std::span<const std::uint32_t> triangles) {
-    if (loops_.find_outline(triangles)) {
-      add_polygon(triangles[0]);
-      return;
+    // Runs of whole groups.
+    constexpr std::size_t kRun = 4096;
+    std::vector<std::size_t> cuts{0};
+    for (std::size_t i = kRun; i < order.size(); i = std::max(i, cuts.back()) + kRun) {
+      while (i < order.size() && group_[order[i]] == group_[order[i - 1]]) ++i;
+      if (i < order.size()) cuts.push_back(i);
     }
-    for (const std::uint32_t t : triangles) {
-      loops_.take_triangle(t);
-      add_polygon(t);
-    }
+    cuts.push_back(order.size());
+    const auto runs = parallel::transform_with(
+        sight_.context, {.name = "hidden lines: polygons", .n = cuts.size() - 1},
+        [&] { return PolygonMaker(seen_, part_index_, sight_.picture); },
+        [&](PolygonMaker& own, std::size_t r) {
+          Polygons out;
+          add(own, cuts[r], cuts[r + 1], out);
+          return out;
+        });
+    if (!runs) return runs.error();
+    return append(view_, *runs, sight_.context);
   }
 
   const Part& part_;
@@ -230,16 +253,17 @@ class PartMerger {
   std::uint32_t first_ = 0;
   const Sight& sight_;
   const Viewer& viewer_;
+  std::span<const EdgeView> edges_;
   ShapeView& view_;
   PartSight seen_;
-  Loops loops_;
   std::vector<std::uint32_t> group_;
 };
 
 }  // namespace
 
-bool add_polygons(const Part& part, std::uint32_t part_index, const Sight& sight, ShapeView& view) {
-  return PartMerger(part, part_index, sight, view).run();
+Result<bool> add_polygons(const Part& part, std::uint32_t part_index, const Sight& sight,
+                          std::span<const EdgeView> edges, ShapeView& view) {
+  return PartMerger(part, part_index, sight, edges, view).run();
 }
 
 }  // namespace strake::hlr

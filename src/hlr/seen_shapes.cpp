@@ -110,8 +110,8 @@ class EdgeCutter {
   EdgeCutter(const SeenShape& seen, const FeatureOptions& options)
       : seen_(seen), options_(options) {}
 
-  std::vector<FeatureEdge> run() {
-    for (const FeatureEdge& e : feature_edges(*seen_.source, options_)) add(e);
+  std::vector<FeatureEdge> run(std::span<const FeatureEdge> edges) {
+    for (const FeatureEdge& e : edges) add(e);
     std::ranges::sort(edges_, [](const FeatureEdge& x, const FeatureEdge& y) {
       return std::tie(x.part, x.a, x.b, x.cut_away, x.kind, x.part_edge) <
              std::tie(y.part, y.a, y.b, y.cut_away, y.kind, y.part_edge);
@@ -189,9 +189,11 @@ Result<SeenShapes> seen_shapes(const model::Scene& scene, const std::vector<bool
   return seen;
 }
 
-std::vector<FeatureEdge> edges_of(const SeenShape& seen, const FeatureOptions& options) {
-  if (!seen.away && seen.planes.empty()) return feature_edges(*seen.source, options);
-  return EdgeCutter(seen, options).run();
+Result<std::vector<FeatureEdge>> edges_of(const SeenShape& seen, const FeatureOptions& options,
+                                          const parallel::Context& context) {
+  auto edges = feature_edges(*seen.source, options, context);
+  if (!edges || (!seen.away && seen.planes.empty())) return edges;
+  return EdgeCutter(seen, options).run(*edges);
 }
 
 }  // namespace strake::hlr

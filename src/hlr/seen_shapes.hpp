@@ -49,8 +49,9 @@ struct SeenShapes {
                                              const parallel::Context& context);
 
 /// The feature edges of the source, in two or three where planes cut them: their kind does not
-/// change with a cut.
-[[nodiscard]] std::vector<FeatureEdge> edges_of(const SeenShape& seen,
-                                                const FeatureOptions& options);
+/// change with a cut. Errors: cancelled.
+[[nodiscard]] Result<std::vector<FeatureEdge>> edges_of(const SeenShape& seen,
+                                                        const FeatureOptions& options,
+                                                        const parallel::Context& context);
 
 }  // namespace strake::hlr

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
 
+#include "hlr/by_size.hpp"
 #include "strake/geometry/part_edges.hpp"
 
 namespace strake::hlr {
@@ -42,34 +44,42 @@ void judge_edges(const geometry::Part& part, const Viewer& viewer, std::span<Edg
 
 }  // namespace
 
-ShapeView view_of(const SeenShape& seen, const Sight& sight) {
+Result<ShapeView> view_of(const SeenShape& seen, const Sight& sight) {
   const model::GridShape& shape = seen.shape();
   const Viewer& viewer = sight.features.viewer;
   ShapeView view;
   view.viewer = viewer;
-  const std::vector<FeatureEdge> edges = edges_of(seen, sight.features);
-  view.edges.reserve(edges.size());
-  for (const FeatureEdge& e : edges) {
-    view.edges.push_back({.edge = e, .a = {}, .b = {}});
-    if (viewer.eye) continue;
-    view.edges.back().a = sight.frame(e.a.as<std::int64_t>());
-    view.edges.back().b = sight.frame(e.b.as<std::int64_t>());
-  }
+  const auto found = edges_of(seen, sight.features, sight.context);
+  if (!found) return found.error();
+  const std::vector<FeatureEdge>& edges = *found;
+  view.edges.resize(edges.size());
+  const Status placed =
+      for_elements(sight.context, "hidden lines: edges on paper", edges.size(), [&](std::size_t i) {
+        EdgeView& e = view.edges[i];
+        e.edge = edges[i];
+        if (viewer.eye) return;
+        e.a = sight.frame(e.edge.a.as<std::int64_t>());
+        e.b = sight.frame(e.edge.b.as<std::int64_t>());
+      });
+  if (!placed) return placed.error();
 
   std::size_t begin = 0;
   for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
     std::size_t end = begin;
     while (end < edges.size() && edges[end].part == p) ++end;
     const geometry::Part& part = shape.parts[p];
-    // What was rounded has a contact distance within the part, which the signs know nothing of.
-    if (part.kind != geometry::PartKind::wire && add_polygons(part, p, sight, view) &&
-        seen.within == 0 && is_outside(part, viewer))
-      judge_edges(part, viewer, std::span(view.edges).subspan(begin, end - begin));
+    const std::span<EdgeView> own = std::span(view.edges).subspan(begin, end - begin);
     begin = end;
+    if (part.kind == geometry::PartKind::wire) continue;
+    const Result<bool> convex = add_polygons(part, p, sight, own, view);
+    if (!convex) return convex.error();
+    // What was rounded has a contact distance within the part, which the signs know nothing of.
+    if (*convex && seen.within == 0 && is_outside(part, viewer)) judge_edges(part, viewer, own);
   }
   for (const PartView& part : view.parts) view.box.include(part.box);
-  for (const Corner& c : view.corners)
-    view.reach = std::max({view.reach, std::abs(c.u), std::abs(c.v)});
+  if (!viewer.eye && !view.box.empty())
+    view.reach = std::max({std::abs(view.box.lo.u), std::abs(view.box.hi.u),
+                           std::abs(view.box.lo.v), std::abs(view.box.hi.v)});
   return view;
 }
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "hlr/by_size.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/parallel/for_each.hpp"
-#include "strake/parallel/order.hpp"
+#include "strake/parallel/heavy.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -59,20 +59,23 @@ Status make_views(World& world, const parallel::Context& context) {
     if (!world.picture && !known[seen]) tasks.push_back({seen, b});
     known[seen] = true;
   }
-  const auto order = parallel::longest_first(tasks.size(), [&](std::size_t i) {
-    std::size_t triangles = 0;
+  const auto edges = [&](std::size_t i) {
+    std::size_t sum = 0;
     for (const geometry::Part& part : job.seen_of(tasks[i].body).source->parts)
-      triangles += part.edges.size();
-    return triangles;
-  });
+      sum += part.edges.size();
+    return sum;
+  };
   world.views.resize(world.picture ? scene.bodies.size() : job.seen.all.size());
   const Picture* const picture = world.picture ? &*world.picture : nullptr;
-  return parallel::for_each(
-      context, {.name = "hidden lines: shapes", .n = tasks.size(), .order = order},
-      [&](std::size_t i) {
+  return parallel::for_each_by_weight(
+      context, {.name = "hidden lines: shapes", .n = tasks.size()}, kBigShape, edges,
+      [&](std::size_t i) -> Status {
         const auto [view, body] = tasks[i];
-        world.views[view] =
-            view_of(job.seen_of(body), {world.frame, job.features_of(scene.bodies[body]), picture});
+        auto made = view_of(job.seen_of(body), {world.frame, job.features_of(scene.bodies[body]),
+                                                picture, job.options.bucketing, context});
+        if (!made) return made.error();
+        world.views[view] = std::move(*made);
+        return {};
       });
 }
 

@@ -23,6 +23,12 @@ struct ShipOptions {
   /// Turns the whole ship by one general rotation (composed into every placement), so that no face
   /// lies along an axis any more and flush contacts become ties within a few micrometres.
   bool turned = false;
+  /// So many objects on the weather deck are single meshes with far more triangles than anything
+  /// else, no two alike, as equipment that was imported from another program.
+  std::uint64_t imported_detail = 0;
+  static constexpr std::uint64_t kMinTriangles = 1000;
+  static constexpr std::uint64_t kMaxTriangles = 20'000'000;
+  std::uint64_t imported_triangles = 1'000'000;  ///< about, of each of them
 };
 
 /// A pair of objects that is not NO_HIT; a < b in the model's order.
@@ -61,7 +67,8 @@ struct Ship {
 ///    plates with openings are hollow. Meshes are closed; several disjoint or merely touching
 ///    shells may make one object.
 ///
-/// Usage error outside [kMinObjects, kMaxObjects]; cancelled when the context says stop.
+/// Usage error outside [kMinObjects, kMaxObjects] and [kMinTriangles, kMaxTriangles], and where the
+/// deck has no room for what is imported; cancelled when the context says stop.
 [[nodiscard]] Result<Ship> generate_ship(const ShipOptions& options,
                                          const parallel::Context& context);
 

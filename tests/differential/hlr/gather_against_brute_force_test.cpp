@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 
@@ -43,6 +45,9 @@ std::string run(std::uint64_t seed, const Settings& settings) {
   options.solver = hlr::Solver::brute_force;
   const auto expected = hlr::draw(scene.scene(), {}, view, options, {});
   options.solver = hlr::Solver::gather;
+  constexpr std::array<std::int32_t, 6> kBucketing{
+      hlr::Options::kBucketsByData, hlr::Options::kNoBuckets, 1, 2, 5, 64};
+  options.bucketing = kBucketing[random.below(kBucketing.size())];
   const auto got = hlr::draw(scene.scene(), {}, view, options, {});
   options.culling = false;
   const auto unculled = hlr::draw(scene.scene(), {}, view, options, {});

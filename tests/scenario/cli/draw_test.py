@@ -47,6 +47,12 @@ class Draw(Scenario):
         whole = pieces()
         self.assertEqual(whole, pieces('--solver', 'brute-force'))
         self.assertEqual(whole, pieces('--culling', 'off'))
+        for bucketing in ('auto', 'off', '1', '16', '4096'):
+            self.assertEqual(whole, pieces('--bucketing', bucketing))
+        for wrong in ('0', '4097', '-1', 'on', '3.5'):
+            done = self.run_strake('draw', 'a.obj', '--bucketing=' + wrong, '-o', 'x.svg')
+            self.assertEqual(done.returncode, 2, wrong)
+            self.assertIn('--bucketing', done.stderr)
         for threads in (1, 3):
             self.assertEqual(whole, pieces('--global', 'push', '--threads', threads))
         self.assertEqual(pieces('--view', 'front'), pieces('--direction', '0,-7,0'))

@@ -31,14 +31,18 @@ const char* name_of(clash::Class cls) { return kClassNames[static_cast<std::size
 struct Case {
   std::uint64_t objects, seed;
   bool turned;
-  bool through_file = false;  ///< written as GLB and read again
+  bool through_file = false;   ///< written as GLB and read again
+  std::uint64_t imported = 0;  ///< objects that are one heavy mesh
 };
 
 class TruthAgainstEngine : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
     const Case& c = GetParam();
-    Result<Ship> made = generate_ship({c.objects, c.seed, c.turned}, {});
+    ShipOptions options{c.objects, c.seed, c.turned};
+    options.imported_detail = c.imported;
+    options.imported_triangles = 20'000;
+    Result<Ship> made = generate_ship(options, {});
     ASSERT_TRUE(made.has_value()) << made.error().text();
     ship_ = std::move(made.value());
     if (c.through_file) read_back();
@@ -122,12 +126,14 @@ TEST_P(TruthAgainstEngine, every_pair_is_found_in_its_class_and_no_other) {
 INSTANTIATE_TEST_SUITE_P(ships, TruthAgainstEngine,
                          testing::Values(Case{1000, 1, false}, Case{1000, 1, true},
                                          Case{1000, 2, false}, Case{1000, 3, false, true},
-                                         Case{1000, 3, true, true}, Case{20000, 1, false, true},
+                                         Case{1000, 3, true, true}, Case{1000, 4, false, true, 3},
+                                         Case{1000, 4, true, true, 3}, Case{20000, 1, false, true},
                                          Case{20000, 1, true, true}),
                          [](const auto& test_case) {
                            return "of_" + std::to_string(test_case.param.objects) + "_seed_" +
                                   std::to_string(test_case.param.seed) +
                                   (test_case.param.turned ? "_turned" : "") +
+                                  (test_case.param.imported > 0 ? "_with_imported" : "") +
                                   (test_case.param.through_file ? "_through_glb" : "");
                          });
 

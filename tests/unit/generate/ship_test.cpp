@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -112,6 +113,57 @@ TEST(Ship, meshes_are_closed_and_come_back_from_float32_metres) {
         EXPECT_EQ(geometry::snap(static_cast<double>(stored) * 1000), geometry::snap(v[k]));
       }
   }
+}
+
+std::vector<std::uint32_t> shapes_of_kind(const Ship& ship, std::string_view code) {
+  std::vector<std::uint32_t> shapes;
+  for (const model::Object& object : ship.model.objects)
+    if (object.id.starts_with(code))
+      shapes.push_back(model::index(ship.model.bodies[object.first_body].shape));
+  return shapes;
+}
+
+TEST(Ship, imported_meshes_are_heavy_closed_and_no_two_alike) {
+  ShipOptions options{.objects = 1500, .seed = 2};
+  options.imported_detail = 3;
+  options.imported_triangles = 30000;
+  const Result<Ship> ship = generate_ship(options, {});
+  ASSERT_TRUE(ship.has_value());
+  EXPECT_EQ(ship->model.objects.size(), 1500U);
+  const std::vector<std::uint32_t> shapes = shapes_of_kind(*ship, "IMP");
+  ASSERT_EQ(shapes.size(), 3U);
+  EXPECT_EQ(std::set(shapes.begin(), shapes.end()).size(), 3U);
+  std::set<double> volumes;
+  for (const std::uint32_t s : shapes) {
+    const auto& mesh = std::get<TriangleMesh>(ship->model.shapes[s]);
+    EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), 30000, 3000);
+    double six_volumes = 0;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+    for (const geometry::Triangle& t : mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        ++balance[{t[k], t[(k + 1) % 3]}];
+        --balance[{t[(k + 1) % 3], t[k]}];
+      }
+      six_volumes += dot(mesh.vertices[t[0]], cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
+    }
+    for (const auto& [edge, count] : balance) ASSERT_EQ(count, 0);
+    EXPECT_GT(six_volumes, 0);
+    volumes.insert(six_volumes);
+  }
+  EXPECT_EQ(volumes.size(), 3U);
+}
+
+TEST(Ship, refuses_what_its_deck_has_no_room_for) {
+  ShipOptions options{.objects = 200, .seed = 1};
+  options.imported_detail = 500;
+  options.imported_triangles = 1000;
+  const Result<Ship> crowded = generate_ship(options, {});
+  ASSERT_FALSE(crowded.has_value());
+  EXPECT_EQ(crowded.error().code, ErrorCode::usage);
+  EXPECT_EQ(crowded.error().where, "--imported-detail");
+  options.imported_detail = 1;
+  options.imported_triangles = 999;
+  EXPECT_EQ(generate_ship(options, {}).error().where, "--imported-triangles");
 }
 
 TEST(Ship, nothing_lies_near_a_threshold) {

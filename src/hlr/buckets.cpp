@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/buckets.hpp"
+
+#include <limits>
+
+#include "hlr/by_size.hpp"
+
+namespace strake::hlr {
+namespace {
+
+/// A float no less.
+float no_less(std::int64_t x) {
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+/// Deals boxes to buckets, in a few runs of boxes each with counts of its own: the entries of a
+/// bucket are those of the first run, then those of the second, so in the order of the boxes.
+class Buckets::Dealer {
+ public:
+  Dealer(std::span<const ViewBox> boxes, Buckets& to, const parallel::Context& context)
+      : boxes_(boxes),
+        to_(to),
+        context_(context),
+        buckets_(std::size_t{to.axes_.u.count} * to.axes_.v.count),
+        runs_(std::clamp<std::size_t>(
+            std::min(boxes.size() / kBigShape, 4 * boxes.size() / buckets_), 1, 16)),
+        next_(buckets_ * runs_, 0) {}
+
+  Status run() {
+    const Status counted = in_runs([&](std::size_t run) {
+      each_entry(run, [&](std::uint32_t& next, const Entry&) { ++next; });
+    });
+    if (!counted) return counted;
+    find_places();
+    const Status dealt = in_runs([&](std::size_t run) {
+      each_entry(run,
+                 [&](std::uint32_t& next, const Entry& entry) { to_.entries_[next++] = entry; });
+    });
+    if (!dealt) return dealt;
+    return for_elements(context_, "hidden lines: buckets sorted", buckets_, [&](std::size_t b) {
+      const auto own =
+          std::span(to_.entries_).subspan(to_.first_[b], to_.first_[b + 1] - to_.first_[b]);
+      std::ranges::sort(own, [](const Entry& x, const Entry& y) {
+        return x.nearest != y.nearest ? x.nearest > y.nearest : x.item < y.item;
+      });
+    });
+  }
+
+ private:
+  template <class Body>
+  Status in_runs(Body&& body) {
+    return parallel::for_each(runs_ == 1 ? parallel::Context{} : context_,
+                              {.name = "hidden lines: buckets", .n = runs_}, body);
+  }
+
+  template <class Use>
+  void each_entry(std::size_t run, Use&& use) {
+    const BucketAxis &u = to_.axes_.u, &v = to_.axes_.v;
+    std::uint32_t* const next = next_.data() + run * buckets_;
+    const std::size_t last = boxes_.size() * (run + 1) / runs_;
+    for (std::size_t b = boxes_.size() * run / runs_; b < last; ++b) {
+      const ViewBox& box = boxes_[b];
+      const Entry entry{static_cast<std::uint32_t>(b), no_less(box.hi.w)};
+      const std::uint32_t u0 = u.cell(static_cast<double>(box.lo.u));
+      const std::uint32_t u1 = u.cell(static_cast<double>(box.hi.u));
+      const std::uint32_t v1 = v.cell(static_cast<double>(box.hi.v));
+      for (std::uint32_t j = v.cell(static_cast<double>(box.lo.v)); j <= v1; ++j)
+        for (std::uint32_t i = u0; i <= u1; ++i) use(next[std::size_t{j} * u.count + i], entry);
+    }
+  }
+
+  // Of counts the place where each run starts in each bucket.
+  void find_places() {
+    to_.first_.resize(buckets_ + 1);
+    std::uint32_t sum = 0;
+    for (std::size_t b = 0; b < buckets_; ++b) {
+      to_.first_[b] = sum;
+      for (std::size_t run = 0; run < runs_; ++run)
+        sum += std::exchange(next_[run * buckets_ + b], sum);
+    }
+    to_.first_[buckets_] = sum;
+    to_.entries_.resize(sum);
+  }
+
+  std::span<const ViewBox> boxes_;
+  Buckets& to_;
+  const parallel::Context& context_;
+  std::size_t buckets_, runs_;
+  std::vector<std::uint32_t> next_;  ///< by run and bucket
+};
+
+Result<Buckets> Buckets::of(std::span<const ViewBox> boxes, const BucketAxes& axes,
+                            const parallel::Context& context) {
+  Buckets made;
+  made.axes_ = axes;
+  made.items_ = boxes.size();
+  if (const Status s = Dealer(boxes, made, context).run(); !s) return s.error();
+  return made;
+}
+
+double Buckets::crowding() const {
+  double squares = 0;
+  for (std::size_t b = 0; b + 1 < first_.size(); ++b) {
+    const auto count = static_cast<double>(first_[b + 1] - first_[b]);
+    squares += count * count;
+  }
+  const auto entries = static_cast<double>(entries_.size());
+  return squares * static_cast<double>(first_.size() - 1) / (entries * entries);
+}
+
+Buckets::Cells Buckets::across(const LooseSegment& s, bool steep, std::uint32_t i) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const BucketAxis& along = steep ? axes_.v : axes_.u;
+  const BucketAxis& to_side = steep ? axes_.u : axes_.v;
+  const double lo = steep ? s.u0 : s.v0, hi = steep ? s.u1 : s.v1;
+  const double from = steep ? s.av : s.au, step = steep ? s.dv : s.du;
+  // A line that is not known, or a point.
+  if (step == 0) return {to_side.cell(lo), to_side.cell(hi)};
+  const double at = steep ? s.au : s.av, slope = (steep ? s.du : s.dv) / step;
+  // The first and the last bucket take what is beyond them.
+  const double begin = i == 0 ? -kInfinity : along.lo + along.size * i;
+  const double end = i + 1 == along.count ? kInfinity : along.lo + along.size * (i + 1);
+  const double least = std::max(begin, steep ? s.v0 : s.u0);
+  const double most = std::min(end, steep ? s.v1 : s.u1);
+  const double p = at + (least - from) * slope, q = at + (most - from) * slope;
+  // What rounding may have done to the bucket's sides and to the line; |slope| <= 1.
+  const double slack = 1e-12 * (std::abs(at) + std::abs(from) + std::abs(least) + std::abs(most) +
+                                std::abs(along.lo) + std::abs(along.hi)) +
+                       s.beside / std::abs(step);
+  return {to_side.cell(std::max(lo, std::min(p, q) - slack)),
+          to_side.cell(std::min(hi, std::max(p, q) + slack))};
+}
+
+}  // namespace strake::hlr

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loops over the elements of one shape: by the whole team where it is big, so that one imported
+// mesh does not keep a worker busy while the others wait, and with no region to open where it is
+// small, as most are.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
+
+namespace strake::hlr {
+
+/// What is worth a team: so many triangles, edges or vertices.
+inline constexpr std::size_t kBigShape = std::size_t{1} << 15U;
+
+/// body(i) for each i < n; in any order.
+template <class Body>
+[[nodiscard]] Status for_elements(const parallel::Context& context, std::string_view name,
+                                  std::size_t n, Body&& body) {
+  constexpr std::size_t kGrain = 2048;
+  if (n >= kBigShape)
+    return parallel::for_each(context, {.name = name, .n = n, .grain = kGrain}, body);
+  for (std::size_t i = 0; i < n; ++i) body(i);
+  return {};
+}
+
+/// What body(i, out) appends for each i < n, in their order.
+template <class T, class Body>
+[[nodiscard]] Result<std::vector<T>> collect_elements(const parallel::Context& context,
+                                                      std::string_view name, std::size_t n,
+                                                      Body&& body) {
+  constexpr std::size_t kGrain = 2048;
+  if (n >= kBigShape)
+    return parallel::collect<T>(context, {.name = name, .n = n, .grain = kGrain}, body);
+  std::vector<T> out;
+  for (std::size_t i = 0; i < n; ++i) body(i, out);
+  return out;
+}
+
+}  // namespace strake::hlr
