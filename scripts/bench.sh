@@ -4,6 +4,8 @@
 set -euo pipefail
 . scripts/common.sh
 need build test bench
+# Some have packages of their own, which are not asked of those who run all.
+for name in "$@"; do need "bench-$name"; done
 configure_and_build bench
 ran=
 for program in build/bench/bin/bench_*; do

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench_hidden_lines_peers [SCENE[@X,Y,Z]]... [--peer occt|line_art|tech_draw|none]...
+// [--limit SECONDS] [--rays N]: the hidden lines of one view through Strake, and through OCCT's
+// PolyAlgo, Blender's Line Art and FreeCAD's TechDraw on the same triangles out of the same OBJ
+// file. A scene is ship:OBJECTS, boxes:SIDE, pipes:SIDE or an OBJ file; X,Y,Z points to the viewer.
+// Without a scene those that each peer can finish, with the ratios that are asked for.
+//
+// Seconds are of hiding alone: every program has the scene in memory before. Strake's are medians
+// of several runs, with the kinds of lines that the peer has; peers run once. Before a time counts
+// exact rays through Strake's pieces must find none wrong, and the peer's lines must lie where
+// Strake's do, but for a share of their length that is stated with each (Asked).
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clash/clocks.hpp"
+#include "hlr/made_scenes.hpp"
+#include "hlr/peers/peer.hpp"
+#include "hlr/same_lines.hpp"
+#include "hlr/view_axes.hpp"
+#include "strake/generate/ship.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/io/reader.hpp"
+#include "strake/io/writer.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/ray_check.hpp"
+
+namespace {
+
+using namespace strake;
+using bench::Peer;
+using bench::PeerAnswer;
+using bench::Seconds;
+using geometry::Vec3d;
+using geometry::Vec3l;
+namespace fs = std::filesystem;
+
+constexpr int kRuns = 5;
+constexpr unsigned kThreads = 2;
+constexpr double kSharp_deg = 20;
+
+/// How many times a peer should need what Strake needs; 0: not asked for.
+struct Asked {
+  std::string_view peer;
+  double cpu = 0, wall = 0;
+  /// How much of the lines on paper may be missing, or too many.
+  double tolerance_percent = 5;
+};
+
+struct Subject {
+  std::string scene;
+  /// Not an isometric one, in which whole families of edges lie on each other on paper.
+  Vec3l direction{5, -7, 4};
+  std::vector<Asked> asked{{"occt"}, {"line_art"}, {"tech_draw"}};
+};
+
+std::vector<Subject> usual_subjects() {
+  return {{"ship:1000", {5, -7, 4}, {{"tech_draw", 0, 500, 10}}},
+          {"ship:3000", {5, -7, 4}, {{"occt", 60, 100}}},
+          {"ship:10000", {5, -7, 4}, {{"line_art", 0, 50}}},
+          {"boxes:20", {0, 0, 1}, {{"occt", 0, 50}, {"line_art", 0, 50}}},
+          {"pipes:24", {1, 0, 0}, {{"occt", 0, 50}, {"line_art", 0, 50}}}};
+}
+
+struct Arguments {
+  std::vector<Subject> subjects;
+  std::vector<std::string> peers;  ///< empty: all
+  double limit_s = 900;
+  std::uint64_t rays = 2000;
+
+  [[nodiscard]] bool wants(std::string_view peer) const {
+    return peers.empty() || std::ranges::find(peers, peer) != peers.end();
+  }
+};
+
+Subject subject_of(const std::string& word) {
+  Subject s;
+  const std::size_t at = word.find('@');
+  s.scene = word.substr(0, at);
+  if (at != std::string::npos)
+    std::sscanf(word.c_str() + at + 1, "%ld,%ld,%ld", &s.direction.x, &s.direction.y,
+                &s.direction.z);
+  return s;
+}
+
+std::optional<Arguments> parse(int argc, char** argv) {
+  Arguments a;
+  for (int i = 1; i < argc; ++i) {
+    const std::string key = argv[i];
+    const auto value = [&] { return i + 1 < argc ? argv[++i] : "0"; };
+    if (key == "--peer")
+      a.peers.emplace_back(value());
+    else if (key == "--limit")
+      a.limit_s = std::atof(value());
+    else if (key == "--rays")
+      a.rays = std::strtoull(value(), nullptr, 10);
+    else
+      a.subjects.push_back(subject_of(key));
+  }
+  for (const std::string& name : a.peers)
+    if (name != "none" &&
+        std::ranges::find(bench::peers(), name, &Peer::name) == bench::peers().end())
+      return fmt::print(stderr, "there is no peer '{}'\n", name), std::nullopt;
+  if (a.subjects.empty()) a.subjects = usual_subjects();
+  return a;
+}
+
+/// A folder that goes when this does.
+class Scratch {
+ public:
+  Scratch() : path_(fs::temp_directory_path() / fmt::format("hidden_lines_peers.{}", getpid())) {
+    fs::create_directory(path_);
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// The OBJ file of a scene: made in `folder`, or what the word names.
+Result<fs::path> file_of(const std::string& scene, const fs::path& folder,
+                         const parallel::Context& context) {
+  const std::size_t colon = scene.find(':');
+  if (colon == std::string::npos) return fs::path(scene);
+  const std::string kind = scene.substr(0, colon);
+  const auto number =
+      static_cast<std::uint32_t>(std::strtoul(scene.c_str() + colon + 1, nullptr, 10));
+  const fs::path path = folder / (kind + ".obj");
+  constexpr std::uint32_t kLayers = 50, kLengths = 2;
+  model::Model model;
+  if (kind == "ship") {
+    auto ship = generate::generate_ship({number, 1, false}, context);
+    if (!ship) return ship.error();
+    model = std::move(ship->model);
+  } else if (kind == "boxes") {
+    model = bench::stacked_boxes(number, kLayers);
+  } else if (kind == "pipes") {
+    model = bench::pipe_bundle(number, kLengths);
+  } else {
+    return Error{ErrorCode::usage, "no such scene", scene, "ship:N, boxes:N, pipes:N or a file"};
+  }
+  const auto written = io::write_obj(model, path, {}, context);
+  if (!written) return written.error();
+  return path;
+}
+
+template <class Number>
+Number median(std::vector<Number> all) {
+  std::sort(all.begin(), all.end());
+  return all[all.size() / 2];
+}
+
+std::string_view common_kind(hlr::EdgeKind kind) {
+  switch (kind) {
+    case hlr::EdgeKind::contour:
+      return "contour";
+    case hlr::EdgeKind::intersection:
+      return "intersection";
+    case hlr::EdgeKind::smooth:
+      return "smooth";
+    default:
+      return "sharp";
+  }
+}
+
+struct PaperLine {
+  std::string_view kind;
+  drawing::Flat at;  ///< mm
+};
+
+/// The paper of a view.
+class Paper {
+ public:
+  explicit Paper(const Vec3l& direction)
+      : axes_(hlr::axes_of({.direction = direction, .limits = {}})) {}
+
+  [[nodiscard]] std::vector<PaperLine> visible(const hlr::Drawing& drawing) const {
+    std::vector<PaperLine> lines;
+    for (const hlr::Piece& p : drawing.pieces)
+      if (p.state == hlr::State::visible)
+        lines.push_back({common_kind(p.kind), flat(geometry::to_mm(p.a), geometry::to_mm(p.b))});
+    return lines;
+  }
+  /// The kinds are the answer's own text.
+  [[nodiscard]] std::vector<PaperLine> visible(const PeerAnswer& answer) const {
+    std::vector<PaperLine> lines;
+    for (const bench::PeerLine& l : answer.lines) lines.push_back({l.kind, flat(l.a, l.b)});
+    return lines;
+  }
+
+ private:
+  [[nodiscard]] drawing::Flat flat(const Vec3d& a, const Vec3d& b) const {
+    return {.ax = dot(a, axes_.right),
+            .ay = dot(a, axes_.up),
+            .bx = dot(b, axes_.right),
+            .by = dot(b, axes_.up)};
+  }
+  hlr::ViewAxes axes_;
+};
+
+std::vector<drawing::Flat> of_kinds(const std::vector<PaperLine>& lines,
+                                    const std::vector<std::string_view>& kinds) {
+  std::vector<drawing::Flat> some;
+  for (const PaperLine& l : lines)
+    if (std::ranges::find(kinds, l.kind) != kinds.end()) some.push_back(l.at);
+  return some;
+}
+
+/// "contour 470.3, sharp 405.8 m".
+std::string lengths_of(const std::vector<PaperLine>& lines) {
+  std::map<std::string_view, double> sum;
+  for (const PaperLine& l : lines) sum[l.kind] += l.at.length();
+  std::string text;
+  for (const auto& [kind, mm] : sum)
+    text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", kind, mm / 1000);
+  return text + " m";
+}
+
+struct Ours {
+  Seconds one, team;  ///< on one thread, and on kThreads
+  hlr::Counters counters;
+  std::size_t pieces = 0;
+  std::vector<PaperLine> visible;
+  test::RayCheck check;
+
+  [[nodiscard]] double ns_per_face_test() const {
+    return one.cpu * 1e9 / static_cast<double>(std::max<std::uint64_t>(1, counters.face_tests));
+  }
+};
+
+/// A scene in memory, drawn by Strake.
+class Drawn {
+ public:
+  Drawn(const model::Scene& scene, const Vec3l& direction, std::uint64_t rays)
+      : scene_(scene), direction_(direction), rays_(rays) {}
+
+  [[nodiscard]] Result<Ours> ours(const bench::MoreLines& with) const {
+    Ours ours;
+    const hlr::View view{.direction = direction_, .limits = {}};
+    const hlr::Options options{.sharp_angle_deg = kSharp_deg,
+                               .smooth = with.smooth,
+                               .intersections = with.intersections,
+                               .hidden = with.hidden};
+    for (const unsigned threads : {1U, kThreads}) {
+      parallel::Team team(threads);
+      const parallel::Context context{.team = threads > 1 ? &team : nullptr, .stop = {}};
+      std::vector<double> cpu_s, wall_s;
+      for (int i = 0; i < kRuns; ++i) {
+        bench::Lap lap;
+        bench::CpuLap cpu;
+        const auto drawing = hlr::draw(scene_, {}, view, options, context);
+        cpu_s.push_back(cpu());
+        wall_s.push_back(lap());
+        if (!drawing) return drawing.error();
+        if (i > 0 || threads > 1) continue;
+        ours.counters = drawing->counters;
+        ours.pieces = drawing->pieces.size();
+        ours.visible = Paper(direction_).visible(*drawing);
+        ours.check = test::check_by_rays(scene_, *drawing, rays_, 1);
+      }
+      Seconds& seconds = threads > 1 ? ours.team : ours.one;
+      seconds = {median(cpu_s), median(wall_s)};
+    }
+    return ours;
+  }
+
+ private:
+  const model::Scene& scene_;
+  Vec3l direction_;
+  std::uint64_t rays_;
+};
+
+/// False where an exact ray found a wrong piece.
+bool print(const Ours& ours, const bench::MoreLines& with) {
+  std::string more;
+  if (with.intersections != hlr::Intersections::off) more += ", intersections too";
+  if (with.smooth) more += ", smooth too";
+  if (!with.hidden) more += ", visible only";
+  fmt::print(
+      "  Strake{:<35}{:>9.3f} s CPU {:>9.3f} s wall on 1 thread, {:.3f} s CPU {:.3f} s wall on {}\n"
+      "    {} edges, {} pieces, {} face tests of {:.0f} ns; visible: {}; {} of {} rays wrong\n",
+      more, ours.one.cpu, ours.one.wall, ours.team.cpu, ours.team.wall, kThreads,
+      ours.counters.feature_edges, ours.pieces, ours.counters.face_tests, ours.ns_per_face_test(),
+      lengths_of(ours.visible), ours.check.wrong, ours.check.rays);
+  std::fflush(stdout);
+  if (ours.check.wrong == 0) return true;
+  fmt::print("    ERROR: {}\n", ours.check.first_wrong);
+  return false;
+}
+
+std::string asked_for(double times) {
+  return times > 0 ? fmt::format(" (asked: {})", times) : std::string();
+}
+
+struct Compared {
+  const Peer& peer;
+  const Asked& asked;
+  const Ours& ours;
+  const PeerAnswer& theirs;
+};
+
+/// False where the peer's lines are not Strake's, so that its time says nothing.
+bool print(const Compared& c, const Paper& paper, const parallel::Context& context) {
+  const std::vector<PaperLine> visible = paper.visible(c.theirs);
+  const bench::Common common = bench::compare(of_kinds(c.ours.visible, c.peer.compared),
+                                              of_kinds(visible, c.peer.compared), context);
+  const Seconds& s = c.theirs.hide;
+  const double percent = 100 / common.ours;
+  const bool same = std::max(common.missing, common.extra) * percent <= c.asked.tolerance_percent;
+  fmt::print(
+      "  {:<41}{:>9.2f} s CPU {:>9.2f} s wall; {}, loaded in {:.1f} s\n"
+      "    {} lines, visible: {}; of the kinds in common, each place once, {:.1f} m for {:.1f} m: "
+      "{:.2f} % are missing, {:.2f} % too many{}\n",
+      c.peer.title, s.cpu, s.wall, c.theirs.version, c.theirs.load_s, visible.size(),
+      lengths_of(visible), common.theirs / 1000, common.ours / 1000, common.missing * percent,
+      common.extra * percent,
+      same ? "" : fmt::format(": ERROR, {} % are known", c.asked.tolerance_percent));
+  if (same)
+    fmt::print("    times Strake's: {:.0f} CPU{}, {:.0f} wall{}\n", s.cpu / c.ours.one.cpu,
+               asked_for(c.asked.cpu), s.wall / c.ours.team.wall, asked_for(c.asked.wall));
+  return same;
+}
+
+bool run(const Subject& subject, const Arguments& a) {
+  parallel::Team team(parallel::default_workers());
+  const parallel::Context context{.team = &team, .stop = {}};
+  const Scratch scratch;
+  const auto complain = [](const Error& e) { return fmt::print(stderr, "{}\n", e.text()), false; };
+  const auto file = file_of(subject.scene, scratch.path(), context);
+  if (!file) return complain(file.error());
+  const auto model = io::read_models(std::vector<fs::path>{*file}, {}, context);
+  if (!model) return complain(model.error());
+  const auto scene = model::make_scene(*model, {}, context);
+  if (!scene) return complain(scene.error());
+  std::size_t triangles = 0;
+  for (const model::GridBody& body : scene->bodies)
+    for (const geometry::Part& part : scene->shapes[body.grid_shape].parts)
+      triangles += part.triangles.size();
+  const Vec3l& d = subject.direction;
+  fmt::print("{}: {} objects, {} triangles, seen from {},{},{}\n", subject.scene,
+             model->objects.size(), triangles, d.x, d.y, d.z);
+  const Drawn drawn(*scene, d, a.rays);
+  const auto plain = drawn.ours({});
+  if (!plain) return complain(plain.error());
+  bool right = print(*plain, {});
+  for (const Peer& peer : bench::peers()) {
+    const auto asked = std::ranges::find(subject.asked, peer.name, &Asked::peer);
+    if (asked == subject.asked.end() || !a.wants(peer.name)) continue;
+    const bool same_lines = peer.draws == bench::MoreLines{};
+    const auto ours = same_lines ? plain : drawn.ours(peer.draws);
+    if (!ours) return complain(ours.error());
+    right = (same_lines || print(*ours, peer.draws)) && right;
+    const auto answer =
+        bench::ask(peer, {*file, d, kSharp_deg, kThreads, a.limit_s, scratch.path()});
+    if (answer)
+      right = print({peer, *asked, *ours, *answer}, Paper(d), context) && right;
+    else
+      fmt::print("  {:<41}{}\n", peer.title, answer.error().message);
+    std::fflush(stdout);
+  }
+  return right;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::optional<Arguments> arguments = parse(argc, argv);
+  if (!arguments) return 2;
+  bool right = true;
+  for (const Subject& subject : arguments->subjects) right = run(subject, *arguments) && right;
+  return right ? 0 : 1;
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Other programs at hidden lines: each runs for itself, on an OBJ file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
+
+namespace strake::bench {
+
+struct Seconds {
+  double cpu = 0;  ///< of all threads
+  double wall = 0;
+};
+
+/// Beside visible sharp edges and contours.
+struct MoreLines {
+  hlr::Intersections intersections = hlr::Intersections::off;
+  bool smooth = false;  ///< edges of curved faces
+  bool hidden = true;   ///< hidden lines of all kinds
+  friend bool operator==(const MoreLines&, const MoreLines&) = default;
+};
+
+struct Peer {
+  std::string_view name, title;
+  MoreLines draws;  ///< what it draws whether one wants it or not, or what it can
+  /// Kinds that are compared, together: not all peers tell them apart alike.
+  std::vector<std::string_view> compared;
+};
+
+/// Those that there are.
+[[nodiscard]] const std::vector<Peer>& peers();
+
+struct Question {
+  std::filesystem::path scene;  ///< OBJ, millimetres
+  geometry::Vec3l direction;    ///< to the viewer
+  double sharp_deg = 20;
+  unsigned threads = 1;
+  double limit_s = 0;             ///< patience
+  std::filesystem::path scratch;  ///< folder for what the peer writes
+};
+
+/// A visible line: its kind ("sharp", "contour", "intersection") and two points of the model, mm,
+/// that lie before, on or behind its ends.
+struct PeerLine {
+  std::string kind;
+  geometry::Vec3d a, b;
+};
+
+struct PeerAnswer {
+  std::string version;
+  Seconds hide;  ///< of hiding alone, the scene in memory
+  double load_s = 0;
+  std::vector<PeerLine> lines;
+};
+
+/// Error: "not installed", "gave up after … s", or what went wrong.
+[[nodiscard]] Result<PeerAnswer> ask(const Peer& peer, const Question& question);
+
+}  // namespace strake::bench
