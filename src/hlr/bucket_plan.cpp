@@ -54,7 +54,8 @@ bool BucketPlan::fits(std::uint32_t side, double per_box) const {
 }
 
 // An edge of length l meets l / s + 1 of them.
-std::uint32_t BucketPlan::best_side(const EdgeLengths& edges) const {
+std::uint32_t BucketPlan::best_side(const EdgeLengths& own) const {
+  const EdgeLengths edges = own.count > 0 ? own : EdgeLengths{count_, sides_sum_ / 2};
   std::uint32_t best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t side = 1; side <= Options::kMostBuckets && fits(side, kChosenPerBox);

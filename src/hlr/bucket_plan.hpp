@@ -38,8 +38,9 @@ class BucketPlan {
   explicit BucketPlan(std::span<const ViewBox> boxes);
 
   /// How many buckets along the longer side some edges walk with the least cost: in boxes looked
-  /// at, when all buckets are alike. The source thesis asks for such a choice and has none.
-  [[nodiscard]] std::uint32_t best_side(const EdgeLengths& edges) const;
+  /// at, when all buckets are alike. Where there are no edges, others' may come that are about as
+  /// long as the boxes. The source thesis asks for such a choice and has none.
+  [[nodiscard]] std::uint32_t best_side(const EdgeLengths& own) const;
 
   /// A grid of about square buckets, `side` of them along the longer side: fewer where all of them
   /// would list much more than there is.
