@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The engine gives, piece by piece and bit by bit, what the definition gives.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "strake/hlr/hlr.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
@@ -25,7 +30,8 @@ struct Settings {
   bool perspective = false;
 };
 
-std::string run(std::uint64_t seed, const Settings& settings) {
+/// `pushers`: the team of the baseline, whose workers write into each other's edges.
+std::string run(std::uint64_t seed, const Settings& settings, parallel::Team& pushers) {
   test::Random random(seed ^ 0x9a74e5U);
   const test::LatticeOptions lattice{.objects = 1 + random.below(settings.most_objects),
                                      .unit = settings.unit,
@@ -51,10 +57,8 @@ std::string run(std::uint64_t seed, const Settings& settings) {
   const auto got = hlr::draw(scene.scene(), {}, view, options, {});
   options.culling = false;
   const auto unculled = hlr::draw(scene.scene(), {}, view, options, {});
-  // The baseline, whose workers write into each other's edges.
-  static parallel::Team team(3);
   options.solver = hlr::Solver::push;
-  const auto pushed = hlr::draw(scene.scene(), {}, view, options, {.team = &team});
+  const auto pushed = hlr::draw(scene.scene(), {}, view, options, {.team = &pushers});
   if (!expected || !got || !unculled || !pushed)
     return expected ? "no drawing" : expected.error().text();
   const std::string culled = test::difference(expected->pieces, got->pieces);
@@ -65,89 +69,111 @@ std::string run(std::uint64_t seed, const Settings& settings) {
   return baseline.empty() ? baseline : "pushed: " + baseline;
 }
 
+/// Scenes of a test: `usual` ones, so many that all tests together have tens of thousands, few
+/// where sanitizers look for other faults; a number for each test where a longer run asks for it.
 std::uint64_t count(std::uint64_t usual) {
   const char* more = std::getenv("STRAKE_ORACLE_SCENES");
-  return more != nullptr ? std::strtoull(more, nullptr, 10) : test::rounds(usual);
+  if (more != nullptr) return std::strtoull(more, nullptr, 10);
+  return test::kSanitized ? (usual + 9) / 10 : usual;
 }
 
-TEST(GatherAgainstBruteForce, FinestLattice) {
-  for (std::uint64_t seed = 1; seed <= count(900); ++seed)
-    ASSERT_EQ(run(seed, {}), "") << "seed " << seed;
+/// Seeds from 1 on, shared out over all CPUs: what the lowest one says of which `settings_of` finds
+/// settings that engine and brute force do not agree on.
+template <class SettingsOf>
+std::string first_wrong_of(std::uint64_t seeds, SettingsOf&& settings_of) {
+  parallel::Team team(parallel::default_workers());
+  const Status status = parallel::for_each_with(
+      {.team = &team}, {.name = "seeds", .n = seeds},
+      [] { return std::make_unique<parallel::Team>(3); },
+      [&](const std::unique_ptr<parallel::Team>& pushers, std::size_t i) -> Status {
+        const std::uint64_t seed = i + 1;
+        for (const Settings& settings : settings_of(seed))
+          if (std::string wrong = run(seed, settings, *pushers); !wrong.empty())
+            return Error{ErrorCode::internal,
+                         fmt::format("{}, unit {}, contact distance {} mm", wrong, settings.unit,
+                                     settings.contact_mm),
+                         fmt::format("seed {}", seed),
+                         {}};
+        return {};
+      });
+  return status ? std::string() : status.error().text();
 }
+
+using Several = std::vector<Settings>;
+
+std::string first_wrong(std::uint64_t seeds, const Settings& settings) {
+  return first_wrong_of(seeds, [&](std::uint64_t) { return Several{settings}; });
+}
+
+TEST(GatherAgainstBruteForce, FinestLattice) { EXPECT_EQ(first_wrong(count(3000), {}), ""); }
 
 TEST(GatherAgainstBruteForce, ContactDistanceOnACoarseLattice) {
-  for (std::uint64_t seed = 1; seed <= count(450); ++seed)
-    ASSERT_EQ(run(seed, {.unit = 1000, .contact_mm = -1}), "") << "seed " << seed;
+  EXPECT_EQ(first_wrong(count(1500), {.unit = 1000, .contact_mm = -1}), "");
 }
 
 TEST(GatherAgainstBruteForce, ContactDistanceOfTheLatticesOwnSize) {
-  for (std::uint64_t seed = 1; seed <= count(450); ++seed)
-    ASSERT_EQ(run(seed, {.unit = 6, .contact_mm = 0.003}), "") << "seed " << seed;
+  EXPECT_EQ(first_wrong(count(1500), {.unit = 6, .contact_mm = 0.003}), "");
 }
 
 // Steps of the lattice are sides of the tiles that are asked whether they are covered.
 TEST(GatherAgainstBruteForce, TilesOnTheLattice) {
-  for (std::uint64_t seed = 1; seed <= count(300); ++seed)
-    ASSERT_EQ(run(seed, {.unit = 1 << 20, .contact_mm = -1, .most_objects = 12}), "")
-        << "seed " << seed;
+  const Settings settings{.unit = 1 << 20, .contact_mm = -1, .most_objects = 12};
+  EXPECT_EQ(first_wrong(count(1000), settings), "");
 }
 
 TEST(GatherAgainstBruteForce, HugeLattice) {
-  for (std::uint64_t seed = 1; seed <= count(300); ++seed)
-    ASSERT_EQ(run(seed, {.unit = 357913941, .contact_mm = -1}), "") << "seed " << seed;
+  EXPECT_EQ(first_wrong(count(1000), {.unit = 357913941, .contact_mm = -1}), "");
 }
 
 TEST(GatherAgainstBruteForce, Crowd) {
-  for (std::uint64_t seed = 1; seed <= std::max<std::uint64_t>(12, count(12) / 50); ++seed)
-    ASSERT_EQ(run(seed, {.most_objects = 40}), "") << "seed " << seed;
+  const std::uint64_t seeds = std::max<std::uint64_t>(12, count(24) / 50);
+  EXPECT_EQ(first_wrong(seeds, {.most_objects = 40}), "");
 }
 
 TEST(GatherAgainstBruteForce, Sections) {
-  for (std::uint64_t seed = 1; seed <= count(300); ++seed)
+  const auto settings_of = [](std::uint64_t seed) {
+    Several all;
     for (const std::int32_t unit : {1, 7, 1000})
       for (const double contact : {0.0, -1.0})
-        ASSERT_EQ(run(seed, {.unit = unit,
-                             .contact_mm = contact,
-                             .sections = 1 + static_cast<std::uint32_t>(seed % 3)}),
-                  "")
-            << "seed " << seed << " unit " << unit << " contact " << contact;
+        all.push_back({.unit = unit,
+                       .contact_mm = contact,
+                       .sections = 1 + static_cast<std::uint32_t>(seed % 3)});
+    return all;
+  };
+  EXPECT_EQ(first_wrong_of(count(1000), settings_of), "");
 }
 
 TEST(GatherAgainstBruteForce, SectionsOfAHugeLattice) {
-  for (std::uint64_t seed = 1; seed <= count(100); ++seed)
-    ASSERT_EQ(run(seed, {.unit = 357913941, .contact_mm = -1, .sections = 2}), "")
-        << "seed " << seed;
+  const Settings settings{.unit = 357913941, .contact_mm = -1, .sections = 2};
+  EXPECT_EQ(first_wrong(count(400), settings), "");
 }
 
 TEST(GatherAgainstBruteForce, PerspectiveOnTheFinestLattice) {
-  for (std::uint64_t seed = 1; seed <= count(900); ++seed)
-    ASSERT_EQ(run(seed, {.perspective = true}), "") << "seed " << seed;
+  EXPECT_EQ(first_wrong(count(3000), {.perspective = true}), "");
 }
 
 TEST(GatherAgainstBruteForce, PerspectiveAndContactDistance) {
-  for (std::uint64_t seed = 1; seed <= count(300); ++seed) {
-    ASSERT_EQ(run(seed, {.unit = 1000, .contact_mm = -1, .perspective = true}), "")
-        << "seed " << seed;
-    ASSERT_EQ(run(seed, {.unit = 6, .contact_mm = 0.003, .perspective = true}), "")
-        << "seed " << seed;
-  }
+  const auto settings_of = [](std::uint64_t) {
+    return Several{{.unit = 1000, .contact_mm = -1, .perspective = true},
+                   {.unit = 6, .contact_mm = 0.003, .perspective = true}};
+  };
+  EXPECT_EQ(first_wrong_of(count(1000), settings_of), "");
 }
 
 TEST(GatherAgainstBruteForce, PerspectiveOfALargeCrowd) {
-  for (std::uint64_t seed = 1; seed <= count(200); ++seed)
-    ASSERT_EQ(
-        run(seed, {.unit = 1 << 20, .contact_mm = -1, .most_objects = 16, .perspective = true}), "")
-        << "seed " << seed;
+  const Settings settings{
+      .unit = 1 << 20, .contact_mm = -1, .most_objects = 16, .perspective = true};
+  EXPECT_EQ(first_wrong(count(400), settings), "");
 }
 
 TEST(GatherAgainstBruteForce, PerspectiveAndSections) {
-  for (std::uint64_t seed = 1; seed <= count(200); ++seed)
-    ASSERT_EQ(run(seed, {.unit = seed % 2 == 0 ? 1 : 1000,
-                         .contact_mm = -1,
-                         .sections = 1 + static_cast<std::uint32_t>(seed % 3),
-                         .perspective = true}),
-              "")
-        << "seed " << seed;
+  const auto settings_of = [](std::uint64_t seed) {
+    return Several{{.unit = seed % 2 == 0 ? 1 : 1000,
+                    .contact_mm = -1,
+                    .sections = 1 + static_cast<std::uint32_t>(seed % 3),
+                    .perspective = true}};
+  };
+  EXPECT_EQ(first_wrong_of(count(200), settings_of), "");
 }
 
 }  // namespace
