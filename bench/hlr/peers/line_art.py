@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Blender's Line Art on a scene of meshes:
 
-    blender -b --factory-startup -t THREADS -P line_art.py -- SCENE.obj X,Y,Z DEGREES LINES
+    blender -b --factory-startup -t THREADS -P line_art.py -- SCENE.obj X,Y,Z DEGREES LINES KINDS
 
-Bakes contours, creases sharper than DEGREES and intersections seen orthographically from X,Y,Z. Writes the visible
-lines into the file LINES (kind, two points of the model in mm) and prints one line, RESULT and JSON: seconds of the
-baking alone. Three modifiers share one computation, so that kinds can be told apart at little cost, and none is shown
-in the viewport: each that is would have Blender compute everything again. The scene is imported in metres: Line Art
-computes in single precision.
+Bakes lines of KINDS (some of contour,sharp,intersection; edges sharper than DEGREES are sharp) seen orthographically
+from X,Y,Z. Writes the visible ones into the file LINES (kind, two points of the model in mm) and prints one line,
+RESULT and JSON: seconds of the baking alone. The modifiers share one computation, so that kinds can be told apart at
+little cost, and none is shown in the viewport: each that is would have Blender compute everything again. The scene is
+imported in metres: Line Art computes in single precision.
 """
 import json
 import math
@@ -18,8 +18,8 @@ import bpy
 from mathutils import Vector
 
 MM_PER_UNIT = 1000
-KINDS = {'contour': 'use_contour', 'sharp': 'use_crease', 'intersection': 'use_intersection'}
-ALL_SWITCHES = (*KINDS.values(), 'use_material', 'use_edge_mark', 'use_loose', 'use_light_contour', 'use_shadow')
+SWITCHES = {'contour': 'use_contour', 'sharp': 'use_crease', 'intersection': 'use_intersection'}
+ALL_SWITCHES = (*SWITCHES.values(), 'use_material', 'use_edge_mark', 'use_loose', 'use_light_contour', 'use_shadow')
 
 
 def load(path):
@@ -51,13 +51,13 @@ def look(direction):
     bpy.context.view_layer.update()
 
 
-def line_art(sharp_deg):
+def line_art(kinds, sharp_deg):
     """A drawing with a layer and a modifier for each kind of line."""
     bpy.ops.object.gpencil_add(type='LRT_SCENE')
     drawing = bpy.context.object
     modifiers = [m for m in drawing.grease_pencil_modifiers if m.type == 'GP_LINEART']
     material = modifiers[0].target_material
-    for number, (kind, switch) in enumerate(KINDS.items()):
+    for number, kind in enumerate(kinds):
         drawing.data.layers.new(kind)
         m = modifiers[0] if number == 0 else drawing.grease_pencil_modifiers.new(kind, 'GP_LINEART')
         m.source_type = 'SCENE'
@@ -65,16 +65,16 @@ def line_art(sharp_deg):
         m.use_cache = number > 0
         for other in ALL_SWITCHES:
             if hasattr(m, other):
-                setattr(m, other, other == switch)
+                setattr(m, other, other == SWITCHES[kind])
         m.crease_threshold = math.radians(180 - sharp_deg)
         m.chaining_image_threshold = 0
         m.show_viewport = False
     return drawing
 
 
-def write_lines(drawing, path):
+def write_lines(drawing, kinds, path):
     with open(path, 'w', encoding='ascii') as out:
-        for kind in KINDS:
+        for kind in kinds:
             for frame in drawing.data.layers[kind].frames:
                 for stroke in frame.strokes:
                     points = [' '.join(str(MM_PER_UNIT * c) for c in p.co) for p in stroke.points]
@@ -82,16 +82,17 @@ def write_lines(drawing, path):
 
 
 def main():
-    path, toward, sharp_deg, lines = sys.argv[sys.argv.index('--') + 1:]
+    path, toward, sharp_deg, lines, kinds = sys.argv[sys.argv.index('--') + 1:]
     direction = Vector(float(x) for x in toward.split(',')).normalized()
     begin = time.time()
     load(path)
     look(direction)
-    drawing = line_art(float(sharp_deg))
+    kinds = kinds.split(',')
+    drawing = line_art(kinds, float(sharp_deg))
     loaded, cpu = time.time(), time.process_time()
     bpy.ops.object.lineart_bake_strokes()
     hidden, hidden_cpu = time.time(), time.process_time()
-    write_lines(drawing, lines)
+    write_lines(drawing, kinds, lines)
     print('RESULT ' + json.dumps({
         'version': 'Blender ' + bpy.app.version_string, 'load_s': loaded - begin, 'hide_s': hidden - loaded,
         'hide_cpu_s': hidden_cpu - cpu}))

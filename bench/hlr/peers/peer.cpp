@@ -25,6 +25,8 @@ std::vector<std::string> command_of(const Peer& peer, const Question& q, const s
     return {STRAKE_PEER_PROGRAMS "/peer_occt_poly", scene, toward, sharp, lines};
   if (peer.name == "tech_draw")
     return {"/usr/bin/python3", scripts + "/tech_draw.py", scene, toward, lines};
+  std::string kinds = "contour,sharp";
+  if (peer.draws.intersections != hlr::Intersections::off) kinds += ",intersection";
   return {"blender",
           "-b",
           "--factory-startup",
@@ -36,7 +38,8 @@ std::vector<std::string> command_of(const Peer& peer, const Question& q, const s
           scene,
           toward,
           sharp,
-          lines};
+          lines,
+          kinds};
 }
 
 /// What the line with the result says.
@@ -68,6 +71,10 @@ const std::vector<Peer>& peers() {
       // Contours come out among its smooth lines, which only the sharp ones are told from.
       {"occt", "OCCT PolyAlgo", {}, {"sharp"}},
       // An edge that is both is a contour to it.
+      {"line_art_edges",
+       "Blender Line Art, no intersections",
+       {.hidden = false},
+       {"sharp", "contour"}},
       {"line_art",
        "Blender Line Art",
        {.intersections = hlr::Intersections::objects, .hidden = false},
