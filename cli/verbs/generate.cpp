@@ -112,15 +112,17 @@ Verb add_generate(CLI::App& program, CommonOptions& common) {
       ->type_name("N");
   command->add_flag("--turned", options->turned,
                     "Turn the whole ship so that no face lies along an axis");
-  command
-      ->add_option("--imported-detail", options->imported_detail,
-                   "So many of the objects are meshes with far too much detail, no two alike, as "
-                   "imported from elsewhere (default 0)")
-      ->type_name("N");
+  CLI::Option* const imported =
+      command
+          ->add_option("--imported-detail", options->imported_detail,
+                       "So many of the objects are meshes with far too much detail, no two alike, "
+                       "as imported from elsewhere, while the weather deck has room (default 0)")
+          ->type_name("N");
   command
       ->add_option("--imported-triangles", options->imported_triangles,
                    fmt::format("About how many triangles each of those has (default {})",
                                defaults.imported_triangles))
+      ->needs(imported)
       ->type_name("N");
   command->add_option("-o,--output", options->output, "The model, as .glb or .obj")
       ->type_name("FILE")

@@ -39,9 +39,9 @@ class Casing {
  public:
   Casing(std::uint64_t triangles, const Random& random) : random_(random) {
     int halvings = 0;
-    // Twice as many steps round as up, or a little more.
-    const double around = std::sqrt(2.0 * static_cast<double>(triangles));
-    while (24.0 * std::exp2(halvings + 1) < around) ++halvings;
+    // About as many steps round as up, or up to twice as many.
+    const double around = std::sqrt(static_cast<double>(triangles) / 2);
+    while (24.0 * std::exp2(halvings) < around) ++halvings;
     directions_ = directions(halvings);
     rings_ =
         std::max<std::int64_t>(4, static_cast<std::int64_t>(triangles / (2 * directions_.size())));
@@ -106,7 +106,11 @@ void build_imported(Room& room, std::uint64_t triangles) {
   const Random random = room.random.at(5);
   const std::uint32_t shape =
       yard.late_shape([triangles, random] { return Casing(triangles, random).make(); });
-  yard.rest(yard.add(Kind::imported, site.cell, shape, site.frame * at({1400, 1650, 200})), bed);
+  const Handle machine =
+      yard.add(Kind::imported, site.cell, shape, site.frame * at({1400, 1650, 200}));
+  yard.rest(machine, bed);
+  yard.keep(bed);
+  yard.keep(machine);
 }
 
 }  // namespace strake::generate

@@ -87,7 +87,7 @@ Result<Yard> build_best(const ShipOptions& options, const std::stop_token& stop)
 }
 
 /// Which objects stay: spare ones go first, evenly spread over the ship; if they are too few, the
-/// last built go too, but for what is imported.
+/// last built go too, but for what stays.
 std::vector<bool> choose_kept(const Yard& yard, std::uint64_t wanted) {
   const std::vector<Built>& objects = yard.objects();
   std::vector<bool> kept(objects.size(), true);
@@ -104,7 +104,7 @@ std::vector<bool> choose_kept(const Yard& yard, std::uint64_t wanted) {
   }
   excess -= drop;
   for (std::size_t i = objects.size(); excess > 0 && i-- > 0;)
-    if (kept[i] && objects[i].kind != Kind::imported) kept[i] = false, --excess;
+    if (kept[i] && !objects[i].stays) kept[i] = false, --excess;
   return kept;
 }
 
@@ -280,7 +280,7 @@ Result<Ship> generate_ship(const ShipOptions& options, const parallel::Context& 
                  fmt::format("the deck of a ship of {} objects has no room for {} imported ones",
                              options.objects, options.imported_detail),
                  "--imported-detail", fmt::format("give {} at most, or more objects", room)};
-  yard->make_late_shapes();
+  if (const Status status = yard->make_late_shapes(context.stop); !status) return status.error();
   const std::vector<bool> kept = choose_kept(*yard, options.objects);
   const std::vector<Handle> order = id_order(*yard, kept);
   Ship ship;

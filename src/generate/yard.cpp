@@ -113,13 +113,16 @@ std::uint32_t Yard::late_shape(std::function<GridMesh()> make) {
   return shape;
 }
 
-void Yard::make_late_shapes() {
+Status Yard::make_late_shapes(const std::stop_token& stop) {
   for (const auto& [shape, make] : late_) {
+    if (stop.stop_requested())
+      return Error{ErrorCode::cancelled, "cancelled while generating", "", ""};
     const GridMesh mesh = make();
     shapes_[shape] = to_mesh(mesh);
     volumes_[shape] = volume_mm3(mesh);
   }
   late_.clear();
+  return {};
 }
 
 std::uint32_t Yard::reversed(std::uint32_t shape) {
@@ -147,7 +150,7 @@ std::uint32_t Yard::lines(const Recipe& recipe, const std::function<geometry::Po
 Handle Yard::add(Kind kind, const Cell& cell, std::uint32_t shape, const Frame& frame) {
   std::uint16_t& number =
       next_number_[{static_cast<std::uint32_t>(kind), cell.bay, cell.lane, cell.level}];
-  objects_.push_back({frame, shape, kind, cell, ++number, false});
+  objects_.push_back({frame, shape, kind, cell, ++number, false, false});
   return static_cast<Handle>(objects_.size() - 1);
 }
 

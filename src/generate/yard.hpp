@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <stop_token>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "generate/kinds.hpp"
 #include "generate/mesh_kit.hpp"
 #include "strake/clash/clash.hpp"
+#include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 
 namespace strake::generate {
@@ -70,6 +72,7 @@ struct Built {
   Cell cell;
   std::uint16_t number = 0;
   bool inside_out = false;
+  bool stays = false;  ///< whatever is left out to meet the asked number of objects
 };
 
 struct Declared {
@@ -92,10 +95,12 @@ class Yard {
   std::uint32_t reversed(std::uint32_t shape);
   /// A shape of one object that takes long to make: it is empty until make_late_shapes().
   std::uint32_t late_shape(std::function<GridMesh()> make);
-  void make_late_shapes();
+  /// Errors: cancelled.
+  [[nodiscard]] Status make_late_shapes(const std::stop_token& stop);
   std::uint32_t lines(const Recipe& recipe, const std::function<geometry::Polylines()>& make);
 
   Handle add(Kind kind, const Cell& cell, std::uint32_t shape, const Frame& frame);
+  void keep(Handle object) { objects_[object].stays = true; }
   /// Writes an object's triangles reversed.
   void turn_inside_out(Handle object);
   /// Records a pair; nothing happens where one of the two is kNothing.

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "geometry/full_turn.hpp"
-#include "geometry/tessellate/build.hpp"
+#include "geometry/tessellate/caps.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -44,7 +44,15 @@ class Circles {
     add({0, 0, 0}, pole * p.radius,
         across * (-up / size * p.radius) + Vec3d{0, 0, out / size * p.height});
   }
-  void operator()(const SphericalDishPrimitive& p) { level(0, p.radius); }
+  void operator()(const SphericalDishPrimitive& p) {
+    level(0, p.radius);
+    if (!towards_ || !(p.height > 0)) return;
+    if (const auto c = tessellation::CapContour::of(p, *towards_)) {
+      const SinCos tilt = sin_cos(c->tilt);
+      add({0, 0, c->centre}, c->across * c->ball,
+          (c->out * tilt.sin + Vec3d{0, 0, tilt.cos}) * c->ball);
+    }
+  }
   void operator()(const CircularTorusPrimitive& p) {
     level(-p.tube_radius, p.centre_radius);
     level(p.tube_radius, p.centre_radius);

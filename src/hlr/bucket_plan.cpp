@@ -20,13 +20,16 @@ double length(std::int64_t lo, std::int64_t hi) {
 
 }  // namespace
 
-BucketPlan::BucketPlan(std::span<const ViewBox> boxes) : count_(static_cast<double>(boxes.size())) {
+BucketPlan::BucketPlan(std::span<const ViewBox> boxes) {
   for (const ViewBox& box : boxes) {
+    if (box.empty()) continue;
+    ++count_;
     extent_.include(box);
     const double a = length(box.lo.u, box.hi.u), b = length(box.lo.v, box.hi.v);
     sides_sum_ += a + b;
     area_ += a * b;
   }
+  if (extent_.empty()) return;
   width_ = length(extent_.lo.u, extent_.hi.u);
   height_ = length(extent_.lo.v, extent_.hi.v);
 }
@@ -57,10 +60,11 @@ bool BucketPlan::fits(std::uint32_t side, double per_box) const {
 std::uint32_t BucketPlan::best_side(const EdgeLengths& own) const {
   const EdgeLengths edges = own.count > 0 ? own : EdgeLengths{count_, sides_sum_ / 2};
   std::uint32_t best = 1;
+  if (!(longest() > 0)) return best;
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t side = 1; side <= Options::kMostBuckets && fits(side, kChosenPerBox);
        side *= 2) {
-    const double walks = edges.count + (side > 1 ? edges.sum * side / longest() : 0);
+    const double walks = edges.count + edges.sum * side / longest();
     const double cost = walks * (kStep + entries(side) / buckets(side));
     if (cost >= least) continue;
     least = cost;

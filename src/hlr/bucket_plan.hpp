@@ -34,12 +34,13 @@ struct EdgeLengths {
 /// What a grid over some boxes comes to, by the number of its buckets.
 class BucketPlan {
  public:
-  /// None may be empty.
+  /// Empty ones are left out.
   explicit BucketPlan(std::span<const ViewBox> boxes);
 
   /// How many buckets along the longer side some edges walk with the least cost: in boxes looked
   /// at, when all buckets are alike. Where there are no edges, others' may come that are about as
-  /// long as the boxes. The source thesis asks for such a choice and has none.
+  /// long as the boxes. A power of two for which buckets and entries are not more than eight times
+  /// the boxes. The source thesis asks for such a choice and has none.
   [[nodiscard]] std::uint32_t best_side(const EdgeLengths& own) const;
 
   /// A grid of about square buckets, `side` of them along the longer side: fewer where all of them
@@ -57,8 +58,8 @@ class BucketPlan {
   [[nodiscard]] bool fits(std::uint32_t side, double per_box) const;
 
   ViewBox extent_;
-  double count_ = 0, width_ = 0, height_ = 0;
-  double sides_sum_ = 0, area_ = 0;  ///< of the boxes
+  double count_ = 0, width_ = 0, height_ = 0;  ///< number and extent of the boxes
+  double sides_sum_ = 0, area_ = 0;            ///< of the boxes
 };
 
 }  // namespace strake::hlr

@@ -51,7 +51,7 @@ class Buckets::Dealer {
  private:
   template <class Body>
   Status in_runs(Body&& body) {
-    return parallel::for_each(runs_ == 1 ? parallel::Context{} : context_,
+    return parallel::for_each(runs_ == 1 ? parallel::Context{.stop = context_.stop} : context_,
                               {.name = "hidden lines: buckets", .n = runs_}, body);
   }
 
@@ -62,6 +62,7 @@ class Buckets::Dealer {
     const std::size_t last = boxes_.size() * (run + 1) / runs_;
     for (std::size_t b = boxes_.size() * run / runs_; b < last; ++b) {
       const ViewBox& box = boxes_[b];
+      if (box.empty()) continue;
       const Entry entry{static_cast<std::uint32_t>(b), no_less(box.hi.w)};
       const std::uint32_t u0 = u.cell(static_cast<double>(box.lo.u));
       const std::uint32_t u1 = u.cell(static_cast<double>(box.hi.u));
@@ -107,7 +108,7 @@ double Buckets::crowding() const {
     squares += count * count;
   }
   const auto entries = static_cast<double>(entries_.size());
-  return squares * static_cast<double>(first_.size() - 1) / (entries * entries);
+  return entries > 0 ? squares / entries : 0;
 }
 
 Buckets::Cells Buckets::across(const LooseSegment& s, bool steep, std::uint32_t i) const {

@@ -39,13 +39,12 @@ class BucketMarks {
 class Buckets {
  public:
   Buckets() = default;
-  /// Boxes none of which is empty. Errors: cancelled.
+  /// Empty boxes are left out. Errors: cancelled.
   [[nodiscard]] static Result<Buckets> of(std::span<const ViewBox> boxes, const BucketAxes& axes,
                                           const parallel::Context& context);
 
   [[nodiscard]] bool empty() const { return first_.empty(); }
-  /// How many times as many entries the bucket of an entry has in the mean as a bucket has: 1 where
-  /// all are alike, large where most boxes crowd in few buckets.
+  /// How many entries the bucket of an entry has in the mean: what a walk looks at there.
   [[nodiscard]] double crowding() const;
 
   /// Calls visit(index) -> bool once for every box that may hide the segment, bucket by bucket;

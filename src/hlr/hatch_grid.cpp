@@ -38,8 +38,12 @@ std::int64_t floor_quotient(Int128 a, std::int64_t b) {
 HatchGrid::HatchGrid(const Vec3l& normal, const View& view, double angle_deg, double spacing)
     : axes_(normal) {
   const Vec3d n = unit(normal.as<double>());
-  const Vec3d paper = axes_of(view).right;
-  const Vec3d level = unit(paper - n * dot(paper, n));
+  const ViewAxes paper = axes_of(view);
+  const auto in_plane = [&](const Vec3d& v) { return v - n * dot(v, n); };
+  // A plane that an eye sees may yet be square to the paper's horizontal.
+  constexpr double kNone = 1e-12;
+  const Vec3d right = in_plane(paper.right);
+  const Vec3d level = unit(dot(right, right) > kNone ? right : in_plane(paper.up));
   const geometry::SinCos turn = geometry::sin_cos(angle_deg / 180 * geometry::kPi);
   const Vec3d along = level * turn.cos + cross(n, level) * turn.sin;
   // Across the lines, in the plane; the third coordinate is one of the plane's own.

@@ -47,6 +47,9 @@ Status check(const View& view, const Options& options) {
                    "round the direction to 20 bits");
   if (!(options.sharp_angle_deg >= 0 && options.sharp_angle_deg <= 180))
     return usage("the sharp angle is not between 0 and 180 degrees", "20 is the usual angle");
+  if (options.bucketing < Options::kBucketsByData || options.bucketing > Options::kMostBuckets)
+    return usage("the number of buckets is not between 0 and 4096",
+                 "leave it out to have it chosen from the faces");
   if (!(options.contact_distance_mm <= kMaxContactMm))
     return usage("the contact distance is not a number below a kilometre",
                  "leave it out to have it derived from the sources");

@@ -38,7 +38,7 @@ class PolygonMaker {
   Loops loops_;
 };
 
-/// Appends what was made run by run. Errors: cancelled.
+/// Appends what was made run by run, none of it by add_wide. Errors: cancelled.
 [[nodiscard]] Status append(Polygons& all, std::span<const Polygons> runs,
                             const parallel::Context& context);
 

@@ -8,6 +8,7 @@
 #include "hlr/by_size.hpp"
 #include "hlr/convexity.hpp"
 #include "hlr/loops.hpp"
+#include "hlr/part_index.hpp"
 #include "hlr/polygon_maker.hpp"
 #include "hlr/shape_view.hpp"
 #include "strake/core/disjoint_sets.hpp"
@@ -23,12 +24,6 @@ using geometry::runs_along;
 using geometry::Vec3i;
 using geometry::Vec3l;
 
-// Buckets or a tree pay from this many polygons on.
-constexpr std::uint32_t kIndexFrom = 12;
-// The faces of convex parts are seldom asked: their outline is.
-constexpr std::uint32_t kIndexFromIfConvex = 64;
-// Buckets::crowding() from which on a tree is better (measured: it is as good at about 15).
-constexpr double kCrowded = 12;
 // Parts up to this size have normals of 62 bits.
 constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
 
@@ -91,47 +86,9 @@ class PartMerger {
     const auto polygons = std::span(view_.polygons).subspan(first_);
     for (const Polygon& p : polygons) part.box.include(p.box);
     part.outline.box = part.box;
-    if (polygons.size() >= index_from(convex))
-      if (const Status s = index(polygons, part); !s) return s.error();
+    if (const Status s = index(polygons, edges_, convex, sight_, part); !s) return s.error();
     view_.parts.push_back(std::move(part));
     return convex;
-  }
-
-  [[nodiscard]] std::size_t index_from(bool convex) const {
-    if (sight_.bucketing != Options::kBucketsByData) return 2;
-    return convex ? kIndexFromIfConvex : kIndexFrom;
-  }
-
-  Status index(std::span<const Polygon> polygons, PartView& part) const {
-    if (sight_.bucketing == Options::kNoBuckets) return {};
-    std::vector<ViewBox> boxes(polygons.size());
-    const Status s = for_elements(sight_.context, "hidden lines: boxes", boxes.size(),
-                                  [&](std::size_t i) { boxes[i] = polygons[i].box; });
-    if (!s) return s;
-    const bool by_data = sight_.bucketing == Options::kBucketsByData;
-    if (by_data && viewer_.eye) {
-      part.tree = ViewTree(boxes);
-      return {};
-    }
-    const BucketPlan plan(boxes);
-    const std::uint32_t side =
-        by_data ? plan.best_side(edge_lengths()) : static_cast<std::uint32_t>(sight_.bucketing);
-    auto buckets = Buckets::of(boxes, plan.axes(side), sight_.context);
-    if (!buckets) return buckets.error();
-    // A cluster of small faces in a wide part: a tree finds its way into it, a grid does not.
-    if (by_data && buckets->crowding() > kCrowded)
-      part.tree = ViewTree(boxes);
-    else
-      part.buckets = std::move(*buckets);
-    return {};
-  }
-
-  [[nodiscard]] EdgeLengths edge_lengths() const {
-    EdgeLengths lengths{.count = static_cast<double>(edges_.size())};
-    for (const EdgeView& e : edges_)
-      lengths.sum +=
-          static_cast<double>(std::max(std::abs(e.b.u - e.a.u), std::abs(e.b.v - e.a.v)));
-    return lengths;
   }
 
   [[nodiscard]] Bend bend_at(std::size_t k) const {
@@ -231,7 +188,7 @@ class PartMerger {
     // Runs of whole groups.
     constexpr std::size_t kRun = 4096;
     std::vector<std::size_t> cuts{0};
-    for (std::size_t i = kRun; i < order.size(); i = std::max(i, cuts.back()) + kRun) {
+    for (std::size_t i = kRun; i < order.size(); i += kRun) {
       while (i < order.size() && group_[order[i]] == group_[order[i - 1]]) ++i;
       if (i < order.size()) cuts.push_back(i);
     }

@@ -101,7 +101,10 @@ void place_bodies(World& world) {
               false};
     if (job.limits && !shape.box.empty()) {
       Box3l box = body.box(shape);
-      box = {box.lo - job.origin, box.hi - job.origin};
+      // Hatch lines lie on the plane itself, which rounded rims are as much as 1.5 units off.
+      const std::int64_t beyond = seen.cut != nullptr ? 2 : 0;
+      const geometry::Vec3l more{beyond, beyond, beyond};
+      box = {box.lo - job.origin - more, box.hi - job.origin + more};
       placed.cut = !within(box, *job.limits);
       placed.opaque = placed.opaque && box.meets(*job.limits);
     }

@@ -102,9 +102,10 @@ struct Options {
   bool culling = true;  ///< changes the work, never the answer
   static constexpr std::int32_t kNoBuckets = 0, kBucketsByData = -1;
   static constexpr std::int32_t kMostBuckets = 4096;
-  /// How the faces of a part that has many are found: by so many buckets along the longer side of
-  /// the part on paper, at most; chosen from its faces and edges; or each face is asked. Changes
-  /// the work, never the answer.
+  /// How the faces of a part are found: by so many buckets (1 to kMostBuckets) along the longer
+  /// side of the part on paper, fewer where they would list its faces over and over; by as many as
+  /// suit its faces and edges, or a tree; or each face is asked. Changes the work, never the
+  /// answer.
   std::int32_t bucketing = kBucketsByData;
   /// Keep hidden pieces. Without them a drawing is found in less time and memory; its other pieces
   /// and the fates of its objects are the same.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <utility>
 
+#include "geometry/tessellate/caps.hpp"
 #include "geometry/tessellate/revolve.hpp"
 
 namespace strake::geometry::tessellation {
@@ -190,6 +192,8 @@ Tessellation make(const SphericalDishPrimitive& p, const Target& target) {
   const double rim_sag = sagitta(equator, 2 * kPi / n);
   const int rows =
       std::max(2, arc_segments(radius, from_apex, target.sag - rim_sag, kMostSegments / 2));
+  if (target.towards)
+    if (auto cap = contoured_cap(p, target, n, rows)) return std::move(*cap);
   std::vector<ProfilePoint> profile{{p.radius, 0}};
   for (int k = 1; k < rows; ++k) {
     // Depth under the apex without cancellation: radius·(1 - cos) = the sagitta of twice the angle.

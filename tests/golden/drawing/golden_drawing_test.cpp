@@ -30,17 +30,17 @@ struct Golden {
 
 const Golden kSafe[] = {
     {"iso",
-     {16401, 14348, 12572, 7, 0, 9772},
-     "536e83e7787889daef83aefbd9d69224",
-     "7c6b5ad73ca4c2b54c9eaa48c9d79b5e"},
+     {16422, 14219, 12620, 7, 0, 9751},
+     "4b5e2850eb66511e9f54f0a7640c30b0",
+     "823cebef985f7970a24c73bb1f9be060"},
     {"top",
      {9874, 3519, 5782, 2320, 0, 28487},
      "3703e403f1ab3f96ecac90cf42e2e49e",
      "1cfa446ffabf2d8baf1f205426843d65"},
     {"front",
-     {9662, 2482, 4500, 2981, 0, 30772},
-     "3cb1493d2a645f65a5d11dbdc9f91f2d",
-     "b3f6ab0cabb27a82ebe4b6ee645b909c"},
+     {9731, 2476, 4533, 2981, 0, 30634},
+     "0a60eff21f6ed0b479824d619f5ec265",
+     "b978e02c0c8dd633abd66603e89fd503"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {

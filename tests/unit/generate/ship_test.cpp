@@ -153,6 +153,22 @@ TEST(Ship, imported_meshes_are_heavy_closed_and_no_two_alike) {
   EXPECT_EQ(volumes.size(), 3U);
 }
 
+TEST(Ship, what_is_imported_stands_on_its_bed) {
+  for (const std::uint64_t objects : {100U, 101U, 120U, 400U}) {
+    ShipOptions options{.objects = objects, .seed = 1};
+    options.imported_detail = 1;
+    options.imported_triangles = 1000;
+    const Result<Ship> ship = generate_ship(options, {});
+    ASSERT_TRUE(ship.has_value());
+    EXPECT_EQ(ship->model.objects.size(), objects);
+    const auto stands = std::ranges::count_if(ship->truth.pairs, [&](const TruthPair& pair) {
+      return ship->model.object(pair.a).id.starts_with("FND") &&
+             ship->model.object(pair.b).id.starts_with("IMP");
+    });
+    EXPECT_EQ(stands, 1) << objects;
+  }
+}
+
 TEST(Ship, refuses_what_its_deck_has_no_room_for) {
   ShipOptions options{.objects = 200, .seed = 1};
   options.imported_detail = 500;

@@ -164,6 +164,82 @@ TEST(Contours, OfAnEllipticalDishRunFromRimToRim) {
   EXPECT_GT(seen, 150);
 }
 
+/// The ends of lines where only one of them ends; more than two lines nowhere.
+std::vector<Vec3d> loose_ends(const std::vector<std::pair<Vec3d, Vec3d>>& lines) {
+  std::map<std::array<double, 3>, int> ends;
+  for (const auto& [a, b] : lines) ++ends[{a.x, a.y, a.z}], ++ends[{b.x, b.y, b.z}];
+  std::vector<Vec3d> loose;
+  for (const auto& [p, n] : ends) {
+    EXPECT_LE(n, 2);
+    if (n == 1) loose.push_back({p[0], p[1], p[2]});
+  }
+  return loose;
+}
+
+TEST(Contours, OfASphericalDishRunFromRimToRim) {
+  PrimitiveDraw draw(14);
+  int crossed = 0, spared = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double radius = draw.between(10, 900);
+    const SphericalDishPrimitive dish{radius, radius * draw.between(0.05, i % 5 == 0 ? 3 : 1)};
+    const Vec3d towards = draw.direction();
+    const double ball = (radius * radius / dish.height + dish.height) / 2;
+    const double level = std::hypot(towards.x, towards.y);
+    const double at = towards.z * (dish.height - ball) / level;
+    const Tessellation t = tessellate(dish, {}, 0.5, towards);
+    ASSERT_EQ(t.fault, "");
+    const auto contours = Net(t.mesh).contours(towards);
+    if (!(std::fabs(at) < radius)) {
+      // Less than half a ball is seen as a whole, from within or without.
+      if (dish.height < radius) {
+        EXPECT_TRUE(contours.empty()) << i;
+      }
+      continue;
+    }
+    if (contours.empty() || worst_end(dish, t, towards) > 1e-9) {
+      ++spared;  // it hardly rises over the rim
+      EXPECT_GT(std::fabs(at), radius * 0.8) << i;
+      continue;
+    }
+    ++crossed;
+    const std::vector<Vec3d> loose = loose_ends(contours);
+    ASSERT_EQ(loose.size(), 2U) << i;
+    for (const Vec3d& p : loose) {
+      EXPECT_NEAR(p.z, 0, 1e-9);
+      EXPECT_NEAR(std::hypot(p.x, p.y), radius, 1e-9);
+    }
+    EXPECT_LE(t.mesh.sag_mm, 0.8);
+  }
+  EXPECT_GT(crossed, 400);
+  EXPECT_LT(spared, 20);
+}
+
+// But for those near the contour's ends.
+TEST(Contours, RimsOfPipeAndSphericalDishMeet) {
+  PrimitiveDraw draw(15);
+  std::size_t met = 0, missed = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double radius = draw.between(20, 600);
+    const SphericalDishPrimitive dish{radius, radius * draw.between(0.1, 1)};
+    const Vec3d towards = draw.direction();
+    const Tessellation t = tessellate(dish, {}, 0.5, towards);
+    const Tessellation pipe = tessellate(CylinderPrimitive{radius, 1000}, {}, 0.5, towards);
+    std::vector<Vec3d> rim;
+    for (const Vec3d& v : t.mesh.vertices)
+      if (std::fabs(v.z) < 1e-9) rim.push_back(v);
+    std::size_t here = 0;
+    for (const Vec3d& v : pipe.mesh.vertices) {
+      if (v.z < 0) continue;
+      const bool is_met = std::ranges::any_of(
+          rim, [&](const Vec3d& w) { return std::hypot(v.x - w.x, v.y - w.y) < 1e-9; });
+      ++(is_met ? met : missed);
+      here += is_met ? 0U : 1U;
+    }
+    EXPECT_LE(here, 2U) << i;
+  }
+  EXPECT_GT(met, 20 * missed);
+}
+
 TEST(Contours, OfATorusLieOnTheTrueOnes) {
   PrimitiveDraw draw(5);
   double worst = 0;

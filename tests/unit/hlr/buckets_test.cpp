@@ -143,11 +143,51 @@ TEST(Buckets, TheirNumberFollowsTheData) {
   EXPECT_LE(BucketPlan(rows(2, 10)).axes(4096).u.count, 16U);
 }
 
-TEST(Buckets, CrowdingIsOneWhereAllBucketsAreAlike) {
+/// With as many buckets as some edges, each as long as a box, would choose.
+double crowding_as_chosen(const std::vector<ViewBox>& boxes) {
+  return made(boxes, BucketPlan(boxes).best_side({})).crowding();
+}
+
+TEST(Buckets, AreNotCrowdedWhereBoxesAreAlike) {
   EXPECT_NEAR(made(rows(64, 1), 64).crowding(), 1, 0.2);
-  std::vector<ViewBox> cluster = rows(64, 1);
+  EXPECT_LT(crowding_as_chosen(rows(200, 900)), 16);
+}
+
+TEST(Buckets, AreCrowdedByAClusterInAWideSpace) {
+  std::vector<ViewBox> cluster = rows(100, 900);
   cluster.push_back({{100'000'000, 100'000'000, 0}, {100'000'001, 100'000'001, 1}});
-  EXPECT_GT(made(cluster, 64).crowding(), 1000);
+  EXPECT_GT(crowding_as_chosen(cluster), 1000);
+  // Wide boxes that lie over it stand in all buckets, which is not to hide it.
+  for (int i = 0; i < 300; ++i)
+    cluster.push_back({{0, 0, -i - 2}, {100'000'000, 100'000'000, -i - 1}});
+  EXPECT_GT(crowding_as_chosen(cluster), 500);
+}
+
+TEST(Buckets, AreCrowdedByLongStrips) {
+  std::vector<ViewBox> strips;
+  for (std::int64_t i = 0; i < 10000; ++i)
+    strips.push_back({{i * 100, 0, 0}, {i * 100 + 99, 1'000'000, 1}});
+  EXPECT_GT(crowding_as_chosen(strips), 500);
+}
+
+TEST(Buckets, LeaveEmptyBoxesOut) {
+  std::vector<ViewBox> boxes = rows(64, 1);
+  const std::uint32_t side = BucketPlan(boxes).best_side({});
+  for (int i = 0; i < 50; ++i) boxes.insert(boxes.begin() + 80 * i, ViewBox{});
+  EXPECT_EQ(BucketPlan(boxes).best_side({}), side);
+  const Buckets buckets = made(boxes, side);
+  EXPECT_LT(buckets.crowding(), 16);
+  BucketMarks marks;
+  LooseSegment everything;
+  everything.u0 = everything.v0 = everything.w0 = -1;
+  everything.u1 = everything.v1 = 1e9;
+  std::size_t met = 0;
+  buckets.walk(everything, marks, [&](std::uint32_t i) {
+    EXPECT_FALSE(boxes[i].empty());
+    return ++met > 0;
+  });
+  EXPECT_EQ(met, 64U * 64U);
+  EXPECT_TRUE(made({ViewBox{}, ViewBox{}}, 8).crowding() == 0);
 }
 
 TEST(Buckets, BoxesInAPointMakeOneBucket) {
