@@ -130,22 +130,31 @@ TEST(GatherAgainstBruteForce, Crowd) {
   EXPECT_EQ(first_wrong(seeds, {.most_objects = 40}), "");
 }
 
-TEST(GatherAgainstBruteForce, Sections) {
-  const auto settings_of = [](std::uint64_t seed) {
-    Several all;
-    for (const std::int32_t unit : {1, 7, 1000})
-      for (const double contact : {0.0, -1.0})
-        all.push_back({.unit = unit,
-                       .contact_mm = contact,
-                       .sections = 1 + static_cast<std::uint32_t>(seed % 3)});
-    return all;
-  };
-  EXPECT_EQ(first_wrong_of(count(1000), settings_of), "");
+Several with_sections(std::uint64_t seed) {
+  Several all;
+  for (const std::int32_t unit : {1, 7, 1000})
+    for (const double contact : {0.0, -1.0})
+      all.push_back({.unit = unit,
+                     .contact_mm = contact,
+                     .sections = 1 + static_cast<std::uint32_t>(seed % 3)});
+  return all;
 }
 
+TEST(GatherAgainstBruteForce, Sections) {
+  EXPECT_EQ(first_wrong_of(count(1000), with_sections), "");
+}
+
+constexpr Settings kHugeSections{.unit = 357913941, .contact_mm = -1, .sections = 2};
+
 TEST(GatherAgainstBruteForce, SectionsOfAHugeLattice) {
-  const Settings settings{.unit = 357913941, .contact_mm = -1, .sections = 2};
-  EXPECT_EQ(first_wrong(count(400), settings), "");
+  EXPECT_EQ(first_wrong(count(400), kHugeSections), "");
+}
+
+// Hatch lines a unit outside what limits were taken to spare.
+TEST(GatherAgainstBruteForce, HatchBesideTheLimits) {
+  parallel::Team pushers(3);
+  for (const Settings& settings : with_sections(2080)) EXPECT_EQ(run(2080, settings, pushers), "");
+  EXPECT_EQ(run(9559, kHugeSections, pushers), "");
 }
 
 TEST(GatherAgainstBruteForce, PerspectiveOnTheFinestLattice) {
@@ -166,6 +175,7 @@ TEST(GatherAgainstBruteForce, PerspectiveOfALargeCrowd) {
   EXPECT_EQ(first_wrong(count(400), settings), "");
 }
 
+// Seed 245 has a plane that is square to the horizontal of the paper.
 TEST(GatherAgainstBruteForce, PerspectiveAndSections) {
   const auto settings_of = [](std::uint64_t seed) {
     return Several{{.unit = seed % 2 == 0 ? 1 : 1000,
@@ -173,7 +183,7 @@ TEST(GatherAgainstBruteForce, PerspectiveAndSections) {
                     .sections = 1 + static_cast<std::uint32_t>(seed % 3),
                     .perspective = true}};
   };
-  EXPECT_EQ(first_wrong_of(count(200), settings_of), "");
+  EXPECT_EQ(first_wrong_of(count(1000), settings_of), "");
 }
 
 }  // namespace
