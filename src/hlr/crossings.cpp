@@ -127,7 +127,18 @@ class Finder {
     auto pairs = geometry::meeting_pairs(*tree, context_);
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
+    std::erase_if(pairs_, [&](const IndexPair& pair) {
+      return only_touch((*items)[pair.first].box, (*items)[pair.second].box);
+    });
     return {};
+  }
+
+  /// Whether a plane along two axes has one of the boxes on its one side and the other on the other:
+  /// then what is in them cannot pass through each other. Most of what meets in a ship is so.
+  static bool only_touch(const geometry::Box3l& a, const geometry::Box3l& b) {
+    for (int k = 0; k < 3; ++k)
+      if (a.hi[k] <= b.lo[k] || b.hi[k] <= a.lo[k]) return true;
+    return false;
   }
 
   Status plant(const std::vector<std::uint32_t>& some) {
