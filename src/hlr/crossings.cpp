@@ -133,8 +133,9 @@ class Finder {
     return {};
   }
 
-  /// Whether a plane along two axes has one of the boxes on its one side and the other on the other:
-  /// then what is in them cannot pass through each other. Most of what meets in a ship is so.
+  /// Whether a plane along two axes has one of the boxes on its one side and the other on the
+  /// other: then what is in them cannot pass through each other. Most of what meets in a ship is
+  /// so.
   static bool only_touch(const geometry::Box3l& a, const geometry::Box3l& b) {
     for (int k = 0; k < 3; ++k)
       if (a.hi[k] <= b.lo[k] || b.hi[k] <= a.lo[k]) return true;
