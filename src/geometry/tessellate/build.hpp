@@ -67,7 +67,6 @@ class Builder {
   explicit Builder(const std::optional<Vec3d>& towards = std::nullopt) : towards_(towards) {}
 
   std::uint32_t vertex(const Vec3d& v);
-  [[nodiscard]] const Vec3d& at(std::uint32_t vertex) const { return mesh_.vertices[vertex]; }
   /// A planar convex polygon, counter-clockwise seen from outside; `reversed` turns it.
   void polygon(std::span<const std::uint32_t> ring, bool reversed = false);
   /// A planar quad as a face of its own.

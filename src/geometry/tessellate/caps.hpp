@@ -22,9 +22,10 @@ struct CapContour {
                                                     const Vec3d& towards);
 };
 
-/// A spherical dish with its contour among the edges: at most `segments` to the rim, but for the
-/// contour's two ends, and `rows` from the rim to the apex at least. None where the contour does
-/// not meet the rim or lies within a quarter of a row of it.
+/// A spherical dish with its contour among the edges: `segments` to the rim, of which the contour's
+/// two ends may take the place of some and near which there may be more, and `rows` from the rim to
+/// the apex at least. None where the contour does not meet the rim or lies within a quarter of a
+/// row of it.
 [[nodiscard]] std::optional<Tessellation> contoured_cap(const SphericalDishPrimitive& p,
                                                         const Target& target, int segments,
                                                         int rows);

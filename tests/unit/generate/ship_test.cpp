@@ -123,11 +123,15 @@ std::vector<std::uint32_t> shapes_of_kind(const Ship& ship, std::string_view cod
   return shapes;
 }
 
+Result<Ship> with_imported(std::uint64_t objects, std::uint64_t imported, std::uint64_t triangles) {
+  ShipOptions options{.objects = objects, .seed = 2};
+  options.imported_detail = imported;
+  options.imported_triangles = triangles;
+  return generate_ship(options, {});
+}
+
 TEST(Ship, imported_meshes_are_heavy_closed_and_no_two_alike) {
-  ShipOptions options{.objects = 1500, .seed = 2};
-  options.imported_detail = 3;
-  options.imported_triangles = 30000;
-  const Result<Ship> ship = generate_ship(options, {});
+  const Result<Ship> ship = with_imported(1500, 3, 30000);
   ASSERT_TRUE(ship.has_value());
   EXPECT_EQ(ship->model.objects.size(), 1500U);
   const std::vector<std::uint32_t> shapes = shapes_of_kind(*ship, "IMP");
@@ -155,10 +159,7 @@ TEST(Ship, imported_meshes_are_heavy_closed_and_no_two_alike) {
 
 TEST(Ship, what_is_imported_stands_on_its_bed) {
   for (const std::uint64_t objects : {100U, 101U, 120U, 400U}) {
-    ShipOptions options{.objects = objects, .seed = 1};
-    options.imported_detail = 1;
-    options.imported_triangles = 1000;
-    const Result<Ship> ship = generate_ship(options, {});
+    const Result<Ship> ship = with_imported(objects, 1, 1000);
     ASSERT_TRUE(ship.has_value());
     EXPECT_EQ(ship->model.objects.size(), objects);
     const auto stands = std::ranges::count_if(ship->truth.pairs, [&](const TruthPair& pair) {
@@ -170,16 +171,11 @@ TEST(Ship, what_is_imported_stands_on_its_bed) {
 }
 
 TEST(Ship, refuses_what_its_deck_has_no_room_for) {
-  ShipOptions options{.objects = 200, .seed = 1};
-  options.imported_detail = 500;
-  options.imported_triangles = 1000;
-  const Result<Ship> crowded = generate_ship(options, {});
+  const Result<Ship> crowded = with_imported(200, 500, 1000);
   ASSERT_FALSE(crowded.has_value());
   EXPECT_EQ(crowded.error().code, ErrorCode::usage);
   EXPECT_EQ(crowded.error().where, "--imported-detail");
-  options.imported_detail = 1;
-  options.imported_triangles = 999;
-  EXPECT_EQ(generate_ship(options, {}).error().where, "--imported-triangles");
+  EXPECT_EQ(with_imported(200, 1, 999).error().where, "--imported-triangles");
 }
 
 TEST(Ship, nothing_lies_near_a_threshold) {
