@@ -2,7 +2,6 @@
 #include "geometry/aligned_parts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,55 +15,69 @@
 namespace strake::geometry {
 namespace {
 
-/// Triangles that are looked at, and how many of them have to be needles that run one way.
-constexpr std::size_t kSamples = 64, kLeastAlike = 16;
-/// A needle is as many times longer than high.
-constexpr double kElongation = 6;
-/// Cosine of the angle within which needles run one way.
+/// Triangles that are looked at, and how many of their edges have to run one way.
+constexpr std::size_t kSamples = 32;
+constexpr std::ptrdiff_t kLeastAlike = 8;
+/// An edge of a needle is as many times longer than the triangle is high over it.
+constexpr double kElongation = 3;
+/// Cosine of the angle within which edges run one way.
 constexpr double kOneWay = 0.9999;
-struct Needle {
-  Vec3d along, normal;  ///< not unit vectors
+
+/// A long edge of a needle.
+struct LongEdge {
+  Vec3d way, normal;   ///< units
+  double squared = 0;  ///< its length
 };
 
-std::vector<Needle> needles_of(const PartView& view) {
+bool one_way(const Vec3d& x, const Vec3d& y) { return std::fabs(dot(x, y)) >= kOneWay; }
+
+bool along_an_axis(const Vec3d& way) {
+  return std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)}) >= kOneWay;
+}
+
+/// Those that run along no axis. A needle has two; facets of a pipe share the way of but one.
+std::vector<LongEdge> long_edges(const PartView& view) {
   const std::vector<std::uint32_t>& triangles = view.tree().order();
   const std::size_t count = std::min(triangles.size(), kSamples);
-  std::vector<Needle> needles;
+  std::vector<LongEdge> edges;
   for (std::size_t i = 0; i < count; ++i) {
     const Corners c = as_doubles(view.corners(sample(triangles, i, count)));
-    const Needle needle{longest_edge(c), normal_of(c)};
-    const double squared = dot(needle.along, needle.along);
-    if (squared > kElongation * length(needle.normal)) needles.push_back(needle);
-  }
-  return needles;
-}
-
-bool one_way(const Vec3d& x, const Vec3d& y) {
-  const double along = dot(x, y);
-  return along * along >= kOneWay * kOneWay * dot(x, x) * dot(y, y);
-}
-
-bool along_an_axis(const Vec3d& v) {
-  return one_way(v, {1, 0, 0}) || one_way(v, {0, 1, 0}) || one_way(v, {0, 0, 1});
-}
-
-/// Along the way that most needles run, the longest of these says it best, and along its normal.
-std::optional<Axes> axes_of(const std::vector<Needle>& needles) {
-  const Needle* best = nullptr;
-  std::size_t most = kLeastAlike - 1;
-  for (const Needle& needle : needles) {
-    const auto alike = static_cast<std::size_t>(std::ranges::count_if(
-        needles, [&](const Needle& other) { return one_way(needle.along, other.along); }));
-    const bool longer =
-        best != nullptr && dot(needle.along, needle.along) > dot(best->along, best->along);
-    if (alike > most || (best != nullptr && alike == most && longer)) {
-      most = alike;
-      best = &needle;
+    const Vec3d normal = normal_of(c);
+    const double area = length(normal);
+    for (const Vec3d& edge : {c[1] - c[0], c[2] - c[1], c[0] - c[2]}) {
+      const double squared = dot(edge, edge);
+      if (!(squared > kElongation * area) || !(area > 0)) continue;
+      const Vec3d way = edge * (1 / std::sqrt(squared));
+      if (!along_an_axis(way)) edges.push_back({way, normal * (1 / area), squared});
     }
   }
-  if (best == nullptr || along_an_axis(best->along)) return std::nullopt;
-  const Vec3d z = best->along * (1 / length(best->along));
-  const Vec3d y = cross(z, best->normal * (1 / length(best->normal)));
+  return edges;
+}
+
+/// Of some edges the one of which most others have the same direction, of several the longest, if
+/// at least so many have.
+const LongEdge* most_common(const std::vector<LongEdge>& edges, Vec3d LongEdge::* direction,
+                            std::ptrdiff_t least) {
+  const LongEdge* best = nullptr;
+  std::ptrdiff_t most = least;
+  for (const LongEdge& edge : edges) {
+    const auto alike = std::ranges::count_if(
+        edges, [&](const LongEdge& other) { return one_way(edge.*direction, other.*direction); });
+    if (alike < most || (alike == most && best != nullptr && edge.squared <= best->squared))
+      continue;
+    most = alike;
+    best = &edge;
+  }
+  return best;
+}
+
+/// Along the way that most long edges run, and square to the plane that most of those lie in.
+std::optional<Axes> axes_of(std::vector<LongEdge> edges) {
+  const LongEdge* const best = most_common(edges, &LongEdge::way, kLeastAlike);
+  if (best == nullptr) return std::nullopt;
+  const Vec3d z = best->way;
+  std::erase_if(edges, [&](const LongEdge& edge) { return !one_way(edge.way, z); });
+  const Vec3d y = cross(z, most_common(edges, &LongEdge::normal, 1)->normal);
   const Vec3d unit_y = y * (1 / length(y));
   return Axes{cross(unit_y, z), unit_y, z};
 }
@@ -73,8 +86,8 @@ std::optional<Axes> axes_of(const std::vector<Needle>& needles) {
 
 std::optional<AlignedParts> aligned_parts(const PartView& a, const PartView& b,
                                           const parallel::Context& context) {
-  auto axes = axes_of(needles_of(a));
-  if (!axes) axes = axes_of(needles_of(b));
+  auto axes = axes_of(long_edges(a));
+  if (!axes) axes = axes_of(long_edges(b));
   if (!axes) return std::nullopt;
   auto of_a = turned_part(a, *axes, context);
   if (!of_a) return std::nullopt;

@@ -53,6 +53,7 @@ bool ContactJudge::parted(const ExactTriangle& a, const ExactTriangle& b,
 
 bool ContactJudge::touching(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a,
                             const ExactTriangle& b, const TriangleContact& c) {
+  ++touches_;
   if (!found_.boundaries_meet) stand_at(ta, tb, common_point(a, b, c));
   if (whole_ && !found_.overlap.interiors && separation_tries_ < kSeparationTries &&
       separated(a, b)) {

@@ -20,6 +20,8 @@ class ContactJudge {
   ContactJudge(const PartView& a, const PartView& b, bool whole) : a_(a), b_(b), whole_(whole) {}
 
   [[nodiscard]] const Contacts& found() const { return found_; }
+  /// How many of the pairs of triangles had a point in common.
+  [[nodiscard]] std::uint64_t touches() const { return touches_; }
 
   /// A triangle of each part, ready or not. Tells whether to go on: nothing has decided so far.
   bool judge_pair(std::uint32_t ta, std::uint32_t tb);
@@ -54,6 +56,7 @@ class ContactJudge {
   PartView a_, b_;
   bool whole_;
   Contacts found_;
+  std::uint64_t touches_ = 0;
   int separation_tries_ = 0, parting_tries_ = 0;
   Sectors sectors_;
 };

@@ -23,6 +23,9 @@
 namespace strake::geometry {
 namespace {
 
+/// Of so many pairs of triangles one that touches is often.
+constexpr std::uint64_t kOften = 8;
+
 /// Some triangles of a part, or none.
 FlatPiece piece_of(const PartView& view, std::span<const std::uint32_t> triangles) {
   return {&view.part(), triangles.empty() ? PartTree() : PartTree(view.part(), triangles)};
@@ -83,7 +86,9 @@ Contacts ContactWalk::run(PairWork& work) {
 void ContactWalk::finish(DualWalk& walk, std::uint64_t walked, PairWork& work) {
   // Turning the parts costs as much as a walk of some node pairs a triangle.
   const std::uint64_t before_turned = std::min(8 * walked_before_flat(a_, b_), kWalkedAlone);
-  if (go_on(walk, before_turned - walked) == WalkEnd::left_off && !walk_aligned(work) &&
+  if (go_on(walk, before_turned - walked) != WalkEnd::left_off) return;
+  // Where one pair of triangles in a few touches, other boxes would meet nearly as often.
+  if ((kOften * judge_.touches() > cost_.triangle_pairs || !walk_aligned(work)) &&
       go_on(walk, kWalkedAlone - before_turned) == WalkEnd::left_off)
     share(walk, work);
 }
@@ -98,15 +103,17 @@ bool ContactWalk::walk_aligned(PairWork& work) {
         0.0, [&](const NearTriangles& pair) { return piece.judge_.judge_pair(pair.a, pair.b); },
         most);
   };
+  // Boxes that meet are reason enough to judge a pair: bounds on its distance take longer.
+  constexpr double kAny = std::numeric_limits<double>::infinity();
   PairWork own;
-  NearWalk walk(a_, b_, own, -1, &*aligned);
+  NearWalk walk(a_, b_, own, kAny, &*aligned);
   walk.start(0);
   const WalkEnd end = run(*this, walk, kWalkedAlone);
   cost_ += own;
   if (end != WalkEnd::left_off) return true;
   share_out(walk.rest(0, kWalkPieces), work, [&](ContactWalk& piece, const NearWalk::Entry& entry) {
     PairWork of_piece;
-    NearWalk below(a_, b_, of_piece, -1, &*aligned);
+    NearWalk below(a_, b_, of_piece, kAny, &*aligned);
     below.start(entry);
     run(piece, below, DualWalk::kNoLimit);
     piece.cost_ += of_piece;

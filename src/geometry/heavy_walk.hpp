@@ -12,15 +12,23 @@
 
 namespace strake::geometry {
 
-/// Node pairs after which flat faces of needles may be why a walk takes so long: up to 16 pairs of
-/// triangles each.
+/// Triangles of two parts up to which they are turned as soon as that costs less than it may save:
+/// of more it is first asked whether flat faces settle it.
+inline constexpr std::size_t kTurnedEarly = 2048;
+
+/// Node pairs, of up to 16 pairs of triangles each, after which that is so.
+[[nodiscard]] inline std::uint64_t walked_before_turning(const PartView& a, const PartView& b) {
+  return 32 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
+}
+
+/// Node pairs after which flat faces of needles may be why a walk takes so long.
 [[nodiscard]] inline std::uint64_t walked_before_flat(const PartView& a, const PartView& b) {
   return 512 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
 }
 
 /// A NearWalk that asks a team for help once it has turned out to be heavy. After
-/// walked_before_flat() node pairs it begins anew in a frame along the parts' needles, if there are
-/// such.
+/// walked_before_turning() or walked_before_flat() node pairs it begins anew in a frame along the
+/// parts' needles, if there are such.
 ///
 /// `begin()` makes the state of a piece from what is known so far: `reach`, a square that may
 /// shrink, `work`, and operator()(NearTriangles) as NearWalk's visitor. `take(state)` gets the
@@ -41,19 +49,27 @@ void heavy_near_walk(const PartView& a, const PartView& b, double near_enough, P
   std::optional<AlignedParts> aligned;
   std::optional<NearWalk> walk(std::in_place, a, b, first->work, near_enough);
   walk->start(first->reach);
-  bool heavy = true;
   std::uint64_t walked = 0;
+  const auto turn = [&] {
+    aligned = aligned_parts(a, b, work.context());
+    if (!aligned) return;
+    // Once more from the start: little is lost.
+    work += first->work;
+    first.emplace(begin());
+    walk.emplace(a, b, first->work, near_enough, &*aligned);
+    walk->start(first->reach);
+  };
+  bool heavy = true;
+  const bool early = a.part().triangles.size() + b.part().triangles.size() <= kTurnedEarly;
+  if (early) {
+    heavy = walk->run(first->reach, *first, walked_before_turning(a, b)) == WalkEnd::left_off;
+    if (heavy) turn();
+  }
   for (std::uint64_t pause = walked_before_flat(a, b); heavy && walked < kWalkedAlone; pause *= 4) {
     const std::uint64_t until = std::min(pause, kWalkedAlone);
     heavy =
         walk->run(first->reach, *first, until - walked) == WalkEnd::left_off && !settled(*first);
-    if (heavy && walked == 0 && (aligned = aligned_parts(a, b, work.context()))) {
-      // Once more from the start: little is lost.
-      work += first->work;
-      first.emplace(begin());
-      walk.emplace(a, b, first->work, near_enough, &*aligned);
-      walk->start(first->reach);
-    }
+    if (heavy && walked == 0 && !early) turn();
     walked = until;
   }
   const double reach = first->reach;

@@ -111,6 +111,8 @@ struct Gathering {
 /// Triangles that tell for all the others of their part, and how many of them have to say the same
 /// at least.
 constexpr std::size_t kSamples = 64, kAgree = 8;
+/// Triangles below which a walk over all of them costs little more.
+constexpr std::size_t kLeastSampled = 4 * kSamples;
 /// Factor by which the pairs that they stand for have to be too many.
 constexpr std::uint64_t kFarTooMany = 2;
 
@@ -141,7 +143,7 @@ std::uint64_t count_near(const PartView& a, std::uint32_t triangle, const PartVi
 bool too_many_by_samples(const PartView& a, const PartView& b, const NearQuestion& question,
                          PairWork& work) {
   const std::vector<std::uint32_t>& order = a.tree().order();
-  if (order.size() < kSamples) return false;
+  if (order.size() < kLeastSampled) return false;
   const std::uint64_t wanted = kFarTooMany * question.most * kSamples / order.size() + 1;
   const NearQuestion each{.reach = question.reach, .most = wanted / kAgree + 1};
   std::uint64_t near = 0;
