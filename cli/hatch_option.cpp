@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/hatch_option.hpp"
 
-#include <cstddef>
 #include <string_view>
 #include <utility>
 
 #include "cli/select.hpp"
 #include "strake/core/units.hpp"
+#include "strake/drawing/hatching.hpp"
 
 namespace strake::cli {
 
@@ -72,23 +72,17 @@ Result<std::vector<HatchRule>> parse_hatches(const std::vector<std::string>& tex
 Result<std::vector<hlr::Hatch>> hatches_of(Session& session, const model::Scene& scene,
                                            const std::vector<HatchRule>& rules) {
   if (rules.empty()) return std::vector<hlr::Hatch>{};
-  const std::size_t objects = scene.model->objects.size();
-  std::vector<hlr::Hatch> hatches(objects);
-  std::vector<bool> known(objects, false);
+  drawing::Hatching hatching(scene.model->objects.size());
   for (const HatchRule& rule : rules) {
-    std::vector<bool> picked(objects, true);
+    std::vector<bool> picked;
     if (rule.selection) {
       auto some = pick_any(session, scene, {*rule.selection}, "--hatch");
       if (!some) return some.error();
       picked = std::move(*some);
     }
-    for (std::size_t o = 0; o < objects; ++o) {
-      if (!picked[o] || known[o]) continue;
-      known[o] = true;
-      hatches[o] = rule.hatch;
-    }
+    hatching.add(rule.hatch, picked);
   }
-  return hatches;
+  return std::move(hatching).by_object();
 }
 
 }  // namespace strake::cli

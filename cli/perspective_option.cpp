@@ -63,9 +63,6 @@ Status set_perspective(const PerspectiveOptions& given, hlr::View& view, Console
   if (!eye) return eye.error();
   const Result<geometry::Vec3l> target = point_of(given.target, "--target");
   if (!target) return target.error();
-  if (*eye == *target)
-    return Error{ErrorCode::usage, "the eye and the target are the same point", "--target",
-                 "give a target to look at"};
   perspective.eye = *eye;
   perspective.target = *target;
   if (const Status status = length_option(perspective.near_mm, given.near, "--near"); !status)
@@ -75,15 +72,18 @@ Status set_perspective(const PerspectiveOptions& given, hlr::View& view, Console
     if (!angle) return angle.error();
     perspective.field_of_view_deg = *angle;
   }
-  const drawing::Direction direction = drawing::direction_between(*target, *eye);
-  if (direction.rounding_error > 0) {
-    const geometry::Vec3l& d = direction.vector;
+  const Result<drawing::Direction> direction = drawing::see_from(perspective, view);
+  if (!direction) {
+    Error error = direction.error();
+    error.where = "--target";
+    return error;
+  }
+  if (direction->rounding_error > 0) {
+    const geometry::Vec3l& d = direction->vector;
     console.say(
         fmt::format("the paper is square to {},{},{}, off the way to --target by {:.1e} rad", d.x,
-                    d.y, d.z, direction.rounding_error));
+                    d.y, d.z, direction->rounding_error));
   }
-  view.direction = direction.vector;
-  view.perspective = perspective;
   return {};
 }
 

@@ -135,6 +135,16 @@ Direction direction_between(const Vec3l& from, const Vec3l& to) {
   return rounded_direction(direction.vector.as<double>() * (1 / largest));
 }
 
+Result<Direction> see_from(const hlr::Perspective& perspective, hlr::View& view) {
+  if (perspective.eye == perspective.target)
+    return Error{ErrorCode::usage, "the eye and the target are the same point", "",
+                 "give a target to look at"};
+  const Direction direction = direction_between(perspective.target, perspective.eye);
+  view.direction = direction.vector;
+  view.perspective = perspective;
+  return direction;
+}
+
 Result<SectionText> parse_section(std::string_view text, const Vec3l& direction,
                                   const std::optional<Vec3l>& eye) {
   const std::string mend =

@@ -16,6 +16,7 @@
 #include "sheets/placing.hpp"
 #include "sheets/styles.hpp"
 #include "sheets/tags.hpp"
+#include "strake/drawing/hatching.hpp"
 #include "strake/model/selection.hpp"
 
 namespace strake::sheets {
@@ -61,8 +62,11 @@ class Composer {
       selections.push_back(chooser.selection);
       choosers.push_back(&chooser);
     };
-    for (const ViewWish& view : what_.views)
+    for (const ViewWish& view : what_.views) {
       for (const settings::Chooser& chooser : view.select) ask(chooser);
+      for (const HatchWish& hatch : view.hatches)
+        for (const settings::Chooser& chooser : hatch.select) ask(chooser);
+    }
     for (const TagWish& tag : what_.tags) ask(*tag.select);
     Result<Picks> picked = model::pick(selections, scene_, context_);
     if (!picked) return picked.error();
@@ -78,29 +82,37 @@ class Composer {
     return {};
   }
 
-  /// The objects of a view; empty: all.
-  [[nodiscard]] std::vector<bool> drawn(std::size_t first, std::size_t count) const {
+  /// The objects that the next selections pick, those of a list together; empty: all.
+  [[nodiscard]] std::vector<bool> next_picks(std::size_t count) {
     std::vector<bool> any;
     if (count == 0) return any;
     any.resize(scene_.model->objects.size());
-    for (std::size_t s = first; s < first + count; ++s)
-      for (std::size_t o = 0; o < any.size(); ++o) any[o] = any[o] || picks_[s][o] != 0;
+    for (const std::size_t end = asked_ + count; asked_ < end; ++asked_)
+      for (std::size_t o = 0; o < any.size(); ++o) any[o] = any[o] || picks_[asked_][o] != 0;
     return any;
   }
 
+  [[nodiscard]] std::vector<hlr::Hatch> hatches_of(const ViewWish& view) {
+    drawing::Hatching hatching(scene_.model->objects.size());
+    for (const HatchWish& wish : view.hatches)
+      hatching.add(wish.hatch, next_picks(wish.select.size()));
+    return std::move(hatching).by_object();
+  }
+
   Status draw() {
-    std::size_t asked = 0;
     for (const ViewWish& view : what_.views) {
       hlr::Options options = view.options;
       options.solver = solver_;
-      Result<hlr::Drawing> lines =
-          hlr::draw(scene_, drawn(asked, view.select.size()), view.view, options, context_);
+      // What the sheet does not show is not worked out.
+      options.hidden = view.hidden != HiddenLines::off;
+      const std::vector<bool> drawn = next_picks(view.select.size());
+      options.hatches = hatches_of(view);
+      Result<hlr::Drawing> lines = hlr::draw(scene_, drawn, view.view, options, context_);
       if (!lines) {
         Error error = lines.error();
         if (error.where.empty() && error.code != ErrorCode::cancelled) error.where = view.where;
         return error;
       }
-      asked += view.select.size();
       sheet_.diagnostics.append(lines->diagnostics);
       drawings_.push_back(std::move(*lines));
     }
@@ -155,7 +167,7 @@ class Composer {
     warn("view-empty",
          "the view '" + wish.name + "' shows nothing: " +
              (nothing                      ? "it has no objects"
-              : of(LineState::clipped) > 0 ? "nothing lies within its limits"
+              : of(LineState::clipped) > 0 ? "nothing lies within what it shows"
                                            : "its objects have no lines to draw"),
          wish.where);
   }
@@ -220,7 +232,7 @@ class Composer {
       view.caption.paths.push_back({LineClass::title, {{x - half, y}, {x + half, y}}, false});
       y += 1.5;
     }
-    if (places_[v].scale != sheet_scale)
+    if (places_[v].scale != sheet_scale && !what_.views[v].view.perspective)
       write(drawing::scale_text(places_[v].scale), letters.scale_mm);
   }
 
@@ -259,10 +271,8 @@ class Composer {
                         c.center.x + c.radius_mm, c.center.y + c.radius_mm});
       }
     }
-    // Picks of tags come behind those of views.
-    std::size_t pick = picks_.size() - what_.tags.size();
     for (const TagWish& tag : what_.tags) {
-      const std::vector<std::uint8_t>& picked = picks_[pick++];
+      const std::vector<std::uint8_t>& picked = picks_[asked_++];
       std::size_t seen = 0;
       for (PlacedView& view : sheet_.views)
         if (tag.views.empty() ||
@@ -295,6 +305,7 @@ class Composer {
   const parallel::Context& context_;
   Room room_;
   Picks picks_;
+  std::size_t asked_ = 0;  ///< of them those that have been used
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
   Sheet sheet_;

@@ -24,6 +24,12 @@ enum class Slot : std::uint8_t { none, front, top, bottom, left, right, back, is
 
 enum class HiddenLines : std::uint8_t { off, dashed, all };
 
+/// How the sections of some objects are hatched.
+struct HatchWish {
+  std::vector<settings::Chooser> select;  ///< empty: all
+  hlr::Hatch hatch;
+};
+
 struct ViewWish {
   std::string name, title;
   std::string where;  ///< "deck.toml, line 7: [[view]] 'plan'"
@@ -31,6 +37,7 @@ struct ViewWish {
   hlr::View view;
   hlr::Options options;
   std::vector<settings::Chooser> select;  ///< empty: everything
+  std::vector<HatchWish> hatches;         ///< the first that picks an object holds for it
   HiddenLines hidden = HiddenLines::off;
   std::optional<double> scale;
   std::optional<PaperPoint> position;  ///< of the anchor, or without one of the middle

@@ -194,7 +194,8 @@ class AxisLines {
 bool shows_grid(const GridWish& grid, const ViewWish& view, std::uint8_t axis) {
   const bool named = grid.views.empty() ||
                      std::find(grid.views.begin(), grid.views.end(), view.name) != grid.views.end();
-  return named && dot(view.view.direction, axis_vector(axis)) == 0 &&
+  // In perspective a plane is a line only where the eye lies in it.
+  return named && !view.view.perspective && dot(view.view.direction, axis_vector(axis)) == 0 &&
          std::any_of(grid.planes.begin(), grid.planes.end(),
                      [&](const GridPlane& p) { return p.axis == axis; });
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "drawing/paper.hpp"
 #include "settings/table_reader.hpp"
 #include "sheets/arrangement.hpp"
 #include "sheets/description.hpp"
@@ -325,7 +326,7 @@ class Parser {
     table.call(view.name);
     view.where = place(value.at) + ": " + table.what();
     view.title = table.text("title").value_or(view.name);
-    views_.direction(table, view);
+    views_.seen_from(table, view);
     view.scale = ViewReader::scale(table);
     if (const auto at = table.lengths_mm("position", 2, "[\"150mm\", \"120mm\"]"))
       view.position = PaperPoint{(*at)[0], (*at)[1]};
@@ -333,14 +334,19 @@ class Parser {
         !(std::fabs(view.position->x) <= kFarthestMm && std::fabs(view.position->y) <= kFarthestMm))
       reading_.fault(value.at, "'position' of " + table.what() + " is far off any sheet",
                      "write millimetres of paper from the upper left corner");
-    if (const auto anchor = table.point_mm("anchor")) {
-      view.anchor = geometry::snap(*anchor);
-      if (!view.anchor)
-        reading_.fault(value.at, "'anchor' of " + table.what() + " lies outside what can be placed",
-                       "write a point of the model");
-    }
+    view.anchor = views_.point(table, "anchor");
+    if (view.anchor && !can_be_seen(*view.anchor, view.view))
+      reading_.fault(value.at, "'anchor' of " + table.what() + " lies behind the eye",
+                     "write a point before it, or leave it out: then it is the target");
     views_.content(table, view);
     add(std::move(view), value.at);
+  }
+
+  /// Whether a point has a place on paper: it is not behind the eye, nor nearer than what is drawn.
+  static bool can_be_seen(const geometry::Vec3l& point, const hlr::View& view) {
+    const auto axes = drawing::paper_axes(view);
+    if (!axes || !axes->eye) return true;
+    return dot(axes->toward, geometry::to_mm(axes->eye->at - point)) >= axes->eye->near_mm;
   }
 
   void add(ViewWish view, Place at) {

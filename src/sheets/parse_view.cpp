@@ -62,10 +62,65 @@ void ViewReader::direction(TableReader& table, ViewWish& view) {
     view.view.direction = *direction;
     view.view.up = drawing::default_up(*direction);
   }
+  up(table, view);
+}
+
+void ViewReader::up(TableReader& table, ViewWish& view) {
   if (const auto up = vector(table, "up", false)) view.view.up = *up;
   if (!drawing::can_be_up(view.view.up, view.view.direction))
     reading_.fault(table.at(), "'up' of " + table.what() + " is parallel to its direction",
                    "give a direction that shows on paper");
+}
+
+void ViewReader::seen_from(TableReader& table, ViewWish& view) {
+  if (table.value("eye") == nullptr) {
+    for (const std::string_view key : {"target", "near", "field_of_view"})
+      if (const Value* const value = table.value(key))
+        reading_.fault(value->at,
+                       "'" + std::string(key) + "' of " + table.what() + " goes with an eye",
+                       "write eye = [\"9m\", \"-20m\", \"1.7m\"], or leave it out");
+    direction(table, view);
+    return;
+  }
+  if (const Value* const value = table.value("direction"))
+    reading_.fault(value->at, "'direction' of " + table.what() + " stands beside an eye",
+                   "leave one of the two out");
+  perspective(table, view);
+  up(table, view);
+}
+
+void ViewReader::perspective(TableReader& table, ViewWish& view) {
+  hlr::Perspective perspective;
+  const auto eye = point(table, "eye"), target = point(table, "target");
+  if (table.value("target") == nullptr)
+    reading_.fault(table.value("eye")->at, "the eye of " + table.what() + " has no target",
+                   "write target = [\"9m\", \"0m\", \"1m\"], what it looks at");
+  if (const auto near = table.tolerance_mm("near")) perspective.near_mm = *near;
+  if (const auto angle =
+          table.quantity("field_of_view", parse_angle_deg, "an angle in quotes, as \"90deg\""))
+    perspective.field_of_view_deg = *angle;
+  if (!eye || !target) return;
+  perspective.eye = *eye;
+  perspective.target = *target;
+  const auto direction = drawing::see_from(perspective, view.view);
+  if (!direction) {
+    reading_.fault(table.value("target")->at,
+                   "of " + table.what() + " " + direction.error().message, direction.error().mend);
+    return;
+  }
+  view.view.up = drawing::default_up(view.view.direction);
+}
+
+std::optional<Vec3l> ViewReader::point(TableReader& table, std::string_view key) {
+  const auto mm = table.point_mm(key);
+  if (!mm) return std::nullopt;
+  const auto point = geometry::snap(*mm);
+  if (!point)
+    reading_.fault(
+        table.value(key)->at,
+        "'" + std::string(key) + "' of " + table.what() + " lies outside what can be placed",
+        "write a point of the model");
+  return point;
 }
 
 std::optional<double> ViewReader::scale(TableReader& table) {
@@ -96,20 +151,54 @@ void ViewReader::limits(TableReader& outer, ViewWish& view) {
 void ViewReader::select(TableReader& table, ViewWish& view) {
   const Value* const value = table.value("select");
   if (value == nullptr) return;
-  view.select.clear();
+  view.select = choosers(table);
+  if (view.select.empty())
+    reading_.fault(value->at, "'select' of " + table.what() + " picks nothing",
+                   "leave it out to draw everything");
+}
+
+std::vector<settings::Chooser> ViewReader::choosers(TableReader& table) {
+  std::vector<settings::Chooser> all;
+  const Value* const value = table.value("select");
+  if (value == nullptr) return all;
   const std::string what = table.what() + ", select";
   const auto take = [&](const Value& one) {
-    if (auto chooser = sets_.chooser(one, what)) view.select.push_back(std::move(*chooser));
+    if (auto chooser = sets_.chooser(one, what)) all.push_back(std::move(*chooser));
   };
   const auto* const list = std::get_if<Array>(&value->held);
   if (list == nullptr) {
     take(*value);
-    return;
+    return all;
   }
   for (const Value& one : *list) take(one);
-  if (list->empty())
-    reading_.fault(value->at, "'select' of " + table.what() + " picks nothing",
-                   "leave it out to draw everything");
+  return all;
+}
+
+void ViewReader::hatches(TableReader& table, ViewWish& view) {
+  const Value* const value = table.value("hatch");
+  if (value == nullptr) return;
+  view.hatches.clear();
+  const auto* const list = std::get_if<Array>(&value->held);
+  if (list == nullptr) return hatch(*value, table.what(), view);
+  for (const Value& one : *list) hatch(one, table.what(), view);
+}
+
+void ViewReader::hatch(const Value& value, const std::string& outer, ViewWish& view) {
+  TableReader table(reading_, value, "'hatch' of " + outer);
+  HatchWish wish;
+  wish.select = choosers(table);
+  if (const Value* const select = table.value("select"); select != nullptr && wish.select.empty())
+    reading_.fault(select->at, "'select' of " + table.what() + " picks nothing",
+                   "leave it out to hatch everything so");
+  if (const auto angle =
+          table.quantity("angle", parse_angle_deg, "an angle in quotes, as \"45deg\"")) {
+    if (!(*angle >= 0 && *angle <= 180))
+      reading_.fault(table.value("angle")->at, "'angle' of " + table.what() + " is no way of lines",
+                     "write \"0deg\" to \"180deg\"");
+    wish.hatch.angle_deg = *angle;
+  }
+  if (const auto spacing = table.tolerance_mm("spacing")) wish.hatch.spacing_mm = *spacing;
+  view.hatches.push_back(std::move(wish));
 }
 
 void ViewReader::sections(TableReader& table, ViewWish& view) {
@@ -138,6 +227,7 @@ void ViewReader::content(TableReader& table, ViewWish& view) {
   select(table, view);
   limits(table, view);
   sections(table, view);
+  hatches(table, view);
   constexpr std::array<std::string_view, 3> kHidden{"off", "dashed", "all"};
   if (const auto word = table.word("hidden", kHidden))
     view.hidden = *word == "off"      ? HiddenLines::off

@@ -15,6 +15,7 @@ namespace strake::sheets {
 namespace {
 
 using drawing::rounded_paper;
+using geometry::Vec3l;
 
 class Placer {
  public:
@@ -24,12 +25,14 @@ class Placer {
   /// To be done first.
   Status measure(std::span<const hlr::Drawing> drawings, const parallel::Context& context) {
     // One for all that say none, so that they are aligned.
-    geometry::Vec3l common;
+    Vec3l common;
     const auto some = std::find_if(drawings.begin(), drawings.end(),
                                    [](const hlr::Drawing& d) { return !d.pieces.empty(); });
     if (some != drawings.end()) common = some->origin;
     for (std::size_t v = 0; v < what_.views.size(); ++v) {
-      places_[v].anchor = what_.views[v].anchor.value_or(common);
+      const ViewWish& view = what_.views[v];
+      const Vec3l own = view.view.perspective ? view.view.perspective->target : common;
+      places_[v].anchor = view.anchor.value_or(own);
       ToPlace place = to_place(v);
       if (const auto axes = drawing::paper_axes(what_.views[v].view)) {
         const auto extent = drawing::plane_extent(drawings[v], *axes, places_[v].anchor, context);
@@ -69,8 +72,9 @@ class Placer {
     place.right_mm = place.bottom_mm = rim.other_mm;
     if (view.title.empty()) return place;
     const Lettering letters = lettering_of(what_);
+    const bool scaled = view.scale && !view.view.perspective;
     place.bottom_mm +=
-        letters.gap_mm + letters.title_mm + 2.5 + (view.scale ? letters.scale_mm + 2 : 0);
+        letters.gap_mm + letters.title_mm + 2.5 + (scaled ? letters.scale_mm + 2 : 0);
     place.least_width_mm = text_width(view.title) * letters.title_mm + 4;
     return place;
   }
@@ -172,7 +176,7 @@ double main_scale(const Description& what, std::span<const ViewPlace> places) {
   std::map<double, std::size_t> views;
   for (std::size_t v = 0; v < places.size(); ++v) {
     if (what.views[v].slot != Slot::none) return places[v].scale;
-    ++views[places[v].scale];
+    if (!what.views[v].view.perspective) ++views[places[v].scale];
   }
   double most = places.front().scale;
   for (const ViewPlace& place : places)

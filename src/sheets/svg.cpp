@@ -82,10 +82,11 @@ void write_metadata(Chunked& out, const Sheet& sheet) {
   for (const PlacedView& view : sheet.views) {
     const drawing::NeutralDrawing& drawing = view.drawing;
     out << "<view name=\"" << xml_escaped(view.name) << "\" direction=\""
-        << vector_text(drawing.view.direction) << "\" up=\"" << vector_text(drawing.view.up)
-        << "\" stage=\"" << drawing::stage_name(drawing.stage) << "\" scale=\""
-        << drawing.sheet.scale_text << "\" contact-distance-mm=\""
-        << shortest(drawing.contact_distance_mm) << "\" hash=\"" << drawing.hash.text() << "\""
+        << vector_text(drawing.view.direction) << "\" up=\"" << vector_text(drawing.view.up) << "\""
+        << (drawing.view.perspective ? " projection=\"perspective\"" : "") << " stage=\""
+        << drawing::stage_name(drawing.stage) << "\" scale=\"" << drawing.sheet.scale_text
+        << "\" contact-distance-mm=\"" << shortest(drawing.contact_distance_mm) << "\" hash=\""
+        << drawing.hash.text() << "\""
         << fmt::format(" objects=\"{}\" objects-drawn=\"{}\" feature-edges=\"{}\"",
                        drawing.account.objects(), drawing.account.of(hlr::Fate::drawn),
                        drawing.counters.feature_edges);
@@ -94,6 +95,7 @@ void write_metadata(Chunked& out, const Sheet& sheet) {
       std::replace(name.begin(), name.end(), '_', '-');
       out << fmt::format(" {}=\"{}\"", name, drawing.count[s]);
     }
+    if (!drawing.hidden_lines) out << " hidden-lines=\"not asked for\"";
     out << fmt::format(" hidden-left-out=\"{}\"/>\n", view.ink.left_out);
   }
   out << "</sheet>\n</metadata>\n";

@@ -75,6 +75,20 @@ height = "3.5mm"
 [styles]
 hidden = { width = "0.2mm", dash = ["2mm", "1mm"], color = "#123ABC" }
 )toml"},
+          {"eye.toml", R"toml([[view]]
+name = "walk"
+eye = ["2m", "-9m", "1.7m"]
+target = ["2m", 0, "1m"]
+near = "50mm"
+field_of_view = "70deg"
+position = ["120mm", "100mm"]
+[[view]]
+name = "cut"
+direction = "front"
+sections = ["y<300mm"]
+hatch = [{ select = "type = mesh", angle = "30deg", spacing = "80mm" }, { spacing = 0 }]
+position = ["300mm", "100mm"]
+)toml"},
           {"frame.svg", kSheetTemplate}};
 }
 

@@ -28,6 +28,10 @@ struct Direction {
 /// otherwise rounded and reported.
 [[nodiscard]] Direction direction_between(const geometry::Vec3l& from, const geometry::Vec3l& to);
 
+/// Makes a view one in perspective: its direction is that from the target to the eye, returned with
+/// how far it is from it. Error: the two are the same point.
+[[nodiscard]] Result<Direction> see_from(const hlr::Perspective& perspective, hlr::View& view);
+
 /// A section plane, with how far its normal is from what was asked for.
 struct SectionText {
   hlr::Section section;

@@ -2,6 +2,7 @@
 // Sheets of small models: what stands on them, to the micrometre, and what is told of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -106,6 +107,80 @@ TEST(Sheet, AViewLiesWhereItSays) {
             std::string::npos);  // beside the view, it is not the sheet's
 }
 
+TEST(Sheet, AViewFromAnEyeIsTrueInThePlaneOfItsTarget) {
+  const std::string eye =
+      "[[view]]\nname=\"v\"\neye=[\"2m\",\"-10m\",\"500mm\"]\ntarget=[\"2m\",0,\"500mm\"]\n"
+      "scale=\"1:50\"\nposition=[\"200mm\",\"100mm\"]\n";
+  const PaperBox middle = view_of(drawn(with_frame(eye)).sheet, "v").box;
+  EXPECT_NEAR((middle.left + middle.right) / 2, 200, 0.001);
+  const Drawn d = drawn(with_frame(eye + "anchor=[\"2m\",0,\"500mm\"]\n[grid]\nx=[[\"A\",0]]\n" +
+                                   "[[view]]\nname=\"w\"\ndirection=\"front\"\nscale=\"1:100\"\n" +
+                                   "position=[\"330mm\",\"200mm\"]\n"));
+  // From x = 0 to x = 6 m of faces that lie in that plane.
+  const PlacedView& view = view_of(d.sheet, "v");
+  EXPECT_NEAR(view.box.left, 200 - 40, 1e-9);
+  EXPECT_NEAR(view.box.right, 200 + 80, 1e-9);
+  // The front of the upper box is 250.007 mm farther away.
+  EXPECT_NEAR(view.box.top, 100 - (1777.777 - 500) / 50 * 10000 / 10250.007, 0.001);
+  EXPECT_NE(d.svg.find("name=\"v\" direction=\"0,-1,0\" up=\"0,0,1\" projection=\"perspective\""),
+            std::string::npos);
+  EXPECT_TRUE(view.grid.paths.empty());
+  EXPECT_FALSE(view_of(d.sheet, "w").grid.paths.empty());
+  // The scale of the sheet is that of the other view; nothing has it beside a picture.
+  EXPECT_EQ(view.caption.texts.size(), 1U);
+  EXPECT_EQ(view_of(d.sheet, "w").caption.texts.size(), 1U);
+}
+
+TEST(Sheet, WhatAViewDoesNotShowIsNotWorkedOut) {
+  const std::string view = "[[view]]\nname=\"v\"\nscale=\"1:50\"\n";
+  const Drawn without = drawn(with_frame(view));
+  const Drawn dashed = drawn(with_frame(view + "hidden=\"dashed\"\n"));
+  const auto count = [](const Drawn& d, drawing::LineState state) {
+    return d.sheet.views[0].drawing.count[static_cast<std::size_t>(state)];
+  };
+  for (const auto state :
+       {drawing::LineState::hidden_by_self, drawing::LineState::hidden_by_other}) {
+    EXPECT_EQ(count(without, state), 0U);
+    EXPECT_GT(count(dashed, state), 0U);
+  }
+  EXPECT_EQ(count(without, drawing::LineState::visible),
+            count(dashed, drawing::LineState::visible));
+  std::vector<drawing::Line> seen;
+  for (const drawing::Line& line : dashed.sheet.views[0].ink.lines)
+    if (line.state == drawing::LineState::visible) seen.push_back(line);
+  const std::vector<drawing::Line>& all = without.sheet.views[0].ink.lines;
+  ASSERT_EQ(all.size(), seen.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].a_paper, seen[i].a_paper);
+    EXPECT_EQ(all[i].b_paper, seen[i].b_paper);
+  }
+  EXPECT_NE(without.svg.find("hidden-lines=\"not asked for\""), std::string::npos);
+  EXPECT_EQ(dashed.svg.find("hidden-lines="), std::string::npos);
+}
+
+TEST(Sheet, TheFirstHatchThatPicksAnObjectHolds) {
+  const Drawn d = drawn(with_frame(
+      "[[view]]\nname=\"v\"\ndirection=\"front\"\nscale=\"1:50\"\nsections=[\"y<300mm\"]\n"
+      "hatch=[{select=\"top\",spacing=0},{select=[\"top\",\"base\"],angle=\"90deg\","
+      "spacing=\"100mm\"},{select=\"nobody\"}]\n"));
+  std::map<std::uint32_t, std::vector<double>> hatches;
+  for (const drawing::Line& line : d.sheet.views[0].ink.lines)
+    if (line.kind == hlr::EdgeKind::hatch) {
+      hatches[model::index(line.object)].push_back(line.a_paper.x);
+      if (line.object == model::ObjectId{0}) {
+        EXPECT_EQ(line.a_paper.x, line.b_paper.x);
+      }
+    }
+  EXPECT_EQ(hatches.count(1), 0U);
+  EXPECT_GT(hatches[2].size(), 2U);
+  // 4 m of upright lines 2 mm apart on paper.
+  std::vector<double>& base = hatches[0];
+  std::sort(base.begin(), base.end());
+  ASSERT_NEAR(static_cast<double>(base.size()), 40, 1);
+  for (std::size_t i = 1; i < base.size(); ++i) EXPECT_NEAR(base[i] - base[i - 1], 2, 0.0011);
+  EXPECT_TRUE(told(d.sheet, "selection-matches-nothing", "'nobody'"));
+}
+
 TEST(Sheet, FreeViewsShareTheLargestScaleThatKeepsThemApart) {
   const Drawn d =
       drawn(with_frame("[[view]]\nname=\"a\"\ndirection=\"front\"\nposition=[\"120mm\","
@@ -123,7 +198,7 @@ TEST(Sheet, WhatIsAmissIsNamed) {
   EXPECT_TRUE(told(nobody.sheet, "view-empty", "the view 'v' shows nothing: it has no objects"));
   const Drawn outside = drawn(
       with_frame("[[view]]\nname=\"v\"\nlimits={min=[\"90m\",0,0],max=[\"91m\",\"1m\",\"1m\"]}\n"));
-  EXPECT_TRUE(told(outside.sheet, "view-empty", "nothing lies within its limits"));
+  EXPECT_TRUE(told(outside.sheet, "view-empty", "nothing lies within what it shows"));
   const Drawn off =
       drawn(with_frame("[[view]]\nname=\"v\"\nscale=\"1:1\"\nposition=[\"10mm\",\"10mm\"]\n"));
   EXPECT_TRUE(told(off.sheet, "view-off-the-sheet"));
