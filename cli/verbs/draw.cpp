@@ -183,6 +183,8 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
   stats.count("covered edges", work.covered_edges);
   stats.count("face tests", work.face_tests);
   stats.count("exact fall-backs", work.exact_fallbacks);
+  stats.count("intersection pairs", work.crossing_pairs);
+  stats.count("intersection tests", work.crossing_tests);
   stats.count("edges with hidden pieces left out", work.left_out);
   for (std::size_t s = 0; s < drawing::kLineStates; ++s)
     stats.count(fmt::format("lines {}", drawing::state_name(static_cast<drawing::LineState>(s))),

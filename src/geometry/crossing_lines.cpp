@@ -14,8 +14,11 @@
 #include "geometry/axis_rays.hpp"
 #include "geometry/corner_index.hpp"
 #include "geometry/crossing_pieces.hpp"
+#include "geometry/one_side.hpp"
 #include "geometry/pair_view.hpp"
 #include "strake/geometry/intersect.hpp"
+#include "strake/geometry/predicates.hpp"
+#include "strake/geometry/triangle_contact.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -31,30 +34,31 @@ GridLine edge_of(const PartView& view, std::uint32_t triangle, int edge) {
   return {c[at(edge)], c[at(next_corner(edge))], Reach::segment};
 }
 
-/// The two ends of what two triangles have in common that lie in different planes: each lies on an
-/// edge of one of them.
-std::optional<Segment> within_both(const TriangleCorners& x, const TriangleCorners& y) {
-  std::optional<RationalPoint> first;
-  for (const auto& [of, in] : {std::pair(&x, &y), std::pair(&y, &x)})
-    for (std::size_t i = 0; i < 3; ++i) {
-      const GridLine edge{(*of)[i], (*of)[(i + 1) % 3], Reach::segment};
-      const LineInTriangle hit = intersect(edge, *in);
-      if (hit.at.touch != Touch::point) continue;
-      const RationalPoint end = point_at(edge, hit.at.first);
-      if (!first)
-        first = end;
-      else if (!(*first == end))
-        return Segment{first->rounded(), end.rounded()};
-    }
-  return std::nullopt;
+/// Where an edge of a triangle meets the plane of another.
+Vec3l end_at(const TriangleCorners& of, const EdgeAtPlane& end, const TriangleCorners& plane) {
+  const GridLine edge{of[at(end.from)], of[at(end.to)], Reach::segment};
+  const Vec3<Int128> normal = cross_exact(plane[1] - plane[0], plane[2] - plane[0]);
+  const auto height = [&](const Vec3l& p) { return dot(normal, (p - plane[0]).as<Int128>()); };
+  const Int128 below = -height(edge.from), above = height(edge.to);
+  return rounded_at(edge, {below, below + above});
+}
+
+/// What two triangles have in common that cross with their insides.
+Segment within_both(const ExactTriangle& a, const ExactTriangle& b) {
+  Segment ends;
+  std::ranges::transform(
+      segment_ends(a, b, contact(a, b)), ends.begin(), [&](const EdgeAtPlane& end) {
+        return end.of_b ? end_at(b.corner, end, a.corner) : end_at(a.corner, end, b.corner);
+      });
+  return ends;
 }
 
 Segment rounded(const GridLine& line, const Rational& from, const Rational& to) {
-  return {point_at(line, from).rounded(), point_at(line, to).rounded()};
+  return {rounded_at(line, from), rounded_at(line, to)};
 }
 
-std::optional<Segment> ends_of(const PartView& a, const PartView& b, const CrossingPiece& p) {
-  if (p.edge_a < 0 && p.edge_b < 0) return within_both(a.corners(p.a), b.corners(p.b));
+/// Of a stretch in the line of an edge.
+std::optional<Segment> along_edge(const PartView& a, const PartView& b, const CrossingPiece& p) {
   if (p.edge_a >= 0 && p.edge_b >= 0) {
     const GridLine edge = edge_of(a, p.a, p.edge_a);
     const LineMeeting common = intersect(edge, edge_of(b, p.b, p.edge_b));
@@ -68,12 +72,21 @@ std::optional<Segment> ends_of(const PartView& a, const PartView& b, const Cross
 }
 
 /// Whether a triangle lies within a distance of another's plane.
-bool lies_along(const TriangleCorners& t, const ExactTriangle& other, double distance) {
+bool lies_along(const ExactTriangle& t, const ExactTriangle& other, double distance) {
   const Vec3d n = other.plane.normal();
   const double reach = distance * std::sqrt(dot(n, n));
-  return std::ranges::all_of(t, [&](const Vec3l& p) {
+  return std::ranges::all_of(t.corner, [&](const Vec3l& p) {
     return std::fabs(dot(n, (p - other.corner[0]).as<double>())) <= reach;
   });
+}
+
+/// The ends of a piece; nothing where it is no line, or one of faces that are meant to touch.
+std::optional<Segment> ends_of(const PartView& a, const PartView& b, double flush,
+                               const CrossingPiece& piece) {
+  if (piece.edge_a >= 0 || piece.edge_b >= 0) return along_edge(a, b, piece);
+  const ExactTriangle x = a.triangle(piece.a), y = b.triangle(piece.b);
+  if (lies_along(x, y, flush) || lies_along(y, x, flush)) return std::nullopt;
+  return within_both(x, y);
 }
 
 /// Each stretch once, ascending.
@@ -82,17 +95,14 @@ std::vector<Stretch> stretches_of(const PartView& a, const PartView& b, double f
   std::vector<Stretch> all;
   all.reserve(pieces.size());
   for (const CrossingPiece& piece : pieces) {
-    if (piece.edge_a < 0 && piece.edge_b < 0 &&
-        (lies_along(a.corners(piece.a), b.triangle(piece.b), flush) ||
-         lies_along(b.corners(piece.b), a.triangle(piece.a), flush)))
-      continue;
-    std::optional<Segment> ends = ends_of(a, b, piece);
+    std::optional<Segment> ends = ends_of(a, b, flush, piece);
     if (!ends || (*ends)[0] == (*ends)[1]) continue;
     if ((*ends)[1] < (*ends)[0]) std::swap((*ends)[0], (*ends)[1]);
     all.push_back({*ends, piece});
   }
   std::ranges::sort(all, [](const Stretch& x, const Stretch& y) {
-    return std::tie(x.at, x.of.a, x.of.b) < std::tie(y.at, y.of.a, y.of.b);
+    return std::tie(x.at, x.of.a, x.of.b, x.of.edge_a, x.of.edge_b) <
+           std::tie(y.at, y.of.a, y.of.b, y.of.edge_a, y.of.edge_b);
   });
   const auto same = std::ranges::unique(all, {}, &Stretch::at);
   all.erase(same.begin(), same.end());
@@ -187,16 +197,25 @@ class Joiner {
   std::vector<std::size_t> next_;  ///< by end: the end that goes on from there
 };
 
+std::vector<Segment> lines_of(const PartView& a, const PartView& b, std::int64_t flush,
+                              const std::vector<CrossingPiece>& pieces) {
+  return Joiner(a, b, stretches_of(a, b, static_cast<double>(flush), pieces)).run();
+}
+
 }  // namespace
 
-std::vector<Segment> crossing_lines(const TreedPart& a, const TreedPart& b, std::int64_t flush,
+std::vector<Segment> crossing_lines(const FramedPart& a, const FramedPart& b, std::int64_t flush,
                                     PairWork& work) {
-  const PartView view_a(a, {}), view_b(b, b.placed.origin - a.placed.origin);
-  const CrossingPieces pieces =
-      crossing_pieces(a, b, std::numeric_limits<std::size_t>::max(), work);
-  return Joiner(view_a, view_b,
-                stretches_of(view_a, view_b, static_cast<double>(flush), pieces.all))
-      .run();
+  const PartView x({a.placed, a.tree}, {});
+  const PartView y({b.placed, b.tree}, b.placed.origin - a.placed.origin);
+  if (lies_on_one_side(x, y) || lies_on_one_side(y, x)) return {};
+  return lines_of(x, y, flush, crossing_pieces(a, b, work));
+}
+
+std::vector<Segment> crossing_lines_all(const PlacedPart& a, const PlacedPart& b,
+                                        std::int64_t flush, PairWork& work) {
+  const PartView x({a, nullptr}, {}), y({b, nullptr}, b.origin - a.origin);
+  return lines_of(x, y, flush, crossing_pieces_all(a, b, work));
 }
 
 }  // namespace strake::geometry

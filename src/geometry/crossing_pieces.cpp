@@ -3,18 +3,29 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "geometry/axis_rays.hpp"
+#include "geometry/box.hpp"
 #include "geometry/dual_walk.hpp"
 #include "geometry/pair_view.hpp"
 #include "geometry/sectors.hpp"
 #include "geometry/sided_sets.hpp"
+#include "geometry/triangle_sweep.hpp"
+#include "strake/geometry/crossing_lines.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
 namespace strake::geometry {
 namespace {
+
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 /// Pairs of triangles that lie on each other, joined to areas over the lines where one goes on into
 /// the next. Each pair says by b's triangle which side is the outer one; along a join the two may
@@ -78,46 +89,25 @@ class CommonAreas {
 
 class Finder {
  public:
-  Finder(const TreedPart& a, const TreedPart& b, std::size_t most, PairWork& work,
-         const std::function<bool(const CrossingPiece&)>& enough)
-      : a_(a, {}),
-        b_(b, b.placed.origin - a.placed.origin),
-        most_(most),
-        work_(work),
-        enough_(enough) {}
+  Finder(const PartView& a, const PartView& b, std::size_t most = kAll,
+         std::function<bool(const CrossingPiece&)> enough = {})
+      : a_(a), b_(b), most_(most), enough_(std::move(enough)) {}
 
-  CrossingPieces run() {
-    walk();
+  /// Looks at a pair of triangles; each pair that has more than a point in common must come once.
+  /// Whether to go on.
+  bool look(std::uint32_t ta, const ExactTriangle& s, std::uint32_t tb, const ExactTriangle& t) {
+    ++triangle_pairs_;
+    judge(ta, tb, contact(s, t));
+    return !found_.truncated;
+  }
+
+  CrossingPieces result(PairWork& work) {
+    work.triangle_pairs += triangle_pairs_;
     areas_.cross(found_.all);
     return std::move(found_);
   }
 
  private:
-  void walk() {
-    if (!a_.planted() || !b_.planted()) return;
-    walk_both(
-        a_.tree(), b_.tree(),
-        [&](const PartTree::Node& x, const PartTree::Node& y) {
-          ++work_.node_pairs;
-          return a_.box(x.box).meets(b_.box(y.box));
-        },
-        [&](const PartTree::Node& x, const PartTree::Node& y) { return leaves(x, y); });
-  }
-
-  bool leaves(const PartTree::Node& x, const PartTree::Node& y) {
-    for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
-      const std::uint32_t ta = a_.tree().order()[i];
-      const ExactTriangle s = a_.triangle(ta);
-      for (std::uint32_t j = y.first; j < y.first + y.count; ++j) {
-        const std::uint32_t tb = b_.tree().order()[j];
-        ++work_.triangle_pairs;
-        judge(ta, tb, contact(s, b_.triangle(tb)));
-        if (found_.truncated) return false;
-      }
-    }
-    return true;
-  }
-
   void judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
     if (c.touch == Touch::none || c.touch == Touch::point) return;
     if (!c.coplanar) {
@@ -185,22 +175,125 @@ class Finder {
     found_.truncated = enough_ && enough_(piece);
   }
 
-  PartView a_, b_;
+  const PartView &a_, &b_;
   std::size_t most_;
-  PairWork& work_;
-  const std::function<bool(const CrossingPiece&)>& enough_;
+  std::function<bool(const CrossingPiece&)> enough_;
+  std::uint64_t triangle_pairs_ = 0;
   CrossingPieces found_;
   CommonAreas areas_;
   Sectors sectors_;
   std::vector<Flush> flush_;
 };
 
+/// The triangles of a leaf, prepared as they are needed; kept until another leaf is loaded.
+class LoadedLeaf {
+ public:
+  explicit LoadedLeaf(const PartView& view) : view_(view) {}
+
+  void load(const PartTree::Node& leaf) {
+    if (node_ == &leaf) return;
+    node_ = &leaf;
+    for (std::uint32_t i = 0; i < leaf.count; ++i) {
+      box_[i] = box_of(view_.corners(id(i)));
+      triangle_[i].reset();
+    }
+  }
+  [[nodiscard]] std::uint32_t count() const { return node_->count; }
+  [[nodiscard]] std::uint32_t id(std::uint32_t i) const {
+    return view_.tree().order()[node_->first + i];
+  }
+  [[nodiscard]] const Box3l& box(std::uint32_t i) const { return box_[i]; }
+  [[nodiscard]] const ExactTriangle& triangle(std::uint32_t i) {
+    if (!triangle_[i]) triangle_[i] = view_.triangle(id(i));
+    return *triangle_[i];
+  }
+
+ private:
+  const PartView& view_;
+  const PartTree::Node* node_ = nullptr;
+  std::array<Box3l, PartTree::kLeafSize> box_;
+  std::array<std::optional<ExactTriangle>, PartTree::kLeafSize> triangle_;
+};
+
+/// Shows a finder what the trees of two parts do not keep apart, until it has enough.
+void walk_trees(const PartView& a, const PartView& b, Finder& finder, PairWork& work) {
+  if (!a.planted() || !b.planted()) return;
+  LoadedLeaf leaf_a(a), leaf_b(b);
+  walk_both(
+      a.tree(), b.tree(),
+      [&](const PartTree::Node& x, const PartTree::Node& y) {
+        ++work.node_pairs;
+        return a.box(x.box).meets(b.box(y.box));
+      },
+      [&](const PartTree::Node& x, const PartTree::Node& y) {
+        leaf_a.load(x);
+        leaf_b.load(y);
+        for (std::uint32_t i = 0; i < x.count; ++i)
+          for (std::uint32_t j = 0; j < y.count; ++j)
+            if (leaf_a.box(i).meets(leaf_b.box(j)) &&
+                !finder.look(leaf_a.id(i), leaf_a.triangle(i), leaf_b.id(j), leaf_b.triangle(j)))
+              return false;
+        return true;
+      });
+}
+
+/// Whether axes are those of the coordinates in some order, but for rounding.
+bool along_coordinates(const Axes& axes) {
+  return std::ranges::all_of(axes, [](const Vec3d& axis) {
+    return std::max({std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)}) > 1 - 1e-12;
+  });
+}
+
+/// Along the coordinate axes, or those along the faces of the part of more triangles, or of the
+/// other, where that makes many pairs fewer.
+TriangleSweep sweep_of(const PartView& a, const PartFrame& frame_a, const PartView& b,
+                       const PartFrame& frame_b) {
+  const std::size_t most = a.part().triangles.size() + b.part().triangles.size();
+  TriangleSweep sweep(a, b, nullptr);
+  std::size_t pairs = 0;
+  if (sweep.run([&](std::uint32_t, std::uint32_t) { return ++pairs <= most; })) return sweep;
+  const bool a_first = a.part().triangles.size() >= b.part().triangles.size();
+  for (const PartFrame* frame : {a_first ? &frame_a : &frame_b, a_first ? &frame_b : &frame_a}) {
+    const Axes axes = square_axes(*frame);
+    if (!along_coordinates(axes)) return {a, b, &axes};
+  }
+  return sweep;
+}
+
 }  // namespace
 
 CrossingPieces crossing_pieces(const TreedPart& a, const TreedPart& b, std::size_t most,
                                PairWork& work,
                                const std::function<bool(const CrossingPiece&)>& enough) {
-  return Finder(a, b, most, work, enough).run();
+  const PartView x(a, {}), y(b, b.placed.origin - a.placed.origin);
+  Finder finder(x, y, most, enough);
+  walk_trees(x, y, finder, work);
+  return finder.result(work);
+}
+
+std::vector<CrossingPiece> crossing_pieces(const FramedPart& a, const FramedPart& b,
+                                           PairWork& work) {
+  const PartView x({a.placed, a.tree}, {});
+  const PartView y({b.placed, b.tree}, b.placed.origin - a.placed.origin);
+  Finder finder(x, y);
+  if (want_trees(x.part(), y.part())) {
+    walk_trees(x, y, finder, work);
+  } else {
+    sweep_of(x, *a.frame, y, *b.frame).run([&](std::uint32_t ta, std::uint32_t tb) {
+      return finder.look(ta, x.triangle(ta), tb, y.triangle(tb));
+    });
+  }
+  return finder.result(work).all;
+}
+
+std::vector<CrossingPiece> crossing_pieces_all(const PlacedPart& a, const PlacedPart& b,
+                                               PairWork& work) {
+  const PartView x({a, nullptr}, {}), y({b, nullptr}, b.origin - a.origin);
+  Finder finder(x, y);
+  for (std::uint32_t ta = 0; ta < a.part->triangles.size(); ++ta)
+    for (std::uint32_t tb = 0; tb < b.part->triangles.size(); ++tb)
+      finder.look(ta, x.triangle(ta), tb, y.triangle(tb));
+  return finder.result(work).all;
 }
 
 }  // namespace strake::geometry

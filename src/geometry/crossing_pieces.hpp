@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/part_pair.hpp"
 
 namespace strake::geometry {
@@ -32,5 +33,14 @@ struct CrossingPieces {
 [[nodiscard]] CrossingPieces crossing_pieces(
     const TreedPart& a, const TreedPart& b, std::size_t most, PairWork& work,
     const std::function<bool(const CrossingPiece&)>& enough = {});
+
+/// All of them, in any order; cheap also for parts that stand askew to the coordinate axes. Both
+/// want a frame, and where want_trees() says so a tree.
+[[nodiscard]] std::vector<CrossingPiece> crossing_pieces(const FramedPart& a, const FramedPart& b,
+                                                         PairWork& work);
+
+/// The same by every pair of triangles.
+[[nodiscard]] std::vector<CrossingPiece> crossing_pieces_all(const PlacedPart& a,
+                                                             const PlacedPart& b, PairWork& work);
 
 }  // namespace strake::geometry

@@ -137,14 +137,17 @@ PartFrame make_frame(const Part& part, const parallel::Context& context) {
     frame.lo[i] = r.lo;
     frame.hi[i] = r.hi;
   }
-  const std::array<Vec3d, 3> square{frame.axis[0], cross(frame.axis[2], frame.axis[0]),
-                                    frame.axis[2]};
+  const std::array<Vec3d, 3> square = square_axes(frame);
   for (std::size_t i = 0; i < 3; ++i) {
     const Range r = range_along(part, frame.vertices, square[i]);
     frame.centre = frame.centre + square[i] * ((r.lo + r.hi) / 2);
     frame.edge[i] = square[i] * ((r.hi - r.lo) / 2);
   }
   return frame;
+}
+
+std::array<Vec3d, 3> square_axes(const PartFrame& frame) {
+  return {frame.axis[0], cross(frame.axis[2], frame.axis[0]), frame.axis[2]};
 }
 
 PartingGap frame_gap(const FramedPart& a, const FramedPart& b, double enough) {

@@ -44,10 +44,7 @@ bool may_meet(const Vec3d& from, const Vec3d& to, const Box3d& box) {
 
 std::optional<TurnedFrame> frame_along_faces(const TreedPart& part,
                                              const parallel::Context& context) {
-  const PartFrame frame = make_frame(*part.placed.part, context);
-  const Vec3d z = cross(frame.axis[0], frame.axis[1]);
-  const Vec3d unit = z * (1 / length(z));
-  const Axes axes{frame.axis[0], cross(unit, frame.axis[0]), unit};
+  const Axes axes = square_axes(make_frame(*part.placed.part, context));
   auto turned = turned_part(PartView(part, {}), axes, context);
   if (!turned) return std::nullopt;
   return TurnedFrame{axes, std::move(*turned)};

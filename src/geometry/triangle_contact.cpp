@@ -189,7 +189,7 @@ void common_plane(const ExactTriangle& a, const ExactTriangle& b, TriangleContac
 Vec3d lerp(const Vec3d& p, const Vec3d& q, double t) { return p + (q - p) * t; }
 
 /// Where an end's edge meets the plane.
-Vec3d end_point(const ExactTriangle& t, const End& e, const ExactPlane& plane) {
+Vec3d end_point(const ExactTriangle& t, const EdgeAtPlane& e, const ExactPlane& plane) {
   const double below = -plane.det(t.corner[at(e.from)]).value();
   const double above = plane.det(t.corner[at(e.to)]).value();
   return lerp(t.corner[at(e.from)].as<double>(), t.corner[at(e.to)].as<double>(),
@@ -242,15 +242,25 @@ TriangleContact contact(const ExactTriangle& a, const ExactTriangle& b) {
   return c;
 }
 
-Vec3d common_point(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c) {
-  if (c.coplanar) return coplanar_point(a, b);
+std::array<EdgeAtPlane, 2> segment_ends(const ExactTriangle& a, const ExactTriangle& b,
+                                        const TriangleContact& c) {
   const Section& sa = section(c.side_a);
   const Section& sb = section(c.side_b);
+  const auto of_a = [](const End& e) { return EdgeAtPlane{false, e.from, e.to}; };
+  const auto of_b = [](const End& e) { return EdgeAtPlane{true, e.from, e.to}; };
   const bool a_starts_last = order(a, sa.low, b, sb.high) <= 0;
-  const Vec3d low = a_starts_last ? end_point(a, sa.low, b.plane) : end_point(b, sb.high, a.plane);
   const bool a_ends_first = order(a, sa.high, b, sb.low) >= 0;
-  const Vec3d high = a_ends_first ? end_point(a, sa.high, b.plane) : end_point(b, sb.low, a.plane);
-  return lerp(low, high, 0.5);
+  return {a_starts_last ? of_a(sa.low) : of_b(sb.high),
+          a_ends_first ? of_a(sa.high) : of_b(sb.low)};
+}
+
+Vec3d common_point(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c) {
+  if (c.coplanar) return coplanar_point(a, b);
+  const auto at = [&](const EdgeAtPlane& end) {
+    return end.of_b ? end_point(b, end, a.plane) : end_point(a, end, b.plane);
+  };
+  const auto [low, high] = segment_ends(a, b, c);
+  return lerp(at(low), at(high), 0.5);
 }
 
 }  // namespace strake::geometry

@@ -3,14 +3,20 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 #include "hlr/by_size.hpp"
 #include "strake/geometry/bvh.hpp"
 #include "strake/geometry/crossing_lines.hpp"
+#include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/part_tree.hpp"
+#include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/distinct.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/heavy.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
@@ -34,7 +40,7 @@ struct PlacedSkin {
 };
 
 struct Skins {
-  std::vector<const geometry::Part*> unique;
+  std::size_t unique = 0;          ///< parts of all shapes
   std::vector<PlacedSkin> placed;  ///< by body
 };
 
@@ -43,8 +49,8 @@ Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
   Skins skins;
   std::vector<std::uint32_t> first;
   for (const model::GridShape& shape : scene.shapes) {
-    first.push_back(static_cast<std::uint32_t>(skins.unique.size()));
-    for (const geometry::Part& part : shape.parts) skins.unique.push_back(&part);
+    first.push_back(static_cast<std::uint32_t>(skins.unique));
+    skins.unique += shape.parts.size();
   }
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     const model::GridBody& body = scene.bodies[b];
@@ -59,32 +65,51 @@ Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
   return skins;
 }
 
+/// What was made for some of the parts.
+template <class T>
+struct PerPart {
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number;  ///< by unique part: index into all, or kNone
+  std::vector<T> all;
+
+  /// Null where nothing was made.
+  [[nodiscard]] const T* of(const PlacedSkin& skin) const {
+    return number[skin.unique] == kNone ? nullptr : &all[number[skin.unique]];
+  }
+};
+
+/// Of a pair, in the coordinates of its first part.
+struct Found {
+  std::vector<Segment> lines;
+  std::uint64_t tests = 0;
+};
+
 class Finder {
  public:
   Finder(const model::Scene& scene, const Skins& skins, const parallel::Context& context)
       : scene_(scene), skins_(skins), context_(context) {}
 
-  Result<std::vector<Crossing>> run(Intersections intersections) {
+  Result<Crossings> run(Intersections intersections) {
     if (const Status s = pair_up(intersections); !s) return s.error();
     const auto kinds = parallel::distinct(
         context_, "intersections: equal pairs", pairs_.size(),
         [&](std::size_t i) { return hash(i); },
         [&](std::size_t i, std::size_t j) { return same(i, j); });
     if (!kinds) return kinds.error();
-    if (const Status s = plant(kinds->first); !s) return s.error();
-    const auto order = parallel::longest_first(kinds->first.size(), [&](std::size_t k) {
-      return a(kinds->first[k]).placed.part->triangles.size() +
-             b(kinds->first[k]).placed.part->triangles.size();
-    });
-    const auto lines = parallel::transform(
-        context_, {.name = "intersections: lines", .n = kinds->first.size(), .order = order},
-        [&](std::size_t k) {
-          const std::size_t i = kinds->first[k];
-          geometry::PairWork work;
-          return crossing_lines(treed(a(i)), treed(b(i)), contact(i), work);
-        });
-    if (!lines) return lines.error();
-    return place(*kinds, *lines);
+    auto frames = for_parts_of<geometry::PartFrame>(
+        kinds->first, "intersections: frames",
+        [&](const geometry::Part& part) { return geometry::make_frame(part, context_); });
+    if (!frames) return frames.error();
+    frames_ = std::move(*frames);
+    const auto open = not_parted(kinds->first);
+    if (!open) return open.error();
+    const auto found = find_lines(kinds->first, *open);
+    if (!found) return found.error();
+    auto placed = place(*kinds, *found);
+    if (!placed) return placed.error();
+    Crossings crossings{std::move(*placed), open->size(), 0};
+    for (const Found& one : *found) crossings.tests += one.tests;
+    return crossings;
   }
 
  private:
@@ -106,8 +131,9 @@ class Finder {
     return a(i).unique == a(j).unique && b(i).unique == b(j).unique && offset(i) == offset(j) &&
            contact(i) == contact(j);
   }
-  [[nodiscard]] geometry::TreedPart treed(const PlacedSkin& skin) const {
-    return {skin.placed, &trees_[skin.unique]};
+
+  [[nodiscard]] geometry::FramedPart framed(const PlacedSkin& skin) const {
+    return {skin.placed, frames_.of(skin)};
   }
 
   Status pair_up(Intersections intersections) {
@@ -142,26 +168,83 @@ class Finder {
     return false;
   }
 
-  Status plant(const std::vector<std::uint32_t>& some) {
-    std::vector<bool> wanted(skins_.unique.size());
-    for (const std::uint32_t i : some) wanted[a(i).unique] = wanted[b(i).unique] = true;
-    trees_.resize(wanted.size());
-    return parallel::for_each_by_weight(
-        context_, {.name = "intersections: trees", .n = wanted.size()}, kBigShape,
-        [&](std::size_t u) { return wanted[u] ? skins_.unique[u]->triangles.size() : 0; },
-        [&](std::size_t u) {
-          if (wanted[u]) trees_[u] = geometry::PartTree(*skins_.unique[u], context_);
+  /// make(part) for each part of some pairs.
+  template <class T, class Make>
+  Result<PerPart<T>> for_parts_of(const std::vector<std::uint32_t>& some, std::string_view name,
+                                  Make&& make) const {
+    PerPart<T> made{std::vector<std::uint32_t>(skins_.unique, PerPart<T>::kNone), {}};
+    std::vector<const geometry::Part*> parts;
+    for (const std::uint32_t i : some)
+      for (const PlacedSkin* skin : {&a(i), &b(i)}) {
+        std::uint32_t& number = made.number[skin->unique];
+        if (number != PerPart<T>::kNone) continue;
+        number = static_cast<std::uint32_t>(parts.size());
+        parts.push_back(skin->placed.part);
+      }
+    made.all.resize(parts.size());
+    const Status status = parallel::for_each_by_weight(
+        context_, {.name = name, .n = parts.size()}, kBigShape,
+        [&](std::size_t u) { return parts[u]->triangles.size(); },
+        [&](std::size_t u) { made.all[u] = make(*parts[u]); });
+    if (!status) return status.error();
+    return made;
+  }
+
+  /// Of some pairs those, as indices, that no plane along a face of either part keeps apart. Where
+  /// a model stands askew that leaves few of those whose boxes meet.
+  Result<std::vector<std::uint32_t>> not_parted(const std::vector<std::uint32_t>& some) const {
+    return parallel::collect<std::uint32_t>(
+        context_, {.name = "intersections: parting planes", .n = some.size(), .grain = kGrain},
+        [&](std::size_t k, std::vector<std::uint32_t>& out) {
+          const double enough = std::numeric_limits<double>::min();
+          const PlacedSkin &x = a(some[k]), &y = b(some[k]);
+          if (!(frame_gap(framed(x), framed(y), enough).lower > 0))
+            out.push_back(static_cast<std::uint32_t>(k));
         });
+  }
+
+  /// By pair of `some`; of those that `open` does not list there are none.
+  Result<std::vector<Found>> find_lines(const std::vector<std::uint32_t>& some,
+                                        const std::vector<std::uint32_t>& open) const {
+    std::vector<std::uint32_t> pairs, large;
+    for (const std::uint32_t k : open) pairs.push_back(some[k]);
+    std::ranges::copy_if(pairs, std::back_inserter(large), [&](std::uint32_t i) {
+      return want_trees(*a(i).placed.part, *b(i).placed.part);
+    });
+    const auto trees = for_parts_of<geometry::PartTree>(
+        large, "intersections: trees",
+        [&](const geometry::Part& part) { return geometry::PartTree(part, context_); });
+    if (!trees) return trees.error();
+    const auto treed = [&](const PlacedSkin& skin) {
+      geometry::FramedPart part = framed(skin);
+      part.tree = trees->of(skin);
+      return part;
+    };
+    const auto order = parallel::longest_first(pairs.size(), [&](std::size_t j) {
+      return a(pairs[j]).placed.part->triangles.size() + b(pairs[j]).placed.part->triangles.size();
+    });
+    std::vector<Found> found(some.size());
+    const Status status = parallel::for_each(
+        context_, {.name = "intersections: lines", .n = pairs.size(), .order = order},
+        [&](std::size_t j) {
+          const std::size_t i = pairs[j];
+          geometry::PairWork work;
+          Found& one = found[open[j]];
+          one.lines = crossing_lines(treed(a(i)), treed(b(i)), contact(i), work);
+          one.tests = work.triangle_pairs;
+        });
+    if (!status) return status.error();
+    return found;
   }
 
   /// By pair, which is by object of the first part.
   Result<std::vector<Crossing>> place(const parallel::Distinct& kinds,
-                                      const std::vector<std::vector<Segment>>& lines) const {
+                                      const std::vector<Found>& found) const {
     auto placed = parallel::count_fill<Crossing>(
         context_, {.name = "intersections: places", .n = pairs_.size(), .grain = kGrain},
-        [&](std::size_t i) { return lines[kinds.of[i]].size(); },
+        [&](std::size_t i) { return found[kinds.of[i]].lines.size(); },
         [&](std::size_t i, std::span<Crossing> out) {
-          const std::vector<Segment>& own = lines[kinds.of[i]];
+          const std::vector<Segment>& own = found[kinds.of[i]].lines;
           for (std::size_t k = 0; k < own.size(); ++k)
             out[k] = {own[k][0] + a(i).placed.origin, own[k][1] + a(i).placed.origin, a(i).body,
                       b(i).body};
@@ -174,17 +257,15 @@ class Finder {
   const Skins& skins_;
   const parallel::Context& context_;
   std::vector<IndexPair> pairs_;
-  std::vector<geometry::PartTree> trees_;  ///< by unique part, where wanted
+  PerPart<geometry::PartFrame> frames_;
 };
 
 }  // namespace
 
-Result<std::vector<Crossing>> find_crossings(const model::Scene& scene,
-                                             const std::vector<bool>& drawn,
-                                             const std::vector<std::int64_t>& contact,
-                                             Intersections intersections,
-                                             const parallel::Context& context) {
-  if (intersections == Intersections::off) return std::vector<Crossing>{};
+Result<Crossings> find_crossings(const model::Scene& scene, const std::vector<bool>& drawn,
+                                 const std::vector<std::int64_t>& contact,
+                                 Intersections intersections, const parallel::Context& context) {
+  if (intersections == Intersections::off) return Crossings{};
   const Skins skins = list_skins(scene, drawn, contact);
   return Finder(scene, skins, context).run(intersections);
 }

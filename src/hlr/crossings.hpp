@@ -18,12 +18,17 @@ struct Crossing {
   std::uint32_t body_a = 0, body_b = 0;  ///< of object a <= b
 };
 
-/// The crossings among the drawn objects, by object of body_a; `contact`: distances by body, within
+struct Crossings {
+  std::vector<Crossing> all;           ///< by object of body_a
+  std::uint64_t pairs = 0, tests = 0;  ///< as Counters::crossing_pairs and crossing_tests
+};
+
+/// The crossings among the drawn objects; `contact`: distances by body, within
 /// which faces are meant to touch. Errors: cancelled, too many boxes that meet (input).
-[[nodiscard]] Result<std::vector<Crossing>> find_crossings(const model::Scene& scene,
-                                                           const std::vector<bool>& drawn,
-                                                           const std::vector<std::int64_t>& contact,
-                                                           Intersections intersections,
-                                                           const parallel::Context& context);
+[[nodiscard]] Result<Crossings> find_crossings(const model::Scene& scene,
+                                               const std::vector<bool>& drawn,
+                                               const std::vector<std::int64_t>& contact,
+                                               Intersections intersections,
+                                               const parallel::Context& context);
 
 }  // namespace strake::hlr

@@ -192,11 +192,13 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   const auto crossings =
       find_crossings(*job.scene, job.drawn, job.contact, options.intersections, context);
   if (!crossings) return crossings.error();
+  job.counters.crossing_pairs = crossings->pairs;
+  job.counters.crossing_tests = crossings->tests;
   auto seen = seen_shapes(*job.scene, job.drawn, *planes, context);
   if (!seen) return seen.error();
   job.seen = std::move(*seen);
   widen_contact(job);
-  auto lines = gather_lines(job, *crossings, *planes, context);
+  auto lines = gather_lines(job, crossings->all, *planes, context);
   if (!lines) return lines.error();
   job.lines = std::move(*lines);
   job.diagnostics = report_sections(*job.scene, job.drawn, job.seen, *planes);

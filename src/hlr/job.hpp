@@ -39,6 +39,7 @@ struct Job {
   double contact_distance_mm = 0;         ///< the largest of them
   SeenShapes seen;
   Lines lines;
+  Counters counters;  ///< of making it ready
   Diagnostics diagnostics;
 
   [[nodiscard]] const geometry::Vec3l& direction() const { return viewer.direction; }

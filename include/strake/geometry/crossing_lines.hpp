@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "strake/geometry/grid_shapes.hpp"
+#include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/part_pair.hpp"
 
 namespace strake::geometry {
+
+/// Whether a tree costs less than what it saves; the boxes of smaller parts are sorted.
+[[nodiscard]] inline bool want_trees(const Part& a, const Part& b) {
+  constexpr std::size_t kMostSorted = 4096;
+  return a.triangles.size() + b.triangles.size() > kMostSorted;
+}
 
 /// The lines along which the skins of two parts pass through each other, in grid units relative to
 /// a's origin, each from its lower end, ascending and each once.
@@ -18,8 +26,13 @@ namespace strake::geometry {
 /// cross anywhere, by what rounding made of them. Ends are the exact ones
 /// rounded to the grid, so that a line is off by no more than half a unit along each axis, and
 /// stretches that share two planes are one line, however the faces are cut into triangles. Lines
-/// that shrink to a point are left out. Both parts need trees.
-[[nodiscard]] std::vector<Segment> crossing_lines(const TreedPart& a, const TreedPart& b,
+/// that shrink to a point are left out. Both parts need a frame, and where want_trees() says so a
+/// tree.
+[[nodiscard]] std::vector<Segment> crossing_lines(const FramedPart& a, const FramedPart& b,
                                                   std::int64_t flush, PairWork& work);
+
+/// The same by every pair of triangles: the oracle. Neither frame nor tree is asked for.
+[[nodiscard]] std::vector<Segment> crossing_lines_all(const PlacedPart& a, const PlacedPart& b,
+                                                      std::int64_t flush, PairWork& work);
 
 }  // namespace strake::geometry

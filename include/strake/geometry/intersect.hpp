@@ -70,4 +70,7 @@ struct LineMeeting {
 /// The point at a finite parameter, exactly.
 [[nodiscard]] RationalPoint point_at(const GridLine& line, const Rational& parameter);
 
+/// point_at(...).rounded(), mostly in doubles.
+[[nodiscard]] Vec3l rounded_at(const GridLine& line, const Rational& parameter);
+
 }  // namespace strake::geometry

@@ -29,6 +29,10 @@ struct PartFrame {
 /// team or none; of no use where the context's stop token ended it.
 [[nodiscard]] PartFrame make_frame(const Part& part, const parallel::Context& context = {});
 
+/// Unit vectors at right angles to each other along the axes of a frame, or as near to them as that
+/// allows.
+[[nodiscard]] std::array<Vec3d, 3> square_axes(const PartFrame& frame);
+
 struct FramedPart {
   PlacedPart placed;
   const PartFrame* frame = nullptr;

@@ -52,6 +52,19 @@ struct TriangleContact {
 /// Exact for coordinates whose differences are at most 2^31.
 [[nodiscard]] TriangleContact contact(const ExactTriangle& a, const ExactTriangle& b);
 
+/// Where the edge of a triangle between two of its corners, which lie on either side of the plane
+/// of another or in it (not both), meets that plane.
+struct EdgeAtPlane {
+  bool of_b = false;  ///< an edge of b at the plane of a
+  int from = 0, to = 0;
+};
+
+/// The two ends of the common segment of triangles in different planes that is their contact; its
+/// direction is (normal of a) x (normal of b).
+[[nodiscard]] std::array<EdgeAtPlane, 2> segment_ends(const ExactTriangle& a,
+                                                      const ExactTriangle& b,
+                                                      const TriangleContact& c);
+
 /// A point common to both closed triangles, rounded to double; `c` is their contact, not `none`.
 [[nodiscard]] Vec3d common_point(const ExactTriangle& a, const ExactTriangle& b,
                                  const TriangleContact& c);

@@ -132,6 +132,8 @@ struct Counters {
   std::uint64_t covered_edges = 0;  ///< the rest of which whole tiles of paper hide
   std::uint64_t face_tests = 0;     ///< edge against face
   std::uint64_t exact_fallbacks = 0;
+  std::uint64_t crossing_pairs = 0;  ///< of parts, searched for intersections; equal ones once
+  std::uint64_t crossing_tests = 0;  ///< triangle against triangle, for those
   std::uint64_t left_out = 0;  ///< edges with hidden pieces that Options::hidden did not ask for
 };
 

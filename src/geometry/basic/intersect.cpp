@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "geometry/basic/line_clip.hpp"
@@ -194,6 +196,24 @@ RationalPoint point_at(const GridLine& line, const Rational& parameter) {
   assert(parameter.den > 0);
   return point_along(line.from, (line.to - line.from).as<Int128>(), WideInt<2>(parameter.num),
                      WideInt<2>(parameter.den));
+}
+
+Vec3l rounded_at(const GridLine& line, const Rational& parameter) {
+  assert(parameter.den > 0);
+  // The fraction is off by less than four roundings and the way by one more: below half a kRoom
+  // within the range.
+  constexpr double kRoom = 0x1p-16, kRange = 0x1p32;
+  const double share = static_cast<double>(parameter.num) / static_cast<double>(parameter.den);
+  const Vec3d way = (line.to - line.from).as<double>() * share;
+  Vec3l rounded = line.from;
+  for (int k = 0; k < 3; ++k) {
+    const double below = std::floor(way[k]);
+    const double off_a_tie = std::fabs(way[k] - below - 0.5);
+    if (!(off_a_tie > kRoom && std::fabs(way[k]) < kRange))
+      return point_at(line, parameter).rounded();
+    rounded[k] += static_cast<std::int64_t>(std::floor(way[k] + 0.5));
+  }
+  return rounded;
 }
 
 }  // namespace strake::geometry

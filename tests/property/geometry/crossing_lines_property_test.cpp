@@ -17,7 +17,7 @@
 #include "strake/geometry/closest.hpp"
 #include "strake/geometry/crossing_lines.hpp"
 #include "strake/geometry/intersect.hpp"
-#include "strake/geometry/part_tree.hpp"
+#include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/rounds.hpp"
@@ -87,7 +87,9 @@ std::optional<Vec3d> middle_of_crossing(const TriangleCorners& x, const Triangle
 
 Lines lines_of(const Subject& a, const Subject& b, std::int64_t flush = 0) {
   PairWork work;
-  return crossing_lines(a.treed(), b.treed(), flush, work);
+  const PartFrame frame_a = make_frame(a.part), frame_b = make_frame(b.part);
+  return crossing_lines({a.treed().placed, &frame_a, &a.tree},
+                        {b.treed().placed, &frame_b, &b.tree}, flush, work);
 }
 
 TEST(CrossingLines, AreThoseOfTheTriangles) {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/triangle_sweep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "geometry/box.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Grid units: what coordinates along turned axes may be off by, far above their rounding.
+constexpr double kFrameRounding = 0x1p-10;
+
+/// The corners of a part along some axes.
+struct Along {
+  std::vector<Vec3d> at;
+  Box3d box;
+
+  Along(const PartView& view, const Axes* axes) {
+    const auto count = static_cast<std::uint32_t>(view.part().vertices.size());
+    at.reserve(count);
+    for (std::uint32_t v = 0; v < count; ++v) {
+      const Vec3d p = view.vertex(v).as<double>();
+      at.push_back(axes == nullptr ? p : turned(*axes, p));
+    }
+    box = box_of(at);
+  }
+};
+
+/// The axis along which boxes are shortest in relation to all that is swept.
+int best_axis(const Vec3d& lengths, const Box3d& within) {
+  int best = 0;
+  for (int k = 1; k < 3; ++k)
+    if (lengths[k] * (within.hi[best] - within.lo[best]) <
+        lengths[best] * (within.hi[k] - within.lo[k]))
+      best = k;
+  return best;
+}
+
+}  // namespace
+
+TriangleSweep::TriangleSweep(const PartView& a, const PartView& b, const Axes* axes) {
+  const Along along_a(a, axes), along_b(b, axes);
+  const double margin = axes == nullptr ? 0 : kFrameRounding;
+  const Box3d within = along_a.box.common(along_b.box).inflated(margin);
+  Vec3d lengths;
+  const auto gather = [&](const PartView& view, const Along& along, std::vector<Swept>& swept) {
+    const auto count = static_cast<std::uint32_t>(view.part().triangles.size());
+    swept.reserve(count);
+    for (std::uint32_t id = 0; id < count; ++id) {
+      const Triangle& t = view.part().triangles[id];
+      const Box3d box =
+          box_of(std::array{along.at[t[0]], along.at[t[1]], along.at[t[2]]}).inflated(margin);
+      if (!box.meets(within)) continue;
+      swept.push_back({box.lo, box.hi, id});
+      for (int k = 0; k < 3; ++k)
+        lengths[k] += std::min(box.hi[k], within.hi[k]) - std::max(box.lo[k], within.lo[k]);
+    }
+  };
+  gather(a, along_a, a_);
+  gather(b, along_b, b_);
+  const int first = best_axis(lengths, within);
+  for (std::vector<Swept>* swept : {&a_, &b_}) {
+    for (Swept& s : *swept) {
+      std::swap(s.lo[0], s.lo[first]);
+      std::swap(s.hi[0], s.hi[first]);
+    }
+    std::ranges::sort(*swept, {}, [](const Swept& s) { return s.lo[0]; });
+  }
+}
+
+}  // namespace strake::geometry
