@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -16,7 +15,6 @@
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/distinct.hpp"
-#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/heavy.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
@@ -91,23 +89,17 @@ class Finder {
 
   Result<Crossings> run(Intersections intersections) {
     if (const Status s = pair_up(intersections); !s) return s.error();
+    if (const Status s = leave_out_parted(); !s) return s.error();
     const auto kinds = parallel::distinct(
         context_, "intersections: equal pairs", pairs_.size(),
         [&](std::size_t i) { return hash(i); },
         [&](std::size_t i, std::size_t j) { return same(i, j); });
     if (!kinds) return kinds.error();
-    auto frames = for_parts_of<geometry::PartFrame>(
-        kinds->first, "intersections: frames",
-        [&](const geometry::Part& part) { return geometry::make_frame(part, context_); });
-    if (!frames) return frames.error();
-    frames_ = std::move(*frames);
-    const auto open = not_parted(kinds->first);
-    if (!open) return open.error();
-    const auto found = find_lines(kinds->first, *open);
+    const auto found = find_lines(kinds->first);
     if (!found) return found.error();
     auto placed = place(*kinds, *found);
     if (!placed) return placed.error();
-    Crossings crossings{std::move(*placed), open->size(), 0};
+    Crossings crossings{std::move(*placed), found->size(), 0};
     for (const Found& one : *found) crossings.tests += one.tests;
     return crossings;
   }
@@ -130,10 +122,6 @@ class Finder {
   [[nodiscard]] bool same(std::size_t i, std::size_t j) const {
     return a(i).unique == a(j).unique && b(i).unique == b(j).unique && offset(i) == offset(j) &&
            contact(i) == contact(j);
-  }
-
-  [[nodiscard]] geometry::FramedPart framed(const PlacedSkin& skin) const {
-    return {skin.placed, frames_.of(skin)};
   }
 
   Status pair_up(Intersections intersections) {
@@ -168,19 +156,20 @@ class Finder {
     return false;
   }
 
-  /// make(part) for each part of some pairs.
-  template <class T, class Make>
-  Result<PerPart<T>> for_parts_of(const std::vector<std::uint32_t>& some, std::string_view name,
-                                  Make&& make) const {
+  /// make(part) for each part of the pairs that are wanted, wanted(first, second).
+  template <class T, class Wanted, class Make>
+  Result<PerPart<T>> for_parts(std::string_view name, Wanted&& wanted, Make&& make) const {
     PerPart<T> made{std::vector<std::uint32_t>(skins_.unique, PerPart<T>::kNone), {}};
     std::vector<const geometry::Part*> parts;
-    for (const std::uint32_t i : some)
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (!wanted(*a(i).placed.part, *b(i).placed.part)) continue;
       for (const PlacedSkin* skin : {&a(i), &b(i)}) {
         std::uint32_t& number = made.number[skin->unique];
         if (number != PerPart<T>::kNone) continue;
         number = static_cast<std::uint32_t>(parts.size());
         parts.push_back(skin->placed.part);
       }
+    }
     made.all.resize(parts.size());
     const Status status = parallel::for_each_by_weight(
         context_, {.name = name, .n = parts.size()}, kBigShape,
@@ -190,51 +179,49 @@ class Finder {
     return made;
   }
 
-  /// Of some pairs those, as indices, that no plane along a face of either part keeps apart. Where
-  /// a model stands askew that leaves few of those whose boxes meet.
-  Result<std::vector<std::uint32_t>> not_parted(const std::vector<std::uint32_t>& some) const {
-    return parallel::collect<std::uint32_t>(
-        context_, {.name = "intersections: parting planes", .n = some.size(), .grain = kGrain},
-        [&](std::size_t k, std::vector<std::uint32_t>& out) {
-          const double enough = std::numeric_limits<double>::min();
-          const PlacedSkin &x = a(some[k]), &y = b(some[k]);
-          if (!(frame_gap(framed(x), framed(y), enough).lower > 0))
-            out.push_back(static_cast<std::uint32_t>(k));
+  /// Pairs that a plane along a face of either part keeps apart. Where a model stands askew these
+  /// are nearly all whose boxes meet.
+  Status leave_out_parted() {
+    auto frames = for_parts<geometry::PartFrame>(
+        "intersections: frames", [](const auto&...) { return true; },
+        [&](const geometry::Part& part) { return geometry::make_frame(part, context_); });
+    if (!frames) return frames.error();
+    frames_ = std::move(*frames);
+    auto left = parallel::collect<IndexPair>(
+        context_, {.name = "intersections: parting planes", .n = pairs_.size(), .grain = kGrain},
+        [&](std::size_t i, std::vector<IndexPair>& out) {
+          const geometry::FramedPart x{a(i).placed, frames_.of(a(i))};
+          const geometry::FramedPart y{b(i).placed, frames_.of(b(i))};
+          constexpr double kEnough = std::numeric_limits<double>::min();
+          if (!(frame_gap(x, y, kEnough).lower > 0)) out.push_back(pairs_[i]);
         });
+    if (!left) return left.error();
+    pairs_ = std::move(*left);
+    return {};
   }
 
-  /// By pair of `some`; of those that `open` does not list there are none.
-  Result<std::vector<Found>> find_lines(const std::vector<std::uint32_t>& some,
-                                        const std::vector<std::uint32_t>& open) const {
-    std::vector<std::uint32_t> pairs, large;
-    for (const std::uint32_t k : open) pairs.push_back(some[k]);
-    std::ranges::copy_if(pairs, std::back_inserter(large), [&](std::uint32_t i) {
-      return want_trees(*a(i).placed.part, *b(i).placed.part);
-    });
-    const auto trees = for_parts_of<geometry::PartTree>(
-        large, "intersections: trees",
+  /// Of some pairs.
+  Result<std::vector<Found>> find_lines(const std::vector<std::uint32_t>& some) const {
+    const auto trees = for_parts<geometry::PartTree>(
+        "intersections: trees", geometry::want_trees,
         [&](const geometry::Part& part) { return geometry::PartTree(part, context_); });
     if (!trees) return trees.error();
-    const auto treed = [&](const PlacedSkin& skin) {
-      geometry::FramedPart part = framed(skin);
-      part.tree = trees->of(skin);
-      return part;
+    const auto whole = [&](const PlacedSkin& skin) {
+      return geometry::FramedPart{skin.placed, frames_.of(skin), trees->of(skin)};
     };
-    const auto order = parallel::longest_first(pairs.size(), [&](std::size_t j) {
-      return a(pairs[j]).placed.part->triangles.size() + b(pairs[j]).placed.part->triangles.size();
+    const auto order = parallel::longest_first(some.size(), [&](std::size_t k) {
+      return a(some[k]).placed.part->triangles.size() + b(some[k]).placed.part->triangles.size();
     });
-    std::vector<Found> found(some.size());
-    const Status status = parallel::for_each(
-        context_, {.name = "intersections: lines", .n = pairs.size(), .order = order},
-        [&](std::size_t j) {
-          const std::size_t i = pairs[j];
+    return parallel::transform(
+        context_, {.name = "intersections: lines", .n = some.size(), .order = order},
+        [&](std::size_t k) {
+          const std::size_t i = some[k];
           geometry::PairWork work;
-          Found& one = found[open[j]];
-          one.lines = crossing_lines(treed(a(i)), treed(b(i)), contact(i), work);
-          one.tests = work.triangle_pairs;
+          Found found;
+          found.lines = crossing_lines(whole(a(i)), whole(b(i)), contact(i), work);
+          found.tests = work.triangle_pairs;
+          return found;
         });
-    if (!status) return status.error();
-    return found;
   }
 
   /// By pair, which is by object of the first part.
