@@ -110,7 +110,7 @@ class Composer {
       Result<hlr::Drawing> lines = hlr::draw(scene_, drawn, view.view, options, context_);
       if (!lines) {
         Error error = lines.error();
-        if (error.where.empty() && error.code != ErrorCode::cancelled) error.where = view.where;
+        if (error.code != ErrorCode::cancelled) error.where = view.where;
         return error;
       }
       sheet_.diagnostics.append(lines->diagnostics);

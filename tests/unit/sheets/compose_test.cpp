@@ -224,6 +224,14 @@ TEST(Sheet, NoRoomIsAnErrorThatNamesTheFile) {
   EXPECT_NE(none.error().text().find("s.toml: the views have no room"), std::string::npos);
 }
 
+TEST(Sheet, AViewThatCannotBeDrawnIsNamed) {
+  const auto nearer =
+      test::drawn("[[view]]\nname=\"v\"\neye=[0,0,0]\ntarget=[\"1m\",0,0]\nnear=\"2m\"\n");
+  ASSERT_FALSE(nearer);
+  EXPECT_EQ(nearer.error().where, "s.toml, line 1: [[view]] 'v'");
+  EXPECT_NE(nearer.error().message.find("nearer to the eye"), std::string::npos);
+}
+
 TEST(Sheet, ViewsOffAnyPaperAreAnError) {
   const auto far = test::drawn(
       "[[view]]\nname=\"v\"\nscale=\"1000000:1\"\nposition=[0,0]\n"
