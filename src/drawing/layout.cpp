@@ -14,6 +14,7 @@
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
@@ -70,7 +71,7 @@ Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces, const O
   for (std::size_t i = 0; i < stretches.size(); ++i)
     if (i == 0 || stretches[i].line != stretches[i - 1].line) firsts.push_back(i);
   Result<std::vector<Line>> lines =
-      parallel::detail::slots<Line>(pieces.size() + stretches.size() - firsts.size(), context);
+      parallel::slots<Line>(pieces.size() + stretches.size() - firsts.size(), context);
   if (!lines) return lines;
   constexpr std::size_t kPieces = 4096;
   const Status status = parallel::for_each(

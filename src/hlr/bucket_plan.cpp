@@ -21,24 +21,37 @@ double length(std::int64_t lo, std::int64_t hi) {
 }  // namespace
 
 BucketPlan::BucketPlan(std::span<const ViewBox> boxes) {
-  for (const ViewBox& box : boxes) {
-    if (box.empty()) continue;
-    ++count_;
-    extent_.include(box);
-    const double a = length(box.lo.u, box.hi.u), b = length(box.lo.v, box.hi.v);
-    sides_sum_ += a + b;
-    area_ += a * b;
-  }
-  if (extent_.empty()) return;
-  width_ = length(extent_.lo.u, extent_.hi.u);
-  height_ = length(extent_.lo.v, extent_.hi.v);
+  for (const ViewBox& box : boxes) add(box);
+}
+
+void BucketPlan::add(const ViewBox& box) {
+  if (box.empty()) return;
+  ++count_;
+  extent_.include(box);
+  const double a = length(box.lo.u, box.hi.u), b = length(box.lo.v, box.hi.v);
+  sides_sum_ += a + b;
+  area_ += a * b;
+}
+
+void BucketPlan::add(const BucketPlan& more) {
+  extent_.include(more.extent_);
+  count_ += more.count_;
+  sides_sum_ += more.sides_sum_;
+  area_ += more.area_;
+}
+
+double BucketPlan::width() const {
+  return extent_.empty() ? 0 : length(extent_.lo.u, extent_.hi.u);
+}
+double BucketPlan::height() const {
+  return extent_.empty() ? 0 : length(extent_.lo.v, extent_.hi.v);
 }
 
 // Fewer buckets along the shorter side.
 BucketPlan::Sides BucketPlan::sides(std::uint32_t side) const {
   if (!(longest() > 0)) return {};
-  return {std::max(1.0, std::round(side * width_ / longest())),
-          std::max(1.0, std::round(side * height_ / longest()))};
+  return {std::max(1.0, std::round(side * width() / longest())),
+          std::max(1.0, std::round(side * height() / longest()))};
 }
 
 double BucketPlan::buckets(std::uint32_t side) const {
@@ -81,8 +94,8 @@ BucketAxes BucketPlan::axes(std::uint32_t side) const {
     return BucketAxis{static_cast<double>(lo), static_cast<double>(hi),
                       std::max(extent / buckets, 1.0), static_cast<std::uint32_t>(buckets)};
   };
-  return {axis(extent_.lo.u, extent_.hi.u, width_, count.u),
-          axis(extent_.lo.v, extent_.hi.v, height_, count.v)};
+  return {axis(extent_.lo.u, extent_.hi.u, width(), count.u),
+          axis(extent_.lo.v, extent_.hi.v, height(), count.v)};
 }
 
 }  // namespace strake::hlr

@@ -34,8 +34,13 @@ struct EdgeLengths {
 /// What a grid over some boxes comes to, by the number of its buckets.
 class BucketPlan {
  public:
-  /// Empty ones are left out.
+  BucketPlan() = default;
   explicit BucketPlan(std::span<const ViewBox> boxes);
+
+  /// Empty ones are left out.
+  void add(const ViewBox& box);
+  /// The boxes of another.
+  void add(const BucketPlan& more);
 
   /// How many buckets along the longer side some edges walk with the least cost: in boxes looked
   /// at, when all buckets are alike. Where there are no edges, others' may come that are about as
@@ -51,15 +56,16 @@ class BucketPlan {
   struct Sides {
     double u = 1, v = 1;  ///< buckets
   };
-  [[nodiscard]] double longest() const { return std::max(width_, height_); }
+  [[nodiscard]] double width() const;
+  [[nodiscard]] double height() const;
+  [[nodiscard]] double longest() const { return std::max(width(), height()); }
   [[nodiscard]] Sides sides(std::uint32_t side) const;
   [[nodiscard]] double buckets(std::uint32_t side) const;
   [[nodiscard]] double entries(std::uint32_t side) const;
   [[nodiscard]] bool fits(std::uint32_t side, double per_box) const;
 
   ViewBox extent_;
-  double count_ = 0, width_ = 0, height_ = 0;  ///< number and extent of the boxes
-  double sides_sum_ = 0, area_ = 0;            ///< of the boxes
+  double count_ = 0, sides_sum_ = 0, area_ = 0;  ///< of the boxes
 };
 
 }  // namespace strake::hlr

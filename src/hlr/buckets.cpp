@@ -2,8 +2,10 @@
 #include "hlr/buckets.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "hlr/by_size.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -33,7 +35,7 @@ class Buckets::Dealer {
       each_entry(run, [&](std::uint32_t& next, const Entry&) { ++next; });
     });
     if (!counted) return counted;
-    find_places();
+    if (const Status s = find_places(); !s) return s;
     const Status dealt = in_runs([&](std::size_t run) {
       each_entry(run,
                  [&](std::uint32_t& next, const Entry& entry) { to_.entries_[next++] = entry; });
@@ -73,7 +75,7 @@ class Buckets::Dealer {
   }
 
   // Of counts the place where each run starts in each bucket.
-  void find_places() {
+  Status find_places() {
     to_.first_.resize(buckets_ + 1);
     std::uint32_t sum = 0;
     for (std::size_t b = 0; b < buckets_; ++b) {
@@ -82,7 +84,10 @@ class Buckets::Dealer {
         sum += std::exchange(next_[run * buckets_ + b], sum);
     }
     to_.first_[buckets_] = sum;
-    to_.entries_.resize(sum);
+    auto entries = parallel::slots<Entry>(sum, context_);
+    if (!entries) return entries.error();
+    to_.entries_ = std::move(*entries);
+    return {};
   }
 
   std::span<const ViewBox> boxes_;

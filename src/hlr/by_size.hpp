@@ -11,6 +11,7 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::hlr {
 
@@ -26,6 +27,18 @@ template <class Body>
     return parallel::for_each(context, {.name = name, .n = n, .grain = kGrain}, body);
   for (std::size_t i = 0; i < n; ++i) body(i);
   return {};
+}
+
+/// All elements folded into one value: add(value, i) for each i < n, then combine(into, value) for
+/// runs of them, in their order. The same runs for any team.
+template <class T, class Add, class Combine>
+[[nodiscard]] Result<T> fold_elements(const parallel::Context& context, std::string_view name,
+                                      std::size_t n, T value, Add&& add, Combine&& combine) {
+  constexpr std::size_t kGrain = 8192;
+  if (n >= kBigShape)
+    return parallel::reduce(context, {.name = name, .n = n, .grain = kGrain}, value, add, combine);
+  for (std::size_t i = 0; i < n; ++i) add(value, i);
+  return value;
 }
 
 /// What body(i, out) appends for each i < n, in their order.

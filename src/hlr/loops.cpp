@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 #include "hlr/by_size.hpp"
 #include "strake/geometry/part_edges.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -39,12 +41,16 @@ Status PartSight::project(const Frame& frame, const parallel::Context& context) 
   const std::size_t count = part.vertices.size();
   constexpr std::string_view kName = "hidden lines: vertices on paper";
   if (viewer.eye) {
-    rays.resize(count);
+    auto made = parallel::slots<Vec3l>(count, context);
+    if (!made) return made.error();
+    rays = std::move(*made);
     return for_elements(context, kName, count, [&](std::size_t v) {
       rays[v] = part.vertices[v].as<std::int64_t>() - *viewer.eye;
     });
   }
-  points.resize(count);
+  auto made = parallel::slots<ViewPoint>(count, context);
+  if (!made) return made.error();
+  points = std::move(*made);
   return for_elements(context, kName, count, [&](std::size_t v) {
     points[v] = frame(part.vertices[v].as<std::int64_t>());
   });
@@ -58,7 +64,9 @@ std::int64_t PartSight::farthest() const {
 }
 
 Status PartSight::find_planes(const parallel::Context& context) {
-  planes.resize(part.triangles.size());
+  auto made = parallel::slots<TrianglePlane>(part.triangles.size(), context);
+  if (!made) return made.error();
+  planes = std::move(*made);
   return for_elements(context, "hidden lines: planes", planes.size(), [&](std::size_t t) {
     const Triangle& i = part.triangles[t];
     const Vec3l p = part.vertices[i[0]].as<std::int64_t>();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hlr/by_size.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -28,18 +29,28 @@ EdgeLengths lengths_of(std::span<const EdgeView> edges) {
 }
 
 Result<std::vector<ViewBox>> boxes_of(std::span<const Polygon> polygons, const Sight& sight) {
-  std::vector<ViewBox> boxes(polygons.size());
-  const Status status = for_elements(sight.context, "hidden lines: boxes", boxes.size(),
-                                     [&](std::size_t i) { boxes[i] = polygons[i].box; });
+  auto boxes = parallel::slots<ViewBox>(polygons.size(), sight.context);
+  if (!boxes) return boxes;
+  const Status status = for_elements(sight.context, "hidden lines: boxes", boxes->size(),
+                                     [&](std::size_t i) { (*boxes)[i] = polygons[i].box; });
   if (!status) return status.error();
   return boxes;
+}
+
+Result<BucketPlan> plan_of(const std::vector<ViewBox>& boxes, const Sight& sight) {
+  return fold_elements(
+      sight.context, "hidden lines: sizes of boxes", boxes.size(), BucketPlan(),
+      [&](BucketPlan& plan, std::size_t i) { plan.add(boxes[i]); },
+      [](BucketPlan& plan, const BucketPlan& more) { plan.add(more); });
 }
 
 Status choose(const std::vector<ViewBox>& boxes, std::span<const EdgeView> edges,
               const Sight& sight, PartView& part) {
   if (sight.picture == nullptr) {
-    const BucketPlan plan(boxes);
-    auto buckets = Buckets::of(boxes, plan.axes(plan.best_side(lengths_of(edges))), sight.context);
+    const Result<BucketPlan> plan = plan_of(boxes, sight);
+    if (!plan) return plan.error();
+    const std::uint32_t side = plan->best_side(lengths_of(edges));
+    auto buckets = Buckets::of(boxes, plan->axes(side), sight.context);
     if (!buckets) return buckets.error();
     if (buckets->crowding() <= kCrowded) {
       part.buckets = std::move(*buckets);
@@ -60,9 +71,10 @@ Status index(std::span<const Polygon> polygons, std::span<const EdgeView> edges,
   const auto boxes = boxes_of(polygons, sight);
   if (!boxes) return boxes.error();
   if (by_data) return choose(*boxes, edges, sight, part);
-  const BucketPlan plan(*boxes);
+  const Result<BucketPlan> plan = plan_of(*boxes, sight);
+  if (!plan) return plan.error();
   auto buckets =
-      Buckets::of(*boxes, plan.axes(static_cast<std::uint32_t>(sight.bucketing)), sight.context);
+      Buckets::of(*boxes, plan->axes(static_cast<std::uint32_t>(sight.bucketing)), sight.context);
   if (!buckets) return buckets.error();
   part.buckets = std::move(*buckets);
   return {};

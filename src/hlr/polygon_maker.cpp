@@ -8,10 +8,24 @@
 
 #include "hlr/feature_edges.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 
 using geometry::Triangle;
+
+namespace {
+
+template <class T>
+Status extend(std::vector<T>& values, std::size_t size, const parallel::Context& context) {
+  auto all = parallel::slots<T>(size, context);
+  if (!all) return all.error();
+  std::ranges::copy(values, all->begin());
+  values = std::move(*all);
+  return {};
+}
+
+}  // namespace
 
 void PolygonMaker::add_group(std::span<const std::uint32_t> triangles, Polygons& out) {
   if (loops_.find_outline(triangles)) {
@@ -87,9 +101,9 @@ Status append(Polygons& all, std::span<const Polygons> runs, const parallel::Con
     next.corner += run.corners.size();
     next.ray += run.rays.size();
   }
-  all.polygons.resize(next.polygon);
-  all.corners.resize(next.corner);
-  all.rays.resize(next.ray);
+  if (const Status s = extend(all.polygons, next.polygon, context); !s) return s;
+  if (const Status s = extend(all.corners, next.corner, context); !s) return s;
+  if (const Status s = extend(all.rays, next.ray, context); !s) return s;
   return parallel::for_each(
       context, {.name = "hidden lines: polygons put together", .n = runs.size()},
       [&](std::size_t r) {

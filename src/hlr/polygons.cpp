@@ -84,7 +84,12 @@ class PartMerger {
     part.last = static_cast<std::uint32_t>(view_.polygons.size());
     if (part.first == part.last) return convex;
     const auto polygons = std::span(view_.polygons).subspan(first_);
-    for (const Polygon& p : polygons) part.box.include(p.box);
+    const Result<ViewBox> box = fold_elements(
+        sight_.context, "hidden lines: box of a part", polygons.size(), ViewBox{},
+        [&](ViewBox& all, std::size_t i) { all.include(polygons[i].box); },
+        [](ViewBox& all, const ViewBox& more) { all.include(more); });
+    if (!box) return box.error();
+    part.box = *box;
     part.outline.box = part.box;
     if (const Status s = index(polygons, edges_, convex, sight_, part); !s) return s.error();
     view_.parts.push_back(std::move(part));
@@ -161,19 +166,25 @@ class PartMerger {
 
   // Triangles that are not seen edge-on, group by group and in their order: by counting, a group
   // being the number of its first triangle.
-  [[nodiscard]] std::vector<std::uint32_t> in_groups() const {
+  [[nodiscard]] Result<std::vector<std::uint32_t>> in_groups() const {
+    std::vector<std::uint8_t> shows(group_.size());
+    const Status status =
+        for_elements(sight_.context, "hidden lines: faces that show", shows.size(),
+                     [&](std::size_t t) { shows[t] = seen_.planes[t].facing != 0 ? 1 : 0; });
+    if (!status) return status.error();
     std::vector<std::uint32_t> next(group_.size() + 1, 0);
-    for (std::uint32_t t = 0; t < group_.size(); ++t)
-      if (seen_.planes[t].facing != 0) ++next[group_[t] + 1];
+    for (std::uint32_t t = 0; t < group_.size(); ++t) next[group_[t] + 1] += shows[t];
     std::partial_sum(next.begin(), next.end(), next.begin());
     std::vector<std::uint32_t> order(next.back());
     for (std::uint32_t t = 0; t < group_.size(); ++t)
-      if (seen_.planes[t].facing != 0) order[next[group_[t]]++] = t;
+      if (shows[t] != 0) order[next[group_[t]]++] = t;
     return order;
   }
 
   Status add_groups(PolygonMaker& maker) {
-    const std::vector<std::uint32_t> order = in_groups();
+    const Result<std::vector<std::uint32_t>> found = in_groups();
+    if (!found) return found.error();
+    const std::vector<std::uint32_t>& order = *found;
     const auto add = [&](PolygonMaker& own, std::size_t first, std::size_t last, Polygons& out) {
       for (std::size_t i = first, end = 0; i < last; i = end) {
         end = i + 1;

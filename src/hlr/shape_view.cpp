@@ -7,6 +7,7 @@
 
 #include "hlr/by_size.hpp"
 #include "strake/geometry/part_edges.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -52,7 +53,9 @@ Result<ShapeView> view_of(const SeenShape& seen, const Sight& sight) {
   const auto found = edges_of(seen, sight.features, sight.context);
   if (!found) return found.error();
   const std::vector<FeatureEdge>& edges = *found;
-  view.edges.resize(edges.size());
+  auto on_paper = parallel::slots<EdgeView>(edges.size(), sight.context);
+  if (!on_paper) return on_paper.error();
+  view.edges = std::move(*on_paper);
   const Status placed =
       for_elements(sight.context, "hidden lines: edges on paper", edges.size(), [&](std::size_t i) {
         EdgeView& e = view.edges[i];
