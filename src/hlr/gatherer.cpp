@@ -168,6 +168,8 @@ bool Gatherer::gather_body(std::uint32_t b, bool self) {
 bool Gatherer::test_part(const LocalEdge& local, const ShapeView& view, const PartView& part,
                          std::int64_t contact, bool self) {
   if (!may_hide(local, part.box)) return true;
+  if (!part.turn.is_none() && !loose(local.va, local.vb, part.turn).may_hide(part.turned))
+    return true;
   if (is_deep_under(local, part, contact)) {
     ++work.tests;
     work.wide_tests += local.narrow ? 0 : 1;
@@ -178,7 +180,7 @@ bool Gatherer::test_part(const LocalEdge& local, const ShapeView& view, const Pa
     return more = test_polygon(local, view, view.polygons[part.first + i], contact, self);
   };
   if (!part.tree.empty()) {
-    part.tree.walk(loose(local.va, local.vb), test);
+    part.tree.walk(loose(local.va, local.vb, part.turn), test);
   } else if (!part.buckets.empty()) {
     part.buckets.walk(loose(local.va, local.vb), marks_, test);
   } else {
@@ -262,28 +264,32 @@ LooseSegment Gatherer::loose_in_picture() const {
 }
 
 // The part of the edge that is still open, for a query.
-LooseSegment Gatherer::loose(const ViewPoint& a, const ViewPoint& b) const {
+LooseSegment Gatherer::loose(const ViewPoint& a, const ViewPoint& b, const Turn& turn) const {
   if (world_.picture) return loose_in_picture();
   LooseSegment s;
-  const bool exact =
-      std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kExactInDouble;
-  const double du = static_cast<double>(b.u) - static_cast<double>(a.u);
-  const double dv = static_cast<double>(b.v) - static_cast<double>(a.v);
+  const std::int64_t whole = turn.is_none() ? kExactInDouble : kExactInDouble / (2 * Turn::kMost);
+  const bool exact = std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < whole;
+  const auto au = static_cast<double>(a.u), av = static_cast<double>(a.v);
+  const double bu = static_cast<double>(b.u) - au, bv = static_cast<double>(b.v) - av;
   const double dw = static_cast<double>(b.w) - static_cast<double>(a.w);
-  s.au = static_cast<double>(a.u);
-  s.av = static_cast<double>(a.v);
+  const auto c = static_cast<double>(turn.c), k = static_cast<double>(turn.s);
+  const double du = c * bu + k * bv, dv = c * bv - k * bu;
+  s.au = c * au + k * av;
+  s.av = c * av - k * au;
   s.du = exact ? du : 0;
   s.dv = exact ? dv : 0;
-  const auto range = [&](double from, double step, double& least, double& most) {
+  // What the sums above may have lost is far below this share of their terms.
+  const auto range = [&](double from, double step, double size, double& least, double& most) {
     const double p = from + step * open_.lo().value, q = from + step * open_.hi().value;
-    const double slack = 1e-12 * (std::abs(from) + std::abs(step));
+    const double slack = 1e-12 * size;
     least = std::min(p, q) - slack;
     most = std::max(p, q) + slack;
   };
+  const auto size = [&](double x, double y) { return std::abs(c * x) + std::abs(k * y); };
   double w1 = 0;
-  range(s.au, du, s.u0, s.u1);
-  range(s.av, dv, s.v0, s.v1);
-  range(static_cast<double>(a.w), dw, s.w0, w1);
+  range(s.au, du, size(au, av) + size(bu, bv), s.u0, s.u1);
+  range(s.av, dv, size(av, au) + size(bv, bu), s.v0, s.v1);
+  range(static_cast<double>(a.w), dw, std::abs(static_cast<double>(a.w)) + std::abs(dw), s.w0, w1);
   return s;
 }
 

@@ -68,7 +68,8 @@ class Gatherer {
                                    std::int64_t contact) const;
   [[nodiscard]] LocalEdge localized(const Placed& other);
   void look_at_picture(double from, double to);
-  [[nodiscard]] LooseSegment loose(const ViewPoint& a, const ViewPoint& b) const;
+  [[nodiscard]] LooseSegment loose(const ViewPoint& a, const ViewPoint& b,
+                                   const Turn& turn = {}) const;
   [[nodiscard]] LooseSegment loose_in_picture() const;
   void refresh_segment() { segment_ = loose(edge_.va, edge_.vb); }
 

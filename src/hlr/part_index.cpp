@@ -2,6 +2,7 @@
 #include "hlr/part_index.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <utility>
@@ -26,6 +27,65 @@ EdgeLengths lengths_of(std::span<const EdgeView> edges) {
   for (const EdgeView& e : edges)
     lengths.sum += static_cast<double>(std::max(std::abs(e.b.u - e.a.u), std::abs(e.b.v - e.a.v)));
   return lengths;
+}
+
+/// A part runs askew where an edge of it takes so much of its box, and is turned where the box that
+/// this makes is so much smaller: areas.
+constexpr double kAskew = 0.25, kWorthTurning = 0.5;
+/// Farther out a turned point would be no whole number that a double holds.
+constexpr std::int64_t kFarthestTurned = std::int64_t{1} << 44;
+
+double area(const ViewBox& box) {
+  return (static_cast<double>(box.hi.u) - static_cast<double>(box.lo.u)) *
+         (static_cast<double>(box.hi.v) - static_cast<double>(box.lo.v));
+}
+
+/// Along the longest edge, if that runs askew.
+Turn turn_along(std::span<const EdgeView> edges, const ViewBox& box) {
+  double longest = 0, du = 0, dv = 0;
+  for (const EdgeView& e : edges) {
+    const double u = static_cast<double>(e.b.u - e.a.u), v = static_cast<double>(e.b.v - e.a.v);
+    if (u * u + v * v <= longest) continue;
+    longest = u * u + v * v;
+    du = u;
+    dv = v;
+  }
+  if (std::abs(du * dv) <= kAskew * area(box)) return {};
+  const double scale = static_cast<double>(Turn::kMost) / std::max(std::abs(du), std::abs(dv));
+  return {std::llround(du * scale), std::llround(dv * scale)};
+}
+
+std::vector<ViewBox> turned_boxes(const Polygons& all, std::span<const Polygon> polygons,
+                                  const Turn& turn) {
+  std::vector<ViewBox> boxes;
+  boxes.reserve(polygons.size());
+  for (const Polygon& p : polygons) {
+    ViewBox box;
+    for (const Corner& c : std::span(all.corners).subspan(p.first_corner, p.corners))
+      for (const std::int64_t w : {p.box.lo.w, p.box.hi.w}) box.include(turn({c.u, c.v, w}));
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+/// Whether the part is indexed in a frame of its own (decision 0031).
+bool index_turned(const Polygons& all, std::span<const Polygon> polygons,
+                  std::span<const EdgeView> edges, std::size_t from, PartView& part) {
+  const ViewPoint &lo = part.box.lo, &hi = part.box.hi;
+  if (std::max({std::abs(lo.u), std::abs(lo.v), std::abs(hi.u), std::abs(hi.v)}) > kFarthestTurned)
+    return false;
+  const Turn turn = turn_along(edges, part.box);
+  if (turn.is_none()) return false;
+  const std::vector<ViewBox> boxes = turned_boxes(all, polygons, turn);
+  ViewBox box;
+  for (const ViewBox& one : boxes) box.include(one);
+  const auto scale = static_cast<double>(turn.c * turn.c + turn.s * turn.s);
+  if (area(box) > kWorthTurning * scale * area(part.box)) return false;
+  part.turn = turn;
+  part.turned = loosened(box);
+  // Its facets are long strips along the frame, which buckets do not tell apart.
+  if (polygons.size() >= from) part.tree = ViewTree(boxes);
+  return true;
 }
 
 Result<std::vector<ViewBox>> boxes_of(std::span<const Polygon> polygons, const Sight& sight) {
@@ -63,10 +123,14 @@ Status choose(const std::vector<ViewBox>& boxes, std::span<const EdgeView> edges
 
 }  // namespace
 
-Status index(std::span<const Polygon> polygons, std::span<const EdgeView> edges, bool convex,
-             const Sight& sight, PartView& part) {
+Status index(const Polygons& all, std::span<const EdgeView> edges, bool convex, const Sight& sight,
+             PartView& part) {
+  const auto polygons = std::span(all.polygons).subspan(part.first, part.last - part.first);
   const bool by_data = sight.bucketing == Options::kBucketsByData;
   const std::size_t from = !by_data ? 2 : convex ? kIndexFromIfConvex : kIndexFrom;
+  if (by_data && sight.picture == nullptr && polygons.size() < kBigShape &&
+      index_turned(all, polygons, edges, from, part))
+    return {};
   if (polygons.size() < from || sight.bucketing == Options::kNoBuckets) return {};
   const auto boxes = boxes_of(polygons, sight);
   if (!boxes) return boxes.error();

@@ -8,9 +8,10 @@
 
 namespace strake::hlr {
 
-/// Gives a part of many polygons buckets or a tree over them, as the sight asks. `edges` are the
-/// part's own: what the number of buckets is chosen by. Errors: cancelled.
-[[nodiscard]] Status index(std::span<const Polygon> polygons, std::span<const EdgeView> edges,
-                           bool convex, const Sight& sight, PartView& part);
+/// Gives a part of many polygons buckets or a tree over them, as the sight asks, and one that runs
+/// askew on paper a frame that fits. `edges` are the part's own: what frame and number of buckets
+/// are chosen by. Errors: cancelled.
+[[nodiscard]] Status index(const Polygons& all, std::span<const EdgeView> edges, bool convex,
+                           const Sight& sight, PartView& part);
 
 }  // namespace strake::hlr

@@ -91,7 +91,7 @@ class PartMerger {
     if (!box) return box.error();
     part.box = *box;
     part.outline.box = part.box;
-    if (const Status s = index(polygons, edges_, convex, sight_, part); !s) return s.error();
+    if (const Status s = index(view_, edges_, convex, sight_, part); !s) return s.error();
     view_.parts.push_back(std::move(part));
     return convex;
   }

@@ -11,6 +11,7 @@
 #include "hlr/picture.hpp"
 #include "hlr/polygon.hpp"
 #include "hlr/seen_shapes.hpp"
+#include "hlr/turn.hpp"
 #include "hlr/view_tree.hpp"
 #include "strake/core/result.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -23,7 +24,9 @@ struct PartView {
   ViewBox box;                        ///< of its polygons
   std::int64_t farthest = 0;          ///< least product of a corner with the direction
   std::uint32_t first = 0, last = 0;  ///< its polygons
-  // Over them, where there are many: either, or neither.
+  Turn turn;                          ///< where the part runs askew on paper
+  LooseBox turned;                    ///< the box in that frame
+  // Over them, where there are many: either, or neither; in that frame.
   ViewTree tree;
   Buckets buckets;
   /// Exactly convex: the outline, a polygon without a plane. It hides all that lies under it and

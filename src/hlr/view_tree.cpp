@@ -20,15 +20,15 @@ double above(std::int64_t x) {
   return x >= -kExact && x <= kExact ? d : std::nextafter(d, kInfinity);
 }
 
-LooseBox loosened(const ViewBox& box) {
-  return {below(box.lo.u), above(box.hi.u), below(box.lo.v), above(box.hi.v), above(box.hi.w)};
-}
-
 struct Task {
   std::uint32_t node = 0, first = 0, last = 0;
 };
 
 }  // namespace
+
+LooseBox loosened(const ViewBox& box) {
+  return {below(box.lo.u), above(box.hi.u), below(box.lo.v), above(box.hi.v), above(box.hi.w)};
+}
 
 // Median splits of the longer side on paper: depth at most log2(n), so walk()'s stack suffices.
 ViewTree::ViewTree(std::span<const ViewBox> boxes, std::uint32_t leaf_size) {

@@ -15,6 +15,8 @@ struct LooseBox {
   double w1 = 0;  ///< the nearest that anything in the box comes to the viewer
 };
 
+[[nodiscard]] LooseBox loosened(const ViewBox& box);
+
 /// Part of an edge as a query sees it.
 struct LooseSegment {
   double au = 0, av = 0, du = 0, dv = 0;          ///< the line: any point, and its direction
