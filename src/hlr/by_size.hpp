@@ -17,14 +17,15 @@ namespace strake::hlr {
 
 /// What is worth a team: so many triangles, edges or vertices.
 inline constexpr std::size_t kBigShape = std::size_t{1} << 15U;
+/// Elements that a worker takes at a time.
+inline constexpr std::size_t kElements = 2048;
 
 /// body(i) for each i < n; in any order.
 template <class Body>
 [[nodiscard]] Status for_elements(const parallel::Context& context, std::string_view name,
                                   std::size_t n, Body&& body) {
-  constexpr std::size_t kGrain = 2048;
   if (n >= kBigShape)
-    return parallel::for_each(context, {.name = name, .n = n, .grain = kGrain}, body);
+    return parallel::for_each(context, {.name = name, .n = n, .grain = kElements}, body);
   for (std::size_t i = 0; i < n; ++i) body(i);
   return {};
 }
@@ -34,9 +35,9 @@ template <class Body>
 template <class T, class Add, class Combine>
 [[nodiscard]] Result<T> fold_elements(const parallel::Context& context, std::string_view name,
                                       std::size_t n, T value, Add&& add, Combine&& combine) {
-  constexpr std::size_t kGrain = 8192;
   if (n >= kBigShape)
-    return parallel::reduce(context, {.name = name, .n = n, .grain = kGrain}, value, add, combine);
+    return parallel::reduce(context, {.name = name, .n = n, .grain = kElements}, value, add,
+                            combine);
   for (std::size_t i = 0; i < n; ++i) add(value, i);
   return value;
 }
@@ -46,9 +47,8 @@ template <class T, class Body>
 [[nodiscard]] Result<std::vector<T>> collect_elements(const parallel::Context& context,
                                                       std::string_view name, std::size_t n,
                                                       Body&& body) {
-  constexpr std::size_t kGrain = 2048;
   if (n >= kBigShape)
-    return parallel::collect<T>(context, {.name = name, .n = n, .grain = kGrain}, body);
+    return parallel::collect<T>(context, {.name = name, .n = n, .grain = kElements}, body);
   std::vector<T> out;
   for (std::size_t i = 0; i < n; ++i) body(i, out);
   return out;

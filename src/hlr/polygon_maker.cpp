@@ -16,11 +16,16 @@ using geometry::Triangle;
 
 namespace {
 
+/// The first big part of a shape gets its memory from the team; more of them grow it by shares, so
+/// that many do not copy all of it for each.
 template <class T>
 Status extend(std::vector<T>& values, std::size_t size, const parallel::Context& context) {
+  if (!values.empty()) {
+    values.resize(size);
+    return {};
+  }
   auto all = parallel::slots<T>(size, context);
   if (!all) return all.error();
-  std::ranges::copy(values, all->begin());
   values = std::move(*all);
   return {};
 }

@@ -63,7 +63,7 @@ void TableReader::refuse_other_keys() {
 }
 
 const Value* TableReader::value(std::string_view key) {
-  known_.emplace_back(key);
+  if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   for (std::size_t k = 0; k < asked_.size(); ++k)
     if ((*table_)[k].key == key) {
       asked_[k] = true;

@@ -110,7 +110,8 @@ class Composer {
       Result<hlr::Drawing> lines = hlr::draw(scene_, drawn, view.view, options, context_);
       if (!lines) {
         Error error = lines.error();
-        if (error.code != ErrorCode::cancelled) error.where = view.where;
+        if (error.code != ErrorCode::cancelled)
+          error.where = view.where + (error.where.empty() ? "" : ", " + error.where);
         return error;
       }
       sheet_.diagnostics.append(lines->diagnostics);
@@ -164,9 +165,11 @@ class Composer {
     const auto of = [&](LineState state) { return lines.count[static_cast<std::size_t>(state)]; };
     if (of(LineState::visible) > 0) return;
     const bool nothing = lines.account.objects() == 0;
+    const bool hidden = lines.account.of(hlr::Fate::hidden) > 0;
     warn("view-empty",
          "the view '" + wish.name + "' shows nothing: " +
              (nothing                      ? "it has no objects"
+              : hidden                     ? "all that lies within is hidden"
               : of(LineState::clipped) > 0 ? "nothing lies within what it shows"
                                            : "its objects have no lines to draw"),
          wish.where);

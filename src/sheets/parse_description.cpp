@@ -336,8 +336,10 @@ class Parser {
                      "write millimetres of paper from the upper left corner");
     view.anchor = views_.point(table, "anchor");
     if (view.anchor && !can_be_seen(*view.anchor, view.view))
-      reading_.fault(value.at, "'anchor' of " + table.what() + " lies behind the eye",
-                     "write a point before it, or leave it out: then it is the target");
+      reading_.fault(table.value("anchor")->at,
+                     "'anchor' of " + table.what() +
+                         " lies behind the eye, or nearer to it than what is drawn",
+                     "write a point farther before it, the target, say");
     views_.content(table, view);
     add(std::move(view), value.at);
   }

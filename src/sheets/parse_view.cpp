@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "hlr/window.hpp"
 #include "strake/core/number.hpp"
 #include "strake/core/units.hpp"
 #include "strake/drawing/view.hpp"
@@ -87,6 +88,9 @@ void ViewReader::seen_from(TableReader& table, ViewWish& view) {
                    "leave one of the two out");
   perspective(table, view);
   up(table, view);
+  if (const Status status = hlr::check_perspective(view.view); !status)
+    reading_.fault(table.value("eye")->at, "of " + table.what() + " " + status.error().message,
+                   status.error().mend);
 }
 
 void ViewReader::perspective(TableReader& table, ViewWish& view) {
@@ -149,12 +153,8 @@ void ViewReader::limits(TableReader& outer, ViewWish& view) {
 }
 
 void ViewReader::select(TableReader& table, ViewWish& view) {
-  const Value* const value = table.value("select");
-  if (value == nullptr) return;
+  if (table.value("select") == nullptr) return;
   view.select = choosers(table);
-  if (view.select.empty())
-    reading_.fault(value->at, "'select' of " + table.what() + " picks nothing",
-                   "leave it out to draw everything");
 }
 
 std::vector<settings::Chooser> ViewReader::choosers(TableReader& table) {
@@ -171,6 +171,9 @@ std::vector<settings::Chooser> ViewReader::choosers(TableReader& table) {
     return all;
   }
   for (const Value& one : *list) take(one);
+  if (list->empty())
+    reading_.fault(value->at, "'select' of " + table.what() + " picks nothing",
+                   "leave it out for everything");
   return all;
 }
 
@@ -187,9 +190,6 @@ void ViewReader::hatch(const Value& value, const std::string& outer, ViewWish& v
   TableReader table(reading_, value, "'hatch' of " + outer);
   HatchWish wish;
   wish.select = choosers(table);
-  if (const Value* const select = table.value("select"); select != nullptr && wish.select.empty())
-    reading_.fault(select->at, "'select' of " + table.what() + " picks nothing",
-                   "leave it out to hatch everything so");
   if (const auto angle =
           table.quantity("angle", parse_angle_deg, "an angle in quotes, as \"45deg\"")) {
     if (!(*angle >= 0 && *angle <= 180))

@@ -26,8 +26,9 @@ class Placer {
   Status measure(std::span<const hlr::Drawing> drawings, const parallel::Context& context) {
     // One for all that say none, so that they are aligned.
     Vec3l common;
-    const auto some = std::find_if(drawings.begin(), drawings.end(),
-                                   [](const hlr::Drawing& d) { return !d.pieces.empty(); });
+    const auto some = std::find_if(drawings.begin(), drawings.end(), [](const hlr::Drawing& d) {
+      return !d.pieces.empty() && !d.view.perspective;
+    });
     if (some != drawings.end()) common = some->origin;
     for (std::size_t v = 0; v < what_.views.size(); ++v) {
       const ViewWish& view = what_.views[v];

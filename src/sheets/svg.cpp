@@ -91,7 +91,11 @@ void write_metadata(Chunked& out, const Sheet& sheet) {
                        drawing.account.objects(), drawing.account.of(hlr::Fate::drawn),
                        drawing.counters.feature_edges);
     for (std::size_t s = 0; s < drawing::kLineStates; ++s) {
-      std::string name(drawing::state_name(static_cast<drawing::LineState>(s)));
+      const auto state = static_cast<drawing::LineState>(s);
+      const bool hidden = state == drawing::LineState::hidden_by_self ||
+                          state == drawing::LineState::hidden_by_other;
+      if (hidden && !drawing.hidden_lines) continue;
+      std::string name(drawing::state_name(state));
       std::replace(name.begin(), name.end(), '_', '-');
       out << fmt::format(" {}=\"{}\"", name, drawing.count[s]);
     }

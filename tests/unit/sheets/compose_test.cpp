@@ -225,11 +225,19 @@ TEST(Sheet, NoRoomIsAnErrorThatNamesTheFile) {
 }
 
 TEST(Sheet, AViewThatCannotBeDrawnIsNamed) {
-  const auto nearer =
-      test::drawn("[[view]]\nname=\"v\"\neye=[0,0,0]\ntarget=[\"1m\",0,0]\nnear=\"2m\"\n");
-  ASSERT_FALSE(nearer);
-  EXPECT_EQ(nearer.error().where, "s.toml, line 1: [[view]] 'v'");
-  EXPECT_NE(nearer.error().message.find("nearer to the eye"), std::string::npos);
+  std::string planes;
+  for (int i = 0; i < 17; ++i) planes += "\"z>" + std::to_string(i + 1) + "m\",";
+  const auto cut = test::drawn("[[view]]\nname=\"v\"\nsections=[" + planes + "]\n");
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().where, "s.toml, line 1: [[view]] 'v', section");
+}
+
+TEST(Sheet, AViewOfWhatIsAllHiddenSaysSo) {
+  // The upper box behind the floor of the base, whose own edges lie outside.
+  const Drawn d = drawn(with_frame(
+      "[[view]]\nname=\"v\"\ndirection=\"bottom\"\nselect=[\"base\",\"top\"]\n"
+      "limits={min=[\"400mm\",\"200mm\",\"-1m\"],max=[\"1600mm\",\"1100mm\",\"2m\"]}\n"));
+  EXPECT_TRUE(told(d.sheet, "view-empty", "all that lies within is hidden"));
 }
 
 TEST(Sheet, ViewsOffAnyPaperAreAnError) {
