@@ -12,11 +12,11 @@
 
 namespace strake::geometry {
 
-/// Triangles of two parts up to which they are turned as soon as that costs less than it may save:
-/// of more it is first asked whether flat faces settle it.
+/// Triangles of two parts up to which they are turned after walked_before_turning() node pairs; of
+/// more it is first asked whether flat faces settle it.
 inline constexpr std::size_t kTurnedEarly = 2048;
 
-/// Node pairs, of up to 16 pairs of triangles each, after which that is so.
+/// Node pairs, of up to 16 pairs of triangles each, that take about as long as turning the parts.
 [[nodiscard]] inline std::uint64_t walked_before_turning(const PartView& a, const PartView& b) {
   return 32 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
 }

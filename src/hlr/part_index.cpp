@@ -29,8 +29,8 @@ EdgeLengths lengths_of(std::span<const EdgeView> edges) {
   return lengths;
 }
 
-/// A part runs askew where an edge of it takes so much of its box, and is turned where the box that
-/// this makes is so much smaller: areas.
+/// A part runs askew where the box of its longest edge takes so much of its own, and is turned
+/// where the box that this makes is so much smaller: areas.
 constexpr double kAskew = 0.25, kWorthTurning = 0.5;
 /// Farther out a turned point would be no whole number that a double holds.
 constexpr std::int64_t kFarthestTurned = std::int64_t{1} << 44;

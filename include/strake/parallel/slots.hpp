@@ -16,8 +16,8 @@ namespace strake::parallel {
 ///     const Status status = for_each(context, {.name = "points", .n = n},
 ///                                    [&](std::size_t i) { (*points)[i] = point(i); });
 ///
-/// T must be default-constructible, by a constructor that does not throw. Errors: out of memory,
-/// cancelled.
+/// T must be default-constructible, by a constructor that does not throw, and not bool (bits cannot
+/// be written concurrently: use std::uint8_t). Errors: out of memory, cancelled.
 template <class T>
 [[nodiscard]] Result<std::vector<T>> slots(std::size_t n, const Context& context) {
   return detail::slots<T>(n, context);
