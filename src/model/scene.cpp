@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "model/equal_shapes.hpp"
 #include "model/grid_shape.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/order.hpp"
@@ -236,8 +237,10 @@ Result<std::vector<GridShapeResult>> make_shapes(const Assembly& assembly,
       });
 }
 
-/// Places the bodies of the shapes that were made; the others and the unplaceable are reported.
-void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made) {
+/// Places the bodies of the shapes that were made, each with the first that is equal; the others
+/// and the unplaceable are reported.
+void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made,
+                  const parallel::Distinct& kinds) {
   const Model& model = assembly.model;
   Scene& scene = assembly.scene;
   std::vector<bool> told(made.size(), false);
@@ -264,7 +267,11 @@ void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made) 
       });
       continue;
     }
+    body.grid_shape = kinds.of[candidate.grid_shape];
     body.origin = *origin + shape.shape.base;
+    const std::uint32_t first = kinds.first[body.grid_shape];
+    if (first != candidate.grid_shape)
+      body.origin = body.origin + moved_by(made[first].shape, shape.shape);
     scene.bodies[kept++] = body;
     ++scene.first_body[index(body.object) + 1];
   }
@@ -287,12 +294,15 @@ Result<Scene> make_scene(const Model& model, const SceneOptions& options,
   Result<std::vector<GridShapeResult>> shapes = make_shapes(assembly, uses, context);
   if (!shapes) return shapes.error();
   std::vector<GridShapeResult>& made = *shapes;
-  place_bodies(assembly, made);
+  const Result<parallel::Distinct> kinds = equal_shapes(made, context);
+  if (!kinds) return kinds.error();
+  place_bodies(assembly, made, *kinds);
   Scene& scene = assembly.scene;
   scene.model = &model;
   scene.sag_mm = options.sag_mm;
-  scene.shapes.reserve(made.size());
-  for (GridShapeResult& m : made) scene.shapes.push_back(std::move(m.shape));
+  scene.shapes.reserve(kinds->first.size());
+  for (const std::uint32_t first : kinds->first)
+    scene.shapes.push_back(std::move(made[first].shape));
   return std::move(assembly.scene);
 }
 

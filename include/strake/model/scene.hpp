@@ -21,7 +21,8 @@ struct SceneOptions {
   bool physical = true, obstruction = false, insulation = false;
 };
 
-/// The parts of one (shape, linear part of the placement), shared by every body that has both.
+/// The parts of one (shape, linear part of the placement), shared by every body that has both, and
+/// by those of meshes that are the same but for their place.
 struct GridShape {
   std::vector<geometry::Part> parts;
   geometry::Box3i box = geometry::empty_box<std::int32_t>();
@@ -36,7 +37,8 @@ struct GridBody {
   std::uint32_t grid_shape = 0;
   std::uint32_t body = 0;  ///< index into Model::bodies
   ObjectId object{};
-  geometry::Vec3l origin;  ///< snap(translation) + GridShape::base
+  /// snap(translation) + GridShape::base, and how far its own mesh is moved from the shape's.
+  geometry::Vec3l origin;
 
   [[nodiscard]] geometry::Box3l box(const GridShape& shape) const {
     return shape.box.as<std::int64_t>().moved(origin);
@@ -57,7 +59,8 @@ struct Lacking {
 /// A model on the grid: what clash detection and hidden-line removal work on.
 ///
 /// Vertices are snap(linear·v) + snap(translation), so equal shapes with equal linear parts share
-/// one GridShape whatever their place, and translation by grid steps changes no decision.
+/// one GridShape whatever their place, and translation by grid steps changes no decision. Meshes
+/// that are each other moved by grid steps share one too.
 struct Scene {
   const Model* model = nullptr;  ///< must outlive the scene
   std::vector<GridShape> shapes;

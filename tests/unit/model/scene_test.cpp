@@ -62,6 +62,56 @@ TEST(Scene, InstancesShareAGridShape) {
   EXPECT_EQ(s.bodies[11].grid_shape, 1U);
 }
 
+/// Corners of a body in the model, in the order of its parts.
+std::vector<geometry::Vec3l> corners_of(const Scene& s, std::size_t body) {
+  std::vector<geometry::Vec3l> corners;
+  for (const geometry::Part& part : s.shapes[s.bodies[body].grid_shape].parts)
+    for (const geometry::Vec3i& v : part.vertices)
+      corners.push_back(v.as<std::int64_t>() + s.bodies[body].origin);
+  return corners;
+}
+
+TEST(Scene, MeshesThatAreEachOtherMovedShareAGridShape) {
+  const std::vector<Vec3d> places = {{0, 0, 0}, {12.345, -7, 0.001}, {4e9, 0, -3e9}, {-1, 2, 3}};
+  const auto mesh_at = [](const Vec3d& at) {
+    geometry::TriangleMesh mesh = test::box_mesh(at, at + Vec3d{1, 2, 3});
+    test::add_box(mesh, at + Vec3d{5, 0, 0}, at + Vec3d{6, 1, 1});
+    return mesh;
+  };
+  Builder all;
+  for (const Vec3d& at : places) all.object(all.shape(mesh_at(at)), {{}, {0.5, 0, 100}});
+  const Scene s = all.scene();
+  EXPECT_EQ(s.shapes.size(), 1U);
+  ASSERT_EQ(s.bodies.size(), places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Builder alone;
+    alone.object(alone.shape(mesh_at(places[i])), {{}, {0.5, 0, 100}});
+    EXPECT_EQ(corners_of(s, i), corners_of(alone.scene(), 0)) << i;
+  }
+}
+
+TEST(Scene, MeshesThatDifferInAnythingDoNotShare) {
+  const geometry::TriangleMesh mesh = test::box_mesh({0, 0, 0}, {1, 1, 1});
+  std::vector<geometry::TriangleMesh> all(6, mesh);
+  all[1].sag_mm = 0.25;
+  all[2].vertices[0].x -= 0.001;
+  all[3].triangles.pop_back();
+  all[4] = test::box_mesh({0, 0, 0}, {1, 1, 1}, true);
+  test::add_box(all[5], {5, 5, 5}, {6, 6, 6});
+  Builder b;
+  for (const geometry::TriangleMesh& one : all) b.object(b.shape(one));
+  // What a mesh equals may stand for more than it: a primitive has curves, and a fault its text.
+  b.object(b.shape(geometry::Primitive{geometry::BoxPrimitive{1, 1, 1}}));
+  b.object(b.shape(geometry::Primitive{geometry::BoxPrimitive{1, 1, 1}}));
+  b.object(b.shape(geometry::TriangleMesh{}));
+  b.object(b.shape(geometry::TriangleMesh{}));
+  const Scene s = b.scene();
+  EXPECT_EQ(s.shapes.size(), 10U);
+  EXPECT_EQ(s.diagnostics.count(kVanished), 2U);
+  EXPECT_EQ(s.diagnostics.count("mesh-inverted"), 1U);
+  for (std::uint32_t i = 0; i < s.bodies.size(); ++i) EXPECT_EQ(s.bodies[i].grid_shape, i);
+}
+
 TEST(Scene, BoxPrimitiveIsASolidWithItsSourceAndNoSag) {
   Builder b;
   b.object(b.shape(geometry::Primitive{geometry::BoxPrimitive{2, 4, 6}}), {{}, {10, 0, 0}});

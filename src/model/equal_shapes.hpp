@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "model/grid_shape.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/parallel/distinct.hpp"
+
+namespace strake::model {
+
+/// Which shapes are one another moved by grid steps, all that belongs to them equal: most exporters
+/// write the mesh of a part anew for every place where it stands. Shapes of primitives, and those
+/// that have a fault, equal only themselves. Errors: cancelled.
+[[nodiscard]] Result<parallel::Distinct> equal_shapes(std::span<const GridShapeResult> shapes,
+                                                      const parallel::Context& context);
+
+/// How far equal shapes are moved: from one vertex of `from` to the same one of `to`.
+[[nodiscard]] geometry::Vec3l moved_by(const GridShape& from, const GridShape& to);
+
+}  // namespace strake::model
