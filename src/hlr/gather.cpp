@@ -23,6 +23,7 @@ class Drawer {
   explicit Drawer(const World& world) : world_(world), gatherer_(world), maker_(world) {}
 
   Work run(const Item& item, std::vector<Piece>& out) {
+    gatherer_.start(item);
     const auto lines = world_.job.lines.of(world_.placed[item.body].object);
     for (std::uint32_t i = item.first; i < item.last; ++i)
       draw(item.lines ? AskedEdge(world_, lines[i])

@@ -8,6 +8,9 @@ namespace strake::hlr {
 namespace {
 
 constexpr std::uint32_t kFewBodies = 16;
+// Up to this many neighbours of an item are looked through for each of its edges: more are found
+// faster by the tree.
+constexpr std::size_t kFewNeighbours = 64;
 constexpr std::uint32_t kNoBody = 0xffffffffU;
 // Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
 constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
@@ -120,12 +123,50 @@ void Gatherer::gather_others() {
     const std::uint32_t object = world_.placed[b].object;
     return object == edge_.own->object || object == edge_.other->object || gather_body(b, false);
   };
-  if (job_.options.culling) {
-    refresh_segment();
-    world_.tree.walk(segment_, consider);
-  } else {
+  if (!job_.options.culling) {
     for (std::uint32_t b = 0; b < world_.placed.size(); ++b) consider(b);
+    return;
   }
+  refresh_segment();
+  if (!find_neighbours()) return world_.tree.walk(segment_, consider);
+  for (const Neighbour& other : near_)
+    if (other.box.w1 <= segment_.w0 ||
+        (segment_.may_hide(other.box) && !gather_body(other.body, false)))
+      return;
+}
+
+/// The edges of an item are near each other: one walk finds the bodies that may hide any of them.
+/// False where they are many.
+bool Gatherer::find_neighbours() {
+  if (neighbours_ != Neighbours::not_looked_for) return neighbours_ == Neighbours::found;
+  neighbours_ = Neighbours::too_many;
+  if (item_->lines || world_.picture) return false;
+  const Placed& own = world_.placed[item_->body];
+  ViewBox box;
+  for (std::uint32_t i = item_->first; i < item_->last; ++i) {
+    box.include(own.view->edges[i].a);
+    box.include(own.view->edges[i].b);
+  }
+  const LooseBox room = loosened(box.moved(own.at));
+  LooseSegment any;
+  any.u0 = room.u0;
+  any.u1 = room.u1;
+  any.v0 = room.v0;
+  any.v1 = room.v1;
+  const auto deepest = static_cast<double>(box.lo.w + own.at.w);
+  any.w0 = deepest - 1e-12 * std::abs(deepest);
+  near_.clear();
+  bool few = true;
+  world_.tree.walk_boxes(any, [&](std::uint32_t body, const LooseBox& its) {
+    if (world_.placed[body].object != own.object) near_.push_back({its, body});
+    return few = near_.size() <= kFewNeighbours;
+  });
+  if (!few) return false;
+  std::ranges::sort(near_, [](const Neighbour& x, const Neighbour& y) {
+    return x.box.w1 != y.box.w1 ? x.box.w1 > y.box.w1 : x.body < y.body;
+  });
+  neighbours_ = Neighbours::found;
+  return true;
 }
 
 void Gatherer::gather_own_body() {

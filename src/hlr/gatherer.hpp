@@ -26,6 +26,12 @@ class Gatherer {
  public:
   explicit Gatherer(const World& world) : world_(world), job_(world.job) {}
 
+  /// The edges that are asked about next are those of an item, which outlives that.
+  void start(const Item& item) {
+    item_ = &item;
+    neighbours_ = Neighbours::not_looked_for;
+  }
+
   /// What hides an edge between two parameters, as far as the job's stage asks: hits in no
   /// particular order. The own object's come first and, unless it hides the edge wholly,
   /// completely.
@@ -51,6 +57,7 @@ class Gatherer {
   void gather_own_objects();
   void gather_object(std::uint32_t object);
   void gather_others();
+  bool find_neighbours();
   void take_covered_ends();
   void gather_own_body();
   void test_own_body();
@@ -84,6 +91,16 @@ class Gatherer {
   geometry::Box3l limits_;  ///< in the coordinates of the body that is asked
   std::vector<Hit> hits_;
   BucketMarks marks_;
+
+  /// A body of another object that may hide an edge of the item.
+  struct Neighbour {
+    LooseBox box;
+    std::uint32_t body = 0;
+  };
+  enum class Neighbours : std::uint8_t { not_looked_for, found, too_many };
+  const Item* item_ = nullptr;
+  Neighbours neighbours_ = Neighbours::too_many;
+  std::vector<Neighbour> near_;  ///< the nearest to the viewer first
 };
 
 }  // namespace strake::hlr

@@ -183,11 +183,13 @@ std::optional<Hit> outlined_stretch(const LocalEdge& edge, const ShapeView& shap
 
 std::optional<Hit> hidden_stretch(const LocalEdge& edge, const ShapeView& shape,
                                   const Polygon& polygon, std::int64_t contact) {
+  // The plane first: it costs less than the outline, and half of all edges lie above it.
+  const Depth depth = depth_of(edge, shape, polygon);
+  const Int128 least = contact * depth.size;
+  if (depth.at_a <= least && depth.at_b <= least) return std::nullopt;
   std::optional<Hit> found = outlined_stretch(edge, shape, polygon);
   if (!found) return found;
   Hit& hit = *found;
-  const Depth depth = depth_of(edge, shape, polygon);
-  const Int128 least = contact * depth.size;
   if (!clip_affine(depth.at_a - least, depth.at_b - least, false, hit)) return std::nullopt;
   if (edge.limits != nullptr) {
     const Int128 facing = shape.viewer.facing(shape.normal(polygon), polygon.at.as<std::int64_t>());

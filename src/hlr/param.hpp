@@ -8,13 +8,19 @@
 
 namespace strake::hlr {
 
+/// The nearest double; most are short, and far faster converted as such.
+[[nodiscard]] inline double rounded(geometry::Int128 x) {
+  const auto low = static_cast<std::int64_t>(x);
+  return low == x ? static_cast<double>(low) : static_cast<double>(x);
+}
+
 /// An exact parameter in [0, 1] on an edge, num / den (den > 0, not reduced), with its double.
 struct Param {
   geometry::Int128 num = 0, den = 1;
   double value = 0;
 
   [[nodiscard]] static Param of(geometry::Int128 num, geometry::Int128 den) {
-    return {num, den, static_cast<double>(num) / static_cast<double>(den)};
+    return {num, den, rounded(num) / rounded(den)};
   }
   [[nodiscard]] static Param zero() { return {}; }
   [[nodiscard]] static Param one() { return {1, 1, 1}; }

@@ -56,6 +56,11 @@ class ViewTree {
   /// first; visit may shrink the segment, and ends the walk by returning false.
   template <class Visit>
   void walk(const LooseSegment& segment, Visit&& visit) const {
+    walk_boxes(segment, [&](std::uint32_t i, const LooseBox&) { return visit(i); });
+  }
+  /// The same for visit(index, box) -> bool.
+  template <class Visit>
+  void walk_boxes(const LooseSegment& segment, Visit&& visit) const {
     if (nodes_.empty()) return;
     std::uint32_t stack[64];
     int top = 0;
@@ -64,8 +69,8 @@ class ViewTree {
       const Node& node = nodes_[stack[--top]];
       if (!segment.may_hide(node.box)) continue;
       if (node.count > 0) {
-        for (std::uint32_t i = 0; i < node.count; ++i)
-          if (segment.may_hide(boxes_[node.first + i]) && !visit(order_[node.first + i])) return;
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+          if (segment.may_hide(boxes_[i]) && !visit(order_[i], boxes_[i])) return;
         continue;
       }
       const bool left_nearer = nodes_[node.first].box.w1 >= nodes_[node.first + 1].box.w1;

@@ -110,7 +110,7 @@ TEST_F(AskewParts, AreDrawnTheSameByAnyTeam) {
 // Boxes along the paper's own axes hold all pipes of a rack that is seen along its diagonal.
 TEST_F(AskewParts, CostFewTests) {
   const hlr::Options buckets{.bucketing = 16};
-  EXPECT_LT(8 * drawn(kViews[0]).counters.face_tests,
+  EXPECT_LT(5 * drawn(kViews[0]).counters.face_tests,
             drawn(kViews[0], buckets).counters.face_tests);
 }
 
