@@ -9,13 +9,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "clocks.hpp"
 #include "drawing/duplicates.hpp"
 #include "drawing/paper.hpp"
 #include "strake/drawing/view.hpp"
@@ -64,24 +64,6 @@ Arguments parse(int argc, char** argv) {
   return a;
 }
 
-struct Clock {
-  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
-  double cpu = cpu_s();
-
-  static double cpu_s() {
-    rusage u{};
-    getrusage(RUSAGE_SELF, &u);
-    const auto s = [](const timeval& t) {
-      return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
-    };
-    return s(u.ru_utime) + s(u.ru_stime);
-  }
-  [[nodiscard]] std::string text() const {
-    const std::chrono::duration<double> w = std::chrono::steady_clock::now() - wall;
-    return fmt::format("{:.3f} s, {:.3f} s CPU", w.count(), cpu_s() - cpu);
-  }
-};
-
 double peak_mib() {
   rusage u{};
   getrusage(RUSAGE_SELF, &u);
@@ -126,7 +108,7 @@ int run(const Arguments& a) {
   if (!model) return fmt::print(stderr, "{}\n", model.error().text()), 3;
   const auto scene = model::make_scene(*model, {}, context);
   if (!scene) return fmt::print(stderr, "{}\n", scene.error().text()), 3;
-  Clock clock;
+  bench::Clock clock;
   const auto lines = hlr::draw(*scene, {}, a.view, a.options, context);
   if (!lines) return fmt::print(stderr, "{}\n", lines.error().text()), 3;
   fmt::print("draw    {}: {} objects, {} pieces, {:.0f} MiB at most\n", clock.text(),

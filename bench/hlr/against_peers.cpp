@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-#include "clash/clocks.hpp"
+#include "clocks.hpp"
 #include "hlr/made_scenes.hpp"
 #include "hlr/peers/peer.hpp"
 #include "hlr/same_lines.hpp"

@@ -8,10 +8,8 @@
 //
 // --global both draws by the baseline as well and compares the pieces.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "clocks.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/io/reader.hpp"
@@ -72,24 +71,6 @@ Arguments parse(int argc, char** argv) {
   return a;
 }
 
-struct Clock {
-  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
-  double cpu = cpu_s();
-
-  static double cpu_s() {
-    rusage u{};
-    getrusage(RUSAGE_SELF, &u);
-    const auto s = [](const timeval& t) {
-      return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
-    };
-    return s(u.ru_utime) + s(u.ru_stime);
-  }
-  [[nodiscard]] std::string text() const {
-    const std::chrono::duration<double> w = std::chrono::steady_clock::now() - wall;
-    return fmt::format("{:.3f} s, {:.3f} s CPU", w.count(), cpu_s() - cpu);
-  }
-};
-
 double paper_length(const hlr::Piece& p, const geometry::Vec3l& direction) {
   const auto v = (p.b - p.a).as<double>(), d = direction.as<double>();
   const double along = dot(v, d);
@@ -122,7 +103,7 @@ bool baseline_agrees(const model::Scene& scene, const Arguments& a,
                      const parallel::Context& context, const hlr::Drawing& expected) {
   hlr::Options options = a.options;
   options.solver = hlr::Solver::push;
-  const Clock clock;
+  bench::Clock clock;
   const auto drawing = hlr::draw(scene, {}, a.view, options, context);
   if (!drawing) return fmt::print(stderr, "{}\n", drawing.error().text()), false;
   const bool equal = std::equal(expected.pieces.begin(), expected.pieces.end(),
@@ -135,7 +116,7 @@ bool baseline_agrees(const model::Scene& scene, const Arguments& a,
 int run(const Arguments& a) {
   parallel::Team team(a.threads);
   const parallel::Context context{.team = a.threads > 1 ? &team : nullptr};
-  Clock clock;
+  bench::Clock clock;
   const auto model = io::read_models(a.files, {}, context);
   if (!model) return fmt::print(stderr, "{}\n", model.error().text()), 3;
   fmt::print("read   {}\n", clock.text());

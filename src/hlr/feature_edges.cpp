@@ -196,14 +196,6 @@ double cosine_of_degrees(double degrees) {
   return obtuse ? -sum : sum;
 }
 
-NormalVector triangle_normal(const Part& part, std::uint32_t triangle) {
-  const Triangle& t = part.triangles[triangle];
-  const Vec3l p = part.vertices[t[0]].as<std::int64_t>();
-  const Vec3l u = part.vertices[t[1]].as<std::int64_t>() - p;
-  const Vec3l v = part.vertices[t[2]].as<std::int64_t>() - p;
-  return wide_cross(u, v);
-}
-
 Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
                                                const FeatureOptions& options,
                                                const parallel::Context& context) {

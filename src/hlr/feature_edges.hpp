@@ -38,9 +38,6 @@ struct FeatureOptions {
 /// on every machine.
 [[nodiscard]] double cosine_of_degrees(double degrees);
 
-/// Twice the area vector of a triangle of a part: exact, outward for solids.
-[[nodiscard]] NormalVector triangle_normal(const geometry::Part& part, std::uint32_t triangle);
-
 /// The lines of a shape for one viewer: by part, then by (a, b). Errors: cancelled.
 [[nodiscard]] Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
                                                              const FeatureOptions& options,

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
 
+#include "strake/geometry/exact_normal.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/geometry/wide_int.hpp"
 
 namespace strake::hlr {
 
-// The 128-bit integer that the compiler has: a normal of a part within ±2^30 units needs 65 bits.
+using geometry::along;
 using geometry::Int128;
-using NormalVector = std::array<Int128, 3>;
-
-/// The exact dot product of a normal with a view direction.
-[[nodiscard]] constexpr Int128 along(const NormalVector& n, const geometry::Vec3l& d) {
-  return n[0] * d.x + n[1] * d.y + n[2] * d.z;
-}
-
-/// The exact cross product.
-[[nodiscard]] constexpr NormalVector wide_cross(const geometry::Vec3l& a,
-                                                const geometry::Vec3l& b) {
-  const auto minor = [](std::int64_t p, std::int64_t q, std::int64_t r, std::int64_t s) {
-    return static_cast<Int128>(p) * s - static_cast<Int128>(q) * r;
-  };
-  return {minor(a.y, a.z, b.y, b.z), minor(a.z, a.x, b.z, b.x), minor(a.x, a.y, b.x, b.y)};
-}
+using geometry::NormalVector;
+using geometry::triangle_normal;
+using geometry::wide_cross;
 
 [[nodiscard]] constexpr bool is_zero(const NormalVector& n) {
   return n[0] == 0 && n[1] == 0 && n[2] == 0;

@@ -40,7 +40,7 @@
 #include <utility>
 #include <vector>
 
-#include "clash/clocks.hpp"
+#include "clocks.hpp"
 #include "strake/core/disjoint_sets.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/io/reader.hpp"

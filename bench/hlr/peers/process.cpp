@@ -12,7 +12,7 @@
 #include <iterator>
 #include <thread>
 
-#include "clash/clocks.hpp"
+#include "clocks.hpp"
 
 namespace strake::bench {
 namespace {

@@ -10,6 +10,7 @@
 #include "geometry/analyse/shell_part.hpp"
 #include "geometry/section/outline.hpp"
 #include "geometry/section/rounded.hpp"
+#include "strake/geometry/exact_normal.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -168,25 +169,12 @@ class Cutter {
       return part_.vertices[part_.triangles[triangle][k]].as<std::int64_t>();
     };
     const Vec3l p = corner(s, 0);
-    const auto m = normal(s), n = normal(t);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3l q = corner(t, k) - p;
-      if (m[0] * q.x + m[1] * q.y + m[2] * q.z != 0) return false;
-    }
+    const NormalVector m = triangle_normal(part_, s), n = triangle_normal(part_, t);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (along(m, corner(t, k) - p) != 0) return false;
     for (std::size_t k = 0; k < 3; ++k)
       if (m[k] != 0) return (m[k] > 0) == (n[k] > 0);
     return false;
-  }
-
-  [[nodiscard]] std::array<Int128, 3> normal(std::uint32_t triangle) const {
-    const Triangle& t = part_.triangles[triangle];
-    const Vec3l p = part_.vertices[t[0]].as<std::int64_t>();
-    const Vec3l u = part_.vertices[t[1]].as<std::int64_t>() - p;
-    const Vec3l v = part_.vertices[t[2]].as<std::int64_t>() - p;
-    const auto minor = [](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
-      return static_cast<Int128>(a) * d - static_cast<Int128>(b) * c;
-    };
-    return {minor(u.y, u.z, v.y, v.z), minor(u.z, u.x, v.z, v.x), minor(u.x, u.y, v.x, v.y)};
   }
 
   void fill(const CutPlane& plane, std::uint32_t number) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <ctime>
+#include <string>
 
 namespace strake::bench {
 
@@ -32,6 +35,19 @@ class CpuLap {
 
  private:
   std::clock_t last_ = std::clock();
+};
+
+/// Both since the last call, as text.
+class Clock {
+ public:
+  [[nodiscard]] std::string text() {
+    const double wall = wall_(), cpu = cpu_();
+    return fmt::format("{:.3f} s, {:.3f} s CPU", wall, cpu);
+  }
+
+ private:
+  Lap wall_;
+  CpuLap cpu_;
 };
 
 }  // namespace strake::bench
