@@ -129,7 +129,7 @@ TEST(FlatPlaceTest, AgreesWithPlacesToldByTriangles) {
     ++found;
     EXPECT_EQ(places->size(), 1U) << reach << ' ' << gap;
   }
-  EXPECT_GT(found, test::rounds(300U, 20'000U) / 10);
+  EXPECT_GT(found, test::rounds(300U, 20'000U) / 15);
   EXPECT_GT(several, test::rounds(300U, 20'000U) / 10);
 }
 
