@@ -21,7 +21,10 @@
 #include <thread>
 #include <vector>
 
+#include "strake/parallel/backends/openmp.hpp"
+#include "strake/parallel/backends/tbb.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/host_executor.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/report.hpp"
 #include "strake/parallel/team.hpp"
@@ -179,10 +182,19 @@ class Bench {
   void empty_region() {
     constexpr int kRegions = 2000;
     fmt::print("a region with nothing in it\n");
-    const double seconds = best_s([&] {
-      for (int i = 0; i < kRegions; ++i) team_.run([](parallel::Seat) {});
-    });
-    line("strake team", seconds / kRegions * 1e6, "us", "target: 10");
+    tbb::task_arena arena(static_cast<int>(team_.size()));
+    parallel::HostExecutor in_tbb(team_.size(), parallel::in_arena(arena));
+    parallel::HostExecutor openmp(team_.size(), parallel::by_openmp());
+    const auto row = [&](const std::string& name, parallel::Executor& workers,
+                         const std::string& target) {
+      const double seconds = best_s([&] {
+        for (int i = 0; i < kRegions; ++i) workers.run([](parallel::Seat) {});
+      });
+      line(name, seconds / kRegions * 1e6, "us", target);
+    };
+    row("strake team", team_, "target: 10");
+    row("strake on an arena of oneTBB", in_tbb, "");
+    row("strake on OpenMP", openmp, "");
   }
 
   void heavy(const std::string& title, bool heavy_first) {

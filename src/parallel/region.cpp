@@ -128,7 +128,7 @@ Status RegionRun::run(FunctionRef<void(Cursor&)> loop) {
   if (blocks_ == 0) return {};
 
   // One block needs no team; leaving it free lets the regions nested inside have it.
-  Team* const team = blocks_ > 1 ? context_.team : nullptr;
+  Executor* const team = blocks_ > 1 ? context_.team : nullptr;
   dynamic_ = team != nullptr && region_.schedule == Schedule::dynamic;
   counting_ = context_.progress != nullptr && context_.progress->begin(region_.name, region_.n);
   observed_ = counting_ || context_.report != nullptr;

@@ -6,7 +6,7 @@
 
 namespace strake::parallel {
 
-Team::Team(unsigned workers) {
+Team::Team(unsigned workers) : Executor(1) {
   const unsigned wanted = std::clamp(workers, 1U, kMaxWorkers) - 1;
   threads_.reserve(wanted);
   for (unsigned i = 0; i < wanted; ++i) {
@@ -16,6 +16,7 @@ Team::Team(unsigned workers) {
       break;  // the host gives no more threads, or no memory: work with those that there are
     }
   }
+  set_size(static_cast<unsigned>(threads_.size()) + 1);
 }
 
 Team::~Team() {
@@ -25,11 +26,7 @@ Team::~Team() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-bool Team::run(FunctionRef<void(Seat)> body) noexcept {
-  if (threads_.empty() || busy_.exchange(true, std::memory_order_acquire)) {
-    body(Seat{0, 1});
-    return threads_.empty();
-  }
+void Team::call_all(FunctionRef<void(Seat)> body) noexcept {
   body_ = &body;
   pending_.store(static_cast<std::uint32_t>(threads_.size()), std::memory_order_relaxed);
   generation_.fetch_add(1, std::memory_order_release);
@@ -38,8 +35,6 @@ bool Team::run(FunctionRef<void(Seat)> body) noexcept {
   for (std::uint32_t left = pending_.load(std::memory_order_acquire); left != 0;
        left = pending_.load(std::memory_order_acquire))
     pending_.wait(left, std::memory_order_acquire);
-  busy_.store(false, std::memory_order_release);
-  return true;
 }
 
 void Team::serve(unsigned index) noexcept {

@@ -5,7 +5,7 @@
 
 namespace strake::parallel {
 
-class Team;
+class Executor;
 class Progress;
 class RunReport;
 
@@ -13,7 +13,7 @@ class RunReport;
 /// absent: no team means the same code on the calling thread with the same blocks and so the same
 /// bytes, no progress and no report mean that nobody asked.
 struct Context {
-  Team* team = nullptr;          ///< null: sequential
+  Executor* team = nullptr;      ///< a Team, or a host's workers; null: sequential
   std::stop_token stop = {};     ///< triggered: return ErrorCode::cancelled soon
   Progress* progress = nullptr;  ///< told how far the work is
   RunReport* report = nullptr;   ///< collects time and load balance per region

@@ -15,8 +15,8 @@
 
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/executor.hpp"
 #include "strake/parallel/function_ref.hpp"
-#include "strake/parallel/team.hpp"
 
 namespace strake::parallel {
 

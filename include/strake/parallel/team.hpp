@@ -6,15 +6,9 @@
 #include <thread>
 #include <vector>
 
-#include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/executor.hpp"
 
 namespace strake::parallel {
-
-/// One worker's place in a region: worker `index` of the `count` that take part.
-struct Seat {
-  unsigned index = 0;
-  unsigned count = 1;
-};
 
 /// A fixed team of threads, created once and reused by every region.
 ///
@@ -23,36 +17,26 @@ struct Seat {
 ///
 /// Most code never calls run() but hands the team to for_each and its relatives in a Context.
 ///
-/// 1. The calling thread is worker 0; a team of one has no threads of its own.
-/// 2. run() returns when every worker has returned; what they wrote is visible to the caller.
-/// 3. A team that is busy (run() called from within a region, or from a second thread) does not
-///    wait: the second caller runs its own body alone, with Seat{0, 1}. So nested regions and
-///    concurrent callers cannot deadlock, and one region's workers never serve another's.
-/// 4. A body must not throw: an exception that leaves it ends the program.
-class Team {
+/// The calling thread is worker 0; a team of one has no threads of its own. What else holds for
+/// run() stands with Executor.
+class Team final : public Executor {
  public:
   static constexpr unsigned kMaxWorkers = 1024;
 
   /// 0 counts as 1. A host that refuses a thread gives a smaller team, see size().
   explicit Team(unsigned workers);
-  ~Team();
+  ~Team() override;
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
   Team(Team&&) = delete;
   Team& operator=(Team&&) = delete;
 
-  [[nodiscard]] unsigned size() const { return static_cast<unsigned>(threads_.size()) + 1; }
-
-  /// Calls body once per seat, seats concurrently. True when the whole team took part, false when
-  /// it was busy and the caller ran alone.
-  bool run(FunctionRef<void(Seat)> body) noexcept;
-
  private:
+  void call_all(FunctionRef<void(Seat)> body) noexcept override;
   void serve(unsigned index) noexcept;
 
   std::vector<std::thread> threads_;
   const FunctionRef<void(Seat)>* body_ = nullptr;
-  std::atomic<bool> busy_{false};
   std::atomic<bool> closing_{false};
   // 32 bits wide so that waiting is a futex on the word itself. Apart, because the sleepers poll
   // the one while the finishers write the other.

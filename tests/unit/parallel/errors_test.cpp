@@ -14,6 +14,7 @@
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/team.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::parallel {

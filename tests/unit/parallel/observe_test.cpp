@@ -7,6 +7,7 @@
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/progress.hpp"
 #include "strake/parallel/report.hpp"
+#include "strake/parallel/team.hpp"
 
 namespace strake::parallel {
 namespace {

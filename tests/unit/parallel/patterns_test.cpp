@@ -19,60 +19,18 @@
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/shape2.hpp"
+#include "strake/parallel/team.hpp"
 #include "strake/parallel/transform.hpp"
+#include "support/parallel_results.hpp"
 
 namespace strake::parallel {
 namespace {
 
-constexpr std::size_t kItems = 1013;  // prime: no grain or team divides it
+using test::results;
+using test::Results;
+using test::value;
 
-/// A value per item, over forty binary orders of magnitude, so that a sum shows its order.
-double value(std::size_t i) {
-  const std::uint64_t h = (i + 1) * 0x9e3779b97f4a7c15ULL;
-  const double mantissa = static_cast<double>(h >> 12U) * 0x1p-52 - 0.5;
-  return std::ldexp(mantissa, static_cast<int>(h % 41U) - 20);
-}
-
-/// Every result that this library can build, for one region's settings.
-struct Results {
-  std::vector<double> transformed;
-  std::vector<std::uint32_t> collected;
-  std::vector<std::uint32_t> packed;
-  std::vector<std::size_t> offsets;
-  std::uint64_t sum_bits = 0;
-  std::uint64_t item_runs = 0;
-  friend bool operator==(const Results&, const Results&) = default;
-};
-
-Results results(const Context& context, const Region& region, unsigned delay_seed) {
-  Results r;
-  std::vector<std::uint8_t> runs(kItems, 0);
-  r.transformed = *transform_with(
-      context, region, [&] { return std::minstd_rand(delay_seed); },
-      [&](std::minstd_rand& random, std::size_t i) {
-        if (delay_seed != 0 && random() % 64 == 0) std::this_thread::yield();
-        ++runs[i];
-        return value(i);
-      });
-  for (const std::uint8_t count : runs) r.item_runs += count == 1 ? 1U : 1000U;
-  r.collected =
-      *collect<std::uint32_t>(context, region, [](std::size_t i, std::vector<std::uint32_t>& out) {
-        for (std::size_t k = 0; k < i % 4; ++k)
-          out.push_back(static_cast<std::uint32_t>(10 * i + k));
-      });
-  auto packed = count_fill<std::uint32_t>(
-      context, region, [](std::size_t i) { return i % 3; },
-      [](std::size_t i, std::span<std::uint32_t> out) {
-        std::fill(out.begin(), out.end(), static_cast<std::uint32_t>(i));
-      });
-  r.offsets = packed->offsets;
-  r.packed = packed->values;
-  const auto sum = reduce(
-      context, region, 0.0, [](double& partial, std::size_t i) { partial += value(i); },
-      [](double& into, const double& partial) { into += partial; });
-  r.sum_bits = std::bit_cast<std::uint64_t>(*sum);
-  return r;
-}
+constexpr std::size_t kItems = test::kResultItems;
 
 TEST(Patterns, same_bytes_for_any_team_schedule_chunk_and_order) {
   constexpr unsigned kSeed = 20250117;

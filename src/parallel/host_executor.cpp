@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/parallel/host_executor.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace strake::parallel {
+
+/// One region's seats. Shared with what the host was given: a host that calls it too late, or keeps
+/// it, finds all seats taken.
+struct HostExecutor::Run {
+  Run(unsigned count, FunctionRef<void(Seat)> work) : body(work), taken(count) {}
+
+  void serve(unsigned index) {
+    if (index >= taken.size() || taken[index].exchange(true, std::memory_order_relaxed)) return;
+    body(Seat{index, static_cast<unsigned>(taken.size())});
+    if (done.fetch_add(1, std::memory_order_acq_rel) + 1 == taken.size()) done.notify_one();
+  }
+
+  FunctionRef<void(Seat)> body;
+  std::vector<std::atomic<bool>> taken;
+  std::atomic<std::uint32_t> done{0};
+};
+
+HostExecutor::HostExecutor(unsigned workers, Call call)
+    : Executor(workers), call_(std::move(call)) {}
+
+void HostExecutor::call_all(FunctionRef<void(Seat)> body) noexcept {
+  std::shared_ptr<Run> run;
+  try {
+    run = std::make_shared<Run>(size(), body);
+    call_(size(), [run](unsigned index) { run->serve(index); });
+  } catch (...) {
+    // What the host has not called is served below; without memory there is one seat.
+    if (!run) return body(Seat{0, 1});
+  }
+  for (unsigned i = 0; i < size(); ++i) run->serve(i);
+  for (std::uint32_t now = run->done.load(std::memory_order_acquire); now != size();
+       now = run->done.load(std::memory_order_acquire))
+    run->done.wait(now, std::memory_order_acquire);
+}
+
+}  // namespace strake::parallel
