@@ -84,10 +84,15 @@ std::optional<Axes> axes_of(std::vector<LongEdge> edges) {
 
 }  // namespace
 
-std::optional<AlignedParts> aligned_parts(const PartView& a, const PartView& b,
-                                          const parallel::Context& context) {
+std::optional<Axes> needle_axes(const PartView& a, const PartView& b) {
   auto axes = axes_of(long_edges(a));
   if (!axes) axes = axes_of(long_edges(b));
+  return axes;
+}
+
+std::optional<AlignedParts> aligned_parts(const PartView& a, const PartView& b,
+                                          const parallel::Context& context) {
+  const auto axes = needle_axes(a, b);
   if (!axes) return std::nullopt;
   auto of_a = turned_part(a, *axes, context);
   if (!of_a) return std::nullopt;

@@ -13,8 +13,12 @@ struct AlignedParts {
 };
 
 /// Boxes along the axes tell nothing of needles that lie askew to them: facets of pipes, strips of
-/// plates. Where many triangles of either part are needles that run one way, the parts in a frame
-/// with an axis along them; nothing where there is no such way, or where it is an axis already.
+/// plates. Where many triangles of either part are needles that run one way, a frame with an axis
+/// along them; nothing where there is no such way, or where it is an axis already. Both parts have
+/// trees.
+[[nodiscard]] std::optional<Axes> needle_axes(const PartView& a, const PartView& b);
+
+/// The parts in such a frame, if there is one.
 [[nodiscard]] std::optional<AlignedParts> aligned_parts(const PartView& a, const PartView& b,
                                                         const parallel::Context& context);
 

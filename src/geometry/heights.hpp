@@ -25,6 +25,7 @@ class Heights {
   }
 
   [[nodiscard]] double least() const { return least_; }
+  [[nodiscard]] double at(std::uint32_t vertex) const { return all_[vertex]; }
 
   /// The triangles with a corner no higher than a level, ascending.
   [[nodiscard]] std::vector<std::uint32_t> below(double level) const {

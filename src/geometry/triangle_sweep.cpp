@@ -6,12 +6,10 @@
 #include <utility>
 
 #include "geometry/box.hpp"
+#include "geometry/sweep_axis.hpp"
 
 namespace strake::geometry {
 namespace {
-
-/// Grid units: what coordinates along turned axes may be off by, far above their rounding.
-constexpr double kFrameRounding = 0x1p-10;
 
 /// The corners of a part along some axes.
 struct Along {
@@ -28,16 +26,6 @@ struct Along {
     box = box_of(at);
   }
 };
-
-/// The axis along which boxes are shortest in relation to all that is swept.
-int best_axis(const Vec3d& lengths, const Box3d& within) {
-  int best = 0;
-  for (int k = 1; k < 3; ++k)
-    if (lengths[k] * (within.hi[best] - within.lo[best]) <
-        lengths[best] * (within.hi[k] - within.lo[k]))
-      best = k;
-  return best;
-}
 
 }  // namespace
 

@@ -15,8 +15,8 @@ SlabHeights slab_heights(const PartView& a, const PartView& b, double reach) {
 }
 
 Facing facing(const PartView& a, const PartView& b, double reach) {
-  const SlabHeights heights = slab_heights(a, b, reach);
-  Facing facing;
+  Facing facing{.heights = slab_heights(a, b, reach)};
+  const SlabHeights& heights = facing.heights;
   facing.triangles_a = heights.a.below(heights.level_a);
   facing.triangles_b = heights.b.below(heights.level_b);
   std::vector<bool> listed(a.part().vertices.size(), false);

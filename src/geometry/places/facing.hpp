@@ -12,9 +12,10 @@ namespace strake::geometry {
 /// What of two parts may be within reach of the other, by a slab between them: of bodies that lie
 /// flush on each other little, of others all.
 struct Facing {
-  std::vector<std::uint32_t> triangles_a, triangles_b;  ///< ascending
-  std::vector<std::uint32_t> vertices_a;                ///< of triangles_a, ascending
-  std::vector<std::uint32_t> edges_a;                   ///< between two of these, ascending
+  SlabHeights heights;
+  std::vector<std::uint32_t> triangles_a = {}, triangles_b = {};  ///< ascending
+  std::vector<std::uint32_t> vertices_a = {};                     ///< of triangles_a, ascending
+  std::vector<std::uint32_t> edges_a = {};  ///< between two of these, ascending
 };
 
 /// By the slab between the hulls of two parts. `reach`: grid units.

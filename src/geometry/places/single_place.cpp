@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,6 +18,7 @@
 #include "geometry/directions.hpp"
 #include "geometry/places/common_box.hpp"
 #include "geometry/places/facing.hpp"
+#include "geometry/places/near_boxes.hpp"
 #include "geometry/places/near_pairs.hpp"
 #include "geometry/places/segment_near.hpp"
 #include "geometry/triangle_distance.hpp"
@@ -36,6 +37,11 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 bool test(std::span<const Word> bits, std::uint32_t i) {
   return (bits[i / kWordBits] >> (i % kWordBits) & 1U) != 0;
+}
+/// The number of the first bit that is set in a word of a row.
+std::uint32_t first_bit(std::size_t word, Word bits) {
+  return static_cast<std::uint32_t>(word * kWordBits +
+                                    static_cast<std::size_t>(std::countr_zero(bits)));
 }
 bool test_any(std::span<const Word> bits, const Triangle& t) {
   return test(bits, t[0]) || test(bits, t[1]) || test(bits, t[2]);
@@ -102,24 +108,25 @@ class NearCorners {
         b_(b),
         facing_(facing),
         squared_(squared),
+        boxes_(a, b, facing, std::sqrt(squared)),
+        first_edge_(first_edges(a, facing)),
         vertices_(a),
         near_vertex_(b.part().vertices.size(), vertices_.size()),
         rows_(triangles.size(), vertices_.size()),
-        pieces_(triangles.size()),
-        apart_(vertices_.size()) {
+        pieces_(triangles.size()) {
     std::vector<bool> asked(b.part().vertices.size(), false);
     for (const std::uint32_t t : facing.triangles_b)
       for (const std::uint32_t v : b.part().triangles[t]) {
         if (!asked[v]) vertices_.near(b.vertex(v).as<double>(), squared, near_vertex_.row(v));
         asked[v] = true;
       }
-    const std::vector<double> limits = limits_of(a, squared);
     first_.reserve(triangles.size() + 1);
     std::uint32_t count = 0;
-    for (const std::uint32_t t : facing.triangles_b) {
+    for (std::size_t i = 0; i < facing.triangles_b.size(); ++i) {
+      const std::uint32_t t = facing.triangles_b[i];
       first_.resize(t + 1, count);
-      const std::size_t near = fill(t, triangles[t]);
-      if (near < vertices_.size()) list_between(t, limits);
+      const std::size_t near = fill(i, triangles[t]);
+      if (near < vertices_.size()) list_between(i);
       count += find_pieces(t, near);
     }
     first_.resize(triangles.size() + 1, count);
@@ -154,49 +161,47 @@ class NearCorners {
  private:
   [[nodiscard]] bool in_one_piece(std::uint32_t t) const { return first_[t + 1] == first_[t] + 1; }
 
-  /// Returns how many corners are near.
-  std::size_t fill(std::uint32_t t, const DoubleTriangle& triangle) {
+  /// The row of a triangle by its place in facing.triangles_b; returns how many corners are near.
+  std::size_t fill(std::size_t place, const DoubleTriangle& triangle) {
+    const std::uint32_t t = facing_.triangles_b[place];
     const std::span<Word> row = rows_.row(t);
     for (const std::uint32_t v : b_.part().triangles[t]) {
       const std::span<const Word> near = std::as_const(near_vertex_).row(v);
       for (std::size_t i = 0; i < row.size(); ++i) row[i] |= near[i];
     }
-    for (const std::uint32_t u : facing_.vertices_a) {
-      if (test(row, u)) continue;
+    boxes_.vertices_near(place, [&](std::uint32_t u) {
+      if (test(row, u)) return;
       const Vec3d p = vertices_.at(u);
-      apart_[u] = squared_gap(p, triangle.box);
-      if (apart_[u] > squared_) continue;
-      apart_[u] = squared_distance(p, nearest_on_triangle(p, triangle.corner));
-      if (apart_[u] <= squared_) row[u / kWordBits] |= Word{1} << (u % kWordBits);
-    }
+      if (squared_distance(p, nearest_on_triangle(p, triangle.corner)) <= squared_)
+        row[u / kWordBits] |= Word{1} << (u % kWordBits);
+    });
     std::size_t count = 0;
     for (const Word word : row) count += static_cast<std::size_t>(std::popcount(word));
     return count;
   }
 
-  /// How near one corner of each triangle has to be, squared, for any point of it to be within
-  /// reach: no point of a triangle is farther from all corners than its longest edge over the root
-  /// of 3.
-  static std::vector<double> limits_of(const PartView& view, double squared) {
-    std::vector<double> limits;
-    limits.reserve(view.part().triangles.size());
-    for (const Triangle& t : view.part().triangles) {
-      const Corners c = corners_of(view.part(), t);
-      const double limit =
-          std::sqrt(squared) + length(longest_edge(c)) / std::numbers::sqrt3 + kCutMargin;
-      limits.push_back(limit * limit);
-    }
-    return limits;
-  }
-
-  void list_between(std::uint32_t t, const std::vector<double>& limits) {
+  void list_between(std::size_t place) {
+    const std::uint32_t t = facing_.triangles_b[place];
     const auto& triangles = a_.part().triangles;
     const auto row = std::as_const(rows_).row(t);
-    for (const std::uint32_t s : facing_.triangles_a) {
-      const Triangle& c = triangles[s];
-      if (!test_any(row, c) && std::min({apart_[c[0]], apart_[c[1]], apart_[c[2]]}) <= limits[s])
-        between_.emplace_back(t, s);
-    }
+    const auto listed = static_cast<std::ptrdiff_t>(between_.size());
+    boxes_.triangles_near(place, [&](std::uint32_t s) {
+      if (!test_any(row, triangles[s])) between_.emplace_back(t, s);
+    });
+    std::sort(between_.begin() + listed, between_.end());
+  }
+
+  /// The edges that face the second part, to a higher vertex of the first.
+  [[nodiscard]] std::span<const std::uint32_t> edges_from(std::uint32_t u) const {
+    return std::span(facing_.edges_a).subspan(first_edge_[u], first_edge_[u + 1] - first_edge_[u]);
+  }
+
+  /// By vertex: the place of the first of its edges_from(); one more at the end.
+  static std::vector<std::uint32_t> first_edges(const PartView& view, const Facing& facing) {
+    std::vector<std::uint32_t> first(view.part().vertices.size() + 1, 0);
+    for (const std::uint32_t e : facing.edges_a) ++first[view.part().edges[e].v0 + 1];
+    std::inclusive_scan(first.begin(), first.end(), first.begin());
+    return first;
   }
 
   template <class Near>
@@ -205,8 +210,7 @@ class NearCorners {
     const bool once = in_one_piece(t) && in_one_piece(next);
     for (std::size_t i = 0; i < x.size(); ++i)
       for (Word both = x[i] & y[i]; both != 0; both &= both - 1) {
-        const auto u = static_cast<std::uint32_t>(i * kWordBits +
-                                                  static_cast<std::size_t>(std::countr_zero(both)));
+        const std::uint32_t u = first_bit(i, both);
         if (sets.joined(piece(u, t), piece(u, next)) || !near(u)) continue;
         sets.join(piece(u, t), piece(u, next));
         if (once) return;
@@ -216,17 +220,18 @@ class NearCorners {
   /// Of a row with so many corners; returns how many pieces there are.
   std::uint32_t find_pieces(std::uint32_t t, std::size_t set) {
     const auto bits = row(t);
-    const Part& part = a_.part();
+    const auto& edges = a_.part().edges;
     const std::size_t all = vertices_.size();
     if (set <= 1) return static_cast<std::uint32_t>(set);
     if (set == all && whole_is_one_) return 1;
     sets_.reset(all);
     const std::size_t in_one = all - set + 1;
-    for (const std::uint32_t e : facing_.edges_a) {
-      if (sets_.count() <= in_one) break;
-      if (test(bits, part.edges[e].v0) && test(bits, part.edges[e].v1))
-        sets_.join(part.edges[e].v0, part.edges[e].v1);
-    }
+    for (std::size_t i = 0; i < bits.size() && sets_.count() > in_one; ++i)
+      for (Word left = bits[i]; left != 0; left &= left - 1) {
+        const std::uint32_t u = first_bit(i, left);
+        for (const std::uint32_t e : edges_from(u))
+          if (test(bits, edges[e].v1)) sets_.join(u, edges[e].v1);
+      }
     const auto count = static_cast<std::uint32_t>(sets_.count() - (all - set));
     if (set == all && count == 1) whole_is_one_ = true;
     if (count > 1) number(t);
@@ -247,13 +252,14 @@ class NearCorners {
   const PartView &a_, &b_;
   const Facing& facing_;
   double squared_;
+  NearBoxes boxes_;
+  std::vector<std::uint32_t> first_edge_;  ///< see first_edges()
   Vertices vertices_;
   BitRows near_vertex_;  ///< by vertex of the second part: of the first part
   BitRows rows_;         ///< by triangle of the second part: likewise
   std::vector<std::vector<std::uint32_t>> pieces_;  ///< by row with several, by corner
   std::vector<std::uint32_t> first_;                ///< piece, by row; one more at the end
   std::vector<TrianglePair> between_;
-  std::vector<double> apart_;  ///< by corner: a bound on its squared distance, of the row at hand
   DisjointSets sets_;
   bool whole_is_one_ = false;  ///< whether all corners are known to hang together
 };

@@ -172,14 +172,18 @@ TEST(MeetingPlacesTest, GivesUpWhereThereAreMorePairsThanAskedFor) {
       meeting_places(a.treed(), b.treed(), {.reach = 1 * kMm, .most_pairs = 10}, work).has_value());
 }
 
+/// A point stood askew on the grid.
+Vec3i askew(const Vec3d& p) {
+  return {static_cast<std::int32_t>(std::lround(0.6 * p.x + 0.8 * p.z)),
+          static_cast<std::int32_t>(std::lround(p.y)),
+          static_cast<std::int32_t>(std::lround(0.6 * p.z - 0.8 * p.x))};
+}
+
 /// A disc whose caps are fans of needles from their centres, stood askew on the grid.
 IndexedMesh fan_disc(double radius, std::int32_t height, std::uint32_t sectors, const Vec3i& at) {
   IndexedMesh m;
   const auto add = [&](double x, double y, double z) {
-    const double u = x + at.x, v = y + at.y, w = z + at.z;
-    m.vertices.push_back({static_cast<std::int32_t>(std::lround(0.6 * u + 0.8 * w)),
-                          static_cast<std::int32_t>(std::lround(v)),
-                          static_cast<std::int32_t>(std::lround(0.6 * w - 0.8 * u))});
+    m.vertices.push_back(askew({x + at.x, y + at.y, z + at.z}));
   };
   for (const std::int32_t z : {0, height}) {
     for (std::uint32_t s = 0; s < sectors; ++s) {
@@ -266,6 +270,53 @@ TEST(MeetingPlacesTest, AWideReachIsToldWithoutAListOfNearTriangles) {
     EXPECT_EQ(found->size(), 1U);
   }
   EXPECT_FALSE(ask(OnePlace::described, 100).has_value());
+}
+
+/// A container with corrugated sides, stood askew on the grid: high needles all round.
+IndexedMesh corrugated(std::uint32_t waves, std::int32_t from) {
+  constexpr double kStep = 70 * kMm, kDeep = 30 * kMm, kWide = 600 * kMm;
+  constexpr std::int32_t kHigh = 1500 * kMm;
+  const std::uint32_t steps = 4 * waves, n = 2 * steps;
+  IndexedMesh m;
+  for (const std::int32_t z : {from, from + kHigh}) {
+    const auto add = [&](std::uint32_t i, double side) {
+      m.vertices.push_back(askew({kStep * i, side + (i % 4 < 2 ? 0 : kDeep), 1.0 * z}));
+    };
+    for (std::uint32_t i = 0; i < steps; ++i) add(i, 0);
+    for (std::uint32_t i = steps; i-- > 0;) add(i, kWide);
+  }
+  const auto quad = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) {
+    m.triangles.push_back({p, q, r});
+    m.triangles.push_back({p, r, s});
+  };
+  for (std::uint32_t i = 0; i < n; ++i) quad(i, (i + 1) % n, n + (i + 1) % n, n + i);
+  for (std::uint32_t i = 0; i + 1 < steps; ++i) {
+    quad(i, n - 1 - i, n - 2 - i, i + 1);
+    quad(n + i, n + i + 1, 2 * n - 2 - i, 2 * n - 1 - i);
+  }
+  return m;
+}
+
+TEST(MeetingPlacesTest, CorrugatedContainersOnEachOtherAreOnePlace) {
+  for (const std::uint32_t waves : {16U, 32U}) {
+    SCOPED_TRACE(waves);
+    const Subject a(corrugated(waves, 0)), b(corrugated(waves, 1500 * kMm));
+    ASSERT_EQ(a.part.kind, PartKind::solid);
+    const auto ask = [&](OnePlace what, PairWork& work) {
+      return meeting_places(a.treed(), b.treed(), {.reach = 1.0 * kMm, .one = what}, work);
+    };
+    PairWork work, all;
+    const auto boxed = ask(OnePlace::boxed, work);
+    const auto described = ask(OnePlace::described, all);
+    ASSERT_TRUE(boxed && described);
+    ASSERT_EQ(boxed->size(), 1U);
+    ASSERT_EQ(described->size(), 1U);
+    EXPECT_EQ(boxed->front().extent.lo, described->front().extent.lo);
+    EXPECT_EQ(boxed->front().extent.hi, described->front().extent.hi);
+    // Boxes along the coordinate axes part needles that stand askew from few others.
+    const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
+    EXPECT_LE(4 * work.triangle_pairs, 7 * triangles);
+  }
 }
 
 TEST(MeetingPlacesTest, NearlyConvexAllowsForTheSlackAlone) {
