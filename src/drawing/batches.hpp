@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "strake/core/result.hpp"
 #include "strake/drawing/write.hpp"
+#include "strake/parallel/pipeline.hpp"
 #include "strake/parallel/progress.hpp"
-#include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
 
@@ -37,22 +39,28 @@ class Phase {
 template <class Encode>
 [[nodiscard]] Status write_in_batches(std::string_view name, std::size_t n, Encode&& encode,
                                       Sink sink, const parallel::Context& context) {
+  struct Run {
+    std::size_t items = 0;
+    std::string text;
+  };
   constexpr std::size_t kRun = 1024, kRuns = 64;
   const Phase phase(context.progress, name, n);
-  for (std::size_t first = 0; first < n; first += kRun * kRuns) {
-    const std::size_t left = std::min(n - first, kRun * kRuns);
-    const auto texts = parallel::transform(
-        context, {.name = name, .n = (left + kRun - 1) / kRun}, [&](std::size_t run) {
-          const std::size_t begin = first + run * kRun;
-          std::string out;
-          encode(begin, std::min(begin + kRun, first + left), out);
-          return out;
-        });
-    if (!texts) return texts.error();
-    for (const std::string& text : *texts) sink(text);
-    phase.add(left);
-  }
-  return {};
+  std::size_t next = 0;
+  return parallel::pipeline(
+      context, {.name = name, .in_flight = kRuns},
+      [&]() -> std::optional<std::size_t> {
+        if (next >= n) return std::nullopt;
+        return std::exchange(next, next + kRun);
+      },
+      [&](std::size_t begin) {
+        Run run{.items = std::min(kRun, n - begin), .text = {}};
+        encode(begin, begin + run.items, run.text);
+        return run;
+      },
+      [&](const Run& run) {
+        sink(run.text);
+        phase.add(run.items);
+      });
 }
 
 }  // namespace strake::drawing

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "strake/parallel/caught.hpp"
 #include "strake/parallel/progress.hpp"
 #include "strake/parallel/report.hpp"
 
@@ -48,6 +49,24 @@ RegionReport summary(const Region& region, std::span<const Cursor> seats, double
 
 }  // namespace
 
+Error caught(std::string_view region, std::size_t item) noexcept {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& e) {
+    try {
+      return described(e.what(), region, item);
+    } catch (...) {
+    }
+  } catch (...) {
+    try {
+      return described("an exception of unknown type", region, item);
+    } catch (...) {
+    }
+  }
+  return out_of_memory();
+}
+
 void RegionRun::lower_limit(std::size_t item) noexcept {
   std::size_t now = limit_.load(std::memory_order_relaxed);
   while (item < now && !limit_.compare_exchange_weak(now, item, std::memory_order_relaxed)) {
@@ -66,22 +85,7 @@ void RegionRun::fail(std::size_t item, Error error) noexcept {
 }
 
 void RegionRun::fail_with_current_exception(std::size_t item) noexcept {
-  Error error = out_of_memory();
-  try {
-    throw;
-  } catch (const std::bad_alloc&) {
-  } catch (const std::exception& e) {
-    try {
-      error = described(e.what(), region_.name, item);
-    } catch (...) {
-    }
-  } catch (...) {
-    try {
-      error = described("an exception of unknown type", region_.name, item);
-    } catch (...) {
-    }
-  }
-  fail(item, std::move(error));
+  fail(item, caught(region_.name, item));
 }
 
 void RegionRun::open(Cursor& cursor, const Range& range) const {

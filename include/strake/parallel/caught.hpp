@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "strake/core/result.hpp"
+
+namespace strake::parallel::detail {
+
+/// The exception that is being handled, as the error of an item of a region.
+[[nodiscard]] Error caught(std::string_view region, std::size_t item) noexcept;
+
+}  // namespace strake::parallel::detail
