@@ -13,6 +13,7 @@
 #include "model/equal_shapes.hpp"
 #include "model/grid_shape.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/distinct.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -28,18 +29,13 @@ struct Use {
   std::uint32_t bodies = 0;
 };
 
-std::uint64_t mixed(std::uint64_t h, std::uint64_t value) {
-  h = (h ^ value) * 0x9e3779b97f4a7c15ULL;
-  return h ^ (h >> 29U);
-}
-
 /// Negative zero counts as zero: the two place alike.
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
 
 std::uint64_t hash_of(const Body& body) {
-  std::uint64_t h = mixed(0x5eed, index(body.shape));
+  std::uint64_t h = parallel::mixed(0, index(body.shape));
   for (const geometry::Vec3d& row : body.placement.linear.row)
-    for (int k = 0; k < 3; ++k) h = mixed(h, bits(row[k]));
+    for (int k = 0; k < 3; ++k) h = parallel::mixed(h, bits(row[k]));
   return h;
 }
 

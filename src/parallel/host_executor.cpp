@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/parallel/host_executor.hpp"
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace strake::parallel {
 

@@ -18,10 +18,9 @@ struct Seat {
 /// results and reports are the same for any.
 ///
 /// 1. run() returns when every seat's call has returned; what they wrote is visible to the caller.
-/// 2. An executor that is busy (run() called from within a region, or from a second thread) does
-/// not
-///    wait: the second caller runs its own body alone, with Seat{0, 1}. So nested regions and
-///    concurrent callers cannot deadlock, and one region's workers never serve another's.
+/// 2. An executor that is busy (run() called from within a region, or from a second thread) lets
+///    nobody wait: the second caller runs its own body alone, with Seat{0, 1}. So nested regions
+///    and concurrent callers cannot deadlock, and one region's workers never serve another's.
 /// 3. A body must not throw: an exception that leaves it ends the program.
 class Executor {
  public:
