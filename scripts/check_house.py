@@ -45,11 +45,6 @@ OWN_CONCURRENCY = {
     'cli/progress_line.hpp': 'shows how far a run is while it runs',
     'cli/session.cpp': 'the step that the progress line names',
     'cli/session.hpp': 'the step that the progress line names',
-    'src/drawing/overlaps.cpp': 'flags that only rise: no pattern yet',
-    'src/geometry/bvh/pairs.cpp': 'an allowance that all share: no pattern yet',
-    'src/geometry/depth/support_planes.cpp': 'whether a test holds for all: no pattern yet',
-    'src/geometry/part_band.cpp': 'the first that fails a test: no pattern yet',
-    'src/hlr/push.cpp': 'flags that only rise: no pattern yet',
 }
 
 

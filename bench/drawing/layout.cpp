@@ -95,7 +95,7 @@ std::size_t wrong(std::span<const drawing::Flat> lines, const drawing::OverlapRu
     const auto last = std::partition_point(first, stretches.end(),
                                            [&](const drawing::Stretch& s) { return s.line == i; });
     drawing::Stretches got(first, last);
-    if (found.wholly[i] != 0) got.push_back({i, true, 0, 1});
+    if (found.wholly.is_set(i)) got.push_back({i, true, 0, 1});
     if (!std::equal(got.begin(), got.end(), expected.begin(), expected.end(), same)) ++wrong;
   }
   return wrong;
@@ -123,8 +123,8 @@ int run(const Arguments& a) {
     const drawing::OverlapRule rule = drawing::duplicate_rule(distance);
     const auto cut = drawing::cut_overlaps(*flat, rule, context);
     if (!cut) return 3;
-    fmt::print("overlap {}: {} lines wholly, {} stretches\n", clock.text(),
-               std::count(cut->wholly.begin(), cut->wholly.end(), 1), cut->stretches.size());
+    fmt::print("overlap {}: {} lines wholly, {} stretches\n", clock.text(), cut->wholly.count(),
+               cut->stretches.size());
     if (i + 1 < a.repeat) continue;
     const std::size_t faults = wrong(*flat, rule, *cut, a.sample);
     fmt::print("  {} lines against all: {} wrong\n", a.sample, faults);

@@ -27,7 +27,7 @@ Cut cut(std::vector<Flat> lines, std::size_t count, const parallel::Context& con
   const auto overlaps = drawing::cut_overlaps(lines, {.shortest = kApart_mm}, context).value();
   std::vector<double> open(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
-    open[i] = overlaps.wholly[i] != 0 ? 0 : lines[i].length();
+    open[i] = overlaps.wholly.is_set(i) ? 0 : lines[i].length();
   for (const drawing::Stretch& s : overlaps.stretches)
     if (s.covered) open[s.line] -= (s.to - s.from) * lines[s.line].length();
   Cut result;

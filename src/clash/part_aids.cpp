@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "clash/case_work.hpp"
-#include "strake/parallel/heavy.hpp"
 
 namespace strake::clash {
 namespace {
@@ -15,20 +14,17 @@ const geometry::PartTree kNoTree;
 }  // namespace
 
 template <class T, class Make>
-Status PartAids::add(Kind<T>& kind, const std::vector<bool>& wanted, std::string_view name,
-                     const parallel::Context& context, Make&& make) {
-  kind.all.resize(list_.unique.size());
-  kind.made.resize(list_.unique.size(), false);
-  std::vector<std::uint32_t> missing;
+Status PartAids::add(parallel::Precomputed<T>& kind, const std::vector<bool>& wanted,
+                     std::string_view name, const parallel::Context& context, Make&& make) {
+  // Not before: the list was empty when this was made.
+  if (kind.size() == 0) kind = parallel::Precomputed<T>(list_.unique.size());
+  std::vector<std::uint32_t> keys;
   for (std::uint32_t u = 0; u < wanted.size(); ++u)
-    if (wanted[u] && !kind.made[u]) missing.push_back(u);
-  const Status status = parallel::for_each_by_weight(
-      context, {.name = name, .n = missing.size()}, CaseWork::kHeavy,
-      [&](std::size_t i) { return list_.unique[missing[i]]->triangles.size(); },
-      [&](std::size_t i) { kind.all[missing[i]] = make(*list_.unique[missing[i]]); });
-  if (!status) return status;
-  for (const std::uint32_t u : missing) kind.made[u] = true;
-  return {};
+    if (wanted[u]) keys.push_back(u);
+  return kind.fill_by_weight(
+      context, {.name = name}, CaseWork::kHeavy, keys,
+      [&](std::size_t u) { return list_.unique[u]->triangles.size(); },
+      [&](std::size_t u) { return make(*list_.unique[u]); });
 }
 
 Status PartAids::want_frames(const std::vector<bool>& wanted, const parallel::Context& context) {
@@ -53,19 +49,19 @@ NarrowPart PartAids::bare(const PartRef& part) const {
 
 NarrowPart PartAids::framed(const PartRef& part) const {
   NarrowPart aided = bare(part);
-  aided.frame = frames_.of(part);
+  aided.frame = frames_.find(part.unique);
   return aided;
 }
 
 NarrowPart PartAids::treed(const PartRef& part) const {
   NarrowPart aided = framed(part);
-  if (const geometry::PartTree* tree = trees_.of(part)) aided.treed.tree = tree;
+  if (const geometry::PartTree* tree = trees_.find(part.unique)) aided.treed.tree = tree;
   return aided;
 }
 
 NarrowPart PartAids::planed(const PartRef& part) const {
   NarrowPart aided = treed(part);
-  aided.planes = planes_.of(part);
+  aided.planes = planes_.find(part.unique);
   return aided;
 }
 

@@ -6,6 +6,7 @@
 
 #include "clash/narrow_part.hpp"
 #include "clash/parts.hpp"
+#include "strake/parallel/precomputed.hpp"
 
 namespace strake::clash {
 
@@ -32,25 +33,15 @@ class PartAids {
   [[nodiscard]] NarrowPart planed(const PartRef& part) const;
 
  private:
-  /// One kind of aid, by unique part.
-  template <class T>
-  struct Kind {
-    std::vector<T> all;
-    std::vector<bool> made;
-
-    [[nodiscard]] const T* of(const PartRef& part) const {
-      return made.empty() || !made[part.unique] ? nullptr : &all[part.unique];
-    }
-  };
   template <class T, class Make>
-  Status add(Kind<T>& kind, const std::vector<bool>& wanted, std::string_view name,
+  Status add(parallel::Precomputed<T>& kind, const std::vector<bool>& wanted, std::string_view name,
              const parallel::Context& context, Make&& make);
 
   const PartList& list_;
   const model::Model& model_;
-  Kind<geometry::PartFrame> frames_;
-  Kind<geometry::PartTree> trees_;
-  Kind<geometry::SupportPlanes> planes_;
+  parallel::Precomputed<geometry::PartFrame> frames_;  ///< by unique part, as the others
+  parallel::Precomputed<geometry::PartTree> trees_;
+  parallel::Precomputed<geometry::SupportPlanes> planes_;
 };
 
 }  // namespace strake::clash

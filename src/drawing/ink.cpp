@@ -122,7 +122,7 @@ Status clean_up(Ink& ink, const Vec3l& direction, const PaperAxes& axes,
   const std::span<const Stretch> stretches = found->stretches;
   std::size_t first = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (found->wholly[i] != 0) {
+    if (found->wholly.is_set(i)) {
       ++ink.left_out;
       continue;
     }

@@ -85,7 +85,7 @@ Result<std::vector<Line>> make_lines(std::span<const hlr::Piece> pieces, const O
         std::size_t at = begin + next - static_cast<std::size_t>(before - firsts.begin());
         for (std::size_t i = begin; i < std::min(pieces.size(), begin + kPieces); ++i) {
           Line line = make_line(pieces[i]);
-          if (!overlaps.wholly.empty() && overlaps.wholly[i] != 0)
+          if (overlaps.wholly.size() > 0 && overlaps.wholly.is_set(i))
             line.state = LineState::duplicate;
           if (next == stretches.size() || stretches[next].line != i) (*lines)[at++] = line;
           for (; next < stretches.size() && stretches[next].line == i; ++next) {

@@ -88,8 +88,7 @@ bool takes_part(const Flat& line, double least) {
 }  // namespace
 
 Result<LineIndex> LineIndex::build(std::span<const Flat> lines, const OverlapRule& rule,
-                                   std::vector<std::uint8_t>& gone,
-                                   const parallel::Context& context) {
+                                   parallel::Marks& gone, const parallel::Context& context) {
   LineIndex index;
   index.greatest_sine_ = rule.greatest_sine;
   Status status = index.measure(lines, rule.least, context);

@@ -16,6 +16,7 @@
 #include "drawing/radix_order.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/marks.hpp"
 
 namespace strake::drawing {
 
@@ -36,7 +37,7 @@ class LineIndex {
   /// same ends, is left out too and marked in `gone`: the twin covers whatever the line does. The
   /// same for any team.
   [[nodiscard]] static Result<LineIndex> build(std::span<const Flat> lines, const OverlapRule& rule,
-                                               std::vector<std::uint8_t>& gone,
+                                               parallel::Marks& gone,
                                                const parallel::Context& context);
 
   static constexpr std::size_t kFan = BoxLanes::kCount;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <tuple>
@@ -45,7 +44,7 @@ void unite(std::vector<Interval>& intervals) {
 class Finder {
  public:
   /// `wholly`, by line: marks what one other covers as a whole.
-  Finder(const OverlapRule& rule, const LineIndex& index, std::vector<std::uint8_t>& wholly)
+  Finder(const OverlapRule& rule, const LineIndex& index, parallel::Marks& wholly)
       : rule_(rule), index_(index), wholly_(wholly) {}
 
   /// Of lines that are covered in part.
@@ -72,11 +71,9 @@ class Finder {
   /// Nothing else matters for lines that one other covers. Who sees it when changes the work, not
   /// the result.
   [[nodiscard]] bool is_wholly(std::uint32_t position) {
-    return std::atomic_ref(wholly_[index_.line(position)]).load(std::memory_order_relaxed) != 0;
+    return wholly_.is_set(index_.line(position));
   }
-  void set_wholly(std::uint32_t position) {
-    std::atomic_ref(wholly_[index_.line(position)]).store(1, std::memory_order_relaxed);
-  }
+  void set_wholly(std::uint32_t position) { wholly_.set(index_.line(position)); }
 
   [[nodiscard]] bool stays_over(std::uint32_t position, std::uint32_t other) const {
     return stays(index_.flat(position), index_.line(position), index_.flat(other),
@@ -147,7 +144,7 @@ class Finder {
 
   const OverlapRule& rule_;
   const LineIndex& index_;
-  std::vector<std::uint8_t>& wholly_;
+  parallel::Marks& wholly_;
 };
 
 /// Covers by line, as keys with their numbers.
@@ -223,7 +220,7 @@ void append_stretches(Stretches& out, std::uint32_t line, std::span<Interval> co
 Result<Overlaps> cut_overlaps(std::span<const Flat> lines, const OverlapRule& rule,
                               const parallel::Context& context) {
   Overlaps found;
-  found.wholly.resize(lines.size());
+  found.wholly = parallel::Marks(lines.size());
   const Result<std::vector<Cover>> covers = [&]() -> Result<std::vector<Cover>> {
     const Result<LineIndex> index = LineIndex::build(lines, rule, found.wholly, context);
     if (!index) return index.error();
@@ -238,7 +235,7 @@ Result<Overlaps> cut_overlaps(std::span<const Flat> lines, const OverlapRule& ru
       [] { return std::vector<Interval>{}; },
       [&](std::vector<Interval>& of_line, std::size_t i, Stretches& out) {
         const auto line = static_cast<std::uint32_t>(keys[i].key);
-        if ((i > 0 && keys[i - 1].key == keys[i].key) || found.wholly[line] != 0) return;
+        if ((i > 0 && keys[i - 1].key == keys[i].key) || found.wholly.is_set(line)) return;
         of_line.clear();
         for (std::size_t k = i; k < keys.size() && keys[k].key == keys[i].key; ++k)
           of_line.push_back((*covers)[keys[k].item].interval);

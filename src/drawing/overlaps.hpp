@@ -9,6 +9,7 @@
 #include "drawing/flat.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/marks.hpp"
 
 namespace strake::drawing {
 
@@ -37,8 +38,8 @@ using Stretches = std::vector<Stretch>;
 
 /// What of lines lies on others.
 struct Overlaps {
-  std::vector<std::uint8_t> wholly;  ///< by line, 1: all of it lies on one other
-  Stretches stretches;               ///< of other lines that lie on some
+  parallel::Marks wholly;  ///< by line: all of it lies on one other
+  Stretches stretches;     ///< of other lines that lie on some
 };
 
 /// Cuts lines where they lie on lines that stay: of two, the one of lower rank, then the nearer,

@@ -24,7 +24,7 @@ struct Entry {
 
 /// Of lines with one key.
 void take_out(std::vector<Entry>& run, std::span<const Flat> lines, const OverlapRule& rule,
-              std::vector<std::uint8_t>& gone) {
+              parallel::Marks& gone) {
   std::sort(run.begin(), run.end(), [&](const Entry& a, const Entry& b) {
     if (a.twins() != b.twins()) return a.twins() < b.twins();
     return stays(lines, a.line, b.line);
@@ -33,7 +33,7 @@ void take_out(std::vector<Entry>& run, std::span<const Flat> lines, const Overla
     const Flat& line = lines[run[i].line];
     if (run[i - 1].twins() != run[i].twins() || !may_go(line, rule)) continue;
     if (!(line.length() > rule.least)) continue;
-    gone[run[i].line] = 1;
+    gone.set(run[i].line);
     run[i].key->item = kGone;
   }
 }
@@ -41,7 +41,7 @@ void take_out(std::vector<Entry>& run, std::span<const Flat> lines, const Overla
 }  // namespace
 
 Status drop_twins(std::vector<Keyed>& keys, std::span<const Flat> lines, const OverlapRule& rule,
-                  std::vector<std::uint8_t>& gone, const parallel::Context& context) {
+                  parallel::Marks& gone, const parallel::Context& context) {
   const Status status = parallel::for_each_with(
       context, {.name = "lines with the same ends", .n = keys.size(), .grain = 8192},
       [] { return std::vector<Entry>{}; },

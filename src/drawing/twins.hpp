@@ -10,6 +10,7 @@
 #include "drawing/radix_order.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/marks.hpp"
 
 namespace strake::drawing {
 
@@ -19,7 +20,7 @@ namespace strake::drawing {
 ///
 /// Most lines of a plan go here: what stands on the deck has its edges exactly above each other.
 [[nodiscard]] Status drop_twins(std::vector<Keyed>& keys, std::span<const Flat> lines,
-                                const OverlapRule& rule, std::vector<std::uint8_t>& gone,
+                                const OverlapRule& rule, parallel::Marks& gone,
                                 const parallel::Context& context);
 
 }  // namespace strake::drawing

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/heavy_loop.hpp"
+#include "geometry/part_loop.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/order.hpp"

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "geometry/heavy_loop.hpp"
+#include "geometry/part_loop.hpp"
 #include "geometry/point_placer.hpp"
 #include "geometry/z_order.hpp"
 #include "strake/geometry/part_pair.hpp"
-#include "strake/parallel/transform.hpp"
+#include "strake/parallel/find.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -65,12 +64,6 @@ class CoverSearch {
     return vertices_[vertex].as<std::int64_t>() + shift_;
   }
 
-  static void lower(std::atomic<std::size_t>& last, std::size_t block) {
-    std::size_t now = last.load(std::memory_order_relaxed);
-    while (block < now && !last.compare_exchange_weak(now, block, std::memory_order_relaxed)) {
-    }
-  }
-
   /// For points that cost too much one by one.
   void prepare(const parallel::Context& context) {
     frame_ = frame_along_faces(b_, context);
@@ -80,24 +73,19 @@ class CoverSearch {
   }
 
   PartCover look_at_blocks(PairWork& work) const {
-    // Blocks behind one that lies outside are left out; those before it are all looked at, so that
-    // the cost is the same for any team.
-    std::atomic<std::size_t> last{blocks()};
-    const auto looks = parallel::transform(
-        work.context(), {.name = "vertices in a band", .n = blocks()}, [&](std::size_t block) {
-          if (block > last.load(std::memory_order_relaxed)) return Vertices();
-          const Vertices looked =
-              look_at(block * kTeamGrain, std::min(vertices_.size(), (block + 1) * kTeamGrain));
-          if (!looked.cover.within) lower(last, block);
-          return looked;
-        });
+    // Up to the first that lies outside: so the cost is the same for any team.
+    const auto looks = parallel::transform_until(
+        work.context(), {.name = "vertices in a band", .n = blocks()},
+        [&](std::size_t block) {
+          return look_at(block * kTeamGrain, std::min(vertices_.size(), (block + 1) * kTeamGrain));
+        },
+        [](const Vertices& looked) { return !looked.cover.within; });
     PartCover cover{.within = true, .on_surface = true};
     if (!looks) return {};
     for (const Vertices& looked : *looks) {
       work += looked.cost;
       cover.within = looked.cover.within;
       cover.on_surface = cover.on_surface && looked.cover.on_surface;
-      if (!cover.within) break;
     }
     return cover;
   }

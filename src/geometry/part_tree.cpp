@@ -8,7 +8,8 @@
 
 #include "geometry/box.hpp"
 #include "geometry/halving.hpp"
-#include "geometry/heavy_loop.hpp"
+#include "geometry/part_loop.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -186,8 +187,9 @@ void PartTree::build(const Part& part, std::uint32_t n, const Pick& pick,
                      const parallel::Context& context) {
   if (n == 0) return;
   std::vector<Reference> refs(n);
-  const Status gathered = heavy_loop(context, "tree items", n,
-                                     [&](std::size_t i) { refs[i] = reference(part, pick(i)); });
+  const Status gathered =
+      parallel::for_each(context, over_part("tree items", n),
+                         [&](std::size_t i) { refs[i] = reference(part, pick(i)); });
   if (!gathered) return;
   const auto cut = [&](const HalvedRange& range, const Box3i& box) {
     const std::span<Reference> mine = std::span(refs).subspan(range.first, range.size());
@@ -195,8 +197,8 @@ void PartTree::build(const Part& part, std::uint32_t n, const Pick& pick,
   };
   nodes_ = Halving<Node, decltype(cut)>(kLeafSize, cut).run(box_round(refs), n, context);
   order_.resize(n);
-  const Status ordered =
-      heavy_loop(context, "tree order", n, [&](std::size_t i) { order_[i] = refs[i].triangle; });
+  const Status ordered = parallel::for_each(context, over_part("tree order", n),
+                                            [&](std::size_t i) { order_[i] = refs[i].triangle; });
   if (!ordered) nodes_.clear();
 }
 

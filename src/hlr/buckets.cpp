@@ -4,7 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "hlr/by_size.hpp"
+#include "hlr/shape_loop.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
@@ -41,13 +42,14 @@ class Buckets::Dealer {
                  [&](std::uint32_t& next, const Entry& entry) { to_.entries_[next++] = entry; });
     });
     if (!dealt) return dealt;
-    return for_elements(context_, "hidden lines: buckets sorted", buckets_, [&](std::size_t b) {
-      const auto own =
-          std::span(to_.entries_).subspan(to_.first_[b], to_.first_[b + 1] - to_.first_[b]);
-      std::ranges::sort(own, [](const Entry& x, const Entry& y) {
-        return x.nearest != y.nearest ? x.nearest > y.nearest : x.item < y.item;
-      });
-    });
+    return parallel::for_each(
+        context_, over_elements("hidden lines: buckets sorted", buckets_), [&](std::size_t b) {
+          const auto own =
+              std::span(to_.entries_).subspan(to_.first_[b], to_.first_[b + 1] - to_.first_[b]);
+          std::ranges::sort(own, [](const Entry& x, const Entry& y) {
+            return x.nearest != y.nearest ? x.nearest > y.nearest : x.item < y.item;
+          });
+        });
   }
 
  private:

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "hlr/by_size.hpp"
+#include "hlr/shape_loop.hpp"
 #include "strake/geometry/bvh.hpp"
 #include "strake/geometry/crossing_lines.hpp"
 #include "strake/geometry/part_frame.hpp"

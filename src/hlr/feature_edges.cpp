@@ -8,8 +8,10 @@
 #include <tuple>
 #include <utility>
 
-#include "hlr/by_size.hpp"
+#include "hlr/shape_loop.hpp"
 #include "strake/geometry/part_edges.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -53,9 +55,9 @@ FacePlane plane_of(const Part& part, std::uint32_t t) {
 Result<std::vector<FacePlane>> face_planes(const Part& part, const parallel::Context& context) {
   const std::size_t count = part.triangles.size();
   std::vector<FacePlane> result(count);
-  const Status status = for_elements(context, "hidden lines: faces", count, [&](std::size_t t) {
-    result[t] = plane_of(part, static_cast<std::uint32_t>(t));
-  });
+  const Status status = parallel::for_each(
+      context, over_elements("hidden lines: faces", count),
+      [&](std::size_t t) { result[t] = plane_of(part, static_cast<std::uint32_t>(t)); });
   if (!status) return status.error();
   if (part.faces.empty()) return result;
 
@@ -212,8 +214,8 @@ Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
     if (part.edges.empty()) continue;
     const Result<Faces> faces = faces_of(part, context);
     if (!faces) return faces.error();
-    auto own = collect_elements<FeatureEdge>(
-        context, "hidden lines: feature edges", part.edges.size() - 1,
+    auto own = parallel::collect<FeatureEdge>(
+        context, over_elements("hidden lines: feature edges", part.edges.size() - 1),
         [&](std::size_t i, std::vector<FeatureEdge>& out) {
           const auto e = static_cast<std::uint32_t>(i);
           if (const auto kind = kind_of(part, e, *faces, options))

@@ -7,8 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "hlr/by_size.hpp"
+#include "hlr/shape_loop.hpp"
 #include "strake/geometry/part_edges.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
@@ -44,14 +45,14 @@ Status PartSight::project(const Frame& frame, const parallel::Context& context) 
     auto made = parallel::slots<Vec3l>(count, context);
     if (!made) return made.error();
     rays = std::move(*made);
-    return for_elements(context, kName, count, [&](std::size_t v) {
+    return parallel::for_each(context, over_elements(kName, count), [&](std::size_t v) {
       rays[v] = part.vertices[v].as<std::int64_t>() - *viewer.eye;
     });
   }
   auto made = parallel::slots<ViewPoint>(count, context);
   if (!made) return made.error();
   points = std::move(*made);
-  return for_elements(context, kName, count, [&](std::size_t v) {
+  return parallel::for_each(context, over_elements(kName, count), [&](std::size_t v) {
     points[v] = frame(part.vertices[v].as<std::int64_t>());
   });
 }
@@ -67,14 +68,15 @@ Status PartSight::find_planes(const parallel::Context& context) {
   auto made = parallel::slots<TrianglePlane>(part.triangles.size(), context);
   if (!made) return made.error();
   planes = std::move(*made);
-  return for_elements(context, "hidden lines: planes", planes.size(), [&](std::size_t t) {
-    const Triangle& i = part.triangles[t];
-    const Vec3l p = part.vertices[i[0]].as<std::int64_t>();
-    const Vec3l n = cross(part.vertices[i[1]].as<std::int64_t>() - p,
-                          part.vertices[i[2]].as<std::int64_t>() - p);
-    planes[t].n = {n.x, n.y, n.z};
-    planes[t].facing = viewer.facing({n.x, n.y, n.z}, p);
-  });
+  return parallel::for_each(context, over_elements("hidden lines: planes", planes.size()),
+                            [&](std::size_t t) {
+                              const Triangle& i = part.triangles[t];
+                              const Vec3l p = part.vertices[i[0]].as<std::int64_t>();
+                              const Vec3l n = cross(part.vertices[i[1]].as<std::int64_t>() - p,
+                                                    part.vertices[i[2]].as<std::int64_t>() - p);
+                              planes[t].n = {n.x, n.y, n.z};
+                              planes[t].facing = viewer.facing({n.x, n.y, n.z}, p);
+                            });
 }
 
 std::array<std::int64_t, 3> PartSight::towards_viewer(std::uint32_t t) const {

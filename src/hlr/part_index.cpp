@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "hlr/by_size.hpp"
+#include "hlr/shape_loop.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
@@ -91,15 +93,16 @@ bool index_turned(const Polygons& all, std::span<const Polygon> polygons,
 Result<std::vector<ViewBox>> boxes_of(std::span<const Polygon> polygons, const Sight& sight) {
   auto boxes = parallel::slots<ViewBox>(polygons.size(), sight.context);
   if (!boxes) return boxes;
-  const Status status = for_elements(sight.context, "hidden lines: boxes", boxes->size(),
-                                     [&](std::size_t i) { (*boxes)[i] = polygons[i].box; });
+  const Status status =
+      parallel::for_each(sight.context, over_elements("hidden lines: boxes", boxes->size()),
+                         [&](std::size_t i) { (*boxes)[i] = polygons[i].box; });
   if (!status) return status.error();
   return boxes;
 }
 
 Result<BucketPlan> plan_of(const std::vector<ViewBox>& boxes, const Sight& sight) {
-  return fold_elements(
-      sight.context, "hidden lines: sizes of boxes", boxes.size(), BucketPlan(),
+  return parallel::reduce(
+      sight.context, over_elements("hidden lines: sizes of boxes", boxes.size()), BucketPlan(),
       [&](BucketPlan& plan, std::size_t i) { plan.add(boxes[i]); },
       [](BucketPlan& plan, const BucketPlan& more) { plan.add(more); });
 }

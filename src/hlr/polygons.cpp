@@ -5,14 +5,16 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "hlr/by_size.hpp"
 #include "hlr/convexity.hpp"
 #include "hlr/loops.hpp"
 #include "hlr/part_index.hpp"
 #include "hlr/polygon_maker.hpp"
+#include "hlr/shape_loop.hpp"
 #include "hlr/shape_view.hpp"
 #include "strake/core/disjoint_sets.hpp"
 #include "strake/geometry/part_edges.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
@@ -84,8 +86,8 @@ class PartMerger {
     part.last = static_cast<std::uint32_t>(view_.polygons.size());
     if (part.first == part.last) return convex;
     const auto polygons = std::span(view_.polygons).subspan(first_);
-    const Result<ViewBox> box = fold_elements(
-        sight_.context, "hidden lines: box of a part", polygons.size(), ViewBox{},
+    const Result<ViewBox> box = parallel::reduce(
+        sight_.context, over_elements("hidden lines: box of a part", polygons.size()), ViewBox{},
         [&](ViewBox& all, std::size_t i) { all.include(polygons[i].box); },
         [](ViewBox& all, const ViewBox& more) { all.include(more); });
     if (!box) return box.error();
@@ -113,8 +115,9 @@ class PartMerger {
   Result<bool> walk_edges() {
     const std::size_t edges = part_.edges.empty() ? 0 : part_.edges.size() - 1;
     std::vector<Bend> bends(edges);
-    const Status status = for_elements(sight_.context, "hidden lines: bends", edges,
-                                       [&](std::size_t k) { bends[k] = bend_at(k); });
+    const Status status =
+        parallel::for_each(sight_.context, over_elements("hidden lines: bends", edges),
+                           [&](std::size_t k) { bends[k] = bend_at(k); });
     if (!status) return status.error();
     DisjointSets groups(part_.triangles.size());
     bool convex = part_.kind == geometry::PartKind::solid && part_.shell_count == 1;
@@ -168,9 +171,9 @@ class PartMerger {
   // being the number of its first triangle.
   [[nodiscard]] Result<std::vector<std::uint32_t>> in_groups() const {
     std::vector<std::uint8_t> shows(group_.size());
-    const Status status =
-        for_elements(sight_.context, "hidden lines: faces that show", shows.size(),
-                     [&](std::size_t t) { shows[t] = seen_.planes[t].facing != 0 ? 1 : 0; });
+    const Status status = parallel::for_each(
+        sight_.context, over_elements("hidden lines: faces that show", shows.size()),
+        [&](std::size_t t) { shows[t] = seen_.planes[t].facing != 0 ? 1 : 0; });
     if (!status) return status.error();
     std::vector<std::uint32_t> next(group_.size() + 1, 0);
     for (std::uint32_t t = 0; t < group_.size(); ++t) next[group_[t] + 1] += shows[t];

@@ -4,12 +4,10 @@
 // while it is written. The union of what hides an edge does not depend on who comes first, so the
 // pieces are those of the engine; how many faces are tested does depend on it.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -25,6 +23,7 @@
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/item_locks.hpp"
+#include "strake/parallel/marks.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -49,7 +48,7 @@ struct UnderObject {
   std::vector<Under> edges;
   /// By edge: nothing is left of it to be hidden. Read without the lock: a worker that does not
   /// know yet tests in vain.
-  std::unique_ptr<std::atomic<bool>[]> done;
+  parallel::Marks done;
   ViewBox box;
 };
 
@@ -88,7 +87,7 @@ class Pusher {
     const std::uint32_t over_object = world_.placed[over].object;
     found_.clear();
     for (std::uint32_t e = 0; e < object.edges.size(); ++e) {
-      if (object.done[e].load(std::memory_order_relaxed)) continue;
+      if (object.done.is_set(e)) continue;
       const Under& edge = object.edges[e];
       if (edge.edge.other->object == over_object) continue;
       for (const Hit& hit : gatherer_.hits_of_body(edge.edge, over, edge.lo, edge.hi))
@@ -99,7 +98,7 @@ class Pusher {
     for (const auto& [e, hit] : found_) {
       Under& edge = object.edges[e];
       edge.add(hit);
-      if (edge.open.empty()) object.done[e].store(true, std::memory_order_relaxed);
+      if (edge.open.empty()) object.done.set(e);
     }
   }
 
@@ -137,10 +136,9 @@ UnderObject local_step(const World& world, std::uint32_t object, Gatherer& gathe
     for (const EdgeView& e : world.placed[b].view->edges) add(AskedEdge(world, b, e));
   }
   for (const Line& line : world.job.lines.of(object)) add(AskedEdge(world, line));
-  result.done = std::make_unique<std::atomic<bool>[]>(result.edges.size());
+  result.done = parallel::Marks(result.edges.size());
   for (std::size_t e = 0; e < result.edges.size(); ++e)
-    result.done[e].store(!result.edges[e].asked || result.edges[e].open.empty(),
-                         std::memory_order_relaxed);
+    if (!result.edges[e].asked || result.edges[e].open.empty()) result.done.set(e);
   return result;
 }
 

@@ -5,8 +5,9 @@
 #include <cstdlib>
 #include <span>
 
-#include "hlr/by_size.hpp"
+#include "hlr/shape_loop.hpp"
 #include "strake/geometry/part_edges.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
@@ -57,13 +58,14 @@ Result<ShapeView> view_of(const SeenShape& seen, const Sight& sight) {
   if (!on_paper) return on_paper.error();
   view.edges = std::move(*on_paper);
   const Status placed =
-      for_elements(sight.context, "hidden lines: edges on paper", edges.size(), [&](std::size_t i) {
-        EdgeView& e = view.edges[i];
-        e.edge = edges[i];
-        if (viewer.eye) return;
-        e.a = sight.frame(e.edge.a.as<std::int64_t>());
-        e.b = sight.frame(e.edge.b.as<std::int64_t>());
-      });
+      parallel::for_each(sight.context, over_elements("hidden lines: edges on paper", edges.size()),
+                         [&](std::size_t i) {
+                           EdgeView& e = view.edges[i];
+                           e.edge = edges[i];
+                           if (viewer.eye) return;
+                           e.a = sight.frame(e.edge.a.as<std::int64_t>());
+                           e.b = sight.frame(e.edge.b.as<std::int64_t>());
+                         });
   if (!placed) return placed.error();
 
   std::size_t begin = 0;

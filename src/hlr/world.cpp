@@ -7,9 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "hlr/by_size.hpp"
+#include "hlr/shape_loop.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/heavy.hpp"
+#include "strake/parallel/pieces.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -149,9 +150,9 @@ void make_items(World& world) {
   std::uint32_t number = 0;
   const auto add = [&](std::uint32_t body, std::size_t size, bool lines) {
     const auto edges = static_cast<std::uint32_t>(size);
-    for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
-      world.items.push_back(
-          {body, first, std::min(edges, first + kEdgesPerItem), number + first, lines});
+    parallel::cut_evenly(edges, kEdgesPerItem, [&](std::uint32_t first, std::uint32_t last) {
+      world.items.push_back({body, first, last, number + first, lines});
+    });
     number += edges;
   };
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
@@ -173,8 +174,9 @@ std::vector<Item> own_items(const World& world) {
     if (!world.placed[b].shares_own_hits || known[shapes.of[b]]) continue;
     known[shapes.of[b]] = true;
     const auto edges = static_cast<std::uint32_t>(world.placed[b].view->edges.size());
-    for (std::uint32_t first = 0; first < edges; first += kEdgesPerItem)
-      items.push_back({.body = b, .first = first, .last = std::min(edges, first + kEdgesPerItem)});
+    parallel::cut_evenly(edges, kEdgesPerItem, [&](std::uint32_t first, std::uint32_t last) {
+      items.push_back({.body = b, .first = first, .last = last});
+    });
   }
   return items;
 }

@@ -156,7 +156,7 @@ Status RegionRun::run(FunctionRef<void(Cursor&)> loop) {
 
 Status RegionRun::outcome(bool cancelled) {
   if (cancelled) return cancelled_error();
-  if (error_) return *std::move(error_);
+  if (error_ && error_item_ <= limit()) return *std::move(error_);
   return {};
 }
 

@@ -14,6 +14,7 @@
 
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/find.hpp"
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -38,6 +39,8 @@ struct Results {
   std::vector<std::uint32_t> packed;
   std::vector<std::size_t> offsets;
   std::uint64_t sum_bits = 0;
+  std::size_t found = 0;
+  std::vector<double> until;
   std::uint64_t item_runs = 0;
   friend bool operator==(const Results&, const Results&) = default;
 };
@@ -69,6 +72,10 @@ inline Results results(const Context& context, const Region& region, unsigned de
       context, region, 0.0, [](double& partial, std::size_t i) { partial += value(i); },
       [](double& into, const double& partial) { into += partial; });
   r.sum_bits = std::bit_cast<std::uint64_t>(*sum);
+  r.found = parallel::find_first(context, region, [](std::size_t i) {
+              return i >= kResultItems / 2 && value(i) > 0;
+            })->value();
+  r.until = *parallel::transform_until(context, region, value, [](double v) { return v > 0x1p15; });
   return r;
 }
 

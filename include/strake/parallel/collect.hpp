@@ -70,6 +70,14 @@ template <class T, class Make, class Body>
                                                   Make&& make, Body&& body) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
   using Local = std::invoke_result_t<Make&>;
+  if (region.is_short()) {
+    std::vector<T> out;
+    const Status status = for_each_with(
+        context, region, make,
+        [&](Local& local, std::size_t i) -> decltype(auto) { return body(local, i, out); });
+    if (!status) return status.error();
+    return out;
+  }
   const unsigned workers = context.team != nullptr ? context.team->size() : 1;
   // The number of results of each block, after its own place.
   Result<std::vector<std::size_t>> first = detail::slots<std::size_t>(region.blocks() + 1);

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "strake/parallel/caught.hpp"
 #include "strake/parallel/region.hpp"
 
 namespace strake::parallel {
@@ -28,6 +29,24 @@ bool run_item(RegionRun& run, std::size_t item, Body& body, Args&&... args) {
     run.fail(item, status.error());
     return false;
   }
+}
+
+/// The items of a short region (Region::alone_below), body(i) returning void or Status.
+template <class Body>
+Status run_alone(const Region& region, Body&& body) {
+  std::size_t i = 0;
+  try {
+    for (; i < region.n; ++i) {
+      if constexpr (std::is_void_v<std::invoke_result_t<Body&, std::size_t>>) {
+        body(i);
+      } else {
+        if (Status status = body(i); !status) return status;
+      }
+    }
+  } catch (...) {
+    return caught(region.name, i);
+  }
+  return {};
 }
 
 }  // namespace detail
@@ -56,6 +75,12 @@ template <class Make, class Body>
 [[nodiscard]] Status for_each_with(const Context& context, const Region& region, Make&& make,
                                    Body&& body) {
   using Local = std::invoke_result_t<Make&>;
+  if (region.is_short())
+    return detail::run_alone(
+        region, [&, local = std::optional<Local>()](std::size_t i) mutable -> decltype(auto) {
+          if (!local) local.emplace(make());
+          return body(*local, i);
+        });
   detail::RegionRun run(context, region);
   return run.run([&](detail::Cursor& cursor) {
     std::optional<Local> local;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <new>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,6 +29,22 @@ template <class T, class Body, class Combine>
 [[nodiscard]] Result<T> reduce(const Context& context, const Region& region, const T& identity,
                                Body&& body, Combine&& combine) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
+  const auto fold = [&](std::span<T> partials) -> Result<T> {
+    try {
+      T total = identity;
+      for (T& partial : partials) combine(total, std::as_const(partial));
+      return total;
+    } catch (const std::bad_alloc&) {
+      return out_of_memory();
+    }
+  };
+  if (region.is_short()) {
+    T value = identity;
+    const Status status =
+        detail::run_alone(region, [&](std::size_t i) -> decltype(auto) { return body(value, i); });
+    if (!status) return status.error();
+    return fold(std::span(&value, 1));
+  }
   Result<std::vector<T>> partials = detail::slots<T>(region.blocks());
   if (!partials) return partials.error();
   const std::size_t size = region.block_size();
@@ -50,13 +68,7 @@ template <class T, class Body, class Combine>
     }
   });
   if (!status) return status.error();
-  try {
-    T total = identity;
-    for (T& partial : *partials) combine(total, std::as_const(partial));
-    return total;
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
-  }
+  return fold(*partials);
 }
 
 }  // namespace strake::parallel

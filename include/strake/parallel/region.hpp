@@ -39,8 +39,15 @@ struct Region {
   /// The order in which blocks are visited: empty for ascending, otherwise a permutation of
   /// [0, blocks()). It changes who waits for whom, never a result. See longest_first.
   std::span<const std::uint32_t> order = {};
+  /// Fewer items than this are one block that the caller runs on the spot: no team is asked, and
+  /// neither token, progress nor report are looked at. For loops inside items, over the triangles
+  /// of a part for instance: most are too short for a region, and one may be a million long.
+  std::size_t alone_below = 0;
 
-  [[nodiscard]] std::size_t block_size() const { return std::max<std::size_t>(grain, 1); }
+  [[nodiscard]] bool is_short() const { return n < alone_below; }
+  [[nodiscard]] std::size_t block_size() const {
+    return std::max<std::size_t>(is_short() ? n : grain, 1);
+  }
   [[nodiscard]] std::size_t blocks() const {
     return n / block_size() + (n % block_size() != 0 ? 1 : 0);
   }
@@ -105,6 +112,10 @@ class RegionRun {
   /// Items at or above this index are not to be run any more.
   [[nodiscard]] std::size_t limit() const { return limit_.load(std::memory_order_relaxed); }
 
+  /// Items at or above this one need not be run any more: a limit never rises. Errors of such items
+  /// count for nothing.
+  void lower_limit(std::size_t item) noexcept;
+
   /// Records that an item failed; of several, the lowest is kept.
   void fail(std::size_t item, Error error) noexcept;
   /// The same for the exception that is being handled.
@@ -128,7 +139,6 @@ class RegionRun {
   [[nodiscard]] std::size_t share(std::size_t index, std::size_t count) const {
     return blocks_ / count * index + std::min(index, blocks_ % count);
   }
-  void lower_limit(std::size_t item) noexcept;
   void open(Cursor& cursor, const Range& range) const;
   void note(Cursor& cursor) const;
   [[nodiscard]] Status outcome(bool cancelled);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "strake/geometry/bvh.hpp"
+#include "strake/parallel/allowance.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
@@ -31,26 +31,12 @@ bool sets_match(std::uint8_t x, std::uint8_t y) {
   return ((x & kSetA) != 0 && (y & kSetB) != 0) || ((x & kSetB) != 0 && (y & kSetA) != 0);
 }
 
-/// Counts pairs over all workers and knows when they are too many.
-class Allowance {
- public:
-  explicit Allowance(std::uint64_t most) : most_(most) {}
-
-  /// False once there are more than allowed. Relaxed: the sum alone matters.
-  [[nodiscard]] bool take(std::uint64_t pairs) {
-    return taken_.fetch_add(pairs, std::memory_order_relaxed) + pairs <= most_;
-  }
-  [[nodiscard]] Error error() const {
-    return {ErrorCode::input,
-            "more than " + std::to_string(most_) + " pairs of boxes meet",
-            {},
-            "take fewer objects at one place, or a smaller reach"};
-  }
-
- private:
-  std::uint64_t most_;
-  std::atomic<std::uint64_t> taken_{0};
-};
+Error too_many(const parallel::Allowance& allowed) {
+  return {ErrorCode::input,
+          "more than " + std::to_string(allowed.most()) + " pairs of boxes meet",
+          {},
+          "take fewer objects at one place, or a smaller reach"};
+}
 
 class SelfJoin {
  public:
@@ -79,7 +65,7 @@ class SelfJoin {
 
   /// False when there are too many pairs.
   [[nodiscard]] bool run(const NodePair& task, std::vector<NodePair>& stack,
-                         std::vector<IndexPair>& out, Allowance& allowance) const {
+                         std::vector<IndexPair>& out, parallel::Allowance& allowance) const {
     constexpr std::size_t kAskAfter = std::size_t{1} << 14U;
     std::size_t counted = out.size();
     stack.assign(1, task);
@@ -232,14 +218,14 @@ Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& contex
 
 Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree, const parallel::Context& context,
                                              std::uint64_t most) {
-  Allowance allowance(most);
+  parallel::Allowance allowance(most);
   const SelfJoin join(tree);
   const std::vector<NodePair> tasks = join.subtasks();
   auto pairs = parallel::collect_with<IndexPair>(
       context, {.name = "broad phase", .n = tasks.size()}, [] { return std::vector<NodePair>(); },
       [&](std::vector<NodePair>& stack, std::size_t i, std::vector<IndexPair>& out) -> Status {
         if (join.run(tasks[i], stack, out, allowance)) return {};
-        return allowance.error();
+        return too_many(allowance);
       });
   if (!pairs) return pairs.error();
   if (const Status s = sort_pairs(*pairs, context); !s) return s.error();
@@ -249,7 +235,7 @@ Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree, const parallel
 Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
                                                  const parallel::Context& context,
                                                  std::uint64_t most) {
-  Allowance allowance(most);
+  parallel::Allowance allowance(most);
   std::vector<std::uint32_t> in_a, in_b;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items[i].box.empty()) continue;
@@ -266,7 +252,7 @@ Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
         const std::uint32_t a = in_a[cell / in_b.size()], b = in_b[cell % in_b.size()];
         if (items[a].owner == items[b].owner || !items[a].box.meets(items[b].box)) return {};
         if (a > b && both_ways(a, b)) return {};
-        if (!allowance.take(1)) return allowance.error();
+        if (!allowance.take(1)) return too_many(allowance);
         out.push_back({std::min(a, b), std::max(a, b)});
         return {};
       });

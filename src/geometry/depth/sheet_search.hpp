@@ -12,7 +12,7 @@
 #include "geometry/box.hpp"
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
-#include "geometry/heavy_loop.hpp"
+#include "geometry/part_loop.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/parallel/reduce.hpp"
 

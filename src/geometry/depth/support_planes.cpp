@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -12,11 +11,13 @@
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
-#include "geometry/heavy_loop.hpp"
+#include "geometry/part_loop.hpp"
 #include "geometry/snap_tilt.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/meeting_places.hpp"
 #include "strake/geometry/predicates.hpp"
+#include "strake/parallel/find.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -63,9 +64,9 @@ Face face_of(const Part& part, std::uint32_t t) {
 
 std::vector<Face> all_faces(const Part& part, const parallel::Context& context) {
   std::vector<Face> faces(part.triangles.size());
-  const Status done = heavy_loop(context, "face normals", faces.size(), [&](std::size_t t) {
-    faces[t] = face_of(part, static_cast<std::uint32_t>(t));
-  });
+  const Status done = parallel::for_each(
+      context, over_part("face normals", faces.size()),
+      [&](std::size_t t) { faces[t] = face_of(part, static_cast<std::uint32_t>(t)); });
   if (!done) return {};
   std::erase_if(faces, [](const Face& face) { return !(face.area > 0); });
   return faces;
@@ -163,16 +164,13 @@ std::uint32_t apex(const Triangle& t, const PartEdge& edge) {
 template <class Test>
 bool holds_at_all_edges(const Part& part, const parallel::Context& context, const Test& test) {
   if (part.kind != PartKind::solid || part.edges.empty()) return false;
-  std::atomic<bool> holds{true};
-  const Status done =
-      heavy_loop(context, "convex edges", part.edges.size() - 1, [&](std::size_t e) {
-        if (!holds.load(std::memory_order_relaxed)) return;
+  const auto holds = parallel::all_of(
+      context, over_part("convex edges", part.edges.size() - 1), [&](std::size_t e) {
         const std::uint32_t first = part.edges[e].first_triangle;
-        if (part.edges[e + 1].first_triangle - first != 2 ||
-            !test(part.edges[e], part.edge_triangles[first], part.edge_triangles[first + 1]))
-          holds.store(false, std::memory_order_relaxed);
+        return part.edges[e + 1].first_triangle - first == 2 &&
+               test(part.edges[e], part.edge_triangles[first], part.edge_triangles[first + 1]);
       });
-  return done && holds.load(std::memory_order_relaxed);
+  return holds && *holds;
 }
 
 /// No neighbour stands more than the slack above a face, over all edges.

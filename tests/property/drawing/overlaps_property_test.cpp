@@ -34,7 +34,7 @@ std::vector<Row> found(const std::vector<Flat>& lines, const OverlapRule& rule,
   EXPECT_TRUE(overlaps);
   std::vector<Row> all = rows(overlaps->stretches);
   for (std::uint32_t i = 0; i < lines.size(); ++i)
-    if (overlaps->wholly[i] != 0) all.emplace_back(i, true, 0, 1);
+    if (overlaps->wholly.is_set(i)) all.emplace_back(i, true, 0, 1);
   std::sort(all.begin(), all.end(),
             [](const Row& a, const Row& b) {  // of a line cut in parts by place
               return std::pair(std::get<0>(a), std::get<2>(a)) <

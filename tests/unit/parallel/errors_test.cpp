@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -12,38 +11,19 @@
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/for_each.hpp"
-#include "strake/parallel/order.hpp"
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/team.hpp"
 #include "strake/parallel/transform.hpp"
+#include "support/everywhere.hpp"
 
 namespace strake::parallel {
 namespace {
 
-constexpr std::size_t kItems = 1000;
+using test::everywhere;
+
+constexpr std::size_t kItems = test::kEverywhereItems;
 
 Error failure(std::size_t i) { return {ErrorCode::input, "item " + std::to_string(i), {}, {}}; }
-
-/// Runs under every team, schedule, chunk and order.
-void everywhere(std::size_t grain, const std::function<void(const Context&, const Region&)>& test) {
-  std::vector<std::uint32_t> backwards((kItems + grain - 1) / grain);
-  std::iota(backwards.rbegin(), backwards.rend(), 0U);
-  for (const unsigned threads : {1U, 2U, 3U, 16U}) {
-    Team team(threads);
-    for (const Schedule schedule : {Schedule::dynamic, Schedule::static_blocks})
-      for (const std::size_t chunk : {1U, 9U})
-        for (const bool ordered : {false, true}) {
-          SCOPED_TRACE(::testing::Message() << "threads " << threads << ", chunk " << chunk
-                                            << ", static " << static_cast<int>(schedule)
-                                            << ", backwards " << ordered << ", grain " << grain);
-          Region region{
-              .name = "failing", .n = kItems, .schedule = schedule, .grain = grain, .chunk = chunk};
-          if (ordered) region.order = backwards;
-          test({.team = &team}, region);
-        }
-  }
-  test({}, {.name = "failing", .n = kItems, .grain = grain});
-}
 
 TEST(Errors, the_lowest_failing_item_is_reported_and_all_below_it_ran) {
   struct Case {

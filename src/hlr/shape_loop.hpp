@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "strake/parallel/region.hpp"
+
+namespace strake::hlr {
+
+/// What is worth a team: so many triangles, edges or vertices of one shape.
+inline constexpr std::size_t kBigShape = std::size_t{1} << 15U;
+/// Elements that a worker takes at a time.
+inline constexpr std::size_t kElements = 2048;
+
+/// A loop over the elements of one shape: by the whole team where it is big, so that one imported
+/// mesh does not keep a worker busy while the others wait.
+[[nodiscard]] inline parallel::Region over_elements(std::string_view name, std::size_t n) {
+  return {.name = name, .n = n, .grain = kElements, .alone_below = kBigShape};
+}
+
+}  // namespace strake::hlr

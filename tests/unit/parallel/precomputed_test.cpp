@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/parallel/precomputed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+
+#include "strake/parallel/team.hpp"
+
+namespace strake::parallel {
+namespace {
+
+TEST(Precomputed, makes_what_is_wanted_once_and_nothing_else) {
+  for (const unsigned threads : {1U, 2U, 8U, 64U}) {
+    Team team(threads);
+    Precomputed<std::string> table(1000);
+    EXPECT_EQ(table.size(), 1000U);
+    EXPECT_EQ(table.find(3), nullptr);
+    std::vector<std::atomic<int>> made(1000);
+    const auto make = [&](std::size_t key) {
+      ++made[key];
+      return std::to_string(key);
+    };
+    std::vector<std::uint32_t> wanted;
+    for (std::uint32_t k = 0; k < 3000; ++k) wanted.push_back(k * 7 % 500 * 2);
+    ASSERT_TRUE(table.fill({.team = &team}, {.name = "fill"}, wanted, make));
+    // Some of what is there already, some not, by weight.
+    std::vector<std::uint32_t> more;
+    for (std::uint32_t k = 0; k < 1000; k += 3) more.push_back(k);
+    ASSERT_TRUE(table.fill_by_weight(
+        {.team = &team}, {.name = "more"}, 100.0, more,
+        [](std::size_t key) { return key == 3 ? 1e6 : 1.0; }, make));
+    for (std::size_t key = 0; key < 1000; ++key) {
+      const bool there = key % 2 == 0 || key % 3 == 0;
+      ASSERT_EQ(made[key], there ? 1 : 0) << key;
+      ASSERT_EQ(table.find(key) != nullptr, there) << key;
+      if (there) {
+        EXPECT_EQ(*table.find(key), std::to_string(key));
+      }
+    }
+  }
+}
+
+TEST(Precomputed, nothing_can_be_found_of_a_fill_that_failed) {
+  Team team(3);
+  Precomputed<int> table(10);
+  const std::vector<std::uint32_t> first{1, 2}, second{2, 3, 4};
+  ASSERT_TRUE(table.fill({.team = &team}, {.name = "good"}, first, [](std::size_t) { return 5; }));
+  const Status failed =
+      table.fill({.team = &team}, {.name = "bad"}, second, [](std::size_t key) -> int {
+        if (key == 4) throw std::runtime_error("key 4");
+        return 6;
+      });
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().message, "key 4");
+  EXPECT_EQ(*table.find(1), 5);
+  EXPECT_EQ(*table.find(2), 5);
+  EXPECT_EQ(table.find(3), nullptr);
+  EXPECT_EQ(table.find(4), nullptr);
+  // And it can be tried again.
+  ASSERT_TRUE(
+      table.fill({.team = &team}, {.name = "again"}, second, [](std::size_t) { return 7; }));
+  EXPECT_EQ(*table.find(2), 5);
+  EXPECT_EQ(*table.find(4), 7);
+}
+
+TEST(Precomputed, an_empty_table_is_a_table) {
+  Precomputed<int> table;
+  EXPECT_EQ(table.size(), 0U);
+  EXPECT_TRUE(table.fill({}, {.name = "nothing"}, {}, [](std::size_t) { return 1; }));
+}
+
+}  // namespace
+}  // namespace strake::parallel
