@@ -38,18 +38,32 @@ bool ray_meets(const Winding& ray, const Box3i& box) {
   return true;
 }
 
+/// Counts what of a part a ray passes through, looking at every triangle where there is no tree;
+/// false where the point is on the skin.
+bool pass_all(const PartView& view, Winding& ray, PairWork& work) {
+  const auto pass = [&](std::uint32_t triangle) { return ray.pass(view.corners(triangle)); };
+  if (!view.planted()) {
+    const auto n = static_cast<std::uint32_t>(view.part().triangles.size());
+    std::uint32_t t = 0;
+    while (t < n && pass(t)) ++t;
+    return t == n;
+  }
+  const auto meets = [&](const PartTree::Node& node) {
+    const bool met = ray_meets(ray, node.box);
+    if (met) ++work.node_pairs;
+    return met;
+  };
+  return walk_tree(view.tree(), meets, pass);
+}
+
+const Box3i& box_of_all(const PartView& view) {
+  return view.planted() ? view.tree().nodes().front().box : view.part().box;
+}
+
 PointSide probe(const TreedPart& part, const ScaledPoint& p, PairWork& work) {
   const PartView view(part, {});
-  Winding ray = shortest_ray(view.tree().nodes().front().box, p);
-  const bool off_boundary = walk_tree(
-      view.tree(),
-      [&](const PartTree::Node& node) {
-        const bool met = ray_meets(ray, node.box);
-        if (met) ++work.node_pairs;
-        return met;
-      },
-      [&](std::uint32_t triangle) { return ray.pass(view.corners(triangle)); });
-  if (!off_boundary) return PointSide::on_boundary;
+  Winding ray = shortest_ray(box_of_all(view), p);
+  if (!pass_all(view, ray, work)) return PointSide::on_boundary;
   return view.solid() && ray.number() >= 1 ? PointSide::inside : PointSide::outside;
 }
 
@@ -57,8 +71,7 @@ PointSide probe(const TreedPart& part, const ScaledPoint& p, PairWork& work) {
 
 PointSide side_of(const TreedPart& part, const Vec3l& numerator, std::int64_t denominator,
                   PairWork& work) {
-  if (part.tree->nodes().empty()) return PointSide::outside;
-  const Box3i& box = part.tree->nodes().front().box;
+  const Box3i& box = box_of_all({part, {}});
   for (int k = 0; k < 3; ++k)
     if (numerator[k] < box.lo[k] * denominator || numerator[k] > box.hi[k] * denominator)
       return PointSide::outside;

@@ -319,6 +319,23 @@ TEST(MeetingPlacesTest, CorrugatedContainersOnEachOtherAreOnePlace) {
   }
 }
 
+// The far side of a plate thinner than the reach hangs together with the near one through the
+// plate.
+TEST(MeetingPlacesTest, AreTheSameWithoutTrees) {
+  const Subject plate(box_mesh({0, 0, 0}, {1000 * kMm, 1000 * kMm, kMm / 2}));
+  const Subject block(box_mesh({400 * kMm, 400 * kMm, kMm / 2}, {500 * kMm, 500 * kMm, 90 * kMm}));
+  const PartTree none;
+  const auto bare = [&](const Subject& s) { return TreedPart{s.treed().placed, &none}; };
+  const auto count = [](const TreedPart& a, const TreedPart& b) {
+    PairWork work;
+    const auto found = meeting_places(a, b, {.reach = 1.0 * kMm}, work);
+    return found ? found->size() : 0;
+  };
+  EXPECT_EQ(count(plate.treed(), block.treed()), 1U);
+  EXPECT_EQ(count(bare(plate), bare(block)), 1U);
+  EXPECT_EQ(count(bare(block), bare(plate)), 1U);
+}
+
 TEST(MeetingPlacesTest, NearlyConvexAllowsForTheSlackAlone) {
   const auto convex = [](const IndexedMesh& mesh, double slack) {
     return nearly_convex(testing::build_part(mesh), slack);
