@@ -2,6 +2,7 @@
 #include "model/equal_shapes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,6 +10,7 @@ namespace strake::model {
 namespace {
 
 using geometry::Part;
+using geometry::Triangle;
 using geometry::Vec3i;
 using geometry::Vec3l;
 
@@ -20,19 +22,6 @@ bool is_mesh(const GridShapeResult& made) {
 }
 
 Vec3l anchor(const GridShape& shape) { return shape.parts[0].vertices[0].as<std::int64_t>(); }
-
-std::uint64_t hash_of(const GridShape& shape) {
-  const Vec3l from = anchor(shape);
-  std::uint64_t hash = parallel::mixed(0, shape.parts.size());
-  for (const Part& part : shape.parts) {
-    hash = parallel::mixed(hash, part.triangles.size());
-    for (const Vec3i& v : part.vertices) {
-      const Vec3l at = v.as<std::int64_t>() - from;
-      for (int k = 0; k < 3; ++k) hash = parallel::mixed(hash, static_cast<std::uint64_t>(at[k]));
-    }
-  }
-  return hash;
-}
 
 bool same_flags(const geometry::PartFlags& a, const geometry::PartFlags& b) {
   return a.inverted == b.inverted && a.open == b.open && a.non_manifold == b.non_manifold &&
@@ -54,12 +43,28 @@ bool same_part(const Part& a, const Part& b, const Vec3l& moved) {
 
 Vec3l moved_by(const GridShape& from, const GridShape& to) { return anchor(to) - anchor(from); }
 
+std::uint64_t hash_wherever(const GridShape& shape) {
+  const Vec3l from = anchor(shape);
+  std::uint64_t hash = parallel::mixed(0, shape.parts.size());
+  for (const Part& part : shape.parts) {
+    hash = parallel::mixed(hash, std::bit_cast<std::uint64_t>(part.sag + 0.0));
+    for (const Vec3i& v : part.vertices) {
+      const Vec3l at = v.as<std::int64_t>() - from;
+      for (int k = 0; k < 3; ++k) hash = parallel::mixed(hash, static_cast<std::uint64_t>(at[k]));
+    }
+    // Whoever splits the faces anew at every place has the same vertices and other triangles.
+    for (const Triangle& t : part.triangles)
+      hash = parallel::mixed(parallel::mixed(hash, std::uint64_t{t[0]} << 32U | t[1]), t[2]);
+  }
+  return hash;
+}
+
 Result<parallel::Distinct> equal_shapes(std::span<const GridShapeResult> shapes,
                                         const parallel::Context& context) {
   return parallel::distinct(
       context, "equal shapes", shapes.size(),
       [&](std::size_t i) {
-        return is_mesh(shapes[i]) ? hash_of(shapes[i].shape) : parallel::mixed(1, i);
+        return is_mesh(shapes[i]) ? hash_wherever(shapes[i].shape) : parallel::mixed(1, i);
       },
       [&](std::size_t i, std::size_t j) {
         if (!is_mesh(shapes[i]) || !is_mesh(shapes[j])) return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "model/grid_shape.hpp"
@@ -14,6 +15,10 @@ namespace strake::model {
 /// that have a fault, equal only themselves. Errors: cancelled.
 [[nodiscard]] Result<parallel::Distinct> equal_shapes(std::span<const GridShapeResult> shapes,
                                                       const parallel::Context& context);
+
+/// A hash of a shape that has parts with vertices: the same for equal ones, and hardly ever for
+/// those that differ in vertices, triangles or sag, so that few are compared.
+[[nodiscard]] std::uint64_t hash_wherever(const GridShape& shape);
 
 /// How far equal shapes are moved: from one vertex of `from` to the same one of `to`.
 [[nodiscard]] geometry::Vec3l moved_by(const GridShape& from, const GridShape& to);
