@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstddef>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <stop_token>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace strake::parallel {
 
@@ -24,12 +25,14 @@ namespace strake::parallel {
 /// in; which consumer gets which is left to the schedule. For results in the order of their items
 /// see pipeline().
 ///
-/// What T's move does is all that can throw, apart from memory for a value in push().
+/// There is room for all from the beginning, so that no call can throw and leave who waits asleep.
 template <class T>
 class BoundedQueue {
  public:
-  /// 0 counts as 1.
-  explicit BoundedQueue(std::size_t capacity) : capacity_(std::max<std::size_t>(capacity, 1)) {}
+  static_assert(std::is_nothrow_move_constructible_v<T>, "values are handed from thread to thread");
+
+  /// 0 counts as 1. Throws std::bad_alloc.
+  explicit BoundedQueue(std::size_t capacity) : slots_(std::max<std::size_t>(capacity, 1)) {}
   BoundedQueue(const BoundedQueue&) = delete;
   BoundedQueue& operator=(const BoundedQueue&) = delete;
   BoundedQueue(BoundedQueue&&) = delete;
@@ -42,9 +45,9 @@ class BoundedQueue {
     {
       std::unique_lock lock(mutex_);
       const bool room =
-          has_room_.wait(lock, stop, [this] { return closed_ || values_.size() < capacity_; });
+          has_room_.wait(lock, stop, [this] { return closed_ || held_ < slots_.size(); });
       if (!room || closed_) return false;
-      values_.push_back(std::move(value));
+      slots_[(first_ + held_++) % slots_.size()].emplace(std::move(value));
     }
     has_values_.notify_one();
     return true;
@@ -56,10 +59,12 @@ class BoundedQueue {
     std::optional<T> value;
     {
       std::unique_lock lock(mutex_);
-      has_values_.wait(lock, stop, [this] { return closed_ || !values_.empty(); });
-      if (values_.empty()) return value;
-      value.emplace(std::move(values_.front()));
-      values_.pop_front();
+      has_values_.wait(lock, stop, [this] { return closed_ || held_ > 0; });
+      if (held_ == 0) return value;
+      value.emplace(*std::move(slots_[first_]));
+      slots_[first_].reset();
+      first_ = (first_ + 1) % slots_.size();
+      --held_;
     }
     has_room_.notify_one();
     return value;
@@ -75,13 +80,13 @@ class BoundedQueue {
     has_values_.notify_all();
   }
 
-  [[nodiscard]] std::size_t capacity() const { return capacity_; }
+  [[nodiscard]] std::size_t capacity() const { return slots_.size(); }
 
  private:
-  const std::size_t capacity_;
   std::mutex mutex_;
   std::condition_variable_any has_room_, has_values_;
-  std::deque<T> values_;
+  std::vector<std::optional<T>> slots_;  ///< a ring
+  std::size_t first_ = 0, held_ = 0;
   bool closed_ = false;
 };
 
