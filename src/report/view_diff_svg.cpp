@@ -176,6 +176,7 @@ class Picture {
                            xml_escaped(o.file));
         object = of;
       }
+      ++painted_[static_cast<std::size_t>(look.change)];
       const Point a = paper(s, s.from), b = paper(s, s.to);
       out += fmt::format("M{} {}L{} {}", rounded(a.x), rounded(a.y), rounded(b.x), rounded(b.y));
       buffer_.done();
@@ -185,18 +186,19 @@ class Picture {
 
   static std::string rounded(double mm) { return shortest(std::round(mm * 1000) / 1000); }
 
+  /// Tells how many stretches have which colour: what is seen here, which is not the tally of the
+  /// comparison. A line that is not drawn any more has changed, and what is gone is its ink.
   void legend() {
     std::string& out = buffer_.text();
     double x = lo_.x + 10;
     const double y = hi_.y - 5;
     out += "<g id=\"legend\">\n";
     for (const Look& look : kLooks) {
-      const LineCount& count = diff_.total.at(static_cast<std::size_t>(look.change));
       out += fmt::format(
           "<g class=\"{0}\"><path d=\"M{1} {2}h12\"/><text x=\"{3}\" y=\"{4}\">{0}: "
           "{5}</text></g>\n",
           change_name(look.change), fixed(x, 3), fixed(y - 1.4, 3), fixed(x + 14, 3), fixed(y, 3),
-          count.lines);
+          painted_.at(static_cast<std::size_t>(look.change)));
       x += 55;
     }
     out += "</g>\n";
@@ -206,6 +208,7 @@ class Picture {
   Buffered buffer_;
   Shift shift_;
   Point lo_, hi_;
+  std::array<std::size_t, kLineChanges> painted_{};
 };
 
 }  // namespace

@@ -228,6 +228,43 @@ TEST(ViewDiff, IsTheSameForAnyNumberOfThreads) {
   for (const unsigned threads : {2U, 3U, 8U}) EXPECT_EQ(texts(threads), one) << threads;
 }
 
+TEST(ViewDiff, TheLegendCountsWhatIsPainted) {
+  // Half of the lines are clipped away: changed by the tally, gone by the eye.
+  const ViewDocument before = test::view_document(test::view_file(crowd(0)));
+  ViewDocument after = before;
+  std::size_t visible = 0, clipped = 0;
+  for (ViewPiece& piece : after.pieces) {
+    if (piece.state != LineState::visible) continue;
+    if (++visible % 2 != 0) continue;
+    piece.state = LineState::clipped;
+    ++clipped;
+  }
+  const ViewDiff diff = compared(before, after);
+  EXPECT_GT(lines(diff, LineChange::changed), 0U);
+  EXPECT_EQ(lines(diff, LineChange::gone), 0U);
+  std::string svg;
+  write_view_diff_svg(diff, [&](std::string_view piece) { svg += piece; });
+  const std::size_t legend = svg.find("<g id=\"legend\">");
+  ASSERT_NE(legend, std::string::npos);
+  for (const std::string name : {"same", "changed", "gone", "new"}) {
+    std::size_t painted = 0;
+    for (const char* const kind : {"visible", "hidden"}) {
+      const std::size_t layer = svg.find("id=\"" + name + "-" + kind + "\"");
+      if (layer == std::string::npos) continue;
+      const std::size_t end = std::min(legend, svg.find("inkscape:groupmode", layer));
+      for (std::size_t at = svg.find(" d=\"", layer); at < end; at = svg.find(" d=\"", at + 1))
+        painted += static_cast<std::size_t>(std::count(
+            svg.begin() + static_cast<std::ptrdiff_t>(at),
+            svg.begin() + static_cast<std::ptrdiff_t>(svg.find("\"/>", at)), 'M'));
+    }
+    const std::string told = ">" + name + ": " + std::to_string(painted) + "</text>";
+    EXPECT_NE(svg.find(told, legend), std::string::npos) << told;
+    if (name == "gone") {
+      EXPECT_GE(painted, clipped / 2);
+    }
+  }
+}
+
 TEST(ViewDiff, JsonListsWhatChanged) {
   const ViewDocument before = test::view_document(test::view_file(crowd(0)));
   const ViewDocument after = test::view_document(test::view_file(crowd(11)));
