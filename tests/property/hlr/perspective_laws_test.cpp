@@ -17,6 +17,7 @@
 #include "strake/parallel/team.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
+#include "support/mapped_scene.hpp"
 #include "support/rounds.hpp"
 
 namespace strake {
@@ -118,38 +119,6 @@ TEST(PerspectiveLaws, WhatIsDrawnLiesInTheWindow) {
   }
 }
 
-/// Every part moved by a map of the grid, triangles in another order.
-template <class Map>
-test::SceneBuilder mapped(const model::Scene& scene, const Map& map) {
-  test::SceneBuilder result;
-  for (std::uint32_t object = 0; object < scene.model->objects.size(); ++object) {
-    std::vector<test::HandBody> bodies;
-    for (const model::GridBody& body : scene.bodies_of(model::ObjectId{object})) {
-      test::HandBody hand{
-          .parts = {}, .origin = {}, .alpha = scene.model->bodies[body.body].color.alpha};
-      const auto moved = [&](const Vec3i& v) {
-        return map(v.as<std::int64_t>() + body.origin).template as<std::int32_t>();
-      };
-      for (const geometry::Part& part : scene.shapes[body.grid_shape].parts) {
-        test::HandPart one{{}, part.triangles.to_vector(), part.faces.to_vector(), {}};
-        for (std::size_t c = 0; c + 1 < part.chain_first.size(); ++c) {
-          one.chains.emplace_back();
-          for (std::uint32_t v = part.chain_first[c]; v < part.chain_first[c + 1]; ++v)
-            one.chains.back().push_back(moved(part.vertices[v]));
-        }
-        if (one.chains.empty())
-          for (const Vec3i& v : part.vertices) one.vertices.push_back(moved(v));
-        std::ranges::reverse(one.triangles);
-        std::ranges::reverse(one.faces);
-        hand.parts.push_back(one);
-      }
-      bodies.push_back(hand);
-    }
-    result.object(bodies);
-  }
-  return result;
-}
-
 /// Lengths by object, kind and state.
 std::map<std::array<std::uint32_t, 3>, double> lengths(const std::vector<Piece>& list) {
   std::map<std::array<std::uint32_t, 3>, double> result;
@@ -163,7 +132,7 @@ TEST(PerspectiveLaws, QuarterTurnsOfModelAndViewKeepEveryLength) {
   const auto turned = [](const Vec3l& p) { return Vec3l{-p.y, p.x, p.z}; };
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const test::SceneBuilder plain = test::lattice_scene(seed, lattice(seed));
-    const test::SceneBuilder other = mapped(plain.scene(), turned);
+    const test::SceneBuilder other = test::mapped(plain.scene(), turned);
     hlr::View view = view_of(seed);
     const hlr::Options options{.intersections = hlr::Intersections::off};
     const std::vector<Piece> before = pieces(plain.scene(), view, options);
@@ -186,7 +155,7 @@ TEST(PerspectiveLaws, TranslationMovesThePiecesAndNothingElse) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const test::SceneBuilder plain = test::lattice_scene(seed, lattice(seed));
     const test::SceneBuilder other =
-        mapped(plain.scene(), [&](const Vec3l& p) { return p + offset; });
+        test::mapped(plain.scene(), [&](const Vec3l& p) { return p + offset; });
     hlr::View view = view_of(seed);
     // Ends of intersections are rounded in the coordinates of their shapes.
     const hlr::Options options{.intersections = hlr::Intersections::off};
@@ -205,7 +174,8 @@ TEST(PerspectiveLaws, TranslationMovesThePiecesAndNothingElse) {
 TEST(PerspectiveLaws, ScalingByAPowerOfTwoKeepsEveryState) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const test::SceneBuilder plain = test::lattice_scene(seed, lattice(seed));
-    const test::SceneBuilder scaled = mapped(plain.scene(), [](const Vec3l& p) { return p * 16; });
+    const test::SceneBuilder scaled =
+        test::mapped(plain.scene(), [](const Vec3l& p) { return p * 16; });
     hlr::View view = view_of(seed);
     hlr::Options options{.contact_distance_mm = 0.003, .intersections = hlr::Intersections::off};
     const std::vector<Piece> small = pieces(plain.scene(), view, options);

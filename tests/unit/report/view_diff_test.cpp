@@ -253,9 +253,9 @@ TEST(ViewDiff, TheLegendCountsWhatIsPainted) {
       if (layer == std::string::npos) continue;
       const std::size_t end = std::min(legend, svg.find("inkscape:groupmode", layer));
       for (std::size_t at = svg.find(" d=\"", layer); at < end; at = svg.find(" d=\"", at + 1))
-        painted += static_cast<std::size_t>(std::count(
-            svg.begin() + static_cast<std::ptrdiff_t>(at),
-            svg.begin() + static_cast<std::ptrdiff_t>(svg.find("\"/>", at)), 'M'));
+        painted += static_cast<std::size_t>(
+            std::count(svg.begin() + static_cast<std::ptrdiff_t>(at),
+                       svg.begin() + static_cast<std::ptrdiff_t>(svg.find("\"/>", at)), 'M'));
     }
     const std::string told = ">" + name + ": " + std::to_string(painted) + "</text>";
     EXPECT_NE(svg.find(told, legend), std::string::npos) << told;
