@@ -32,8 +32,8 @@ IMPURE = re.compile(r'\bstd::(cout|cerr|abort|exit|getenv)\b|(?<![\w:.])(printf|
                     r'|\bthread_local\b|\bfmt::print\b')
 CONCURRENT = re.compile(r'\bstd::(j?thread|this_thread|async|(shared_)?future|promise|packaged_task|execution|(\w+_)?mutex'
                         r'|atomic\w*|memory_order\w*|condition_variable\w*|once_flag|call_once|lock_guard|\w+_lock'
-                        r'|latch|barrier|\w+_semaphore)\b|\b(tbb::|pthread_\w+|omp_\w+)|#\s*pragma\s+omp\b'
-                        r'|#\s*include\s*[<"](thread|future|execution|(shared_)?mutex|atomic|condition_variable|latch'
+                        r'|latch|barrier|\w+_semaphore)\b|\b(tbb::|pthread_\w+|omp_\w+|__(atomic|sync)_\w+)|#\s*pragma\s+omp\b'
+                        r'|#\s*include\s*[<"](thread|future|execution|(shared_)?mutex|(std)?atomic|condition_variable|latch'
                         r'|barrier|semaphore|pthread\.h|omp\.h|oneapi/|tbb/)')
 # What has threads, locks or atomics of its own, though it is not of the patterns, and why.
 OWN_CONCURRENCY = {
