@@ -6,7 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <random>
 #include <string>
 #include <thread>
@@ -145,6 +147,26 @@ TEST(Order, longest_first_is_a_permutation_with_ties_by_index) {
   const std::vector<double> costs{1, 5, 5, 0, std::nan(""), 7, 1};
   EXPECT_EQ(longest_first(costs), (std::vector<std::uint32_t>{5, 1, 2, 0, 6, 3, 4}));
   EXPECT_TRUE(longest_first(std::span<const double>()).empty());
+}
+
+TEST(Order, many_are_sorted_as_few_are) {
+  std::vector<double> costs{1e-320, -1, std::nan(""), HUGE_VAL, 1e300, 1e301, -HUGE_VAL, 0.5, 0};
+  for (std::size_t i = 0; costs.size() < 5000; ++i) costs.push_back(std::fabs(value(i % 3000)));
+  std::vector<std::uint32_t> expected(costs.size());
+  std::iota(expected.begin(), expected.end(), 0U);
+  const auto cost = [&](std::uint32_t i) {
+    return costs[i] > 0 ? static_cast<float>(std::min(costs[i], 3e38)) : 0.0F;
+  };
+  std::ranges::sort(expected, [&](std::uint32_t a, std::uint32_t b) {
+    return cost(a) != cost(b) ? cost(a) > cost(b) : a < b;
+  });
+  EXPECT_EQ(longest_first(costs), expected);
+  for (const std::size_t few : {std::size_t{1}, std::size_t{9}, std::size_t{1023}}) {
+    std::vector<std::uint32_t> those;
+    std::ranges::copy_if(expected, std::back_inserter(those),
+                         [&](std::uint32_t i) { return i < few; });
+    EXPECT_EQ(longest_first(std::span(costs).first(few)), those);
+  }
 }
 
 TEST(Order, of_the_wrong_length_is_refused) {
