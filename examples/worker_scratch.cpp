@@ -29,6 +29,7 @@ int main() {
   if (!medians) return 1;
   for (const std::size_t median : *medians)
     if (median != 50) return 1;
-  std::printf("%zu medians with %u scratch buffers\n", medians->size(), made.load());
-  return made <= 4 ? 0 : 1;
+  if (made > team.size()) return 1;
+  std::printf("%zu medians with no more scratch buffers than workers\n", medians->size());
+  return 0;
 }
