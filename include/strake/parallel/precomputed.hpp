@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <new>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,8 @@ namespace strake::parallel {
 /// between regions, read within them: filling while others read is a race.
 template <class T>
 class Precomputed {
+  static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
+
  public:
   Precomputed() = default;
   explicit Precomputed(std::size_t keys) : keys_(keys) {}
