@@ -5,9 +5,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bounding_box.hpp"
@@ -31,12 +31,14 @@ constexpr int kRounds = 9;
 struct Times {
   std::vector<double> wall, cpu;
 
-  void measure(const std::function<void()>& run) {
+  template <class Run>
+  auto measure(Run&& run) {
     Lap wall_lap;
     CpuLap cpu_lap;
-    run();
+    auto result = run();
     wall.push_back(wall_lap());
     cpu.push_back(cpu_lap());
+    return result;
   }
 };
 
@@ -45,21 +47,22 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Of one run of the team, in CPU seconds: what a machine busy with other things does not spoil.
+/// Of one run of the team, in CPU seconds: what a machine busy with other things spoils least.
 struct Shares {
-  double busy = 0;      ///< of all workers in regions
+  double apart = 0;     ///< outside regions
   double busiest = 0;   ///< of the busiest worker of each region
   double least = 0;     ///< what no schedule could make less of the latter
   double balance = 1;   ///< of the region that took the most
   std::string longest;  ///< its name
 };
 
-Shares shares(const std::vector<RegionReport>& regions) {
+Shares shares(const std::vector<RegionReport>& regions, double cpu) {
   Shares all;
+  all.apart = cpu;
   double most = 0;
   for (const RegionReport& r : regions) {
     const double busy = r.total_busy_s(), workers = static_cast<double>(r.busy_s.size());
-    all.busy += busy;
+    all.apart -= busy;
     all.busiest += std::ranges::max(r.busy_s);
     all.least += busy / (r.bound() * workers);
     if (busy < most) continue;
@@ -87,38 +90,49 @@ class Bench {
   template <class Before, class After>
   void compare(const std::string& name, Before&& before, After&& after) {
     const auto expected = before();
-    const auto checked = [&](const Context& context) {
-      const auto result = after(context);
+    const auto check = [&](const auto& result) {
       if (result && same_bytes(*result, expected)) return;
       fmt::print("  {}: WRONG RESULT\n", name);
       good_ = false;
     };
     Times sequential, alone, together;
+    std::vector<Shares> reported;
     for (int round = 0; round < kRounds; ++round) {
-      sequential.measure([&] { (void)before(); });
-      alone.measure([&] { checked({}); });
-      together.measure([&] { checked({.team = &team_}); });
+      sequential.measure(before);
+      check(alone.measure([&] { return after({}); }));
+      check(together.measure([&] { return after({.team = &team_}); }));
+      RunReport report;
+      CpuLap lap;
+      const auto result = after({.team = &team_, .report = &report});
+      reported.push_back(shares(report.regions(), lap()));
+      check(result);
     }
-    const double base = median(sequential.wall);
     fmt::print("{}\n", name);
     const auto row = [&](const std::string& what, const Times& times) {
       fmt::print("  {:<22}{:>9.1f} ms wall {:>9.1f} ms CPU {:>6.2f} times\n", what,
-                 median(times.wall) * 1e3, median(times.cpu) * 1e3, base / median(times.wall));
+                 median(times.wall) * 1e3, median(times.cpu) * 1e3,
+                 median(sequential.wall) / median(times.wall));
     };
     row("before", sequential);
     row("after, one thread", alone);
     row("after, the team", together);
-    RunReport report;
-    CpuLap lap;
-    checked({.team = &team_, .report = &report});
-    const double cpu = lap();
-    const Shares share = shares(report.regions());
-    const double apart = cpu - share.busy;
+    print_shares(reported, median(sequential.cpu));
+  }
+
+  static void print_shares(const std::vector<Shares>& reported, double before_s) {
+    const auto middle = [&](auto&& of) {
+      std::vector<double> values;
+      for (const Shares& one : reported) values.push_back(of(one));
+      return median(std::move(values));
+    };
+    const double gain = middle([&](const Shares& s) { return before_s / (s.apart + s.busiest); });
+    const double bound = middle([&](const Shares& s) { return before_s / (s.apart + s.least); });
+    const double balance = middle([](const Shares& s) { return s.balance; });
+    const double apart = middle([](const Shares& s) { return s.apart; });
     fmt::print("  on cores of its own {:.2f} times, by CPU time; no schedule could pass {:.2f}\n",
-               median(sequential.cpu) / (apart + share.busiest),
-               median(sequential.cpu) / (apart + share.least));
-    fmt::print("  load balance of '{}' {:.3f}; {:.1f} ms outside regions\n", share.longest,
-               share.balance, apart * 1e3);
+               gain, bound);
+    fmt::print("  load balance of '{}' {:.3f}; {:.1f} ms outside regions\n",
+               reported.front().longest, balance, apart * 1e3);
   }
 
   static void print_model(const convert::Model& model) {
