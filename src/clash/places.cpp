@@ -27,6 +27,8 @@ using geometry::Vec3d;
 /// may have them all near each other; of finer parts no pair of parts may take more than
 /// microseconds a triangle, and a dozen a triangle is what lies face to face.
 constexpr std::uint64_t kPairsPerTriangle = 2, kLeastPairs = 1U << 14U;
+/// Cells of space that a place may cut at least, however many places there are.
+constexpr std::uint32_t kLeastCells = 400;
 
 /// Two parts in canonical order.
 class PairPlaces {
@@ -79,10 +81,12 @@ class PairPlaces {
 
   std::vector<PartPlace> several() {
     if (whole_.separation.interiors_meet) make_planes();
+    const std::optional<std::uint32_t> deepest =
+        whole_.witness.interiors_meet ? place_of(whole_.witness.point()) : std::nullopt;
     std::vector<PartPlace> places;
     for (std::size_t n = 0; n < found_.all.size(); ++n)
-      places.push_back({answer_at(n), found_.all[n].extent, false});
-    give_whole(places);
+      places.push_back({n == deepest ? whole_ : answer_at(n), found_.all[n].extent, false});
+    give_whole(places, deepest);
     return places;
   }
 
@@ -170,6 +174,10 @@ class PairPlaces {
   void go_deep(std::size_t number, PartAnswer& answer) {
     const MeetingPlace& place = found_.all[number];
     geometry::DepthGoal goal;
+    // All places together are not worth more work than the pair itself.
+    const auto places = static_cast<std::uint32_t>(found_.all.size());
+    goal.cells_undecided = std::max(goal.cells_undecided / places, kLeastCells);
+    goal.cells_decided = std::max(goal.cells_decided / places, kLeastCells);
     goal.threshold = thresholds_.overlap;
     goal.known_upper = -whole_.separation.lower;
     goal.apart_within = apart_within(part_a_, part_b_, options_);
@@ -192,10 +200,8 @@ class PairPlaces {
   }
 
   /// The answer as a whole is that of the worst place, which holds its witness.
-  void give_whole(std::vector<PartPlace>& places) const {
+  void give_whole(std::vector<PartPlace>& places, std::optional<std::uint32_t> deepest) const {
     const Vec3d at = whole_.witness.point();
-    std::optional<std::uint32_t> deepest;
-    if (whole_.witness.interiors_meet) deepest = place_of(at);
     const auto less_likely = [&](const PartPlace& x, const PartPlace& y) {
       const bool in_x = x.extent.contains({at, at}), in_y = y.extent.contains({at, at});
       if (in_x != in_y) return in_y;
