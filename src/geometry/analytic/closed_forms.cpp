@@ -27,6 +27,13 @@ struct Overlap {
   /// How deep b reaches into a, and a into b.
   [[nodiscard]] double deep_in_a() const { return a - nearest_to_a(); }
   [[nodiscard]] double deep_in_b() const { return b - (at - nearest_to_b()); }
+  /// The middle of what is common and at least so deep in a, or in b.
+  [[nodiscard]] double middle_deep_in_a(double depth) const {
+    return Overlap{a - depth, b, at}.middle();
+  }
+  [[nodiscard]] double middle_deep_in_b(double depth) const {
+    return Overlap{a, b - depth, at}.middle();
+  }
   [[nodiscard]] double a_inside_b() const { return b - a - at; }
   [[nodiscard]] double b_inside_a() const { return a - b - at; }
 };
@@ -78,8 +85,8 @@ AnalyticSeparation cylinders(const PlacedSolid& a, const PlacedSolid& b, const V
     const double in_b = std::min(disc.deep_in_b(), bar.deep_in_b());
     s.d = -std::max(in_a, in_b);
     s.deep_in_a = in_a >= in_b;
-    s.point = s.deep_in_a ? out * disc.nearest_to_a() + up * bar.nearest_to_a()
-                          : out * disc.nearest_to_b() + up * bar.nearest_to_b();
+    s.point = s.deep_in_a ? out * disc.middle_deep_in_a(in_a) + up * bar.middle_deep_in_a(in_a)
+                          : out * disc.middle_deep_in_b(in_b) + up * bar.middle_deep_in_b(in_b);
     const bool by_end =
         s.deep_in_a ? bar.deep_in_a() < disc.deep_in_a() : bar.deep_in_b() < disc.deep_in_b();
     s.away = by_end ? -up : distance > 0 ? -out : a.axes[0];

@@ -7,6 +7,7 @@
 #include "geometry/analytic/bracket.hpp"
 #include "geometry/analytic/convex_depth.hpp"
 #include "geometry/analytic/convex_gap.hpp"
+#include "geometry/analytic/deep_middle.hpp"
 #include "geometry/analytic/inside.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -51,6 +52,10 @@ class Meeting {
       }
       depth.upper = std::max(depth.upper, other.upper);
     }
+    if (field_a_ && field_b_ && depth.lower > 0)
+      depth.point =
+          deep_in_a ? middle_of_deep({a_, *field_a_}, {b_, *field_b_}, depth.point, depth.lower)
+                    : middle_of_deep({b_, *field_b_}, {a_, *field_a_}, depth.point, depth.lower);
     AnalyticSeparation s = summary(gap, depth, deep_in_a);
     if (field_b_) s.a_inside_b = inside_by(a_, b_, *field_b_);
     if (field_a_) s.b_inside_a = inside_by(b_, a_, *field_a_);

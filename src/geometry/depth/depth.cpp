@@ -13,8 +13,11 @@
 
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
+#include "geometry/depth/halfspaces.hpp"
 #include "geometry/depth/radius_lp.hpp"
+#include "geometry/depth/search_frame.hpp"
 #include "geometry/depth/shrink.hpp"
+#include "geometry/range.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -26,151 +29,6 @@ constexpr double kLeastMove = 1.0 / 64;
 /// face by less than one unit, and the corner where three are square to each other goes off each by
 /// half of its way. Narrow enough for a bracket.
 constexpr double kSnapApart = 5;
-
-/// The half-spaces of both parts about a centre in their common box.
-class Halfspaces {
- public:
-  Halfspaces(const DepthPart& a, const DepthField& fa, const DepthPart& b, const DepthField& fb,
-             const std::optional<Box3d>& within)
-      : a_(a), b_(b), fa_(fa), fb_(fb), within_(within) {
-    const Box3d x = fa.box(), y = fb.box(), room = within.value_or(x);
-    for (int k = 0; k < 3; ++k) {
-      const double lo = std::max({x.lo[k], y.lo[k], room.lo[k]});
-      const double hi = std::min({x.hi[k], y.hi[k], room.hi[k]});
-      centre_[k] = std::nearbyint((lo + hi) / 2);
-      extent_ = std::max({extent_, x.hi[k] - x.lo[k], y.hi[k] - y.lo[k]});
-    }
-    extent_ += 1;
-  }
-
-  [[nodiscard]] const Vec3d& centre() const { return centre_; }
-  [[nodiscard]] double extent() const { return extent_; }
-
-  /// The largest ball in `ball`'s half-spaces with its centre in `room`'s. The answer's x is
-  /// relative to the common origin.
-  [[nodiscard]] RadiusSolution largest_ball(bool ball_is_a) const {
-    std::vector<RadiusConstraint> rows;
-    start(rows, ball_is_a ? a_ : b_, ball_is_a ? fa_ : fb_, 0);
-    stay_within(rows);
-    append(rows, a_, fa_, ball_is_a ? 1 : 0, 0);
-    append(rows, b_, fb_, ball_is_a ? 0 : 1, 0);
-    // A body that is not convex may face the other with none of its own planes: the other's planes,
-    // turned round, stand for what of it lies against them, be it the ball's body or the room.
-    if (!a_.planes->nearly_convex) append_opposite(rows, a_, b_, fa_, ball_is_a ? 1 : 0);
-    if (!b_.planes->nearly_convex) append_opposite(rows, b_, a_, fb_, ball_is_a ? 0 : 1);
-    return solve(rows);
-  }
-
-  /// The point farthest from both boundaries among those at least `depth` deep in one body.
-  [[nodiscard]] RadiusSolution most_central(bool deep_in_a, double depth) const {
-    std::vector<RadiusConstraint> rows = deep_rows(deep_in_a, depth);
-    append(rows, a_, fa_, 1, 0);
-    append(rows, b_, fb_, 1, 0);
-    return solve(rows);
-  }
-
-  /// The same where all points so deep lie on a skin of the other, as between walls whose faces are
-  /// parallel: then only the boundaries that they can be away from count.
-  [[nodiscard]] RadiusSolution middle_of_skin(bool deep_in_a, double depth) const {
-    std::vector<RadiusConstraint> rows = deep_rows(deep_in_a, depth);
-    const std::vector<Vec3d> across = skin_normals(deep_in_a, depth);
-    append_beside(rows, a_, fa_, across);
-    append_beside(rows, b_, fb_, across);
-    return solve(rows);
-  }
-
- private:
-  [[nodiscard]] std::vector<RadiusConstraint> deep_rows(bool deep_in_a, double depth) const {
-    std::vector<RadiusConstraint> rows;
-    start(rows, a_, fa_, 0);
-    stay_within(rows);
-    append(rows, deep_in_a ? a_ : b_, deep_in_a ? fa_ : fb_, 0, depth);
-    return rows;
-  }
-
-  static bool parallel(const Vec3d& n, const Vec3d& m) {
-    constexpr double kSquare = 1e-9;
-    const Vec3d c = cross(n, m);
-    return dot(c, c) < kSquare;
-  }
-
-  /// Normals of the one body's planes that lie `depth` within a plane of the other turned round.
-  [[nodiscard]] std::vector<Vec3d> skin_normals(bool deep_in_a, double depth) const {
-    constexpr double kWidth = 4;
-    const DepthPart &ball = deep_in_a ? a_ : b_, &room = deep_in_a ? b_ : a_;
-    const DepthField &f = deep_in_a ? fa_ : fb_, &g = deep_in_a ? fb_ : fa_;
-    std::vector<Vec3d> normals;
-    for (const SupportPlanes::Plane& p : ball.planes->planes)
-      for (const SupportPlanes::Plane& q : room.planes->planes)
-        if (dot(p.normal, q.normal) < 0 && parallel(p.normal, q.normal) &&
-            offset(f, p.normal, p.support) + offset(g, q.normal, q.support) < depth + kWidth)
-          normals.push_back(p.normal);
-    return normals;
-  }
-
-  /// Planes that a point may be away from; those along the given normals only hold it.
-  void append_beside(std::vector<RadiusConstraint>& rows, const DepthPart& part,
-                     const DepthField& f, const std::vector<Vec3d>& across) const {
-    for (const SupportPlanes::Plane& p : part.planes->planes) {
-      const bool held =
-          std::ranges::any_of(across, [&](const Vec3d& n) { return parallel(n, p.normal); });
-      rows.push_back({p.normal, held ? 0.0 : 1.0, offset(f, p.normal, p.support)});
-    }
-  }
-
-  [[nodiscard]] RadiusSolution solve(const std::vector<RadiusConstraint>& rows) const {
-    RadiusSolution s = maximise_radius({rows, extent_});
-    s.x = s.x + centre_;
-    return s;
-  }
-
-  [[nodiscard]] double offset(const DepthField& f, const Vec3d& n, double support) const {
-    const Vec3d c = f.local(centre_);
-    const double reach = std::fabs(c.x) + std::fabs(c.y) + std::fabs(c.z);
-    return support - dot(n, c) + 8 * std::numeric_limits<double>::epsilon() * reach;
-  }
-
-  void start(std::vector<RadiusConstraint>& rows, const DepthPart& part, const DepthField& f,
-             double inset) const {
-    rows.reserve(4 + 2 * (a_.planes->planes.size() + b_.planes->planes.size()));
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3d& n = tetrahedral_directions()[i];
-      rows.push_back({n, 1, offset(f, n, part.planes->tetrahedral[i]) - inset});
-    }
-  }
-
-  /// The centre is in the box that counts.
-  void stay_within(std::vector<RadiusConstraint>& rows) const {
-    if (!within_) return;
-    for (int k = 0; k < 3; ++k) {
-      Vec3d n;
-      n[k] = 1;
-      rows.push_back({n, 0, within_->hi[k] - centre_[k]});
-      rows.push_back({-n, 0, centre_[k] - within_->lo[k]});
-    }
-  }
-
-  void append(std::vector<RadiusConstraint>& rows, const DepthPart& part, const DepthField& f,
-              double weight, double inset) const {
-    for (const SupportPlanes::Plane& p : part.planes->planes)
-      rows.push_back({p.normal, weight, offset(f, p.normal, p.support) - inset});
-  }
-
-  void append_opposite(std::vector<RadiusConstraint>& rows, const DepthPart& part,
-                       const DepthPart& other, const DepthField& f, double weight) const {
-    for (const SupportPlanes::Plane& p : other.planes->planes) {
-      const Vec3d n = -p.normal;
-      const double best = part.planes->vertices.greatest_along(n).value;
-      rows.push_back({n, weight, offset(f, n, best) + kFieldError * extent_});
-    }
-  }
-
-  const DepthPart &a_, &b_;
-  const DepthField &fa_, &fb_;
-  const std::optional<Box3d>& within_;
-  Vec3d centre_;
-  double extent_ = 0;
-};
 
 /// Points tried for the lower bound, each judged exactly.
 class Candidates {
@@ -388,6 +246,70 @@ class Parting {
   std::vector<Vec3d> ways_;
 };
 
+/// Points about as deep as the deepest one that are more in the middle of what the two have in
+/// common: of all points of a face, say, the deepest point that was found is often a corner.
+class Centring {
+ public:
+  Centring(const DepthField& a, const DepthField& b, const Halfspaces& spaces,
+           const DepthGoal& goal, PairWork& work)
+      : a_(a), b_(b), spaces_(spaces), goal_(goal), work_(work) {}
+
+  void move(Depth& depth) const {
+    if (!(depth.value > 2 * kSlack)) return;
+    const bool deep_in_a = a_.nearest(depth.point).distance >= b_.nearest(depth.point).distance;
+    const Vec3d middle = spaces_.middle_of_deep(depth.point, deep_in_a, depth.value - kSlack);
+    if (length(middle - depth.point) > kShort && !move_deep(middle, deep_in_a ? a_ : b_, depth))
+      move_along_axes(depth);
+  }
+
+ private:
+  /// Grid units that a point may be less deep: what the snap makes of faces that stand askew.
+  static constexpr double kAsDeep = 4;
+  /// That much less deep are the points of which the middle is taken: of all of a face, although it
+  /// may be a little askew.
+  static constexpr double kSlack = 16;
+  /// Grid units: a way not worth going.
+  static constexpr double kShort = 16;
+
+  /// To a place or, from there, into the body as deep as the deepest, where that is in the other.
+  bool move_deep(const Vec3d& to, const DepthField& body, Depth& depth) const {
+    const NearestTriangle skin = body.nearest(to);
+    const Vec3d out =
+        nearest_on_triangle(body.local(to), body.corners(skin.triangle)) - body.local(to);
+    const double missing = depth.value - skin.distance;
+    if (!(skin.distance > 0 && missing > 0 && missing < 2 * kSlack)) return move_to(to, depth);
+    for (const double less : {0.0, 1.0 / 64, 1.0, 2.0, 3.0})
+      if (move_to(to - out * (std::max(missing - less, 0.0) / skin.distance), depth)) return true;
+    return move_to(to, depth);
+  }
+
+  bool move_to(const Vec3d& to, Depth& depth) const {
+    const Vec3d q = on_field_grid(to);
+    if (goal_.within && !goal_.within->contains({q, q})) return false;
+    if (!(greater_distance(a_, b_, q) >= depth.value - kAsDeep)) return false;
+    if (!a_.contains(q, work_) || !b_.contains(q, work_) || !goal_.counts(q)) return false;
+    depth.point = q;
+    return true;
+  }
+
+  /// Where half-spaces do not tell, as in a profile: to the middle of the common box along each
+  /// axis along which that is as deep.
+  void move_along_axes(Depth& depth) const {
+    const Axes axes = search_frame(a_.part(), goal_.triangle_a, b_.part());
+    for (const Vec3d& axis : axes) {
+      const Range p = a_.range_along(axis), q = b_.range_along(axis);
+      const double middle = (std::max(p.lo, q.lo) + std::min(p.hi, q.hi)) / 2;
+      const double way = middle - dot(axis, depth.point);
+      if (std::fabs(way) > kShort) (void)move_to(depth.point + axis * way, depth);
+    }
+  }
+
+  const DepthField &a_, &b_;
+  const Halfspaces& spaces_;
+  const DepthGoal& goal_;
+  PairWork& work_;
+};
+
 }  // namespace
 
 Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, PairWork& work) {
@@ -414,6 +336,7 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
   // That a part of the common region is left by a move of the whole is known of the whole.
   if (!bracket_suffices(depth, goal) && !goal.within) parting.bound_hit(depth);
   if (!bracket_suffices(depth, goal)) search_solid_depth(fa, fb, goal, depth, work);
+  Centring(fa, fb, spaces, goal, work).move(depth);
   depth.upper = std::max(depth.upper, depth.value);
   return depth;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/depth/nearest.hpp"
+#include "geometry/range.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -81,6 +82,16 @@ class DepthField {
   [[nodiscard]] const PartTree& tree() const { return *part_->tree; }
   /// In the part's own coordinates.
   [[nodiscard]] const VertexTree& vertices() const { return *vertices_; }
+  [[nodiscard]] Range range_along(const Vec3d& axis) const {
+    if (has_many_vertices()) {
+      const double at = dot(axis, common({}));
+      return {at - vertices().greatest_along(-axis).value,
+              at + vertices().greatest_along(axis).value};
+    }
+    Range r;
+    for (const Vec3i& v : part().vertices) r.include(dot(axis, common(v.as<double>())));
+    return r;
+  }
   [[nodiscard]] bool has_many_vertices() const { return part().vertices.size() >= kManyVertices; }
 
  private:

@@ -20,17 +20,6 @@
 namespace strake::geometry {
 namespace {
 
-Range range_along(const DepthField& f, const Vec3d& axis) {
-  if (f.has_many_vertices()) {
-    const double at = dot(axis, f.common({}));
-    return {at - f.vertices().greatest_along(-axis).value,
-            at + f.vertices().greatest_along(axis).value};
-  }
-  Range r;
-  for (const Vec3i& v : f.part().vertices) r.include(dot(axis, f.common(v.as<double>())));
-  return r;
-}
-
 struct Cell {
   Simplex simplex;
   Vec3d promise;           ///< the point that `upper` stems from,
@@ -120,7 +109,7 @@ class Search {
     Vec3d lo, size;
     double extent = 0;
     for (int k = 0; k < 3; ++k) {
-      const Range x = range_along(a_, axes_[at(k)]), y = range_along(b_, axes_[at(k)]);
+      const Range x = a_.range_along(axes_[at(k)]), y = b_.range_along(axes_[at(k)]);
       const Range room = goal_.within ? range_along(*goal_.within, axes_[at(k)]) : x;
       lo[k] = std::max({x.lo, y.lo, room.lo}) - kStandOff;
       size[k] = std::min({x.hi, y.hi, room.hi}) + kStandOff - lo[k];

@@ -50,6 +50,8 @@ RadiusSolution maximise_radius(const RadiusProblem& problem) {
     result.upper = std::min(result.upper, bound);
     result.x = simplex.x();
     result.r = simplex.r();
+    for (std::size_t i = 0; i < 4; ++i)
+      result.held[i] = {simplex.ids()[i], simplex.multipliers()[i]};
     const auto entering = violated(problem, simplex, tolerance, stalled);
     if (!entering) {
       result.optimal = true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 
 #include "strake/geometry/vec.hpp"
@@ -32,6 +34,13 @@ struct RadiusSolution {
   double upper = 0;
   bool optimal = false;
   int steps = 0;  ///< vertices looked at: the work
+  /// The constraints that meet at (x, r), by number: were one a unit looser, r would be larger by
+  /// its multiplier.
+  struct Held {
+    std::size_t by = 0;
+    double multiplier = 0;
+  };
+  std::array<Held, 4> held{};
 };
 
 /// Dual simplex method with four-row bases (Lemke 1954), most violated constraint first and least

@@ -32,6 +32,9 @@ class RadiusSimplex {
   /// nearly the same planes.
   [[nodiscard]] double doubt(const RadiusConstraint& c) const;
   [[nodiscard]] bool holds(std::size_t id) const;
+  /// Of the present four.
+  [[nodiscard]] const std::array<std::size_t, 4>& ids() const { return ids_; }
+  [[nodiscard]] const std::array<double, 4>& multipliers() const { return y_; }
 
   /// A violated constraint takes the place of one of the four; false when none gives way. `id`
   /// breaks ties; the first four have 0 to 3.

@@ -92,10 +92,10 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
-                         testing::Values(Golden{false, "7048419728d9599f4dded7a49d66139e",
-                                                "31228cbdc94bfbdcb1a3ebea14c583b3"},
-                                         Golden{true, "b7630968f4f18f5e9eb0a46dd4fb9f31",
-                                                "772c4546059cd8358d765fb8bba1488e"}),
+                         testing::Values(Golden{false, "0d2e6409af907c01712cba46bbd42826",
+                                                "2d6f826c395b22109517a830f672d759"},
+                                         Golden{true, "d1aa3981e65e713db03b1cac17a41204",
+                                                "c7f09170052560adc6e7fe39b2884417"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });
