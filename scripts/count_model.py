@@ -44,14 +44,15 @@ def count_obj(path):
             corners = [c if c > 0 else len(vertices) + c for c in corners]
             if len(corners) < (3 if word == 'f' else 2):
                 continue
-            entry = found.setdefault((number, g), [0, 0, []])
-            entry[0 if word == 'f' else 1] += len(corners) - (2 if word == 'f' else 1)
-            entry[2] += corners
-    good = [e for e in found.values() if all(
-        0 < c < len(vertices) and all(map(math.isfinite, vertices[c])) for c in e[2])]
-    if not good:
+            found.setdefault((number, g), []).append((word, corners))
+    good = [[(word, corners) for word, corners in rows if all(
+        0 < c < len(vertices) and all(map(math.isfinite, vertices[c])) for c in corners)]
+            for rows in found.values()]
+    rows = [row for rows in good for row in rows]
+    if not rows:
         raise Refused('no usable object')
-    return len(good), sum(e[0] for e in good), sum(e[1] for e in good)
+    return (sum(map(bool, good)), sum(len(c) - 2 for word, c in rows if word == 'f'),
+            sum(len(c) - 1 for word, c in rows if word == 'l'))
 
 
 # ---------------------------------------------------------------- STL
@@ -60,9 +61,10 @@ def count_stl(path):
     if len(data) >= 84:
         n = struct.unpack_from('<I', data, 80)[0]
         if len(data) == 84 + 50 * n:
-            if n == 0:
+            good = sum(all(map(math.isfinite, struct.unpack_from('<9f', data, 96 + 50 * k))) for k in range(n))
+            if good == 0:
                 raise Refused('no facets')
-            return 1, n, 0
+            return 1, good, 0
     words = data.decode('latin-1').lower().split('\n')
     objects = triangles = here = 0
     for line in words + ['endsolid']:
@@ -122,25 +124,27 @@ class Gltf:
         return values
 
     def primitive(self, p):
-        """Triangles and segments, or None when something is out of bounds."""
+        """Triangles and segments without those that use a vertex that is not there or nowhere."""
         mode = p.get('mode', 4)
         if mode == 0:
             return 0, 0
         points = self.read(p['attributes']['POSITION'])
         indices = [i[0] for i in self.read(p['indices'])] if 'indices' in p else range(len(points))
-        for i in indices:
-            if i >= len(points) or not all(map(math.isfinite, points[i])):
-                return None
-        n = len(indices)
-        return {1: (0, n // 2), 2: (0, n), 3: (0, max(n - 1, 0)), 4: (n // 3, 0),
-                5: (max(n - 2, 0), 0), 6: (max(n - 2, 0), 0)}[mode]
+        good = [i < len(points) and all(map(math.isfinite, points[i])) for i in indices]
+        n = len(good)
+        size = 2 if mode < 4 else 3
+        elements = {1: range(0, n - 1, 2), 2: range(n), 3: range(n - 1), 4: range(0, n - 2, 3),
+                    5: range(n - 2), 6: range(1, n - 1)}[mode]
+        if mode == 6:
+            kept = sum(good[0] and good[i] and good[i + 1] for i in elements)
+        else:
+            kept = sum(all(good[(i + k) % n] for k in range(size)) for i in elements)
+        return (kept, 0) if size == 3 else (0, kept)
 
     def mesh(self, i):
         total = [0, 0]
         for p in self.json['meshes'][i]['primitives']:
             one = self.primitive(p)
-            if one is None:
-                return None
             total = [total[0] + one[0], total[1] + one[1]]
         return total if any(total) else None
 

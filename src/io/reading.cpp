@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/reading.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
@@ -18,6 +20,10 @@ std::string folders_of(const std::filesystem::path& path) {
   const std::filesystem::path whole = std::filesystem::absolute(path, failed).lexically_normal();
   const std::string folders = whole.parent_path().relative_path().generic_string();
   return failed || folders.empty() ? std::string() : folders + '/';
+}
+
+std::string counted(std::uint64_t n, const char* one) {
+  return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -60,6 +66,17 @@ std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return extension;
+}
+
+void note_left_out(model::Model& model, model::Object& object, const LeftOut& lacks) {
+  if (!lacks.any()) return;
+  object.incomplete = true;
+  std::string what;
+  if (lacks.faces != 0) what = counted(lacks.faces, "face");
+  if (lacks.lines != 0) what += (what.empty() ? "" : " and ") + counted(lacks.lines, "line");
+  model.diagnostics.add(
+      Severity::skipped, "mesh-face-left-out",
+      fmt::format("object '{}' is kept without {}: {}", object.name, what, lacks.why), lacks.where);
 }
 
 void add_body(model::Model& model, model::Object& object, model::Shape shape,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,17 @@ struct BodyLook {
   model::Color color = {};
   double half_spacing_mm = 0;  ///< of the numbers that say where it is
 };
+
+/// What an object is kept without, as it needs a vertex that has no place or does not exist.
+struct LeftOut {
+  std::uint64_t faces = 0, lines = 0;
+  std::string why, where;  ///< of the first
+
+  [[nodiscard]] bool any() const { return faces + lines != 0; }
+};
+
+/// Tells of what the object lacks, if it does; it is incomplete then.
+void note_left_out(model::Model& model, model::Object& object, const LeftOut& lacks);
 
 /// Appends a body with a shape of its own to the object that owns the last bodies of the model.
 void add_body(model::Model& model, model::Object& object, model::Shape shape, const BodyLook& look);

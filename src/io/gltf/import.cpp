@@ -50,6 +50,7 @@ struct MeshShapes {
   std::vector<Part> parts;
   geometry::Box3d box = geometry::empty_box<double>();
   double half_spacing_mm = 0;  ///< of its vertices' numbers
+  LeftOut left_out;
 };
 
 /// Where a mesh goes.
@@ -286,6 +287,10 @@ void Importer::adopt_meshes() {
     LoadedMesh& loaded = loaded_[i];
     MeshShapes& shapes = shapes_[used_[i]];
     mesh_faults_[used_[i]] = std::move(loaded.fault);
+    if (loaded.first_left_out)
+      shapes.left_out = {loaded.faces_left_out, loaded.lines_left_out,
+                         loaded.first_left_out->message,
+                         place_text(loaded.first_left_out->pointer)};
     const auto adopt = [&](auto&& geometry, const std::vector<Vec3d>& points,
                            const model::Color& color) {
       for (const Vec3d& point : points) shapes.box.include(point);
@@ -372,6 +377,7 @@ void Importer::add_object(const Node& node, Element element, model::GroupId pare
   model::Object& object = new_object(std::move(element), parent);
   object.first_body = static_cast<std::uint32_t>(first);
   object.body_count = static_cast<std::uint32_t>(model_.bodies.size() - first);
+  note_left_out(model_, object, mesh.left_out);
 }
 
 void Importer::place_instances(const Node& node, model::GroupId parent, const Place& here,

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -21,6 +23,29 @@ namespace {
 using geometry::Vec3d;
 
 enum class Mode { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
+
+bool is_line(Mode mode) {
+  return mode == Mode::lines || mode == Mode::line_loop || mode == Mode::line_strip;
+}
+
+/// The corners of a strip, loop or fan one triangle or segment after the other.
+std::vector<std::uint32_t> spelled_out(Mode mode, const std::vector<std::uint32_t>& corners) {
+  const std::size_t n = corners.size();
+  std::vector<std::uint32_t> out;
+  if (n < 2) return out;
+  out.reserve((is_line(mode) ? 2 : 3) * n);
+  const auto add = [&](std::initializer_list<std::size_t> at) {
+    for (const std::size_t i : at) out.push_back(corners[i]);
+  };
+  if (mode == Mode::triangle_strip)
+    for (std::size_t i = 0; i + 2 < n; ++i) add({i, i + 1 + i % 2, i + 2 - i % 2});
+  if (mode == Mode::triangle_fan)
+    for (std::size_t i = 1; i + 1 < n; ++i) add({i, i + 1, 0});
+  if (is_line(mode))
+    for (std::size_t i = 0; i + 1 < n; ++i) add({i, i + 1});
+  if (mode == Mode::line_loop) add({n - 1, 0});
+  return out;
+}
 
 /// How many triangles or segments of which colour went into a shape.
 using Tally = std::map<std::array<std::uint8_t, 4>, std::size_t>;
@@ -44,14 +69,14 @@ class MeshLoader {
 
  private:
   bool primitive(const Json& json, const std::string& pointer);
-  bool corners(const Json& json, std::uint64_t vertices, const std::string& pointer,
-               std::vector<std::uint32_t>& out);
-  bool vertices(const Accessor& positions, std::vector<std::uint32_t>& indices,
-                std::vector<Vec3d>& out);
-  void triangles(Mode mode, const std::vector<std::uint32_t>& indices,
-                 const std::vector<Vec3d>& points, const model::Color& color);
-  void chains(Mode mode, const std::vector<std::uint32_t>& indices,
-              const std::vector<Vec3d>& points);
+  bool corners(const Json& json, std::uint64_t vertices, std::vector<std::uint32_t>& out);
+  std::vector<Vec3d> vertices(const Accessor& positions, const std::string& pointer,
+                              std::size_t corners_each, std::vector<std::uint32_t>& indices);
+  std::vector<bool> without_place(const Accessor& positions, const std::string& pointer,
+                                  const std::vector<std::uint32_t>& used);
+  void triangles(const std::vector<std::uint32_t>& indices, const std::vector<Vec3d>& points,
+                 const model::Color& color);
+  void chains(const std::vector<std::uint32_t>& indices, const std::vector<Vec3d>& points);
   [[nodiscard]] model::Color color_of(const Json& json) const;
   bool fail(Fault fault) {
     result_.fault = std::move(fault);
@@ -71,7 +96,7 @@ model::Color MeshLoader::color_of(const Json& json) const {
 }
 
 /// The vertices of the primitive's corners in their order.
-bool MeshLoader::corners(const Json& json, std::uint64_t vertices, const std::string& pointer,
+bool MeshLoader::corners(const Json& json, std::uint64_t vertices,
                          std::vector<std::uint32_t>& out) {
   const Json indices_json = json["indices"];
   if (!indices_json.exists()) {
@@ -89,69 +114,82 @@ bool MeshLoader::corners(const Json& json, std::uint64_t vertices, const std::st
   if (!whole || indices.width != 1)
     return fail({indices.pointer, "indices must be unsigned integers"});
   out.resize(indices.count);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = indices.integer(i);
-    if (out[i] >= vertices)
-      return fail({pointer + "/indices",
-                   fmt::format("index {} is {}, but there are {} vertices", i, out[i], vertices)});
-  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = indices.integer(i);
   return true;
 }
 
-bool MeshLoader::vertices(const Accessor& positions, std::vector<std::uint32_t>& indices,
-                          std::vector<Vec3d>& out) {
-  const std::vector<std::uint32_t> used = compact_indices(indices);
-  out.reserve(used.size());
+/// Which of the vertices have no place, or do not exist.
+std::vector<bool> MeshLoader::without_place(const Accessor& positions, const std::string& pointer,
+                                            const std::vector<std::uint32_t>& used) {
+  std::vector<bool> bad(used.size());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const bool exists = used[i] < positions.count;
+    std::array<double, 4> xyz{};
+    if (exists) positions.element(used[i], xyz.data());
+    bad[i] = !exists || !std::ranges::all_of(xyz, [](double x) { return std::isfinite(x); });
+    if (!bad[i] || result_.first_left_out) continue;
+    result_.first_left_out =
+        exists ? Fault{positions.pointer, fmt::format("vertex {} is not finite", used[i])}
+               : Fault{pointer + "/indices", fmt::format("there is no vertex {}, only {} of them",
+                                                         used[i], positions.count)};
+  }
+  return bad;
+}
+
+/// The vertices in use, which `indices` count from 0 then; they have `corners_each` for each
+/// triangle or segment, of which those that need a vertex without a place are gone.
+std::vector<Vec3d> MeshLoader::vertices(const Accessor& positions, const std::string& pointer,
+                                        std::size_t corners_each,
+                                        std::vector<std::uint32_t>& indices) {
+  std::vector<std::uint32_t> used = compact_indices(indices);
+  const std::vector<bool> bad = without_place(positions, pointer, used);
+  if (std::ranges::find(bad, true) != bad.end()) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < indices.size(); i += corners_each) {
+      const std::span corners = std::span(indices).subspan(i, corners_each);
+      if (std::ranges::any_of(corners, [&](std::uint32_t c) { return bad[c]; })) continue;
+      for (const std::uint32_t c : corners) indices[kept++] = used[c];
+    }
+    (corners_each == 3 ? result_.faces_left_out : result_.lines_left_out) +=
+        (indices.size() - kept) / corners_each;
+    indices.resize(kept);
+    used = compact_indices(indices);
+  }
+  std::vector<Vec3d> points;
+  points.reserve(used.size());
   for (const std::uint32_t vertex : used) {
     std::array<double, 4> xyz{};
     positions.element(vertex, xyz.data());
-    if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]))
-      return fail({positions.pointer, fmt::format("vertex {} is not finite", vertex)});
-    out.push_back(input_.frame.point({xyz[0], xyz[1], xyz[2]}));
+    points.push_back(input_.frame.point({xyz[0], xyz[1], xyz[2]}));
   }
-  return true;
+  return points;
 }
 
-void MeshLoader::triangles(Mode mode, const std::vector<std::uint32_t>& indices,
+void MeshLoader::triangles(const std::vector<std::uint32_t>& indices,
                            const std::vector<Vec3d>& points, const model::Color& color) {
   geometry::TriangleMesh& mesh = color.alpha == 255 ? result_.opaque : result_.transparent;
   const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-  const std::size_t before = mesh.triangles.size();
   mesh.vertices.insert(mesh.vertices.end(), points.begin(), points.end());
-  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-    mesh.triangles.push_back({base + indices[a], base + indices[b], base + indices[c]});
-  };
-  const std::size_t n = indices.size();
-  if (mode == Mode::triangles)
-    for (std::size_t i = 0; i + 2 < n; i += 3) add(i, i + 1, i + 2);
-  if (mode == Mode::triangle_strip)
-    for (std::size_t i = 0; i + 2 < n; ++i) add(i, i + 1 + i % 2, i + 2 - i % 2);
-  if (mode == Mode::triangle_fan)
-    for (std::size_t i = 1; i + 1 < n; ++i) add(i, i + 1, 0);
+  for (std::size_t i = 0; i < indices.size(); i += 3)
+    mesh.triangles.push_back({base + indices[i], base + indices[i + 1], base + indices[i + 2]});
   Tally& tally = color.alpha == 255 ? opaque_ : transparent_;
-  tally[{color.red, color.green, color.blue, color.alpha}] += mesh.triangles.size() - before;
+  tally[{color.red, color.green, color.blue, color.alpha}] += indices.size() / 3;
 }
 
-void MeshLoader::chains(Mode mode, const std::vector<std::uint32_t>& indices,
+/// Segments that go on where the last one ended are one chain.
+void MeshLoader::chains(const std::vector<std::uint32_t>& indices,
                         const std::vector<Vec3d>& points) {
   geometry::Polylines& lines = result_.lines;
   const auto end_chain = [&] {
     const auto end = static_cast<std::uint32_t>(lines.points.size());
     if (end != lines.first.back()) lines.first.push_back(end);
   };
-  if (indices.size() < 2) return;
-  if (mode == Mode::lines) {
-    // Segments that go on where the last one ended are one chain.
-    for (std::size_t i = 0; i + 1 < indices.size(); i += 2) {
-      if (i == 0 || indices[i] != indices[i - 1]) {
-        end_chain();
-        lines.points.push_back(points[indices[i]]);
-      }
-      lines.points.push_back(points[indices[i + 1]]);
+  for (std::size_t i = 0; i < indices.size(); i += 2) {
+    if (i == 0 || indices[i] != indices[i - 1]) {
+      end_chain();
+      lines.points.push_back(points[indices[i]]);
     }
-  } else {
-    for (const std::uint32_t index : indices) lines.points.push_back(points[index]);
-    if (mode == Mode::line_loop) lines.points.push_back(points[indices.front()]);
+    lines.points.push_back(points[indices[i + 1]]);
   }
   end_chain();
 }
@@ -180,18 +218,20 @@ bool MeshLoader::primitive(const Json& json, const std::string& pointer) {
     return fail({positions.pointer, "has too many vertices"});
 
   std::vector<std::uint32_t> indices;
-  std::vector<Vec3d> points;
-  if (!corners(json, positions.count, pointer, indices)) return false;
-  if (!vertices(positions, indices, points)) return false;
+  if (!corners(json, positions.count, indices)) return false;
+  const std::size_t each = is_line(mode) ? 2 : 3;
+  const bool in_order = mode == Mode::lines || mode == Mode::triangles;
+  if (in_order && indices.size() % each != 0) ++result_.odd;
+  if (!in_order) indices = spelled_out(mode, indices);
+  indices.resize(indices.size() / each * each);
+  const std::vector<Vec3d> points = vertices(positions, pointer, each, indices);
   result_.step = std::max(result_.step, positions.step());
   const model::Color color = color_of(json);
-  if (mode == Mode::lines || mode == Mode::line_loop || mode == Mode::line_strip) {
-    if (mode == Mode::lines && indices.size() % 2 != 0) ++result_.odd;
-    chains(mode, indices, points);
-    lines_[{color.red, color.green, color.blue, color.alpha}] += indices.size();
+  if (is_line(mode)) {
+    chains(indices, points);
+    lines_[{color.red, color.green, color.blue, color.alpha}] += indices.size() / 2;
   } else {
-    if (mode == Mode::triangles && indices.size() % 3 != 0) ++result_.odd;
-    triangles(mode, indices, points, color);
+    triangles(indices, points, color);
   }
   return true;
 }
@@ -202,7 +242,10 @@ LoadedMesh MeshLoader::load(const Json& mesh) {
   mesh["primitives"].elements([&](const Json& json) {
     if (good) good = primitive(json, fmt::format("{}/primitives/{}", pointer_, index++));
   });
-  if (!good) {
+  const bool empty = result_.opaque.triangles.empty() && result_.transparent.triangles.empty() &&
+                     result_.lines.points.empty();
+  if (good && empty) result_.fault = std::move(result_.first_left_out);
+  if (result_.fault) {
     LoadedMesh broken;
     broken.fault = std::move(result_.fault);
     return broken;

@@ -25,7 +25,10 @@ struct LoadedMesh {
   std::uint32_t points = 0;  ///< primitives that are point clouds
   std::uint32_t odd = 0;     ///< primitives with indices left over behind the last triangle or line
   bool part_transparent = false;  ///< some transparent faces are among the opaque
-  std::optional<Fault> fault;     ///< set: not to be used
+  /// Triangles and segments with a vertex that has no place or does not exist; they are not in it.
+  std::uint64_t faces_left_out = 0, lines_left_out = 0;
+  std::optional<Fault> first_left_out;  ///< why, of the first such vertex
+  std::optional<Fault> fault;           ///< set: not to be used
 };
 
 struct MeshInput {

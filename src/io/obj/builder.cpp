@@ -30,7 +30,8 @@ class Builder {
   BuiltObject build();
 
  private:
-  bool flatten(const Segment& segment, bool faces, Flat& flat);
+  void flatten(const Segment& segment, bool faces, Flat& flat);
+  bool row(const Segment& segment, const Rows& rows, std::uint32_t row, Flat& flat);
   bool corner(const Segment& segment, const Corner& corner, std::uint32_t line, Flat& flat);
   void damaged(const Segment& segment, std::uint32_t line, std::string message);
   [[nodiscard]] model::Color color(std::uint32_t material) const;
@@ -61,7 +62,7 @@ model::Color Builder::main_color(const Flat& flat) const {
 
 void Builder::damaged(const Segment& segment, std::uint32_t line, std::string message) {
   const std::uint64_t number = input_.assembly->line_base[segment.chunk] + line + 1;
-  result_.damage = BuiltObject::Damage{std::move(message), number};
+  if (!result_.damage) result_.damage = BuiltObject::Damage{std::move(message), number};
 }
 
 bool Builder::corner(const Segment& segment, const Corner& corner, std::uint32_t line, Flat& flat) {
@@ -84,22 +85,33 @@ bool Builder::corner(const Segment& segment, const Corner& corner, std::uint32_t
   return true;
 }
 
-bool Builder::flatten(const Segment& segment, bool faces, Flat& flat) {
+/// Appends the corners of a row; false when one of them has no place.
+bool Builder::row(const Segment& segment, const Rows& rows, std::uint32_t row, Flat& flat) {
+  if (rows.begin_of(row) == rows.end[row]) {
+    damaged(segment, rows.line[row], "has a corner that is no vertex index");
+    return false;
+  }
+  for (std::uint32_t i = rows.begin_of(row); i != rows.end[row]; ++i)
+    if (!corner(segment, rows.corners[i], rows.line[row], flat)) return false;
+  return true;
+}
+
+void Builder::flatten(const Segment& segment, bool faces, Flat& flat) {
   const Chunk& chunk = input_.chunks[segment.chunk];
   const Rows& rows = faces ? chunk.faces : chunk.polylines;
   const std::uint32_t begin = faces ? segment.face_begin : segment.polyline_begin;
   const std::uint32_t end = faces ? segment.face_end : segment.polyline_end;
-  for (std::uint32_t row = begin; row != end; ++row) {
-    if (rows.begin_of(row) == rows.end[row]) {
-      damaged(segment, rows.line[row], "has a corner that is no vertex index");
-      return false;
-    }
-    for (std::uint32_t i = rows.begin_of(row); i != rows.end[row]; ++i)
-      if (!corner(segment, rows.corners[i], rows.line[row], flat)) return false;
-    flat.end.push_back(flat.corners.size());
+  const std::size_t before = flat.end.size();
+  for (std::uint32_t r = begin; r != end; ++r) {
+    const std::size_t corners = flat.corners.size();
+    if (row(segment, rows, r, flat))
+      flat.end.push_back(flat.corners.size());
+    else
+      flat.corners.resize(corners);
   }
-  if (begin != end) flat.rows_by_material[segment.material] += end - begin;
-  return true;
+  const std::size_t good = flat.end.size() - before;
+  if (good != 0) flat.rows_by_material[segment.material] += good;
+  (faces ? result_.bad_faces : result_.bad_lines) += end - begin - good;
 }
 
 /// Vertices of the file for the object, which learns how large they are and how finely written.
@@ -139,8 +151,8 @@ BuiltObject Builder::build() {
   Flat opaque, transparent, lines;
   for (const Segment& segment : entry_.segments) {
     Flat& faces = color(segment.material).alpha == 255 ? opaque : transparent;
-    if (!flatten(segment, true, faces) || !flatten(segment, false, lines))
-      return std::move(result_);
+    flatten(segment, true, faces);
+    flatten(segment, false, lines);
   }
   result_.opaque_color = main_color(opaque);
   result_.transparent_color = main_color(transparent);

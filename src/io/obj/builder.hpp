@@ -38,7 +38,12 @@ struct BuiltObject {
     std::string message;
     std::uint64_t line = 0;  ///< 1-based
   };
-  std::optional<Damage> damage;  ///< set: the object must be skipped
+  std::optional<Damage> damage;                ///< the first; what it is in is left out
+  std::uint64_t bad_faces = 0, bad_lines = 0;  ///< that are left out
+
+  [[nodiscard]] bool empty() const {
+    return opaque.triangles.empty() && transparent.triangles.empty() && lines.points.empty();
+  }
 };
 
 [[nodiscard]] BuiltObject build_object(const BuildInput& input, const Entry& entry);

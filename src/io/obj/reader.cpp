@@ -37,13 +37,13 @@ FaultText fault_text(obj::Fault fault) {
   switch (fault) {
     case obj::Fault::bad_vertex:
       return {"obj-bad-vertex",
-              "a vertex needs three finite numbers; objects that use it are skipped"};
+              "a vertex needs three finite numbers; faces and lines that use it are left out"};
     case obj::Fault::bad_face:
-      return {"obj-bad-face", "a face corner is no vertex index; the object is skipped"};
+      return {"obj-bad-face", "a face corner is no vertex index; the face is left out"};
     case obj::Fault::short_face:
       return {"obj-short-face", "a face with fewer than three corners has no area and is left out"};
     case obj::Fault::bad_polyline:
-      return {"obj-bad-line", "a line point is no vertex index; the object is skipped"};
+      return {"obj-bad-line", "a line point is no vertex index; the line is left out"};
     case obj::Fault::short_polyline:
       return {"obj-short-line", "a line with fewer than two points is left out"};
     case obj::Fault::curve_or_surface:
@@ -167,7 +167,7 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
       object.parent == model::GroupId::none ? object.name : entry.object_name + "/" + object.name;
   object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
   object.incomplete = entry.incomplete;
-  if (built.damage) {
+  if (built.damage && built.empty()) {
     model_.diagnostics.add(Severity::skipped, "obj-damaged-object",
                            fmt::format("object '{}' is skipped: its face or line {}", object.name,
                                        built.damage->message),
@@ -176,6 +176,10 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
     model_.objects.push_back(std::move(object));
     return;
   }
+  if (built.damage)
+    note_left_out(model_, object,
+                  {built.bad_faces, built.bad_lines, "one " + built.damage->message,
+                   fmt::format("{}:{}", file_.path.string(), built.damage->line)});
   if (built.crossing_faces != 0)
     model_.diagnostics.add(
         Severity::warning, "obj-crossing-face",

@@ -42,17 +42,20 @@ class AsciiParser {
   void end_solid();
   void damaged(const char* message) {
     if (!solid().damage) solid().damage = Damage{message, line_};
+    bad_facet_ = true;
   }
+  [[nodiscard]] bool in_facet() const { return loop_corners_ != 0 || bad_facet_; }
 
   std::vector<Solid> solids_;
   std::uint64_t line_ = 1;
   bool open_ = false;
   std::size_t loop_corners_ = 0;  ///< of the loop that is being read
+  bool bad_facet_ = false;        ///< it is to be left out
 };
 
 void AsciiParser::begin(std::string_view name) {
   end_solid();
-  solids_.push_back({TextDecoder()(name), {}, {}, {}});
+  solids_.emplace_back().name = TextDecoder()(name);
   open_ = true;
 }
 
@@ -72,13 +75,20 @@ void AsciiParser::vertex(std::string_view rest) {
 }
 
 void AsciiParser::end_loop() {
-  if (loop_corners_ != 3 && !solid().damage) damaged("a facet needs three corners");
+  if (loop_corners_ != 3 && !bad_facet_) damaged("a facet needs three corners");
+  if (bad_facet_) {
+    solid().corners.resize(solid().corners.size() - loop_corners_);
+    ++solid().bad_facets;
+  }
   loop_corners_ = 0;
+  bad_facet_ = false;
 }
 
 void AsciiParser::end_solid() {
-  if (open_ && loop_corners_ != 0) damaged("it ends within a facet");
-  loop_corners_ = 0;
+  if (in_facet()) {
+    damaged("it ends within a facet");
+    end_loop();
+  }
   open_ = false;
 }
 
@@ -88,13 +98,13 @@ void AsciiParser::line(std::string_view line) {
   if (is_word(word, "vertex")) return vertex(line);
   if (is_word(word, "endloop")) return end_loop();
   if (is_word(word, "facet") || is_word(word, "outer") || is_word(word, "endfacet")) {
-    if (loop_corners_ != 0) end_loop();
+    if (in_facet()) end_loop();
     return;
   }
   if (is_word(word, "solid")) return begin(line);
   if (is_word(word, "endsolid")) return end_solid();
   // Some exporters add comment or colour lines; a line in the middle of a loop is damage.
-  if (loop_corners_ != 0) damaged("a line within a facet is not understood");
+  if (in_facet()) damaged("a line within a facet is not understood");
 }
 
 std::vector<Solid> AsciiParser::take() {

@@ -23,7 +23,8 @@ struct Solid {
   std::string name;
   std::vector<geometry::Vec3d> corners;
   DigitStatistics digits;        ///< of its corners
-  std::optional<Damage> damage;  ///< set: not to be used
+  std::optional<Damage> damage;  ///< the first; the facet that it is in is left out
+  std::uint64_t bad_facets = 0;  ///< that are left out
 };
 
 /// Text that starts with "solid" and goes on with facets or ends.

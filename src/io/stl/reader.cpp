@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "io/file_content.hpp"
@@ -56,8 +57,9 @@ model::Object new_object(const model::Model& model, std::string name) {
 }
 
 void add_object(model::Model& model, std::string name, geometry::TriangleMesh mesh,
-                double half_spacing_mm) {
+                double half_spacing_mm, const LeftOut& lacks) {
   model::Object object = new_object(model, std::move(name));
+  note_left_out(model, object, lacks);
   add_body(model, object, std::move(mesh), {.half_spacing_mm = half_spacing_mm});
   model.objects.push_back(std::move(object));
 }
@@ -70,6 +72,31 @@ std::array<std::array<float, 3>, 3> facet_corners(std::span<const std::byte> byt
   std::memcpy(&corners, bytes.data() + kHeaderBytes + kFacetBytes * facet + kNormalBytes,
               sizeof corners);
   return corners;
+}
+
+/// Takes out the facets of which a corner is not finite.
+LeftOut leave_out_bad_facets(const FileBytes& file, geometry::TriangleMesh& mesh) {
+  LeftOut lacks;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) {
+    const std::span corners = std::span(mesh.vertices).subspan(i, 3);
+    const auto bad = std::ranges::find_if(corners, [](const Vec3d& p) {
+      return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z);
+    });
+    if (bad == corners.end()) {
+      if (kept != i) std::ranges::copy(corners, mesh.vertices.data() + kept);
+      kept += 3;
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(bad - corners.begin());
+    if (++lacks.faces != 1) continue;
+    lacks.why = fmt::format("corner {} of facet {} is not finite", k + 1, i / 3 + 1);
+    lacks.where = fmt::format("{}, byte {}", file.path.string(),
+                              kHeaderBytes + kFacetBytes * (i / 3) + 12 + 12 * k);
+  }
+  mesh.vertices.resize(kept);
+  mesh.triangles.resize(kept / 3);
+  return lacks;
 }
 
 Result<model::Model> read_binary(const FileBytes& file, const ReadOptions& options,
@@ -85,27 +112,23 @@ Result<model::Model> read_binary(const FileBytes& file, const ReadOptions& optio
   mesh.vertices.resize(3 * facets);
   mesh.triangles.resize(facets);
   const Status read = parallel::for_each(
-      context, {.name = "read STL", .n = facets, .grain = 1U << 14U}, [&](std::size_t i) -> Status {
+      context, {.name = "read STL", .n = facets, .grain = 1U << 14U}, [&](std::size_t i) {
         const auto corners = facet_corners(file.bytes, i);
         for (std::size_t k = 0; k < 3; ++k) {
           const auto [x, y, z] = corners[k];
-          if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
-            return Error{ErrorCode::input,
-                         fmt::format("corner {} of facet {} is not finite", k + 1, i + 1),
-                         fmt::format("{}, byte {}", file.path.string(),
-                                     kHeaderBytes + kFacetBytes * i + 12 + 12 * k),
-                         "mend the model and export it again"};
           mesh.vertices[3 * i + k] = frame.point({x, y, z});
         }
         const auto first = static_cast<std::uint32_t>(3 * i);
         mesh.triangles[i] = {first, first + 1, first + 2};
-        return {};
       });
   if (!read) return read.error();
+  const LeftOut lacks = leave_out_bad_facets(file, mesh);
+  if (mesh.triangles.empty() && lacks.any())
+    return Error{ErrorCode::input, lacks.why, lacks.where, "mend the model and export it again"};
   const double largest = largest_coordinate(mesh.vertices) / frame.unit_mm;
   if (facets != 0)
     add_object(model, file.path.stem().string(), std::move(mesh),
-               frame.unit_mm * float32_half_spacing(largest));
+               frame.unit_mm * float32_half_spacing(largest), lacks);
   return end_model(file, std::move(model));
 }
 
@@ -118,7 +141,7 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
   if (!solids) return Error{ErrorCode::cancelled, "reading was cancelled", file.path.string(), ""};
   for (const stl::Solid& solid : *solids) {
     std::string name = solid.name.empty() ? file.path.stem().string() : solid.name;
-    if (solid.damage) {
+    if (solid.damage && solid.corners.empty()) {
       model.diagnostics.add(Severity::skipped, "stl-damaged-solid",
                             fmt::format("solid '{}' is skipped: {}", name, solid.damage->message),
                             fmt::format("{}:{}", file.path.string(), solid.damage->line));
@@ -127,13 +150,18 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
       continue;
     }
     if (solid.corners.empty()) continue;
+    LeftOut lacks;
+    if (solid.damage)
+      lacks = {solid.bad_facets, 0, solid.damage->message,
+               fmt::format("{}:{}", file.path.string(), solid.damage->line)};
     geometry::TriangleMesh mesh;
     mesh.vertices.reserve(solid.corners.size());
     for (const Vec3d& corner : solid.corners) mesh.vertices.push_back(frame.point(corner));
     for (std::uint32_t i = 0; i + 2 < solid.corners.size(); i += 3)
       mesh.triangles.push_back({i, i + 1, i + 2});
     add_object(model, std::move(name), std::move(mesh),
-               frame.unit_mm * text_half_spacing(solid.digits, largest_coordinate(solid.corners)));
+               frame.unit_mm * text_half_spacing(solid.digits, largest_coordinate(solid.corners)),
+               lacks);
   }
   return end_model(file, std::move(model));
 }

@@ -169,6 +169,22 @@ class Clash(Scenario):
             self.assertIn(f'--fail-on {worst}: pairs that could not be compared and may be as bad: 1', done.stderr)
         self.assertRegex(self.run_strake(*run, '--stats').stderr, r'pairs not compared\s+1\n')
 
+    def test_a_vertex_without_a_place_costs_its_faces_only(self):
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100)
+                   + cube('a1', 1, (50, 50, 50), 100).replace('v 150 150 150', 'v 150 nan 150'))
+        done = self.run_strake('clash', 'a.obj', *self.SETTINGS, '-o', 'a.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("skipped mesh-face-left-out: a.obj:26: object 'a1' is kept without 3 faces: one uses vertex 15, "
+                      'which has no readable place', done.stderr)
+        self.assertIn('1 hit, 0 contacts, 0 clearance violations; not compared: all or part of 1 object\n', done.stdout)
+        told = json.loads((self.folder / 'a.json').read_text())
+        self.assertEqual(told['not_compared'], [{'test': 0, 'code': 'object-incomplete',
+                                                 'a': {'id': 'a1', 'name': 'a1', 'file': 'a.obj'}}])
+        self.assertIn({'code': 'mesh-face-left-out', 'severity': 'skipped', 'count': 1}, told['diagnostics'])
+        self.assertEqual(self.run_strake('clash', 'a.obj', *self.SETTINGS, '--strict').returncode, 4)
+        drawn = self.run_strake('draw', 'a.obj', '--view', 'top', '-o', 'a.svg')
+        self.assertIn('2 objects: 2 drawn; 1 without some of their geometry', drawn.stderr)
+
     def test_objects_that_could_not_be_read_whole_are_told_and_strict_counts_them(self):
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (50, 50, 50), 100).replace('150', 'nan'))
         run = ['clash', 'a.obj', *self.SETTINGS]

@@ -229,6 +229,44 @@ TEST(GltfReader, ReadsEveryPrimitiveMode) {
   EXPECT_FALSE(read(with_mode(7)));
 }
 
+/// Of a strip, a fan and a chain as of plain triangles only what uses the bad vertex goes.
+TEST(GltfReader, KeepsAnObjectWithoutTheFacesThatCannotBeRead) {
+  const auto without_vertex = [](int mode, std::size_t vertex) {
+    Parts parts;
+    parts.positions.at(3 * vertex + 1) = NAN;
+    parts.primitive += fmt::format(R"(,"mode":{})", mode);
+    model::Model model = read_ok(parts.build());
+    EXPECT_TRUE(model.objects.at(0).incomplete && model.diagnostics.skipped() == 1) << mode;
+    return model;
+  };
+  const model::Model strip = without_vertex(5, 4);
+  EXPECT_EQ(std::get<TriangleMesh>(strip.shapes.at(0)).triangles,
+            (std::vector<geometry::Triangle>{{0, 1, 2}, {1, 3, 2}}));
+  EXPECT_EQ(strip.diagnostics.kept().at(0).message,
+            "object 'n' is kept without 1 face: vertex 4 is not finite");
+  EXPECT_EQ(strip.diagnostics.kept().at(0).where, "some/model.glb, /accessors/0");
+  EXPECT_EQ(std::get<TriangleMesh>(without_vertex(6, 4).shapes.at(0)).triangles,
+            (std::vector<geometry::Triangle>{{1, 2, 0}, {2, 3, 0}}));
+  EXPECT_EQ(std::get<Polylines>(without_vertex(3, 2).shapes.at(0)).first,
+            (std::vector<std::uint32_t>{0, 2, 4}));
+}
+
+TEST(GltfReader, KeepsAnObjectWithoutTheFacesWhoseIndicesAreWrong) {
+  Parts parts;
+  parts.binary_tail = bytes_of(std::vector<std::uint8_t>{0, 1, 2, 0, 3, 200, 1, 3, 2});
+  parts.views = R"(,{"buffer":0,"byteOffset":60,"byteLength":9})";
+  parts.accessors = R"(,{"bufferView":1,"componentType":5121,"count":9,"type":"SCALAR"})";
+  parts.primitive += R"(,"indices":1)";
+  const model::Model model = read_ok(parts.build());
+  EXPECT_EQ(std::get<TriangleMesh>(model.shapes.at(0)).triangles.at(1),
+            (geometry::Triangle{1, 3, 2}));
+  EXPECT_TRUE(model.objects.at(0).incomplete);
+  EXPECT_EQ(model.diagnostics.kept().at(0).message,
+            "object 'n' is kept without 1 face: there is no vertex 200, only 5 of them");
+  parts.binary_tail = bytes_of(std::vector<std::uint8_t>(9, 99));
+  EXPECT_EQ(read_bad(parts.build()).where, "some/model.glb, /meshes/0/primitives/0/indices");
+}
+
 TEST(GltfReader, JoinsSegmentsThatGoOn) {
   Parts parts;
   parts.binary_tail = bytes_of(std::vector<std::uint8_t>{0, 1, 1, 2, 3, 4});

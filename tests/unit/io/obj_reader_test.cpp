@@ -266,7 +266,7 @@ TEST(ObjReader, ReadsNoLibraryFromElsewhere) {
 TEST(ObjReader, SkipsDamagedObjectsAndSaysWhere) {
   const model::Model model = read_ok(
       std::string(kTriangle) +
-      "v nan 0 0\nv 1 2\no good\nf 1 2 3\no range\nf 1 2 3\nf 1 2 6\n"
+      "v nan 0 0\nv 1 2\no good\nf 1 2 3\no range\nl 1 6\nf 1 2 6\n"
       "o back\nf -6 -2 -3\no word\nf 1 2 x\no zero\nf 0 1 2\no nan\nf 1 2 4\no short\nf 1 2 5\n"
       "o huge\nf 1 2 99999999999999999999999\no fine\nf 3 2 1\nf 1 2\nl 1\n");
   // What is skipped is listed all the same, without bodies.
@@ -290,6 +290,35 @@ TEST(ObjReader, SkipsDamagedObjectsAndSaysWhere) {
             (std::vector<std::string>{"some/model.obj:10", "some/model.obj:12", "some/model.obj:14",
                                       "some/model.obj:16", "some/model.obj:18", "some/model.obj:20",
                                       "some/model.obj:22"}));
+}
+
+TEST(ObjReader, KeepsAnObjectWithoutTheFacesThatCannotBeRead) {
+  const model::Model model = read_ok(
+      std::string(kTriangle) +
+      "v nan 0 0\nv 9 9 9\no part\nf 1 2 3\nf 3 4 5\nf 1 2 x\nf 2 1 77\nf 3 2 1\nl 1 2\nl 2 4 3\n"
+      "o whole\nf 1 2 3\no one\nf 1 2 3\nf 1 2 4\n");
+  ASSERT_EQ(model.objects.size(), 3U);
+  EXPECT_TRUE(model.objects[0].incomplete);
+  EXPECT_FALSE(model.objects[1].incomplete);
+  EXPECT_TRUE(model.objects[2].incomplete);
+  EXPECT_EQ(model.objects[0].body_count, 2U);
+  // What only bad faces use is not in it.
+  EXPECT_EQ(mesh_of(model, 0).vertices, (std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh_of(model, 0).triangles, (std::vector<geometry::Triangle>{{0, 1, 2}, {2, 1, 0}}));
+  EXPECT_EQ(std::get<Polylines>(model.shapes.at(1)).first, (std::vector<std::uint32_t>{0, 2}));
+  EXPECT_EQ(mesh_of(model, 2).triangles.size(), 1U);
+  EXPECT_EQ(model.diagnostics.count("mesh-face-left-out"), 2U);
+  EXPECT_EQ(model.diagnostics.skipped(), 2U);
+  std::vector<Diagnostic> told;
+  for (const Diagnostic& d : model.diagnostics.kept())
+    if (d.code == "mesh-face-left-out") told.push_back(d);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0].message,
+            "object 'part' is kept without 3 faces and 1 line: one uses vertex 4, which has no "
+            "readable place");
+  EXPECT_EQ(told[0].where, "some/model.obj:8");
+  EXPECT_EQ(told[1].message,
+            "object 'one' is kept without 1 face: one uses vertex 4, which has no readable place");
 }
 
 TEST(ObjReader, RefusesFilesWithNothingInThem) {

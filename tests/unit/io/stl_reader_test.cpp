@@ -112,6 +112,53 @@ TEST(StlReader, SkipsDamagedSolidsAndSaysWhere) {
   }
 }
 
+/// Several damaged facets, each in its way, between two good ones.
+TEST(StlReader, KeepsASolidWithoutTheFacetsThatCannotBeRead) {
+  const auto facet = [](const std::string& corners) {
+    return "facet normal 0 0 1\nouter loop\n" + corners + "endloop\nendfacet\n";
+  };
+  const std::string good = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  const std::string text =
+      "solid s\n" + facet(good) + facet("vertex 0 0 0\nvertex inf 0 0\nvertex 0 7 0\n") +
+      facet("vertex 0 0 0\nvertex 0 8 0\n") + facet(good + "vertex 9 9 9\n") +
+      facet("vertex nan 0 0\nvertex nan 0 0\nvertex nan 0 0\n") +
+      facet("vertex 0 0 0\nvertx 1 0 0\nvertex 0 1 0\n") + facet(good) + "endsolid s\n";
+  const Result<model::Model> model = read(text);
+  ASSERT_TRUE(model) << model.error().text();
+  ASSERT_EQ(model->objects.size(), 1U);
+  EXPECT_TRUE(model->objects[0].incomplete);
+  const auto& mesh = std::get<TriangleMesh>(model->shapes[0]);
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  EXPECT_EQ(mesh.vertices.size(), 6U);
+  for (const Vec3d& vertex : mesh.vertices) EXPECT_LE(vertex.x + vertex.y, 1);
+  ASSERT_EQ(model->diagnostics.kept().size(), 1U);
+  const Diagnostic& told = model->diagnostics.kept()[0];
+  EXPECT_EQ(told.severity, Severity::skipped);
+  EXPECT_EQ(told.message,
+            "object 's' is kept without 5 faces: a vertex needs three finite numbers");
+  EXPECT_EQ(told.where, "some/part.stl:12");
+}
+
+TEST(StlReader, KeepsABinaryFileWithoutTheFacetsThatCannotBeRead) {
+  Facet infinite = kFacet, no_number = kFacet;
+  infinite[7] = INFINITY;
+  no_number[11] = NAN;
+  Facet last = kFacet;
+  last[3] = 0.25F;
+  const Result<model::Model> model = read(binary("x", {kFacet, infinite, no_number, last}));
+  ASSERT_TRUE(model) << model.error().text();
+  const auto& mesh = std::get<TriangleMesh>(model->shapes[0]);
+  EXPECT_EQ(mesh.triangles, (std::vector<geometry::Triangle>{{0, 1, 2}, {3, 4, 5}}));
+  ASSERT_EQ(mesh.vertices.size(), 6U);
+  EXPECT_EQ(mesh.vertices[3], (Vec3d{0.25, 0, 0}));
+  EXPECT_TRUE(model->objects[0].incomplete);
+  ASSERT_EQ(model->diagnostics.kept().size(), 1U);
+  EXPECT_EQ(model->diagnostics.kept()[0].message,
+            "object 'part' is kept without 2 faces: corner 2 of facet 2 is not finite");
+  EXPECT_EQ(model->diagnostics.kept()[0].where, "some/part.stl, byte 158");
+  EXPECT_EQ(model->diagnostics.skipped(), 1U);
+}
+
 TEST(StlReader, RefusesDamagedBinaryFiles) {
   std::string bytes = binary("x", {kFacet, kFacet, kFacet});
   const Result<model::Model> truncated = read(bytes.substr(0, bytes.size() - 60));
@@ -121,9 +168,9 @@ TEST(StlReader, RefusesDamagedBinaryFiles) {
 
   Facet infinite = kFacet;
   infinite[7] = INFINITY;
-  const Result<model::Model> not_finite = read(binary("x", {kFacet, infinite}));
+  const Result<model::Model> not_finite = read(binary("x", {infinite, infinite}));
   ASSERT_FALSE(not_finite);
-  EXPECT_EQ(not_finite.error().where, "some/part.stl, byte 158");
+  EXPECT_EQ(not_finite.error().where, "some/part.stl, byte 108");
 
   const std::uint32_t huge = 0xffffffffU;
   std::memcpy(bytes.data() + 80, &huge, 4);
