@@ -115,14 +115,20 @@ bool ends_somewhere(const geometry::Part& part) {
   return false;
 }
 
-/// What is worth telling about a shape, said of the first object that uses it.
-void report_findings(const GridShapeResult& made, const Model& model, ObjectId id,
-                     Diagnostics& diagnostics) {
+/// What is worth telling about a shape, said of the first object that uses it; how many bodies use
+/// it besides is added.
+void report_findings(const GridShapeResult& made, std::uint32_t bodies, const Model& model,
+                     ObjectId id, Diagnostics& diagnostics) {
   const auto counted = [&](Severity severity, std::string_view code, std::uint64_t count,
                            std::string_view one, std::string_view many) {
     if (count != 0)
-      report(diagnostics, severity, code, model, id,
-             [&] { return fmt::format(fmt::runtime(count == 1 ? one : many), count); });
+      report(diagnostics, severity, code, model, id, [&] {
+        std::string text = fmt::format(fmt::runtime(count == 1 ? one : many), count);
+        if (bodies > 1)
+          text += fmt::format("; likewise in {} more {} of the same shape", bodies - 1,
+                              bodies == 2 ? "body" : "bodies");
+        return text;
+      });
   };
   counted(Severity::note, "mesh-degenerate", made.findings.degenerate_triangles,
           "a triangle without area was left out", "{} triangles without area were left out");
@@ -235,8 +241,8 @@ Result<std::vector<GridShapeResult>> make_shapes(const Assembly& assembly,
 
 /// Places the bodies of the shapes that were made, each with the first that is equal; the others
 /// and the unplaceable are reported.
-void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made,
-                  const parallel::Distinct& kinds) {
+void place_bodies(Assembly& assembly, const std::vector<Use>& uses,
+                  const std::vector<GridShapeResult>& made, const parallel::Distinct& kinds) {
   const Model& model = assembly.model;
   Scene& scene = assembly.scene;
   std::vector<bool> told(made.size(), false);
@@ -245,7 +251,8 @@ void place_bodies(Assembly& assembly, const std::vector<GridShapeResult>& made,
   for (const GridBody& candidate : scene.bodies) {
     GridBody body = candidate;
     const GridShapeResult& shape = made[body.grid_shape];
-    if (!told[body.grid_shape]) report_findings(shape, model, body.object, scene.diagnostics);
+    if (!told[body.grid_shape])
+      report_findings(shape, uses[body.grid_shape].bodies, model, body.object, scene.diagnostics);
     told[body.grid_shape] = true;
     const auto origin = geometry::snap(model.bodies[body.body].placement.translation);
     if (shape.bad_triangles > 0) scene.lacking.push_back({body.object, "mesh-bad-triangle"});
@@ -292,7 +299,7 @@ Result<Scene> make_scene(const Model& model, const SceneOptions& options,
   std::vector<GridShapeResult>& made = *shapes;
   const Result<parallel::Distinct> kinds = equal_shapes(made, context);
   if (!kinds) return kinds.error();
-  place_bodies(assembly, made, *kinds);
+  place_bodies(assembly, uses, made, *kinds);
   Scene& scene = assembly.scene;
   scene.model = &model;
   scene.sag_mm = options.sag_mm;

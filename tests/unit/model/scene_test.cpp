@@ -112,6 +112,26 @@ TEST(Scene, MeshesThatDifferInAnythingDoNotShare) {
   for (std::uint32_t i = 0; i < s.bodies.size(); ++i) EXPECT_EQ(s.bodies[i].grid_shape, i);
 }
 
+TEST(Scene, WhatIsToldOfAShapeIsToldOfAllItsBodies) {
+  geometry::TriangleMesh turned = test::box_mesh({0, 0, 0}, {1, 1, 1});
+  for (geometry::Triangle& t : turned.triangles) std::swap(t[1], t[2]);
+  const auto told = [&](int bodies) {
+    Builder b;
+    const ShapeId box = b.shape(turned);
+    for (int i = 0; i < bodies; ++i) b.object(box, {{}, {i * 5.0, 0, 0}});
+    const Scene s = b.scene();
+    EXPECT_EQ(s.diagnostics.count("mesh-inverted"), 1U);
+    for (const Diagnostic& d : s.diagnostics.kept())
+      if (d.code == "mesh-inverted") return d.message;
+    return std::string();
+  };
+  EXPECT_EQ(told(1), "a solid was inside out and is turned");
+  EXPECT_EQ(told(2),
+            "a solid was inside out and is turned; likewise in 1 more body of the same shape");
+  EXPECT_EQ(told(4),
+            "a solid was inside out and is turned; likewise in 3 more bodies of the same shape");
+}
+
 TEST(Scene, BoxPrimitiveIsASolidWithItsSourceAndNoSag) {
   Builder b;
   b.object(b.shape(geometry::Primitive{geometry::BoxPrimitive{2, 4, 6}}), {{}, {10, 0, 0}});
