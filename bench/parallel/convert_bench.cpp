@@ -49,6 +49,7 @@ double median(std::vector<double> values) {
 
 /// Of one run of the team, in CPU seconds: what a machine busy with other things spoils least.
 struct Shares {
+  double before = 0;    ///< the sequential program in the same round
   double apart = 0;     ///< outside regions
   double busiest = 0;   ///< of the busiest worker of each region
   double least = 0;     ///< what no schedule could make less of the latter
@@ -105,6 +106,7 @@ class Bench {
       CpuLap lap;
       const auto result = after({.team = &team_, .report = &report});
       reported.push_back(shares(report.regions(), lap()));
+      reported.back().before = sequential.cpu.back();
       check(result);
     }
     fmt::print("{}\n", name);
@@ -116,17 +118,17 @@ class Bench {
     row("before", sequential);
     row("after, one thread", alone);
     row("after, the team", together);
-    print_shares(reported, median(sequential.cpu));
+    print_shares(reported);
   }
 
-  static void print_shares(const std::vector<Shares>& reported, double before_s) {
+  static void print_shares(const std::vector<Shares>& reported) {
     const auto middle = [&](auto&& of) {
       std::vector<double> values;
       for (const Shares& one : reported) values.push_back(of(one));
       return median(std::move(values));
     };
-    const double gain = middle([&](const Shares& s) { return before_s / (s.apart + s.busiest); });
-    const double bound = middle([&](const Shares& s) { return before_s / (s.apart + s.least); });
+    const double gain = middle([](const Shares& s) { return s.before / (s.apart + s.busiest); });
+    const double bound = middle([](const Shares& s) { return s.before / (s.apart + s.least); });
     const double balance = middle([](const Shares& s) { return s.balance; });
     const double apart = middle([](const Shares& s) { return s.apart; });
     fmt::print("  on cores of its own {:.2f} times, by CPU time; no schedule could pass {:.2f}\n",
