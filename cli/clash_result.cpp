@@ -86,18 +86,41 @@ std::size_t terminal_width() {
   return std::max<std::size_t>(size.ws_col, kLeast);
 }
 
+namespace {
+
+/// Which of several tests, and of several files, a pair is of: the same names may stand in each.
+std::string where(const clash::Findings& findings, const clash::Report& test,
+                  const clash::LoggedPair& pair, const model::Model& model) {
+  std::string out;
+  if (model.files.size() > 1) {
+    const auto a = model.object(pair.a).file, b = model.object(pair.b).file;
+    out = ", of " + model.files[a].label + (a == b ? "" : " and " + model.files[b].label);
+  }
+  return findings.tests.size() > 1 ? out + ", test '" + test.name + "'" : out;
+}
+
+}  // namespace
+
 void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model) {
   constexpr std::size_t kShown = 5;
-  std::vector<const clash::LoggedPair*> pairs;
+  struct Costly {
+    const clash::Report* test = nullptr;
+    const clash::LoggedPair* pair = nullptr;
+  };
+  std::vector<Costly> costly;
   for (const clash::Report& test : findings.tests)
-    for (const clash::LoggedPair& pair : test.log) pairs.push_back(&pair);
-  const auto shown = static_cast<std::ptrdiff_t>(std::min(kShown, pairs.size()));
-  std::partial_sort(pairs.begin(), pairs.begin() + shown, pairs.end(), [](auto* x, auto* y) {
-    return std::tuple(y->cost(), x->a, x->b) < std::tuple(x->cost(), y->a, y->b);
-  });
-  pairs.resize(static_cast<std::size_t>(shown));
-  for (const clash::LoggedPair* pair : pairs)
-    stats.costly(model.object(pair->a).id, model.object(pair->b).id, pair->cost());
+    for (const clash::LoggedPair& pair : test.log) costly.push_back({&test, &pair});
+  const auto shown = static_cast<std::ptrdiff_t>(std::min(kShown, costly.size()));
+  std::partial_sort(costly.begin(), costly.begin() + shown, costly.end(),
+                    [](const Costly& l, const Costly& r) {
+                      const auto *x = l.pair, *y = r.pair;
+                      return std::tuple(y->cost(), x->a, x->b, l.test) <
+                             std::tuple(x->cost(), y->a, y->b, r.test);
+                    });
+  costly.resize(static_cast<std::size_t>(shown));
+  for (const auto& [test, pair] : costly)
+    stats.costly(model.object(pair->a).id, model.object(pair->b).id,
+                 where(findings, *test, *pair, model), pair->cost());
 }
 
 clash::SortBy sort_by(const std::string& word) {

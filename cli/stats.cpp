@@ -30,8 +30,9 @@ void Stats::count(std::string_view name, std::uint64_t value) {
   counters_.emplace_back(name, value);
 }
 
-void Stats::costly(std::string_view a, std::string_view b, std::uint64_t cost) {
-  costly_.push_back({std::string(a), std::string(b), cost});
+void Stats::costly(std::string_view a, std::string_view b, std::string_view where,
+                   std::uint64_t cost) {
+  costly_.push_back({std::string(a), std::string(b), std::string(where), cost});
 }
 
 std::string Stats::text(const parallel::RunReport& report) const {
@@ -56,8 +57,8 @@ std::string Stats::text(const parallel::RunReport& report) const {
   }
   for (const auto& [name, value] : counters_) out += fmt::format("{:<28}{:>10}\n", name, value);
   for (const Costly& pair : costly_)
-    out += fmt::format("{:<28}{:>10}   {} and {}\n", "costly pair", pair.cost, printable(pair.a),
-                       printable(pair.b));
+    out += fmt::format("{:<28}{:>10}   {} and {}{}\n", "costly pair", pair.cost, printable(pair.a),
+                       printable(pair.b), printable(pair.where));
   out += fmt::format("{:<28}{:>10.1f} MiB", "peak memory",
                      static_cast<double>(peak_memory_bytes()) / (1024.0 * 1024.0));
   return out;
@@ -84,7 +85,10 @@ std::string Stats::json(const parallel::RunReport& report) const {
                      {"bound", region.bound()}});
   for (const auto& [name, value] : counters_) counters[name] = value;
   for (const Costly& pair : costly_)
-    costly.push_back({{"a", valid_utf8(pair.a)}, {"b", valid_utf8(pair.b)}, {"cost", pair.cost}});
+    costly.push_back({{"a", valid_utf8(pair.a)},
+                      {"b", valid_utf8(pair.b)},
+                      {"where", valid_utf8(pair.where)},
+                      {"cost", pair.cost}});
   return Json{{"phases", std::move(phases)},       {"stages", std::move(stages)},
               {"regions", std::move(parts)},       {"counters", std::move(counters)},
               {"costly_pairs", std::move(costly)}, {"peak_memory_bytes", peak_memory_bytes()}}

@@ -34,8 +34,8 @@ class Stats {
 
   [[nodiscard]] Timer time(std::string_view phase) { return Timer(*this, phase); }
   void count(std::string_view name, std::uint64_t value);
-  /// One of the pairs that cost most.
-  void costly(std::string_view a, std::string_view b, std::uint64_t cost);
+  /// One of the pairs that cost most; `where`, if anything, tells which of equal names these are.
+  void costly(std::string_view a, std::string_view b, std::string_view where, std::uint64_t cost);
 
   /// Lines for a person.
   [[nodiscard]] std::string text(const parallel::RunReport& report) const;
@@ -49,7 +49,7 @@ class Stats {
   };
   std::vector<Phase> phases_;
   struct Costly {
-    std::string a, b;
+    std::string a, b, where;
     std::uint64_t cost = 0;
   };
   std::vector<std::pair<std::string, std::uint64_t>> counters_;

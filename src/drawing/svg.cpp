@@ -77,9 +77,12 @@ void write_title(Chunked& out, const NeutralDrawing& drawing) {
   out << "<g inkscape:groupmode=\"layer\" inkscape:label=\"Title\" id=\"title\" class=\"frame\">\n"
       << fmt::format("<path d=\"M10 {0}L{1} {0}\"/>\n", shortest(sheet.height_mm - 11), shortest(x))
       << fmt::format("<text x=\"10\" y=\"{}\">", shortest(y)) << xml_escaped(drawing.title)
-      << "</text>\n"
-      << fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">", shortest(x), shortest(y))
-      << "scale " << sheet.scale_text << "</text>\n</g>\n";
+      << "</text>\n";
+  // A view in perspective has no scale to measure by.
+  if (!drawing.view.perspective)
+    out << fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">", shortest(x), shortest(y))
+        << "scale " << sheet.scale_text << "</text>\n";
+  out << "</g>\n";
 }
 
 }  // namespace

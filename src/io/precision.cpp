@@ -68,10 +68,11 @@ void settle_precision(const FileBytes& file, model::Model& model) {
   if (coarse == 0) return;
   model.diagnostics.add(
       Severity::warning, "coarse-coordinates",
-      fmt::format("the coordinates of {} objects are so large for the file's numbers that these "
+      fmt::format("the coordinates of {} are so large for the file's numbers that these "
                   "stand in steps of up to {:.3g} mm there, and what is nearer counts as touching: "
                   "export nearer to the origin, or with more digits",
-                  coarse, 2 * static_cast<double>(worst) * kMmPerUm),
+                  coarse == 1 ? "1 object" : std::to_string(coarse) + " objects",
+                  2 * static_cast<double>(worst) * kMmPerUm),
       fmt::format("{}, '{}'", file.path.string(), example->name));
 }
 

@@ -293,12 +293,17 @@ class Composer {
                        PlacedView& view, Canvas& canvas) {
     const TagCount count = write_tags(tag, picked, *scene_.model, room_, view, canvas);
     const std::string where = tag.where + ", the view '" + view.name + "'";
-    const auto say = [&](std::size_t number, const char* code, const std::string& what) {
-      if (number > 0) warn(code, std::to_string(number) + " objects " + what, where);
+    const auto say = [&](std::size_t number, const char* code, const std::string& one,
+                         const std::string& many) {
+      if (number == 1) warn(code, "1 object " + one, where);
+      if (number > 1) warn(code, std::to_string(number) + " objects " + many, where);
     };
-    say(count.blank, "tag-attribute-missing", "have nothing to be tagged with");
-    say(count.partly, "tag-attribute-partly-missing", "lack some of what '" + tag.text + "' names");
-    say(count.crowded, "tag-no-room", "are without their tags: there is no room for them");
+    const std::string some = " some of what '" + tag.text + "' names";
+    say(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
+        "have nothing to be tagged with");
+    say(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
+    say(count.crowded, "tag-no-room", "is without its tag: there is no room for it",
+        "are without their tags: there is no room for them");
     return static_cast<std::size_t>(std::count(picked.begin(), picked.end(), 1)) - count.unseen;
   }
 
