@@ -40,6 +40,42 @@ std::string change(const ClashDiff& diff, const DiffEntry& e) {
 
 std::string_view label(const DocumentObject& o) { return o.name.empty() ? o.id : o.name; }
 
+/// Which of several tests, and of several files, the objects of a result are of: the same names may
+/// stand in each.
+class Origin {
+ public:
+  explicit Origin(const ClashDiff& diff) : diff_(diff) {
+    const std::string_view first = any_file();
+    for (const ClashDocument* run : {diff.before, diff.after}) {
+      tests_ = tests_ || run->tests.size() > 1;
+      files_ = files_ || std::ranges::any_of(run->objects, [&](const DocumentObject& o) {
+                 return o.file != first;
+               });
+    }
+  }
+
+  [[nodiscard]] std::string text(const DiffEntry& entry) const {
+    const ClashDocument& run = diff_.run_of(entry);
+    const DocumentResult& r = entry.either();
+    std::string out;
+    if (files_) {
+      const std::string_view a = run.a(r).file, b = run.b(r).file;
+      out = ", of " + printable(a) + (a == b ? "" : " and " + printable(b));
+    }
+    return tests_ ? out + ", test '" + printable(run.tests[r.test].name) + "'" : out;
+  }
+
+ private:
+  [[nodiscard]] std::string_view any_file() const {
+    for (const ClashDocument* run : {diff_.before, diff_.after})
+      if (!run->objects.empty()) return run->objects.front().file;
+    return {};
+  }
+
+  const ClashDiff& diff_;
+  bool tests_ = false, files_ = false;
+};
+
 std::string block(std::string_view title, const ClashDiff& diff, const std::vector<DiffEntry>& list,
                   const TableOptions& options, std::string_view of = {}) {
   if (list.empty()) return {};
@@ -48,11 +84,12 @@ std::string block(std::string_view title, const ClashDiff& diff, const std::vect
   const std::size_t names = std::max(kLeast, room);
   std::string out = std::string(title) + " (" + std::to_string(list.size()) + ")\n";
   const std::size_t shown = std::min(options.rows, list.size());
+  const Origin origin(diff);
   for (std::size_t i = 0; i < shown; ++i) {
     const ClashDocument& run = diff.run_of(list[i]);
     const DocumentResult& r = list[i].either();
     out += "  " + fitted(label(run.a(r)), names) + "  " + fitted(label(run.b(r)), names) + "  " +
-           change(diff, list[i]) + "\n";
+           change(diff, list[i]) + origin.text(list[i]) + "\n";
     const bool told = i > 0 && list[i].why == list[i - 1].why;
     if (!list[i].why.empty() && !told)
       out += "      " + std::string(of) + printable(list[i].why) + "\n";

@@ -106,7 +106,8 @@ class Reader {
     if (said != kClashSchemaVersion)
       throw DocumentFault{"the document", "is no clash result of schema version " +
                                               std::string(kClashSchemaVersion) +
-                                              ": it says version " + said};
+                                              ": it says version " + said +
+                                              " (drawings are compared by 'strake draw diff')"};
     has_version_ = true;
   }
 

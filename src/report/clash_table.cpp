@@ -19,6 +19,7 @@ using clash::Pair;
 using clash::Report;
 
 constexpr std::size_t kClassColumns = 9, kNumberColumns = 10, kRelationColumns = 12;
+constexpr std::size_t kVolumeColumns = 14;
 constexpr std::size_t kFixedColumns = kClassColumns + kNumberColumns + kRelationColumns + 8;
 constexpr std::size_t kLeastName = 8;
 
@@ -87,10 +88,12 @@ void strip(std::string& line) {
   while (!line.empty() && line.back() == ' ') line.pop_back();
 }
 
-std::string row(std::string_view cls, std::string d, std::string_view relation, std::string_view a,
-                std::string_view b, std::size_t name_columns) {
+/// `volume` is empty where the table has no such column.
+std::string row(std::string_view cls, std::string d, std::string volume, std::string_view relation,
+                std::string_view a, std::string_view b, std::size_t name_columns) {
+  if (!volume.empty()) volume = right_aligned(std::move(volume), kVolumeColumns) + "  ";
   std::string line = fitted(cls, kClassColumns) + "  " +
-                     right_aligned(std::move(d), kNumberColumns) + "  " +
+                     right_aligned(std::move(d), kNumberColumns) + "  " + volume +
                      fitted(relation, kRelationColumns) + "  " + fitted(a, name_columns) + "  " +
                      fitted(b, name_columns);
   strip(line);
@@ -174,16 +177,23 @@ std::string matrix_table(const Report& report, std::size_t width) {
 std::string test_table(const Report& report, const model::Model& model,
                        const TableOptions& options) {
   std::string out;
-  const std::size_t room = options.width > kFixedColumns ? options.width - kFixedColumns : 0;
+  const bool volumes = options.sort == clash::SortBy::volume;
+  const std::size_t fixed_columns = kFixedColumns + (volumes ? kVolumeColumns + 2 : 0);
+  const std::size_t room = options.width > fixed_columns ? options.width - fixed_columns : 0;
   const std::size_t names = std::max(kLeastName, room / 2);
-  if (!report.pairs.empty()) out += row("class", "d mm", "relation", "a", "b", names);
+  if (!report.pairs.empty())
+    out += row("class", "d mm", volumes ? "volume mm3" : "", "relation", "a", "b", names);
+  const auto volume = [&](const Pair& p) {
+    if (!volumes) return std::string();
+    return p.volume_mm3 ? fixed(*p.volume_mm3, 1) : std::string("-");
+  };
   const std::array<ClassRows, 3> classes = shares(report, options.rows);
   for (const ClassRows& c : classes) {
     const Block block = worst_of(report, c.cls, c.rows, options.sort);
     for (const std::size_t i : block.pairs) {
       const Pair& p = report.pairs[i];
-      out += row(short_name(p.cls), fixed(p.d_mm, 3), name(p.relation), label(model, p.a),
-                 label(model, p.b), names);
+      out += row(short_name(p.cls), fixed(p.d_mm, 3), volume(p), name(p.relation),
+                 label(model, p.a), label(model, p.b), names);
     }
     if (block.hidden > 0) out += "… and " + counted(c, block.hidden) + " more\n";
   }

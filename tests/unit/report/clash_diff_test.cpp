@@ -337,6 +337,27 @@ TEST(ClashDiff, TestsGoTogetherByName) {
             std::string::npos);
 }
 
+TEST(ClashDiff, TableTellsTheTestWhereThereAreSeveral) {
+  Folder folder;
+  const ClashModel m = row();
+  clash::Findings two = run(m);
+  two.tests.push_back(two.tests[0]);
+  two.tests[0].name = "pipes";
+  two.tests[1].name = "steel";
+  ClashModel apart;
+  apart.box("a", {0, 0, 0}, {1, 1, 1}).box("b", {90, 0, 0}, {91, 1, 1});
+  apart.box("c", {180, 0, 0}, {181, 1, 1}).box("d", {310, 0, 0}, {311, 1, 1});
+  clash::Findings none = run(apart);
+  none.tests.push_back(none.tests[0]);
+  none.tests[0].name = "pipes";
+  none.tests[1].name = "steel";
+  const std::string table = clash_diff_table(compare(document(folder, "x.json", none, apart.model),
+                                                     document(folder, "y.json", two, m.model)),
+                                             {});
+  EXPECT_NE(table.find("HIT -10.000, test 'pipes'\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("HIT -10.000, test 'steel'\n"), std::string::npos) << table;
+}
+
 TEST(ClashDocument, NamesThatAreNoUtf8AreFoundAgain) {
   Folder folder;
   ClashModel m;

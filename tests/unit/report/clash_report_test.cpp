@@ -374,6 +374,17 @@ TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
   EXPECT_NE(text.find("1 hit, 39 contacts, 1 clearance violation"), std::string::npos) << text;
 }
 
+TEST(ClashTable, ShowsTheVolumeThatItSortsBy) {
+  ClashModel m;
+  m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {90, 0, 0}, {200, 100, 100});
+  const clash::Report report = m.detect({.volumes = clash::Volumes::on});
+  const std::string by_volume =
+      clash_table({{{report}, {}}, m.model}, {.sort = clash::SortBy::volume});
+  EXPECT_NE(by_volume.find("volume mm3"), std::string::npos);
+  EXPECT_NE(by_volume.find("100000.0"), std::string::npos) << by_volume;
+  EXPECT_EQ(clash_table({{{report}, {}}, m.model}, {}).find("volume"), std::string::npos);
+}
+
 TEST(ClashTable, NothingFoundIsSaid) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {1, 1, 1});
