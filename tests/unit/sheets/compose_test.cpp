@@ -301,14 +301,14 @@ TEST(Sheet, TagsStandAtTheirObjectsAndTouchNothing) {
   EXPECT_EQ(tags.texts[0].text, "base DN 80");
   EXPECT_EQ(tags.texts[3].text, "B1");
   EXPECT_EQ(tags.paths.size(), 6U);  // a leader and its arrow, three times
-  EXPECT_TRUE(told(d.sheet, "tag-attribute-partly-missing", "1 objects lack some"));
+  EXPECT_TRUE(told(d.sheet, "tag-attribute-partly-missing", "1 object lacks some"));
   for (const PlacedView& view : d.sheet.views)
     for (std::size_t i = 0; i < view.tags.texts.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
         EXPECT_FALSE(box_of(view.tags.texts[i]).overlaps(box_of(view.tags.texts[k])));
   const Drawn none =
       drawn(with_frame("[[view]]\nname=\"v\"\n[[tag]]\nselect=\"far\"\ntext=\"{{@DN}}\"\n"));
-  EXPECT_TRUE(told(none.sheet, "tag-attribute-missing", "1 objects have nothing"));
+  EXPECT_TRUE(told(none.sheet, "tag-attribute-missing", "1 object has nothing"));
   const Drawn once =
       drawn(with_frame("[[view]]\nname=\"v\"\ndirection=\"top\"\n[[tag]]\nselect=\"*\"\ntext="
                        "\"PLATE\"\nonce=true\n"));
