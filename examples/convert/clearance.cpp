@@ -3,7 +3,10 @@
 // program and by teams.
 #include "clearance.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "everywhere.hpp"
 
@@ -16,6 +19,17 @@ strake::Result<Clearances> clearances(const Model& model, const std::vector<Valv
   const auto boxes = after::boxes_of(model, context);
   if (!boxes) return boxes.error();
   return after::clearances(model, *boxes, valves, context);
+}
+
+/// Whether a distance is that to the part, as far as its points can tell: none is nearer, and the
+/// nearest is no further off than the longest edge that a small part or a giant has.
+bool fits_points(const Model& model, const std::vector<Valve>& valves, const TooNear& one) {
+  constexpr double kLongestEdge = 200;
+  const Point& at = valves[one.valve].at;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Point& p : model[one.part].points)
+    nearest = std::min(nearest, std::hypot(p.x - at.x, p.y - at.y, p.z - at.z));
+  return one.distance <= nearest && one.distance >= nearest - kLongestEdge;
 }
 
 }  // namespace
@@ -33,6 +47,8 @@ int main() {
                 valves[one.valve].clearance);
   }
   if (expected.too_near.empty()) return 1;
+  for (const TooNear& one : expected.too_near)
+    if (!fits_points(model, valves, one)) return 1;
   const auto run = [&](const strake::parallel::Context& context) {
     return clearances(model, valves, context);
   };
