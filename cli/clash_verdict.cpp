@@ -92,9 +92,12 @@ ExitCode verdict(const clash::Findings& findings, const std::string& fail_on,
   const std::vector<std::string> tests = empty_tests(findings);
   if (!fail_on.empty()) {
     const bool fails = has_failing_pair(findings, fail_on, console);
+    const std::string rest = unread_rest(*loaded.model);
+    if (!rest.empty())
+      console.warn(fmt::format("--fail-on {}: not everything was compared: {}", fail_on, rest));
     if (!tests.empty())
       console.warn(fmt::format("--fail-on {}: nothing was compared: {}", fail_on, first_of(tests)));
-    if (fails || !tests.empty()) return ExitCode::clashes;
+    if (fails || !tests.empty() || !rest.empty()) return ExitCode::clashes;
   }
   if (input.strict) {
     if (!tests.empty())

@@ -13,9 +13,9 @@ namespace strake::cli {
 /// given. Says on standard error what standard output does not show of the reasons.
 ///
 /// `clashes` where a result is, or may be as far as its brackets tell, of the class of --fail-on or
-/// a worse one, where a pair was not compared and where a test compared nothing, as a set of it is
-/// empty. Else `partial` where --strict is given and something was skipped,
-/// or a set or a discipline that a matrix checks is empty.
+/// a worse one, where a pair was not compared, where a file ends early and where a test compared
+/// nothing, as a set of it is empty. Else `partial` where --strict is given and something was
+/// skipped, or a set or a discipline that a matrix checks is empty.
 [[nodiscard]] ExitCode verdict(const clash::Findings& findings, const std::string& fail_on,
                                const InputOptions& input, const Loaded& loaded, Console& console);
 

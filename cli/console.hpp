@@ -21,8 +21,8 @@ class Console {
 
   /// A line of narration; silent under --quiet.
   void say(std::string_view line);
-  /// "strake: ...", of what makes the exit code one of failure and standard output does not show;
-  /// never silent.
+  /// "strake: ...", of what makes the exit code one of failure and standard output does not show,
+  /// and of what makes the whole result doubtful; never silent.
   void warn(std::string_view line);
   /// "strake: error: ..."; never silent.
   void error(std::string_view line);

@@ -22,7 +22,7 @@ void tell_drawn(Console& console, const Diagnostics& diagnostics) {
   tell(console, diagnostics, {"object-degenerate", "object-failed", "object-in-part"});
 }
 
-std::string account_line(const hlr::Account& account) {
+std::string account_line(const hlr::Account& account, const model::Model& model) {
   std::string line =
       fmt::format("{} objects: {} drawn", account.objects(), account.of(hlr::Fate::drawn));
   for (std::size_t f = static_cast<std::size_t>(hlr::Fate::drawn) + 1; f < hlr::kFates; ++f) {
@@ -31,6 +31,8 @@ std::string account_line(const hlr::Account& account) {
   }
   if (account.in_part > 0)
     line += fmt::format("; {} without some of their geometry", account.in_part);
+  if (const std::string rest = unread_rest(model); !rest.empty())
+    line += fmt::format("; not drawn: {}", rest);
   return line;
 }
 

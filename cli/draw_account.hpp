@@ -15,8 +15,8 @@ namespace strake::cli {
 void tell_drawn(Console& console, const Diagnostics& diagnostics);
 
 /// "900 objects: 400 drawn, 496 hidden, 4 failed; 2 without some of their geometry": fates
-/// add up.
-[[nodiscard]] std::string account_line(const hlr::Account& account);
+/// add up. Tells of files that end early, too.
+[[nodiscard]] std::string account_line(const hlr::Account& account, const model::Model& model);
 
 /// The same for --stats, every fate, each name behind `prefix`.
 void count_objects(Stats& stats, const hlr::Account& account, std::string_view prefix);

@@ -16,7 +16,7 @@ namespace strake::cli {
 
 namespace {
 
-void tell_sheet(Session& session, const sheets::Sheet& sheet) {
+void tell_sheet(Session& session, const sheets::Sheet& sheet, const model::Model& model) {
   Console& console = session.console();
   for (const sheets::PlacedView& view : sheet.views) {
     std::uint64_t lines = 0;
@@ -26,7 +26,7 @@ void tell_sheet(Session& session, const sheets::Sheet& sheet) {
     };
     console.say(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
                             of(drawing::LineState::visible), lines, view.drawing.sheet.scale_text));
-    console.say(fmt::format("view '{}': {}", view.name, account_line(view.drawing.account)));
+    console.say(fmt::format("view '{}': {}", view.name, account_line(view.drawing.account, model)));
     count_objects(session.stats(), view.drawing.account, view.name + ": ");
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)
       session.stats().count(fmt::format("{}: lines {}", view.name,
@@ -62,7 +62,7 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
     return file->compose(loaded->scene, request.solver, session.context());
   }();
   if (!sheet) return sheet.error();
-  tell_sheet(session, *sheet);
+  tell_sheet(session, *sheet, *loaded->model);
   for (const std::string& output : request.outputs) {
     const Status written = session.write(output, [&](Session::Sink sink) {
       sheets::write_svg(*sheet, *loaded->model, sink);

@@ -91,6 +91,8 @@ Result<model::Model> read_model(Session& session, const InputOptions& input) {
                                       objects[f], file.unit, file.up_axis));
   }
   tell(session.console(), model->diagnostics);
+  if (const std::string rest = unread_rest(*model); !rest.empty())
+    session.console().warn(fmt::format("nothing is known of {}", rest));
   return model;
 }
 

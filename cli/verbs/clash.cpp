@@ -284,8 +284,8 @@ void add_rules(CLI::App& command, ClashOptions& options) {
   add_choice(
       command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},
       "Exit code 1 where a pair is of this class or worse, or may be: flag UNCERTAIN, or it "
-      "could not be compared; and where a set is empty. Objects that could not be read whole "
-      "only with --strict")
+      "could not be compared; where a set is empty, or a file ends early. Objects that could not "
+      "be read whole only with --strict")
       ->group("Rules");
 }
 

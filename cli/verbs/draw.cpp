@@ -191,12 +191,13 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
                 drawing.count[s]);
 }
 
-void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing) {
+void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing,
+                  const model::Model& model) {
   const auto of = [&](drawing::LineState state) {
     return drawing.count[static_cast<std::size_t>(state)];
   };
   const std::uint64_t visible = of(drawing::LineState::visible);
-  console.say(account_line(drawing.account));
+  console.say(account_line(drawing.account, model));
   console.say(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
                           drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
                           drawing.sheet.height_mm));
@@ -303,7 +304,7 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   const Result<drawing::NeutralDrawing> drawing = compute(session, *request, loaded->scene);
   if (!drawing) return drawing.error();
   count_work(session.stats(), *drawing);
-  tell_drawing(session.console(), *drawing);
+  tell_drawing(session.console(), *drawing, *loaded->model);
   if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
     return status.error();
   return outcome(given.input, *loaded);

@@ -117,6 +117,7 @@ std::string info_json(const model::Model& model, const model::Scene& scene,
                {"unit", file.unit},
                {"up_axis", file.up_axis},
                {"bytes", file.bytes}};
+    if (file.ends_early) entry["ends_early"] = true;
     entry.update(content_json(content_of(model, scene, f, f + 1)));
     files.push_back(std::move(entry));
   }

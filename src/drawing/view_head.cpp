@@ -117,6 +117,17 @@ void write_defects(Chunked& out, const NeutralDrawing& drawing, const model::Mod
   out << "],\n";
 }
 
+/// Files of which nobody knows what the rest held, where there are such.
+void write_cut_files(Chunked& out, const model::Model& model) {
+  const char* separator = "\"files_ending_early\":[";
+  for (const model::SourceFile& file : model.files) {
+    if (!file.ends_early) continue;
+    out << separator << json_quoted(file.label);
+    separator = ",";
+  }
+  if (*separator == ',') out << "],\n";
+}
+
 }  // namespace
 
 void append_numbers(std::string& out, std::initializer_list<double> values) {
@@ -146,6 +157,7 @@ void write_view_head(Chunked& out, const NeutralDrawing& drawing, const model::M
   write_view(out, drawing);
   write_counts(out, drawing);
   write_defects(out, drawing, model);
+  write_cut_files(out, model);
   out << "\"hash\":\"" << drawing.hash.text() << "\",\n\"objects\":[";
   for (const model::ObjectId o : listed.objects()) {
     out << (listed.number(o) == 0 ? "\n" : ",\n");

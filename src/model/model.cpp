@@ -139,6 +139,22 @@ std::vector<std::string_view> Model::group_names(const Object& object) const {
 
 std::string Model::path(const Object& object) const { return joined_path(group_names(object)); }
 
+std::string unread_rest(const Model& model) {
+  const SourceFile* first = nullptr;
+  std::size_t more = 0;
+  for (const SourceFile& file : model.files) {
+    if (!file.ends_early) continue;
+    if (first == nullptr)
+      first = &file;
+    else
+      ++more;
+  }
+  if (first == nullptr) return {};
+  if (more == 0) return fmt::format("the rest of {}, which ends early", first->label);
+  return fmt::format("the rest of {} and {} more file{}, which end early", first->label, more,
+                     more == 1 ? "" : "s");
+}
+
 std::string joined_path(std::span<const std::string_view> names) {
   std::string joined;
   for (std::size_t n = 0; n < names.size(); ++n) {

@@ -27,6 +27,7 @@ void files(std::string& out, const model::Model& model) {
     append_json(out, file.format);
     out += ", \"unit\": ";
     append_json(out, file.unit);
+    if (file.ends_early) out += ", \"ends_early\": true";
     out += '}';
   });
 }

@@ -124,7 +124,7 @@ std::string uncertain(const Report& report) {
 }
 
 /// What a class of no hits may hide.
-std::string not_compared(const Report& report) {
+std::string not_compared(const Report& report, const model::Model& model) {
   if (report.objects_a == 0 || report.objects_b == 0)
     return std::string("; not compared: anything, as set ") + (report.objects_a == 0 ? "A" : "B") +
            " is empty";
@@ -134,10 +134,13 @@ std::string not_compared(const Report& report) {
   if (lacks.objects > 0)
     text += (text.empty() ? "" : ", ") + std::string("all or part of ") +
             counted(lacks.objects, "object", "objects");
+  if (const std::string rest = unread_rest(model); !rest.empty())
+    text += (text.empty() ? "" : ", ") + printable(rest);
   return text.empty() ? text : "; not compared: " + text;
 }
 
-std::string summary_of(const Report& report, const std::array<ClassRows, 3>& classes) {
+std::string summary_of(const Report& report, const model::Model& model,
+                       const std::array<ClassRows, 3>& classes) {
   std::string summary;
   for (const ClassRows& c : classes) summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
   if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
@@ -147,7 +150,7 @@ std::string summary_of(const Report& report, const std::array<ClassRows, 3>& cla
   for (const clash::Exempted& e : report.exempted)
     if (e.pairs > 0)
       summary += ", " + std::to_string(e.pairs) + " exempted by " + printable(e.rule);
-  return summary + uncertain(report) + not_compared(report) + "\n";
+  return summary + uncertain(report) + not_compared(report, model) + "\n";
 }
 
 std::string cell_row(std::string_view cell, const std::array<std::string, 4>& counts,
@@ -198,7 +201,7 @@ std::string test_table(const Report& report, const model::Model& model,
     if (block.hidden > 0) out += "… and " + counted(c, block.hidden) + " more\n";
   }
   if (!report.pairs.empty()) out += "\n";
-  return out + matrix_table(report, options.width) + summary_of(report, classes);
+  return out + matrix_table(report, options.width) + summary_of(report, model, classes);
 }
 
 std::string group_row(std::string_view cls, std::string d, std::string results, std::string size,
@@ -242,9 +245,9 @@ std::string clash_table(const ClashContents& contents, const TableOptions& optio
     if (!first && contents.grouping == nullptr) out += "\n";
     first = false;
     if (!test.name.empty()) out += "== " + printable(test.name) + "\n";
-    out += contents.grouping != nullptr
-               ? matrix_table(test, options.width) + summary_of(test, shares(test, 0))
-               : test_table(test, contents.model, options);
+    out += contents.grouping != nullptr ? matrix_table(test, options.width) +
+                                              summary_of(test, contents.model, shares(test, 0))
+                                        : test_table(test, contents.model, options);
   }
   return out;
 }

@@ -99,6 +99,7 @@ struct SourceFile {
   double precision_mm = 0;
   std::string folders =
       {};  ///< it lies in, the outermost first, a '/' behind each; empty: not known
+  bool ends_early = false;  ///< it was cut off, and what the rest held nobody knows
 };
 
 /// Objects read from one or several files, as the sources describe them (doubles, not yet on the
@@ -132,6 +133,10 @@ struct Model {
   /// Gives a group attributes, if there are any.
   void set_attributes(GroupId group, Attributes attributes);
 };
+
+/// What is not known of files that end early: "the rest of a.rvm, which ends early", of several
+/// "the rest of a.rvm and 2 more files, which end early". Empty where all are whole.
+[[nodiscard]] std::string unread_rest(const Model& model);
 
 /// Names joined by '/'. One that begins with '/', as full names of RVM do, brings it along:
 /// "/SITE" and "/ZONE" are "/SITE/ZONE".

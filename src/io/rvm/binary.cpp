@@ -89,7 +89,7 @@ class BinaryReader {
     if (stated) decode_ = *stated;
   }
 
-  [[nodiscard]] bool read(const parallel::Context& context);
+  [[nodiscard]] FileRead read(const parallel::Context& context);
 
  private:
   void note_truncation();
@@ -129,12 +129,12 @@ std::optional<std::size_t> BinaryReader::next_of(std::size_t at) const {
   return next;
 }
 
-bool BinaryReader::read(const parallel::Context& context) {
+FileRead BinaryReader::read(const parallel::Context& context) {
   at_ = find_head(bytes_).value_or(0);
   if (at_ > 0)
     log_->warn("rvm-leading-bytes", fmt::format("{} bytes before the HEAD chunk", at_), 0);
   for (std::size_t chunks = 0; !ended_; ++chunks) {
-    if (chunks % 1024 == 0 && context.stop.stop_requested()) return false;
+    if (chunks % 1024 == 0 && context.stop.stop_requested()) return {.cancelled = true};
     if (bytes_.size() - at_ < kFrameBytes) {
       note_truncation();
       break;
@@ -144,20 +144,15 @@ bool BinaryReader::read(const parallel::Context& context) {
   if (builder_->depth() > 0 && ended_)
     log_->warn("rvm-unclosed-group",
                fmt::format("{} groups are still open at the end", builder_->depth()), at_);
-  return true;
+  return {.ends_early = !ended_};
 }
 
-/// Whether anything is missing behind the last group that was closed, nobody can tell.
+/// The group that it ends in is incomplete; what else is missing nobody can tell.
 void BinaryReader::note_truncation() {
-  constexpr const char* kCode = "rvm-truncated";
-  constexpr const char* kMessage =
-      "the file ends without an END chunk; what came before it is kept";
-  if (builder_->depth() == 0) {
-    log_->warn(kCode, kMessage, at_);
-    return;
-  }
-  builder_->note_loss(at_);
-  log_->skip(kCode, kMessage, at_);
+  if (builder_->depth() > 0) builder_->note_loss(at_);
+  log_->skip("rvm-truncated",
+             "the file ends without an END chunk; what came before it is kept, the rest is unknown",
+             at_);
 }
 
 void BinaryReader::read_chunk() {
@@ -399,8 +394,8 @@ bool is_byte_swapped(Bytes bytes) {
          std::memcmp(bytes.data(), kSwapped.data(), kSwapped.size()) == 0;
 }
 
-bool read_binary(Bytes bytes, const std::optional<TextDecoder>& stated_encoding, Builder& builder,
-                 Log& log, FileHead& head, const parallel::Context& context) {
+FileRead read_binary(Bytes bytes, const std::optional<TextDecoder>& stated_encoding,
+                     Builder& builder, Log& log, FileHead& head, const parallel::Context& context) {
   return BinaryReader(bytes, stated_encoding, builder, log, head).read(context);
 }
 

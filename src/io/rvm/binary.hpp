@@ -20,6 +20,12 @@ struct FileHead {
   std::string project, name;
 };
 
+/// What reading found of the file as a whole.
+struct FileRead {
+  bool cancelled = false;   ///< nothing else is of use
+  bool ends_early = false;  ///< it has no END chunk
+};
+
 /// Byte offset of the HEAD chunk within the first 64 KiB; nothing when there is none.
 [[nodiscard]] std::optional<std::size_t> find_head(Bytes bytes);
 
@@ -30,9 +36,9 @@ struct FileHead {
 /// Reads the chunks of a binary file into the builder.
 ///
 /// A damaged chunk is skipped with a diagnostic and reading goes on at the next place where a
-/// chunk id stands; nesting is kept on a stack of our own. False when the run was cancelled.
-[[nodiscard]] bool read_binary(Bytes bytes, const std::optional<TextDecoder>& stated_encoding,
-                               Builder& builder, Log& log, FileHead& head,
-                               const parallel::Context& context);
+/// chunk id stands; nesting is kept on a stack of our own.
+[[nodiscard]] FileRead read_binary(Bytes bytes, const std::optional<TextDecoder>& stated_encoding,
+                                   Builder& builder, Log& log, FileHead& head,
+                                   const parallel::Context& context);
 
 }  // namespace strake::io::rvm

@@ -170,9 +170,9 @@ Result<model::Model> RvmReader::read(const FileBytes& file, const ReadOptions& o
   }
   Builder builder(log, choose_frame(options, kFrame));
   FileHead head;
-  if (!read_binary(text ? Bytes(transcoded.bytes) : file.bytes, decoder, builder, log, head,
-                   context))
-    return cancelled(file);
+  const FileRead done = read_binary(text ? Bytes(transcoded.bytes) : file.bytes, decoder, builder,
+                                    log, head, context);
+  if (done.cancelled) return cancelled(file);
   auto built = builder.build(context);
   if (!built) return built.error();
   built->model.diagnostics = std::move(diagnostics);
@@ -180,6 +180,7 @@ Result<model::Model> RvmReader::read(const FileBytes& file, const ReadOptions& o
   model::Model started =
       start_model(file, text ? "RVM text" : fmt::format("RVM {}", head.version), options, kFrame);
   built->model.files = std::move(started.files);
+  built->model.files.front().ends_early = done.ends_early;
   add_attributes(*built, file, decoder);
   assign_ids(*built);
   return end_model(file, std::move(built->model));

@@ -185,6 +185,30 @@ class Clash(Scenario):
         drawn = self.run_strake('draw', 'a.obj', '--view', 'top', '-o', 'a.svg')
         self.assertIn('2 objects: 2 drawn; 1 without some of their geometry', drawn.stderr)
 
+    def test_of_a_file_that_ends_early_the_rest_is_not_compared(self):
+        self.write_rvm('cut.rvm', [('/A', (0, 0, 0)), ('/B', (500, 0, 0))], whole=False)
+        run = ['clash', 'cut.rvm', '--quiet']
+        rest = 'the rest of cut.rvm, which ends early'
+        done = self.run_strake(*run, '-o', 'cut.json')
+        self.assertEqual((done.returncode, done.stderr), (0, f'strake: nothing is known of {rest}\n'))
+        self.assertEqual(done.stdout, f'0 hits, 0 contacts, 0 clearance violations; not compared: {rest}\n')
+        told = json.loads((self.folder / 'cut.json').read_text())
+        self.assertEqual(told['files'], [{'label': 'cut.rvm', 'format': 'RVM 2', 'unit': 'm (stated)',
+                                          'ends_early': True}])
+        for worst in 'hit', 'contact', 'clearance_violation':
+            done = self.run_strake(*run, '--fail-on', worst)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f'--fail-on {worst}: not everything was compared: {rest}\n', done.stderr)
+        self.assertEqual(self.run_strake(*run, '--strict').returncode, 4)
+        # What is missing is not mended, nor is it new when it comes back.
+        self.write_rvm('cut.rvm', [('/A', (0, 0, 0)), ('/B', (500, 0, 0)), ('/C', (540, 0, 0))])
+        done = self.run_strake(*run, '--fail-on', 'contact', '-o', 'whole.json')
+        self.assertEqual((done.returncode, done.stderr), (1, ''))
+        self.assertNotIn('ends_early', (self.folder / 'whole.json').read_text())
+        lost = self.run_strake('clash', 'diff', 'whole.json', 'cut.json', '--json')
+        self.assertEqual(lost.returncode, 0, lost.stderr)
+        self.assertEqual(json.loads(lost.stdout)['counts']['cannot_tell'], 1)
+
     def test_objects_that_could_not_be_read_whole_are_told_and_strict_counts_them(self):
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (50, 50, 50), 100).replace('150', 'nan'))
         run = ['clash', 'a.obj', *self.SETTINGS]

@@ -282,6 +282,27 @@ class Draw(Scenario):
         self.assertNotIn('odd.obj: wire: ', done.stderr)  # seen end-on: nothing is wrong with it
         self.assertRegex(done.stderr, r'objects hidden +1\n')
 
+    def test_the_account_tells_of_a_file_that_ends_early(self):
+        rest = 'the rest of cut.rvm, which ends early'
+        self.write_rvm('cut.rvm', [('/A', (0, 0, 0)), ('/B', (500, 0, 0))], whole=False)
+        done = self.run_strake('draw', 'cut.rvm', '-o', 'x.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f'2 objects: 2 drawn; not drawn: {rest}\n', done.stderr)
+        cut = json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))
+        self.assertEqual(cut['files_ending_early'], ['cut.rvm'])
+        quiet = self.run_strake('draw', 'cut.rvm', '--quiet', '-o', 'x.svg')
+        self.assertEqual((quiet.returncode, quiet.stderr), (0, f'strake: nothing is known of {rest}\n'))
+        self.assertEqual(self.run_strake('draw', 'cut.rvm', '--strict', '-o', 'x.svg').returncode, 4)
+        # Whole again it is the same drawing, and both can be compared.
+        self.write_rvm('cut.rvm', [('/A', (0, 0, 0)), ('/B', (500, 0, 0))])
+        done = self.run_strake('draw', 'cut.rvm', '-o', 'y.json', '-o', 'y.view')
+        self.assertNotIn('ends early', done.stderr)
+        whole = json.loads((self.folder / 'y.json').read_text(encoding='utf-8'))
+        self.assertNotIn('files_ending_early', whole)
+        self.assertEqual(whole['hash'], cut['hash'])
+        same = self.run_strake('draw', 'diff', 'x.json', 'y.view', '--fail-on', 'any')
+        self.assertEqual(same.returncode, 0, same.stderr)
+
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')

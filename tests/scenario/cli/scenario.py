@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the scenarios of the program share: a folder of their own, the program, small models."""
+import struct
 import subprocess
 import sys
 import tempfile
@@ -25,6 +26,37 @@ def bar_between_walls():
             + cube('', 2, (-90, 0, 0), 100).split('\n', 1)[1])
 
 
+def rvm(boxes, whole=True):
+    """The bytes of an RVM file: for each (name, place in mm) a group with a cube of 100 mm; without an END, not whole."""
+    content = b''
+
+    def words(*numbers):
+        return struct.pack(f'>{len(numbers)}I', *numbers)
+
+    def floats(*numbers):
+        return struct.pack(f'>{len(numbers)}f', *numbers)
+
+    def text(value):
+        data = value.encode()
+        data += bytes(-len(data) % 4)
+        return words(len(data) // 4) + data
+
+    def chunk(name, body):
+        nonlocal content
+        content += words(*name.encode(), len(content) + 24 + len(body), 1) + body
+
+    chunk('HEAD', words(2) + b''.join(map(text, ('test', '', '', '', 'Unicode UTF-8'))))
+    chunk('MODL', words(1) + text('P') + text('/M'))
+    for name, place in boxes:
+        chunk('CNTB', words(2) + text(name) + floats(0, 0, 0) + words(1))
+        chunk('PRIM', words(1, 2) + floats(.001, 0, 0, 0, .001, 0, 0, 0, .001, *(x / 1000 for x in place))
+              + floats(-50, -50, -50, 50, 50, 50) + floats(100, 100, 100))
+        chunk('CNTE', words(2))
+    if whole:
+        chunk('END:', words(1))
+    return content
+
+
 class Scenario(unittest.TestCase):
     """Runs in a new folder; main() sets the program."""
 
@@ -47,6 +79,9 @@ class Scenario(unittest.TestCase):
     def write(self, name, text):
         (self.folder / name).write_text(text, encoding='utf-8')
         return name
+
+    def write_rvm(self, name, boxes, whole=True):
+        (self.folder / name).write_bytes(rvm(boxes, whole))
 
     def two_files(self):
         """a.obj: cubes at 0 and 50 (millimetres, side 100: they clash); b.obj: one 10 from the first."""

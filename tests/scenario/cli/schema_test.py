@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 import jsonschema
-from scenario import bar_between_walls, cube
+from scenario import bar_between_walls, cube, rvm
 
 STRAKE = SCHEMAS = None
 
@@ -87,6 +87,14 @@ class Schemas(unittest.TestCase):
         self.assertEqual(len(odd['files']), 2)
         self.assertGreater(odd['skipped'], 0)
         self.assertEqual(odd['files'][0]['inverted'], 1)
+
+    def test_a_file_that_ends_early(self):
+        (self.folder / 'cut.rvm').write_bytes(rvm([('/A', (0, 0, 0))], whole=False))
+        told = self.follows(self.run_strake('info', 'cut.rvm', '--json'), 'info')
+        self.assertIs(told['files'][0]['ends_early'], True)
+        self.follows(self.run_strake('clash', 'cut.rvm', '--json'), 'clash')
+        drawn = self.follows(self.run_strake('draw', 'cut.rvm', '--json'), 'view')
+        self.assertEqual(drawn['files_ending_early'], ['cut.rvm'])
 
     def test_view_diff(self):
         for name, at in (('old', 0), ('new', 30)):

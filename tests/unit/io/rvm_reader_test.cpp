@@ -372,12 +372,25 @@ TEST(RvmReader, AGroupThatTheFileEndsInIsIncomplete) {
   EXPECT_TRUE(cut->objects[1].incomplete);
   EXPECT_EQ(cut->objects[1].body_count, 1U);
   EXPECT_EQ(cut->diagnostics.skipped(), 1U);
+  EXPECT_TRUE(cut->files[0].ends_early);
 
+  // All that it has is whole, but nobody knows what else there was.
   const auto closed = read(one_box());
   ASSERT_TRUE(closed);
   EXPECT_FALSE(closed->objects[0].incomplete);
   EXPECT_EQ(closed->diagnostics.count("rvm-truncated"), 1U);
-  EXPECT_EQ(closed->diagnostics.skipped(), 0U);
+  EXPECT_EQ(closed->diagnostics.skipped(), 1U);
+  EXPECT_TRUE(closed->files[0].ends_early);
+}
+
+TEST(RvmReader, OnlyAFileWithoutAnEndEndsEarly) {
+  const auto whole = read(one_box().cnte().finish());
+  ASSERT_TRUE(whole);
+  EXPECT_FALSE(whole->files[0].ends_early);
+  EXPECT_EQ(whole->diagnostics.count("rvm-truncated"), 0U);
+  const auto unclosed = read(one_box().cntb("/B").prim(9, {5}).finish());
+  ASSERT_TRUE(unclosed);
+  EXPECT_FALSE(unclosed->files[0].ends_early);
 }
 
 TEST(RvmReader, AcceptsPrimitivesOutsideGroupsLeadingBytesAndAMissingEnd) {

@@ -161,6 +161,22 @@ TEST(Model, NamesakesOfOneFolderAreNumberedByWhatTheyHold) {
   EXPECT_EQ(keys_of_files({{"p/", "m.obj", "a"}, {"p/", "m.obj", "b"}}), two);
 }
 
+TEST(Model, TellsOfFilesThatEndEarly) {
+  Model m = one_file("whole.rvm", {"1"});
+  std::vector<std::string> told{unread_rest(m)};
+  for (const char* const label : {"cut.rvm", "half.rvm", "part.rvm"}) {
+    append(m, one_file(label, {"1"}));
+    m.files.back().ends_early = true;
+    told.push_back(unread_rest(m));
+  }
+  finish(m);
+  EXPECT_EQ(unread_rest(m), told.back());
+  EXPECT_EQ(told,
+            (std::vector<std::string>{"", "the rest of cut.rvm, which ends early",
+                                      "the rest of cut.rvm and 1 more file, which end early",
+                                      "the rest of cut.rvm and 2 more files, which end early"}));
+}
+
 TEST(Model, PathSurvivesACircleOfGroups) {
   Model m = one_file("a.obj", {"x"});
   m.groups[0].parent = GroupId{1};
