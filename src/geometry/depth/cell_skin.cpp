@@ -40,11 +40,6 @@ std::optional<HalfSpace> plane_of(const DepthField& field, std::uint32_t triangl
   return HalfSpace{t.unit, dot(t.unit, field.common(t.corners[0]))};
 }
 
-Corners placed(const DepthField& field, std::uint32_t triangle) {
-  const Corners c = field.corners(triangle);
-  return {field.common(c[0]), field.common(c[1]), field.common(c[2])};
-}
-
 bool on_one_side(std::span<const Vec3d> points, const HalfSpace& plane, double by) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const Vec3d& p : points) {
@@ -71,7 +66,7 @@ std::optional<std::vector<std::uint32_t>> triangles_in(const DepthField& field, 
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const std::uint32_t t = field.tree().order()[i];
-      if (!box_of(placed(field, t)).meets(box)) continue;
+      if (!box_of(field.placed(t)).meets(box)) continue;
       if (found.size() == kMostNear) return std::nullopt;
       found.push_back(t);
     }
@@ -88,14 +83,14 @@ Skin::Skin(const DepthField& field, const Simplex& s, double slack)
   complete_ = in_box.has_value();
   if (!complete_) return;
   for (const std::uint32_t t : *in_box)
-    if (!apart(t)) near_.push_back(t);
+    if (const Corners c = field.placed(t); !apart(t, c)) near_.push_back({t, c});
 }
 
 std::vector<HalfSpace> Skin::cuts(std::span<const Vec3d> outside) const {
   std::vector<HalfSpace> planes;
   if (!complete_) return planes;
-  for (const std::uint32_t t : near_) {
-    const auto plane = cut(t, outside);
+  for (const Near& near : near_) {
+    const auto plane = cut(near.triangle, outside);
     const auto same = [&](const HalfSpace& h) {
       return dot(h.normal, plane->normal) > kSameNormal;
     };
@@ -115,8 +110,8 @@ std::optional<HalfSpace> Skin::cut(std::uint32_t triangle, std::span<const Vec3d
   };
   if (!some_above(own->offset)) return std::nullopt;
   double top = own->offset;
-  for (const std::uint32_t t : near_) {
-    for (const Vec3d& p : placed(field_, t)) top = std::max(top, dot(own->normal, p));
+  for (const Near& near : near_) {
+    for (const Vec3d& p : near.corners) top = std::max(top, dot(own->normal, p));
     if (top > own->offset + kSnapLift) return std::nullopt;
   }
   top += slack_;
@@ -124,8 +119,9 @@ std::optional<HalfSpace> Skin::cut(std::uint32_t triangle, std::span<const Vec3d
 }
 
 /// A face of the simplex has all of the triangle beyond it, or the other way round.
-bool Skin::apart(std::uint32_t triangle) const {
-  const Corners c = placed(field_, triangle);
+bool Skin::apart(std::uint32_t triangle) const { return apart(triangle, field_.placed(triangle)); }
+
+bool Skin::apart(std::uint32_t triangle, const Corners& c) const {
   const bool beyond = std::any_of(faces_.begin(), faces_.end(), [&](const HalfSpace& f) {
     return std::all_of(c.begin(), c.end(),
                        [&](const Vec3d& p) { return dot(f.normal, p) > f.offset + 2 * slack_; });

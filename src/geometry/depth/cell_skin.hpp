@@ -24,9 +24,6 @@ struct HalfSpace {
 /// The plane of a triangle, outward; none for one without area.
 [[nodiscard]] std::optional<HalfSpace> plane_of(const DepthField& field, std::uint32_t triangle);
 
-/// A triangle relative to the common origin.
-[[nodiscard]] Corners placed(const DepthField& field, std::uint32_t triangle);
-
 /// All points lie on one side of a plane, farther than `by` from it.
 [[nodiscard]] bool on_one_side(std::span<const Vec3d> points, const HalfSpace& plane, double by);
 
@@ -49,6 +46,7 @@ class Skin {
   [[nodiscard]] std::vector<HalfSpace> cuts(std::span<const Vec3d> outside) const;
 
  private:
+  [[nodiscard]] bool apart(std::uint32_t triangle, const Corners& corners) const;
   [[nodiscard]] std::optional<HalfSpace> cut(std::uint32_t triangle,
                                              std::span<const Vec3d> outside) const;
 
@@ -56,7 +54,11 @@ class Skin {
   double slack_;
   std::array<Vec3d, 4> corners_;
   std::vector<HalfSpace> faces_;
-  std::vector<std::uint32_t> near_;
+  struct Near {
+    std::uint32_t triangle = 0;
+    Corners corners;  ///< placed
+  };
+  std::vector<Near> near_;
   bool complete_ = false;
 };
 

@@ -50,6 +50,14 @@ class DepthField {
   [[nodiscard]] Corners corners(std::uint32_t t) const {
     return prepared_.empty() ? corners_of(part(), t) : prepared_[t].corners;
   }
+  /// Relative to the common origin. No copy before the shift: reading back what was just written,
+  /// in other widths, is what most of the time would go into.
+  [[nodiscard]] Corners placed(std::uint32_t t) const {
+    const auto moved = [this](const Corners& c) {
+      return Corners{common(c[0]), common(c[1]), common(c[2])};
+    };
+    return prepared_.empty() ? moved(corners_of(part(), t)) : moved(prepared_[t].corners);
+  }
 
   /// Exact for points of on_field_grid().
   [[nodiscard]] PointSide side(const Vec3d& p, PairWork& work) const {

@@ -81,7 +81,7 @@ class RoofBuilder {
   };
 
   void add(std::uint32_t triangle, HalfSpace plane) {
-    plane.offset = std::max(plane.offset, top_of(placed(field_, triangle), plane.normal));
+    plane.offset = std::max(plane.offset, top_of(field_.placed(triangle), plane.normal));
     planes_.push_back(plane);
     triangles_.push_back(triangle);
   }
@@ -113,7 +113,7 @@ class RoofBuilder {
     if (!near) return std::nullopt;
     Seen seen;
     for (const std::uint32_t t : *near) {
-      const Corners c = placed(field_, t);
+      const Corners c = field_.placed(t);
       if (below(c)) continue;
       const auto plane = plane_of(field_, t);
       const bool in_the_way = !beside(c, plane, shadow_, way_, slack_);
