@@ -174,7 +174,7 @@ class PairPlaces {
   void go_deep(std::size_t number, PartAnswer& answer) {
     const MeetingPlace& place = found_.all[number];
     geometry::DepthGoal goal;
-    // All places together are not worth more work than the pair itself.
+    // Places share the allowance of the pair, as long as enough is left for each.
     const auto places = static_cast<std::uint32_t>(found_.all.size());
     goal.cells_undecided = std::max(goal.cells_undecided / places, kLeastCells);
     goal.cells_decided = std::max(goal.cells_decided / places, kLeastCells);

@@ -11,6 +11,7 @@
 
 #include "strake/hlr/hlr.hpp"
 #include "strake/parallel/team.hpp"
+#include "support/drawn_pieces.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
 #include "support/rounds.hpp"
@@ -21,6 +22,7 @@ namespace {
 using geometry::Vec3l;
 using hlr::Piece;
 using hlr::State;
+using test::pieces;
 
 constexpr auto kSeeds = test::rounds<std::uint64_t>(120);
 /// Where intersections are rounded, or new ones appear, a law speaks of edges alone.
@@ -34,13 +36,6 @@ hlr::View view_of(std::uint64_t seed, const test::LatticeOptions& options) {
   test::Random random(seed * 77);
   const Vec3l direction = test::direction_of(random.below(test::kDirections));
   return {.direction = direction, .limits = test::random_limits(random, options)};
-}
-
-std::vector<Piece> pieces(const model::Scene& scene, const hlr::View& view,
-                          const hlr::Options& options = {}, const parallel::Context& context = {}) {
-  const auto drawing = hlr::draw(scene, {}, view, options, context);
-  EXPECT_TRUE(drawing.has_value());
-  return drawing ? drawing->pieces : std::vector<Piece>{};
 }
 
 TEST(HiddenLineLaws, SameForAnyNumberOfThreads) {

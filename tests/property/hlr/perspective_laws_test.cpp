@@ -15,6 +15,7 @@
 #include "strake/geometry/wide_int.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/parallel/team.hpp"
+#include "support/drawn_pieces.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
 #include "support/mapped_scene.hpp"
@@ -27,6 +28,7 @@ using geometry::Vec3i;
 using geometry::Vec3l;
 using hlr::Piece;
 using hlr::State;
+using test::pieces;
 
 constexpr auto kSeeds = test::rounds<std::uint64_t>(100);
 constexpr std::int32_t kUnit = 1000;
@@ -44,13 +46,6 @@ hlr::View from(const Vec3l& eye, const Vec3l& target) {
   return {.direction = eye - target,
           .limits = {},
           .perspective = hlr::Perspective{.eye = eye, .target = target, .near_mm = 0.001}};
-}
-
-std::vector<Piece> pieces(const model::Scene& scene, const hlr::View& view,
-                          const hlr::Options& options = {}, const parallel::Context& context = {}) {
-  const auto drawing = hlr::draw(scene, {}, view, options, context);
-  EXPECT_TRUE(drawing.has_value()) << drawing.error().text();
-  return drawing ? drawing->pieces : std::vector<Piece>{};
 }
 
 double length(const Piece& p) {

@@ -13,6 +13,7 @@
 
 #include "strake/hlr/hlr.hpp"
 #include "strake/parallel/team.hpp"
+#include "support/drawn_pieces.hpp"
 #include "support/hlr_oracle.hpp"
 #include "support/lattice_scene.hpp"
 #include "support/rounds.hpp"
@@ -25,6 +26,7 @@ using hlr::EdgeKind;
 using hlr::Piece;
 using hlr::Section;
 using hlr::State;
+using test::pieces;
 
 constexpr auto kSeeds = test::rounds<std::uint64_t>(100);
 const hlr::Options kUnhatched{.hatch_spacing_mm = 0};
@@ -44,13 +46,6 @@ std::vector<Section> sections_of(std::uint64_t seed, const test::LatticeOptions&
   std::vector<Section> sections(1 + seed % 3);
   for (Section& s : sections) s = test::random_section(random, options);
   return sections;
-}
-
-std::vector<Piece> pieces(const model::Scene& scene, const hlr::View& view,
-                          const hlr::Options& options = {}, const parallel::Context& context = {}) {
-  const auto drawing = hlr::draw(scene, {}, view, options, context);
-  EXPECT_TRUE(drawing.has_value());
-  return drawing ? drawing->pieces : std::vector<Piece>{};
 }
 
 double length(const Piece& p) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "strake/hlr/hlr.hpp"
+#include "support/drawn_pieces.hpp"
 #include "support/lattice_scene.hpp"
 #include "support/mapped_scene.hpp"
 #include "support/rounds.hpp"
@@ -26,6 +27,7 @@ using geometry::Vec3l;
 using hlr::EdgeKind;
 using hlr::Piece;
 using hlr::State;
+using test::pieces;
 
 constexpr auto kSeeds = test::rounds<std::uint64_t>(240);
 /// Divisible by all numbers to 16, so that nearly all crossings are points of the grid.
@@ -33,13 +35,6 @@ constexpr std::int32_t kUnit = 720720;
 
 test::LatticeOptions lattice(std::uint64_t seed) {
   return {.objects = 2 + static_cast<std::uint32_t>(seed % 5), .unit = kUnit, .steps = 3};
-}
-
-std::vector<Piece> pieces(const model::Scene& scene, const hlr::View& view,
-                          const hlr::Options& options) {
-  const auto drawing = hlr::draw(scene, {}, view, options, {});
-  EXPECT_TRUE(drawing.has_value());
-  return drawing ? drawing->pieces : std::vector<Piece>{};
 }
 
 /// A signed permutation of the axes: one of 24 turns and 24 mirrors of the grid.
