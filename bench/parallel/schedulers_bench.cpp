@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The schedules beside oneTBB, OpenMP and std::execution::par on items of known cost: every
-// contender once in each of many rounds, medians compared, every result checked.
+// contender once in each of many rounds, in an order that chance decides, medians compared, every
+// result checked. Before each there is a pause (the workers of some go on looking for work for
+// milliseconds and take a core from whoever comes next) and a run that is not timed: where threads
+// wake up is the kernel's lottery, on a virtual machine often on the core that is busy already.
 //
 //     bench_schedulers [ROUNDS [TABLE.md PLOT.svg]]
 #include <fmt/core.h>
@@ -9,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -16,7 +20,9 @@
 #include <fstream>
 #include <functional>
 #include <numeric>
+#include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "clocks.hpp"
@@ -38,6 +44,7 @@ using parallel::Team;
 constexpr unsigned kSeed = 11;
 /// The rule of the guide: no slower than so many times the best of the others.
 constexpr double kRule = 1.05;
+constexpr std::chrono::milliseconds kPause(10);
 
 /// Items, and how a user of each library would share them out.
 struct Set {
@@ -45,6 +52,7 @@ struct Set {
   Case items;
   std::size_t grain = 1;      ///< items that a worker takes at once, for all who ask
   bool longest_first = true;  ///< whether costs are known and unequal
+  int rounds = 1;             ///< for each round asked for: more where one is short
 };
 
 std::vector<Set> make_sets() {
@@ -62,7 +70,7 @@ std::vector<Set> make_sets() {
   giant.back() = 40'000'000;
   sets.push_back({"one giant", make_case(giant)});
   sets.push_back(
-      {"a million tiny", make_case(std::vector<std::uint32_t>(1'000'000, 20)), 1024, false});
+      {"a million tiny", make_case(std::vector<std::uint32_t>(1'000'000, 20)), 1024, false, 9});
   return sets;
 }
 
@@ -95,8 +103,8 @@ class SideBySide {
         in_arena_(team_.size(), parallel::in_arena(arena_)) {}
 
   bool run() {
-    fmt::print("{} workers, medians of {} rounds, each with every contender once\n", team_.size(),
-               rounds_);
+    fmt::print("{} workers, medians of {} rounds or more, each with every contender once\n",
+               team_.size(), rounds_);
     for (const Set& set : make_sets()) compare(set);
     return good_;
   }
@@ -189,12 +197,17 @@ class SideBySide {
 
   void compare(const Set& set) {
     std::vector<Contender> all = contenders();
-    Out out(set.items.expected.size());
-    for (int round = 0; round < rounds_; ++round)
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        // Another one first in each round.
-        Contender& one = all[(k + static_cast<std::size_t>(round)) % all.size()];
+    Out out(set.items.expected.size()), spare(out);
+    std::vector<std::size_t> turns(all.size());
+    std::iota(turns.begin(), turns.end(), std::size_t{0});
+    std::mt19937 random(kSeed);
+    for (int round = 0; round < rounds_ * set.rounds; ++round) {
+      std::ranges::shuffle(turns, random);
+      for (const std::size_t turn : turns) {
+        Contender& one = all[turn];
         std::ranges::fill(out, 0);
+        std::this_thread::sleep_for(kPause);
+        one.run(set, spare);
         Lap lap;
         one.run(set, out);
         one.seconds.push_back(lap());
@@ -202,6 +215,7 @@ class SideBySide {
         fmt::print("{}: WRONG RESULT\n", one.name);
         good_ = false;
       }
+    }
     tell(set, all);
   }
 
