@@ -19,8 +19,6 @@ double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Error cancelled_error() { return {ErrorCode::cancelled, "cancelled", {}, {}}; }
-
 Error described(const char* what, std::string_view region, std::size_t item) {
   return {ErrorCode::internal,
           what,
@@ -66,6 +64,8 @@ Error caught(std::string_view region, std::size_t item) noexcept {
   }
   return out_of_memory();
 }
+
+Error cancelled_error() { return {ErrorCode::cancelled, "cancelled", {}, {}}; }
 
 void RegionRun::lower_limit(std::size_t item) noexcept {
   std::size_t now = limit_.load(std::memory_order_relaxed);

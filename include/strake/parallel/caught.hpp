@@ -10,5 +10,7 @@ namespace strake::parallel::detail {
 
 /// The exception that is being handled, as the error of an item of a region.
 [[nodiscard]] Error caught(std::string_view region, std::size_t item) noexcept;
+/// What a triggered stop token makes of a region.
+[[nodiscard]] Error cancelled_error();
 
 }  // namespace strake::parallel::detail

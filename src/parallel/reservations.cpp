@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/parallel/reservations.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "strake/parallel/caught.hpp"
+#include "strake/parallel/progress.hpp"
+
+namespace strake::parallel::detail {
+
+namespace {
+
+/// So many slots of a round keep their places in one list.
+constexpr std::size_t kRun = 64;
+/// Items of the first round, and of a round at most: what it notes down should stay in the cache.
+constexpr std::size_t kFirstRound = 2048, kLongestRound = 65536;
+/// Rounds with fewer are not worth a team: items that stand in each other's way go one by one.
+constexpr std::size_t kFew = 8;
+
+enum class Slot : std::uint8_t { waits, done, failed };
+
+/// Who wants a place. The item that bids higher gets it; 0 is nobody's bid.
+std::uint32_t bid_of(std::uint32_t item) {
+  return std::numeric_limits<std::uint32_t>::max() - item;
+}
+
+void raise(std::atomic<std::uint32_t>& bid, std::uint32_t to) {
+  std::uint32_t now = bid.load(std::memory_order_relaxed);
+  while (now < to && !bid.compare_exchange_weak(now, to, std::memory_order_relaxed)) {
+  }
+}
+
+class Rounds {
+ public:
+  Rounds(const Context& context, const Region& region, std::size_t places)
+      : inner_(context),
+        region_(region),
+        claims_name_(std::string(region.name) + ", claims"),
+        bids_(places),
+        end_(region.n) {
+    inner_.progress = nullptr;  // told of items that are done, not of those that are tried
+  }
+
+  Result<ReservedRun> run(FunctionRef<bool(std::size_t, Claims&)> claim,
+                          FunctionRef<Status(std::size_t)> act, Progress* progress) {
+    ReservedRun run;
+    while (gather()) {
+      run.rounds += 1;
+      run.claims += items_.size();
+      if (const Status status = claim_all(claim); !status && !drop_from_failed(status))
+        return status.error();
+      if (const Status status = act_all(act); !status && !drop_from_failed(status))
+        return status.error();
+      const std::size_t done = end_round();
+      if (progress != nullptr) progress->add(done);
+    }
+    if (error_) return *std::move(error_);
+    return run;
+  }
+
+ private:
+  /// The items of the next round, ascending: those that wait, then new ones. False when none is
+  /// left.
+  bool gather() {
+    const std::size_t again = std::min(size_, waiting_.size() - head_);
+    const auto first = waiting_.begin() + static_cast<std::ptrdiff_t>(head_);
+    items_.assign(first, first + static_cast<std::ptrdiff_t>(again));
+    head_ += again;
+    // Nobody overtakes one that waits.
+    while (head_ == waiting_.size() && items_.size() < size_ && next_ < end_)
+      items_.push_back(static_cast<std::uint32_t>(next_++));
+    slots_.assign(items_.size(), Slot::waits);
+    ends_.resize(items_.size());
+    lists_.resize(std::max(lists_.size(), items_.size() / kRun + 1));
+    return !items_.empty();
+  }
+
+  Status claim_all(FunctionRef<bool(std::size_t, Claims&)> claim) {
+    return for_each(inner_, {.name = claims_name_, .n = items_.size(), .grain = kRun},
+                    [&](std::size_t slot) -> Status {
+                      Status status = claim_one(claim, slot);
+                      if (!status) slots_[slot] = Slot::failed;
+                      return status;
+                    });
+  }
+
+  /// Slots of one list come to one worker, in ascending order: they are a block of the region.
+  Status claim_one(FunctionRef<bool(std::size_t, Claims&)> claim, std::size_t slot) {
+    const std::uint32_t item = items_[slot];
+    try {
+      std::vector<std::size_t>& list = lists_[slot / kRun];
+      if (slot % kRun == 0) list.clear();
+      const std::size_t first = list.size();
+      Claims claims(list);
+      if (!claim(item, claims)) {
+        list.resize(first);
+        slots_[slot] = Slot::done;
+      }
+      ends_[slot] = list.size();
+      for (const std::size_t place : std::span(list).subspan(first)) {
+        if (place >= bids_.size())
+          return Error{ErrorCode::internal,
+                       "place " + std::to_string(place) + " of " + std::to_string(bids_.size()),
+                       "region '" + std::string(region_.name) + "', item " + std::to_string(item),
+                       {}};
+        raise(bids_[place], bid_of(item));
+      }
+      return {};
+    } catch (...) {
+      return caught(region_.name, item);
+    }
+  }
+
+  Status act_all(FunctionRef<Status(std::size_t)> act) {
+    Region acts = region_;
+    acts.n = items_.size();
+    Context context = inner_;
+    if (acts.n < kFew) context.team = nullptr;
+    return for_each(context, acts, [&](std::size_t slot) -> Status {
+      if (slots_[slot] == Slot::done) return {};
+      const std::uint32_t item = items_[slot];
+      const std::uint32_t mine = bid_of(item);
+      const std::span<const std::size_t> places = asked(slot);
+      const auto held = [&](std::size_t place) {
+        return bids_[place].load(std::memory_order_relaxed) == mine;
+      };
+      if (std::ranges::all_of(places, held)) {
+        Status status = act_one(act, item);
+        slots_[slot] = status ? Slot::done : Slot::failed;
+        if (!status) return status;
+      }
+      // Whoever else asked for such a place sees a bid that is not his, before this and after.
+      for (const std::size_t place : places)
+        if (held(place)) bids_[place].store(0, std::memory_order_relaxed);
+      return {};
+    });
+  }
+
+  Status act_one(FunctionRef<Status(std::size_t)> act, std::uint32_t item) {
+    try {
+      return act(item);
+    } catch (...) {
+      return caught(region_.name, item);
+    }
+  }
+
+  [[nodiscard]] std::span<const std::size_t> asked(std::size_t slot) const {
+    const std::size_t first = slot % kRun == 0 ? 0 : ends_[slot - 1];
+    return std::span(lists_[slot / kRun]).subspan(first, ends_[slot] - first);
+  }
+
+  /// After an error: keeps it if it is an item's, and goes on with the items below that one alone,
+  /// of which one may fail, too. The bids of the others stay behind, and any of those that go on
+  /// bids higher. False when the error is nobody's: out of memory, cancelled.
+  bool drop_from_failed(const Status& status) {
+    const auto failed = std::ranges::find(slots_, Slot::failed);
+    if (inner_.stop.stop_requested() || failed == slots_.end()) return false;
+    const auto slot = static_cast<std::size_t>(failed - slots_.begin());
+    error_ = status.error();
+    items_.resize(slot);
+    slots_.resize(slot);
+    waiting_.clear();  // all of them come after those of this round
+    head_ = 0;
+    end_ = next_;
+    return true;
+  }
+
+  /// Puts those that were in vain in front of those that wait; returns how many were not.
+  std::size_t end_round() {
+    std::size_t kept = 0;
+    for (std::size_t slot = 0; slot < items_.size(); ++slot)
+      if (slots_[slot] == Slot::waits) items_[kept++] = items_[slot];
+    const std::size_t done = items_.size() - kept;
+    // Where most are in vain the next round is shorter, where few are it is longer.
+    if (done * 4 >= items_.size() * 3) size_ = std::min(size_ * 2, kLongestRound);
+    if (done * 4 < items_.size()) size_ = std::max<std::size_t>(size_ / 2, 1);
+    const auto first = items_.begin(), last = first + static_cast<std::ptrdiff_t>(kept);
+    if (head_ >= kept) {
+      head_ -= kept;
+      std::copy(first, last, waiting_.begin() + static_cast<std::ptrdiff_t>(head_));
+    } else {
+      waiting_.assign(first, last);
+      head_ = 0;
+    }
+    return done;
+  }
+
+  Context inner_;
+  const Region& region_;
+  const std::string claims_name_;
+  std::vector<std::atomic<std::uint32_t>> bids_;
+  std::size_t next_ = 0, end_;          ///< items that no round has had yet
+  std::size_t size_ = kFirstRound;      ///< of a round, at most
+  std::vector<std::uint32_t> waiting_;  ///< from head_ on, ascending
+  std::size_t head_ = 0;
+
+  // Of the round, by slot.
+  std::vector<std::uint32_t> items_;
+  std::vector<Slot> slots_;
+  std::vector<std::size_t> ends_;                ///< of its places in its list
+  std::vector<std::vector<std::size_t>> lists_;  ///< by kRun slots
+  std::optional<Error> error_;
+};
+
+}  // namespace
+
+Result<ReservedRun> run_reserved(const Context& context, const Region& region, std::size_t places,
+                                 FunctionRef<bool(std::size_t, Claims&)> claim,
+                                 FunctionRef<Status(std::size_t)> act) {
+  const auto misused = [&](const char* what) {
+    return Error{ErrorCode::internal, what, std::string(region.name), {}};
+  };
+  if (!region.order.empty()) return misused("a visiting order for items that pass in their own");
+  if (region.n >= std::numeric_limits<std::uint32_t>::max())
+    return misused("more items than there are numbers to bid with");
+  if (context.stop.stop_requested()) return cancelled_error();
+  const bool counting =
+      context.progress != nullptr && context.progress->begin(region.name, region.n);
+  Result<ReservedRun> run = [&]() -> Result<ReservedRun> {
+    try {
+      return Rounds(context, region, places).run(claim, act, counting ? context.progress : nullptr);
+    } catch (const std::exception&) {
+      return out_of_memory();
+    }
+  }();
+  if (counting) context.progress->end();
+  return run;
+}
+
+}  // namespace strake::parallel::detail
