@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """House rules that no compiler checks: layers, licence lines, file sizes, a library that never prints,
-threads and locks in the patterns alone, no scratch files in the root."""
+threads, locks and hidden state in the patterns alone, no scratch files in the root."""
 import re
 import shutil
 import subprocess
@@ -27,14 +27,49 @@ LINES = {'.hpp': 300, '.cpp': 600}
 IN_ROOT = {'.clang-format', '.clang-tidy', '.gitattributes', '.gitignore', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CMakeLists.txt',
            'CMakePresets.json', 'CONTRIBUTING.md', 'HACKING.md', 'LICENSE', 'NOTICE', 'README.md', 'SECURITY.md',
            'packages.txt', 'run'}
+SOURCES = ('src', 'include', 'cli')
+CODE = {'.hpp', '.cpp', '.inc'}
 NEEDS_SPDX = {'.cpp', '.hpp', '.py', '.sh', '.cmake'}
 IMPURE = re.compile(r'\bstd::(cout|cerr|abort|exit|getenv)\b|(?<![\w:.])(printf|puts|abort|exit|getenv)\s*\('
                     r'|\bthread_local\b|\bfmt::print\b')
-CONCURRENT = re.compile(r'\bstd::(j?thread|this_thread|async|(shared_)?future|promise|packaged_task|execution|(\w+_)?mutex'
-                        r'|atomic\w*|memory_order\w*|condition_variable\w*|once_flag|call_once|lock_guard|\w+_lock'
-                        r'|latch|barrier|\w+_semaphore)\b|\b(tbb::|pthread_\w+|omp_\w+|__(atomic|sync)_\w+)|#\s*pragma\s+omp\b'
-                        r'|#\s*include\s*[<"](thread|future|execution|(shared_)?mutex|(std)?atomic|condition_variable|latch'
-                        r'|barrier|semaphore|pthread\.h|omp\.h|oneapi/|tbb/)')
+
+
+def words(text):
+    """A pattern that matches one of the words, each a pattern itself."""
+    return f'({"|".join(text.split())})'
+
+
+# Threads, locks and atomics, of the language, the library, the compilers and the system. An alias of std would hide
+# names from this list, which knows words and no C++.
+OF_STD = words(r"""j?thread this_thread async (shared_)?future promise packaged_task execution (\w+_)?mutex atomic\w*
+    memory_order\w* condition_variable\w* once_flag call_once lock lock_guard \w+_lock latch barrier
+    \w+_semaphore stop_callback experimental o?syncstream syncbuf""")
+HEADERS = words(r"""c?threads?(\.h)? (shared_)?future execution (shared_)?mutex (c?std)?atomic(\.h)? condition_variable latch
+    barrier semaphore(\.h)? syncstream experimental/ parallel/ oneapi/ tbb/ pthread\.h omp\.h sched\.h linux/futex\.h
+    sys/syscall\.h""")
+CONCURRENT = re.compile(rf'\bstd\s*::\s*{OF_STD}\b'
+                        r'|\busing\s+namespace\s+(::\s*)?std\b|\bnamespace\s+\w+\s*=\s*(::\s*)?std\b(?!\s*::)'
+                        rf'|\b{words("tbb oneapi __gnu_parallel")}\s*::'
+                        rf'|\b{words("pthread omp thrd mtx cnd tss sem __gthread __atomic __c11_atomic __sync")}_\w+'
+                        rf'|\b{words("asm __asm __asm__ volatile __volatile__ _Atomic thread_local")}\b'
+                        rf'|(?<![\w.>]){words("syscall v?fork")}\s*\(|#\s*pragma\s+omp\b'
+                        rf'|#\s*include\s*[<"]{HEADERS}')
+# How the patterns do it, and whose threads they run on: affairs of them and of who starts a program.
+INSIDES = re.compile(r'\bparallel\s*::\s*detail\b|\bteam(_|\s*\(\s*\))?\s*\)?\s*(->|\.)\s*(run|size)\b'
+                     r'|\b(Team|Executor|HostExecutor|RegionRun)\b'
+                     r'|\bnamespace\s+\w+\s*=[\w:\s]*\bparallel\b|\bnamespace\s+([\w:\s]*::\s*)?parallel\b'
+                     r'|#\s*include\s*"strake/parallel/(team|host_executor|backends/\w+)\.hpp"')
+# State that calls share unseen: a static that is no constant of the compiler's, which besides hides a lock if it is a
+# function's, and a member that changes in a const object. A static function has a parenthesis after its name, and
+# returns no const value; a lambda that is mutable has a brace or an arrow behind the word.
+IN_ANGLES = r'<(?:[^<>;={]|<(?:[^<>;={]|<[^<>;={]*>)*>)*>'
+HIDDEN = re.compile(r'(?<!constexpr )\bstatic\s+(?!(inline\s+)?(constexpr|constinit\s+const)\b)(?![^;{]*\boperator\b)'
+                    rf'((?:{IN_ANGLES}|[^();={{<])*[;={{]|(inline\s+)?const\s(?:{IN_ANGLES}|[\w:\s])*\s\w+\s*\()'
+                    r'|\bmutable\b(?!\s*(\{|->|noexcept\b))')
+# Names of headers and numbers are kept; a comment, a text and a character become nothing, but for the ends of lines.
+TOKENS = re.compile(r'(?P<kept>#\s*include\s*(<[^>\n]*>|"[^"\n]*")|\b\d[\w.\']*)'
+                    r'|R"(?P<end>[^()\\\s]*)\((?s:.*?)\)(?P=end)"|"(\\(?s:.)|[^"\\\n])*"|\'(\\.|[^\'\\\n])+\''
+                    r'|//[^\n]*|/\*(?s:.*?)\*/')
 # What has threads, locks or atomics of its own, though it is not of the patterns, and why.
 OWN_CONCURRENCY = {
     'cli/console.cpp': 'lines of several threads on one terminal',
@@ -67,21 +102,35 @@ def module_of(path):
     return None
 
 
-def code_of(line):
-    """The line without its comment and what stands in quotes, but for names of headers."""
-    return re.sub(r'//.*' if '#include' in line else r'//.*|"(\\.|[^"\\])*"', '', line)
+def code_of(text):
+    """The text without comments and what stands in quotes, but for names of headers; as many lines."""
+    return TOKENS.sub(lambda match: match['kept'] or '\n' * match[0].count('\n') or ' ', text)
 
 
-def concurrency_faults(path, lines):
-    """Threads, locks and atomics outside the patterns; an exception that is none any more."""
-    if path.suffix not in LINES or path.parts[0] not in ('src', 'include', 'cli') or module_of(path) == 'parallel':
+def lines_with(pattern, code):
+    """The numbers of the lines that a match begins on."""
+    return sorted({code.count('\n', 0, match.start()) + 1 for match in pattern.finditer(code)})
+
+
+def concurrency_faults(path, code):
+    """Threads, locks, atomics and hidden state outside the patterns; an exception that is none any more."""
+    if path.parts[0] not in SOURCES or module_of(path) == 'parallel':
         return
-    found = [number for number, line in enumerate(lines, 1) if CONCURRENT.search(code_of(line))]
+    found = lines_with(CONCURRENT, code)
     if path.as_posix() not in OWN_CONCURRENCY:
         for number in found:
             yield number, 'threads, locks and atomics belong to strake::parallel: take one of its patterns'
     elif not found:
         yield 1, 'has no threads, locks or atomics: no exception in check_house.py'
+    for number in lines_with(HIDDEN, code):
+        yield number, 'state that calls share unseen: static constexpr, a constant of the namespace, or a parameter'
+    if path.parts[0] != 'cli':
+        for number in lines_with(INSIDES, code):
+            yield number, 'an engine takes a Context and the patterns: the team and their insides are not its affair'
+
+
+def has_rules(path):
+    return path.suffix in NEEDS_SPDX or path.name == 'CMakeLists.txt' or path.parts[0] in SOURCES
 
 
 def faults_of(path, text):
@@ -92,16 +141,21 @@ def faults_of(path, text):
     limit = LINES.get(path.suffix)
     if limit and len(lines) > limit:
         yield len(lines), f'{len(lines)} lines; {limit} is the limit for one job'
-    yield from concurrency_faults(path, lines)
+    if path.suffix not in CODE:
+        if path.parts[0] in SOURCES and path.name != 'CMakeLists.txt':
+            yield 1, 'sources are .hpp and .cpp, lists .inc: the house rules know no other names'
+        return
+    code = code_of(text)
+    yield from concurrency_faults(path, code)
     module = module_of(path)
-    if module is None or path.suffix not in LINES:
+    if module is None:
         return
     for number, line in enumerate(lines, 1):
         include = re.match(r'\s*#include\s+"(?:strake/)?([a-z]+)/', line)
         if include and include[1] in MAY_USE and include[1] != module and include[1] not in MAY_USE[module]:
             yield number, f'layer {module} must not include {include[1]}'
-        if IMPURE.search(code_of(line)):
-            yield number, 'the library never prints, exits, reads the environment or hides state per thread'
+    for number in lines_with(IMPURE, code):
+        yield number, 'the library never prints, exits, reads the environment or hides state per thread'
 
 
 def main():
@@ -110,8 +164,9 @@ def main():
     for path in tracked():
         if len(path.parts) == 1 and path.is_file() and path.name not in IN_ROOT:
             faults.append(f'{path}: no file that belongs in the root (a scratch file?)')
-        if path.is_file() and (path.suffix in NEEDS_SPDX or path.name == 'CMakeLists.txt'):
-            faults += [f'{path}:{n}: {what}' for n, what in faults_of(path, path.read_text(encoding='utf-8'))]
+        if path.is_file() and has_rules(path):
+            text = path.read_text(encoding='utf-8', errors='replace')
+            faults += [f'{path}:{n}: {what}' for n, what in faults_of(path, text)]
     if faults:
         sys.exit('\n'.join(faults))
 

@@ -249,15 +249,11 @@ bool Room::takes(const PaperBox& box) const {
                                          [&](const PaperBox& k) { return k.overlaps(box); });
 }
 
-const std::vector<double>& usual_scales() {
-  static const std::vector<double> scales = [] {
-    std::vector<double> all{0.02, 0.05, 0.1, 0.2, 0.5};
-    for (double decade = 1; decade < 1e9; decade *= 10)
-      for (const double step : {1.0, 2.0, 5.0}) all.push_back(decade * step);
-    all.push_back(1e9);
-    return all;
-  }();
-  return scales;
+std::span<const double> usual_scales() {
+  static constexpr std::array kScales{0.02, 0.05, 0.1, 0.2, 0.5, 1.,  2.,  5.,  10., 20., 50.,
+                                      1e2,  2e2,  5e2, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5,
+                                      5e5,  1e6,  2e6, 5e6, 1e7, 2e7, 5e7, 1e8, 2e8, 5e8, 1e9};
+  return kScales;
 }
 
 Result<Arranged> arrange(std::span<const ToPlace> views, Projection projection, const Room& room,

@@ -45,7 +45,7 @@ struct Arranged {
 };
 
 /// The usual scales of ISO 5455, 50:1 to 1:1000000000, the largest first.
-[[nodiscard]] const std::vector<double>& usual_scales();
+[[nodiscard]] std::span<const double> usual_scales();
 
 /// Places the views of an arrangement in first- or third-angle projection round the front view: in
 /// columns and rows, those of one column with the same x and those of one row with the same y for

@@ -219,12 +219,9 @@ class TitleBlock {
 
 }  // namespace
 
-const std::vector<std::string>& title_block_fields() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Field& field : kFields) all.emplace_back(field.name);
-    return all;
-  }();
+std::vector<std::string> title_block_fields() {
+  std::vector<std::string> names;
+  for (const Field& field : kFields) names.emplace_back(field.name);
   return names;
 }
 

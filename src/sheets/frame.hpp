@@ -15,7 +15,7 @@ namespace strake::sheets {
 [[nodiscard]] Room room_of(const Description& sheet);
 
 /// The fields of the built-in title block (ISO 7200).
-[[nodiscard]] const std::vector<std::string>& title_block_fields();
+[[nodiscard]] std::vector<std::string> title_block_fields();
 
 /// The built-in border (ISO 5457: 20 mm for binding, 10 mm elsewhere, centring marks and reference
 /// fields) and title block. `narrow`, if not null, gets the names of fields whose texts are too

@@ -58,6 +58,10 @@ struct PairCost {
   }
 };
 
+/// Runs regions alone. A constant of the namespace: one of a function would ask a guard at each
+/// call.
+inline constinit const parallel::Context kNobody;
+
 /// A pair while it is worked on. What a heavy pair asks of a team that was stopped is not an
 /// answer: who started the work looks at the stop token.
 struct PairWork : PairCost {
@@ -65,8 +69,7 @@ struct PairWork : PairCost {
 
   /// To run regions with.
   [[nodiscard]] const parallel::Context& context() const {
-    static const parallel::Context nobody;
-    return team == nullptr ? nobody : *team;
+    return team == nullptr ? kNobody : *team;
   }
 };
 
