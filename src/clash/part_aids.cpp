@@ -18,11 +18,8 @@ Status PartAids::add(parallel::Precomputed<T>& kind, const std::vector<bool>& wa
                      std::string_view name, const parallel::Context& context, Make&& make) {
   // Not before: the list was empty when this was made.
   if (kind.size() == 0) kind = parallel::Precomputed<T>(list_.unique.size());
-  std::vector<std::uint32_t> keys;
-  for (std::uint32_t u = 0; u < wanted.size(); ++u)
-    if (wanted[u]) keys.push_back(u);
   return kind.fill_by_weight(
-      context, {.name = name}, CaseWork::kHeavy, keys,
+      context, {.name = name}, CaseWork::kHeavy, parallel::keys_of(wanted),
       [&](std::size_t u) { return list_.unique[u]->triangles.size(); },
       [&](std::size_t u) { return make(*list_.unique[u]); });
 }

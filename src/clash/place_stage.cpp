@@ -9,6 +9,7 @@
 #include "clash/pair_limits.hpp"
 #include "clash/telling.hpp"
 #include "strake/geometry/meeting_places.hpp"
+#include "strake/parallel/precomputed.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
@@ -58,7 +59,8 @@ class PlaceStage {
     if (!convex) return convex.error();
     some.clear();
     for (const std::size_t i : others) {
-      const bool both = (*convex)[work_.a(i).unique] != 0 && (*convex)[work_.b(i).unique] != 0;
+      const bool both =
+          *convex->find(work_.a(i).unique) != 0 && *convex->find(work_.b(i).unique) != 0;
       (both ? taken : some).push_back(i);
     }
     return taken;
@@ -85,18 +87,19 @@ class PlaceStage {
   }
 
   /// By unique part, of those that some of the cases are about.
-  Result<std::vector<std::uint8_t>> convex_parts(const std::vector<std::size_t>& some) const {
+  Result<parallel::Precomputed<std::uint8_t>> convex_parts(
+      const std::vector<std::size_t>& some) const {
     // Dents that a place cannot be told by: the touch gap bridges them.
     const double slack = std::max(1.0, stage_.pair_options.least_touch_gap() / 4);
-    const std::vector<bool> wanted = work_.parts_of(some);
     const auto& unique = judged_.list.unique;
-    std::vector<std::uint8_t> convex(wanted.size(), 0);
-    const Status status = parallel::for_each_by_weight(
-        work_.context(), {.name = "convex parts", .n = wanted.size()}, CaseWork::kHeavy,
-        [&](std::size_t u) { return wanted[u] ? unique[u]->triangles.size() : 0; },
+    parallel::Precomputed<std::uint8_t> convex(unique.size());
+    const Status status = convex.fill_by_weight(
+        work_.context(), {.name = "convex parts"}, CaseWork::kHeavy,
+        parallel::keys_of(work_.parts_of(some)),
+        [&](std::size_t u) { return unique[u]->triangles.size(); },
         [&](std::size_t u) {
-          convex[u] = static_cast<std::uint8_t>(
-              wanted[u] && geometry::nearly_convex(*unique[u], slack, work_.context()));
+          return static_cast<std::uint8_t>(
+              geometry::nearly_convex(*unique[u], slack, work_.context()));
         });
     if (!status) return status.error();
     return convex;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "hlr/shape_loop.hpp"
@@ -15,8 +16,8 @@
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/distinct.hpp"
-#include "strake/parallel/heavy.hpp"
 #include "strake/parallel/order.hpp"
+#include "strake/parallel/precomputed.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
@@ -38,8 +39,8 @@ struct PlacedSkin {
 };
 
 struct Skins {
-  std::size_t unique = 0;          ///< parts of all shapes
-  std::vector<PlacedSkin> placed;  ///< by body
+  std::vector<const geometry::Part*> unique;  ///< parts of all shapes
+  std::vector<PlacedSkin> placed;             ///< by body
 };
 
 Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
@@ -47,8 +48,8 @@ Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
   Skins skins;
   std::vector<std::uint32_t> first;
   for (const model::GridShape& shape : scene.shapes) {
-    first.push_back(static_cast<std::uint32_t>(skins.unique));
-    skins.unique += shape.parts.size();
+    first.push_back(static_cast<std::uint32_t>(skins.unique.size()));
+    for (const geometry::Part& part : shape.parts) skins.unique.push_back(&part);
   }
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     const model::GridBody& body = scene.bodies[b];
@@ -62,19 +63,6 @@ Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
   }
   return skins;
 }
-
-/// What was made for some of the parts.
-template <class T>
-struct PerPart {
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number;  ///< by unique part: index into all, or kNone
-  std::vector<T> all;
-
-  /// Null where nothing was made.
-  [[nodiscard]] const T* of(const PlacedSkin& skin) const {
-    return number[skin.unique] == kNone ? nullptr : &all[number[skin.unique]];
-  }
-};
 
 /// Of a pair, in the coordinates of its first part.
 struct Found {
@@ -156,33 +144,26 @@ class Finder {
     return false;
   }
 
-  /// make(part) for each part of the pairs that are wanted, wanted(first, second).
-  template <class T, class Wanted, class Make>
-  Result<PerPart<T>> for_parts(std::string_view name, Wanted&& wanted, Make&& make) const {
-    PerPart<T> made{std::vector<std::uint32_t>(skins_.unique, PerPart<T>::kNone), {}};
-    std::vector<const geometry::Part*> parts;
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (!wanted(*a(i).placed.part, *b(i).placed.part)) continue;
-      for (const PlacedSkin* skin : {&a(i), &b(i)}) {
-        std::uint32_t& number = made.number[skin->unique];
-        if (number != PerPart<T>::kNone) continue;
-        number = static_cast<std::uint32_t>(parts.size());
-        parts.push_back(skin->placed.part);
-      }
-    }
-    made.all.resize(parts.size());
-    const Status status = parallel::for_each_by_weight(
-        context_, {.name = name, .n = parts.size()}, kBigShape,
-        [&](std::size_t u) { return parts[u]->triangles.size(); },
-        [&](std::size_t u) { made.all[u] = make(*parts[u]); });
-    if (!status) return status.error();
-    return made;
+  /// By unique part: make(part) for each part of the pairs that are wanted, wanted(first, second).
+  template <class Wanted, class Make>
+  auto for_parts(std::string_view name, Wanted&& wanted, Make&& make) const {
+    using T = std::invoke_result_t<Make&, const geometry::Part&>;
+    std::vector<bool> asked(skins_.unique.size());
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      if (wanted(*a(i).placed.part, *b(i).placed.part))
+        asked[a(i).unique] = asked[b(i).unique] = true;
+    parallel::Precomputed<T> made(skins_.unique.size());
+    const Status status = made.fill_by_weight(
+        context_, {.name = name}, kBigShape, parallel::keys_of(asked),
+        [&](std::size_t u) { return skins_.unique[u]->triangles.size(); },
+        [&](std::size_t u) { return make(*skins_.unique[u]); });
+    return status ? Result(std::move(made)) : Result<parallel::Precomputed<T>>(status.error());
   }
 
   /// Pairs that a plane along a face of either part keeps apart. Where a model stands askew these
   /// are nearly all whose boxes meet.
   Status leave_out_parted() {
-    auto frames = for_parts<geometry::PartFrame>(
+    auto frames = for_parts(
         "intersections: frames", [](const auto&...) { return true; },
         [&](const geometry::Part& part) { return geometry::make_frame(part, context_); });
     if (!frames) return frames.error();
@@ -190,8 +171,8 @@ class Finder {
     auto left = parallel::collect<IndexPair>(
         context_, {.name = "intersections: parting planes", .n = pairs_.size(), .grain = kGrain},
         [&](std::size_t i, std::vector<IndexPair>& out) {
-          const geometry::FramedPart x{a(i).placed, frames_.of(a(i))};
-          const geometry::FramedPart y{b(i).placed, frames_.of(b(i))};
+          const geometry::FramedPart x{a(i).placed, frames_.find(a(i).unique)};
+          const geometry::FramedPart y{b(i).placed, frames_.find(b(i).unique)};
           constexpr double kEnough = std::numeric_limits<double>::min();
           if (!(frame_gap(x, y, kEnough).lower > 0)) out.push_back(pairs_[i]);
         });
@@ -202,12 +183,12 @@ class Finder {
 
   /// Of some pairs.
   Result<std::vector<Found>> find_lines(const std::vector<std::uint32_t>& some) const {
-    const auto trees = for_parts<geometry::PartTree>(
-        "intersections: trees", geometry::want_trees,
-        [&](const geometry::Part& part) { return geometry::PartTree(part, context_); });
+    const auto trees =
+        for_parts("intersections: trees", geometry::want_trees,
+                  [&](const geometry::Part& part) { return geometry::PartTree(part, context_); });
     if (!trees) return trees.error();
     const auto whole = [&](const PlacedSkin& skin) {
-      return geometry::FramedPart{skin.placed, frames_.of(skin), trees->of(skin)};
+      return geometry::FramedPart{skin.placed, frames_.find(skin.unique), trees->find(skin.unique)};
     };
     const auto order = parallel::longest_first(some.size(), [&](std::size_t k) {
       return a(some[k]).placed.part->triangles.size() + b(some[k]).placed.part->triangles.size();
@@ -244,7 +225,7 @@ class Finder {
   const Skins& skins_;
   const parallel::Context& context_;
   std::vector<IndexPair> pairs_;
-  PerPart<geometry::PartFrame> frames_;
+  parallel::Precomputed<geometry::PartFrame> frames_;  ///< by unique part
 };
 
 }  // namespace

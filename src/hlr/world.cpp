@@ -9,7 +9,6 @@
 
 #include "hlr/shape_loop.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/parallel/heavy.hpp"
 #include "strake/parallel/pieces.hpp"
 
 namespace strake::hlr {
@@ -48,35 +47,29 @@ double nearest_depth(const Job& job) {
 Status make_views(World& world, const parallel::Context& context) {
   const Job& job = world.job;
   const model::Scene& scene = *job.scene;
-  struct Task {
-    std::uint32_t view = 0, body = 0;
-  };
-  std::vector<Task> tasks;
-  std::vector<bool> known(job.seen.all.size());
+  const std::size_t views = world.picture ? scene.bodies.size() : job.seen.all.size();
+  std::vector<std::uint32_t> body_of(views);
+  std::vector<bool> wanted(views);
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    const std::uint32_t seen = job.seen.of[b];
     if (!job.drawn[model::index(scene.bodies[b].object)]) continue;
-    if (world.picture) tasks.push_back({b, b});
-    if (!world.picture && !known[seen]) tasks.push_back({seen, b});
-    known[seen] = true;
+    const std::uint32_t view = world.view_of(b);
+    if (!wanted[view]) body_of[view] = b;
+    wanted[view] = true;
   }
-  const auto edges = [&](std::size_t i) {
+  const auto edges = [&](std::size_t view) {
     std::size_t sum = 0;
-    for (const geometry::Part& part : job.seen_of(tasks[i].body).source->parts)
+    for (const geometry::Part& part : job.seen_of(body_of[view]).source->parts)
       sum += part.edges.size();
     return sum;
   };
-  world.views.resize(world.picture ? scene.bodies.size() : job.seen.all.size());
+  world.views = parallel::Precomputed<ShapeView>(views);
   const Picture* const picture = world.picture ? &*world.picture : nullptr;
-  return parallel::for_each_by_weight(
-      context, {.name = "hidden lines: shapes", .n = tasks.size()}, kBigShape, edges,
-      [&](std::size_t i) -> Status {
-        const auto [view, body] = tasks[i];
-        auto made = view_of(job.seen_of(body), {world.frame, job.features_of(scene.bodies[body]),
-                                                picture, job.options.bucketing, context});
-        if (!made) return made.error();
-        world.views[view] = std::move(*made);
-        return {};
+  return world.views.fill_by_weight(
+      context, {.name = "hidden lines: shapes"}, kBigShape, parallel::keys_of(wanted), edges,
+      [&](std::size_t view) {
+        const std::uint32_t body = body_of[view];
+        return view_of(job.seen_of(body), {world.frame, job.features_of(scene.bodies[body]),
+                                           picture, job.options.bucketing, context});
       });
 }
 
@@ -92,7 +85,7 @@ void place_bodies(World& world) {
     const SeenShape& seen = job.seen_of(b);
     const model::GridShape& shape = seen.shape();
     Placed& placed = world.placed[b];
-    placed = {&world.views[world.picture ? b : job.seen.of[b]],
+    placed = {world.views.find(world.view_of(b)),
               job.offset(body),
               world.picture ? ViewPoint{} : world.frame(job.offset(body)),
               object,

@@ -15,6 +15,7 @@
 #include "hlr/view_tree.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/precomputed.hpp"
 
 namespace strake::hlr {
 
@@ -47,13 +48,18 @@ struct World {
   const Job& job;
   Frame frame;
   std::optional<Picture> picture;  ///< in perspective
-  std::vector<ShapeView>
-      views;  ///< per seen shape or, in perspective, per body; empty where not drawn
+  parallel::Precomputed<ShapeView>
+      views;                      ///< by seen shape or, in perspective, body; of what is drawn
   std::vector<OwnHits> own_hits;  ///< per seen shape; empty where no two bodies share it
   std::vector<Placed> placed;     ///< per body
   ViewTree tree;                  ///< over the bodies that may hide
   Coverage coverage;              ///< by them; of nothing where there is no culling
   std::vector<Item> items;
+
+  /// The number of a body's view.
+  [[nodiscard]] std::uint32_t view_of(std::uint32_t body) const {
+    return picture ? body : job.seen.of[body];
+  }
 };
 
 /// Sees the shapes, places the bodies and cuts the edges into work. The job must outlive the

@@ -6,14 +6,25 @@
 #include <cstdint>
 #include <new>
 #include <span>
+#include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "strake/parallel/caught.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/heavy.hpp"
 
 namespace strake::parallel {
+
+/// The keys that are marked, ascending.
+[[nodiscard]] inline std::vector<std::uint32_t> keys_of(const std::vector<bool>& marked) {
+  std::vector<std::uint32_t> keys;
+  for (std::uint32_t key = 0; key < marked.size(); ++key)
+    if (marked[key]) keys.push_back(key);
+  return keys;
+}
 
 /// What is worked out once for some of many keys, and then only read: what a sequential program
 /// keeps in a cache that fills itself while it is asked, which on several threads is a race or a
@@ -41,16 +52,17 @@ class Precomputed {
     return made_.empty() || made_[key] == 0 ? nullptr : &values_[key];
   }
 
-  /// Makes make(key) for the keys that are wanted and not there yet, each once however often it is
-  /// named. The region's n is set here. Errors as in for_each: nothing has been made then that can
-  /// be found.
+  /// Makes make(key), a T or a Result<T>, for the keys that are wanted and not there yet, each once
+  /// however often it is named. The region's n is set here. Errors as in for_each, that of the
+  /// lowest failing key, which is the item that an exception's error names: nothing has been made
+  /// then that can be found.
   template <class Make>
   [[nodiscard]] Status fill(const Context& context, Region region,
                             std::span<const std::uint32_t> wanted, Make&& make) {
     return add(wanted, [&](const std::vector<std::uint32_t>& missing) {
       region.n = missing.size();
       return for_each(context, region,
-                      [&](std::size_t k) { values_[missing[k]] = make(std::size_t{missing[k]}); });
+                      [&](std::size_t k) { return put(region.name, missing[k], make); });
     });
   }
 
@@ -64,11 +76,27 @@ class Precomputed {
       region.n = missing.size();
       return for_each_by_weight(
           context, region, least, [&](std::size_t k) { return cost(std::size_t{missing[k]}); },
-          [&](std::size_t k) { values_[missing[k]] = make(std::size_t{missing[k]}); });
+          [&](std::size_t k) { return put(region.name, missing[k], make); });
     });
   }
 
  private:
+  template <class Make>
+  Status put(std::string_view region, std::size_t key, Make& make) {
+    try {
+      if constexpr (std::is_convertible_v<std::invoke_result_t<Make&, std::size_t>, T>) {
+        values_[key] = make(key);
+      } else {
+        Result<T> made = make(key);
+        if (!made) return made.error();
+        values_[key] = std::move(made).value();
+      }
+      return {};
+    } catch (...) {
+      return detail::caught(region, key);
+    }
+  }
+
   template <class Fill>
   Status add(std::span<const std::uint32_t> wanted, Fill&& fill) {
     try {
@@ -86,6 +114,8 @@ class Precomputed {
         for (const std::uint32_t key : missing) made_[key] = 1;
       return status;
     } catch (const std::bad_alloc&) {
+      return out_of_memory();
+    } catch (const std::length_error&) {
       return out_of_memory();
     }
   }
