@@ -52,7 +52,7 @@ CONCURRENT = re.compile(rf'\bstd\s*::\s*{OF_STD}\b'
                         rf'|\b{words("tbb oneapi __gnu_parallel")}\s*::'
                         rf'|\b{words("pthread omp thrd mtx cnd tss sem __gthread __atomic __c11_atomic __sync")}_\w+'
                         rf'|\b{words("asm __asm __asm__ volatile __volatile__ _Atomic thread_local")}\b'
-                        rf'|(?<![\w.>]){words("syscall v?fork")}\s*\(|#\s*pragma\s+omp\b'
+                        rf'|(?<![\w.>]){words("syscall v?fork call_once atomic_[a-z_]+")}\s*\(|#\s*pragma\s+omp\b'
                         rf'|#\s*include\s*[<"]{HEADERS}')
 # How the patterns do it, and whose threads they run on: affairs of them and of who starts a program.
 INSIDES = re.compile(r'\bparallel\s*::\s*detail\b|\bteam(_|\s*\(\s*\))?\s*\)?\s*(->|\.)\s*(run|size)\b'

@@ -64,6 +64,8 @@ __c11_atomic_store(&x, 1, 5);
 syscall(SYS_futex, &x, 0, 0);
 if (fork() == 0) run();
 if (vfork() == 0) run();
+call_once(flag, f);
+auto now = atomic_load(&shared);
 asm("lock; incl %0" : "+m"(x));
 __asm__("pause");
 __asm ("pause");
