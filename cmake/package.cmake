@@ -10,10 +10,11 @@ configure_package_config_file(cmake/strake-config.cmake.in strake-config.cmake
 # Before version 1 any minor version may change the interface.
 write_basic_package_version_file(strake-config-version.cmake COMPATIBILITY SameMinorVersion)
 
-# strake_component(NAME MODULES packaged modules... HEADERS files and folders of include/strake...)
+# strake_component(NAME MODULES packaged modules... HEADERS files and folders of include/strake...
+#   GUIDE folders of pages and examples...)
 # Installs the modules as targets strake::MODULE, with their headers and all that finds them.
 function(strake_component name)
-  cmake_parse_arguments(arg "" "" "MODULES;HEADERS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "MODULES;HEADERS;GUIDE" ${ARGN})
   list(TRANSFORM arg_MODULES PREPEND strake_)
   install(TARGETS ${arg_MODULES} EXPORT strake-${name}
     ARCHIVE COMPONENT ${name}
@@ -35,4 +36,9 @@ function(strake_component name)
     DESTINATION ${strake_package_dir} COMPONENT ${name})
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
     DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${name})
+  foreach(folder ${arg_GUIDE})
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_DOCDIR}
+      COMPONENT ${name} FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.cpp PATTERN *.hpp
+      PATTERN expected EXCLUDE PATTERN basic_tests.cpp EXCLUDE)
+  endforeach()
 endfunction()

@@ -16,24 +16,6 @@
 
 namespace strake::drawing {
 
-/// Progress of all batches as one, where nobody tells it already.
-class Phase {
- public:
-  Phase(parallel::Progress* progress, std::string_view name, std::uint64_t total)
-      : progress_(progress != nullptr && progress->begin(name, total) ? progress : nullptr) {}
-  ~Phase() {
-    if (progress_ != nullptr) progress_->end();
-  }
-  Phase(const Phase&) = delete;
-  Phase& operator=(const Phase&) = delete;
-  void add(std::uint64_t items) const {
-    if (progress_ != nullptr) progress_->add(items);
-  }
-
- private:
-  parallel::Progress* progress_;
-};
-
 /// Writes n items in order whose bytes are made in parallel: encode(begin, end, out) appends those
 /// of a run. The bytes of 65,536 items are held at a time. Errors: cancelled, out of memory.
 template <class Encode>
@@ -44,7 +26,7 @@ template <class Encode>
     std::string text;
   };
   constexpr std::size_t kRun = 1024, kRuns = 64;
-  const Phase phase(context.progress, name, n);
+  const parallel::ProgressPhase phase(context.progress, name, n);
   std::size_t next = 0;
   return parallel::pipeline(
       context, {.name = name, .in_flight = kRuns},

@@ -3,6 +3,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "strake/parallel/order.hpp"
 
 namespace strake::parallel {
 namespace {
@@ -47,4 +52,42 @@ std::vector<std::uint32_t> heavy_items(std::span<const double> costs, double lea
   return heavy;
 }
 
+namespace detail {
+
+void Apart::drop_from(std::uint32_t item) {
+  rest.erase(std::ranges::lower_bound(rest, item), rest.end());
+}
+
+Result<std::vector<std::uint32_t>> Apart::longest_first(std::span<const double> costs,
+                                                        const Region& others) const try {
+  return parallel::longest_first(others.blocks(), [&](std::size_t block) {
+    const std::size_t first = block * others.block_size();
+    double sum = 0;
+    for (std::size_t k = first; k < block_end(first, others.block_size(), rest.size()); ++k)
+      sum += costs[rest[k]];
+    return sum;
+  });
+} catch (const std::bad_alloc&) {
+  return out_of_memory();
+}
+
+Result<Apart> set_apart(std::span<const double> costs, double least, unsigned workers,
+                        const Region& region) try {
+  if (costs.size() > std::numeric_limits<std::uint32_t>::max())
+    return Error{
+        ErrorCode::internal, "more items than 32 bits number", std::string(region.name), {}};
+  Apart apart{heavy_items(costs, least, workers), {}};
+  apart.rest.reserve(costs.size() - apart.heavy.size());
+  for (std::uint32_t i = 0, k = 0; i < costs.size(); ++i) {
+    if (k < apart.heavy.size() && apart.heavy[k] == i)
+      ++k;
+    else
+      apart.rest.push_back(i);
+  }
+  return apart;
+} catch (const std::bad_alloc&) {
+  return out_of_memory();
+}
+
+}  // namespace detail
 }  // namespace strake::parallel

@@ -14,7 +14,9 @@ namespace strake::parallel {
 struct HostExecutor::Run {
   Run(unsigned count, FunctionRef<void(Seat)> work) : body(work), taken(count) {}
 
-  void serve(unsigned index) {
+  /// Ends the program if the body throws, as the contract says: to the host it would be as if it
+  /// had not called.
+  void serve(unsigned index) noexcept {
     if (index >= taken.size() || taken[index].exchange(true, std::memory_order_relaxed)) return;
     body(Seat{index, static_cast<unsigned>(taken.size())});
     if (done.fetch_add(1, std::memory_order_acq_rel) + 1 == taken.size()) done.notify_one();

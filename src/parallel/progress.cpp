@@ -8,8 +8,8 @@ namespace strake::parallel {
 bool Progress::begin(std::string_view phase, std::uint64_t total) {
   const std::lock_guard lock(mutex_);
   if (active_) return false;
-  active_ = true;
   phase_ = phase;
+  active_ = true;
   total_ = total;
   done_.store(0, std::memory_order_relaxed);
   return true;

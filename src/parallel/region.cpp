@@ -26,6 +26,16 @@ Error described(const char* what, std::string_view region, std::size_t item) {
           {}};
 }
 
+/// Whether every block stands in the order once.
+bool is_permutation(std::span<const std::uint32_t> order) {
+  std::vector<bool> seen(order.size(), false);
+  for (const std::uint32_t block : order) {
+    if (block >= seen.size() || seen[block]) return false;
+    seen[block] = true;
+  }
+  return true;
+}
+
 /// What one run of a region adds to the report. `alone`: the team was busy.
 RegionReport summary(const Region& region, std::span<const Cursor> seats, double wall, bool alone) {
   RegionReport run;
@@ -46,6 +56,13 @@ RegionReport summary(const Region& region, std::span<const Cursor> seats, double
 }
 
 }  // namespace
+
+Error order_given(const Region& region) {
+  return {ErrorCode::internal,
+          "a visiting order for items that have one of their own",
+          std::string(region.name),
+          {}};
+}
 
 Error caught(std::string_view region, std::size_t item) noexcept {
   try {
@@ -119,24 +136,42 @@ void RegionRun::work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Curso
 }
 
 Status RegionRun::run(FunctionRef<void(Cursor&)> loop) {
+  try {
+    if (Status status = start(); !status || blocks_ == 0) return status;
+    call(loop);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+  return outcome(context_.stop.stop_requested());
+}
+
+Status RegionRun::start() {
   if (context_.stop.stop_requested()) return cancelled_error();
   blocks_ = region_.blocks();
-  chunk_ = std::max<std::size_t>(region_.chunk, 1);
+  // The counter may pass the last block by a chunk for each worker, and must not come round again.
+  const std::size_t workers = context_.team != nullptr ? context_.team->size() : 1;
+  const std::size_t room = (std::numeric_limits<std::size_t>::max() - blocks_) / (workers + 1);
+  chunk_ = std::max<std::size_t>(std::min({region_.chunk, blocks_, room}), 1);
   ordered_ = !region_.order.empty();
+  const auto misordered = [&](const std::string& what) {
+    return Error{ErrorCode::internal, "a visiting order " + what, std::string(region_.name), {}};
+  };
   if (ordered_ && region_.order.size() != blocks_)
-    return Error{ErrorCode::internal,
-                 "a visiting order of " + std::to_string(region_.order.size()) + " for " +
-                     std::to_string(blocks_) + " blocks",
-                 std::string(region_.name),
-                 {}};
-  if (blocks_ == 0) return {};
+    return misordered("of " + std::to_string(region_.order.size()) + " for " +
+                      std::to_string(blocks_) + " blocks");
+  if (ordered_ && !is_permutation(region_.order))
+    return misordered("that does not name each of " + std::to_string(blocks_) + " blocks once");
+  return {};
+}
 
+void RegionRun::call(FunctionRef<void(Cursor&)> loop) {
   // One block needs no team; leaving it free lets the regions nested inside have it.
   Executor* const team = blocks_ > 1 ? context_.team : nullptr;
   dynamic_ = team != nullptr && region_.schedule == Schedule::dynamic;
-  counting_ = context_.progress != nullptr && context_.progress->begin(region_.name, region_.n);
-  observed_ = counting_ || context_.report != nullptr;
   std::vector<Cursor> seats(context_.report == nullptr ? 0 : team != nullptr ? team->size() : 1);
+  const ProgressPhase phase(context_.progress, region_.name, region_.n);
+  counting_ = phase.is_ours();
+  observed_ = counting_ || context_.report != nullptr;
   const double start = context_.report != nullptr ? wall_s() : 0;
   bool whole = true;
   {
@@ -148,10 +183,8 @@ Status RegionRun::run(FunctionRef<void(Cursor&)> loop) {
       whole = team->run([&](Seat seat) { work(seat, loop, seats); });
     }
   }
-  if (counting_) context_.progress->end();
   if (context_.report != nullptr)
     context_.report->add(summary(region_, seats, wall_s() - start, !whole));
-  return outcome(context_.stop.stop_requested());
 }
 
 Status RegionRun::outcome(bool cancelled) {

@@ -27,13 +27,18 @@ double RegionReport::load_balance() const {
   return most > 0 ? total_busy_s() / (static_cast<double>(busy_s.size()) * most) : 1.0;
 }
 
-double RegionReport::bound() const {
-  const double share =
-      total_busy_s() / static_cast<double>(std::max<std::size_t>(busy_s.size(), 1));
-  return longest_s > share ? share / longest_s : 1.0;
-}
+double RegionReport::bound() const { return least_s > share_s ? share_s / least_s : 1.0; }
 
 void RunReport::add(const RegionReport& run) {
+  RegionReport one = run;
+  if (!run.busy_s.empty()) {
+    one.share_s = run.total_busy_s() / static_cast<double>(run.busy_s.size());
+    one.least_s = std::max(one.share_s, run.longest_s);
+  }
+  merge(one);
+}
+
+void RunReport::merge(const RegionReport& run) {
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(regions_.begin(), regions_.end(),
                                   [&](const RegionReport& r) { return r.name == run.name; });
@@ -47,6 +52,8 @@ void RunReport::add(const RegionReport& run) {
   found->wall_s += run.wall_s;
   found->nested_cpu_s += run.nested_cpu_s;
   found->longest_s = std::max(found->longest_s, run.longest_s);
+  found->share_s += run.share_s;
+  found->least_s += run.least_s;
   found->busy_s.resize(std::max(found->busy_s.size(), run.busy_s.size()));
   for (std::size_t w = 0; w < run.busy_s.size(); ++w) found->busy_s[w] += run.busy_s[w];
 }

@@ -49,7 +49,7 @@ class Rounds {
   }
 
   Result<ReservedRun> run(FunctionRef<bool(std::size_t, Claims&)> claim,
-                          FunctionRef<Status(std::size_t)> act, Progress* progress) {
+                          FunctionRef<Status(std::size_t)> act, const ProgressPhase& phase) {
     ReservedRun run;
     while (gather()) {
       run.rounds += 1;
@@ -58,8 +58,7 @@ class Rounds {
         return status.error();
       if (const Status status = act_all(act); !status && !drop_from_failed(status))
         return status.error();
-      const std::size_t done = end_round();
-      if (progress != nullptr) progress->add(done);
+      phase.add(end_round());
     }
     if (error_) return *std::move(error_);
     return run;
@@ -94,7 +93,7 @@ class Rounds {
   /// Slots of one list come to one worker, in ascending order: they are a block of the region.
   Status claim_one(FunctionRef<bool(std::size_t, Claims&)> claim, std::size_t slot) {
     const std::uint32_t item = items_[slot];
-    try {
+    return status_of(region_.name, item, [&]() -> Status {
       std::vector<std::size_t>& list = lists_[slot / kRun];
       if (slot % kRun == 0) list.clear();
       const std::size_t first = list.size();
@@ -113,9 +112,7 @@ class Rounds {
         raise(bids_[place], bid_of(item));
       }
       return {};
-    } catch (...) {
-      return caught(region_.name, item);
-    }
+    });
   }
 
   Status act_all(FunctionRef<Status(std::size_t)> act) {
@@ -132,7 +129,7 @@ class Rounds {
         return bids_[place].load(std::memory_order_relaxed) == mine;
       };
       if (std::ranges::all_of(places, held)) {
-        Status status = act_one(act, item);
+        Status status = status_of(region_.name, item, [&] { return act(item); });
         slots_[slot] = status ? Slot::done : Slot::failed;
         if (!status) return status;
       }
@@ -141,14 +138,6 @@ class Rounds {
         if (held(place)) bids_[place].store(0, std::memory_order_relaxed);
       return {};
     });
-  }
-
-  Status act_one(FunctionRef<Status(std::size_t)> act, std::uint32_t item) {
-    try {
-      return act(item);
-    } catch (...) {
-      return caught(region_.name, item);
-    }
   }
 
   [[nodiscard]] std::span<const std::size_t> asked(std::size_t slot) const {
@@ -217,21 +206,16 @@ Result<ReservedRun> run_reserved(const Context& context, const Region& region, s
   const auto misused = [&](const char* what) {
     return Error{ErrorCode::internal, what, std::string(region.name), {}};
   };
-  if (!region.order.empty()) return misused("a visiting order for items that pass in their own");
+  if (!region.order.empty()) return order_given(region);
   if (region.n >= std::numeric_limits<std::uint32_t>::max())
     return misused("more items than there are numbers to bid with");
   if (context.stop.stop_requested()) return cancelled_error();
-  const bool counting =
-      context.progress != nullptr && context.progress->begin(region.name, region.n);
-  Result<ReservedRun> run = [&]() -> Result<ReservedRun> {
-    try {
-      return Rounds(context, region, places).run(claim, act, counting ? context.progress : nullptr);
-    } catch (const std::exception&) {
-      return out_of_memory();
-    }
-  }();
-  if (counting) context.progress->end();
-  return run;
+  try {
+    const ProgressPhase phase(context.progress, region.name, region.n);
+    return Rounds(context, region, places).run(claim, act, phase);
+  } catch (const std::exception&) {
+    return out_of_memory();
+  }
 }
 
 }  // namespace strake::parallel::detail

@@ -70,6 +70,8 @@ template <class T, class Make, class Body>
                                                   Make&& make, Body&& body) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
   using Local = std::invoke_result_t<Make&>;
+  static_assert(std::is_invocable_v<Body&, Local&, std::size_t, std::vector<T>&>,
+                "the body is called as body(worker_context, i, out)");
   if (region.is_short()) {
     std::vector<T> out;
     const Status status = for_each_with(
@@ -80,9 +82,10 @@ template <class T, class Make, class Body>
   }
   const unsigned workers = context.team != nullptr ? context.team->size() : 1;
   // The number of results of each block, after its own place.
-  Result<std::vector<std::size_t>> first = detail::slots<std::size_t>(region.blocks() + 1);
+  Result<std::vector<std::size_t>> first = detail::offsets(region.blocks());
   if (!first) return first.error();
-  std::vector<std::vector<detail::Chunk<T>>> of_worker(workers);
+  auto of_worker = slots<std::vector<detail::Chunk<T>>>(workers);
+  if (!of_worker) return of_worker.error();
   const std::size_t size = region.block_size();
   detail::RegionRun run(context, region);
   const Status status = run.run([&](detail::Cursor& cursor) {
@@ -99,7 +102,7 @@ template <class T, class Make, class Body>
         for (bool good = true; good && i < range.last && i < run.limit();) {
           const std::size_t before = out.size();
           const std::size_t block = i / size;
-          const std::size_t last = std::min(range.last, (block + 1) * size);
+          const std::size_t last = detail::block_end(i, size, range.last);
           for (; good && i < last && i < run.limit(); ++i)
             good = detail::run_item(run, i, body, *local, i, out);
           (*first)[block + 1] = out.size() - before;
@@ -118,13 +121,13 @@ template <class T, class Make, class Body>
     } catch (...) {
       run.fail_with_current_exception(region.n);
     }
-    of_worker[cursor.seat.index] = std::move(done);
+    (*of_worker)[cursor.seat.index] = std::move(done);
   });
   if (!status) return status.error();
   std::inclusive_scan(first->begin(), first->end(), first->begin());
   try {
     std::vector<detail::Chunk<T>> chunks;
-    for (std::vector<detail::Chunk<T>>& of_one : of_worker)
+    for (std::vector<detail::Chunk<T>>& of_one : *of_worker)
       std::move(of_one.begin(), of_one.end(), std::back_inserter(chunks));
     return detail::put_together<T>(context, chunks, *first);
   } catch (const std::bad_alloc&) {
@@ -136,6 +139,8 @@ template <class T, class Make, class Body>
 template <class T, class Body>
 [[nodiscard]] Result<std::vector<T>> collect(const Context& context, const Region& region,
                                              Body&& body) {
+  static_assert(std::is_invocable_v<Body&, std::size_t, std::vector<T>&>,
+                "the body is called as body(i, out)");
   return collect_with<T>(
       context, region, [] { return NoContext{}; },
       [&body](NoContext&, std::size_t i, std::vector<T>& out) { return body(i, out); });

@@ -31,13 +31,13 @@ template <class T, class Count, class Fill>
 [[nodiscard]] Result<Packed<T>> count_fill(const Context& context, const Region& region,
                                            Count&& count, Fill&& fill) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
-  Result<std::vector<std::size_t>> offsets = detail::slots<std::size_t>(region.n + 1);
+  Result<std::vector<std::size_t>> offsets = detail::offsets(region.n);
   if (!offsets) return offsets.error();
   std::vector<std::size_t>& at = *offsets;
   const Status counted = for_each(context, region, [&](std::size_t i) { at[i + 1] = count(i); });
   if (!counted) return counted.error();
-  for (std::size_t i = 0; i < region.n; ++i) at[i + 1] += at[i];
-  Result<std::vector<T>> values = detail::slots<T>(at[region.n], context);
+  if (Status summed = detail::sum_up(at); !summed) return std::move(summed).error();
+  Result<std::vector<T>> values = slots<T>(at[region.n], context);
   if (!values) return values.error();
   const std::span<T> all(*values);
   const Status filled = for_each(context, region, [&](std::size_t i) {

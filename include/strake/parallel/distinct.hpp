@@ -48,6 +48,15 @@ struct HashLots {
   static std::size_t of(std::uint64_t hash) { return hash >> 58U; }
 };
 
+/// Errors: out of memory.
+[[nodiscard]] inline Result<HashLots> hash_lots(const std::vector<std::uint64_t>& hashes) {
+  try {
+    return HashLots(hashes);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
 }  // namespace detail
 
 /// Finds items that are equal, so that each kind is worked on once. Fewer than 2^32 items.
@@ -69,22 +78,29 @@ template <class Hash, class Same>
   const auto hashes =
       transform(context, items, [&](std::size_t i) -> std::uint64_t { return hash(i); });
   if (!hashes) return hashes.error();
-  const detail::HashLots lots(*hashes);
-  std::vector<std::uint32_t> first(n);
+  const Result<detail::HashLots> lots = detail::hash_lots(*hashes);
+  if (!lots) return lots.error();
+  Result<std::vector<std::uint32_t>> first_of = slots<std::uint32_t>(n);
+  if (!first_of) return first_of.error();
+  std::vector<std::uint32_t>& first = *first_of;
   Status status =
-      for_each(context, {.name = name, .n = detail::kDistinctLots}, [&](std::size_t lot) {
-        const std::size_t begin = lots.begin[lot], end = lots.begin[lot + 1];
+      for_each(context, {.name = name, .n = detail::kDistinctLots}, [&](std::size_t lot) -> Status {
+        const std::size_t begin = lots->begin[lot], end = lots->begin[lot + 1];
         std::vector<std::uint32_t> slots(std::bit_ceil(2 * (end - begin) + 1), kFree);
         for (std::size_t k = begin; k < end; ++k) {
-          const std::uint32_t i = lots.order[k];
-          const std::uint64_t h = (*hashes)[i];
-          const auto is_same = [&](std::uint32_t j) { return (*hashes)[j] == h && same(j, i); };
-          std::size_t slot = h & (slots.size() - 1);
-          while (slots[slot] != kFree && !is_same(slots[slot]))
-            slot = (slot + 1) & (slots.size() - 1);
-          if (slots[slot] == kFree) slots[slot] = i;
-          first[i] = slots[slot];
+          const std::uint32_t i = lots->order[k];
+          Status compared = detail::status_of(name, i, [&] {
+            const std::uint64_t h = (*hashes)[i];
+            const auto is_same = [&](std::uint32_t j) { return (*hashes)[j] == h && same(j, i); };
+            std::size_t slot = h & (slots.size() - 1);
+            while (slots[slot] != kFree && !is_same(slots[slot]))
+              slot = (slot + 1) & (slots.size() - 1);
+            if (slots[slot] == kFree) slots[slot] = i;
+            first[i] = slots[slot];
+          });
+          if (!compared) return compared;
         }
+        return {};
       });
   if (!status) return status.error();
   auto kinds =
@@ -92,7 +108,9 @@ template <class Hash, class Same>
         if (first[i] == i) out.push_back(first[i]);
       });
   if (!kinds) return kinds.error();
-  Distinct result{std::vector<std::uint32_t>(n), std::move(*kinds)};
+  Result<std::vector<std::uint32_t>> of = slots<std::uint32_t>(n);
+  if (!of) return of.error();
+  Distinct result{std::move(*of), std::move(*kinds)};
   for (std::size_t k = 0; k < result.first.size(); ++k)
     result.of[result.first[k]] = static_cast<std::uint32_t>(k);
   status = for_each(context, items, [&](std::size_t i) {

@@ -105,7 +105,7 @@ template <class Body, class IsLast>
                                    IsLast&& is_last) {
   using T = std::remove_cvref_t<std::invoke_result_t<Body&, std::size_t>>;
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: return uint8_t");
-  Result<std::vector<T>> results = detail::slots<T>(region.n, context);
+  Result<std::vector<T>> results = slots<T>(region.n, context);
   if (!results) return results;
   std::vector<T>& slot = *results;
   const Result<std::size_t> last = detail::run_until(

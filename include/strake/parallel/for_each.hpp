@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <exception>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -24,10 +25,26 @@ bool run_item(RegionRun& run, std::size_t item, Body& body, Args&&... args) {
     body(std::forward<Args>(args)...);
     return true;
   } else {
-    const Status status = body(std::forward<Args>(args)...);
+    Status status = body(std::forward<Args>(args)...);
     if (status) return true;
-    run.fail(item, status.error());
+    run.fail(item, std::move(status).error());
     return false;
+  }
+}
+
+/// What became of an item that has another number in its region: body() returns void or Status, and
+/// an exception names the item's own number.
+template <class Body>
+Status status_of(std::string_view region, std::size_t item, Body&& body) {
+  try {
+    if constexpr (std::is_void_v<std::invoke_result_t<Body&>>) {
+      body();
+      return {};
+    } else {
+      return body();
+    }
+  } catch (...) {
+    return caught(region, item);
   }
 }
 
@@ -75,6 +92,8 @@ template <class Make, class Body>
 [[nodiscard]] Status for_each_with(const Context& context, const Region& region, Make&& make,
                                    Body&& body) {
   using Local = std::invoke_result_t<Make&>;
+  static_assert(std::is_invocable_v<Body&, Local&, std::size_t>,
+                "the body is called as body(worker_context, i)");
   if (region.is_short())
     return detail::run_alone(
         region, [&, local = std::optional<Local>()](std::size_t i) mutable -> decltype(auto) {
@@ -101,6 +120,7 @@ template <class Make, class Body>
 /// The same for a body(i) that needs no worker context.
 template <class Body>
 [[nodiscard]] Status for_each(const Context& context, const Region& region, Body&& body) {
+  static_assert(std::is_invocable_v<Body&, std::size_t>, "the body is called as body(i)");
   return for_each_with(
       context, region, [] { return NoContext{}; },
       [&body](NoContext&, std::size_t i) { return body(i); });

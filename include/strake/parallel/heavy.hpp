@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "strake/parallel/executor.hpp"
 #include "strake/parallel/for_each.hpp"
-#include "strake/parallel/order.hpp"
-#include "strake/parallel/team.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::parallel {
 
@@ -18,6 +17,24 @@ namespace strake::parallel {
 /// fewer than two per worker; none for one worker.
 [[nodiscard]] std::vector<std::uint32_t> heavy_items(std::span<const double> costs, double least,
                                                      unsigned workers);
+
+namespace detail {
+
+/// The items of a region as for_each_by_weight runs them.
+struct Apart {
+  std::vector<std::uint32_t> heavy, rest;  ///< ascending
+
+  /// Leaves out what is light and not below an item.
+  void drop_from(std::uint32_t item);
+  /// A visiting order for a region of the rest, by the costs of all.
+  [[nodiscard]] Result<std::vector<std::uint32_t>> longest_first(std::span<const double> costs,
+                                                                 const Region& others) const;
+};
+
+[[nodiscard]] Result<Apart> set_apart(std::span<const double> costs, double least, unsigned workers,
+                                      const Region& region);
+
+}  // namespace detail
 
 /// As for_each, for items of very unequal cost of which the heavy ones can use a team themselves.
 ///
@@ -34,38 +51,41 @@ namespace strake::parallel {
 ///
 /// 1. Which items are apart depends on the size of the team, and must not show in a result: what an
 ///    item does may depend on its own size only.
-/// 2. Errors and the stop token as in for_each, heavy items before the others.
+/// 2. Errors and the stop token as in for_each: the error is that of the lowest failing item, heavy
+///    or not. An exception of cost is an error, too.
 template <class Cost, class Body>
 [[nodiscard]] Status for_each_by_weight(const Context& context, const Region& region, double least,
                                         Cost&& cost, Body&& body) {
-  std::vector<double> costs(region.n);
-  for (std::size_t i = 0; i < region.n; ++i) costs[i] = static_cast<double>(cost(i));
-  const std::vector<std::uint32_t> apart =
-      heavy_items(costs, least, context.team == nullptr ? 1 : context.team->size());
-  for (const std::uint32_t i : apart) {
-    const Status status = for_each(context, {.name = region.name, .n = 1},
-                                   [&](std::size_t /*only*/) { return body(std::size_t{i}); });
+  if (!region.order.empty()) return detail::order_given(region);
+  auto costs = slots<double>(region.n);
+  if (!costs) return costs.error();
+  for (std::size_t i = 0; i < region.n; ++i) {
+    Status status =
+        detail::status_of(region.name, i, [&] { (*costs)[i] = static_cast<double>(cost(i)); });
     if (!status) return status;
   }
-  std::vector<std::uint32_t> rest;
-  rest.reserve(region.n - apart.size());
-  for (std::uint32_t i = 0, k = 0; i < region.n; ++i) {
-    if (k < apart.size() && apart[k] == i)
-      ++k;
-    else
-      rest.push_back(i);
+  const unsigned workers = context.team == nullptr ? 1 : context.team->size();
+  auto apart = detail::set_apart(*costs, least, workers, region);
+  if (!apart) return apart.error();
+  const auto run_one = [&](std::size_t i) {
+    return detail::status_of(region.name, i, [&] { return body(i); });
+  };
+  Status of_heavy;
+  for (const std::uint32_t i : apart->heavy) {
+    of_heavy = for_each(context, {.name = region.name, .n = 1},
+                        [&](std::size_t /*only*/) { return run_one(i); });
+    if (of_heavy) continue;
+    if (context.stop.stop_requested()) return of_heavy;
+    apart->drop_from(i);  // those below may fail as well, and then are the ones to tell of
+    break;
   }
   Region others = region;
-  others.n = rest.size();
-  const std::vector<std::uint32_t> order = longest_first(others.blocks(), [&](std::size_t block) {
-    const std::size_t first = block * others.block_size();
-    double sum = 0;
-    for (std::size_t k = first; k < std::min(others.n, first + others.block_size()); ++k)
-      sum += costs[rest[k]];
-    return sum;
-  });
-  others.order = order;
-  return for_each(context, others, [&](std::size_t k) { return body(std::size_t{rest[k]}); });
+  others.n = apart->rest.size();
+  auto order = apart->longest_first(*costs, others);
+  if (!order) return order.error();
+  others.order = *order;
+  Status status = for_each(context, others, [&](std::size_t k) { return run_one(apart->rest[k]); });
+  return status ? of_heavy : status;
 }
 
 }  // namespace strake::parallel

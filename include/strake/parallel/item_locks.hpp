@@ -16,7 +16,7 @@ namespace strake::parallel {
 ///
 /// Busy waiting, so hold one for some microseconds at most, and never two at once. The order of
 /// writers is left to the schedule: what they write must come out the same in any order. Prefer to
-/// gather (docs/patterns/README.md).
+/// gather (docs/patterns/item-locks.md).
 class ItemLocks {
  public:
   explicit ItemLocks(std::size_t items) : flags_(items) {}

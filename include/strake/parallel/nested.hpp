@@ -3,33 +3,31 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <new>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "strake/core/result.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::parallel {
 
 namespace detail {
 
 /// Where each row of a ragged table begins in one flat range, and the end. Errors: out of memory,
-/// more elements than can be counted.
+/// more elements than can be counted, an exception of length.
 template <class Length>
-Result<std::vector<std::size_t>> row_starts(std::size_t rows, Length&& length) {
-  try {
-    std::vector<std::size_t> start(rows + 1, 0);
-    for (std::size_t r = 0; r < rows; ++r) {
-      const std::size_t more = length(r);
-      if (more > std::numeric_limits<std::size_t>::max() - start[r])
-        return Error{ErrorCode::input, "more elements than can be counted", {}, {}};
-      start[r + 1] = start[r] + more;
-    }
-    return start;
-  } catch (const std::exception&) {
-    return out_of_memory();
+Result<std::vector<std::size_t>> row_starts(std::string_view region, std::size_t rows,
+                                            Length&& length) {
+  Result<std::vector<std::size_t>> start = offsets(rows);
+  if (!start) return start;
+  for (std::size_t r = 0; r < rows; ++r) {
+    Status status = status_of(region, r, [&] { (*start)[r + 1] = length(r); });
+    if (!status) return std::move(status).error();
   }
+  if (Status summed = sum_up(*start); !summed) return std::move(summed).error();
+  return start;
 }
 
 /// The row that holds an element; finds the next one from the last quickly.
@@ -67,7 +65,7 @@ class RowFinder {
 template <class Length, class Body>
 [[nodiscard]] Status for_each_nested(const Context& context, Region region, std::size_t rows,
                                      Length&& length, Body&& body) {
-  const auto start = detail::row_starts(rows, length);
+  const auto start = detail::row_starts(region.name, rows, length);
   if (!start) return start.error();
   region.n = start->back();
   return for_each_with(

@@ -24,7 +24,7 @@ namespace strake::parallel {
 /// The context must be the one that the region runs with, or one that is passed on to the regions
 /// nested in it. It is wrong where the guarded data are shared with threads that the context does
 /// not know of: two callers with a context each, a window that reads while a region without a team
-/// writes. Those need the mutex itself. See docs/patterns/locks.md.
+/// writes. Those need the mutex itself. See docs/patterns/optional-lock.md.
 template <class Mutex>
 class OptionalLock {
  public:

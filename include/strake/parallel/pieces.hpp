@@ -5,11 +5,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <utility>
 #include <vector>
 
 #include "strake/core/result.hpp"
+#include "strake/parallel/caught.hpp"
 
 namespace strake::parallel {
 
@@ -48,19 +48,20 @@ void cut_evenly(Number count, Number limit, Visit&& visit) {
 ///
 /// By item, then ascending; an item without elements has none. They depend on the sizes and the
 /// limit alone, so results by piece are the same for any team. Fewer than 2^32 items. Errors: out
-/// of memory.
+/// of memory, an exception of count.
 template <class Count>
 [[nodiscard]] Result<std::vector<Piece>> pieces(std::size_t n, Count&& count, std::size_t limit) {
+  std::size_t i = 0;
   try {
     std::vector<Piece> all;
-    for (std::size_t i = 0; i < n; ++i)
+    for (; i < n; ++i)
       cut_evenly(static_cast<std::size_t>(count(i)), limit,
                  [&](std::size_t first, std::size_t last) {
                    all.push_back({static_cast<std::uint32_t>(i), first, last});
                  });
     return all;
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
+  } catch (...) {
+    return detail::caught("pieces", i);
   }
 }
 

@@ -88,7 +88,7 @@ class PipelineRun {
     fetching_ = true;
     std::optional<Item> item;
     attempt(lock, i, [&]() -> Status {
-      item = source();
+      if (auto fetched = source()) item.emplace(std::move(*fetched));
       return {};
     });
     fetching_ = false;
@@ -101,31 +101,33 @@ class PipelineRun {
     if (!item) return;
     std::optional<Made> made;
     attempt(lock, i, [&]() -> Status {
+      const Dropped<Item> after(item);
       if constexpr (!std::is_same_v<Made, std::remove_cvref_t<decltype(work(std::move(*item)))>>) {
         auto result = work(std::move(*item));
-        if (!result) return result.error();
+        if (!result) return std::move(result).error();
         made.emplace(std::move(*result));
       } else {
         made.emplace(work(std::move(*item)));
       }
       return {};
     });
-    slots_[i % slots_.size()] = std::move(made);
+    if (made) slots_[i % slots_.size()].emplace(std::move(*made));
     changed_.notify_all();
   }
 
   template <class Sink>
   void sink_next(std::unique_lock<std::mutex>& lock, Sink& sink) {
     std::optional<Made>& slot = slots_[sunk_ % slots_.size()];
-    Made made = std::move(*slot);
+    std::optional<Made> made(std::move(*slot));
     slot.reset();
     sinking_ = true;
     attempt(lock, sunk_, [&]() -> Status {
+      const Dropped<Made> after(made);
       if constexpr (std::is_void_v<std::invoke_result_t<Sink&, Made&&>>) {
-        sink(std::move(made));
+        sink(std::move(*made));
         return {};
       } else {
-        return sink(std::move(made));
+        return sink(std::move(*made));
       }
     });
     sinking_ = false;
@@ -133,20 +135,31 @@ class PipelineRun {
     changed_.notify_all();
   }
 
+  /// Ends a value when a step is through with it, while the lock is open: who knows what its
+  /// destructor waits for.
+  template <class Value>
+  class Dropped {
+   public:
+    explicit Dropped(std::optional<Value>& value) : value_(value) {}
+    Dropped(const Dropped&) = delete;
+    Dropped& operator=(const Dropped&) = delete;
+    Dropped(Dropped&&) = delete;
+    Dropped& operator=(Dropped&&) = delete;
+    ~Dropped() { value_.reset(); }
+
+   private:
+    std::optional<Value>& value_;
+  };
+
   /// Runs a step of an item with the lock open.
   template <class Step>
   void attempt(std::unique_lock<std::mutex>& lock, std::size_t item, Step&& step) {
     lock.unlock();
-    Status status;
-    try {
-      status = step();
-    } catch (...) {
-      status = caught(name_, item);
-    }
+    Status status = status_of(name_, item, step);
     lock.lock();
     if (status || item >= limit_) return;
     limit_ = item;
-    error_ = status.error();
+    error_ = std::move(status).error();
   }
 
   std::string_view name_;

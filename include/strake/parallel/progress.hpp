@@ -38,4 +38,28 @@ class Progress {
   std::atomic<std::uint64_t> done_{0};
 };
 
+/// Claims a phase for as long as it lives, if it is free and somebody asked for progress (not
+/// null).
+class ProgressPhase {
+ public:
+  ProgressPhase(Progress* progress, std::string_view phase, std::uint64_t total)
+      : ours_(progress != nullptr && progress->begin(phase, total) ? progress : nullptr) {}
+  ProgressPhase(const ProgressPhase&) = delete;
+  ProgressPhase& operator=(const ProgressPhase&) = delete;
+  ProgressPhase(ProgressPhase&&) = delete;
+  ProgressPhase& operator=(ProgressPhase&&) = delete;
+  ~ProgressPhase() {
+    if (ours_ != nullptr) ours_->end();
+  }
+
+  /// Whether the phase is this one's to add to.
+  [[nodiscard]] bool is_ours() const { return ours_ != nullptr; }
+  void add(std::uint64_t amount) const {
+    if (ours_ != nullptr) ours_->add(amount);
+  }
+
+ private:
+  Progress* ours_;
+};
+
 }  // namespace strake::parallel

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,32 +21,38 @@ namespace strake::parallel {
 /// body(partial, i) adds item i to the partial of its block, which starts as a copy of `identity`
 /// and sees the block's items in ascending order; combine(into, partial) then folds the partials
 /// in block order on the calling thread. So sums of floating-point numbers have the same bits for
-/// any team and schedule (not for another grain). Errors as in for_each.
+/// any team and schedule (not for another grain). T must be default-constructible and not bool.
+/// Errors as in for_each; an exception of combine names the first item of its block.
 ///
 /// There is one partial per block: give cheap items a grain of hundreds or thousands.
 template <class T, class Body, class Combine>
 [[nodiscard]] Result<T> reduce(const Context& context, const Region& region, const T& identity,
                                Body&& body, Combine&& combine) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
+  const std::size_t size = region.block_size();
   const auto fold = [&](std::span<T> partials) -> Result<T> {
+    std::size_t block = 0;
     try {
       T total = identity;
-      for (T& partial : partials) combine(total, std::as_const(partial));
+      for (; block < partials.size(); ++block) combine(total, std::as_const(partials[block]));
       return total;
-    } catch (const std::bad_alloc&) {
-      return out_of_memory();
+    } catch (...) {
+      return detail::caught(region.name, block * size);
     }
   };
   if (region.is_short()) {
-    T value = identity;
-    const Status status =
-        detail::run_alone(region, [&](std::size_t i) -> decltype(auto) { return body(value, i); });
-    if (!status) return status.error();
-    return fold(std::span(&value, 1));
+    try {
+      T value = identity;
+      Status status = detail::run_alone(
+          region, [&](std::size_t i) -> decltype(auto) { return body(value, i); });
+      if (!status) return std::move(status).error();
+      return fold(std::span(&value, region.blocks()));
+    } catch (...) {
+      return detail::caught(region.name, 0);
+    }
   }
-  Result<std::vector<T>> partials = detail::slots<T>(region.blocks());
+  Result<std::vector<T>> partials = slots<T>(region.blocks());
   if (!partials) return partials.error();
-  const std::size_t size = region.block_size();
   detail::RegionRun run(context, region);
   const Status status = run.run([&](detail::Cursor& cursor) {
     detail::Range range;
@@ -56,7 +61,7 @@ template <class T, class Body, class Combine>
       try {
         for (bool good = true; good && i < range.last && i < run.limit();) {
           const std::size_t block = i / size;
-          const std::size_t last = std::min(range.last, (block + 1) * size);
+          const std::size_t last = detail::block_end(i, size, range.last);
           T partial = identity;
           for (; good && i < last && i < run.limit(); ++i)
             good = detail::run_item(run, i, body, partial, i);

@@ -37,7 +37,8 @@ struct Region {
   std::size_t grain = 1;  ///< items per block; 0 counts as 1
   std::size_t chunk = 1;  ///< blocks that a worker takes at once (dynamic)
   /// The order in which blocks are visited: empty for ascending, otherwise a permutation of
-  /// [0, blocks()). It changes who waits for whom, never a result. See longest_first.
+  /// [0, blocks()), anything else being an error. It changes who waits for whom, never a result.
+  /// See longest_first.
   std::span<const std::uint32_t> order = {};
   /// Fewer items than this are one block that the caller runs on the spot: no team is asked, and
   /// neither token, progress nor report are looked at. For loops inside items, over the triangles
@@ -55,6 +56,9 @@ struct Region {
 
 namespace detail {
 
+/// The error of a pattern that makes a visiting order of its own and is given one.
+[[nodiscard]] Error order_given(const Region& region);
+
 /// Where one worker stands in a region; lives on that worker's stack.
 struct Cursor {
   Seat seat;
@@ -71,6 +75,13 @@ struct Range {
   std::size_t first = 0, last = 0;
 };
 
+/// Where the block of item i ends, of those that end at `last` at the latest.
+[[nodiscard]] inline std::size_t block_end(std::size_t i, std::size_t block_size,
+                                           std::size_t last) {
+  const std::size_t first = i - i % block_size;
+  return last - first > block_size ? first + block_size : last;
+}
+
 /// The one scheduler loop that every pattern runs on.
 ///
 /// A pattern's worker loop takes ranges with next() and must leave a range at the first item that
@@ -85,6 +96,7 @@ class RegionRun {
   ~RegionRun() = default;
 
   /// Calls loop once on each worker that takes part and returns the lowest item's error, if any.
+  /// Other errors: cancelled, out of memory, a visiting order that is none.
   [[nodiscard]] Status run(FunctionRef<void(Cursor&)> loop);
 
   /// The next range of items of this worker; false when there is none left.
@@ -96,7 +108,7 @@ class RegionRun {
       if (ordered_ || observed_) {
         const std::size_t at = cursor.position++;
         range.first = (ordered_ ? std::size_t{region_.order[at]} : at) * size;
-        range.last = std::min(region_.n, range.first + size);
+        range.last = range.first + std::min(size, region_.n - range.first);
       } else {
         range.first = cursor.position * size;
         range.last = cursor.end == blocks_ ? region_.n : cursor.end * size;
@@ -141,6 +153,8 @@ class RegionRun {
   }
   void open(Cursor& cursor, const Range& range) const;
   void note(Cursor& cursor) const;
+  [[nodiscard]] Status start();
+  void call(FunctionRef<void(Cursor&)> loop);
   [[nodiscard]] Status outcome(bool cancelled);
   void work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Cursor> seats);
 

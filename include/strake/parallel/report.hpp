@@ -19,11 +19,15 @@ struct RegionReport {
   double nested_cpu_s = 0;     ///< of `nested_runs`; part of the outer region's busy time too
   std::vector<double> busy_s;  ///< CPU seconds per worker in `runs`; index = worker
   double longest_s = 0;  ///< the longest block (with grain 1: item), wall seconds, at most busy
+  /// Set by RunReport::add, summed over runs: busy seconds over workers, and what no schedule could
+  /// take less than, the larger of that and the longest block.
+  double share_s = 0, least_s = 0;
 
   [[nodiscard]] double total_busy_s() const;
   /// Mean over maximum of the workers' busy time: 1 is perfect, 1/workers is one doing it all.
   [[nodiscard]] double load_balance() const;
-  /// The efficiency that no schedule can pass: total / (P · max(total / P, longest block)).
+  /// The efficiency that no schedule can pass: total / (P · max(total / P, longest block)), the
+  /// longest of each run.
   [[nodiscard]] double bound() const;
 };
 
@@ -46,6 +50,8 @@ class RunReport {
   [[nodiscard]] std::vector<StageReport> stages() const;
 
  private:
+  void merge(const RegionReport& run);
+
   mutable std::mutex mutex_;
   std::vector<RegionReport> regions_;
   std::vector<StageReport> stages_;

@@ -17,6 +17,8 @@ namespace strake::parallel {
 ///
 /// Most code never calls run() but hands the team to for_each and its relatives in a Context.
 ///
+/// It must outlive every region that runs on it, those of other threads, too.
+///
 /// The calling thread is worker 0; a team of one has no threads of its own. What else holds for
 /// run() stands with Executor.
 class Team final : public Executor {

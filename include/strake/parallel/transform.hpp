@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "strake/parallel/for_each.hpp"
-#include "strake/parallel/large_pages.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::parallel {
 
@@ -24,21 +24,6 @@ struct Unwrapped<Result<T>> {
 template <class T>
 using unwrapped_t = typename Unwrapped<std::remove_cvref_t<T>>::type;
 
-/// A vector of n values, its memory provided by the whole team. Errors: out of memory, cancelled.
-template <class T>
-Result<std::vector<T>> slots(std::size_t n, const Context& context = {}) {
-  try {
-    std::vector<T> values;
-    values.reserve(n);
-    const Status status = provide_pages(context, values.data(), n * sizeof(T));
-    if (!status) return status.error();
-    values.resize(n);
-    return values;
-  } catch (const std::exception&) {
-    return out_of_memory();
-  }
-}
-
 }  // namespace detail
 
 /// One result per item, at the item's index: body(worker_context, i) returns T or Result<T>.
@@ -52,7 +37,7 @@ template <class Make, class Body>
   using Returned = std::invoke_result_t<Body&, Local&, std::size_t>;
   using T = detail::unwrapped_t<Returned>;
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: return uint8_t");
-  Result<std::vector<T>> results = detail::slots<T>(region.n, context);
+  Result<std::vector<T>> results = slots<T>(region.n, context);
   if (!results) return results;
   std::vector<T>& slot = *results;
   const Status status =
@@ -73,6 +58,7 @@ template <class Make, class Body>
 /// The same for a body(i) that needs no worker context.
 template <class Body>
 [[nodiscard]] auto transform(const Context& context, const Region& region, Body&& body) {
+  static_assert(std::is_invocable_v<Body&, std::size_t>, "the body is called as body(i)");
   return transform_with(
       context, region, [] { return NoContext{}; },
       [&body](NoContext&, std::size_t i) { return body(i); });

@@ -128,10 +128,20 @@ TEST(Report, figures_follow_their_definitions) {
   region.busy_s = {1.0, 3.0};
   region.longest_s = 2.5;
   EXPECT_DOUBLE_EQ(region.load_balance(), 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(region.bound(), 4.0 / (2 * 2.5));
-  region.longest_s = 0.1;
-  EXPECT_DOUBLE_EQ(region.bound(), 1.0);
   EXPECT_DOUBLE_EQ(RegionReport().load_balance(), 1.0);
+  EXPECT_DOUBLE_EQ(RegionReport().bound(), 1.0);
+  const auto bound_of = [](const std::vector<RegionReport>& runs) {
+    RunReport report;
+    for (const RegionReport& run : runs) report.add(run);
+    return report.regions().front().bound();
+  };
+  EXPECT_DOUBLE_EQ(bound_of({region}), 4.0 / (2 * 2.5));
+  // Ten runs that are bound by a block each are bound as one is.
+  EXPECT_DOUBLE_EQ(bound_of(std::vector(10, region)), 4.0 / (2 * 2.5));
+  RegionReport even = region;
+  even.longest_s = 0.1;
+  EXPECT_DOUBLE_EQ(bound_of({even}), 1.0);
+  EXPECT_DOUBLE_EQ(bound_of({even, region}), (2.0 + 2.0) / (2.0 + 2.5));
 }
 
 }  // namespace

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every request for memory fails in turn, on whatever thread: each pattern gives the right result
+// or an error, lets no exception out, ends, and leaves the team and the progress as they were.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <new>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/distinct.hpp"
+#include "strake/parallel/find.hpp"
+#include "strake/parallel/heavy.hpp"
+#include "strake/parallel/host_executor.hpp"
+#include "strake/parallel/nested.hpp"
+#include "strake/parallel/pieces.hpp"
+#include "strake/parallel/pipeline.hpp"
+#include "strake/parallel/precomputed.hpp"
+#include "strake/parallel/progress.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/report.hpp"
+#include "strake/parallel/reservations.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace {
+
+/// Requests until one fails; below zero: none does.
+std::atomic<long> requests_left{-1};
+
+void* memory_of(std::size_t bytes) {
+  if (requests_left.load(std::memory_order_relaxed) >= 0 && requests_left.fetch_sub(1) == 0)
+    throw std::bad_alloc();
+  void* const memory = std::malloc(bytes == 0 ? 1 : bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) { return memory_of(bytes); }
+void* operator new[](std::size_t bytes) { return memory_of(bytes); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
+
+namespace strake::parallel {
+namespace {
+
+enum class Outcome : std::uint8_t { right, error, wrong };
+
+Outcome judged(const Status& status, bool right) {
+  return !status ? Outcome::error : right ? Outcome::right : Outcome::wrong;
+}
+template <class T, class Right>
+Outcome judged(const Result<T>& result, Right&& right) {
+  return !result ? Outcome::error : right(*result) ? Outcome::right : Outcome::wrong;
+}
+
+/// Long enough not to fit into a std::string itself.
+constexpr const char* kName = "a region with a name that needs memory of its own";
+constexpr std::size_t kItems = 60;
+constexpr Region kRegion{.name = kName, .n = kItems, .grain = 3};
+
+std::string text(std::size_t i) { return std::string(40, static_cast<char>('a' + i % 20)); }
+
+Error an_error() { return {ErrorCode::input, text(1), text(2), text(3)}; }
+
+struct Pattern {
+  const char* name;
+  std::function<Outcome(const Context&)> run;
+};
+
+Outcome pipeline_run(const Context& context, bool fails) {
+  std::size_t next = 0, written = 0;
+  const Status status = pipeline(
+      context, {.name = kName, .in_flight = 3},
+      [&]() -> std::optional<std::string> {
+        if (next == kItems) return std::nullopt;
+        return text(next++);
+      },
+      [&](std::string&& item) -> Result<std::string> {
+        if (fails && item == text(7)) return an_error();
+        return item + item;
+      },
+      [&](std::string&& result) { written += result.size(); });
+  return judged(status, !fails && written == kItems * 80);
+}
+
+std::vector<Pattern> patterns() {
+  // Made before requests are counted.
+  const std::string identity = text(0);
+  return {
+      {"for_each",
+       [](const Context& c) { return judged(for_each(c, kRegion, [](std::size_t) {}), true); }},
+      {"for_each, a Status",
+       [](const Context& c) {
+         return judged(for_each(c, kRegion,
+                                [](std::size_t i) -> Status {
+                                  if (i == 40) return an_error();
+                                  return {};
+                                }),
+                       false);
+       }},
+      {"for_each, an exception",
+       [](const Context& c) {
+         return judged(for_each(c, kRegion,
+                                [](std::size_t i) {
+                                  if (i == 40) throw std::runtime_error(text(i));
+                                }),
+                       false);
+       }},
+      {"transform",
+       [](const Context& c) {
+         return judged(transform(c, kRegion, text),
+                       [](const auto& all) { return all.size() == kItems; });
+       }},
+      {"collect",
+       [](const Context& c) {
+         return judged(collect<std::string>(c, kRegion,
+                                            [](std::size_t i, std::vector<std::string>& out) {
+                                              out.push_back(text(i));
+                                            }),
+                       [](const auto& all) { return all.size() == kItems; });
+       }},
+      {"count_fill",
+       [](const Context& c) {
+         return judged(count_fill<int>(
+                           c, kRegion, [](std::size_t i) { return i % 3; },
+                           [](std::size_t i, std::span<int> out) {
+                             for (int& value : out) value = static_cast<int>(i);
+                           }),
+                       [](const auto& packed) { return packed.values.size() == kItems; });
+       }},
+      {"reduce",
+       [](const Context& c) {
+         return judged(reduce(
+                           c, kRegion, std::string(),
+                           [](std::string& partial, std::size_t i) { partial += text(i); },
+                           [](std::string& into, const std::string& partial) { into += partial; }),
+                       [](const std::string& all) { return all.size() == kItems * 40; });
+       }},
+      {"reduce, short",
+       [identity](const Context& c) {
+         Region region = kRegion;
+         region.alone_below = kItems + 1;
+         return judged(reduce(
+                           c, region, identity,
+                           [](std::string& partial, std::size_t i) { partial += text(i); },
+                           [](std::string& into, const std::string& partial) { into += partial; }),
+                       [](const std::string& all) { return all.size() == 40 * (kItems + 2); });
+       }},
+      {"find_first",
+       [](const Context& c) {
+         return judged(find_first(c, kRegion, [](std::size_t i) { return i == 33; }),
+                       [](const auto& found) { return found == 33; });
+       }},
+      {"distinct",
+       [](const Context& c) {
+         return judged(distinct(
+                           c, kName, kItems, [](std::size_t i) { return mixed(0, i % 7); },
+                           [](std::size_t i, std::size_t j) { return i % 7 == j % 7; }),
+                       [](const Distinct& kinds) { return kinds.first.size() == 7; });
+       }},
+      {"for_each_by_weight",
+       [](const Context& c) {
+         std::atomic<int> runs{0};
+         const Status status = for_each_by_weight(
+             c, kRegion, 2, [](std::size_t i) { return i == 7 ? 1e6 : 1.0; },
+             [&](std::size_t /*i*/) { ++runs; });
+         return judged(status, runs == kItems);
+       }},
+      {"for_each_nested",
+       [](const Context& c) {
+         std::atomic<int> runs{0};
+         const Status status = for_each_nested(
+             c, kRegion, 10, [](std::size_t row) { return row; },
+             [&](std::size_t /*row*/, std::size_t /*column*/) { ++runs; });
+         return judged(status, runs == 45);
+       }},
+      {"pieces",
+       [](const Context& /*c*/) {
+         return judged(pieces(
+                           10, [](std::size_t i) { return i; }, 2),
+                       [](const auto& all) { return all.size() == 25; });
+       }},
+      {"for_each_reserved",
+       [](const Context& c) {
+         std::atomic<int> runs{0};
+         const auto run = for_each_reserved(
+             c, {.name = kName, .n = kItems}, 5,
+             [](std::size_t i, Claims& claims) { claims(i % 5); },
+             [&](std::size_t /*i*/) { ++runs; });
+         return judged(run, [&](const ReservedRun&) { return runs == kItems; });
+       }},
+      {"pipeline", [](const Context& c) { return pipeline_run(c, false); }},
+      {"pipeline, an error", [](const Context& c) { return pipeline_run(c, true); }},
+  };
+}
+
+/// What comes of a pattern when request number `request` fails. False when none did: it has fewer.
+bool survives(const Pattern& pattern, Executor* team, long request) {
+  Progress progress;
+  RunReport report;
+  const Context context{.team = team, .progress = &progress, .report = &report};
+  std::optional<Outcome> outcome;
+  requests_left = request;
+  try {
+    outcome = pattern.run(context);
+  } catch (...) {
+  }
+  const bool failed = requests_left.exchange(-1) < 0;
+  EXPECT_TRUE(outcome) << "an exception came out";
+  EXPECT_NE(outcome, Outcome::wrong);
+  EXPECT_EQ(progress.snapshot().phase, "");
+  std::atomic<int> runs{0};
+  EXPECT_TRUE(for_each({.team = team}, {.name = "after", .n = 10}, [&](std::size_t) { ++runs; }));
+  EXPECT_EQ(runs, 10);
+  return failed;
+}
+
+TEST(NoMemory, is_an_error_wherever_it_happens) {
+  Team team(3);
+  HostExecutor host(3, [](unsigned count, const HostExecutor::Body& body) {
+    for (unsigned i = 0; i < count; ++i) body(i);
+  });
+  for (const Pattern& pattern : patterns())
+    for (Executor* const who : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&team),
+                                static_cast<Executor*>(&host)}) {
+      SCOPED_TRACE(pattern.name);
+      long request = 0;
+      while (survives(pattern, who, request) && !HasFailure()) ++request;
+      ASSERT_FALSE(HasFailure()) << "request " << request;
+      EXPECT_LT(request, 5000);
+    }
+}
+
+TEST(NoMemory, leaves_a_table_as_it_was) {
+  Team team(3);
+  const std::vector<std::uint32_t> wanted = {1, 5, 9, 1};
+  for (const bool by_weight : {false, true})
+    for (long request = 0;; ++request) {
+      Precomputed<std::string> table(50);
+      const Context context{.team = &team};
+      std::optional<Status> status;
+      requests_left = request;
+      try {
+        status = by_weight ? table.fill_by_weight(
+                                 context, {.name = kName}, 2, wanted,
+                                 [](std::size_t key) { return key == 5 ? 100.0 : 1.0; }, text)
+                           : table.fill(context, {.name = kName}, wanted, text);
+      } catch (...) {
+      }
+      const bool failed = requests_left.exchange(-1) < 0;
+      ASSERT_TRUE(status) << "an exception came out at request " << request;
+      ASSERT_EQ(table.find(5) != nullptr, static_cast<bool>(*status));
+      if (*status) {
+        EXPECT_EQ(*table.find(9), text(9));
+      }
+      if (!failed) break;
+      ASSERT_LT(request, 5000);
+    }
+}
+
+}  // namespace
+}  // namespace strake::parallel
