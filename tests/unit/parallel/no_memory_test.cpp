@@ -227,6 +227,14 @@ bool survives(const Pattern& pattern, Executor* team, long request) {
   return failed;
 }
 
+/// A sanitizer's runtime brings an operator new, too: the one in force must be ours.
+TEST(NoMemory, is_what_a_request_meets) {
+  requests_left = 1;
+  operator delete(operator new(8));
+  EXPECT_THROW(operator delete(operator new(8)), std::bad_alloc);
+  EXPECT_EQ(requests_left.exchange(-1), -1);
+}
+
 TEST(NoMemory, is_an_error_wherever_it_happens) {
   Team team(3);
   HostExecutor host(3, [](unsigned count, const HostExecutor::Body& body) {
