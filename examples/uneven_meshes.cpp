@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thousand small meshes and one of a million triangles: as one flat range, and as pieces.
+// A thousand small meshes and one of a million triangles: as one flat range, as pieces, and as
+// items of which the giant has the team to itself.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
 
+#include "strake/parallel/heavy.hpp"
 #include "strake/parallel/nested.hpp"
 #include "strake/parallel/pieces.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/team.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -54,6 +57,24 @@ int main() {
     std::vector<std::uint64_t> by_mesh(kMeshes, 0);
     for (std::size_t k = 0; k < work->size(); ++k) by_mesh[(*work)[k].item] += (*sums)[k];
     if (by_mesh != expected) return 1;
+
+    // After, where a mesh is an algorithm of its own with a loop inside: short loops run on the
+    // spot, that of the giant has the team.
+    std::vector<std::uint64_t> by_item(kMeshes, 0);
+    const strake::Status status = for_each_by_weight(
+        context, {.name = "meshes", .n = kMeshes}, 50'000, triangles_of,
+        [&](std::size_t m) -> strake::Status {
+          const auto sum = reduce(
+              context,
+              {.name = "triangles", .n = triangles_of(m), .grain = 4096, .alone_below = 16384},
+              std::uint64_t{0},
+              [&](std::uint64_t& partial, std::size_t t) { partial += areas[m][t]; },
+              [](std::uint64_t& into, std::uint64_t partial) { into += partial; });
+          if (!sum) return sum.error();
+          by_item[m] = *sum;
+          return {};
+        });
+    if (!status || by_item != expected) return 1;
 
     if (workers == 1)
       std::printf("%zu meshes, %zu pieces, the giant's area %llu\n", kMeshes, work->size(),

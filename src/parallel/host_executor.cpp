@@ -32,9 +32,14 @@ HostExecutor::HostExecutor(unsigned workers, Call call)
 
 void HostExecutor::call_all(FunctionRef<void(Seat)> body) noexcept {
   std::shared_ptr<Run> run;
+  Body seat;  // until all have been served: a host that throws may have threads that it is in
   try {
     run = std::make_shared<Run>(size(), body);
-    call_(size(), [run](unsigned index) { run->serve(index); });
+    seat = [run](unsigned index) {
+      const std::shared_ptr<Run> kept = run;  // the last word of a seat is read after the last seat
+      kept->serve(index);
+    };
+    call_(size(), seat);
   } catch (...) {
     // What the host has not called is served below; without memory there is one seat.
     if (!run) return body(Seat{0, 1});

@@ -36,7 +36,7 @@ bool is_permutation(std::span<const std::uint32_t> order) {
   return true;
 }
 
-/// What one run of a region adds to the report. `alone`: the team was busy.
+/// What one run of a region adds to the report. `alone`: by one worker of several.
 RegionReport summary(const Region& region, std::span<const Cursor> seats, double wall, bool alone) {
   RegionReport run;
   run.name = region.name;
@@ -57,11 +57,13 @@ RegionReport summary(const Region& region, std::span<const Cursor> seats, double
 
 }  // namespace
 
-Error order_given(const Region& region) {
+Error order_given(const Region& region) noexcept try {
   return {ErrorCode::internal,
           "a visiting order for items that have one of their own",
           std::string(region.name),
           {}};
+} catch (const std::bad_alloc&) {
+  return out_of_memory();
 }
 
 Error caught(std::string_view region, std::size_t item) noexcept {
@@ -173,7 +175,8 @@ void RegionRun::call(FunctionRef<void(Cursor&)> loop) {
   counting_ = phase.is_ours();
   observed_ = counting_ || context_.report != nullptr;
   const double start = context_.report != nullptr ? wall_s() : 0;
-  bool whole = true;
+  // A single block is the caller's, and what is nested in it may have the team.
+  bool whole = team != nullptr || context_.team == nullptr || context_.team->size() == 1;
   {
     // Cancelling is lowering the limit to nothing: items have one word to look at.
     const std::stop_callback on_stop(context_.stop, [this] { lower_limit(0); });

@@ -54,10 +54,10 @@ class Rounds {
     while (gather()) {
       run.rounds += 1;
       run.claims += items_.size();
-      if (const Status status = claim_all(claim); !status && !drop_from_failed(status))
-        return status.error();
-      if (const Status status = act_all(act); !status && !drop_from_failed(status))
-        return status.error();
+      if (Status status = claim_all(claim); !status && !drop_from_failed(status))
+        return std::move(status).error();
+      if (Status status = act_all(act); !status && !drop_from_failed(status))
+        return std::move(status).error();
       phase.add(end_round());
     }
     if (error_) return *std::move(error_);
@@ -147,12 +147,16 @@ class Rounds {
 
   /// After an error: keeps it if it is an item's, and goes on with the items below that one alone,
   /// of which one may fail, too. The bids of the others stay behind, and any of those that go on
-  /// bids higher. False when the error is nobody's: out of memory, cancelled.
-  bool drop_from_failed(const Status& status) {
+  /// bids higher. False when the error is nobody's: out of memory, or cancelled, which it then is.
+  bool drop_from_failed(Status& status) {
+    if (inner_.stop.stop_requested()) {
+      status = cancelled_error();
+      return false;
+    }
     const auto failed = std::ranges::find(slots_, Slot::failed);
-    if (inner_.stop.stop_requested() || failed == slots_.end()) return false;
+    if (failed == slots_.end()) return false;
     const auto slot = static_cast<std::size_t>(failed - slots_.begin());
-    error_ = status.error();
+    error_ = std::move(status).error();
     items_.resize(slot);
     slots_.resize(slot);
     waiting_.clear();  // all of them come after those of this round
@@ -203,14 +207,14 @@ class Rounds {
 Result<ReservedRun> run_reserved(const Context& context, const Region& region, std::size_t places,
                                  FunctionRef<bool(std::size_t, Claims&)> claim,
                                  FunctionRef<Status(std::size_t)> act) {
-  const auto misused = [&](const char* what) {
-    return Error{ErrorCode::internal, what, std::string(region.name), {}};
-  };
   if (!region.order.empty()) return order_given(region);
-  if (region.n >= std::numeric_limits<std::uint32_t>::max())
-    return misused("more items than there are numbers to bid with");
   if (context.stop.stop_requested()) return cancelled_error();
   try {
+    if (region.n >= std::numeric_limits<std::uint32_t>::max())
+      return Error{ErrorCode::internal,
+                   "more items than there are numbers to bid with",
+                   std::string(region.name),
+                   {}};
     const ProgressPhase phase(context.progress, region.name, region.n);
     return Rounds(context, region, places).run(claim, act, phase);
   } catch (const std::exception&) {

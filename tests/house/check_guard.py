@@ -76,6 +76,26 @@ thread_local int x;
 #  pragma omp parallel for
 #include <mutex>
 #include <shared_mutex>
+#include <bits/std_mutex.h>
+#include <ext/concurrence.h>
+#include <csignal>
+#include <sys/futex.h>
+#include <boost/thread.hpp>
+#include_next <mutex>
+#import <mutex>
+__gnu_cxx::__mutex m;
+std::__mutex_base m;
+boost::mutex m;
+absl::Mutex m;
+__thread int x;
+_Thread_local int x;
+_Pragma("omp parallel for")
+_mm_pause();
+posix_spawn(&pid, "x", 0, 0, a, e);
+clone(f, stack, CLONE_VM, 0);
+std::system("x &");
+flock(fd, LOCK_EX);
+signal(SIGINT, handler);
 #include <future>
 #include <execution>
 #include <condition_variable>
@@ -117,6 +137,12 @@ const static Table table = build();
 static inline std::vector<int> cache;
 static inline const Table table(build());
 static constinit int calls = 0;
+constinit int calls = 0;
+static alignas(64) int x = 0;
+static __attribute__((unused)) int x = 0;
+static decltype(f()) x = f();
+static int calls(0);
+const_cast<Cache*>(this)->hits += 1;
 mutable std::vector<int> cache_;
 mutable int cache_ = 0;
 [[no_unique_address]] mutable Cache cache_;
@@ -175,7 +201,9 @@ static const Track& track(const Tracks& tracks, int cell) { return tracks[cell];
 static std::vector<int> list(std::span<const int> some = {});
 static bool operator==(const A& a, const B& b);
 static_assert(sizeof(int) == 4);
-const Status status = for_each(context, {.name = "x"}, [n = 0](std::size_t) mutable { ++n; });
+std::ranges::generate(values, [n = 0]() mutable { return ++n; });
+const auto system = coordinate_system(object);
+constinit const int kMost = 5;
 auto next = [n = 0]() mutable -> int { return n++; };
 auto next = [n = 0]() mutable noexcept { return n++; };
 work.team = &context;

@@ -25,7 +25,7 @@ inline void everywhere(
   constexpr std::size_t kItems = kEverywhereItems;
   std::vector<std::uint32_t> backwards((kItems + grain - 1) / grain);
   std::iota(backwards.rbegin(), backwards.rend(), 0U);
-  for (const unsigned threads : {1U, 2U, 3U, 16U}) {
+  for (const unsigned threads : {1U, 2U, 3U, 16U, 64U}) {
     parallel::Team team(threads);
     for (const Schedule schedule : {Schedule::dynamic, Schedule::static_blocks})
       for (const std::size_t chunk : {1U, 9U})

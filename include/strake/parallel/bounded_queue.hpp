@@ -31,7 +31,7 @@ class BoundedQueue {
  public:
   static_assert(std::is_nothrow_move_constructible_v<T>, "values are handed from thread to thread");
 
-  /// 0 counts as 1. Throws std::bad_alloc.
+  /// 0 counts as 1. Throws std::bad_alloc, or std::length_error of a capacity beyond all memory.
   explicit BoundedQueue(std::size_t capacity) : slots_(std::max<std::size_t>(capacity, 1)) {}
   BoundedQueue(const BoundedQueue&) = delete;
   BoundedQueue& operator=(const BoundedQueue&) = delete;

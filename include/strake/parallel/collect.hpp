@@ -48,9 +48,9 @@ Result<std::vector<T>> put_together(const Context& context, std::span<Chunk<T>> 
     }
   };
   const bool few = first.back() * sizeof(T) < kChunkBytes;
-  const Status status = for_each(few ? Context{.stop = context.stop} : context,
-                                 {.name = "results put together", .n = chunks.size()}, move_chunk);
-  if (!status) return status.error();
+  Status status = for_each(few ? Context{.stop = context.stop} : context,
+                           {.name = "results put together", .n = chunks.size()}, move_chunk);
+  if (!status) return std::move(status).error();
   return all;
 }
 
@@ -72,23 +72,26 @@ template <class T, class Make, class Body>
   using Local = std::invoke_result_t<Make&>;
   static_assert(std::is_invocable_v<Body&, Local&, std::size_t, std::vector<T>&>,
                 "the body is called as body(worker_context, i, out)");
+  static_assert(!std::is_invocable_v<Body&, Local&, std::size_t, std::vector<T>>,
+                "the body takes out by reference, std::vector<T>&: to a copy results are lost");
+  detail::require_shareable<Body, Local&, std::size_t, std::vector<T>&>();
   if (region.is_short()) {
     std::vector<T> out;
-    const Status status = for_each_with(
+    Status status = for_each_with(
         context, region, make,
         [&](Local& local, std::size_t i) -> decltype(auto) { return body(local, i, out); });
-    if (!status) return status.error();
+    if (!status) return std::move(status).error();
     return out;
   }
   const unsigned workers = context.team != nullptr ? context.team->size() : 1;
   // The number of results of each block, after its own place.
   Result<std::vector<std::size_t>> first = detail::offsets(region.blocks());
-  if (!first) return first.error();
+  if (!first) return std::move(first).error();
   auto of_worker = slots<std::vector<detail::Chunk<T>>>(workers);
-  if (!of_worker) return of_worker.error();
+  if (!of_worker) return std::move(of_worker).error();
   const std::size_t size = region.block_size();
   detail::RegionRun run(context, region);
-  const Status status = run.run([&](detail::Cursor& cursor) {
+  Status status = run.run([&](detail::Cursor& cursor) {
     std::optional<Local> local;
     // On the worker's own stack while it grows: neighbours in of_worker share cache lines.
     std::vector<detail::Chunk<T>> done;
@@ -123,7 +126,7 @@ template <class T, class Make, class Body>
     }
     (*of_worker)[cursor.seat.index] = std::move(done);
   });
-  if (!status) return status.error();
+  if (!status) return std::move(status).error();
   std::inclusive_scan(first->begin(), first->end(), first->begin());
   try {
     std::vector<detail::Chunk<T>> chunks;
@@ -141,6 +144,9 @@ template <class T, class Body>
                                              Body&& body) {
   static_assert(std::is_invocable_v<Body&, std::size_t, std::vector<T>&>,
                 "the body is called as body(i, out)");
+  static_assert(!std::is_invocable_v<Body&, std::size_t, std::vector<T>>,
+                "the body takes out by reference, std::vector<T>&: to a copy results are lost");
+  detail::require_shareable<Body, std::size_t, std::vector<T>&>();
   return collect_with<T>(
       context, region, [] { return NoContext{}; },
       [&body](NoContext&, std::size_t i, std::vector<T>& out) { return body(i, out); });

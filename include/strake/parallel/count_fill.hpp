@@ -31,19 +31,21 @@ template <class T, class Count, class Fill>
 [[nodiscard]] Result<Packed<T>> count_fill(const Context& context, const Region& region,
                                            Count&& count, Fill&& fill) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
+  detail::require_shareable<Count, std::size_t>();
+  detail::require_shareable<Fill, std::size_t, std::span<T>>();
   Result<std::vector<std::size_t>> offsets = detail::offsets(region.n);
-  if (!offsets) return offsets.error();
+  if (!offsets) return std::move(offsets).error();
   std::vector<std::size_t>& at = *offsets;
-  const Status counted = for_each(context, region, [&](std::size_t i) { at[i + 1] = count(i); });
-  if (!counted) return counted.error();
+  Status counted = for_each(context, region, [&](std::size_t i) { at[i + 1] = count(i); });
+  if (!counted) return std::move(counted).error();
   if (Status summed = detail::sum_up(at); !summed) return std::move(summed).error();
   Result<std::vector<T>> values = slots<T>(at[region.n], context);
-  if (!values) return values.error();
+  if (!values) return std::move(values).error();
   const std::span<T> all(*values);
-  const Status filled = for_each(context, region, [&](std::size_t i) {
+  Status filled = for_each(context, region, [&](std::size_t i) {
     return fill(i, all.subspan(at[i], at[i + 1] - at[i]));
   });
-  if (!filled) return filled.error();
+  if (!filled) return std::move(filled).error();
   return Packed<T>{std::move(at), std::move(*values)};
 }
 

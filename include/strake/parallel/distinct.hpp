@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <new>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -31,6 +35,14 @@ namespace detail {
 
 /// Items are told apart in so many lots, each by one worker, whatever the team.
 inline constexpr std::size_t kDistinctLots = 64;
+/// Items that a worker takes at once, at most.
+inline constexpr std::size_t kDistinctGrain = 4096;
+
+/// The item at which a lot had to end.
+struct LotFault {
+  std::size_t item = std::numeric_limits<std::size_t>::max();
+  std::optional<Error> error = {};
+};
 
 /// Item numbers by the lot that their hash puts them in, ascending within each.
 struct HashLots {
@@ -68,26 +80,32 @@ struct HashLots {
 ///
 /// `hash(i)` is any 64-bit hash that spreads its highest and its lowest bits, see mixed(); it
 /// decides who is compared with whom, never the answer. `same(i, j)` is asked for items of equal
-/// hashes only. Both are called concurrently. All regions have the one name. Errors as in for_each.
+/// hashes only. Both are called concurrently, by one worker for an item: hashes that are dear to
+/// make are made before, by pieces. All regions have the one name. Errors as in for_each: that of
+/// the lowest item whose hash cannot be made, or else of the lowest that cannot be compared.
 template <class Hash, class Same>
 [[nodiscard]] Result<Distinct> distinct(const Context& context, std::string_view name,
                                         std::size_t n, Hash&& hash, Same&& same) {
-  constexpr std::size_t kGrain = 4096;
+  detail::require_shareable<Hash, std::size_t>();
+  detail::require_test<Same, std::size_t, std::size_t>();
   constexpr std::uint32_t kFree = 0xffffffffU;
-  const Region items{.name = name, .n = n, .grain = kGrain};
-  const auto hashes =
-      transform(context, items, [&](std::size_t i) -> std::uint64_t { return hash(i); });
-  if (!hashes) return hashes.error();
-  const Result<detail::HashLots> lots = detail::hash_lots(*hashes);
-  if (!lots) return lots.error();
+  // Few items may be large ones.
+  const Region items{
+      .name = name, .n = n, .grain = std::clamp<std::size_t>(n / 256, 1, detail::kDistinctGrain)};
+  auto hashes = transform(context, items, [&](std::size_t i) -> std::uint64_t { return hash(i); });
+  if (!hashes) return std::move(hashes).error();
+  Result<detail::HashLots> lots = detail::hash_lots(*hashes);
+  if (!lots) return std::move(lots).error();
   Result<std::vector<std::uint32_t>> first_of = slots<std::uint32_t>(n);
-  if (!first_of) return first_of.error();
+  if (!first_of) return std::move(first_of).error();
   std::vector<std::uint32_t>& first = *first_of;
+  auto faults = slots<detail::LotFault>(detail::kDistinctLots);
+  if (!faults) return std::move(faults).error();
   Status status =
-      for_each(context, {.name = name, .n = detail::kDistinctLots}, [&](std::size_t lot) -> Status {
+      for_each(context, {.name = name, .n = detail::kDistinctLots}, [&](std::size_t lot) {
         const std::size_t begin = lots->begin[lot], end = lots->begin[lot + 1];
         std::vector<std::uint32_t> slots(std::bit_ceil(2 * (end - begin) + 1), kFree);
-        for (std::size_t k = begin; k < end; ++k) {
+        for (std::size_t k = begin; k < end && !context.stop.stop_requested(); ++k) {
           const std::uint32_t i = lots->order[k];
           Status compared = detail::status_of(name, i, [&] {
             const std::uint64_t h = (*hashes)[i];
@@ -98,25 +116,28 @@ template <class Hash, class Same>
             if (slots[slot] == kFree) slots[slot] = i;
             first[i] = slots[slot];
           });
-          if (!compared) return compared;
+          if (compared) continue;
+          (*faults)[lot] = {i, std::move(compared).error()};
+          break;
         }
-        return {};
       });
-  if (!status) return status.error();
+  if (!status) return std::move(status).error();
+  const auto fault = std::ranges::min_element(*faults, {}, &detail::LotFault::item);
+  if (fault->error) return *std::move(fault->error);
   auto kinds =
       collect<std::uint32_t>(context, items, [&](std::size_t i, std::vector<std::uint32_t>& out) {
         if (first[i] == i) out.push_back(first[i]);
       });
-  if (!kinds) return kinds.error();
+  if (!kinds) return std::move(kinds).error();
   Result<std::vector<std::uint32_t>> of = slots<std::uint32_t>(n);
-  if (!of) return of.error();
+  if (!of) return std::move(of).error();
   Distinct result{std::move(*of), std::move(*kinds)};
   for (std::size_t k = 0; k < result.first.size(); ++k)
     result.of[result.first[k]] = static_cast<std::uint32_t>(k);
   status = for_each(context, items, [&](std::size_t i) {
     if (first[i] != i) result.of[i] = result.of[first[i]];
   });
-  if (!status) return status.error();
+  if (!status) return std::move(status).error();
   return result;
 }
 

@@ -34,7 +34,7 @@ Result<std::size_t> run_until(const Context& context, const Region& region, Make
     return i;
   }
   RegionRun run(context, region);
-  const Status status = run.run([&](Cursor& cursor) {
+  Status status = run.run([&](Cursor& cursor) {
     std::optional<Local> local;
     Range range;
     while (run.next(cursor, range)) {
@@ -51,7 +51,7 @@ Result<std::size_t> run_until(const Context& context, const Region& region, Make
       }
     }
   });
-  if (!status) return status.error();
+  if (!status) return std::move(status).error();
   return std::min(run.limit(), region.n);
 }
 
@@ -71,8 +71,10 @@ template <class Make, class Test>
 [[nodiscard]] Result<std::optional<std::size_t>> find_first_with(const Context& context,
                                                                  const Region& region, Make&& make,
                                                                  Test&& test) {
-  const Result<std::size_t> found = detail::run_until(context, region, make, test);
-  if (!found) return found.error();
+  detail::require_context<Make>();
+  detail::require_test<Test, std::invoke_result_t<Make&>&, std::size_t>();
+  Result<std::size_t> found = detail::run_until(context, region, make, test);
+  if (!found) return std::move(found).error();
   if (*found == region.n) return std::optional<std::size_t>();
   return std::optional(*found);
 }
@@ -81,6 +83,7 @@ template <class Make, class Test>
 template <class Test>
 [[nodiscard]] Result<std::optional<std::size_t>> find_first(const Context& context,
                                                             const Region& region, Test&& test) {
+  detail::require_test<Test, std::size_t>();
   return find_first_with(
       context, region, [] { return NoContext{}; },
       [&test](NoContext&, std::size_t i) { return test(i); });
@@ -90,9 +93,10 @@ template <class Test>
 /// Exceptions and the stop token as in find_first.
 template <class Test>
 [[nodiscard]] Result<bool> all_of(const Context& context, const Region& region, Test&& test) {
-  const Result<std::optional<std::size_t>> found =
+  detail::require_test<Test, std::size_t>();
+  Result<std::optional<std::size_t>> found =
       find_first(context, region, [&test](std::size_t i) { return !test(i); });
-  if (!found) return found.error();
+  if (!found) return std::move(found).error();
   return !found->has_value();
 }
 
@@ -104,17 +108,21 @@ template <class Body, class IsLast>
 [[nodiscard]] auto transform_until(const Context& context, const Region& region, Body&& body,
                                    IsLast&& is_last) {
   using T = std::remove_cvref_t<std::invoke_result_t<Body&, std::size_t>>;
+  static_assert(std::is_same_v<T, detail::unwrapped_t<T>> && !std::is_same_v<T, Error>,
+                "the body returns a value, not a Result or Status");
+  detail::require_shareable<Body, std::size_t>();
+  detail::require_test<IsLast, const T&>();
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: return uint8_t");
   Result<std::vector<T>> results = slots<T>(region.n, context);
   if (!results) return results;
   std::vector<T>& slot = *results;
-  const Result<std::size_t> last = detail::run_until(
+  Result<std::size_t> last = detail::run_until(
       context, region, [] { return NoContext{}; },
       [&](NoContext&, std::size_t i) {
         slot[i] = body(i);
         return static_cast<bool>(is_last(std::as_const(slot[i])));
       });
-  if (!last) return Result<std::vector<T>>(last.error());
+  if (!last) return Result<std::vector<T>>(std::move(last).error());
   if (*last < region.n) slot.resize(*last + 1);
   return results;
 }

@@ -18,6 +18,31 @@ struct NoContext {};
 
 namespace detail {
 
+/// Refuses functions that workers cannot call at the same time: a mutable lambda would change its
+/// copies of what it captured, which is a race.
+template <class Function, class... Args>
+consteval void require_shareable() {
+  static_assert(std::is_invocable_v<const std::remove_reference_t<Function>&, Args...>,
+                "workers call it at the same time: no mutable lambda, a const call operator");
+}
+
+/// Refuses what makes no worker context.
+template <class Make>
+consteval void require_context() {
+  static_assert(std::is_object_v<std::invoke_result_t<Make&>> &&
+                    std::is_move_constructible_v<std::invoke_result_t<Make&>>,
+                "make() returns a worker context, by value");
+  require_shareable<Make>();
+}
+
+/// Refuses tests that may fail to answer: a Result is true when it holds an answer, be that no.
+template <class Test, class... Args>
+consteval void require_test() {
+  static_assert(std::is_convertible_v<std::invoke_result_t<Test&, Args...>, bool>,
+                "the test returns bool, not a Result or Status: an error would pass for an answer");
+  require_shareable<Test, Args...>();
+}
+
 /// Calls body(args...) and tells whether to go on: body returns void or Status.
 template <class Body, class... Args>
 bool run_item(RegionRun& run, std::size_t item, Body& body, Args&&... args) {
@@ -76,7 +101,8 @@ Status run_alone(const Region& region, Body&& body) {
 ///         [&](Scratch& scratch, std::size_t i) { hide(objects[i], scratch, results[i]); });
 ///
 /// `make()` gives a worker its own context: scratch memory, a generator, a handle. It is called on
-/// that worker, once per region, and only when the worker gets an item.
+/// that worker, once per region, and only when the worker gets an item. Its destructor must not
+/// throw: that would end the program.
 ///
 /// 1. Every item runs exactly once, unless an error or the stop token prevents it.
 /// 2. A body returns void or Status; an exception is caught and counts as an error. An error stops
@@ -91,9 +117,11 @@ Status run_alone(const Region& region, Body&& body) {
 template <class Make, class Body>
 [[nodiscard]] Status for_each_with(const Context& context, const Region& region, Make&& make,
                                    Body&& body) {
+  detail::require_context<Make>();
   using Local = std::invoke_result_t<Make&>;
   static_assert(std::is_invocable_v<Body&, Local&, std::size_t>,
                 "the body is called as body(worker_context, i)");
+  detail::require_shareable<Body, Local&, std::size_t>();
   if (region.is_short())
     return detail::run_alone(
         region, [&, local = std::optional<Local>()](std::size_t i) mutable -> decltype(auto) {
@@ -121,6 +149,7 @@ template <class Make, class Body>
 template <class Body>
 [[nodiscard]] Status for_each(const Context& context, const Region& region, Body&& body) {
   static_assert(std::is_invocable_v<Body&, std::size_t>, "the body is called as body(i)");
+  detail::require_shareable<Body, std::size_t>();
   return for_each_with(
       context, region, [] { return NoContext{}; },
       [&body](NoContext&, std::size_t i) { return body(i); });

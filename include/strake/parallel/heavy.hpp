@@ -4,17 +4,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "strake/parallel/executor.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/progress.hpp"
 #include "strake/parallel/slots.hpp"
 
 namespace strake::parallel {
 
 /// The items that are too heavy to be one worker's, ascending: those that cost at least `least` and
-/// would keep one worker busy while the others wait, however the rest is shared out. There are
-/// fewer than two per worker; none for one worker.
+/// with which some worker would take more than 9/8 of a fair share, all costs over all workers,
+/// however the rest is shared out. There are fewer than two per worker; none for one worker.
 [[nodiscard]] std::vector<std::uint32_t> heavy_items(std::span<const double> costs, double least,
                                                      unsigned workers);
 
@@ -47,18 +49,21 @@ struct Apart {
 /// team is free for the regions that they open; then the others as blocks, those that cost most
 /// first. A region that one of those opens finds the team busy and runs alone. `cost(i)` is an
 /// estimate in any unit; `least` is a cost, in the same unit, that is worth a team. Region::order
-/// must be empty.
+/// must be empty. Results go to slots; values by key are made by Precomputed::fill_by_weight.
 ///
 /// 1. Which items are apart depends on the size of the team, and must not show in a result: what an
 ///    item does may depend on its own size only.
 /// 2. Errors and the stop token as in for_each: the error is that of the lowest failing item, heavy
 ///    or not. An exception of cost is an error, too.
+/// 3. In a report heavy items are nested runs; the balance is that of the others.
 template <class Cost, class Body>
 [[nodiscard]] Status for_each_by_weight(const Context& context, const Region& region, double least,
                                         Cost&& cost, Body&& body) {
+  detail::require_shareable<Body, std::size_t>();
   if (!region.order.empty()) return detail::order_given(region);
+  if (region.is_short()) return for_each(context, region, body);
   auto costs = slots<double>(region.n);
-  if (!costs) return costs.error();
+  if (!costs) return std::move(costs).error();
   for (std::size_t i = 0; i < region.n; ++i) {
     Status status =
         detail::status_of(region.name, i, [&] { (*costs)[i] = static_cast<double>(cost(i)); });
@@ -66,26 +71,32 @@ template <class Cost, class Body>
   }
   const unsigned workers = context.team == nullptr ? 1 : context.team->size();
   auto apart = detail::set_apart(*costs, least, workers, region);
-  if (!apart) return apart.error();
+  if (!apart) return std::move(apart).error();
+  // One phase for all: what is inside a heavy item has none to show.
+  const ProgressPhase phase(context.progress, region.name, region.n);
+  Context told = context;
+  if (phase.is_ours()) told.progress = nullptr;
   const auto run_one = [&](std::size_t i) {
-    return detail::status_of(region.name, i, [&] { return body(i); });
+    Status status = detail::status_of(region.name, i, [&] { return body(i); });
+    phase.add(1);
+    return status;
   };
   Status of_heavy;
   for (const std::uint32_t i : apart->heavy) {
-    of_heavy = for_each(context, {.name = region.name, .n = 1},
+    of_heavy = for_each(told, {.name = region.name, .n = 1},
                         [&](std::size_t /*only*/) { return run_one(i); });
     if (of_heavy) continue;
-    if (context.stop.stop_requested()) return of_heavy;
+    if (context.stop.stop_requested()) return detail::cancelled_error();
     apart->drop_from(i);  // those below may fail as well, and then are the ones to tell of
     break;
   }
   Region others = region;
   others.n = apart->rest.size();
   auto order = apart->longest_first(*costs, others);
-  if (!order) return order.error();
+  if (!order) return std::move(order).error();
   others.order = *order;
-  Status status = for_each(context, others, [&](std::size_t k) { return run_one(apart->rest[k]); });
-  return status ? of_heavy : status;
+  Status status = for_each(told, others, [&](std::size_t k) { return run_one(apart->rest[k]); });
+  return status ? std::move(of_heavy) : std::move(status);
 }
 
 }  // namespace strake::parallel

@@ -16,7 +16,8 @@ namespace strake::parallel {
 ///     const Context context{.team = &workers};
 ///
 /// The host need not be trusted: seats that its function has not called by the time it returns, or
-/// throws, are served by the calling thread; a seat is served once, however often it is called.
+/// throws, are served by the calling thread; a seat is served once, however often it is called. A
+/// host whose threads may call after that must have given them copies of `body`.
 class HostExecutor final : public Executor {
  public:
   using Body = std::function<void(unsigned)>;

@@ -56,17 +56,17 @@ class RowFinder {
 ///     const Status status = for_each_nested(
 ///         context, {.name = "primitives", .grain = 1024}, objects.size(),
 ///         [&](std::size_t o) { return objects[o].primitives.size(); },
-///         [&](std::size_t o, std::size_t p) { out[first[o] + p] =
-///         box_of(objects[o].primitives[p]); });
+///         [&](std::size_t o, std::size_t p) { boxes[o][p] = box_of(objects[o].primitives[p]); });
 ///
 /// The region's n is that of all elements and set here. Rows in order, columns within them; blocks,
 /// errors and the stop token as in for_each, the number in a caught exception's place being that of
-/// the element among all. One word of memory per row.
+/// the element among all, or of the row if it is length that throws. One word of memory per row.
 template <class Length, class Body>
 [[nodiscard]] Status for_each_nested(const Context& context, Region region, std::size_t rows,
                                      Length&& length, Body&& body) {
-  const auto start = detail::row_starts(region.name, rows, length);
-  if (!start) return start.error();
+  detail::require_shareable<Body, std::size_t, std::size_t>();
+  auto start = detail::row_starts(region.name, rows, length);
+  if (!start) return std::move(start).error();
   region.n = start->back();
   return for_each_with(
       context, region, [&] { return detail::RowFinder(*start); },

@@ -21,10 +21,13 @@ namespace strake::parallel {
 ///       cache.note(i);
 ///     });
 ///
-/// The context must be the one that the region runs with, or one that is passed on to the regions
-/// nested in it. It is wrong where the guarded data are shared with threads that the context does
-/// not know of: two callers with a context each, a window that reads while a region without a team
-/// writes. Those need the mutex itself. See docs/patterns/optional-lock.md.
+/// The context must be the one that the region runs with. It is wrong where the guarded data are
+/// shared with threads that the context does not know of: two callers with a context each, a window
+/// that reads while a region without a team writes. Those need the mutex itself.
+///
+/// Hold no mutex, recursive or not, while a region with a team runs: the item of a region of one
+/// block, and a heavy item of for_each_by_weight, leave the team to it, and its workers would wait
+/// for the mutex for ever. Give it Context{}. See docs/patterns/optional-lock.md.
 template <class Mutex>
 class OptionalLock {
  public:

@@ -40,8 +40,10 @@ void cut_evenly(Number count, Number limit, Visit&& visit) {
 /// does not keep a worker busy while the others wait: the pieces, not the items, are what a region
 /// runs over.
 ///
-///     const auto work = pieces(meshes.size(), [&](std::size_t m) { return meshes[m].edges(); },
-///     1024); for_each(context, {.name = "edges", .n = work->size()}, [&](std::size_t k) {
+///     const auto edges = [&](std::size_t m) { return meshes[m].edges.size(); };
+///     const Result<std::vector<Piece>> work = pieces(meshes.size(), edges, 1024);
+///     if (!work) return work.error();
+///     return for_each(context, {.name = "edges", .n = work->size()}, [&](std::size_t k) {
 ///       const Piece& piece = (*work)[k];
 ///       for (std::size_t e = piece.first; e < piece.last; ++e) draw(meshes[piece.item], e);
 ///     });

@@ -199,6 +199,9 @@ template <class Source, class Work, class Sink>
 [[nodiscard]] Status pipeline(const Context& context, const Flow& flow, Source&& source,
                               Work&& work, Sink&& sink) {
   using Item = typename std::invoke_result_t<Source&>::value_type;
+  static_assert(std::is_invocable_v<Work&, Item&&>, "work is called as work(item), an rvalue");
+  detail::require_shareable<Work, Item&&>();
+  detail::require_value<std::invoke_result_t<Work&, Item&&>>();
   using Made = detail::unwrapped_t<std::invoke_result_t<Work&, Item&&>>;
   const std::size_t workers = context.team == nullptr ? 1 : context.team->size();
   const std::size_t in_flight = flow.in_flight == 0 ? 4 * workers : flow.in_flight;
@@ -212,8 +215,8 @@ template <class Source, class Work, class Sink>
   Context own = context;
   own.progress = nullptr;
   const std::stop_callback on_stop(context.stop, [&] { run->stop(); });
-  const Status status = for_each(own, {.name = flow.name, .n = workers},
-                                 [&](std::size_t) { run->serve(source, work, sink); });
+  Status status = for_each(own, {.name = flow.name, .n = workers},
+                           [&](std::size_t) { run->serve(source, work, sink); });
   return status ? run->outcome() : status;
 }
 

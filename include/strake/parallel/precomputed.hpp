@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <span>
-#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "strake/parallel/caught.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/heavy.hpp"
 
@@ -36,7 +34,9 @@ namespace strake::parallel {
 ///     ... in later regions, from any worker: if (const Tree* tree = trees.find(p)) ...
 ///
 /// Keys are numbers below the table's size; give what is equal one number first (distinct). Filled
-/// between regions, read within them: filling while others read is a race.
+/// between regions, read within them: filling while others read is a race. A value stays where it
+/// is when the table is filled again or moved. Memory: a pointer for each key once one is made, and
+/// the values that were made.
 template <class T>
 class Precomputed {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
@@ -44,26 +44,34 @@ class Precomputed {
  public:
   Precomputed() = default;
   explicit Precomputed(std::size_t keys) : keys_(keys) {}
+  Precomputed(const Precomputed&) = delete;
+  Precomputed& operator=(const Precomputed&) = delete;
+  Precomputed(Precomputed&&) noexcept = default;
+  Precomputed& operator=(Precomputed&&) noexcept = default;
+  ~Precomputed() = default;
 
   /// The number of keys, made or not.
   [[nodiscard]] std::size_t size() const { return keys_; }
   /// The value of a key; null where it was not made.
   [[nodiscard]] const T* find(std::size_t key) const {
-    return made_.empty() || made_[key] == 0 ? nullptr : &values_[key];
+    return key < made_.size() ? made_[key] : nullptr;
   }
 
   /// Makes make(key), a T or a Result<T>, for the keys that are wanted and not there yet, each once
-  /// however often it is named. The region's n is set here. Errors as in for_each, that of the
-  /// lowest failing key, which is the item that an exception's error names: nothing has been made
-  /// then that can be found.
+  /// however often it is named. The region's n is set here. Errors: a key that the table has not;
+  /// else as in for_each, that of the lowest failing key, which is the item that an exception's
+  /// error names. Nothing has been made then that can be found.
   template <class Make>
   [[nodiscard]] Status fill(const Context& context, Region region,
                             std::span<const std::uint32_t> wanted, Make&& make) {
-    return add(wanted, [&](const std::vector<std::uint32_t>& missing) {
-      region.n = missing.size();
-      return for_each(context, region,
-                      [&](std::size_t k) { return put(region.name, missing[k], make); });
-    });
+    detail::require_shareable<Make, std::size_t>();
+    return add(region.name, wanted,
+               [&](std::span<const std::uint32_t> missing, std::vector<T>& values) {
+                 region.n = missing.size();
+                 return for_each(context, region, [&](std::size_t k) {
+                   return put(region.name, missing[k], make, values[k]);
+                 });
+               });
   }
 
   /// The same for values of very unequal cost(key), heavy ones by the whole team: see
@@ -72,57 +80,72 @@ class Precomputed {
   [[nodiscard]] Status fill_by_weight(const Context& context, Region region, double least,
                                       std::span<const std::uint32_t> wanted, Cost&& cost,
                                       Make&& make) {
-    return add(wanted, [&](const std::vector<std::uint32_t>& missing) {
-      region.n = missing.size();
-      return for_each_by_weight(
-          context, region, least, [&](std::size_t k) { return cost(std::size_t{missing[k]}); },
-          [&](std::size_t k) { return put(region.name, missing[k], make); });
-    });
+    detail::require_shareable<Make, std::size_t>();
+    return add(region.name, wanted,
+               [&](std::span<const std::uint32_t> missing, std::vector<T>& values) -> Status {
+                 region.n = missing.size();
+                 std::vector<double> costs(missing.size());
+                 for (std::size_t k = 0; k < missing.size(); ++k) {
+                   Status status = detail::status_of(region.name, missing[k], [&] {
+                     costs[k] = static_cast<double>(cost(std::size_t{missing[k]}));
+                   });
+                   if (!status) return status;
+                 }
+                 return for_each_by_weight(
+                     context, region, least, [&](std::size_t k) { return costs[k]; },
+                     [&](std::size_t k) { return put(region.name, missing[k], make, values[k]); });
+               });
   }
 
  private:
   template <class Make>
-  Status put(std::string_view region, std::size_t key, Make& make) {
-    try {
-      if constexpr (std::is_convertible_v<std::invoke_result_t<Make&, std::size_t>, T>) {
-        values_[key] = make(key);
-      } else {
+  static Status put(std::string_view region, std::size_t key, Make& make, T& value) {
+    return detail::status_of(region, key, [&]() -> Status {
+      if constexpr (std::is_same_v<std::remove_cvref_t<std::invoke_result_t<Make&, std::size_t>>,
+                                   Result<T>>) {
         Result<T> made = make(key);
-        if (!made) return made.error();
-        values_[key] = std::move(made).value();
+        if (!made) return std::move(made).error();
+        value = std::move(made).value();
+      } else {
+        value = make(key);
       }
       return {};
-    } catch (...) {
-      return detail::caught(region, key);
-    }
+    });
   }
 
   template <class Fill>
-  Status add(std::span<const std::uint32_t> wanted, Fill&& fill) {
+  Status add(std::string_view region, std::span<const std::uint32_t> wanted, Fill&& fill) {
     try {
       // No memory for tables that nobody asks.
       if (wanted.empty()) return {};
-      values_.resize(keys_);
-      made_.resize(keys_, 0);
+      made_.resize(keys_, nullptr);
       std::vector<std::uint32_t> missing;
-      for (const std::uint32_t key : wanted)
-        if (made_[key] == 0) missing.push_back(key);
+      for (const std::uint32_t key : wanted) {
+        if (key >= keys_)
+          return Error{ErrorCode::internal,
+                       "key " + std::to_string(key) + " of " + std::to_string(keys_),
+                       "region '" + std::string(region) + "'",
+                       {}};
+        if (made_[key] == nullptr) missing.push_back(key);
+      }
       std::ranges::sort(missing);
       missing.erase(std::ranges::unique(missing).begin(), missing.end());
-      const Status status = fill(std::as_const(missing));
-      if (status)
-        for (const std::uint32_t key : missing) made_[key] = 1;
+      std::vector<T> values(missing.size());
+      fills_.reserve(fills_.size() + 1);
+      Status status = fill(std::span<const std::uint32_t>(missing), values);
+      if (status && !missing.empty()) {
+        fills_.push_back(std::move(values));
+        for (std::size_t k = 0; k < missing.size(); ++k) made_[missing[k]] = &fills_.back()[k];
+      }
       return status;
-    } catch (const std::bad_alloc&) {
-      return out_of_memory();
-    } catch (const std::length_error&) {
+    } catch (...) {  // no room for it, or a value that cannot begin
       return out_of_memory();
     }
   }
 
   std::size_t keys_ = 0;
-  std::vector<T> values_;
-  std::vector<std::uint8_t> made_;
+  std::vector<const T*> made_;  ///< by key
+  std::vector<std::vector<T>> fills_;
 };
 
 }  // namespace strake::parallel

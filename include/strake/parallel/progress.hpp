@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -39,11 +40,11 @@ class Progress {
 };
 
 /// Claims a phase for as long as it lives, if it is free and somebody asked for progress (not
-/// null).
+/// null). Where there is no memory for its name it is not told of.
 class ProgressPhase {
  public:
-  ProgressPhase(Progress* progress, std::string_view phase, std::uint64_t total)
-      : ours_(progress != nullptr && progress->begin(phase, total) ? progress : nullptr) {}
+  ProgressPhase(Progress* progress, std::string_view phase, std::uint64_t total) noexcept
+      : ours_(claimed(progress, phase, total) ? progress : nullptr) {}
   ProgressPhase(const ProgressPhase&) = delete;
   ProgressPhase& operator=(const ProgressPhase&) = delete;
   ProgressPhase(ProgressPhase&&) = delete;
@@ -59,6 +60,13 @@ class ProgressPhase {
   }
 
  private:
+  static bool claimed(Progress* progress, std::string_view phase, std::uint64_t total) noexcept
+      try {
+    return progress != nullptr && progress->begin(phase, total);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+
   Progress* ours_;
 };
 

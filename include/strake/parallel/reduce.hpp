@@ -29,6 +29,11 @@ template <class T, class Body, class Combine>
 [[nodiscard]] Result<T> reduce(const Context& context, const Region& region, const T& identity,
                                Body&& body, Combine&& combine) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
+  static_assert(!std::is_invocable_v<Body&, T, std::size_t>,
+                "the body takes its partial by reference, T&: what is added to a copy is lost");
+  static_assert(!std::is_invocable_v<Combine&, T, const T&>,
+                "combine changes its first argument, T&; it is no std::plus");
+  detail::require_shareable<Body, T&, std::size_t>();
   const std::size_t size = region.block_size();
   const auto fold = [&](std::span<T> partials) -> Result<T> {
     std::size_t block = 0;
@@ -52,9 +57,9 @@ template <class T, class Body, class Combine>
     }
   }
   Result<std::vector<T>> partials = slots<T>(region.blocks());
-  if (!partials) return partials.error();
+  if (!partials) return std::move(partials).error();
   detail::RegionRun run(context, region);
-  const Status status = run.run([&](detail::Cursor& cursor) {
+  Status status = run.run([&](detail::Cursor& cursor) {
     detail::Range range;
     while (run.next(cursor, range)) {
       std::size_t i = range.first;
@@ -72,7 +77,7 @@ template <class T, class Body, class Combine>
       }
     }
   });
-  if (!status) return status.error();
+  if (!status) return std::move(status).error();
   return fold(*partials);
 }
 

@@ -57,7 +57,7 @@ struct Region {
 namespace detail {
 
 /// The error of a pattern that makes a visiting order of its own and is given one.
-[[nodiscard]] Error order_given(const Region& region);
+[[nodiscard]] Error order_given(const Region& region) noexcept;
 
 /// Where one worker stands in a region; lives on that worker's stack.
 struct Cursor {

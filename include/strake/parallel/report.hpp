@@ -12,11 +12,14 @@ namespace strake::parallel {
 /// What one region (all its runs together) cost, and how evenly the team shared it.
 struct RegionReport {
   std::string name;
-  std::uint64_t runs = 0;         ///< runs by a whole team, or without one
-  std::uint64_t nested_runs = 0;  ///< runs inside another region, on the worker that met them
+  std::uint64_t runs = 0;  ///< runs by a whole team, or without one
+  /// Runs by one worker of several: inside another region, or of a single block, heavy items of
+  /// for_each_by_weight among them.
+  std::uint64_t nested_runs = 0;
   std::uint64_t items = 0;
   double wall_s = 0;           ///< of `runs`
-  double nested_cpu_s = 0;     ///< of `nested_runs`; part of the outer region's busy time too
+  double nested_cpu_s = 0;     ///< of `nested_runs`; where these are inside another region or hold
+                               ///< one, its busy time has it, too
   std::vector<double> busy_s;  ///< CPU seconds per worker in `runs`; index = worker
   double longest_s = 0;  ///< the longest block (with grain 1: item), wall seconds, at most busy
   /// Set by RunReport::add, summed over runs: busy seconds over workers, and what no schedule could
@@ -38,7 +41,8 @@ struct StageReport {
 };
 
 /// Collects the reports of the regions that run under a Context that names it. Thread-safe.
-/// Asking for it makes regions read clocks per block.
+/// Asking for it makes regions read clocks per block. Without a team no region can tell that it is
+/// inside another: its time is then in the entries of both.
 class RunReport {
  public:
   /// Adds one run to the entry of its name.

@@ -50,13 +50,16 @@ namespace detail {
 /// act, side by side; the others try again in the next round, before items that come after them.
 ///
 /// - claim(i, claims) changes nothing and may read everything. It returns void or bool: false says
-///   that the item has nothing to do any more, and it is done.
+///   that the item has nothing to do and never will have, and it is done.
 /// - act(i) reads and writes only what its places stand for. It returns void or Status.
 ///
 /// 1. Rounds depend on the items alone, so the result is the same for any team and schedule.
-/// 2. Where the places of an item are always the same ones, it is that of the plain loop
-///    `for (i = 0; i < n; ++i) if (claim(i)) act(i);`. Where they change with what others did, an
-///    item may act before a lower one that asked for other places at the time.
+/// 2. It is that of the plain loop `for (i = 0; i < n; ++i) if (claim(i)) act(i);` where three
+/// things
+///    hold: the places of an item are always the same ones; claim reads what these stand for, or
+///    what no act changes; and what it answers with false once it always would (what is taken stays
+///    taken). Otherwise an item may act, or be done, before a lower one that would have changed its
+///    mind.
 /// 3. Errors as in for_each: that of the lowest failing item, and what the items share is then in
 ///    between. Region::order must be empty; Region::grain is for act.
 ///
@@ -68,10 +71,15 @@ namespace detail {
 template <class Claim, class Act>
 [[nodiscard]] Result<ReservedRun> for_each_reserved(const Context& context, const Region& region,
                                                     std::size_t places, Claim&& claim, Act&& act) {
+  using Answer = std::invoke_result_t<Claim&, std::size_t, Claims&>;
+  static_assert(std::is_void_v<Answer> || std::is_convertible_v<Answer, bool>,
+                "claim returns void or bool; an Error is for act to return");
+  detail::require_shareable<Claim, std::size_t, Claims&>();
+  detail::require_shareable<Act, std::size_t>();
   return detail::run_reserved(
       context, region, places,
       [&](std::size_t i, Claims& claims) {
-        if constexpr (std::is_void_v<std::invoke_result_t<Claim&, std::size_t, Claims&>>) {
+        if constexpr (std::is_void_v<Answer>) {
           claim(i, claims);
           return true;
         } else {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <exception>
 #include <limits>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "strake/parallel/large_pages.hpp"
@@ -28,11 +28,11 @@ template <class T>
   try {
     std::vector<T> values;
     values.reserve(n);
-    const Status status = detail::provide_pages(context, values.data(), n * sizeof(T));
-    if (!status) return status.error();
+    Status status = detail::provide_pages(context, values.data(), n * sizeof(T));
+    if (!status) return std::move(status).error();
     values.resize(n);
     return values;
-  } catch (const std::exception&) {
+  } catch (...) {
     return out_of_memory();
   }
 }

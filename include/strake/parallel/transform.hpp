@@ -24,6 +24,14 @@ struct Unwrapped<Result<T>> {
 template <class T>
 using unwrapped_t = typename Unwrapped<std::remove_cvref_t<T>>::type;
 
+/// Refuses results that cannot lie in a slot.
+template <class Returned>
+consteval void require_value() {
+  static_assert(!std::is_void_v<unwrapped_t<Returned>> &&
+                    !std::is_same_v<std::remove_cvref_t<Returned>, Error>,
+                "it returns a value, or a Result of one: of a Status nothing would be kept");
+}
+
 }  // namespace detail
 
 /// One result per item, at the item's index: body(worker_context, i) returns T or Result<T>.
@@ -35,23 +43,24 @@ template <class Make, class Body>
                                   Body&& body) {
   using Local = std::invoke_result_t<Make&>;
   using Returned = std::invoke_result_t<Body&, Local&, std::size_t>;
+  detail::require_shareable<Body, Local&, std::size_t>();
+  detail::require_value<Returned>();
   using T = detail::unwrapped_t<Returned>;
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: return uint8_t");
   Result<std::vector<T>> results = slots<T>(region.n, context);
   if (!results) return results;
   std::vector<T>& slot = *results;
-  const Status status =
-      for_each_with(context, region, make, [&](Local& local, std::size_t i) -> Status {
-        if constexpr (std::is_same_v<std::remove_cvref_t<Returned>, T>) {
-          slot[i] = body(local, i);
-        } else {
-          Result<T> one = body(local, i);
-          if (!one) return one.error();
-          slot[i] = std::move(one).value();
-        }
-        return {};
-      });
-  if (!status) return Result<std::vector<T>>(status.error());
+  Status status = for_each_with(context, region, make, [&](Local& local, std::size_t i) -> Status {
+    if constexpr (std::is_same_v<std::remove_cvref_t<Returned>, T>) {
+      slot[i] = body(local, i);
+    } else {
+      Result<T> one = body(local, i);
+      if (!one) return std::move(one).error();
+      slot[i] = std::move(one).value();
+    }
+    return {};
+  });
+  if (!status) return Result<std::vector<T>>(std::move(status).error());
   return results;
 }
 
@@ -59,6 +68,7 @@ template <class Make, class Body>
 template <class Body>
 [[nodiscard]] auto transform(const Context& context, const Region& region, Body&& body) {
   static_assert(std::is_invocable_v<Body&, std::size_t>, "the body is called as body(i)");
+  detail::require_shareable<Body, std::size_t>();
   return transform_with(
       context, region, [] { return NoContext{}; },
       [&body](NoContext&, std::size_t i) { return body(i); });

@@ -26,6 +26,7 @@ TEST(Backends, give_the_same_bytes) {
   for (const std::size_t grain : {1U, 100U}) {
     Region region{.name = "foreign", .n = test::kResultItems, .grain = grain};
     const test::Results expected = test::results({}, region, 0);
+    const test::OwnResults own = test::own_results({}, region, 0);
     const std::vector<std::uint32_t> longest =
         longest_first(region.blocks(), [](std::size_t i) { return test::value(i); });
     for (const unsigned workers : {1U, 2U, 3U, 8U, 64U}) {
@@ -33,7 +34,10 @@ TEST(Backends, give_the_same_bytes) {
       oneapi::tbb::task_arena arena(static_cast<int>(workers));
       HostExecutor tbb(workers, in_arena(arena)), openmp(workers, by_openmp());
       for (Executor* const executor : {static_cast<Executor*>(&team), static_cast<Executor*>(&tbb),
-                                       static_cast<Executor*>(&openmp)})
+                                       static_cast<Executor*>(&openmp)}) {
+        region.order = {};
+        ASSERT_EQ(test::own_results({.team = executor}, region, workers), own)
+            << "workers " << workers << ", grain " << grain;
         for (const Schedule schedule : {Schedule::dynamic, Schedule::static_blocks})
           for (const std::size_t chunk : {1U, 5U})
             for (const bool ordered : {false, true}) {
@@ -44,6 +48,7 @@ TEST(Backends, give_the_same_bytes) {
               ASSERT_EQ(test::results({.team = executor}, region, workers), expected)
                   << "workers " << workers << ", grain " << grain << ", chunk " << chunk;
             }
+      }
     }
   }
 }

@@ -64,9 +64,11 @@ TEST(HostExecutor, gives_the_bytes_of_a_region_without_workers) {
   for (const std::size_t grain : {1U, 7U, 5000U}) {
     Region region{.name = "hosted", .n = test::kResultItems, .grain = grain};
     const test::Results expected = test::results({}, region, 0);
+    const test::OwnResults own = test::own_results({}, region, 0);
     for (const Host& host : hosts())
       for (const unsigned workers : {1U, 2U, 5U, 16U}) {
         HostExecutor executor(workers, host.call);
+        EXPECT_EQ(test::own_results({.team = &executor}, region, workers), own) << host.name;
         for (const Schedule schedule : {Schedule::dynamic, Schedule::static_blocks}) {
           region.schedule = schedule;
           EXPECT_EQ(test::results({.team = &executor}, region, workers), expected)

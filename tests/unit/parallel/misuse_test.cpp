@@ -11,6 +11,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -171,6 +172,113 @@ TEST(Misuse, exceptions_of_everything_that_is_called_are_errors_with_their_place
                     return true;
                   })),
               "region 'd', item 501");
+  }
+}
+
+/// The items of distinct() go through lots by their hashes, which must not show.
+TEST(Misuse, the_lowest_that_cannot_be_compared_is_told_whatever_the_hash) {
+  for (const unsigned workers : kWorkers) {
+    Team team(workers);
+    for (const std::uint64_t salt : {0U, 1U, 2U, 3U}) {
+      const auto kinds = distinct(
+          {.team = &team}, "d", 3000, [&](std::size_t i) { return mixed(salt, i / 10); },
+          [](std::size_t /*i*/, std::size_t j) {
+            if (j > 700 && j % 7 == 0) complain();
+            return true;
+          });
+      ASSERT_FALSE(kinds);
+      EXPECT_EQ(kinds.error().where, "region 'd', item 707");
+    }
+  }
+}
+
+TEST(Misuse, items_of_one_hash_can_be_stopped) {
+  Team team(2);
+  std::stop_source source;
+  std::atomic<std::uint64_t> asked{0};
+  const auto kinds = distinct(
+      {.team = &team, .stop = source.get_token()}, "d", 30000,
+      [](std::size_t) { return std::uint64_t{7}; },
+      [&](std::size_t, std::size_t) {
+        if (++asked == 1000) source.request_stop();
+        return false;
+      });
+  ASSERT_FALSE(kinds);
+  EXPECT_EQ(kinds.error().code, ErrorCode::cancelled);
+  EXPECT_LT(asked, 10000U) << "of some 450 million";
+}
+
+TEST(Misuse, a_cost_that_throws_names_its_key) {
+  Precomputed<int> table(300);
+  const std::array<std::uint32_t, 3> wanted = {100, 200, 250};
+  const Status status = table.fill_by_weight(
+      {}, {.name = "p"}, 1, wanted,
+      [](std::size_t key) {
+        if (key == 200) complain();
+        return 1.0;
+      },
+      [](std::size_t) { return 0; });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().where, "region 'p', item 200");
+}
+
+/// Cannot be made where it is to be put.
+struct Unborn {
+  Unborn() { throw 7; }
+};
+
+TEST(Misuse, values_that_cannot_begin_are_an_error) {
+  EXPECT_FALSE(slots<Unborn>(3));
+  Precomputed<Unborn> table(3);
+  const std::array<std::uint32_t, 1> wanted = {1};
+  EXPECT_FALSE(table.fill({}, {.name = "p"}, wanted, [](std::size_t) { return Unborn(); }));
+  EXPECT_EQ(table.find(1), nullptr);
+}
+
+TEST(Misuse, a_short_region_is_short_by_weight_too) {
+  Team team(3);
+  std::stop_source source;
+  source.request_stop();
+  RunReport report;
+  int runs = 0;
+  EXPECT_TRUE(for_each_by_weight(
+      {.team = &team, .stop = source.get_token(), .report = &report},
+      {.name = "w", .n = 5, .alone_below = 6}, 1, [](std::size_t i) { return i == 2 ? 1e6 : 1.0; },
+      [&](std::size_t) { ++runs; }));
+  EXPECT_EQ(runs, 5);
+  EXPECT_TRUE(report.regions().empty());
+}
+
+TEST(Misuse, a_stop_that_meets_an_error_is_told_as_a_stop) {
+  // The stop comes from another thread, at any moment of the error's way out.
+  Team team(2);
+  for (int round = 0; round < 600; ++round) {
+    std::stop_source source;
+    const Context context{.team = &team, .stop = source.get_token()};
+    std::atomic<bool> begun{false};
+    std::jthread other([&] {
+      while (!begun) std::this_thread::yield();
+      source.request_stop();
+    });
+    const auto fails = [&](std::size_t i) -> Status {
+      begun = true;
+      if (i % 4 != 0) return {};
+      return Error{ErrorCode::input, "item " + std::to_string(i), {}, {}};
+    };
+    const Status status = round % 2 == 0
+                              ? for_each_by_weight(
+                                    context, {.name = "w", .n = 9}, 1,
+                                    [](std::size_t i) { return i == 8 ? 100.0 : 1.0; }, fails)
+                              : [&]() -> Status {
+      auto run = for_each_reserved(
+          context, {.name = "r", .n = 9}, 9,
+          [](std::size_t i, Claims& claims) { claims(i < 5 ? 0 : i); }, fails);
+      return run ? Status() : Status(std::move(run).error());
+    }();
+    ASSERT_FALSE(status);
+    if (status.error().code != ErrorCode::cancelled) {
+      EXPECT_EQ(status.error().message, "item 0");
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 // or an error, lets no exception out, ends, and leaves the team and the progress as they were.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
@@ -73,6 +74,13 @@ constexpr Region kRegion{.name = kName, .n = kItems, .grain = 3};
 std::string text(std::size_t i) { return std::string(40, static_cast<char>('a' + i % 20)); }
 
 Error an_error() { return {ErrorCode::input, text(1), text(2), text(3)}; }
+
+bool fails_at_40(std::size_t i) {
+  if (i == 40) throw std::runtime_error(text(i));
+  return false;
+}
+
+constexpr std::array<std::uint32_t, 1> kSomeOrder = {0};
 
 struct Pattern {
   const char* name;
@@ -200,6 +208,125 @@ std::vector<Pattern> patterns() {
              [](std::size_t i, Claims& claims) { claims(i % 5); },
              [&](std::size_t /*i*/) { ++runs; });
          return judged(run, [&](const ReservedRun&) { return runs == kItems; });
+       }},
+      {"transform, an error",
+       [](const Context& c) {
+         return judged(transform(c, kRegion,
+                                 [](std::size_t i) -> Result<int> {
+                                   if (i == 40) return an_error();
+                                   return 1;
+                                 }),
+                       [](const auto&) { return false; });
+       }},
+      {"transform_until, an exception",
+       [](const Context& c) {
+         return judged(transform_until(
+                           c, kRegion, [](std::size_t i) { return fails_at_40(i) ? 1 : 0; },
+                           [](int) { return false; }),
+                       [](const auto&) { return false; });
+       }},
+      {"find_first, an exception",
+       [](const Context& c) {
+         return judged(find_first(c, kRegion, fails_at_40), [](const auto&) { return false; });
+       }},
+      {"all_of, an exception",
+       [](const Context& c) {
+         return judged(all_of(c, kRegion, [](std::size_t i) { return !fails_at_40(i); }),
+                       [](bool) { return false; });
+       }},
+      {"collect, an error",
+       [](const Context& c) {
+         return judged(collect<int>(c, kRegion,
+                                    [](std::size_t i, std::vector<int>& out) -> Status {
+                                      out.push_back(1);
+                                      if (i == 40) return an_error();
+                                      return {};
+                                    }),
+                       [](const auto&) { return false; });
+       }},
+      {"reduce, an error",
+       [](const Context& c) {
+         return judged(reduce(
+                           c, kRegion, 0,
+                           [](int& partial, std::size_t i) -> Status {
+                             partial += 1;
+                             if (i == 40) return an_error();
+                             return {};
+                           },
+                           [](int& into, int partial) { into += partial; }),
+                       [](int) { return false; });
+       }},
+      {"count_fill, an exception of count",
+       [](const Context& c) {
+         return judged(count_fill<int>(
+                           c, kRegion, [](std::size_t i) { return fails_at_40(i) ? 1U : 2U; },
+                           [](std::size_t, std::span<int>) {}),
+                       [](const auto&) { return false; });
+       }},
+      {"distinct, an exception of hash",
+       [](const Context& c) {
+         return judged(distinct(
+                           c, kName, kItems,
+                           [](std::size_t i) -> std::uint64_t { return fails_at_40(i) ? 1 : 0; },
+                           [](std::size_t, std::size_t) { return true; }),
+                       [](const auto&) { return false; });
+       }},
+      {"distinct, an exception of same",
+       [](const Context& c) {
+         return judged(distinct(
+                           c, kName, kItems, [](std::size_t) { return std::uint64_t{1}; },
+                           [](std::size_t, std::size_t i) { return !fails_at_40(i); }),
+                       [](const auto&) { return false; });
+       }},
+      {"for_each_by_weight, an error of a heavy item and of a light one",
+       [](const Context& c) {
+         return judged(for_each_by_weight(
+                           c, kRegion, 2, [](std::size_t i) { return i == 40 ? 1e6 : 1.0; },
+                           [](std::size_t i) -> Status {
+                             if (i == 40 || i == 50) return an_error();
+                             return {};
+                           }),
+                       false);
+       }},
+      {"for_each_by_weight, an exception of cost",
+       [](const Context& c) {
+         return judged(for_each_by_weight(
+                           c, kRegion, 2, [](std::size_t i) { return fails_at_40(i) ? 1.0 : 2.0; },
+                           [](std::size_t) {}),
+                       false);
+       }},
+      {"for_each_nested, an exception of length",
+       [](const Context& c) {
+         return judged(for_each_nested(
+                           c, kRegion, kItems,
+                           [](std::size_t row) -> std::size_t { return fails_at_40(row) ? 1 : 2; },
+                           [](std::size_t, std::size_t) {}),
+                       false);
+       }},
+      {"for_each_reserved, an error",
+       [](const Context& c) {
+         return judged(for_each_reserved(
+                           c, kRegion, 5, [](std::size_t i, Claims& claims) { claims(i % 5); },
+                           [](std::size_t i) -> Status {
+                             if (i == 40) return an_error();
+                             return {};
+                           }),
+                       [](const auto&) { return false; });
+       }},
+      {"for_each_reserved, an order",
+       [](const Context& c) {
+         Region region = kRegion;
+         region.order = kSomeOrder;
+         return judged(
+             for_each_reserved(
+                 c, region, 5, [](std::size_t, Claims& claims) { claims(1); }, [](std::size_t) {}),
+             [](const auto&) { return false; });
+       }},
+      {"for_each, an order of the wrong length",
+       [](const Context& c) {
+         Region region = kRegion;
+         region.order = kSomeOrder;
+         return judged(for_each(c, region, [](std::size_t) {}), false);
        }},
       {"pipeline", [](const Context& c) { return pipeline_run(c, false); }},
       {"pipeline, an error", [](const Context& c) { return pipeline_run(c, true); }},

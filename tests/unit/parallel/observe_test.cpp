@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/heavy.hpp"
 #include "strake/parallel/progress.hpp"
 #include "strake/parallel/report.hpp"
 #include "strake/parallel/team.hpp"
@@ -101,6 +102,46 @@ TEST(Report, keeps_nested_runs_apart) {
   EXPECT_GE(inner.nested_cpu_s, 0.0024);
   EXPECT_TRUE(inner.busy_s.empty());
   EXPECT_EQ(regions[1].runs, 1U);
+}
+
+// What is inside a region of one block has the team, and is no part of that region's balance.
+TEST(Report, keeps_heavy_items_apart) {
+  Team team(2);
+  RunReport report;
+  const Context context{.team = &team, .report = &report};
+  ASSERT_TRUE(for_each_by_weight(
+      context, {.name = "outer", .n = 41}, 10, [](std::size_t i) { return i == 7 ? 1000.0 : 1.0; },
+      [&](std::size_t i) {
+        return for_each(context, {.name = "inner", .n = i == 7 ? 40U : 1U},
+                        [](std::size_t) { burn(0.0005); });
+      }));
+  const std::vector<RegionReport> regions = report.regions();
+  ASSERT_EQ(regions.size(), 2U);
+  const bool inner_first = regions[0].name == "inner";
+  const RegionReport& inner = regions[inner_first ? 0 : 1];
+  const RegionReport& outer = regions[inner_first ? 1 : 0];
+  EXPECT_EQ(outer.items, 41U);
+  EXPECT_EQ(outer.runs, 1U) << "of the light ones";
+  EXPECT_EQ(outer.nested_runs, 1U) << "of the heavy one";
+  EXPECT_EQ(inner.runs, 1U) << "inside the heavy one";
+  EXPECT_EQ(inner.nested_runs, 40U);
+  EXPECT_GE(inner.total_busy_s(), 40 * 0.0005);
+  EXPECT_LT(outer.total_busy_s(), 2 * 40 * 0.0005) << "that of the heavy one is not in it";
+}
+
+TEST(Progress, of_items_by_weight_is_one_phase) {
+  Team team(2);
+  Progress progress;
+  const Context context{.team = &team, .progress = &progress};
+  std::atomic<std::uint64_t> total{0};
+  ASSERT_TRUE(for_each_by_weight(
+      context, {.name = "outer", .n = 41}, 10, [](std::size_t i) { return i == 7 ? 1000.0 : 1.0; },
+      [&](std::size_t i) {
+        if (i == 7) total = progress.snapshot().total;
+        return for_each(context, {.name = "inner", .n = 3}, [](std::size_t) {});
+      }));
+  EXPECT_EQ(total, 41U);
+  EXPECT_EQ(progress.snapshot().phases_ended, 1U);
 }
 
 TEST(Report, stages_add_up_by_name) {

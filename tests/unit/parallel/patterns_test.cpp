@@ -61,6 +61,28 @@ TEST(Patterns, same_bytes_for_any_team_schedule_chunk_and_order) {
   }
 }
 
+TEST(Patterns, that_order_their_items_themselves_give_the_same_bytes_too) {
+  for (const std::size_t grain : {1U, 7U, 5000U}) {
+    Region region{.name = "test", .n = kItems, .grain = grain};
+    const test::OwnResults expected = test::own_results({}, region, 0);
+    for (const std::size_t size :
+         {expected.nested.size(), expected.by_weight.size(), expected.kinds.size(),
+          expected.precomputed.size(), expected.owners.size(), expected.by_piece.size(),
+          expected.piped.size()})
+      ASSERT_GT(size, 50U) << "every pattern has a result";
+    for (const unsigned threads : {1U, 2U, 3U, 8U, 17U, 64U}) {
+      Team team(threads);
+      for (const Schedule schedule : {Schedule::dynamic, Schedule::static_blocks}) {
+        region.schedule = schedule;
+        region.chunk = threads % 3 + 1;
+        EXPECT_EQ(test::own_results({.team = &team}, region, threads), expected)
+            << "threads " << threads << ", grain " << grain << ", static "
+            << (schedule == Schedule::static_blocks);
+      }
+    }
+  }
+}
+
 TEST(Patterns, sum_is_that_of_blocks_folded_in_order) {
   const Region region{.name = "sum", .n = kItems, .grain = 64};
   double expected = 0;

@@ -136,6 +136,19 @@ TEST(Precomputed, more_keys_than_a_vector_holds_is_an_error) {
   EXPECT_EQ(table.find(1), nullptr);
 }
 
+TEST(Precomputed, a_key_beyond_its_end_is_an_error_and_is_not_found) {
+  Precomputed<int> table(5);
+  const std::vector<std::uint32_t> wanted = {1, 5};
+  const Status status = table.fill({}, {.name = "few"}, wanted, [](std::size_t) { return 7; });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().text(), "region 'few': key 5 of 5");
+  EXPECT_EQ(table.find(1), nullptr);
+  ASSERT_TRUE(
+      table.fill({}, {.name = "few"}, std::span(wanted).first(1), [](std::size_t) { return 7; }));
+  EXPECT_EQ(*table.find(1), 7);
+  EXPECT_EQ(table.find(5), nullptr);
+}
+
 TEST(Precomputed, keys_of_marks_are_ascending) {
   EXPECT_TRUE(keys_of({}).empty());
   EXPECT_EQ(keys_of({false, true, false, true, true}), (std::vector<std::uint32_t>{1, 3, 4}));

@@ -71,6 +71,29 @@ TEST(Reservations, gives_what_the_plain_loop_gives) {
   }
 }
 
+/// Where an answer may change, or hangs on what others' places stand for, the plain loop is another
+/// algorithm: still one result for any team.
+TEST(Reservations, what_breaks_the_rules_of_the_plain_loop_gives_one_result_all_the_same) {
+  constexpr std::size_t kItems = 400;
+  for (const bool looks_elsewhere : {false, true}) {
+    std::set<std::vector<std::uint32_t>> results;
+    for (const unsigned workers : kWorkers) {
+      Team team(workers);
+      std::vector<std::uint32_t> at(4, 0);
+      ASSERT_TRUE(for_each_reserved(
+          {.team = &team}, {.name = "odd", .n = kItems}, at.size(),
+          [&](std::size_t i, Claims& claims) {
+            claims(i % 4);
+            // "Not yet" taken for "never", or a look at a place that is not asked for.
+            return looks_elsewhere ? at[(i + 1) % 4] % 3 != 2 : at[i % 4] % 3 == i % 3;
+          },
+          [&](std::size_t i) { at[i % 4] += 1 + static_cast<std::uint32_t>(i % 2); }));
+      results.insert(at);
+    }
+    EXPECT_EQ(results.size(), 1U);
+  }
+}
+
 TEST(Reservations, one_place_for_all_is_one_by_one_in_order) {
   constexpr std::size_t kItems = 20000;
   for (const unsigned workers : kWorkers) {

@@ -108,7 +108,7 @@ TEST(Team, two_threads_may_share_a_team) {
 TEST(Team, survives_many_empty_regions) {
   Team team(2);
   const Context context{.team = &team};
-  for (int round = 0; round < 20000; ++round) {
+  for (int round = 0; round < 100'000; ++round) {
     team.run([](Seat) {});
     ASSERT_TRUE(for_each(context, {.name = "empty"}, [](std::size_t) { FAIL(); }));
   }
@@ -116,11 +116,11 @@ TEST(Team, survives_many_empty_regions) {
 
 TEST(Team, many_may_be_built_and_torn_down) {
   std::atomic<int> calls{0};
-  for (int round = 0; round < 1000; ++round) {
+  for (int round = 0; round < 10'000; ++round) {
     Team team(3);
     if (round % 2 == 0) team.run([&](Seat) { ++calls; });
   }
-  EXPECT_EQ(calls, 1500);
+  EXPECT_EQ(calls, 15'000);
 }
 
 TEST(Team, an_absurd_size_is_bounded) {

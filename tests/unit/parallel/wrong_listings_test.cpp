@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <csignal>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <set>
 #include <thread>
 #include <vector>
@@ -20,8 +22,10 @@
 #include "strake/parallel/bounded_queue.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/reservations.hpp"
 #include "strake/parallel/shape2.hpp"
 #include "strake/parallel/team.hpp"
+#include "strake/parallel/transform.hpp"
 #include "support/handover.hpp"
 
 namespace strake::parallel {
@@ -251,6 +255,60 @@ TEST(WrongFold, what_is_joined_by_worker_depends_on_who_did_what) {
   EXPECT_EQ(right_lists.size(), 1U);
   EXPECT_TRUE(std::ranges::is_sorted(*right_lists.begin()));
   EXPECT_EQ(right_sums.size(), 1U);
+}
+
+/// Items that each add to one place, one at a time but in any order: all sums and all logs that
+/// schedules can leave there.
+struct Left {
+  std::set<double> sums;
+  std::set<std::vector<std::size_t>> logs;
+};
+
+constexpr std::array kAdded = {1e16, 1.0, -1e16, 1.0};
+
+Left left_by_all_orders() {
+  std::vector<std::size_t> order(kAdded.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  Left left;
+  do {
+    double sum = 0;
+    for (const std::size_t i : order) sum += kAdded[i];
+    left.sums.insert(sum);
+    left.logs.insert(order);
+  } while (std::ranges::next_permutation(order).found);
+  return left;
+}
+
+TEST(WrongFlag, one_writer_at_a_time_still_leaves_the_order_to_timing) {
+  const Left left = left_by_all_orders();
+  EXPECT_EQ(left.sums.size(), 3U) << "0, 1 and 2";
+  EXPECT_EQ(left.logs.size(), 24U);
+  // The items take the place in their order, or the place asks the items.
+  std::set<double> sums;
+  std::set<std::vector<std::size_t>> logs;
+  for (const unsigned workers : {1U, 2U, 4U, 8U, 64U}) {
+    Team team(workers);
+    const Context context{.team = &team};
+    double reserved = 0;
+    std::vector<std::size_t> log;
+    ASSERT_TRUE(for_each_reserved(
+        context, {.name = "reserved", .n = kAdded.size()}, 1,
+        [](std::size_t, Claims& claims) { claims(0); },
+        [&](std::size_t i) {
+          reserved += kAdded[i];
+          log.push_back(i);
+        }));
+    const auto gathered = transform(context, {.name = "gathered", .n = 1}, [](std::size_t) {
+      double sum = 0;
+      for (const double added : kAdded) sum += added;
+      return sum;
+    });
+    ASSERT_TRUE(gathered);
+    sums.insert({reserved, gathered->front()});
+    logs.insert(log);
+  }
+  EXPECT_EQ(sums, std::set<double>{1.0}) << "that of the plain loop";
+  EXPECT_EQ(logs.size(), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole of a program: a team, a region, its results, and what to do when there are none.
+#include <cstddef>
+#include <cstdio>
+
+#include "strake/parallel/team.hpp"
+#include "strake/parallel/transform.hpp"
+
+int main() {
+  using namespace strake::parallel;  // Result, Status and Error are strake::
+  Team team(default_workers());
+  const Context context{.team = &team};
+  const auto squares = transform(context, {.name = "squares", .n = 1000, .grain = 64},
+                                 [](std::size_t i) { return i * i; });
+  if (!squares) {
+    std::fprintf(stderr, "%s\n", squares.error().text().c_str());
+    return 1;
+  }
+  std::printf("%zu\n", squares->back());
+
+  // The same code without a team: on this thread, with the same result.
+  const auto alone = transform(Context{}, {.name = "squares", .n = 1000, .grain = 64},
+                               [](std::size_t i) { return i * i; });
+  return alone && *alone == *squares ? 0 : 1;
+}
