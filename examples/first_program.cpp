@@ -10,7 +10,7 @@ int main() {
   using namespace strake::parallel;  // Result, Status and Error are strake::
   Team team(default_workers());
   const Context context{.team = &team};
-  const auto squares = transform(context, {.name = "squares", .n = 1000, .grain = 64},
+  const auto squares = transform(context, {.name = "squares", .n = 1'000'000, .grain = 4096},
                                  [](std::size_t i) { return i * i; });
   if (!squares) {
     std::fprintf(stderr, "%s\n", squares.error().text().c_str());
@@ -19,7 +19,7 @@ int main() {
   std::printf("%zu\n", squares->back());
 
   // The same code without a team: on this thread, with the same result.
-  const auto alone = transform(Context{}, {.name = "squares", .n = 1000, .grain = 64},
+  const auto alone = transform(Context{}, {.name = "squares", .n = 1'000'000, .grain = 4096},
                                [](std::size_t i) { return i * i; });
   return alone && *alone == *squares ? 0 : 1;
 }

@@ -43,11 +43,11 @@ def words(text):
 # names from this list, which knows words and no C++.
 OF_STD = words(r"""j?thread this_thread async (shared_)?future promise packaged_task execution (\w+_)?mutex atomic\w*
     memory_order\w* condition_variable\w* once_flag call_once lock lock_guard \w+_lock latch barrier
-    \w+_semaphore stop_callback experimental o?syncstream syncbuf""")
+    \w+_semaphore stop_callback experimental o?syncstream syncbuf system signal""")
 HEADERS = words(r"""c?threads?(\.h)? (shared_)?future execution (shared_)?mutex (c?std)?atomic(\.h)? condition_variable latch
     barrier semaphore(\.h)? syncstream experimental/ parallel/ oneapi/ tbb/ pthread\.h omp\.h sched\.h linux/futex\.h
-    sys/(syscall|futex|eventfd|wait)\.h bits/ ext/ boost/ absl/ folly/ c?signal(\.h)? spawn\.h""")
-CALLS = 'syscall v?fork clone3? posix_spawnp? popen system flock signal sigaction call_once atomic_[a-z_]+'
+    sys/(syscall|futex|eventfd|wait)\.h boost/ absl/ folly/ c?signal(\.h)? spawn\.h""")
+CALLS = 'syscall v?fork clone3 posix_spawnp? popen flock sigaction call_once atomic_[a-z_]+'
 CONCURRENT = re.compile(rf'\bstd\s*::\s*({OF_STD}\b|__\w)'
                         r'|\busing\s+namespace\s+(::\s*)?std\b|\bnamespace\s+\w+\s*=\s*(::\s*)?std\b(?!\s*::)'
                         rf'|\b{words("tbb oneapi __gnu_parallel __gnu_cxx boost absl folly")}\s*::'
@@ -55,7 +55,7 @@ CONCURRENT = re.compile(rf'\bstd\s*::\s*({OF_STD}\b|__\w)'
                         rf'|\b{words("asm __asm __asm__ volatile __volatile__ _Atomic thread_local __thread _Thread_local")}\b'
                         rf'|(?<![\w.>]){words(CALLS)}\s*\(|#\s*pragma\s+omp\b|\b_Pragma\s*\('
                         rf'|\b{words("_mm_pause __builtin_ia32_pause")}\s*\(|#\s*{words("include_next import")}\b'
-                        rf'|#\s*include\s*[<"]{HEADERS}')
+                        rf'|#\s*include\s*[<"]({HEADERS}|(?<=<)(bits|ext)/)')
 # How the patterns do it, and whose threads they run on: affairs of them and of who starts a program.
 INSIDES = re.compile(r'\bparallel\s*::\s*detail\b|\bteam(_|\s*\(\s*\))?\s*\)?\s*(->|\.)\s*(run|size)\b'
                      r'|\b(Team|Executor|HostExecutor|RegionRun)\b'
@@ -68,7 +68,7 @@ IN_ANGLES = r'<(?:[^<>;={]|<(?:[^<>;={]|<[^<>;={]*>)*>)*>'
 HIDDEN = re.compile(r'(?<!constexpr )\bstatic\s+(?!(inline\s+)?(constexpr|constinit\s+const)\b)(?![^;{]*\boperator\b)'
                     rf'((?:{IN_ANGLES}|[^();={{<])*[;={{]|(inline\s+)?const\s(?:{IN_ANGLES}|[\w:\s])*\s\w+\s*\()'
                     r'|\bstatic\s+(alignas|__attribute__|decltype)\b|\bstatic\s+[\w:<>]+\s+\w+\s*\(\s*[\d"\']'
-                    r'|\bconstinit\b(?!\s+(static\s+)?const\b)|\bconst_cast\s*<[^;]*>\s*\(\s*this\s*\)'
+                    r'|\bconstinit\b(?!\s+(static\s+)?const\b)|\bconst_cast\s*<[^;]*>\s*\(\s*\*?\s*this\s*\)'
                     r'|\bmutable\b(?!\s*(\{|->|noexcept\b))')
 # Names of headers and numbers are kept; a comment, a text and a character become nothing, but for the ends of lines.
 TOKENS = re.compile(r'(?P<kept>#\s*include\s*(<[^>\n]*>|"[^"\n]*")|\b\d[\w.\']*)'

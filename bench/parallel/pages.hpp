@@ -47,6 +47,7 @@ struct Way {
     return seconds[seconds.size() / 2];
   }
 };
+
 class Pages {
  public:
   explicit Pages(int rounds)

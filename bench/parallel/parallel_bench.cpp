@@ -182,7 +182,7 @@ class Bench {
          "", "target: 0.95");
   }
 
-  /// From the stop request to the end of the region, items of some 15 microseconds.
+  /// From the stop request to the end of the region, items of some tens of microseconds.
   void cancel() {
     constexpr std::uint32_t kRounds = 20'000;
     constexpr int kCancels = 1000;

@@ -44,10 +44,10 @@ RegionReport summary(const Region& region, std::span<const Cursor> seats, double
   run.nested_runs = alone ? 1 : 0;
   for (const Cursor& seat : seats) {
     run.items += seat.items;
-    run.longest_s = std::max(run.longest_s, seat.longest_s);
     if (alone) {
       run.nested_cpu_s += seat.busy_s;
     } else {
+      run.longest_s = std::max(run.longest_s, seat.longest_s);
       run.busy_s.push_back(seat.busy_s);
     }
   }

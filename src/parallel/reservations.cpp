@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -118,6 +117,7 @@ class Rounds {
   Status act_all(FunctionRef<Status(std::size_t)> act) {
     Region acts = region_;
     acts.n = items_.size();
+    acts.alone_below = 0;  // of all items, not of a round's
     Context context = inner_;
     if (acts.n < kFew) context.team = nullptr;
     return for_each(context, acts, [&](std::size_t slot) -> Status {

@@ -92,10 +92,11 @@ _Thread_local int x;
 _Pragma("omp parallel for")
 _mm_pause();
 posix_spawn(&pid, "x", 0, 0, a, e);
-clone(f, stack, CLONE_VM, 0);
+clone3(&args, size);
 std::system("x &");
 flock(fd, LOCK_EX);
-signal(SIGINT, handler);
+std::signal(SIGINT, handler);
+const_cast<Cache&>(*this).hits += 1;
 #include <future>
 #include <execution>
 #include <condition_variable>
@@ -203,6 +204,9 @@ static bool operator==(const A& a, const B& b);
 static_assert(sizeof(int) == 4);
 std::ranges::generate(values, [n = 0]() mutable { return ++n; });
 const auto system = coordinate_system(object);
+const LinearSystem system(matrix);
+std::unique_ptr<Node> clone() const;
+#include "bits/set.hpp"
 constinit const int kMost = 5;
 auto next = [n = 0]() mutable -> int { return n++; };
 auto next = [n = 0]() mutable noexcept { return n++; };

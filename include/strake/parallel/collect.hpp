@@ -72,8 +72,9 @@ template <class T, class Make, class Body>
   using Local = std::invoke_result_t<Make&>;
   static_assert(std::is_invocable_v<Body&, Local&, std::size_t, std::vector<T>&>,
                 "the body is called as body(worker_context, i, out)");
-  static_assert(!std::is_invocable_v<Body&, Local&, std::size_t, std::vector<T>>,
-                "the body takes out by reference, std::vector<T>&: to a copy results are lost");
+  static_assert(
+      !std::is_invocable_v<Body&, Local&, std::size_t, std::vector<T>>,
+      "the body takes out by reference, std::vector<T>& or auto&: to a copy results are lost");
   detail::require_shareable<Body, Local&, std::size_t, std::vector<T>&>();
   if (region.is_short()) {
     std::vector<T> out;
@@ -144,8 +145,9 @@ template <class T, class Body>
                                              Body&& body) {
   static_assert(std::is_invocable_v<Body&, std::size_t, std::vector<T>&>,
                 "the body is called as body(i, out)");
-  static_assert(!std::is_invocable_v<Body&, std::size_t, std::vector<T>>,
-                "the body takes out by reference, std::vector<T>&: to a copy results are lost");
+  static_assert(
+      !std::is_invocable_v<Body&, std::size_t, std::vector<T>>,
+      "the body takes out by reference, std::vector<T>& or auto&: to a copy results are lost");
   detail::require_shareable<Body, std::size_t, std::vector<T>&>();
   return collect_with<T>(
       context, region, [] { return NoContext{}; },

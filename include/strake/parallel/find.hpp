@@ -108,6 +108,7 @@ template <class Body, class IsLast>
 [[nodiscard]] auto transform_until(const Context& context, const Region& region, Body&& body,
                                    IsLast&& is_last) {
   using T = std::remove_cvref_t<std::invoke_result_t<Body&, std::size_t>>;
+  static_assert(!std::is_void_v<T>, "the body returns a value: of nothing nothing would be kept");
   static_assert(std::is_same_v<T, detail::unwrapped_t<T>> && !std::is_same_v<T, Error>,
                 "the body returns a value, not a Result or Status");
   detail::require_shareable<Body, std::size_t>();

@@ -15,8 +15,9 @@
 namespace strake::parallel {
 
 /// The items that are too heavy to be one worker's, ascending: those that cost at least `least` and
-/// with which some worker would take more than 9/8 of a fair share, all costs over all workers,
-/// however the rest is shared out. There are fewer than two per worker; none for one worker.
+/// with which some worker would take more than 9/8 of a fair share, the costs of all that is not
+/// set apart yet over all workers, however these are shared out. There are fewer than two per
+/// worker; none for one worker.
 [[nodiscard]] std::vector<std::uint32_t> heavy_items(std::span<const double> costs, double least,
                                                      unsigned workers);
 
@@ -62,6 +63,7 @@ template <class Cost, class Body>
   detail::require_shareable<Body, std::size_t>();
   if (!region.order.empty()) return detail::order_given(region);
   if (region.is_short()) return for_each(context, region, body);
+  if (context.stop.stop_requested()) return detail::cancelled_error();
   auto costs = slots<double>(region.n);
   if (!costs) return std::move(costs).error();
   for (std::size_t i = 0; i < region.n; ++i) {
@@ -92,6 +94,7 @@ template <class Cost, class Body>
   }
   Region others = region;
   others.n = apart->rest.size();
+  others.alone_below = 0;  // of all items, not of those that are left
   auto order = apart->longest_first(*costs, others);
   if (!order) return std::move(order).error();
   others.order = *order;

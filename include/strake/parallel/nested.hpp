@@ -66,6 +66,7 @@ template <class Length, class Body>
                                      Length&& length, Body&& body) {
   detail::require_shareable<Body, std::size_t, std::size_t>();
   auto start = detail::row_starts(region.name, rows, length);
+  if (!start && context.stop.stop_requested()) return detail::cancelled_error();
   if (!start) return std::move(start).error();
   region.n = start->back();
   return for_each_with(

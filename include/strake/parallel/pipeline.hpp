@@ -217,7 +217,7 @@ template <class Source, class Work, class Sink>
   const std::stop_callback on_stop(context.stop, [&] { run->stop(); });
   Status status = for_each(own, {.name = flow.name, .n = workers},
                            [&](std::size_t) { run->serve(source, work, sink); });
-  return status ? run->outcome() : status;
+  return status ? run->outcome() : std::move(status);
 }
 
 }  // namespace strake::parallel

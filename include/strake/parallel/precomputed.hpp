@@ -84,16 +84,14 @@ class Precomputed {
     return add(region.name, wanted,
                [&](std::span<const std::uint32_t> missing, std::vector<T>& values) -> Status {
                  region.n = missing.size();
-                 std::vector<double> costs(missing.size());
-                 for (std::size_t k = 0; k < missing.size(); ++k) {
-                   Status status = detail::status_of(region.name, missing[k], [&] {
-                     costs[k] = static_cast<double>(cost(std::size_t{missing[k]}));
-                   });
-                   if (!status) return status;
-                 }
+                 const auto put_one = [&](std::size_t k) {
+                   return put(region.name, missing[k], make, values[k]);
+                 };
+                 if (region.is_short()) return for_each(context, region, put_one);
+                 auto costs = costs_of(region.name, missing, cost);
+                 if (!costs) return std::move(costs).error();
                  return for_each_by_weight(
-                     context, region, least, [&](std::size_t k) { return costs[k]; },
-                     [&](std::size_t k) { return put(region.name, missing[k], make, values[k]); });
+                     context, region, least, [&](std::size_t k) { return (*costs)[k]; }, put_one);
                });
   }
 
@@ -111,6 +109,19 @@ class Precomputed {
       }
       return {};
     });
+  }
+
+  /// An exception names the key, not its number among those that are missing.
+  template <class Cost>
+  static Result<std::vector<double>> costs_of(std::string_view region,
+                                              std::span<const std::uint32_t> keys, Cost& cost) {
+    std::vector<double> costs;
+    for (const std::uint32_t key : keys) {
+      Status status = detail::status_of(
+          region, key, [&] { costs.push_back(static_cast<double>(cost(std::size_t{key}))); });
+      if (!status) return std::move(status).error();
+    }
+    return costs;
   }
 
   template <class Fill>
@@ -131,7 +142,7 @@ class Precomputed {
       std::ranges::sort(missing);
       missing.erase(std::ranges::unique(missing).begin(), missing.end());
       std::vector<T> values(missing.size());
-      fills_.reserve(fills_.size() + 1);
+      if (fills_.size() == fills_.capacity()) fills_.reserve(2 * fills_.size() + 1);
       Status status = fill(std::span<const std::uint32_t>(missing), values);
       if (status && !missing.empty()) {
         fills_.push_back(std::move(values));

@@ -30,9 +30,9 @@ template <class T, class Body, class Combine>
                                Body&& body, Combine&& combine) {
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: use uint8_t");
   static_assert(!std::is_invocable_v<Body&, T, std::size_t>,
-                "the body takes its partial by reference, T&: what is added to a copy is lost");
+                "the body takes its partial by reference, T& or auto&: to a copy sums are lost");
   static_assert(!std::is_invocable_v<Combine&, T, const T&>,
-                "combine changes its first argument, T&; it is no std::plus");
+                "combine changes its first argument, T& or auto&; it is no std::plus");
   detail::require_shareable<Body, T&, std::size_t>();
   const std::size_t size = region.block_size();
   const auto fold = [&](std::span<T> partials) -> Result<T> {

@@ -28,7 +28,7 @@ enum class Schedule : std::uint8_t {
 /// A parallel loop over the items [0, n), described apart from what it does.
 ///
 /// Items are gathered into fixed blocks: block k holds items [k·grain, (k+1)·grain). Blocks depend
-/// on (n, grain) only, never on the number of workers, so what is combined per block comes out in
+/// on the region only, never on the number of workers, so what is combined per block comes out in
 /// the same bits for any team. A worker runs the items of a block in ascending order.
 struct Region {
   std::string_view name = {};  ///< in reports and messages

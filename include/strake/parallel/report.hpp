@@ -21,7 +21,8 @@ struct RegionReport {
   double nested_cpu_s = 0;     ///< of `nested_runs`; where these are inside another region or hold
                                ///< one, its busy time has it, too
   std::vector<double> busy_s;  ///< CPU seconds per worker in `runs`; index = worker
-  double longest_s = 0;  ///< the longest block (with grain 1: item), wall seconds, at most busy
+  double longest_s = 0;  ///< the longest block of `runs` (with grain 1: item), wall seconds, at
+                         ///< most busy
   /// Set by RunReport::add, summed over runs: busy seconds over workers, and what no schedule could
   /// take less than, the larger of that and the longest block.
   double share_s = 0, least_s = 0;

@@ -41,6 +41,7 @@ consteval void require_value() {
 template <class Make, class Body>
 [[nodiscard]] auto transform_with(const Context& context, const Region& region, Make&& make,
                                   Body&& body) {
+  detail::require_context<Make>();
   using Local = std::invoke_result_t<Make&>;
   using Returned = std::invoke_result_t<Body&, Local&, std::size_t>;
   detail::require_shareable<Body, Local&, std::size_t>();

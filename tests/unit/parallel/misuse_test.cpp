@@ -249,6 +249,30 @@ TEST(Misuse, a_short_region_is_short_by_weight_too) {
   EXPECT_TRUE(report.regions().empty());
 }
 
+TEST(Misuse, what_is_left_beside_a_heavy_item_is_not_short) {
+  Team team(2);
+  RunReport report;
+  ASSERT_TRUE(for_each_by_weight(
+      {.team = &team, .report = &report}, {.name = "w", .n = 6, .alone_below = 6}, 1,
+      [](std::size_t i) { return i == 2 ? 1e6 : 1.0; }, [](std::size_t) {}));
+  ASSERT_EQ(report.regions().size(), 1U);
+  EXPECT_EQ(report.regions().front().items, 6U) << "all of them are reported";
+}
+
+TEST(Misuse, a_stop_before_the_start_is_told_before_a_cost_or_length_that_throws) {
+  std::stop_source source;
+  source.request_stop();
+  const Context context{.stop = source.get_token()};
+  const auto throws = [](std::size_t) -> std::size_t { complain(); };
+  const Status by_weight =
+      for_each_by_weight(context, {.name = "w", .n = 3}, 1, throws, [](std::size_t) {});
+  const Status nested =
+      for_each_nested(context, {.name = "n"}, 3, throws, [](std::size_t, std::size_t) {});
+  ASSERT_FALSE(by_weight || nested);
+  EXPECT_EQ(by_weight.error().code, ErrorCode::cancelled);
+  EXPECT_EQ(nested.error().code, ErrorCode::cancelled);
+}
+
 TEST(Misuse, a_stop_that_meets_an_error_is_told_as_a_stop) {
   // The stop comes from another thread, at any moment of the error's way out.
   Team team(2);

@@ -33,12 +33,14 @@
 
 namespace {
 
-/// Requests until one fails; below zero: none does.
-std::atomic<long> requests_left{-1};
+/// Requests until one fails, and from then on until a second does; below zero: none does.
+std::atomic<long> requests_left{-1}, requests_between{-1};
 
 void* memory_of(std::size_t bytes) {
-  if (requests_left.load(std::memory_order_relaxed) >= 0 && requests_left.fetch_sub(1) == 0)
+  if (requests_left.load(std::memory_order_relaxed) >= 0 && requests_left.fetch_sub(1) == 0) {
+    requests_left = requests_between.exchange(-1);
     throw std::bad_alloc();
+  }
   void* const memory = std::malloc(bytes == 0 ? 1 : bytes);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
@@ -333,18 +335,22 @@ std::vector<Pattern> patterns() {
   };
 }
 
-/// What comes of a pattern when request number `request` fails. False when none did: it has fewer.
-bool survives(const Pattern& pattern, Executor* team, long request) {
+/// What comes of a pattern when request number `request` fails, and so many after it another one
+/// (below zero: none). False when none did: it has fewer.
+bool survives(const Pattern& pattern, Executor* team, long request, long between) {
   Progress progress;
   RunReport report;
   const Context context{.team = team, .progress = &progress, .report = &report};
   std::optional<Outcome> outcome;
+  requests_between = between;
   requests_left = request;
   try {
     outcome = pattern.run(context);
   } catch (...) {
   }
-  const bool failed = requests_left.exchange(-1) < 0;
+  // Where a second one was to fail, whether the first did shows in that it was taken up.
+  const bool failed = between < 0 ? requests_left < 0 : requests_between < 0;
+  requests_left = requests_between = -1;
   EXPECT_TRUE(outcome) << "an exception came out";
   EXPECT_NE(outcome, Outcome::wrong);
   EXPECT_EQ(progress.snapshot().phase, "");
@@ -371,10 +377,12 @@ TEST(NoMemory, is_an_error_wherever_it_happens) {
     for (Executor* const who : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&team),
                                 static_cast<Executor*>(&host)}) {
       SCOPED_TRACE(pattern.name);
-      long request = 0;
-      while (survives(pattern, who, request) && !HasFailure()) ++request;
-      ASSERT_FALSE(HasFailure()) << "request " << request;
-      EXPECT_LT(request, 5000);
+      for (const long between : {-1, 0, 1, 3}) {
+        long request = 0;
+        while (survives(pattern, who, request, between) && !HasFailure()) ++request;
+        ASSERT_FALSE(HasFailure()) << "request " << request << ", and " << between << " later";
+        EXPECT_LT(request, 5000);
+      }
     }
 }
 

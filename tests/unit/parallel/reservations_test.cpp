@@ -94,6 +94,16 @@ TEST(Reservations, what_breaks_the_rules_of_the_plain_loop_gives_one_result_all_
   }
 }
 
+TEST(Reservations, no_round_is_a_short_region) {
+  constexpr std::size_t kItems = 6000;
+  Team team(2);
+  RunReport report;
+  ASSERT_TRUE(for_each_reserved(
+      {.team = &team, .report = &report}, {.name = "r", .n = kItems, .alone_below = kItems + 1},
+      kItems, [](std::size_t i, Claims& claims) { claims(i); }, [](std::size_t) {}));
+  for (const RegionReport& region : report.regions()) EXPECT_EQ(region.items, kItems);
+}
+
 TEST(Reservations, one_place_for_all_is_one_by_one_in_order) {
   constexpr std::size_t kItems = 20000;
   for (const unsigned workers : kWorkers) {

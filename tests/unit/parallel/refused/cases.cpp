@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,20 @@ namespace strake::parallel {
 void all(const Context& context, const Region& region) {
   [[maybe_unused]] const auto no_answer = [](std::size_t) { return Result<bool>(false); };
   [[maybe_unused]] const auto no_value = [](std::size_t) { return Status(); };
+  // Not refused.
+  const std::function<std::size_t(std::size_t)> function = [](std::size_t i) { return i; };
+  (void)transform(context, region, function);
+  (void)transform(context, region, +[](std::size_t i) { return static_cast<int>(i); });
+  (void)transform(context, region, [p = std::make_unique<int>(3)](auto i) { return i + *p; });
+  (void)reduce(
+      context, region, 0, [](auto& sum, auto i) { sum += static_cast<int>(i); },
+      [](auto& into, auto sum) { into += sum; });
+  (void)collect<int>(context, region, [](auto, auto& out) { out.push_back(1); });
+  int shared = 0;
+  (void)for_each_with(
+      context, region, [&] { return std::ref(shared); }, [](const auto&, std::size_t) {});
+  std::vector<bool> flags(3);
+  (void)all_of(context, region, [&](std::size_t i) -> decltype(auto) { return flags[i]; });
 #if CASE == 1  // refused: workers call it at the same time
   (void)for_each(context, region, [n = 0](std::size_t) mutable { ++n; });
 #elif CASE == 2   // refused: workers call it at the same time
@@ -68,6 +83,10 @@ void all(const Context& context, const Region& region) {
   (void)count_fill<int>(
       context, region, [n = 0U](std::size_t) mutable { return ++n; },
       [](std::size_t, std::span<int>) {});
+#elif CASE == 19  // refused: make() returns a worker context
+  (void)transform_with(context, region, [] {}, [](int&, std::size_t i) { return i; });
+#elif CASE == 20  // refused: the body returns a value
+  (void)transform_until(context, region, [](std::size_t) {}, [](int) { return false; });
 #endif
 }
 
