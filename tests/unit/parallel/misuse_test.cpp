@@ -63,7 +63,8 @@ TEST(Misuse, a_chunk_of_any_size_runs_every_item_once) {
 
 TEST(Misuse, an_order_that_is_no_permutation_is_an_error) {
   Team team(3);
-  std::vector<std::uint32_t> twice(100, 7), beyond(100);
+  const std::vector<std::uint32_t> twice(100, 7);
+  std::vector<std::uint32_t> beyond(100);
   for (std::uint32_t k = 0; k < 100; ++k) beyond[k] = k + 1;
   const std::vector<std::uint32_t> few(99, 0);
   for (const std::vector<std::uint32_t>& order : {twice, beyond, few}) {
@@ -237,7 +238,7 @@ TEST(Misuse, values_that_cannot_begin_are_an_error) {
 
 TEST(Misuse, a_short_region_is_short_by_weight_too) {
   Team team(3);
-  std::stop_source source;
+  const std::stop_source source;
   source.request_stop();
   RunReport report;
   int runs = 0;
@@ -260,7 +261,7 @@ TEST(Misuse, what_is_left_beside_a_heavy_item_is_not_short) {
 }
 
 TEST(Misuse, a_stop_before_the_start_is_told_before_a_cost_or_length_that_throws) {
-  std::stop_source source;
+  const std::stop_source source;
   source.request_stop();
   const Context context{.stop = source.get_token()};
   const auto throws = [](std::size_t) -> std::size_t { complain(); };
@@ -280,7 +281,7 @@ TEST(Misuse, a_stop_that_meets_an_error_is_told_as_a_stop) {
     std::stop_source source;
     const Context context{.team = &team, .stop = source.get_token()};
     std::atomic<bool> begun{false};
-    std::jthread other([&] {
+    const std::jthread other([&] {
       while (!begun) std::this_thread::yield();
       source.request_stop();
     });

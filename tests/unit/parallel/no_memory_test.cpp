@@ -34,6 +34,7 @@
 namespace {
 
 /// Requests until one fails, and from then on until a second does; below zero: none does.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): operator new has no arguments
 std::atomic<long> requests_left{-1}, requests_between{-1};
 
 void* memory_of(std::size_t bytes) {
