@@ -51,10 +51,12 @@ std::string Stats::text(const parallel::RunReport& report) const {
       out += fmt::format("{:<28}{:>10.3f}{:>10.3f}{:>12}{:>9.2f}{:>7.2f}{:>11.4f}\n", region.name,
                          region.wall_s, region.total_busy_s(), region.items, region.load_balance(),
                          region.bound(), region.longest_s);
-    if (region.nested_runs > 0)
-      out += fmt::format("{:<28}{:>10}{:>10.3f}{:>12}   by one worker, {} times\n",
-                         shared ? "" : region.name, "", region.nested_cpu_s,
-                         shared ? "" : std::to_string(region.items), region.nested_runs);
+    // A line of its own, or where it shows beside the shared runs of the name.
+    if (!shared || region.nested_cpu_s >= 0.0005)
+      out += fmt::format(
+          "{:<28}{:>10}{:>10.3f}{:>12}   by one worker, {}\n", shared ? "" : region.name, "",
+          region.nested_cpu_s, shared ? "" : std::to_string(region.items),
+          region.nested_runs == 1 ? "once" : fmt::format("{} times", region.nested_runs));
   }
   for (const auto& [name, value] : counters_) out += fmt::format("{:<28}{:>10}\n", name, value);
   for (const Costly& pair : costly_)
