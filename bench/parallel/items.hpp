@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "clocks.hpp"
+
 namespace strake::bench {
 
 /// An item: `rounds` of an integer mixer, about a nanosecond each.
@@ -20,6 +22,15 @@ inline std::uint64_t work(std::uint64_t seed, std::uint32_t rounds) {
     x *= 0x94d049bb133111ebULL;
   }
   return x;
+}
+
+/// Microseconds that a round of work() takes here.
+inline double measured_round_us() {
+  constexpr std::uint32_t kRounds = 20'000'000;
+  Lap lap;
+  const volatile std::uint64_t kept = work(1, kRounds);  // or it would not be worked out at all
+  static_cast<void>(kept);
+  return lap() * 1e6 / kRounds;
 }
 
 struct Case {

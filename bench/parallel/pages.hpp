@@ -51,7 +51,7 @@ struct Way {
 class Pages {
  public:
   explicit Pages(int rounds)
-      : rounds_(rounds), team_(parallel::default_workers()), us_of_round_(measured_round()) {}
+      : rounds_(rounds), team_(parallel::default_workers()), us_of_round_(measured_round_us()) {}
 
  protected:
   [[nodiscard]] parallel::Context all() { return {.team = &team_}; }
@@ -77,14 +77,6 @@ class Pages {
     for (Way& way : ways)
       fmt::print("  {:<58}{:10.3f} ms{:8.2f} times\n", way.name, way.median() * 1e3,
                  first / way.median());
-  }
-
-  static double measured_round() {
-    constexpr std::uint32_t kRounds = 20'000'000;
-    Lap lap;
-    const volatile std::uint64_t kept = work(1, kRounds);
-    static_cast<void>(kept);
-    return lap() * 1e6 / kRounds;
   }
 
   int rounds_;

@@ -186,8 +186,7 @@ class Bench {
   void cancel() {
     constexpr std::uint32_t kRounds = 20'000;
     constexpr int kCancels = 1000;
-    std::uint64_t kept = 0;
-    const double item_us = best_s([&] { kept ^= work(kept, kRounds); }) * 1e6;
+    const double item_us = kRounds * measured_round_us();
     fmt::print("from a stop request to the end of the region, items of {:.0f} us\n", item_us);
     std::vector<double> latencies;
     for (int i = 0; i < kCancels; ++i) {
@@ -209,7 +208,6 @@ class Bench {
     std::sort(latencies.begin(), latencies.end());
     line("strake, median", latencies[latencies.size() / 2] * 1e6, "us",
          fmt::format("target: {:.0f}, the item and 50", item_us + 50));
-    good_ = good_ && kept != 1;
     line("strake, 99 of 100", latencies[latencies.size() * 99 / 100] * 1e6, "us");
     line("strake, worst of 1,000", latencies.back() * 1e6, "us");
   }

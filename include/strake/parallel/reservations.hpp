@@ -54,11 +54,11 @@ namespace detail {
 /// - act(i) reads and writes only what its places stand for. It returns void or Status.
 ///
 /// 1. Rounds depend on the items alone, so the result is the same for any team and schedule.
-/// 2. It is that of the plain loop `for (i = 0; i < n; ++i) if (claim(i)) act(i);`, if the places
-/// of
-///    an item are always the same ones, if claim reads only what these stand for or what no act
-///    changes, and if what it once answers with false it always would (what is taken stays taken).
-///    Otherwise an item may act, or be done, before a lower one that would have changed its mind.
+/// 2. It is that of the plain loop `for (i = 0; i < n; ++i) if (claim(i)) act(i);` under three
+///    conditions: the places of an item are always the same ones; claim reads only what these stand
+///    for or what no act changes; what it once answers with false it always would (what is taken
+///    stays taken). Otherwise an item may act, or be done, before a lower one that would have
+///    changed its mind.
 /// 3. Errors as in for_each: that of the lowest failing item, and what the items share is then in
 ///    between. Region::order must be empty; grain is for act; alone_below counts for nothing.
 ///
