@@ -15,6 +15,10 @@ namespace strake::parallel::detail {
 
 namespace {
 
+/// With fewer blocks a worker each is probably long, and one counter for all costs nothing beside
+/// it: then the low ones go first, should the caller have put the long ones there.
+constexpr std::size_t kFewBlocks = 64;
+
 double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -124,6 +128,7 @@ void RegionRun::note(Cursor& cursor) const {
 void RegionRun::work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Cursor> seats) {
   Cursor cursor;
   cursor.seat = seat;
+  cursor.hand = shares_.hand_of(seat);
   if (seats.empty()) {
     loop(cursor);
     return;
@@ -150,10 +155,6 @@ Status RegionRun::run(FunctionRef<void(Cursor&)> loop) {
 Status RegionRun::start() {
   if (context_.stop.stop_requested()) return cancelled_error();
   blocks_ = region_.blocks();
-  // The counter may pass the last block by a chunk for each worker, and must not come round again.
-  const std::size_t workers = context_.team != nullptr ? context_.team->size() : 1;
-  const std::size_t room = (std::numeric_limits<std::size_t>::max() - blocks_) / (workers + 1);
-  chunk_ = std::max<std::size_t>(std::min({region_.chunk, blocks_, room}), 1);
   ordered_ = !region_.order.empty();
   const auto misordered = [&](const std::string& what) {
     return Error{ErrorCode::internal, "a visiting order " + what, std::string(region_.name), {}};
@@ -166,10 +167,21 @@ Status RegionRun::start() {
   return {};
 }
 
+void RegionRun::deal(const Executor* team) {
+  const std::size_t workers = team != nullptr ? team->size() : 1;
+  if (team == nullptr || region_.schedule == Schedule::static_blocks)
+    return shares_.deal(blocks_, workers, blocks_, Shares::Rest::kept);
+  // A counter may pass the last block by a chunk for each worker, and must not come round again.
+  const std::size_t room = (std::numeric_limits<std::size_t>::max() - blocks_) / (workers + 1);
+  const std::size_t chunk = std::max<std::size_t>(std::min({region_.chunk, blocks_, room}), 1);
+  const bool ascending = ordered_ || visit_ == Visit::ascending || blocks_ / workers < kFewBlocks;
+  shares_.deal(blocks_, ascending ? 1 : workers, chunk, Shares::Rest::free);
+}
+
 void RegionRun::call(FunctionRef<void(Cursor&)> loop) {
   // One block needs no team; leaving it free lets the regions nested inside have it.
   Executor* const team = blocks_ > 1 ? context_.team : nullptr;
-  dynamic_ = team != nullptr && region_.schedule == Schedule::dynamic;
+  deal(team);
   std::vector<Cursor> seats(context_.report == nullptr ? 0 : team != nullptr ? team->size() : 1);
   const ProgressPhase phase(context_.progress, region_.name, region_.n);
   counting_ = phase.is_ours();

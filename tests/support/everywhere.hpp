@@ -15,7 +15,7 @@
 
 namespace strake::test {
 
-inline constexpr std::size_t kEverywhereItems = 1000;
+inline constexpr std::size_t kEverywhereItems = 4500;  // 64 workers have shares
 
 inline void everywhere(
     std::size_t grain,

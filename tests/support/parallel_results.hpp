@@ -32,7 +32,7 @@ namespace strake::test {
 using parallel::Context;
 using parallel::Region;
 
-inline constexpr std::size_t kResultItems = 1013;  // prime: no grain or team divides it
+inline constexpr std::size_t kResultItems = 4229;  // prime: no grain or team divides it
 
 /// A value per item, over forty binary orders of magnitude, so that a sum shows its order.
 inline double value(std::size_t i) {

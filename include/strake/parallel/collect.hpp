@@ -107,8 +107,9 @@ template <class T, class Make, class Body>
           const std::size_t before = out.size();
           const std::size_t block = i / size;
           const std::size_t last = detail::block_end(i, size, range.last);
-          for (; good && i < last && i < run.limit(); ++i)
-            good = detail::run_item(run, i, body, *local, i, out);
+          good = run.each(i, last, [&](std::size_t item) {
+            return detail::run_item(run, item, body, *local, item, out);
+          });
           (*first)[block + 1] = out.size() - before;
           if (out.size() > before) chunk.parts.push_back({block, before});
           if (out.size() * sizeof(T) >= detail::kChunkBytes) {

@@ -33,7 +33,7 @@ Result<std::size_t> run_until(const Context& context, const Region& region, Make
     }
     return i;
   }
-  RegionRun run(context, region);
+  RegionRun run(context, region, Visit::ascending);
   Status status = run.run([&](Cursor& cursor) {
     std::optional<Local> local;
     Range range;
@@ -41,11 +41,8 @@ Result<std::size_t> run_until(const Context& context, const Region& region, Make
       std::size_t i = range.first;
       try {
         if (!local) local.emplace(make());
-        for (; i < range.last && i < run.limit(); ++i)
-          if (body(*local, i)) {
-            run.lower_limit(i);
-            break;
-          }
+        if (!run.each(i, range.last, [&](std::size_t item) { return !body(*local, item); }))
+          run.lower_limit(i);
       } catch (...) {
         run.fail_with_current_exception(i);
       }

@@ -68,8 +68,9 @@ template <class T, class Body, class Combine>
           const std::size_t block = i / size;
           const std::size_t last = detail::block_end(i, size, range.last);
           T partial = identity;
-          for (; good && i < last && i < run.limit(); ++i)
-            good = detail::run_item(run, i, body, partial, i);
+          good = run.each(i, last, [&](std::size_t item) {
+            return detail::run_item(run, item, body, partial, item);
+          });
           (*partials)[block] = std::move(partial);
         }
       } catch (...) {

@@ -17,12 +17,14 @@
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/executor.hpp"
 #include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/relaxed.hpp"
+#include "strake/parallel/shares.hpp"
 
 namespace strake::parallel {
 
 enum class Schedule : std::uint8_t {
-  dynamic,        ///< workers take the next block from one counter: for items of unequal cost
-  static_blocks,  ///< worker w of W gets the w-th of W equal ranges: for many equal, cheap items
+  dynamic,        ///< a worker that is free takes the next block: for items of unequal cost
+  static_blocks,  ///< worker w of W gets the w-th of W equal ranges, the same in every region
 };
 
 /// A parallel loop over the items [0, n), described apart from what it does.
@@ -36,9 +38,9 @@ struct Region {
   Schedule schedule = Schedule::dynamic;
   std::size_t grain = 1;  ///< items per block; 0 counts as 1
   std::size_t chunk = 1;  ///< blocks that a worker takes at once (dynamic)
-  /// The order in which blocks are visited: empty for ascending, otherwise a permutation of
-  /// [0, blocks()), anything else being an error. It changes who waits for whom, never a result.
-  /// See longest_first.
+  /// The order in which blocks are visited: empty for whichever is quickest to hand out, otherwise
+  /// a permutation of [0, blocks()), anything else being an error. It changes who waits for whom,
+  /// never a result. See longest_first.
   std::span<const std::uint32_t> order = {};
   /// Fewer items than this are one block that the caller runs on the spot: no team is asked, and
   /// neither token, progress nor report are looked at. For loops inside items, over the triangles
@@ -59,11 +61,16 @@ namespace detail {
 /// The error of a pattern that makes a visiting order of its own and is given one.
 [[nodiscard]] Error order_given(const Region& region) noexcept;
 
+/// What the order in which items are visited is good for, when the region gives none.
+enum class Visit : std::uint8_t {
+  any,        ///< nothing: workers take neighbouring blocks while they can
+  ascending,  ///< low items first, by all workers: for what the first few may decide
+};
+
 /// Where one worker stands in a region; lives on that worker's stack.
 struct Cursor {
   Seat seat;
-  std::size_t position = 0, end = 0;  ///< blocks in hand, as positions in the visiting order
-  bool started = false;
+  Hand hand;                                ///< blocks, as positions in the visiting order
   std::size_t range_items = 0;              ///< items of the range in hand, when observed
   double range_start_s = 0, longest_s = 0;  ///< wall clock
   double busy_s = 0;                        ///< CPU time, once the worker is done
@@ -88,7 +95,8 @@ struct Range {
 /// is not below limit(): that is how both an error and a cancellation stop it.
 class RegionRun {
  public:
-  RegionRun(const Context& context, const Region& region) : context_(context), region_(region) {}
+  RegionRun(const Context& context, const Region& region, Visit visit = Visit::any)
+      : context_(context), region_(region), visit_(visit) {}
   RegionRun(const RegionRun&) = delete;
   RegionRun& operator=(const RegionRun&) = delete;
   RegionRun(RegionRun&&) = delete;
@@ -102,27 +110,43 @@ class RegionRun {
   /// The next range of items of this worker; false when there is none left.
   bool next(Cursor& cursor, Range& range) {
     if (observed_) note(cursor);
+    Hand& hand = cursor.hand;
     for (;;) {
-      if (cursor.position == cursor.end && !refill(cursor)) return false;
+      if (hand.position == hand.end && !shares_.take(hand, cursor.seat)) return false;
       const std::size_t size = region_.block_size();
       if (ordered_ || observed_) {
-        const std::size_t at = cursor.position++;
+        const std::size_t at = hand.position++;
         range.first = (ordered_ ? std::size_t{region_.order[at]} : at) * size;
         range.last = range.first + std::min(size, region_.n - range.first);
       } else {
-        range.first = cursor.position * size;
-        range.last = cursor.end == blocks_ ? region_.n : cursor.end * size;
-        cursor.position = cursor.end;
+        range.first = hand.position * size;
+        range.last = hand.end == blocks_ ? region_.n : hand.end * size;
+        hand.position = hand.end;
       }
       if (range.first < limit()) break;
-      if (!ordered_ || limit() == 0) return false;  // all that follows is not below the limit
+      // What follows in an ascending share is not below the limit either.
+      if (!ordered_ || limit() == 0) shares_.leave(hand, cursor.seat);
     }
     if (observed_) open(cursor, range);
     return true;
   }
 
+  /// Calls item(i), which tells whether to go on, for i up to `last` and below the limit; false if
+  /// an item said no. `i` is left at that item, or at one that throws.
+  ///
+  /// The test stands at the loop's end: what the body reads through references is then certain to
+  /// be read, and g++ reads it once before the loop rather than for every item (relaxed.hpp).
+  template <class Item>
+  bool each(std::size_t& i, std::size_t last, Item&& item) const {
+    if (i >= last || i >= limit()) return true;
+    do {
+      if (!item(i)) return false;
+    } while (++i < last && i < limit());
+    return true;
+  }
+
   /// Items at or above this index are not to be run any more.
-  [[nodiscard]] std::size_t limit() const { return limit_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::size_t limit() const { return relaxed(limit_); }
 
   /// Items at or above this one need not be run any more: a limit never rises. Errors of such items
   /// count for nothing.
@@ -134,26 +158,10 @@ class RegionRun {
   void fail_with_current_exception(std::size_t item) noexcept;
 
  private:
-  bool refill(Cursor& cursor) {
-    if (!dynamic_) {
-      if (cursor.started) return false;
-      cursor.started = true;
-      cursor.position = share(cursor.seat.index, cursor.seat.count);
-      cursor.end = share(cursor.seat.index + 1, cursor.seat.count);
-      return cursor.position < cursor.end;
-    }
-    const std::size_t taken = counter_.fetch_add(chunk_, std::memory_order_relaxed);
-    if (taken >= blocks_) return false;
-    cursor.position = taken;
-    cursor.end = taken + std::min(chunk_, blocks_ - taken);
-    return true;
-  }
-  [[nodiscard]] std::size_t share(std::size_t index, std::size_t count) const {
-    return blocks_ / count * index + std::min(index, blocks_ % count);
-  }
   void open(Cursor& cursor, const Range& range) const;
   void note(Cursor& cursor) const;
   [[nodiscard]] Status start();
+  void deal(const Executor* team);
   void call(FunctionRef<void(Cursor&)> loop);
   [[nodiscard]] Status outcome(bool cancelled);
   void work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Cursor> seats);
@@ -161,12 +169,13 @@ class RegionRun {
   // Read by every worker at every range: kept apart from what they write.
   const Context& context_;
   const Region& region_;
-  std::size_t blocks_ = 0, chunk_ = 1;
-  bool dynamic_ = false, ordered_ = false;
+  std::size_t blocks_ = 0;
+  Visit visit_;
+  bool ordered_ = false;   ///< by the region's order
   bool observed_ = false;  ///< somebody wants progress or times: ranges are single blocks then
   bool counting_ = false;  ///< this region is the one whose progress is shown
   alignas(64) std::atomic<std::size_t> limit_{std::numeric_limits<std::size_t>::max()};
-  alignas(64) std::atomic<std::size_t> counter_{0};
+  alignas(64) Shares shares_;
   std::mutex error_mutex_;
   std::optional<Error> error_;
   std::size_t error_item_ = std::numeric_limits<std::size_t>::max();

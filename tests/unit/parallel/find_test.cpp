@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "strake/parallel/host_executor.hpp"
 #include "support/everywhere.hpp"
 
 namespace strake::parallel {
@@ -67,6 +68,38 @@ TEST(Find, what_is_far_above_is_left_out) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->value(), 1000U);
   }
+}
+
+TEST(Find, all_workers_go_from_below) {
+  // A host that calls the second worker first, then the other: what one alone would ask.
+  HostExecutor host(2, [](unsigned, const HostExecutor::Body& seat) {
+    seat(1);
+    seat(0);
+  });
+  std::size_t asked = 0;
+  const auto found =
+      find_first({.team = &host}, {.name = "low", .n = 1'000'000}, [&](std::size_t i) {
+        ++asked;
+        return i == 10;
+      });
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->value(), 10U);
+  EXPECT_EQ(asked, 11U);
+}
+
+TEST(Find, the_counter_does_not_come_round_again) {
+  // 64 workers and more than 2^64 items that they could take: one after the other, each once.
+  HostExecutor host(64, [](unsigned, const HostExecutor::Body&) {});
+  constexpr std::size_t kMany = std::size_t{1} << 60U;
+  std::size_t asked = 0;
+  const auto found =
+      find_first({.team = &host}, {.name = "wide", .n = kMany, .chunk = kMany}, [&](std::size_t i) {
+        ++asked;
+        return i == 5;
+      });
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->value(), 5U);
+  EXPECT_EQ(asked, 6U);
 }
 
 TEST(Find, an_exception_counts_only_below_the_found) {

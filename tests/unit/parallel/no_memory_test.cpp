@@ -37,12 +37,13 @@ namespace {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): operator new has no arguments
 std::atomic<long> requests_left{-1}, requests_between{-1};
 
-void* memory_of(std::size_t bytes) {
+void* memory_of(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
   if (requests_left.load(std::memory_order_relaxed) >= 0 && requests_left.fetch_sub(1) == 0) {
     requests_left = requests_between.exchange(-1);
     throw std::bad_alloc();
   }
-  void* const memory = std::malloc(bytes == 0 ? 1 : bytes);
+  const std::size_t whole = (bytes / alignment + 1) * alignment;
+  void* const memory = std::aligned_alloc(alignment, whole);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -51,6 +52,13 @@ void* memory_of(std::size_t bytes) {
 
 void* operator new(std::size_t bytes) { return memory_of(bytes); }
 void* operator new[](std::size_t bytes) { return memory_of(bytes); }
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return memory_of(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
@@ -112,6 +120,14 @@ std::vector<Pattern> patterns() {
   return {
       {"for_each",
        [](const Context& c) { return judged(for_each(c, kRegion, [](std::size_t) {}), true); }},
+      {"for_each, shares for all workers",
+       [](const Context& c) {
+         constexpr std::size_t kMany = 1000;
+         std::atomic<std::size_t> runs{0};
+         const Status status =
+             for_each(c, {.name = kName, .n = kMany}, [&](std::size_t) { ++runs; });
+         return judged(status, runs == kMany);
+       }},
       {"for_each, a Status",
        [](const Context& c) {
          return judged(for_each(c, kRegion,

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled with -masm=intel where the processor has two syntaxes: a user's flags must not turn a
+// load into a store.
+#include "intel_syntax.hpp"
+
+#include "strake/parallel/relaxed.hpp"
+
+namespace strake::parallel::test {
+
+std::size_t relaxed_in_intel_syntax(const std::atomic<std::size_t>& word) {
+  return detail::relaxed(word);
+}
+
+}  // namespace strake::parallel::test
