@@ -7,7 +7,8 @@
 #include "strake/parallel/transform.hpp"
 
 int main() {
-  using namespace strake::parallel;  // Result, Status and Error are strake::
+  using namespace strake;  // Result, Status, Error
+  using namespace strake::parallel;
   Team team(default_workers());
   const Context context{.team = &team};
   const auto squares = transform(context, {.name = "squares", .n = 1'000'000, .grain = 4096},
