@@ -40,7 +40,7 @@ struct Region {
   std::size_t chunk = 1;  ///< blocks that a worker takes at once (dynamic)
   /// The order in which blocks are visited: empty for whichever is quickest to hand out, otherwise
   /// a permutation of [0, blocks()), anything else being an error. It changes who waits for whom,
-  /// never a result. See longest_first.
+  /// never a result. Looked at, not copied: it outlives the region. See longest_first.
   std::span<const std::uint32_t> order = {};
   /// Fewer items than this are one block that the caller runs on the spot: no team is asked, and
   /// neither token, progress nor report are looked at. For loops inside items, over the triangles

@@ -79,7 +79,8 @@ class Shares {
  private:
   struct Share {
     alignas(64) std::atomic<std::size_t> next{0};
-    alignas(64) std::size_t end = 0, chunk = 1;  // nobody writes here while workers take
+    alignas(64) std::size_t end = 0;  // nobody writes here while workers take
+    std::size_t chunk = 1;
   };
 
   static bool is_empty(const Share& share) {
