@@ -9,6 +9,7 @@
 
 #include "strake/parallel/host_executor.hpp"
 #include "support/everywhere.hpp"
+#include "support/second_first.hpp"
 
 namespace strake::parallel {
 namespace {
@@ -71,11 +72,7 @@ TEST(Find, what_is_far_above_is_left_out) {
 }
 
 TEST(Find, all_workers_go_from_below) {
-  // A host that calls the second worker first, then the other: what one alone would ask.
-  HostExecutor host(2, [](unsigned, const HostExecutor::Body& seat) {
-    seat(1);
-    seat(0);
-  });
+  HostExecutor host = test::second_first();  // what one alone would ask
   std::size_t asked = 0;
   const auto found =
       find_first({.team = &host}, {.name = "low", .n = 1'000'000}, [&](std::size_t i) {

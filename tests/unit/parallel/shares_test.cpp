@@ -11,14 +11,21 @@
 
 #include "intel_syntax.hpp"
 #include "strake/parallel/for_each.hpp"
-#include "strake/parallel/host_executor.hpp"
 #include "strake/parallel/relaxed.hpp"
 #include "strake/parallel/team.hpp"
+#include "support/second_first.hpp"
 
 namespace strake::parallel::detail {
 namespace {
 
 using Rest = Shares::Rest;
+
+/// The numbers [first, n) and then [0, first).
+std::vector<std::size_t> from(std::size_t first, std::size_t n) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < n; ++i) numbers.push_back((first + i) % n);
+  return numbers;
+}
 
 /// Workers that take one chunk after the other, in an order that chance decides; with one seat,
 /// whatever the number of shares, as where the team is busy.
@@ -78,9 +85,7 @@ TEST(Shares, neighbours_stay_with_a_worker_and_what_is_left_goes_to_all) {
   Hand hand = dealt.hand_of(seat);
   std::vector<std::size_t> taken;
   while (dealt.take(hand, seat)) taken.push_back(hand.position);
-  std::vector<std::size_t> expected(30);
-  for (std::size_t i = 0; i < 30; ++i) expected[i] = (10 + i) % 30;
-  EXPECT_EQ(taken, expected);
+  EXPECT_EQ(taken, from(10, 30));
 }
 
 TEST(Shares, kept_each_gets_its_own_at_once_and_no_more) {
@@ -145,23 +150,12 @@ TEST(Shares, threads_take_each_position_once) {
   }
 }
 
-/// The items of a region in the order in which two workers visit them of whom the second has its
-/// turn first, and then the other what is left.
+/// The items of a region in the order in which two workers visit them, the second one first.
 std::vector<std::size_t> visits(const Region& region) {
-  HostExecutor host(2, [](unsigned, const HostExecutor::Body& seat) {
-    seat(1);
-    seat(0);
-  });
+  HostExecutor host = strake::test::second_first();
   std::vector<std::size_t> visited;
   EXPECT_TRUE(for_each({.team = &host}, region, [&](std::size_t i) { visited.push_back(i); }));
   return visited;
-}
-
-/// The numbers [first, n) and then [0, first).
-std::vector<std::size_t> from(std::size_t first, std::size_t n) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < n; ++i) numbers.push_back((first + i) % n);
-  return numbers;
 }
 
 TEST(Shares, of_a_region_are_for_many_blocks) {
@@ -175,10 +169,7 @@ TEST(Shares, of_a_region_are_for_many_blocks) {
 TEST(Shares, of_a_static_region_are_kept) {
   // Otherwise the second worker would go on with the first one's before that has its turn: the
   // visits would be the same, so worker contexts tell who it was.
-  HostExecutor host(2, [](unsigned, const HostExecutor::Body& seat) {
-    seat(1);
-    seat(0);
-  });
+  HostExecutor host = strake::test::second_first();
   int made = 0;
   std::vector<int> visitors(200, 0);
   ASSERT_TRUE(for_each_with(
