@@ -12,6 +12,7 @@
 #include "clash/witness.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/meeting_places.hpp"
+#include "strake/geometry/sheet_crossing.hpp"
 
 namespace strake::clash {
 namespace {
@@ -80,7 +81,12 @@ class PairPlaces {
   }
 
   std::vector<PartPlace> several() {
-    if (whole_.separation.interiors_meet) make_planes();
+    if (whole_.separation.interiors_meet) {
+      if (both_sheets())
+        cross_sheets();
+      else
+        make_planes();
+    }
     const std::optional<std::uint32_t> deepest =
         whole_.witness.interiors_meet ? place_of(whole_.witness.point()) : std::nullopt;
     std::vector<PartPlace> places;
@@ -125,6 +131,20 @@ class PairPlaces {
     };
     provide(a_, planes_a_);
     provide(b_, planes_b_);
+  }
+
+  [[nodiscard]] bool both_sheets() const {
+    return part_a_.kind == PartKind::sheet && part_b_.kind == PartKind::sheet;
+  }
+
+  /// Finds where two sheets cross, and which place each stretch of that is in.
+  void cross_sheets() {
+    crossing_.emplace(a_.treed, b_.treed, apart_within(part_a_, part_b_, options_), work_.pair);
+    stretches_.resize(found_.all.size());
+    const auto& all = crossing_->stretches();
+    for (std::uint32_t i = 0; i < all.size(); ++i)
+      if (const auto place = found_.place_of_pair(all[i].triangle_a, all[i].triangle_b))
+        stretches_[*place].push_back(i);
   }
 
   PartAnswer answer_at(std::size_t number) {
@@ -172,7 +192,6 @@ class PairPlaces {
 
   /// The depth there; none that can be found is a touch that may be as deep as the bound.
   void go_deep(std::size_t number, PartAnswer& answer) {
-    const MeetingPlace& place = found_.all[number];
     geometry::DepthGoal goal;
     // Places share the allowance of the pair, as long as enough is left for each.
     const auto places = static_cast<std::uint32_t>(found_.all.size());
@@ -180,15 +199,9 @@ class PairPlaces {
     goal.cells_decided = std::max(goal.cells_decided / places, kLeastCells);
     goal.threshold = thresholds_.overlap;
     goal.known_upper = -whole_.separation.lower;
-    goal.apart_within = apart_within(part_a_, part_b_, options_);
-    goal.triangle_a = place.nearest.triangle_a;
-    goal.triangle_b = place.nearest.triangle_b;
-    goal.meeting_point = place.nearest.on_a;
-    goal.within = place.extent;
-    goal.belongs = [this, number](const Vec3d& p) {
-      return place_of(p).value_or(number) == number;
-    };
-    const geometry::Depth depth = depth_of(a_, b_, goal, work_);
+    const geometry::Depth depth = crossing_
+                                      ? crossing_->depth_along(stretches_[number], goal, work_.pair)
+                                      : depth_within(number, goal);
     work_.depth_cells += depth.cells;
     answer.separation.lower = -depth.upper;
     if (!(depth.value > 0)) return;
@@ -197,6 +210,20 @@ class PairPlaces {
     answer.witness = witness_of_depth(a_.treed, b_.treed, depth.point);
     const bool sheet = part_a_.kind == PartKind::sheet || part_b_.kind == PartKind::sheet;
     answer.relation = sheet ? Relation::cross : Relation::interfere;
+  }
+
+  /// What a place holds of what is common to both, of which one is a solid.
+  geometry::Depth depth_within(std::size_t number, geometry::DepthGoal goal) {
+    const MeetingPlace& place = found_.all[number];
+    goal.apart_within = apart_within(part_a_, part_b_, options_);
+    goal.triangle_a = place.nearest.triangle_a;
+    goal.triangle_b = place.nearest.triangle_b;
+    goal.meeting_point = place.nearest.on_a;
+    goal.within = place.extent;
+    goal.belongs = [this, number](const Vec3d& p) {
+      return place_of(p).value_or(number) == number;
+    };
+    return depth_of(a_, b_, goal, work_);
   }
 
   /// The answer as a whole is that of the worst place, which holds its witness.
@@ -241,6 +268,8 @@ class PairPlaces {
   geometry::MeetingPlaces found_;
   Thresholds thresholds_;
   geometry::SupportPlanes planes_a_, planes_b_;
+  std::optional<geometry::SheetCrossing> crossing_;    ///< of two sheets in several places
+  std::vector<std::vector<std::uint32_t>> stretches_;  ///< by place: those in it
 };
 
 }  // namespace

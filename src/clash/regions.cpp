@@ -69,6 +69,8 @@ bool worse(const Place& x, const Place& y, const Pair& whole) {
 /// Places of different pairs of parts whose boxes meet are joined, in one sweep along x.
 DisjointSets joined(const std::vector<Place>& places) {
   DisjointSets sets(places.size());
+  const auto of_first = [&](const Place& p) { return p.candidate == places.front().candidate; };
+  if (std::ranges::all_of(places, of_first)) return sets;
   std::vector<std::uint32_t> order(places.size()), open;
   std::iota(order.begin(), order.end(), std::uint32_t{0});
   std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {

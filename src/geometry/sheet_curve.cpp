@@ -14,9 +14,13 @@ CrossingCurve crossing_curve(const TreedPart& a, const TreedPart& b, double with
   const CrossingPieces pieces =
       lasting_pieces(a, b, crossing_pieces(a, b, most, work), within, most, work);
   CrossingCurve curve{
-      .segments = {}, .crosses = !pieces.all.empty(), .truncated = pieces.truncated};
-  for (const CrossingPiece& piece : pieces.all)
-    if (const auto segment = segment_of(view_a, view_b, piece)) curve.segments.push_back(*segment);
+      .segments = {}, .pieces = {}, .crosses = !pieces.all.empty(), .truncated = pieces.truncated};
+  for (const CrossingPiece& piece : pieces.all) {
+    const auto segment = segment_of(view_a, view_b, piece);
+    if (!segment) continue;
+    curve.segments.push_back(*segment);
+    curve.pieces.push_back(piece);
+  }
   return curve;
 }
 

@@ -12,8 +12,9 @@ namespace strake::geometry {
 /// Where two sheets cross: segments in grid units relative to a's origin.
 struct CrossingCurve {
   std::vector<DoubleSegment> segments;
-  bool crosses = false;    ///< though it may be in segments too short to tell
-  bool truncated = false;  ///< there may be more
+  std::vector<CrossingPiece> pieces;  ///< by segment: what it is part of
+  bool crosses = false;               ///< though it may be in segments too short to tell
+  bool truncated = false;             ///< there may be more
 };
 
 /// The segments of crossing_pieces() that moves of up to `within` grid units do not undo

@@ -67,6 +67,8 @@ struct MeetingPlaces {
   /// The number of the place that a spot of one skin, in the other body or near its skin, belongs
   /// to; none where that is not known. The parts and their trees must live.
   std::function<std::optional<std::uint32_t>(const SkinSpot&)> place_of;
+  /// Likewise for a triangle of a and one of b within reach of each other.
+  std::function<std::optional<std::uint32_t>(std::uint32_t, std::uint32_t)> place_of_pair;
 };
 [[nodiscard]] std::optional<MeetingPlaces> find_meeting_places(const TreedPart& a,
                                                                const TreedPart& b,

@@ -85,6 +85,14 @@ class Places {
     return place;
   }
 
+  /// Likewise, for two triangles.
+  [[nodiscard]] std::optional<std::uint32_t> place_of_pair(std::uint32_t a, std::uint32_t b) const {
+    const auto numbers = [](const NearTriangles& p) { return std::pair(p.a, p.b); };
+    const auto found = std::ranges::lower_bound(pairs_, std::pair(a, b), {}, numbers);
+    if (found == pairs_.end() || numbers(*found) != std::pair(a, b)) return std::nullopt;
+    return number_[static_cast<std::size_t>(found - pairs_.begin())];
+  }
+
  private:
   /// Near pairs for each triangle of the two that are joined one by one before a shorter way to a
   /// single place is tried.
@@ -243,7 +251,10 @@ std::optional<MeetingPlaces> find_meeting_places(const TreedPart& a, const Treed
   auto all = places->find(work);
   if (!all) return std::nullopt;
   return MeetingPlaces{std::move(*all),
-                       [places](const SkinSpot& spot) { return places->place_of(spot); }};
+                       [places](const SkinSpot& spot) { return places->place_of(spot); },
+                       [places](std::uint32_t of_a, std::uint32_t of_b) {
+                         return places->place_of_pair(of_a, of_b);
+                       }};
 }
 
 std::optional<std::vector<MeetingPlace>> meeting_places(const TreedPart& a, const TreedPart& b,
