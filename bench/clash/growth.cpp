@@ -49,6 +49,13 @@ std::uint32_t squares_for(std::uint32_t triangles) {
   return static_cast<std::uint32_t>(std::lround(std::sqrt(triangles / 2.0)));
 }
 
+ClashModel all_rods(std::uint32_t count) {
+  ClashModel m;
+  for (std::uint32_t i = 0; i < count; ++i)
+    m.object(std::to_string(i)).body(diagonal_rod(i, count, 40));
+  return m;
+}
+
 /// One hit, in so many places at least.
 bool is_hit(const Report& report, std::uint64_t places) {
   return report.pairs.size() == 1 && report.pairs.front().cls == Class::hit &&
@@ -87,6 +94,12 @@ std::vector<Series> all_series() {
        {500, 2000, 8000, 32'000},
        [](std::uint32_t n) { return pair_of(corrugated_bar(n, 0), corrugated_bar(n, 0.7)); },
        [](const Report& r, std::uint32_t /*n*/) { return is_hit(r, 0); }},
+      {"diagonal rods, 30 mm apart",
+       "rods",
+       {1250, 2500, 5000, 10'000, 20'000},
+       all_rods,
+       [](const Report& r, std::uint32_t /*n*/) { return r.pairs.empty(); },
+       {.clearance_mm = 5}},
   };
 }
 

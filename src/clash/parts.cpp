@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "clash/askew.hpp"
 #include "clash/runs.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/collect.hpp"
@@ -30,14 +31,53 @@ geometry::BoxItem item_of(const PartRef& ref, const Sets& sets, double reach) {
   return item;
 }
 
+/// Pairs of boxes for each, above which it is looked whether boxes along the coordinate axes are
+/// why there are so many.
+constexpr std::uint64_t kManyPairs = 32;
+
+/// The pairs by one of the two ways there are.
+class BoxPairs {
+ public:
+  BoxPairs(const std::vector<geometry::BoxItem>& items, const Options& options,
+           const parallel::Context& context)
+      : items_(items), options_(options), context_(context) {}
+
+  Result<std::vector<geometry::IndexPair>> find(std::uint64_t most) {
+    if (all()) return geometry::meeting_pairs_all(items_, context_, most);
+    if (tree_.nodes().empty()) {
+      auto tree = geometry::BoxTree::build(items_, context_);
+      if (!tree) return tree.error();
+      tree_ = std::move(*tree);
+    }
+    return geometry::meeting_pairs(tree_, context_, most);
+  }
+  [[nodiscard]] Result<std::vector<geometry::IndexPair>> find(
+      const geometry::FramedBoxes& framed) const {
+    return all() ? geometry::meeting_pairs_all(items_, framed, context_, options_.most_pairs)
+                 : geometry::meeting_pairs(items_, framed, context_, options_.most_pairs);
+  }
+
+ private:
+  [[nodiscard]] bool all() const { return options_.broad_phase == BroadPhase::all_pairs; }
+
+  const std::vector<geometry::BoxItem>& items_;
+  const Options& options_;
+  const parallel::Context& context_;
+  geometry::BoxTree tree_;
+};
+
+/// Whether there are many is the same for any team and either way, so that what is done about it
+/// is.
 Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::BoxItem>& items,
+                                                   const PartList& list, double reach,
                                                    const Options& options,
                                                    const parallel::Context& context) {
-  if (options.broad_phase == BroadPhase::all_pairs)
-    return geometry::meeting_pairs_all(items, context, options.most_pairs);
-  const auto tree = geometry::BoxTree::build(items, context);
-  if (!tree) return tree.error();
-  return geometry::meeting_pairs(*tree, context, options.most_pairs);
+  BoxPairs by_boxes(items, options, context);
+  auto pairs = by_boxes.find(std::min(options.most_pairs, kManyPairs * items.size()));
+  if (pairs || pairs.error().code != ErrorCode::input) return pairs;
+  const auto framed = boxes_askew(list, reach, context);
+  if (!framed) return framed.error();
+  return framed->frames.size() > 1 ? by_boxes.find(*framed) : by_boxes.find(options.most_pairs);
 }
 
 /// Pairs that stand in different groups.
@@ -149,7 +189,7 @@ Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list, const 
       parallel::transform(context, {.name = "boxes", .n = list.parts.size(), .grain = kGrain},
                           [&](std::size_t i) { return item_of(list.parts[i], sets, reach); });
   if (!items) return items.error();
-  auto pairs = box_pairs(*items, options, context);
+  auto pairs = box_pairs(*items, list, reach, options, context);
   if (!pairs) return pairs.error().code == ErrorCode::input ? too_many(options) : pairs.error();
   if (!sets.group.empty()) {
     pairs = across_groups(*pairs, list, sets, context);

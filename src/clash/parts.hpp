@@ -42,7 +42,8 @@ struct PartList {
 [[nodiscard]] geometry::Box3d common_box_mm(const PartRef& a, const PartRef& b, double reach);
 
 /// Pairs of parts of different objects whose boxes come within `reach` grid units, as indices into
-/// the list, by (objects, parts).
+/// the list, by (objects, parts). Where these are very many, only those of which boxes along the
+/// parts' own faces do, too.
 [[nodiscard]] Result<std::vector<geometry::IndexPair>> near_pairs(const PartList& list,
                                                                   const Sets& sets, double reach,
                                                                   const Options& options,

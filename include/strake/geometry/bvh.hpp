@@ -50,12 +50,23 @@ class BoxTree {
   [[nodiscard]] static Result<BoxTree> build(std::span<const BoxItem> items,
                                              const parallel::Context& context);
 
-  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }     ///< root first
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< root first
+  /// A node's box in the coordinates of the items, rounded outward.
+  [[nodiscard]] Box3l box(const Node& node) const {
+    Box3l box = node.box.as<std::int64_t>();
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = origin_[k] + (box.lo[k] << shift_);
+      box.hi[k] = origin_[k] + (box.hi[k] << shift_);
+    }
+    return box;
+  }
   [[nodiscard]] const std::vector<BoxItem>& items() const { return items_; }  ///< in leaf order
   /// The index that items()[k] had in the input.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
+  Vec3l origin_;   ///< of the nodes' boxes,
+  int shift_ = 0;  ///< and how often they are halved
   std::vector<Node> nodes_;
   std::vector<BoxItem> items_;
   std::vector<std::uint32_t> order_;

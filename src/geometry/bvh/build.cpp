@@ -241,15 +241,16 @@ Status attach(std::vector<Node>& nodes, const std::vector<Task>& tasks,
       });
 }
 
-Result<std::vector<Ref>> make_refs(std::span<const BoxItem> items,
-                                   const parallel::Context& context) {
-  const auto root = parallel::reduce(
+Result<Box3l> box_of_all(std::span<const BoxItem> items, const parallel::Context& context) {
+  return parallel::reduce(
       context, {.name = "box of all", .n = items.size(), .grain = kSubtree},
       empty_box<std::int64_t>(),
       [&](Box3l& partial, std::size_t i) { partial.include(items[i].box); },
       [](Box3l& into, const Box3l& partial) { into.include(partial); });
-  if (!root) return root.error();
-  const Quantiser quantiser(*root);
+}
+
+Result<std::vector<Ref>> make_refs(std::span<const BoxItem> items, const Quantiser& quantiser,
+                                   const parallel::Context& context) {
   return parallel::collect<Ref>(context,
                                 {.name = "boxes on a grid", .n = items.size(), .grain = kSubtree},
                                 [&](std::size_t i, std::vector<Ref>& out) {
@@ -263,7 +264,12 @@ Result<std::vector<Ref>> make_refs(std::span<const BoxItem> items,
 
 Result<BoxTree> BoxTree::build(std::span<const BoxItem> items, const parallel::Context& context) {
   BoxTree tree;
-  auto made = make_refs(items, context);
+  const auto root = box_of_all(items, context);
+  if (!root) return root.error();
+  const Quantiser quantiser(*root);
+  tree.origin_ = quantiser.origin;
+  tree.shift_ = quantiser.shift;
+  auto made = make_refs(items, quantiser, context);
   if (!made) return made.error();
   std::vector<Ref>& refs = *made;
   if (refs.empty()) return tree;

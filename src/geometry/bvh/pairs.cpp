@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/bvh/pair_lists.hpp"
 #include "strake/geometry/bvh.hpp"
 #include "strake/parallel/allowance.hpp"
 #include "strake/parallel/collect.hpp"
@@ -26,17 +27,6 @@ constexpr std::size_t kSubtasks = 1024;
 struct NodePair {
   std::uint32_t a = 0, b = 0;  ///< a == b: the pairs within one node
 };
-
-bool sets_match(std::uint8_t x, std::uint8_t y) {
-  return ((x & kSetA) != 0 && (y & kSetB) != 0) || ((x & kSetB) != 0 && (y & kSetA) != 0);
-}
-
-Error too_many(const parallel::Allowance& allowed) {
-  return {ErrorCode::input,
-          "more than " + std::to_string(allowed.most()) + " pairs of boxes meet",
-          {},
-          "take fewer objects at one place, or a smaller reach"};
-}
 
 class SelfJoin {
  public:
@@ -199,6 +189,15 @@ class PairSorter {
   std::array<std::size_t, kLots + 1> begin_{};  ///< of the lots
 };
 
+}  // namespace
+
+Error too_many(const parallel::Allowance& allowed) {
+  return {ErrorCode::input,
+          "more than " + std::to_string(allowed.most()) + " pairs of boxes meet",
+          {},
+          "take fewer objects at one place, or a smaller reach"};
+}
+
 Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& context) {
   constexpr std::size_t kFew = 1024;
   if (pairs.size() <= kFew) {
@@ -213,8 +212,6 @@ Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& contex
   if (!last) return last.error();
   return PairSorter(pairs, std::size_t{*last} + 1).run(context);
 }
-
-}  // namespace
 
 Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree, const parallel::Context& context,
                                              std::uint64_t most) {
@@ -235,30 +232,10 @@ Result<std::vector<IndexPair>> meeting_pairs(const BoxTree& tree, const parallel
 Result<std::vector<IndexPair>> meeting_pairs_all(std::span<const BoxItem> items,
                                                  const parallel::Context& context,
                                                  std::uint64_t most) {
-  parallel::Allowance allowance(most);
-  std::vector<std::uint32_t> in_a, in_b;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].box.empty()) continue;
-    if ((items[i].sets & kSetA) != 0) in_a.push_back(static_cast<std::uint32_t>(i));
-    if ((items[i].sets & kSetB) != 0) in_b.push_back(static_cast<std::uint32_t>(i));
-  }
-  const auto both_ways = [&](std::uint32_t a, std::uint32_t b) {
-    return (items[b].sets & kSetA) != 0 && (items[a].sets & kSetB) != 0;
+  const auto meet = [&](std::uint32_t a, std::uint32_t b) {
+    return items[a].box.meets(items[b].box);
   };
-  const std::size_t cells = in_a.size() * in_b.size();
-  auto pairs = parallel::collect<IndexPair>(
-      context, {.name = "broad phase, all pairs", .n = cells, .grain = std::size_t{1} << 16U},
-      [&](std::size_t cell, std::vector<IndexPair>& out) -> Status {
-        const std::uint32_t a = in_a[cell / in_b.size()], b = in_b[cell % in_b.size()];
-        if (items[a].owner == items[b].owner || !items[a].box.meets(items[b].box)) return {};
-        if (a > b && both_ways(a, b)) return {};
-        if (!allowance.take(1)) return too_many(allowance);
-        out.push_back({std::min(a, b), std::max(a, b)});
-        return {};
-      });
-  if (!pairs) return pairs.error();
-  if (const Status s = sort_pairs(*pairs, context); !s) return s.error();
-  return pairs;
+  return all_pairs_that(items, meet, context, most);
 }
 
 }  // namespace strake::geometry

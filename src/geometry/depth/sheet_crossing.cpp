@@ -18,9 +18,9 @@
 namespace strake::geometry {
 namespace {
 
-/// Stretches beyond which the rest is not looked for: two sheets that cross all over have a few a
-/// triangle, two that are all needles through each other the square of their number.
-constexpr std::size_t kStretchesPerTriangle = 8, kLeastStretches = 20000;
+/// Stretches beyond which the rest is not looked for: two sheets that cross all over have about one
+/// a triangle, two that are all needles through each other the square of their number.
+constexpr std::size_t kStretchesPerTriangle = 2, kLeastStretches = 20000;
 /// Far above what double arithmetic makes of a distance within a pair, grid units.
 constexpr double kSlack = 1.0 / 256;
 /// A bracket this narrow relative to the depth costs a curve a few halvings more than a wide one.
