@@ -16,7 +16,8 @@ constexpr int kMaxSweeps = 12;
 /// Off the diagonal less than this, relative, is noise.
 constexpr double kClean = 1e-18;
 constexpr int kMaxRootSteps = 60;
-/// The bound changes with the square of what is left.
+/// The bound changes with the square of what is left. Relative to how far the multiplier is from
+/// 1 / m too: all but in the middle of a body the foot flies off as it comes near.
 constexpr double kRootTolerance = 1e-10;
 /// The multiplier stays this far under the one at which the surface curves as the ball does.
 constexpr double kLastMultiplier = 1 - 1e-10;
@@ -88,7 +89,7 @@ class Secular {
       if (!(next < hi)) next = (hi + multiplier) / 2;
       const double moved = std::fabs(next - multiplier);
       multiplier = next;
-      if (moved <= kRootTolerance * std::fabs(multiplier)) break;
+      if (moved <= kRootTolerance * std::min(std::fabs(multiplier), 1 - multiplier)) break;
     }
     return multiplier;
   }

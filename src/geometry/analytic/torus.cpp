@@ -60,6 +60,12 @@ struct Torus::Meridian {
   double out = 0, up = 0, beside = 0;  ///< along the half-plane, along the axis, across it
 };
 
+/// The end of the sweep that is nearest to a point within it, and the way out there, unit.
+struct Torus::End {
+  double depth = std::numeric_limits<double>::infinity();
+  Vec3d way;
+};
+
 std::optional<Torus> Torus::of(const PlacedPrimitive& p, const Vec3l& origin) {
   const auto shape = Shape::read(*p.primitive);
   return shape ? place(*shape, *p.placement, origin) : std::nullopt;
@@ -189,23 +195,25 @@ double Torus::profile_depth(double out, double up) const {
   return -std::sqrt(x * x + z * z);
 }
 
-/// Of a point within the sweep: how far the planes of the ends are.
-double Torus::end_depth(const Vec3d& v) const {
-  double depth = std::numeric_limits<double>::infinity();
-  if (full_) return depth;
+/// Nearer than a right angle an end's plane counts, beyond it the axis, where both ends meet.
+Torus::End Torus::nearest_end(const Vec3d& v) const {
+  if (full_) return {};
   const double out = std::sqrt(v.x * v.x + v.y * v.y);
-  const double ahead = v.x * end_.cos + v.y * end_.sin;
-  // Nearer than a right angle the plane counts, beyond it the axis.
-  depth = v.x > 0 && v.y >= 0 ? v.y : out;
-  const double left = v.x * end_.sin - v.y * end_.cos;
-  return std::min(depth, ahead > 0 && left >= 0 ? left : out);
+  const SinCos mid = sin_cos(angle_ / 2);
+  End nearest{out, out > 0 ? Vec3d{-v.x / out, -v.y / out, 0} : Vec3d{-mid.cos, -mid.sin, 0}};
+  const auto offer = [&](double ahead, double depth, const Vec3d& way) {
+    if (ahead > 0 && depth >= 0 && depth < nearest.depth) nearest = {depth, way};
+  };
+  offer(v.x, v.y, {0, -1, 0});
+  offer(v.x * end_.cos + v.y * end_.sin, v.x * end_.sin - v.y * end_.cos, {-end_.sin, end_.cos, 0});
+  return nearest;
 }
 
 double Torus::depth(const Vec3d& p) const {
   const Vec3d v = local(p);
   const Meridian m = meridian(v);
   const double in = profile_depth(m.out, m.up);
-  if (m.beside == 0) return in > 0 ? std::min(in, end_depth(v)) : in;
+  if (m.beside == 0) return in > 0 ? std::min(in, nearest_end(v).depth) : in;
   const double off = in < 0 ? -in : 0;
   return -std::sqrt(off * off + m.beside * m.beside);
 }
@@ -229,11 +237,8 @@ Vec3d Torus::nearest(const Vec3d& p) const {
 Vec3d Torus::way_out(const Vec3d& p) const {
   const Vec3d v = local(p);
   const Meridian m = meridian(v);
-  const double in = profile_depth(m.out, m.up), end = end_depth(v);
-  if (end < in) {
-    const bool last = v.x * end_.sin - v.y * end_.cos <= (v.x > 0 && v.y >= 0 ? v.y : end);
-    return last ? turned({-end_.sin, end_.cos, 0}) : turned({0, -1, 0});
-  }
+  const double in = profile_depth(m.out, m.up);
+  if (const End end = nearest_end(v); end.depth < in) return turned(end.way);
   double out = 0, up = 0;
   if (profile_.round) {
     const double a = m.out - profile_.centre, length = std::sqrt(a * a + m.up * m.up);

@@ -68,11 +68,12 @@ class Torus {
  private:
   struct Shape;
   struct Meridian;
+  struct End;
   [[nodiscard]] static std::optional<Torus> place(const Shape& shape, const Placement& placement,
                                                   const Vec3l& origin);
   [[nodiscard]] Meridian meridian(const Vec3d& local) const;
   [[nodiscard]] double profile_depth(double out, double up) const;
-  [[nodiscard]] double end_depth(const Vec3d& local) const;
+  [[nodiscard]] End nearest_end(const Vec3d& local) const;
 
   std::array<Vec3d, 3> axes_{};
   GridFrame frame_;

@@ -155,6 +155,9 @@ void check_meeting(const Body& a, const Body& b, const AnalyticSeparation& s,
   EXPECT_GE(in_a, -1e-3);
   EXPECT_GE(in_b, -1e-3);
   EXPECT_GE(s.deep_in_a ? in_a : in_b, least - kSlack);
+  // And comes out where it is said to: on the skin that it is nearest to.
+  const Vec3d out = s.away * (s.d * kMmPerGrid * (s.deep_in_a ? 1 : -1));
+  EXPECT_NEAR((s.deep_in_a ? a : b).depth(point + out), 0, s.error() * kMmPerGrid + 1e-3);
 }
 
 /// Whoever is said to lie in the other does so with all of its skin.
@@ -230,6 +233,63 @@ TEST(AnalyticSampling, NoPointOfSlenderBodiesContradictsABracket) {
   EXPECT_GT(seen.apart, kSlenderPairs / 8);
   EXPECT_GT(seen.meeting, kSlenderPairs / 8);
   EXPECT_GT(seen.held, kSlenderPairs / 200);
+}
+
+/// Next to either end of a sweep of any angle the way out is through that end, and deep inside one
+/// of more than half a turn, without a hole, it is over the edge where both ends meet.
+TEST(AnalyticSampling, TheWayOutOfASweepIsItsNearestEnds) {
+  constexpr auto kSweeps = test::rounds<std::uint64_t>(600, 20'000);
+  std::uint64_t by_end = 0;
+  for (std::uint64_t seed = 1; seed <= kSweeps; ++seed) {
+    PrimitiveDraw draw(seed);
+    const double angle = draw.between(0.3, 6.2), tube = draw.between(5, 60);
+    Bodies of;
+    if (draw.one_in(2))
+      of.a.primitive = CircularTorusPrimitive{tube * draw.between(1, 6), tube, angle};
+    else
+      of.a.primitive = RectangularTorusPrimitive{draw.one_in(3) ? 0 : tube,
+                                                 tube * draw.between(2, 4), 2 * tube, angle};
+    of.a = placed_body(draw, of.a.primitive, kSize);
+    // A ball as small as a point for which the way out is asked, next to one of the ends.
+    const double beside = draw.between(0.02, 0.7), at = draw.one_in(2) ? beside : angle - beside;
+    const auto* const round = std::get_if<CircularTorusPrimitive>(&of.a.primitive);
+    const double out = round != nullptr ? round->centre_radius : tube * draw.between(1, 2);
+    of.b.primitive = SpherePrimitive{0.02};
+    const Vec3d local{out * std::cos(at), out * std::sin(at), 0};
+    of.b.at.translation = to_mm(snap(of.a.world(local)).value_or(Vec3l{}));
+    SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(of.a.primitive)));
+    const auto s = analytic_separation(of.a.placed(), of.b.placed());
+    ASSERT_TRUE(s);
+    if (!(s->upper < 0)) continue;
+    ASSERT_TRUE(s->deep_in_a);
+    const Vec3d point = of.a.at.translation + s->point * kMmPerGrid;
+    const Vec3d skin = point + s->away * (s->d * kMmPerGrid);
+    EXPECT_NEAR(of.a.depth(skin), 0, s->error() * kMmPerGrid + 1e-3);
+    // The same way farther on it is outside.
+    EXPECT_LT(of.a.depth(skin + s->away * (s->d * kMmPerGrid * 0.01)), 0);
+    if (of.a.depth(point) < out * std::sin(beside) + 0.02) ++by_end;
+  }
+  EXPECT_GT(by_end, kSweeps / 2);
+}
+
+/// From all but on its axis a cylinder is left through its skin, not through an end that is
+/// farther.
+TEST(AnalyticSampling, TheWayOutFromNextToAnAxisIsTheShortest) {
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    PrimitiveDraw draw(seed);
+    Bodies of;
+    of.a = placed_body(draw, CylinderPrimitive{7.2, 40}, kSize);
+    of.b = placed_body(draw, BoxPrimitive{60, 60, 60}, 1);
+    // A box with a face through the axis, but for the grid's rounding.
+    of.b.at.linear = of.a.at.linear;
+    of.b.at.translation = to_mm(snap(of.a.world({30, 0, draw.between(-9, 9)})).value_or(Vec3l{}));
+    const auto s = analytic_separation(of.a.placed(), of.b.placed());
+    ASSERT_TRUE(s);
+    ASSERT_LT(s->upper, 0);
+    const Vec3d point = of.a.at.translation + s->point * kMmPerGrid;
+    const Vec3d skin = point + s->away * (s->d * kMmPerGrid * (s->deep_in_a ? 1 : -1));
+    EXPECT_NEAR((s->deep_in_a ? of.a : of.b).depth(skin), 0, 1e-3) << "seed " << seed;
+  }
 }
 
 /// Its ends in a disc of more than half a turn, across the apex of what is left out.
