@@ -69,9 +69,9 @@ struct NarrowWork {
 
 /// What is known of a pair before anybody looks at it exactly.
 struct KnownBefore {
-  double gap = 0;            ///< a certain lower bound on their signed separation, of gap_between()
-  bool separated = false;    ///< a coordinate plane lies between the two, as judge_flush() found
-  bool flush_asked = false;  ///< judge_flush_askew() has found that they are not flush
+  geometry::PartingGap gap{0, {}};  ///< of gap_between()
+  bool separated = false;           ///< a coordinate plane lies between, as judge_flush() found
+  bool flush_asked = false;         ///< judge_flush_askew() has found that they are not flush
 };
 
 /// What one exact look at a pair decides, and what is left to ask.

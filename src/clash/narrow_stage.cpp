@@ -73,7 +73,7 @@ class ExactStage {
                      Candidate& c = candidates_[i];
                      const NarrowPart x = aids_.framed(a), y = aids_.framed(b);
                      const geometry::PartingGap gap = gap_between(x, y, options);
-                     c.known.gap = gap.lower;
+                     c.known.gap = gap;
                      c.done = gap.lower >= parting_gap(*a.placed.part, *b.placed.part, options);
                      if (c.done || has_wire(*a.placed.part, *b.placed.part)) return;
                      const auto flush = charged(c, work_.context(), [&](NarrowWork& work) {

@@ -71,7 +71,7 @@ PartAnswer PairOfParts::flush(const Vec3d& point) {
   MeetingResult meeting;
   meeting.point = point;
   touching(meeting, answer);
-  conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
+  conclude_touching(answer);
   return answer;
 }
 
@@ -83,26 +83,25 @@ std::optional<PartAnswer> PairOfParts::flush_across(const geometry::PartingGap& 
   asked = found.asked;
   if (!found.near) return std::nullopt;
   std::optional<PartAnswer> answer(std::in_place);
-  nearly_touching(*found.near, gap.lower, *answer);
+  nearly_touching(*found.near, gap, *answer);
   return answer;
 }
 
 FirstLook PairOfParts::look(const KnownBefore& known) {
   FirstLook look;
-  if (!known.flush_asked && may_be_flush(known.gap))
+  if (!known.flush_asked && may_be_flush(known.gap.lower))
     if (const auto near = geometry::any_within(a_, b_, options_.contact_distance, work_.pair)) {
       nearly_touching(*near, known.gap, look.answer);
       return look;
     }
-  if (!known.separated && !(known.gap > 0) && !hulls_part())
+  if (!known.separated && !(known.gap.lower > 0) && !hulls_part())
     look.meeting = equal_solids() ? meeting_of_equals() : geometry::meet(a_, b_, work_.pair);
-  const auto form = closed_form(part_a_, part_b_, reach_of(options_));
   if (look.meeting.meeting == Meeting::touching) {
     touching(look.meeting, look.answer);
-    conclude(look.answer, sag_beside(form));
+    conclude_touching(look.answer);
     return look;
   }
-  if (form) {
+  if (const auto form = closed_form(part_a_, part_b_, reach_of(options_))) {
     look.answer = analytic(*form);
     return look;
   }
@@ -126,7 +125,7 @@ PartAnswer PairOfParts::distance(double reach) {
 
 PartAnswer PairOfParts::depth(const FirstLook& look, const KnownBefore& known) {
   PartAnswer answer;
-  interpenetrating(look.meeting, known.gap, answer);
+  interpenetrating(look.meeting, known.gap.lower, answer);
   conclude(answer);
   return answer;
 }
@@ -157,6 +156,17 @@ double PairOfParts::apart(double limit, PartAnswer& answer) {
                         ? relation_beside(a_, b_, {}, options_.contact_distance, work_.pair)
                         : Relation::separate;
   return sag();
+}
+
+/// Narrows the bracket of true surfaces by that of their triangles.
+void PairOfParts::within(const Separation& meshes, geometry::AnalyticSeparation& s) const {
+  const double lower = std::max(s.lower, meshes.lower - sag());
+  const double upper = std::min(s.upper, meshes.upper + sag());
+  if (!(lower <= upper)) return;
+  s.lower = lower;
+  s.upper = upper;
+  s.d = std::clamp(s.d, lower, upper);
+  if (!(lower > 0)) s.d = std::min(s.d, 0.0);
 }
 
 /// Whether any distance in a bracket means the same.
@@ -235,16 +245,26 @@ bool PairOfParts::may_be_flush(double gap) const {
   return std::min(x.thickness(), y.thickness()) >= 4 * band;
 }
 
-void PairOfParts::nearly_touching(const geometry::Closest& near, double gap,
+/// Two triangles so near say nothing of the others, which may cross: the two are apart only where
+/// the gap is certain. Of true surfaces that are known better than the triangles these have the
+/// word.
+void PairOfParts::nearly_touching(const geometry::Closest& near, const geometry::PartingGap& gap,
                                   PartAnswer& answer) const {
-  answer.separation = separated_by(near.distance);
-  answer.separation.lower = std::min(gap, answer.separation.lower);
-  // Two triangles that are a little apart say nothing of the others, which may cross.
-  const bool apart = near.distance > 0 && gap >= 0;
-  if (!apart) answer.separation.d = std::min(gap, 0.0);
-  answer.witness = apart ? witness_of_gap(near) : witness_of_touch((near.on_a + near.on_b) * 0.5);
+  Separation meshes = separated_by(near.distance);
+  meshes.lower = std::min(gap.lower, meshes.lower);
+  if (auto form = closed_form(part_a_, part_b_, reach_of(options_))) {
+    within(meshes, form->separation);
+    answer = analytic(*form);
+    answer.relation = Relation::abut_outside;
+    return;
+  }
+  const bool apart = meshes.lower - sag() > 0;
+  if (!apart) meshes.d = std::min(gap.lower, 0.0);
+  answer.separation = meshes;
+  answer.witness = apart ? witness_of_gap(near)
+                         : witness_of_slab((near.on_a + near.on_b) * 0.5, gap.normal, meshes.d);
   answer.relation = Relation::abut_outside;
-  conclude(answer, sag_beside(closed_form(part_a_, part_b_, reach_of(options_))));
+  conclude(answer);
 }
 
 /// Whether moves within a contact distance that is more than may overlap part two sheets, so that
@@ -296,11 +316,14 @@ void PairOfParts::interpenetrating(const MeetingResult& meeting, double gap, Par
 
 double PairOfParts::sag() const { return a_.placed.part->sag + b_.placed.part->sag; }
 
-/// How far the true separation of two that touch as tessellated may be from 0.
-double PairOfParts::sag_beside(const std::optional<ClosedForm>& form) const {
-  if (!form) return sag();
-  return std::min(sag(),
-                  std::max(std::fabs(form->separation.lower), std::fabs(form->separation.upper)));
+/// Of two that touch as tessellated: the true surfaces, where they are known, say how far from that
+/// they are, and where. Triangles of a concave skin stand out of it.
+void PairOfParts::conclude_touching(PartAnswer& answer) const {
+  const auto form = closed_form(part_a_, part_b_, reach_of(options_));
+  if (!form) return conclude(answer);
+  const geometry::AnalyticSeparation& s = form->separation;
+  answer.witness = witness_of_touch(form->point);
+  conclude(answer, std::min(sag(), std::max(std::fabs(s.lower), std::fabs(s.upper))));
 }
 
 void PairOfParts::conclude(PartAnswer& answer, double sag) const {

@@ -32,18 +32,20 @@ class PairOfParts {
 
  private:
   double apart(double limit, PartAnswer& answer);
+  void within(const Separation& meshes, geometry::AnalyticSeparation& form) const;
   [[nodiscard]] bool all_one(double lower, double upper) const;
   bool apart_from_mesh(double reach, PartAnswer& answer);
   [[nodiscard]] bool hulls_part() const;
   [[nodiscard]] bool equal_solids() const;
   [[nodiscard]] geometry::MeetingResult meeting_of_equals() const;
   void touching(const geometry::MeetingResult& meeting, PartAnswer& answer);
+  void conclude_touching(PartAnswer& answer) const;
   [[nodiscard]] bool may_be_flush(double gap) const;
-  void nearly_touching(const geometry::Closest& near, double gap, PartAnswer& answer) const;
+  void nearly_touching(const geometry::Closest& near, const geometry::PartingGap& gap,
+                       PartAnswer& answer) const;
   [[nodiscard]] bool may_touch(geometry::DepthGoal goal);
   void interpenetrating(const geometry::MeetingResult& meeting, double gap, PartAnswer& answer);
   [[nodiscard]] double sag() const;
-  [[nodiscard]] double sag_beside(const std::optional<ClosedForm>& form) const;
   void conclude(PartAnswer& answer) const { conclude(answer, sag()); }
   void conclude(PartAnswer& answer, double sag) const;
 

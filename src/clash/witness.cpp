@@ -25,6 +25,11 @@ Vec3d way_out(const Vec3d& deepest, const SkinPoint& skin) {
 
 Witness witness_of_touch(const Vec3d& point) { return {.on_a = point, .on_b = point}; }
 
+Witness witness_of_slab(const Vec3d& point, const Vec3d& normal, double d) {
+  if (!(d < 0)) return witness_of_touch(point);
+  return {.on_a = point, .on_b = point - normal * d, .away = normal, .interiors_meet = true};
+}
+
 Witness witness_of_gap(const geometry::Closest& closest) {
   const Vec3d way = closest.on_a - closest.on_b;
   const double length = std::sqrt(dot(way, way));

@@ -9,6 +9,10 @@ namespace strake::clash {
 /// A point that both share.
 [[nodiscard]] Witness witness_of_touch(const geometry::Vec3d& point);
 
+/// Two that overlap by -d <= 0 across a slab with this normal, from b to a, and meet at a point.
+[[nodiscard]] Witness witness_of_slab(const geometry::Vec3d& point, const geometry::Vec3d& normal,
+                                      double d);
+
 /// The closest points of two parts that are apart.
 [[nodiscard]] Witness witness_of_gap(const geometry::Closest& closest);
 

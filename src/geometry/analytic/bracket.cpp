@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/analytic/bracket.hpp"
 
-#include <algorithm>
-
 namespace strake::geometry::analytic {
 
 double shown(double lower, double upper, double tolerance) {
   const double middle = (lower + upper) / 2;
-  if (!(upper < 0)) return std::max(middle, 0.0);
+  if (!(upper < 0)) return lower > 0 ? middle : 0;
   return upper - lower <= tolerance ? middle : upper;
 }
 

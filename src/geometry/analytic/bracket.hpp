@@ -7,9 +7,10 @@
 
 namespace strake::geometry::analytic {
 
-/// d in a certain bracket. Where no overlap is shown (upper >= 0), it is the middle, but no depth;
-/// otherwise the middle of a bracket as narrow as `tolerance`, and where the search could not close
-/// it the depth that its points show.
+/// d in a certain bracket: the middle of one that lies on one side of a touch, 0 where it is open
+/// whether the two are apart or overlap. The bracket of two that overlap counts as closed where it
+/// is as narrow as `tolerance`; where the search could not close it, d is the depth that its points
+/// show.
 [[nodiscard]] double shown(double lower, double upper, double tolerance);
 
 /// Two that are not known to overlap, by the points of `gap`.

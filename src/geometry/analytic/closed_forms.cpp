@@ -251,6 +251,8 @@ std::optional<AnalyticSeparation> closed_form(const PlacedPrimitive& a, const Pl
       x->error + y->error + turned + 64 * std::numeric_limits<double>::epsilon() * reach;
   s->lower = s->d - error;
   s->upper = s->d + error;
+  // Open whether they are apart: a touch, as far as this can tell.
+  if (s->d > 0 && !(s->lower > 0)) s->d = 0;
   return s;
 }
 
