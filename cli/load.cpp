@@ -17,6 +17,7 @@ namespace {
 
 /// Corners closer than the grid's spacing cannot be told apart.
 constexpr double kFinestSagMm = 0.001;
+constexpr double kWidestWeldMm = 1000;
 
 }  // namespace
 
@@ -25,6 +26,12 @@ void add_scene_options(CLI::App& command, SceneInput& options, const std::string
       .add_option(
           "--sag", options.sag,
           "Largest distance of a tessellated curve from the true one (default " + default_sag + ")")
+      ->type_name("LENGTH")
+      ->group("Input");
+  command
+      .add_option("--weld", options.weld,
+                  "Seams of meshes that are no wider close (default: what the numbers of each body "
+                  "cannot tell apart, 3um at least; 0: none)")
       ->type_name("LENGTH")
       ->group("Input");
   command
@@ -40,6 +47,11 @@ Result<model::SceneOptions> scene_options(const SceneInput& input, double defaul
   options.sag_mm = default_sag_mm;
   options.obstruction = input.obstructions;
   options.insulation = input.insulation;
+  if (const Status status = length_option(options.weld_mm, input.weld, "--weld"); !status)
+    return status.error();
+  if (options.weld_mm > kWidestWeldMm)
+    return Error{ErrorCode::usage, "'" + input.weld + "' is longer than a metre", "--weld",
+                 "write the widest gap that is no gap, as 0.01mm"};
   if (input.sag.empty()) return options;
   const Result<double> sag = quantity(input.sag, "--sag", parse_length_mm);
   if (!sag) return sag.error();

@@ -16,9 +16,10 @@
 
 namespace strake::cli {
 
-/// Which bodies take part and how finely curved ones are tessellated, as written.
+/// Which bodies take part, how finely curved ones are tessellated and which seams of meshes close,
+/// as written.
 struct SceneInput {
-  std::string sag;
+  std::string sag, weld;
   bool obstructions = false, insulation = false;
 };
 

@@ -17,6 +17,7 @@ struct Candidate {
   KnownBefore known;
   bool done = false;
   bool too_large = false;
+  bool in_open = false;  ///< one part lies within the other, which is open: see mark_enclosed()
   bool too_near_to_tell = false;  ///< whether it has one place or several
 };
 

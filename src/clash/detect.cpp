@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clash/case_work.hpp"
+#include "clash/enclosed.hpp"
 #include "clash/hash.hpp"
 #include "clash/narrow_stage.hpp"
 #include "clash/options.hpp"
@@ -110,6 +111,7 @@ class Engine {
     const Stage stage{work, objects_, rules_, pair_options_, options_, aids_};
     if (!exact()) return judge_by_spheres(stage, candidates_);
     if (const Status s = judge_exactly(stage, judged(), candidates_); !s) return s;
+    if (const Status s = mark_enclosed(stage, candidates_); !s) return s;
     auto places = tell_places(stage, judged(), candidates_);
     if (!places) return places.error();
     places_ = std::move(*places);
@@ -119,7 +121,8 @@ class Engine {
   /// The answers that can show in a report; tells of what was not compared.
   Result<std::vector<Found>> answers(Report& report) const {
     const Judged all = judged();
-    if (const Status s = note_not_compared(all, scene_, context_, report); !s) return s.error();
+    if (const Status s = note_not_compared(all, objects_, scene_, context_, report); !s)
+      return s.error();
     return parallel::collect<Found>(
         context_, {.name = "answers", .n = pairs_.size(), .grain = CaseWork::kBlock},
         [&](std::size_t i, std::vector<Found>& out) {
@@ -162,6 +165,7 @@ class Engine {
     const auto widest = pair_options_.widest_band(list_.parts, context_);
     if (!widest) return widest.error();
     report.contact_distance_mm = *widest / geometry::kGridPerMm;
+    report.weld_mm = scene_.weld_mm;
     describe_sets(report);
     note_sheets(list_, report);
     if (const Status s = note_unknown_sag(list_, *scene_.model, context_, report.diagnostics); !s)

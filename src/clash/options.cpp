@@ -56,10 +56,8 @@ Status check(const Options& o, const Sets& sets, std::size_t objects) {
 }
 
 double contact_distance(const Options& options, float precision_um) {
-  static_assert(geometry::kGridPerMm == 1000, "a grid unit is a micrometre");
   if (options.contact_distance_mm >= 0) return options.contact_distance_mm * geometry::kGridPerMm;
-  // Two ulp are four of the half spacings that a source states.
-  return std::max(3.0, 4 * static_cast<double>(precision_um));
+  return model::contact_distance(precision_um);
 }
 
 Sets one_set(const model::Scene& scene) {

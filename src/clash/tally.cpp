@@ -25,29 +25,47 @@ Status count_work(const Judged& judged, const parallel::Context& context, Counte
   return {};
 }
 
+constexpr std::string_view kTooLarge = "pair-too-large", kInOpen = "pair-in-open-surface";
+
+/// The code of why a pair of objects was not compared; empty where it was.
+std::string_view why_not_compared(const Judged& judged, const ObjectPairs& objects,
+                                  std::size_t pair) {
+  bool in_open = false, hit = false;
+  for (std::size_t i = objects.begin(pair); i < objects.end(pair); ++i) {
+    const Candidate& c = judged.of(i);
+    if (c.too_large) return kTooLarge;
+    in_open = in_open || c.in_open;
+    hit = hit || c.look.answer.judgement.cls == Class::hit;
+  }
+  return in_open && !hit ? kInOpen : std::string_view{};
+}
+
 }  // namespace
 
-Status note_not_compared(const Judged& judged, const model::Scene& scene,
-                         const parallel::Context& context, Report& report) {
+Status note_not_compared(const Judged& judged, const ObjectPairs& objects,
+                         const model::Scene& scene, const parallel::Context& context,
+                         Report& report) {
   for (const model::Lacking& lacking : scene.lacking)
     if (report.in_a[index(lacking.object)] || report.in_b[index(lacking.object)])
       report.not_compared.push_back({lacking.object, {}, lacking.code});
-  const auto too_large = parallel::collect<std::size_t>(
-      context, {.name = "pairs too large", .n = judged.pairs.size(), .grain = kGrain},
-      [&](std::size_t i, std::vector<std::size_t>& out) {
-        if (judged.of(i).too_large) out.push_back(i);
+  const auto pairs = parallel::collect<NotCompared>(
+      context, {.name = "pairs not compared", .n = objects.size(), .grain = kGrain},
+      [&](std::size_t k, std::vector<NotCompared>& out) {
+        const std::string_view code = why_not_compared(judged, objects, k);
+        const std::size_t first = objects.begin(k);
+        if (!code.empty())
+          out.push_back({model::ObjectId{judged.a(first).object},
+                         model::ObjectId{judged.b(first).object}, code});
       });
-  if (!too_large) return too_large.error();
-  constexpr std::string_view kCode = "pair-too-large";
-  for (const std::size_t i : *too_large) {
-    const model::ObjectId a{judged.a(i).object}, b{judged.b(i).object};
-    // All pairs of parts of two objects stand side by side.
-    const auto& last = report.not_compared;
-    if (!last.empty() && last.back().a == a && last.back().b == b) continue;
-    report.not_compared.push_back({a, b, kCode});
-    report.diagnostics.add(Severity::skipped, kCode,
-                           "the pair spans more than 2.1 km and was not compared",
-                           scene.model->object(a).id + " and " + scene.model->object(b).id);
+  if (!pairs) return pairs.error();
+  for (const NotCompared& pair : *pairs) {
+    report.not_compared.push_back(pair);
+    report.diagnostics.add(
+        Severity::skipped, pair.code,
+        pair.code == kTooLarge
+            ? "the pair spans more than 2.1 km and was not compared"
+            : "one lies within the other, whose surface does not close: meant as solids, they hit",
+        scene.model->object(pair.a).id + " and " + scene.model->object(*pair.b).id);
   }
   return {};
 }

@@ -7,10 +7,12 @@
 
 namespace strake::clash {
 
-/// Report::not_compared: the objects of the sets that lack geometry, and the pairs that are too
-/// large, which "pair-too-large" tells of as well. Errors here and below: cancelled.
-[[nodiscard]] Status note_not_compared(const Judged& judged, const model::Scene& scene,
-                                       const parallel::Context& context, Report& report);
+/// Report::not_compared: the objects of the sets that lack geometry, the pairs that are too large
+/// and those of which one lies within the other's open surface, unless they hit otherwise; messages
+/// of these codes tell of both. Errors here and below: cancelled.
+[[nodiscard]] Status note_not_compared(const Judged& judged, const ObjectPairs& objects,
+                                       const model::Scene& scene, const parallel::Context& context,
+                                       Report& report);
 
 /// Report::sheets.
 void note_sheets(const PartList& list, Report& report);

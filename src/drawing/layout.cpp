@@ -168,6 +168,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.hidden_lines = drawing.options.hidden;
   out.sharp_angle_deg = drawing.options.sharp_angle_deg;
   out.contact_distance_mm = drawing.contact_distance_mm;
+  out.weld_mm = drawing.weld_mm;
   out.counters = drawing.counters;
   const Result<Hash128> hash = hash_of(drawing, model, context);
   if (!hash) return hash.error();

@@ -56,8 +56,9 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
   out << "},\n\"settings\":{\"stage\":\"" << stage_name(drawing.stage)
       << "\",\"hidden_lines\":" << (drawing.hidden_lines ? "true" : "false")
       << ",\"sharp_angle_deg\":" << shortest(drawing.sharp_angle_deg)
-      << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm)
-      << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)
+      << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
+  if (drawing.weld_mm >= 0) out << ",\"weld_mm\":" << shortest(drawing.weld_mm);
+  out << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)
       << ",\"height_mm\":" << shortest(drawing.sheet.height_mm)
       << ",\"scale\":" << shortest(drawing.sheet.scale) << ",\"scale_text\":\""
       << drawing.sheet.scale_text << "\"},\n";

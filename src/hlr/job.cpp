@@ -22,8 +22,6 @@ using geometry::Vec3l;
 
 constexpr std::int64_t kMaxDirection = std::int64_t{1} << 20;
 constexpr double kMaxContactMm = 1e6;
-// Least contact distance between different parts where the source does not say how exact it is.
-constexpr std::int64_t kLeastContact = 3;
 // Largest |coordinate| · |direction component|: with part coordinates within ±2^30 the largest
 // value formed, a hiding point against a limit, then stays below 2^124.
 constexpr double kMaxReach = 72057594037927936.0;  // 2^56
@@ -61,10 +59,8 @@ Status check(const View& view, const Options& options) {
 std::int64_t contact_of(const model::Body& body, const Options& options) {
   if (options.contact_distance_mm >= 0)
     return std::llround(options.contact_distance_mm * geometry::kGridPerMm);
-  static_assert(geometry::kGridPerMm == 1000, "a grid unit is a micrometre");
-  const double two_ulp = std::ceil(
-      std::min(4 * static_cast<double>(body.precision_um), kMaxContactMm * geometry::kGridPerMm));
-  return std::max(kLeastContact, static_cast<std::int64_t>(two_ulp));
+  return static_cast<std::int64_t>(std::ceil(
+      std::min(model::contact_distance(body.precision_um), kMaxContactMm * geometry::kGridPerMm)));
 }
 
 void fill_bodies(Job& job) {

@@ -54,7 +54,7 @@ void drop_folds(std::vector<Part>& parts) {
 }  // namespace
 
 void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear,
-                              GridShapeResult& result) {
+                              std::int64_t weld, GridShapeResult& result) {
   const geometry::PlacedMesh* placed = placer_.place(mesh, linear);
   if (placed == nullptr) {
     result.fault = kTooWide;
@@ -62,7 +62,7 @@ void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& l
   }
   result.bad_triangles = placed->bad_triangles;
   result.shape.base = placed->base;
-  geometry::MeshAnalysis analysis = analyser_.analyse(placed->mesh);
+  geometry::MeshAnalysis analysis = analyser_.analyse(placed->mesh, weld);
   result.findings = analysis.findings;
   result.shape.parts = std::move(analysis.parts);
   for (Part& part : result.shape.parts) {
@@ -73,13 +73,13 @@ void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& l
 }
 
 void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const Mat3d& linear,
-                                   double sag_mm, const std::optional<geometry::Vec3d>& towards,
-                                   GridShapeResult& result) {
-  const geometry::Tessellation made = geometry::tessellate(primitive, linear, sag_mm, towards);
+                                   const GridShapeOptions& options, GridShapeResult& result) {
+  const geometry::Tessellation made =
+      geometry::tessellate(primitive, linear, options.sag_mm, options.towards);
   result.fault = made.fault;
   if (!made.fault.empty()) return;
   if (!made.mesh.triangles.empty())
-    add_mesh(made.mesh, Mat3d{}, result);
+    add_mesh(made.mesh, Mat3d{}, 0, result);
   else
     add_lines(made.lines, Mat3d{}, result);
   // A sliver of a primitive may lose triangles to the snap: that is no fault of the source.
@@ -94,15 +94,15 @@ void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const M
   }
 }
 
-GridShapeResult GridShapeMaker::make(const Shape& shape, const Mat3d& linear, double sag_mm,
-                                     const std::optional<geometry::Vec3d>& towards) {
+GridShapeResult GridShapeMaker::make(const Shape& shape, const Mat3d& linear,
+                                     const GridShapeOptions& options) {
   GridShapeResult result;
   if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
-    add_mesh(*mesh, linear, result);
+    add_mesh(*mesh, linear, options.weld, result);
   else if (const auto* lines = std::get_if<geometry::Polylines>(&shape))
     add_lines(*lines, linear, result);
   else
-    add_primitive(std::get<geometry::Primitive>(shape), linear, sag_mm, towards, result);
+    add_primitive(std::get<geometry::Primitive>(shape), linear, options, result);
   for (const Part& part : result.shape.parts) result.shape.box.include(part.box);
   if (result.shape.parts.empty() && result.fault.empty()) {
     result.vanished = result.bad_triangles == 0 && result.bad_points == 0;

@@ -21,20 +21,24 @@ struct GridShapeResult {
   bool vanished = false;   ///< for nothing is left on the grid of what is sound
 };
 
+struct GridShapeOptions {
+  double sag_mm = 0.5;
+  std::int64_t weld = 0;  ///< of meshes, grid units; see geometry::analyse
+  /// Primitives with their contours for a view, if it is one; see geometry::tessellate.
+  std::optional<geometry::Vec3d> towards = std::nullopt;
+};
+
 /// Makes shapes one after another in memory that it keeps: one per worker.
 class GridShapeMaker {
  public:
-  /// Primitives with their contours for a view, if `towards` is one; see geometry::tessellate.
   [[nodiscard]] GridShapeResult make(const Shape& shape, const geometry::Mat3d& linear,
-                                     double sag_mm,
-                                     const std::optional<geometry::Vec3d>& towards = std::nullopt);
+                                     const GridShapeOptions& options);
 
  private:
   void add_mesh(const geometry::TriangleMesh& mesh, const geometry::Mat3d& linear,
-                GridShapeResult& result);
+                std::int64_t weld, GridShapeResult& result);
   void add_primitive(const geometry::Primitive& primitive, const geometry::Mat3d& linear,
-                     double sag_mm, const std::optional<geometry::Vec3d>& towards,
-                     GridShapeResult& result);
+                     const GridShapeOptions& options, GridShapeResult& result);
 
   geometry::MeshPlacer placer_;
   geometry::MeshAnalyser analyser_;

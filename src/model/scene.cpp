@@ -22,9 +22,21 @@ namespace {
 
 using geometry::Mat3d;
 
-/// A shape under one linear part, and the body that asked for it first.
+constexpr double kMostWeldMm = 1000;
+
+/// Within how much the seams of a body close, grid units.
+std::int64_t weld_of(const Model& model, const Body& body, const SceneOptions& options) {
+  if (!std::holds_alternative<geometry::TriangleMesh>(model.shapes[index(body.shape)])) return 0;
+  const double weld = options.weld_mm >= 0 ? options.weld_mm * geometry::kGridPerMm
+                                           : std::ceil(contact_distance(body.precision_um));
+  return static_cast<std::int64_t>(std::min(weld, kMostWeldMm * geometry::kGridPerMm));
+}
+
+/// A shape under one linear part, with its seams closed alike, and the body that asked for it
+/// first. Precisions are few: steps of float32 and of decimals.
 struct Use {
   ShapeId shape{};
+  std::int64_t weld = 0;
   std::uint32_t body = 0;
   std::uint32_t bodies = 0;
 };
@@ -32,8 +44,8 @@ struct Use {
 /// Negative zero counts as zero: the two place alike.
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
 
-std::uint64_t hash_of(const Body& body) {
-  std::uint64_t h = parallel::mixed(0, index(body.shape));
+std::uint64_t hash_of(const Body& body, std::int64_t weld) {
+  std::uint64_t h = parallel::mixed(static_cast<std::uint64_t>(weld), index(body.shape));
   for (const geometry::Vec3d& row : body.placement.linear.row)
     for (int k = 0; k < 3; ++k) h = parallel::mixed(h, bits(row[k]));
   return h;
@@ -46,24 +58,26 @@ bool same_linear(const Mat3d& a, const Mat3d& b) {
   return true;
 }
 
-/// Numbers the distinct (shape, linear part) in order of first appearance.
+/// Numbers the distinct (shape, linear part, weld distance) in order of first appearance.
 class UseTable {
  public:
-  UseTable(const Model& model, std::size_t bodies) : model_(model) {
+  UseTable(const Model& model, const SceneOptions& options, std::size_t bodies)
+      : model_(model), options_(options) {
     slots_.assign(std::bit_ceil(bodies * 2 + 2), kEmpty);
   }
 
   std::uint32_t number(std::uint32_t body) {
     const Body& b = model_.bodies[body];
+    const std::int64_t weld = weld_of(model_, b, options_);
     const std::size_t mask = slots_.size() - 1;
-    for (std::size_t slot = hash_of(b) & mask;; slot = (slot + 1) & mask) {
+    for (std::size_t slot = hash_of(b, weld) & mask;; slot = (slot + 1) & mask) {
       if (slots_[slot] == kEmpty) {
         slots_[slot] = static_cast<std::uint32_t>(uses_.size());
-        uses_.push_back({b.shape, body, 1});
+        uses_.push_back({b.shape, weld, body, 1});
         return slots_[slot];
       }
       Use& use = uses_[slots_[slot]];
-      if (use.shape == b.shape &&
+      if (use.shape == b.shape && use.weld == weld &&
           same_linear(model_.bodies[use.body].placement.linear, b.placement.linear)) {
         ++use.bodies;
         return slots_[slot];
@@ -75,6 +89,7 @@ class UseTable {
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffU;
   const Model& model_;
+  const SceneOptions& options_;
   std::vector<std::uint32_t> slots_;
   std::vector<Use> uses_;
 };
@@ -115,6 +130,18 @@ bool ends_somewhere(const geometry::Part& part) {
   return false;
 }
 
+/// `counted` takes a code, a count and its words for one and for many.
+template <class Counted>
+void report_weld(const geometry::MeshFindings& findings, const Counted& counted) {
+  const std::string apart =
+      fmt::format("up to {:.3g} um", findings.largest_weld * 1000 * geometry::kMmPerGrid);
+  const bool closed = findings.welded_shells > 0;
+  const std::string what = closed ? "so that a surface closes" : "so that edges of a surface meet";
+  counted(Severity::note, "mesh-welded", findings.welded_corners,
+          fmt::format("a corner {} beside another or an edge counts as on it, {}", apart, what),
+          fmt::format("{{}} corners {} beside others or edges count as on them, {}", apart, what));
+}
+
 /// What is worth telling about a shape, said of the first object that uses it; how many bodies use
 /// it besides is added.
 void report_findings(const GridShapeResult& made, std::uint32_t bodies, const Model& model,
@@ -135,6 +162,7 @@ void report_findings(const GridShapeResult& made, std::uint32_t bodies, const Mo
   counted(Severity::note, "mesh-cut", made.findings.cut_triangles,
           "a triangle was cut where corners of others lie on its edges, to match them",
           "{} triangles were cut where corners of others lie on their edges, to match them");
+  report_weld(made.findings, counted);
   counted(Severity::note, "mesh-duplicate", made.findings.duplicate_triangles,
           "a repeated triangle was left out", "{} repeated triangles were left out");
   counted(Severity::warning, "mesh-turned", made.findings.turned_triangles,
@@ -182,7 +210,7 @@ struct Assembly {
 std::vector<Use> list_bodies(Assembly& assembly) {
   const Model& model = assembly.model;
   Scene& scene = assembly.scene;
-  UseTable table(model, model.bodies.size());
+  UseTable table(model, assembly.options, model.bodies.size());
   scene.bodies.reserve(model.bodies.size());
   for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
     const Object& object = model.objects[o];
@@ -231,9 +259,9 @@ Result<std::vector<GridShapeResult>> make_shapes(const Assembly& assembly,
   return parallel::transform_with(
       context, region, [] { return GridShapeMaker(); },
       [&](GridShapeMaker& maker, std::size_t i) {
-        GridShapeResult made =
-            maker.make(model.shapes[index(uses[i].shape)],
-                       model.bodies[uses[i].body].placement.linear, assembly.options.sag_mm);
+        GridShapeResult made = maker.make(
+            model.shapes[index(uses[i].shape)], model.bodies[uses[i].body].placement.linear,
+            {.sag_mm = assembly.options.sag_mm, .weld = uses[i].weld});
         made.shape.shape = uses[i].shape;
         return made;
       });
@@ -288,10 +316,19 @@ void place_bodies(Assembly& assembly, const std::vector<Use>& uses,
 
 }  // namespace
 
+double contact_distance(float precision_um) {
+  static_assert(geometry::kGridPerMm == 1000, "a grid unit is a micrometre");
+  // Two ulp are four of the half spacings that a source states.
+  return std::max(3.0, 4 * static_cast<double>(precision_um));
+}
+
 Result<Scene> make_scene(const Model& model, const SceneOptions& options,
                          const parallel::Context& context) {
   if (!(options.sag_mm > 0) || !std::isfinite(options.sag_mm))
     return Error{ErrorCode::usage, "the sag must be a positive length", "", "give one like 0.5mm"};
+  if (!(options.weld_mm <= kMostWeldMm))
+    return Error{ErrorCode::usage, "the weld distance must be a length up to a metre", "",
+                 "leave it out to have it derived from the sources"};
   Assembly assembly{model, options, {}};
   const std::vector<Use> uses = list_bodies(assembly);
   Result<std::vector<GridShapeResult>> shapes = make_shapes(assembly, uses, context);
@@ -303,6 +340,7 @@ Result<Scene> make_scene(const Model& model, const SceneOptions& options,
   Scene& scene = assembly.scene;
   scene.model = &model;
   scene.sag_mm = options.sag_mm;
+  scene.weld_mm = options.weld_mm;
   scene.shapes.reserve(kinds->first.size());
   for (const std::uint32_t first : kinds->first)
     scene.shapes.push_back(std::move(made[first].shape));

@@ -34,8 +34,8 @@ bool changes(const Scene& scene, std::uint32_t shape) {
 GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3d& linear,
                    const geometry::Vec3d& towards, GridShapeMaker& maker) {
   const GridShape& old = scene.shapes[shape];
-  GridShapeResult made =
-      maker.make(scene.model->shapes[index(old.shape)], linear, scene.sag_mm, towards);
+  GridShapeResult made = maker.make(scene.model->shapes[index(old.shape)], linear,
+                                    {.sag_mm = scene.sag_mm, .towards = towards});
   if (!made.fault.empty()) return old;
   made.shape.shape = old.shape;
   return std::move(made.shape);
@@ -78,6 +78,7 @@ Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<boo
   seen.diagnostics = scene.diagnostics;
   seen.lacking = scene.lacking;
   seen.sag_mm = scene.sag_mm;
+  seen.weld_mm = scene.weld_mm;
   for (GridBody& body : seen.bodies)
     body.origin =
         body.origin - scene.shapes[body.grid_shape].base + (*shapes)[body.grid_shape].base;

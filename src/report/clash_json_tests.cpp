@@ -31,6 +31,10 @@ void settings(std::string& out, const Report& report) {
   tolerances(out, clash::tolerances_of(report.options));
   out += ", \"contact_distance_mm\": ";
   append_mm(out, report.contact_distance_mm);
+  if (report.weld_mm >= 0) {
+    out += ", \"weld_mm\": ";
+    append_mm(out, report.weld_mm);
+  }
   out += ", \"curves\": ";
   out += report.options.curves == clash::Curves::on ? "true}" : "false}";
 }

@@ -221,10 +221,12 @@ struct Report {
   std::vector<LoggedPair> log;  ///< where asked for: by (a, b)
   Counters counters;
   double contact_distance_mm = 0;  ///< the largest δ that was applied
+  double weld_mm = -1;             ///< that seams were closed within; negative: δ of each body
   /// Of pairs, relations, classes, d, witnesses, regions and the rules that allow them; not of
   /// options.
   std::string hash;
-  /// "empty-set", "unknown-sag" (once per file), "pair-too-large" (skipped).
+  /// "empty-set", "unknown-sag" (once per file), "pair-too-large", "pair-in-open-surface"
+  /// (both skipped).
   Diagnostics diagnostics;
 };
 

@@ -107,6 +107,7 @@ struct NeutralDrawing {
   bool hidden_lines = true;  ///< false: left out, see hlr::Options::hidden
   double sharp_angle_deg = 20;
   double contact_distance_mm = 0;
+  double weld_mm = -1;  ///< that seams were closed within; negative: the precision of each body
   Sheet sheet;
   std::vector<Line> lines;
   PaperCurves curves;

@@ -24,6 +24,9 @@ struct MeshFindings {
   std::uint64_t cut_triangles = 0;         ///< at T-junctions, so that edges match
   std::uint64_t duplicate_triangles = 0;   ///< same vertices, same side
   std::uint64_t turned_triangles = 0;      ///< of closed surfaces: they faced the other way
+  std::uint64_t welded_corners = 0;        ///< that count as one with others, or as on an edge
+  std::uint64_t welded_shells = 0;         ///< that are closed so
+  double largest_weld = 0;                 ///< grid units: how far a corner lay from there at most
   std::uint64_t nested_shells = 0;         ///< closed shells that bound nothing: a solid in a solid
   std::uint64_t two_sided_shells = 0;      ///< closed skins that were drawn from both sides
 };
@@ -49,13 +52,17 @@ struct MeshAnalysis {
 /// 4. Triangles of no area are left out. Where corners lie exactly on an edge that does not match
 ///    those on its other side, its triangles are cut there if edges then match: T-junctions, and
 ///    what a triangle of no area has sealed. Nothing moves.
-/// 5. Of a closed surface whose edges have two triangles each, those that face the other way than
+/// 5. With `weld` above 0, grid units up to a metre, corners of edges that still do not match count
+///    as one where they are no farther apart, and as on such an edge where no farther from it, if
+///    edges then match: seams that the numbers of the source leave open. Meshes whose edges match
+///    do not change, nor do rims, gaps that are wider and what would be no thicker than that.
+/// 6. Of a closed surface whose edges have two triangles each, those that face the other way than
 ///    the rest are turned.
-/// 6. A closed shell of no volume that is covered twice, once from each side, becomes a sheet.
+/// 7. A closed shell of no volume that is covered twice, once from each side, becomes a sheet.
 ///
 /// Every decision is exact. Cost: O(n log n) for one shell; nesting tests only shells whose boxes
 /// lie inside each other.
-[[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh);
+[[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh, std::int64_t weld = 0);
 
 struct AnalyseScratch;
 
@@ -71,7 +78,7 @@ class MeshAnalyser {
   MeshAnalyser(const MeshAnalyser&) = delete;
   MeshAnalyser& operator=(const MeshAnalyser&) = delete;
 
-  [[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh);
+  [[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh, std::int64_t weld = 0);
 
  private:
   std::unique_ptr<AnalyseScratch> scratch_;

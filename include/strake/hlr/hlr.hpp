@@ -196,6 +196,7 @@ struct Drawing {
   View view;
   Options options;
   double contact_distance_mm = 0;  ///< the largest that was applied
+  double weld_mm = -1;             ///< of the scene: model::SceneOptions::weld_mm
   std::vector<Piece> pieces;       ///< by (object, edge, parameter)
   Curves curves;
   /// By object: edges of which hidden pieces were left out, see Options::hidden. Empty: none were.

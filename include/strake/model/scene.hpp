@@ -19,7 +19,15 @@ struct SceneOptions {
   double sag_mm = 0.5;
   /// Bodies of these categories are placed; the others are counted in Scene::left_out.
   bool physical = true, obstruction = false, insulation = false;
+  /// Seams of meshes that are no wider close, mm up to a metre; 0: only where corners lie on each
+  /// other on the grid. Negative: the contact distance of each body.
+  double weld_mm = -1;
 };
+
+/// The contact distance of a body whose source has this precision (Body::precision_um), in grid
+/// units: what its numbers cannot tell apart. Two units in the last place, and what the grid
+/// rounds.
+[[nodiscard]] double contact_distance(float precision_um);
 
 /// The parts of one (shape, linear part of the placement), shared by every body that has both, and
 /// by those of meshes that are the same but for their place.
@@ -70,7 +78,8 @@ struct Scene {
   std::uint64_t left_out = 0;         ///< bodies of categories that were not asked for
   Diagnostics diagnostics;            ///< inverted, open, degenerate, unplaceable …
   std::vector<Lacking> lacking = {};  ///< ascending; of what was asked for
-  double sag_mm = 0;  ///< that primitives were tessellated with; 0: not by make_scene
+  double sag_mm = 0;    ///< that primitives were tessellated with; 0: not by make_scene
+  double weld_mm = -1;  ///< SceneOptions::weld_mm
 
   [[nodiscard]] std::span<const GridBody> bodies_of(ObjectId id) const {
     return std::span(bodies).subspan(first_body[index(id)],

@@ -188,18 +188,18 @@ MeshAnalyser::~MeshAnalyser() = default;
 MeshAnalyser::MeshAnalyser(MeshAnalyser&&) noexcept = default;
 MeshAnalyser& MeshAnalyser::operator=(MeshAnalyser&&) noexcept = default;
 
-MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh) {
+MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh, std::int64_t weld) {
   AnalyseScratch& scratch = *scratch_;
   MeshAnalysis analysis;
   const MeshKey key{mesh.triangles, mesh.faces, weld_vertices(mesh, scratch)};
   const GridMesh& welded = scratch.welded;
   if (const Connectivity* known = scratch.known.find(key))
-    if (auto part = make_known_part(*known, scratch.box, welded.vertices)) {
+    if (auto part = make_known_part(*known, scratch.box, welded.vertices, weld)) {
       analysis.parts.push_back(std::move(*part));
       return analysis;
     }
   const std::size_t vertices = welded.vertices.size();
-  const Topology topology = weld_triangles(mesh, key.renumbered, scratch, analysis.findings);
+  const Topology topology = weld_triangles(mesh, key.renumbered, weld, scratch, analysis.findings);
   if (welded.triangles.empty()) return analysis;
   ShellLabels labels = label_shells(welded.vertices, welded.triangles, topology, scratch.topology);
   if (labels.count > 1) {
@@ -210,7 +210,8 @@ MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh) {
   const bool plain =
       welded.vertices.size() == vertices && welded.triangles.size() == mesh.triangles.size() &&
       analysis.findings.degenerate_triangles == 0 && analysis.findings.cut_triangles == 0 &&
-      analysis.findings.turned_triangles == 0 && !has_crowded_edge(topology);
+      analysis.findings.turned_triangles == 0 && analysis.findings.welded_corners == 0 &&
+      !has_crowded_edge(topology);
   const bool closed = labels.closed[0] != 0;
   analysis.parts.push_back(whole(topology, std::move(labels), scratch));
   const Part& part = analysis.parts.front();
@@ -221,6 +222,8 @@ MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh) {
   return analysis;
 }
 
-MeshAnalysis analyse(const GridMesh& mesh) { return MeshAnalyser().analyse(mesh); }
+MeshAnalysis analyse(const GridMesh& mesh, std::int64_t weld) {
+  return MeshAnalyser().analyse(mesh, weld);
+}
 
 }  // namespace strake::geometry

@@ -56,11 +56,8 @@ Junctions::Junctions(std::span<const Vec3i> vertices, std::span<const Triangle> 
   std::vector<Hashed> open;
   for (const auto& edges : {topology.uneven, topology.folded})
     for (const std::uint32_t e : edges) {
-      OpenEdge edge{topology.edges[e].v0, topology.edges[e].v1, 0, 0};
-      for (const std::uint32_t t : topology.triangles_of(e))
-        ++(topology.sense(e, triangles[t]) > 0 ? edge.along : edge.back);
-      const bool balanced = edge.along == edge.back && edge.along > 1;
-      if (!balanced)
+      const OpenEdge edge = count_triangles(triangles, topology, e);
+      if (!edge.balances() || edge.along == 1)
         open.push_back({hash_of(line_of(vertices[edge.low], vertices[edge.high])), edge});
     }
   std::sort(open.begin(), open.end(), [](const Hashed& x, const Hashed& y) {
@@ -84,11 +81,7 @@ Junctions::Junctions(std::span<const Vec3i> vertices, std::span<const Triangle> 
       look_at_line(on_line);
     });
   });
-  std::sort(cut_edges_.begin(), cut_edges_.end(), [](const CutEdge& x, const CutEdge& y) {
-    return std::tie(x.low, x.high) < std::tie(y.low, y.high);
-  });
-  if (!cut_edges_.empty()) on_cut_edge_.resize(vertices.size(), 0);
-  for (const CutEdge& e : cut_edges_) on_cut_edge_[e.low] = on_cut_edge_[e.high] = 1;
+  cuts_.settle(vertices.size());
 }
 
 void Junctions::look_at_line(std::span<const OpenEdge> edges) {
@@ -111,33 +104,55 @@ void Junctions::look_at_line(std::span<const OpenEdge> edges) {
   std::partial_sum(along_.begin(), along_.end(), along_.begin());
   std::partial_sum(back_.begin(), back_.end(), back_.begin());
   const auto matches = [&](std::size_t i) { return along_[i] > 0 && back_[i] > 0; };
-  const std::size_t first_point = points_.size(), first_edge = cut_edges_.size();
+  const std::size_t first_point = cuts_.points(), first_edge = cuts_.edges();
   for (std::size_t i = 1; i + 1 < ends.size(); ++i)
-    if (matches(i - 1) || matches(i)) points_.push_back(ends[i]);
-  const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(first_point);
+    if (matches(i - 1) || matches(i)) cuts_.add_point(ends[i]);
   // Skins match in pairs: each is cut at no more points than the others have, unless they run to
   // and fro.
   constexpr std::size_t kMostCuts = 8;
   const std::size_t most = kMostCuts * edges.size() + 64;
   std::size_t cuts = 0;
   for (const OpenEdge& e : edges) {
-    const auto from = std::upper_bound(begin, points_.end(), e.low);
-    const auto to = std::lower_bound(from, points_.end(), e.high);
+    const std::span<const std::uint32_t> points = cuts_.points_from(first_point);
+    const auto from = std::upper_bound(points.begin(), points.end(), e.low);
+    const auto to = std::lower_bound(from, points.end(), e.high);
     if (from == to) continue;
     const auto count = static_cast<std::size_t>(to - from);
-    cut_edges_.push_back({e.low, e.high, static_cast<std::size_t>(from - points_.begin()), count});
+    const auto before = static_cast<std::size_t>(from - points.begin());
+    cuts_.add(e.low, e.high, first_point + before, count);
     cuts += count * (e.along + e.back);
   }
-  if (cuts > most) cut_edges_.resize(first_edge);
-  if (cut_edges_.size() == first_edge) points_.resize(first_point);
+  if (cuts > most || cuts_.edges() == first_edge) cuts_.drop(first_point, first_edge);
 }
 
-std::span<const std::uint32_t> Junctions::points_on(std::uint32_t low, std::uint32_t high) const {
-  if (none() || on_cut_edge_[low] == 0 || on_cut_edge_[high] == 0) return {};
+std::size_t EdgeCuts::add_point(std::uint32_t vertex) {
+  points_.push_back(vertex);
+  return points_.size() - 1;
+}
+
+void EdgeCuts::add(std::uint32_t low, std::uint32_t high, std::size_t first, std::size_t count) {
+  edges_.push_back({low, high, first, count});
+}
+
+void EdgeCuts::drop(std::size_t points, std::size_t edges) {
+  points_.resize(points);
+  edges_.resize(edges);
+}
+
+void EdgeCuts::settle(std::size_t vertices) {
+  std::sort(edges_.begin(), edges_.end(), [](const Edge& x, const Edge& y) {
+    return std::tie(x.low, x.high) < std::tie(y.low, y.high);
+  });
+  if (!edges_.empty()) on_edge_.resize(vertices, 0);
+  for (const Edge& e : edges_) on_edge_[e.low] = on_edge_[e.high] = 1;
+}
+
+std::span<const std::uint32_t> EdgeCuts::points_on(std::uint32_t low, std::uint32_t high) const {
+  if (none() || on_edge_[low] == 0 || on_edge_[high] == 0) return {};
   const auto at = std::lower_bound(
-      cut_edges_.begin(), cut_edges_.end(), std::pair(low, high),
-      [](const CutEdge& e, const auto& key) { return std::pair(e.low, e.high) < key; });
-  if (at == cut_edges_.end() || at->low != low || at->high != high) return {};
+      edges_.begin(), edges_.end(), std::pair(low, high),
+      [](const Edge& e, const auto& key) { return std::pair(e.low, e.high) < key; });
+  if (at == edges_.end() || at->low != low || at->high != high) return {};
   return std::span(points_).subspan(at->first, at->count);
 }
 
@@ -146,8 +161,7 @@ namespace {
 /// Cuts triangles along the sides that are to be cut.
 class Cutter {
  public:
-  Cutter(const Junctions& junctions, std::vector<Triangle>& pieces)
-      : junctions_(junctions), pieces_(pieces) {}
+  Cutter(const EdgeCuts& cuts, std::vector<Triangle>& pieces) : cuts_(cuts), pieces_(pieces) {}
 
   void cut(const Triangle& t) {
     const std::optional<std::size_t> first = first_side(t);
@@ -171,14 +185,14 @@ class Cutter {
     const auto key = [&](std::size_t k) { return std::minmax(t[k], t[(k + 1) % 3]); };
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = key(k);
-      if (!junctions_.points_on(low, high).empty() && (!first || key(k) < key(*first))) first = k;
+      if (!cuts_.points_on(low, high).empty() && (!first || key(k) < key(*first))) first = k;
     }
     return first;
   }
 
   [[nodiscard]] std::vector<std::uint32_t> points_between(std::uint32_t from,
                                                           std::uint32_t to) const {
-    const auto points = junctions_.points_on(std::min(from, to), std::max(from, to));
+    const auto points = cuts_.points_on(std::min(from, to), std::max(from, to));
     std::vector<std::uint32_t> way(points.begin(), points.end());
     if (from > to) std::ranges::reverse(way);
     return way;
@@ -194,17 +208,15 @@ class Cutter {
     pieces_.push_back({last, to, top});
   }
 
-  const Junctions& junctions_;
+  const EdgeCuts& cuts_;
   std::vector<Triangle>& pieces_;
 };
 
 }  // namespace
 
-std::optional<CutMesh> cut_at_junctions(const GridMesh& welded, const Topology& topology) {
-  const Junctions junctions(welded.vertices, welded.triangles, topology);
-  if (junctions.none()) return std::nullopt;
+CutMesh cut_edges(const GridMesh& welded, const EdgeCuts& cuts) {
   CutMesh mesh;
-  Cutter cutter(junctions, mesh.triangles);
+  Cutter cutter(cuts, mesh.triangles);
   for (std::size_t i = 0; i < welded.triangles.size(); ++i) {
     const std::size_t before = mesh.triangles.size();
     cutter.cut(welded.triangles[i]);
@@ -212,6 +224,12 @@ std::optional<CutMesh> cut_at_junctions(const GridMesh& welded, const Topology& 
     if (!welded.faces.empty()) mesh.faces.resize(mesh.triangles.size(), welded.faces[i]);
   }
   return mesh;
+}
+
+std::optional<CutMesh> cut_at_junctions(const GridMesh& welded, const Topology& topology) {
+  const Junctions junctions(welded.vertices, welded.triangles, topology);
+  if (junctions.none()) return std::nullopt;
+  return cut_edges(welded, junctions.cuts());
 }
 
 }  // namespace strake::geometry

@@ -7,10 +7,45 @@
 #include <span>
 #include <vector>
 
+#include "geometry/analyse/open_edges.hpp"
 #include "geometry/analyse/topology.hpp"
 #include "strake/geometry/analyse.hpp"
 
 namespace strake::geometry {
+
+/// Where edges of a mesh are to be cut.
+class EdgeCuts {
+ public:
+  [[nodiscard]] bool none() const { return edges_.empty(); }
+  [[nodiscard]] std::size_t points() const { return points_.size(); }
+
+  /// Points for edges to be cut at; add() names stretches of them.
+  std::size_t add_point(std::uint32_t vertex);
+  /// The edge low-high is cut at these points, in their order along it.
+  void add(std::uint32_t low, std::uint32_t high, std::size_t first, std::size_t count);
+  /// Takes back what was added since there were so many points and edges.
+  void drop(std::size_t points, std::size_t edges);
+  [[nodiscard]] std::size_t edges() const { return edges_.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> points_from(std::size_t first) const {
+    return std::span(points_).subspan(first);
+  }
+  /// To be called before points_on().
+  void settle(std::size_t vertices);
+
+  /// Where the edge between two vertices, the lower first, is to be cut, from the lower on.
+  [[nodiscard]] std::span<const std::uint32_t> points_on(std::uint32_t low,
+                                                         std::uint32_t high) const;
+
+ private:
+  struct Edge {
+    std::uint32_t low = 0, high = 0;
+    std::size_t first = 0, count = 0;  ///< of points_
+  };
+
+  std::vector<std::uint32_t> points_;
+  std::vector<Edge> edges_;            ///< by (low, high) once settled
+  std::vector<std::uint8_t> on_edge_;  ///< per vertex: whether one of these ends there
+};
 
 /// The T-junctions of a welded mesh: where an edge a-c does not balance, and another of the same
 /// line that does not either ends within it and runs back along a piece of it, a-c is to be cut at
@@ -31,28 +66,13 @@ class Junctions {
   Junctions(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
             const Topology& topology);
 
-  [[nodiscard]] bool none() const { return cut_edges_.empty(); }
-
-  /// Where the edge between two vertices, the lower first, is to be cut, ascending.
-  [[nodiscard]] std::span<const std::uint32_t> points_on(std::uint32_t low,
-                                                         std::uint32_t high) const;
+  [[nodiscard]] bool none() const { return cuts_.none(); }
+  [[nodiscard]] const EdgeCuts& cuts() const { return cuts_; }
 
  private:
-  /// The triangles that run along an edge and back.
-  struct OpenEdge {
-    std::uint32_t low = 0, high = 0;
-    std::uint32_t along = 0, back = 0;
-  };
-  struct CutEdge {
-    std::uint32_t low = 0, high = 0;
-    std::size_t first = 0, count = 0;  ///< of points_
-  };
-
   void look_at_line(std::span<const OpenEdge> edges);
 
-  std::vector<std::uint32_t> points_;
-  std::vector<CutEdge> cut_edges_;          ///< by (low, high)
-  std::vector<std::uint8_t> on_cut_edge_;   ///< per vertex: whether one of these ends there
+  EdgeCuts cuts_;
   std::vector<std::uint32_t> line_points_;  ///< memory of look_at_line()
   std::vector<std::int64_t> along_, back_;
 };
@@ -64,9 +84,12 @@ struct CutMesh {
   std::uint64_t cut = 0;             ///< triangles that became several
 };
 
+/// The mesh with its triangles cut where their edges are to be, in fans. Depends neither on the
+/// order of the triangles nor on their corners', and a triangle is cut like its opposite.
+[[nodiscard]] CutMesh cut_edges(const GridMesh& welded, const EdgeCuts& cuts);
+
 /// The mesh with its triangles cut at its T-junctions, in fans that have an area each; nothing
-/// where it has none. Depends neither on the order of the triangles nor on their corners', and a
-/// triangle is cut like its opposite.
+/// where it has none.
 [[nodiscard]] std::optional<CutMesh> cut_at_junctions(const GridMesh& welded,
                                                       const Topology& topology);
 

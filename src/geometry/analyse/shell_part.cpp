@@ -7,6 +7,7 @@
 
 #include "geometry/analyse/degenerate.hpp"
 #include "geometry/analyse/junctions.hpp"
+#include "geometry/analyse/near_weld.hpp"
 #include "geometry/box.hpp"
 
 namespace strake::geometry {
@@ -41,13 +42,6 @@ __int128 sum_of_determinants(std::span<const Vec3i> vertices, std::span<const Tr
   return sum;
 }
 
-double area_of(std::span<const Vec3i> vertices, std::span<const Triangle> triangles) {
-  double area = 0;
-  for (const Triangle& t : triangles)
-    area += double_area(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
-  return area / 2;
-}
-
 /// A part but for its connectivity.
 Part measured_part(PartKind kind, const std::vector<Vec3i>& vertices,
                    std::span<const Triangle> triangles, __int128 volume_6) {
@@ -76,6 +70,13 @@ __int128 signed_volume_6(std::span<const Vec3i> vertices, std::span<const Triang
   if (is_small(box))
     return sum_of_determinants<std::int64_t>(vertices, triangles, box.lo.as<std::int64_t>());
   return sum_of_determinants<__int128>(vertices, triangles, {});
+}
+
+double area_of(std::span<const Vec3i> vertices, std::span<const Triangle> triangles) {
+  double area = 0;
+  for (const Triangle& t : triangles)
+    area += double_area(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+  return area / 2;
 }
 
 void extract(std::span<const std::uint32_t> triangles, AnalyseScratch& scratch) {
@@ -116,7 +117,7 @@ Part make_part(PartKind kind, PartSource source) {
 }
 
 std::optional<Part> make_known_part(const Connectivity& known, const Box3i& box,
-                                    const std::vector<Vec3i>& vertices) {
+                                    const std::vector<Vec3i>& vertices, std::int64_t weld) {
   const std::span<const Triangle> triangles = known.triangles;
   const bool degenerate = is_narrow(box) ? any_collinear<std::int64_t>(vertices, triangles)
                                          : any_collinear<__int128>(vertices, triangles);
@@ -125,6 +126,7 @@ std::optional<Part> make_known_part(const Connectivity& known, const Box3i& box,
   if (known.closed && volume <= 0) return std::nullopt;
   const Topology topology{known.edges, known.edge_triangles, known.uneven, known.folded};
   if (!Junctions(vertices, triangles, topology).none()) return std::nullopt;
+  if (weld > 0 && may_weld_near(vertices, triangles, topology, weld)) return std::nullopt;
   Part part =
       measured_part(known.closed ? PartKind::solid : PartKind::sheet, vertices, triangles, volume);
   part.triangles = known.triangles;

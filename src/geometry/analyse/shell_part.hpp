@@ -18,6 +18,8 @@ namespace strake::geometry {
 [[nodiscard]] __int128 signed_volume_6(std::span<const Vec3i> vertices,
                                        std::span<const Triangle> triangles);
 
+[[nodiscard]] double area_of(std::span<const Vec3i> vertices, std::span<const Triangle> triangles);
+
 /// Fills scratch.piece: some triangles of scratch.welded, in its order, with the vertices that they
 /// use.
 void extract(std::span<const std::uint32_t> triangles, AnalyseScratch& scratch);
@@ -36,9 +38,11 @@ struct PartSource {
 [[nodiscard]] Part make_part(PartKind kind, __int128 volume_6, AnalyseScratch& scratch);
 
 /// The part of a welded mesh in this box that hangs together like one before, if it is as plain as
-/// that one: no triangle is degenerate, and a closed one is as outward.
+/// that one: no triangle is degenerate, a closed one is as outward, and an open one has no edges to
+/// match, exactly or within `weld`.
 [[nodiscard]] std::optional<Part> make_known_part(const Connectivity& known, const Box3i& box,
-                                                  const std::vector<Vec3i>& vertices);
+                                                  const std::vector<Vec3i>& vertices,
+                                                  std::int64_t weld);
 
 /// Whether an edge has more than two triangles.
 [[nodiscard]] bool has_crowded_edge(const Topology& topology);

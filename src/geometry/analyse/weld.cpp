@@ -11,6 +11,8 @@
 #include "geometry/analyse/degenerate.hpp"
 #include "geometry/analyse/facing_one_way.hpp"
 #include "geometry/analyse/junctions.hpp"
+#include "geometry/analyse/near_weld.hpp"
+#include "geometry/analyse/open_edges.hpp"
 #include "geometry/box.hpp"
 
 namespace strake::geometry {
@@ -195,25 +197,8 @@ Topology topology_of(AnalyseScratch& scratch) {
   return make_topology(mesh.vertices.size(), mesh.triangles, scratch.topology);
 }
 
-/// Puts other triangles into a welded mesh; true when some triangle comes twice.
-bool replace_triangles(CutMesh cut, AnalyseScratch& scratch) {
-  const GridMesh mesh{{}, std::move(cut.triangles), std::move(cut.faces)};
-  std::vector<std::uint32_t> same(scratch.welded.vertices.size());
-  std::iota(same.begin(), same.end(), 0U);
-  const Rows rows = sorted_rows(mesh, same, scratch.welded.vertices, scratch.box, scratch.weld);
-  set_triangles(rows, !mesh.faces.empty(), scratch.welded);
-  return rows.repeated;
-}
-
 std::uint64_t unbalanced_edges(const GridMesh& mesh, const Topology& topology) {
-  std::uint64_t count = 0;
-  for (const std::uint32_t e : topology.uneven) {
-    int net = 0;
-    for (const std::uint32_t t : topology.triangles_of(e))
-      net += topology.sense(e, mesh.triangles[t]);
-    count += net != 0 ? 1U : 0U;
-  }
-  return count;
+  return open_edges(mesh.triangles, topology).size();
 }
 
 /// Drops repetitions unless the balance of the edges needs them: two nested solids that share a
@@ -266,8 +251,15 @@ std::span<const std::uint32_t> weld_vertices(const GridMesh& mesh, AnalyseScratc
   return number_vertices(mesh.vertices, scratch.box, scratch.weld, scratch.welded.vertices);
 }
 
+bool replace_triangles(const GridMesh& mesh, std::span<const std::uint32_t> vertices,
+                       AnalyseScratch& scratch) {
+  const Rows rows = sorted_rows(mesh, vertices, scratch.welded.vertices, scratch.box, scratch.weld);
+  set_triangles(rows, !mesh.faces.empty(), scratch.welded);
+  return rows.repeated;
+}
+
 Topology weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
-                        AnalyseScratch& scratch, MeshFindings& findings) {
+                        std::int64_t weld, AnalyseScratch& scratch, MeshFindings& findings) {
   GridMesh& welded = scratch.welded;
   const Rows rows = sorted_rows(mesh, renumbered, welded.vertices, scratch.box, scratch.weld);
   findings.degenerate_triangles += mesh.triangles.size() - rows.rows.size();
@@ -277,10 +269,22 @@ Topology weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> ren
   Topology topology = topology_of(scratch);
   if (std::optional<CutMesh> cut = cut_at_junctions(welded, topology)) {
     findings.cut_triangles += cut->cut;
-    repeated = replace_triangles(std::move(*cut), scratch);
+    std::vector<std::uint32_t> same(welded.vertices.size());
+    std::iota(same.begin(), same.end(), 0U);
+    repeated =
+        replace_triangles({{}, std::move(cut->triangles), std::move(cut->faces)}, same, scratch);
     topology = topology_of(scratch);
   }
   if (repeated) topology = drop_duplicates(topology, scratch, findings);
+  if (weld > 0)
+    if (const std::optional<NearWeld> near = weld_near(weld, topology, scratch)) {
+      findings.welded_corners += near->corners;
+      findings.welded_shells += near->shells;
+      findings.largest_weld = near->largest;
+      drop_unused_vertices(welded, scratch.weld.next);
+      topology = topology_of(scratch);
+      if (near->repeated) topology = drop_duplicates(topology, scratch, findings);
+    }
   if (const std::uint64_t turned = turn_to_face_one_way(welded, topology)) {
     findings.turned_triangles += turned;
     topology = topology_of(scratch);

@@ -15,13 +15,19 @@ namespace strake::geometry {
 [[nodiscard]] std::span<const std::uint32_t> weld_vertices(const GridMesh& mesh,
                                                            AnalyseScratch& scratch);
 
+/// Puts other triangles into scratch.welded, of vertices that count as these of its own; those
+/// without area are left out. Whether some triangle comes twice.
+[[nodiscard]] bool replace_triangles(const GridMesh& mesh, std::span<const std::uint32_t> vertices,
+                                     AnalyseScratch& scratch);
+
 /// Fills the rest of scratch.welded: degenerate and duplicate triangles dropped and counted, those
-/// at T-junctions cut (see cut_at_junctions()), those that face the other way than the rest of a
+/// at T-junctions cut (see cut_at_junctions()), seams closed that are no wider than `weld` (see
+/// weld_near(); 0: none), triangles that face the other way than the rest of a
 /// closed surface turned (see turn_to_face_one_way()), every triangle starting with its lowest
 /// vertex and triangles sorted by (lowest vertex, the other two ascending, side, face); drops
 /// vertices that none of them uses. Returns their topology, which lives in the scratch.
 [[nodiscard]] Topology weld_triangles(const GridMesh& mesh,
-                                      std::span<const std::uint32_t> renumbered,
+                                      std::span<const std::uint32_t> renumbered, std::int64_t weld,
                                       AnalyseScratch& scratch, MeshFindings& findings);
 
 }  // namespace strake::geometry

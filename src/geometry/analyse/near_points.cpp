@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/analyse/near_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace strake::geometry {
+namespace {
+
+using Wide = __int128;
+
+Wide wide_dot(const Vec3l& a, const Vec3l& b) {
+  return Wide{a.x} * b.x + Wide{a.y} * b.y + Wide{a.z} * b.z;
+}
+
+/// Whether a box that is larger by `within` on all sides may meet a segment: false only where an
+/// axis, or the product of one with the segment, parts the two by more than what doubles round.
+bool may_meet(const Box3i& box, const Vec3i& a, const Vec3i& b, std::int64_t within) {
+  // All twice as large, so that middles are whole: exact, since doubles hold 53 bits.
+  const Vec3d half = (box.hi.as<double>() - box.lo.as<double>()) +
+                     Vec3d{1, 1, 1} * (2 * static_cast<double>(within));
+  const Vec3d way = b.as<double>() - a.as<double>();
+  const Vec3d off = (box.hi.as<double>() + box.lo.as<double>()) - (a.as<double>() + b.as<double>());
+  const Vec3d along{std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)};
+  for (int k = 0; k < 3; ++k)
+    if (std::fabs(off[k]) > half[k] + along[k]) return false;
+  constexpr double kRounding = 0x1p20;  // of products below 2^67
+  const Vec3d turned = cross(off, way);
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    if (std::fabs(turned[k]) > half[i] * along[j] + half[j] * along[i] + kRounding) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+__int128 squared_distance(const Vec3i& p, const Vec3i& q) {
+  const Vec3l way = q.as<std::int64_t>() - p.as<std::int64_t>();
+  return wide_dot(way, way);
+}
+
+bool is_near_segment(const Vec3i& p, const Vec3i& a, const Vec3i& b, std::int64_t within) {
+  const Vec3l from = a.as<std::int64_t>();
+  const Vec3l to = p.as<std::int64_t>() - from, way = b.as<std::int64_t>() - from;
+  const Wide along = wide_dot(to, way), length = wide_dot(way, way), most = Wide{within} * within;
+  if (along <= 0) return wide_dot(to, to) <= most;
+  if (along >= length) return squared_distance(p, b) <= most;
+  const auto minor = [&](int i, int j) { return Wide{to[i]} * way[j] - Wide{to[j]} * way[i]; };
+  Wide sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Wide m = minor((k + 1) % 3, (k + 2) % 3);
+    // Beyond `within` times the length of any segment; squares below fit.
+    constexpr Wide kFar = Wide{1} << 60U;
+    if (m > kFar || m < -kFar) return false;
+    sum += m * m;
+  }
+  return sum <= most * length;
+}
+
+NearPoints::NearPoints(std::span<const Vec3i> vertices, std::vector<std::uint32_t> some)
+    : vertices_(vertices), points_(std::move(some)) {
+  if (points_.empty()) return;
+  nodes_.push_back({{}, 0, static_cast<std::uint32_t>(points_.size()), 0});
+  for (std::size_t n = 0; n < nodes_.size(); ++n) split(n);
+}
+
+void NearPoints::split(std::size_t node) {
+  constexpr std::uint32_t kLeaf = 8;
+  const std::span<std::uint32_t> points =
+      std::span(points_).subspan(nodes_[node].first, nodes_[node].count);
+  Box3i box = empty_box<std::int32_t>();
+  for (const std::uint32_t p : points) box.include(vertices_[p]);
+  nodes_[node].box = box;
+  if (points.size() <= kLeaf) return;
+  const auto side = [&](int k) { return std::int64_t{box.hi[k]} - box.lo[k]; };
+  int axis = side(1) > side(0) ? 1 : 0;
+  if (side(2) > side(axis)) axis = 2;
+  const std::uint32_t first = nodes_[node].first, count = nodes_[node].count, half = count / 2;
+  std::nth_element(points.begin(), points.begin() + half, points.end(),
+                   [&](std::uint32_t p, std::uint32_t q) {
+                     const std::int32_t x = vertices_[p][axis], y = vertices_[q][axis];
+                     return x != y ? x < y : p < q;
+                   });
+  nodes_[node].left = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({{}, first, half, 0});
+  nodes_.push_back({{}, first + half, count - half, 0});
+}
+
+void NearPoints::near(const Vec3i& a, const Vec3i& b, std::int64_t within,
+                      std::vector<std::uint32_t>& found) const {
+  if (nodes_.empty()) return;
+  constexpr std::size_t kDeepest = 64;  // halves of at most 2^32 points, one waiting at each level
+  std::array<std::uint32_t, kDeepest> waiting{};
+  for (std::size_t count = 1; count > 0;) {
+    const Node& node = nodes_[waiting[--count]];
+    if (!may_meet(node.box, a, b, within)) continue;
+    if (node.left != 0) {
+      waiting[count++] = node.left;
+      waiting[count++] = node.left + 1;
+      continue;
+    }
+    for (const std::uint32_t p : std::span(points_).subspan(node.first, node.count))
+      if (is_near_segment(vertices_[p], a, b, within)) found.push_back(p);
+  }
+}
+
+}  // namespace strake::geometry

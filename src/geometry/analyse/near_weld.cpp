@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/analyse/near_weld.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "geometry/analyse/near_corners.hpp"
+#include "geometry/analyse/near_junctions.hpp"
+#include "geometry/analyse/open_edges.hpp"
+#include "geometry/analyse/shell_part.hpp"
+#include "geometry/analyse/weld.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Whether a corner of one of these edges is near another of them.
+bool any_near(std::span<const Vec3i> vertices, std::span<const OpenEdge> open,
+              const NearPoints& points, std::int64_t within) {
+  std::vector<std::uint32_t> near;
+  return std::any_of(open.begin(), open.end(), [&](const OpenEdge& e) {
+    near.clear();
+    points.near(vertices[e.low], vertices[e.high], within, near);
+    return near.size() > 2;  // its own ends
+  });
+}
+
+/// One attempt after another, until what is left closes seams and makes nothing thin.
+class Welder {
+ public:
+  Welder(std::vector<OpenEdge> open, std::int64_t within, AnalyseScratch& scratch)
+      : within_(within),
+        scratch_(scratch),
+        whole_(scratch.welded),
+        open_(std::move(open)),
+        corners_(ends_of(open_)),
+        points_(whole_.vertices, corners_) {
+    may_move_.assign(whole_.vertices.size(), 0);
+    for (const std::uint32_t v : corners_) may_move_[v] = 1;
+  }
+
+  std::optional<NearWeld> weld(Topology& topology) {
+    constexpr int kMostAttempts = 4;
+    bool settled = false;
+    for (int i = 0; i < kMostAttempts && !settled; ++i) {
+      attempt(topology);
+      settled = all_of_use(topology);
+    }
+    if (!settled || result_.corners == 0) {
+      scratch_.welded = std::move(whole_);
+      topology = topology_now();
+      return std::nullopt;
+    }
+    return result_;
+  }
+
+ private:
+  Topology topology_now() {
+    return make_topology(scratch_.welded.vertices.size(), scratch_.welded.triangles,
+                         scratch_.topology);
+  }
+
+  void attempt(Topology& topology) {
+    result_ = {};
+    move_corners();
+    result_.repeated = replace_triangles(whole_, at_, scratch_);
+    topology = topology_now();
+    std::vector<std::uint8_t> may_cut = may_move_;
+    for (const std::uint32_t v : corners_)
+      if (at_[v] != v) may_cut[v] = 0;
+    junctions_ = near_junctions(scratch_.welded, topology, points_, may_cut, within_);
+    if (!junctions_.cuts.none()) {
+      const CutMesh cut = cut_edges(scratch_.welded, junctions_.cuts);
+      std::vector<std::uint32_t> same(at_.size());
+      std::iota(same.begin(), same.end(), 0U);
+      result_.repeated = replace_triangles({{}, cut.triangles, cut.faces}, same, scratch_);
+      topology = topology_now();
+    }
+    result_.corners += junctions_.corners.size();
+    result_.largest = std::max(result_.largest, junctions_.largest);
+  }
+
+  /// Clusters of the corners that may move; those that were found to close nothing stay apart.
+  void move_corners() {
+    at_.resize(whole_.vertices.size());
+    std::iota(at_.begin(), at_.end(), 0U);
+    std::vector<std::uint32_t> some;
+    for (const std::uint32_t v : corners_)
+      if (may_move_[v] != 0) some.push_back(v);
+    const NearPoints points(whole_.vertices, some);
+    clusters_ = near_corners(whole_.vertices, some, points, within_);
+    std::erase_if(clusters_, [&](const CornerCluster& c) {
+      return std::binary_search(useless_.begin(), useless_.end(), c.members.front());
+    });
+    for (const CornerCluster& c : clusters_)
+      for (const std::uint32_t v : c.members) {
+        at_[v] = c.at;
+        result_.corners += v != c.at ? 1U : 0U;
+        const auto squared = squared_distance(whole_.vertices[v], whole_.vertices[c.at]);
+        result_.largest = std::max(result_.largest, std::sqrt(static_cast<double>(squared)));
+      }
+  }
+
+  /// Whether all that was moved closes seams, and none of it a thin shell; else the next attempt
+  /// leaves the others alone.
+  bool all_of_use(const Topology& topology) {
+    const std::vector<std::uint32_t> joined = joined_edges(topology);
+    std::vector<std::uint8_t> joins(at_.size(), 0);
+    for (const std::uint32_t e : joined)
+      joins[topology.edges[e].v0] = joins[topology.edges[e].v1] = 1;
+    const std::size_t before = useless_.size();
+    for (const CornerCluster& c : clusters_)
+      if (joins[c.at] == 0) useless_.push_back(c.members.front());
+    std::sort(useless_.begin(), useless_.end());
+    const bool thin = leave_thin_shells(topology, joined);
+    return useless_.size() == before && !thin;
+  }
+
+  /// The edges, of the mesh as it is now, at which more triangles meet than at the open edges that
+  /// they were.
+  std::vector<std::uint32_t> joined_edges(const Topology& topology) const {
+    const auto all = topology.edges.first(topology.edges.size() - 1);
+    std::vector<std::uint32_t> joined;
+    const auto look_at = [&](std::uint32_t p, std::uint32_t q, std::size_t triangles) {
+      const auto key = std::minmax(p, q);
+      const auto e =
+          std::lower_bound(all.begin(), all.end(), key, [](const PartEdge& x, const auto& k) {
+            return std::pair(x.v0, x.v1) < std::pair<std::uint32_t, std::uint32_t>(k);
+          });
+      if (e == all.end() || e->v0 != key.first || e->v1 != key.second) return;
+      const auto number = static_cast<std::uint32_t>(e - all.begin());
+      if (topology.triangles_of(number).size() > triangles) joined.push_back(number);
+    };
+    for (const OpenEdge& e : open_) {
+      const auto [low, high] = std::minmax(at_[e.low], at_[e.high]);
+      if (low == high) continue;
+      std::uint32_t from = low;
+      for (const std::uint32_t p : junctions_.cuts.points_on(low, high)) {
+        look_at(from, p, e.along + e.back);
+        from = p;
+      }
+      look_at(from, high, e.along + e.back);
+    }
+    std::sort(joined.begin(), joined.end());
+    joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+    return joined;
+  }
+
+  /// Counts the shells that are closed at these edges. The corners of those that are no thicker
+  /// than corners may lie apart are to stay; whether there are any.
+  bool leave_thin_shells(const Topology& topology, const std::vector<std::uint32_t>& joined) {
+    const GridMesh& mesh = scratch_.welded;
+    if (joined.empty()) return false;
+    const ShellLabels labels =
+        label_shells(mesh.vertices, mesh.triangles, topology, scratch_.topology);
+    std::vector<std::uint8_t> is_new(labels.count, 0);
+    const auto shell_of = [&](std::uint32_t t) {
+      return labels.shell.empty() ? 0 : labels.shell[t];
+    };
+    for (const std::uint32_t e : joined)
+      for (const std::uint32_t t : topology.triangles_of(e)) is_new[shell_of(t)] = 1;
+    std::vector<std::vector<Triangle>> shells(labels.count);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const std::uint32_t s = shell_of(t);
+      if (is_new[s] != 0 && labels.closed[s] != 0) shells[s].push_back(mesh.triangles[t]);
+    }
+    std::vector<std::uint8_t> thin(at_.size(), 0);
+    bool any = false;
+    for (const std::vector<Triangle>& shell : shells) {
+      if (shell.empty()) continue;
+      const auto volume_6 = static_cast<double>(signed_volume_6(mesh.vertices, shell));
+      // Twice the volume by the area is the thickness.
+      if (std::fabs(volume_6) / 3 > static_cast<double>(within_) * area_of(mesh.vertices, shell)) {
+        ++result_.shells;
+        continue;
+      }
+      any = true;
+      for (const Triangle& t : shell)
+        for (const std::uint32_t v : t) thin[v] = 1;
+    }
+    for (const std::uint32_t v : corners_)
+      if (thin[at_[v]] != 0) may_move_[v] = 0;
+    return any;
+  }
+
+  std::int64_t within_;
+  AnalyseScratch& scratch_;
+  GridMesh whole_;  ///< as it came
+  std::vector<OpenEdge> open_;
+  std::vector<std::uint32_t> corners_;  ///< their ends
+  NearPoints points_;
+  std::vector<std::uint8_t> may_move_;  ///< per vertex
+  std::vector<std::uint32_t> useless_;  ///< the first of clusters that close nothing
+  std::vector<std::uint32_t> at_;       ///< per vertex: the one that it counts as
+  std::vector<CornerCluster> clusters_;
+  NearJunctions junctions_;
+  NearWeld result_;
+};
+
+}  // namespace
+
+bool may_weld_near(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
+                   const Topology& topology, std::int64_t within) {
+  const std::vector<OpenEdge> open = open_edges(triangles, topology);
+  if (open.empty()) return false;
+  return any_near(vertices, open, NearPoints(vertices, ends_of(open)), within);
+}
+
+std::optional<NearWeld> weld_near(std::int64_t within, Topology& topology,
+                                  AnalyseScratch& scratch) {
+  const GridMesh& mesh = scratch.welded;
+  if (!may_weld_near(mesh.vertices, mesh.triangles, topology, within)) return std::nullopt;
+  return Welder(open_edges(mesh.triangles, topology), within, scratch).weld(topology);
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "geometry/analyse/scratch.hpp"
+#include "geometry/analyse/topology.hpp"
+#include "strake/geometry/analyse.hpp"
+
+namespace strake::geometry {
+
+/// What weld_near() did to a mesh.
+struct NearWeld {
+  std::uint64_t corners = 0;  ///< that count as one with others, or as on an edge
+  std::uint64_t shells = 0;   ///< that are closed so
+  double largest = 0;         ///< grid units: how far a corner lay from where it counts
+  bool repeated = false;      ///< some triangle comes twice now
+};
+
+/// Whether any corner of an edge that does not balance is as near as that to another such edge.
+[[nodiscard]] bool may_weld_near(std::span<const Vec3i> vertices,
+                                 std::span<const Triangle> triangles, const Topology& topology,
+                                 std::int64_t within);
+
+/// Closes the seams of scratch.welded, whose topology this is, where the source's numbers do not
+/// hold them open: corners of edges that do not balance count as one where no farther apart than
+/// `within`, and as on such an edge where no farther from it. Nothing, and the mesh as it was,
+/// where that closes no seam; else the mesh and its topology are new, some vertices unused.
+///
+/// 1. Corners that hang together so, each near the next, move to the one nearest to their middle,
+///    unless one would move farther than `within`: a chain of them, a fine rim, stays as it is.
+/// 2. An edge is cut at a corner beside it only where a piece then matches one that runs back; the
+///    corner does not move.
+/// 3. A corner at which no two edges come to match by it does not move: the rim of a plate, a box
+///    without a lid and a hole too small for its corners stay. What would become no thicker than
+///    `within` stays too: two skins back to back are no solid.
+/// 4. Depends on the set of triangles alone, and on differences of coordinates. Exact, but for the
+///    thickness, which is floating point.
+///
+/// O(k log k) for k edges that do not balance, as long as few corners are near each of them;
+/// nothing where all balance. Sewing, as modellers of surfaces know it, by clusters of corners.
+[[nodiscard]] std::optional<NearWeld> weld_near(std::int64_t within, Topology& topology,
+                                                AnalyseScratch& scratch);
+
+}  // namespace strake::geometry

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/geometry/winding_number.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "strake/geometry/trig.hpp"
+
+namespace strake::geometry {
+namespace {
+
+constexpr std::size_t kDeepest = 64;
+
+double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+
+/// Half the solid angle of a triangle as seen from the origin (A. van Oosterom and J. Strackee,
+/// 1983).
+double half_solid_angle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const double x = length(a), y = length(b), z = length(c);
+  return arc_tan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
+}
+
+/// Whether a ray meets a box before it has gone so far.
+bool meets(const Box3d& box, const Vec3d& from, const Vec3d& way, double far) {
+  double first = 0, last = far;
+  for (int k = 0; k < 3; ++k) {
+    if (way[k] == 0) {
+      if (from[k] < box.lo[k] || from[k] > box.hi[k]) return false;
+      continue;
+    }
+    const double one = (box.lo[k] - from[k]) / way[k], other = (box.hi[k] - from[k]) / way[k];
+    first = std::max(first, std::min(one, other));
+    last = std::min(last, std::max(one, other));
+  }
+  return first <= last;
+}
+
+/// Where a ray meets a triangle, in lengths of `way` (T. Möller and B. Trumbore, 1997).
+std::optional<double> meet(const Vec3d& from, const Vec3d& way, const Vec3d& a, const Vec3d& b,
+                           const Vec3d& c) {
+  const Vec3d u = b - a, v = c - a, across = cross(way, v), off = from - a;
+  const double det = dot(u, across);
+  if (det == 0) return std::nullopt;
+  const double s = dot(off, across) / det;
+  const Vec3d turned = cross(off, u);
+  const double t = dot(way, turned) / det;
+  if (s < 0 || t < 0 || s + t > 1) return std::nullopt;
+  return dot(v, turned) / det;
+}
+
+}  // namespace
+
+WindingNumber::WindingNumber(const Part& part)
+    : triangles_(part.triangles.begin(), part.triangles.end()) {
+  vertices_.reserve(part.vertices.size());
+  for (const Vec3i& v : part.vertices) vertices_.push_back(v.as<double>());
+  if (triangles_.empty()) return;
+  Node all;
+  all.count = static_cast<std::uint32_t>(triangles_.size());
+  nodes_.push_back(all);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) split(n);
+}
+
+const Vec3d& WindingNumber::corner(std::uint32_t triangle, std::size_t k) const {
+  return vertices_[triangles_[triangle][k]];
+}
+
+void WindingNumber::measure(Node& node) const {
+  node.box = empty_box<double>();
+  for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+    const Vec3d &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+    for (const Vec3d& v : {a, b, c}) node.box.include(v);
+    const Vec3d area = cross(b - a, c - a) * 0.5;
+    const double size = length(area);
+    node.area = node.area + area;
+    node.centre = node.centre + (a + b + c) * (size / 3);
+    node.size += size;
+  }
+  node.centre = node.centre * (1 / node.size);
+}
+
+void WindingNumber::split(std::size_t n) {
+  constexpr std::uint32_t kLeaf = 8;
+  Node node = nodes_[n];
+  measure(node);
+  if (node.count > kLeaf) {
+    const Vec3d size = node.box.hi - node.box.lo;
+    int axis = size.y > size.x ? 1 : 0;
+    if (size.z > size[axis]) axis = 2;
+    const auto twice = [&](const Triangle& t) {
+      return vertices_[t[0]][axis] + vertices_[t[1]][axis] + vertices_[t[2]][axis];
+    };
+    const auto first = triangles_.begin() + node.first;
+    const std::uint32_t half = node.count / 2;
+    std::sort(first, first + node.count, [&](const Triangle& s, const Triangle& t) {
+      const double x = twice(s), y = twice(t);
+      return x != y ? x < y : s < t;
+    });
+    node.left = static_cast<std::uint32_t>(nodes_.size());
+    Node child;
+    child.first = node.first;
+    child.count = half;
+    nodes_.push_back(child);
+    child.first = node.first + half;
+    child.count = node.count - half;
+    nodes_.push_back(child);
+  }
+  nodes_[n] = node;
+}
+
+double WindingNumber::at(const Vec3d& at) const {
+  constexpr double kFar = 2;  // a node counts as one where it is so many of its radii away
+  constexpr double kFull = 4 * 3.14159265358979323846;
+  double filled = 0;
+  std::array<std::uint32_t, kDeepest> waiting{};
+  for (std::size_t count = nodes_.empty() ? 0 : 1; count > 0;) {
+    const Node& node = nodes_[waiting[--count]];
+    const Vec3d off = node.centre - at, half = node.box.hi - node.box.lo;
+    const double distance = length(off);
+    // No corner of the box is farther from the centre than the box is long.
+    if (distance > kFar * length(half)) {
+      filled += dot(node.area, off) / (distance * distance * distance);
+    } else if (node.left != 0) {
+      waiting[count++] = node.left;
+      waiting[count++] = node.left + 1;
+    } else {
+      for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
+        filled += 2 * half_solid_angle(corner(t, 0) - at, corner(t, 1) - at, corner(t, 2) - at);
+    }
+  }
+  return filled / kFull;
+}
+
+std::optional<double> WindingNumber::first_hit(const Vec3d& from, const Vec3d& way) const {
+  constexpr double kNoHit = 1e300, kStart = 1e-6;
+  double far = kNoHit;
+  std::array<std::uint32_t, kDeepest> waiting{};
+  for (std::size_t count = nodes_.empty() ? 0 : 1; count > 0;) {
+    const Node& node = nodes_[waiting[--count]];
+    if (!meets(node.box, from, way, far)) continue;
+    if (node.left != 0) {
+      waiting[count++] = node.left;
+      waiting[count++] = node.left + 1;
+      continue;
+    }
+    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+      const auto hit = meet(from, way, corner(t, 0), corner(t, 1), corner(t, 2));
+      if (hit && *hit > kStart) far = std::min(far, *hit);
+    }
+  }
+  return far < kNoHit ? std::optional(far) : std::nullopt;
+}
+
+bool WindingNumber::nearly_encloses() const {
+  constexpr int kSamples = 48;
+  constexpr double kMostOut = 0.05, kHalf = 0.5;
+  // Numbers whose multiples lie evenly in 0 to 1, and do together (R. Kronecker).
+  constexpr double kStepS = 0.7548776662466927, kStepT = 0.5698402909980532;
+  if (nodes_.empty()) return false;
+  const Node& all = nodes_.front();
+  // Where so much of the area does not cancel, as much is missing.
+  if (length(all.area) > 2 * kMostOut * all.size) return false;
+  double out = 0, passed = 0;
+  int inside = 0, sample = 0;
+  for (std::uint32_t i = 0; i < triangles_.size() && sample < kSamples; ++i) {
+    const Vec3d &a = corner(i, 0), &b = corner(i, 1), &c = corner(i, 2);
+    const Vec3d normal = cross(b - a, c - a);
+    passed += length(normal) / 2;
+    for (; sample < kSamples && passed * kSamples >= (sample + kHalf) * all.size; ++sample) {
+      double s = std::fmod((sample + 1) * kStepS, 1), t = std::fmod((sample + 1) * kStepT, 1);
+      if (s + t > 1) s = 1 - s, t = 1 - t;
+      const Vec3d on = a + (b - a) * s + (c - a) * t;
+      const Vec3d back = normal * (-length(all.box.hi - all.box.lo) / length(normal));
+      for (const Vec3d& way : {back, back * -1.0}) {
+        const auto hit = first_hit(on, way);
+        if (!hit) continue;
+        const double winding = std::fabs(at(on + way * (*hit / 2)));
+        if (winding <= kHalf) continue;
+        ++inside;
+        out += std::fabs(1 - winding);
+      }
+    }
+  }
+  return inside * 2 >= kSamples && out <= kMostOut * inside;
+}
+
+}  // namespace strake::geometry
