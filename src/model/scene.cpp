@@ -133,6 +133,7 @@ bool ends_somewhere(const geometry::Part& part) {
 /// `counted` takes a code, a count and its words for one and for many.
 template <class Counted>
 void report_weld(const geometry::MeshFindings& findings, const Counted& counted) {
+  if (findings.welded_corners == 0) return;
   const std::string apart =
       fmt::format("up to {:.3g} um", findings.largest_weld * 1000 * geometry::kMmPerGrid);
   const bool closed = findings.welded_shells > 0;

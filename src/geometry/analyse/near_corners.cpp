@@ -42,19 +42,16 @@ std::optional<std::uint32_t> middle_one(std::span<const Vec3i> vertices,
 std::vector<CornerCluster> near_corners(std::span<const Vec3i> vertices,
                                         std::span<const std::uint32_t> some,
                                         const NearPoints& points, std::int64_t within) {
-  constexpr std::size_t kMostNear = 256, kAlways = std::size_t{1} << 20U;
-  const std::size_t most = kAlways + kMostNear * some.size();
+  std::uint64_t boxes = NearPoints::boxes_for(some.size());
   const auto place = [&](std::uint32_t v) {
     return static_cast<std::uint32_t>(std::lower_bound(some.begin(), some.end(), v) - some.begin());
   };
   DisjointSets sets(some.size());
   std::vector<std::uint32_t> near;
-  std::size_t looked_at = 0;
   for (std::uint32_t i = 0; i < some.size(); ++i) {
     near.clear();
-    points.near(vertices[some[i]], vertices[some[i]], within, near);
-    looked_at += near.size();
-    if (looked_at > most) return {};
+    const Vec3i& at = vertices[some[i]];
+    if (!points.near(at, at, within, boxes, near)) return {};
     for (const std::uint32_t v : near) sets.join(i, place(v));
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_set;  // root, member

@@ -18,7 +18,7 @@ struct CornerCluster {
 
 /// Of some vertices, those that hang together with each no farther than `within` from the next, as
 /// far as none is farther than that from where they are to be. `some` ascending, and the points of
-/// `points`. Nothing where far more are near each other than corners of one solid can be.
+/// `points`. Nothing where very many are near each other, more than corners of solids can be.
 [[nodiscard]] std::vector<CornerCluster> near_corners(std::span<const Vec3i> vertices,
                                                       std::span<const std::uint32_t> some,
                                                       const NearPoints& points,

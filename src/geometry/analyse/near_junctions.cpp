@@ -85,7 +85,12 @@ class Finder {
  public:
   Finder(const GridMesh& welded, const Topology& topology, const NearPoints& points,
          const std::vector<std::uint8_t>& may_cut, std::int64_t within)
-      : welded_(welded), topology_(topology), points_(points), may_cut_(may_cut), within_(within) {}
+      : welded_(welded),
+        topology_(topology),
+        points_(points),
+        may_cut_(may_cut),
+        within_(within),
+        boxes_(NearPoints::boxes_for(topology.uneven.size())) {}
 
   [[nodiscard]] Beside beside(std::uint32_t e) {
     Beside found{count_triangles(welded_.triangles, topology_, e), {}};
@@ -93,7 +98,7 @@ class Finder {
     if (forth == back || may_cut_[low] == 0 || may_cut_[high] == 0) return found;
     const std::vector<Vec3i>& at = welded_.vertices;
     near_.clear();
-    points_.near(at[low], at[high], within_, near_);
+    tangled_ = tangled_ || !points_.near(at[low], at[high], within_, boxes_, near_);
     for (const std::uint32_t v : near_)
       if (may_cut_[v] != 0 && !is_near(at[v], at[low]) && !is_near(at[v], at[high]) &&
           !is_corner(e, v))
@@ -104,6 +109,9 @@ class Finder {
     });
     return found;
   }
+
+  /// Whether it has given up: all edges run past all corners.
+  [[nodiscard]] bool tangled() const { return tangled_; }
 
  private:
   [[nodiscard]] bool is_near(const Vec3i& p, const Vec3i& q) const {
@@ -122,6 +130,8 @@ class Finder {
   const NearPoints& points_;
   const std::vector<std::uint8_t>& may_cut_;
   std::int64_t within_;
+  std::uint64_t boxes_;
+  bool tangled_ = false;
   std::vector<std::uint32_t> near_;
 };
 
@@ -141,7 +151,7 @@ void keep_matching(Beside& b, const Pieces& pieces) {
 NearJunctions near_junctions(const GridMesh& welded, const Topology& topology,
                              const NearPoints& points, const std::vector<std::uint8_t>& may_cut,
                              std::int64_t within) {
-  constexpr std::size_t kMostCuts = 8;
+  constexpr std::size_t kMostCuts = 8, kAlwaysCuts = 64;
   NearJunctions found;
   std::vector<Beside> edges;
   std::size_t corners = 0;
@@ -151,7 +161,8 @@ NearJunctions near_junctions(const GridMesh& welded, const Topology& topology,
     if (beside.edge.balances()) continue;
     corners += beside.corners.size();
     edges.push_back(std::move(beside));
-    if (corners > kMostCuts * topology.uneven.size() + 64) return found;
+    found.tangled = finder.tangled() || corners > kMostCuts * topology.uneven.size() + kAlwaysCuts;
+    if (found.tangled) return found;
   }
   if (corners == 0) return found;
   const Pieces pieces(edges);

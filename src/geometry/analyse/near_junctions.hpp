@@ -16,12 +16,13 @@ struct NearJunctions {
   EdgeCuts cuts;
   std::vector<std::uint32_t> corners;  ///< that edges are cut at, ascending
   double largest = 0;                  ///< grid units: the farthest of them from its edge
+  bool tangled = false;                ///< nothing, as all edges run past all corners
 };
 
 /// The T-junctions of a welded mesh whose corner lies within `within` of the edge, and of neither
 /// end: a corner is kept where a piece of the edge beside it so matches another that runs back.
 /// `may_cut`: per vertex, 1 for corners to cut at, and for ends of edges that may be cut. Nothing
-/// where far more corners are beside edges than a face can have.
+/// where that takes far more than faces of solids would.
 [[nodiscard]] NearJunctions near_junctions(const GridMesh& welded, const Topology& topology,
                                            const NearPoints& points,
                                            const std::vector<std::uint8_t>& may_cut,

@@ -89,12 +89,14 @@ void NearPoints::split(std::size_t node) {
   nodes_.push_back({{}, first + half, count - half, 0});
 }
 
-void NearPoints::near(const Vec3i& a, const Vec3i& b, std::int64_t within,
+bool NearPoints::near(const Vec3i& a, const Vec3i& b, std::int64_t within, std::uint64_t& boxes,
                       std::vector<std::uint32_t>& found) const {
-  if (nodes_.empty()) return;
+  if (nodes_.empty()) return true;
   constexpr std::size_t kDeepest = 64;  // halves of at most 2^32 points, one waiting at each level
   std::array<std::uint32_t, kDeepest> waiting{};
   for (std::size_t count = 1; count > 0;) {
+    if (boxes == 0) return false;
+    --boxes;
     const Node& node = nodes_[waiting[--count]];
     if (!may_meet(node.box, a, b, within)) continue;
     if (node.left != 0) {
@@ -105,6 +107,7 @@ void NearPoints::near(const Vec3i& a, const Vec3i& b, std::int64_t within,
     for (const std::uint32_t p : std::span(points_).subspan(node.first, node.count))
       if (is_near_segment(vertices_[p], a, b, within)) found.push_back(p);
   }
+  return true;
 }
 
 }  // namespace strake::geometry

@@ -27,9 +27,17 @@ class NearPoints {
   NearPoints(std::span<const Vec3i> vertices, std::vector<std::uint32_t> some);
 
   /// Appends those no farther from the segment a-b than `within`, in no particular order. The two
-  /// ends may be one.
-  void near(const Vec3i& a, const Vec3i& b, std::int64_t within,
-            std::vector<std::uint32_t>& found) const;
+  /// ends may be one. False where that takes a look at more than `boxes` boxes; takes off those
+  /// that it looked at, which hang on differences of coordinates alone.
+  [[nodiscard]] bool near(const Vec3i& a, const Vec3i& b, std::int64_t within, std::uint64_t& boxes,
+                          std::vector<std::uint32_t>& found) const;
+
+  /// Boxes enough for this many segments, some of which run along all points: soup of long edges
+  /// that cross each other everywhere takes more.
+  [[nodiscard]] static constexpr std::uint64_t boxes_for(std::size_t segments) {
+    constexpr std::uint64_t kEach = 64, kAlways = std::uint64_t{1} << 22U;
+    return kAlways + kEach * segments;
+  }
 
  private:
   struct Node {

@@ -17,15 +17,23 @@
 namespace strake::geometry {
 namespace {
 
-/// Whether a corner of one of these edges is near another of them.
-bool any_near(std::span<const Vec3i> vertices, std::span<const OpenEdge> open,
-              const NearPoints& points, std::int64_t within) {
+enum class Nearness : std::uint8_t {
+  none,
+  some,     ///< a corner of one open edge is near another
+  tangled,  ///< that takes too long to tell, as all edges run past all corners
+};
+
+Nearness nearness(std::span<const Vec3i> vertices, std::span<const OpenEdge> open,
+                  const NearPoints& points, std::int64_t within) {
   std::vector<std::uint32_t> near;
-  return std::any_of(open.begin(), open.end(), [&](const OpenEdge& e) {
+  std::uint64_t boxes = NearPoints::boxes_for(open.size());
+  for (const OpenEdge& e : open) {
     near.clear();
-    points.near(vertices[e.low], vertices[e.high], within, near);
-    return near.size() > 2;  // its own ends
-  });
+    if (!points.near(vertices[e.low], vertices[e.high], within, boxes, near))
+      return Nearness::tangled;
+    if (near.size() > 2) return Nearness::some;  // more than its own ends
+  }
+  return Nearness::none;
 }
 
 /// One attempt after another, until what is left closes seams and makes nothing thin.
@@ -42,8 +50,16 @@ class Welder {
     for (const std::uint32_t v : corners_) may_move_[v] = 1;
   }
 
+  /// To be asked first.
+  [[nodiscard]] bool any_near() {
+    const Nearness found = nearness(whole_.vertices, open_, points_, within_);
+    junctions_.tangled = found == Nearness::tangled;
+    return found != Nearness::none;
+  }
+
   std::optional<NearWeld> weld(Topology& topology) {
     constexpr int kMostAttempts = 4;
+    find_clusters();
     bool settled = false;
     for (int i = 0; i < kMostAttempts && !settled; ++i) {
       attempt(topology);
@@ -71,7 +87,10 @@ class Welder {
     std::vector<std::uint8_t> may_cut = may_move_;
     for (const std::uint32_t v : corners_)
       if (at_[v] != v) may_cut[v] = 0;
-    junctions_ = near_junctions(scratch_.welded, topology, points_, may_cut, within_);
+    const bool tangled = junctions_.tangled;
+    junctions_ = {};
+    junctions_.tangled = tangled;
+    if (!tangled) junctions_ = near_junctions(scratch_.welded, topology, points_, may_cut, within_);
     if (!junctions_.cuts.none()) {
       const CutMesh cut = cut_edges(scratch_.welded, junctions_.cuts);
       std::vector<std::uint32_t> same(at_.size());
@@ -83,18 +102,20 @@ class Welder {
     result_.largest = std::max(result_.largest, junctions_.largest);
   }
 
-  /// Clusters of the corners that may move; those that were found to close nothing stay apart.
-  void move_corners() {
-    at_.resize(whole_.vertices.size());
-    std::iota(at_.begin(), at_.end(), 0U);
+  /// Of the corners that may move; those that were found to close nothing stay apart.
+  void find_clusters() {
     std::vector<std::uint32_t> some;
     for (const std::uint32_t v : corners_)
       if (may_move_[v] != 0) some.push_back(v);
-    const NearPoints points(whole_.vertices, some);
-    clusters_ = near_corners(whole_.vertices, some, points, within_);
+    clusters_ = near_corners(whole_.vertices, some, NearPoints(whole_.vertices, some), within_);
     std::erase_if(clusters_, [&](const CornerCluster& c) {
       return std::binary_search(useless_.begin(), useless_.end(), c.members.front());
     });
+  }
+
+  void move_corners() {
+    at_.resize(whole_.vertices.size());
+    std::iota(at_.begin(), at_.end(), 0U);
     for (const CornerCluster& c : clusters_)
       for (const std::uint32_t v : c.members) {
         at_[v] = c.at;
@@ -111,11 +132,16 @@ class Welder {
     std::vector<std::uint8_t> joins(at_.size(), 0);
     for (const std::uint32_t e : joined)
       joins[topology.edges[e].v0] = joins[topology.edges[e].v1] = 1;
+    const auto is_useless = [&](const CornerCluster& c) { return joins[c.at] == 0; };
     const std::size_t before = useless_.size();
     for (const CornerCluster& c : clusters_)
-      if (joins[c.at] == 0) useless_.push_back(c.members.front());
+      if (is_useless(c)) useless_.push_back(c.members.front());
     std::sort(useless_.begin(), useless_.end());
     const bool thin = leave_thin_shells(topology, joined);
+    if (thin)
+      find_clusters();
+    else
+      std::erase_if(clusters_, is_useless);
     return useless_.size() == before && !thin;
   }
 
@@ -205,15 +231,16 @@ class Welder {
 bool may_weld_near(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
                    const Topology& topology, std::int64_t within) {
   const std::vector<OpenEdge> open = open_edges(triangles, topology);
-  if (open.empty()) return false;
-  return any_near(vertices, open, NearPoints(vertices, ends_of(open)), within);
+  return !open.empty() &&
+         nearness(vertices, open, NearPoints(vertices, ends_of(open)), within) != Nearness::none;
 }
 
 std::optional<NearWeld> weld_near(std::int64_t within, Topology& topology,
                                   AnalyseScratch& scratch) {
-  const GridMesh& mesh = scratch.welded;
-  if (!may_weld_near(mesh.vertices, mesh.triangles, topology, within)) return std::nullopt;
-  return Welder(open_edges(mesh.triangles, topology), within, scratch).weld(topology);
+  std::vector<OpenEdge> open = open_edges(scratch.welded.triangles, topology);
+  if (open.empty()) return std::nullopt;
+  Welder welder(std::move(open), within, scratch);
+  return welder.any_near() ? welder.weld(topology) : std::nullopt;
 }
 
 }  // namespace strake::geometry

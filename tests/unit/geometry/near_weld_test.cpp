@@ -268,7 +268,8 @@ TEST(NearPoints, AreThoseThatALookAtAllFinds) {
     const Vec3i &a = points[draw.below(300)], &b = points[draw.below(300)];
     const std::int64_t within = round % 2 == 0 ? draw.whole(0, 12) : draw.whole(0, kMostWeld);
     std::vector<std::uint32_t> found, right;
-    tree.near(a, b, within, found);
+    std::uint64_t boxes = NearPoints::boxes_for(1);
+    EXPECT_TRUE(tree.near(a, b, within, boxes, found));
     std::sort(found.begin(), found.end());
     for (const std::uint32_t i : all)
       if (is_near_segment(points[i], a, b, within)) right.push_back(i);
