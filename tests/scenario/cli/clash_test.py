@@ -5,7 +5,16 @@ import csv
 import io
 import json
 
-from scenario import Scenario, cube, main
+from scenario import CUBE_FACES, Scenario, cube, main
+
+
+def box_with_lid_off(gap):
+    """An OBJ object: a cube of side 100 whose lid stands `gap` above it, on corners of its own."""
+    head = cube('box', 0, (0, 0, 0), 100).split('f ')[0]
+    faces = [face for face in CUBE_FACES if face != (5, 6, 7, 8)]
+    lines = [f'v {x} {y} {100 + gap}' for x, y in ((0, 0), (100, 0), (100, 100), (0, 100))]
+    lines += ['f ' + ' '.join(map(str, face)) for face in [*faces, (9, 10, 11, 12)]]
+    return head + '\n'.join(lines) + '\n'
 
 
 class Clash(Scenario):
@@ -256,6 +265,34 @@ class Clash(Scenario):
         self.assertEqual(done.returncode, 2, 'two results in one file')
         self.assertIn("--log-pairs: 'z.csv' is the output of -o already", done.stderr)
         self.assertIn('costly pair', self.run_strake('clash', 'a.obj', '--stats').stderr)
+
+    def test_seams_close_within_the_weld_distance(self):
+        self.write('in.obj', cube('in', 0, (40, 40, 40), 20))
+        for gap, weld, found in ((.002, [], True), (.002, ['--weld', '0'], False), (.021, [], False),
+                                 (.021, ['--weld', '0.021mm'], True), (.021, ['--weld', '0.02mm'], False)):
+            with self.subTest(gap=gap, weld=weld):
+                self.write('box.obj', box_with_lid_off(gap))
+                done = self.run_strake('clash', 'box.obj', 'in.obj', *self.SETTINGS, *weld, '--json',
+                                       '--fail-on', 'hit')
+                self.assertEqual(done.returncode, 1, 'neither a hit nor what may be one passes')
+                report = json.loads(done.stdout)
+                welded = [m for m in report['messages'] if m['code'] == 'mesh-welded']
+                self.assertEqual([r['class'] for r in report['results']], ['HIT'] if found else [])
+                self.assertEqual([n['code'] for n in report.get('not_compared', [])],
+                                 [] if found else ['pair-in-open-surface'])
+                self.assertEqual(len(welded), 1 if found else 0)
+                settings = report['tests'][0]['settings']
+                self.assertEqual('weld_mm' in settings, bool(weld))
+                if found:
+                    self.assertIn(f'{gap * 1000:g} um', welded[0]['message'])
+                else:
+                    strict = self.run_strake('clash', 'box.obj', 'in.obj', *self.SETTINGS, *weld, '--strict')
+                    self.assertEqual(strict.returncode, 4)
+                    self.assertIn('not compared: 1 pair', strict.stdout)
+        for wrong in ('-1mm', '2m', 'wide'):
+            done = self.run_strake('clash', 'box.obj', 'in.obj', *self.SETTINGS, '--weld', wrong)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn('--weld', done.stderr)
 
 
 if __name__ == '__main__':
