@@ -171,6 +171,9 @@ class Finder {
     auto left = parallel::collect<IndexPair>(
         context_, {.name = "intersections: parting planes", .n = pairs_.size(), .grain = kGrain},
         [&](std::size_t i, std::vector<IndexPair>& out) {
+          // Nothing parts what is in one place: of many equal objects all pairs are so.
+          if (a(i).unique == b(i).unique && a(i).placed.origin == b(i).placed.origin)
+            return out.push_back(pairs_[i]);
           const geometry::FramedPart x{a(i).placed, frames_.find(a(i).unique)};
           const geometry::FramedPart y{b(i).placed, frames_.find(b(i).unique)};
           constexpr double kEnough = std::numeric_limits<double>::min();

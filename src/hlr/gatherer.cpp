@@ -7,7 +7,6 @@
 namespace strake::hlr {
 namespace {
 
-constexpr std::uint32_t kFewBodies = 16;
 // Up to this many neighbours of an item are looked through for each of its edges: more are found
 // faster by the tree.
 constexpr std::size_t kFewNeighbours = 64;
@@ -225,8 +224,11 @@ bool Gatherer::test_part(const LocalEdge& local, const ShapeView& view, const Pa
   } else if (!part.buckets.empty()) {
     part.buckets.walk(loose(local.va, local.vb), marks_, test);
   } else {
-    for (std::uint32_t i = 0; more && i < part.last - part.first; ++i) test(i);
+    // Without an index there are no fans either, unless everything is in one.
+    for (std::uint32_t i = 0; part.fans.empty() && more && i < part.last - part.first; ++i) test(i);
   }
+  for (const Fan& fan : part.fans)
+    if (more) fan.walk(loose(local.va, local.vb), local.va, local.vb, test);
   return more;
 }
 

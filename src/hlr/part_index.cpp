@@ -126,8 +126,8 @@ Status choose(const std::vector<ViewBox>& boxes, std::span<const EdgeView> edges
 
 }  // namespace
 
-Status index(const Polygons& all, std::span<const EdgeView> edges, bool convex, const Sight& sight,
-             PartView& part) {
+Status index(const Polygons& all, std::span<const EdgeView> edges, std::vector<Corner> hubs,
+             bool convex, const Sight& sight, PartView& part) {
   const auto polygons = std::span(all.polygons).subspan(part.first, part.last - part.first);
   const bool by_data = sight.bucketing == Options::kBucketsByData;
   const std::size_t from = !by_data ? 2 : convex ? kIndexFromIfConvex : kIndexFrom;
@@ -135,8 +135,10 @@ Status index(const Polygons& all, std::span<const EdgeView> edges, bool convex, 
       index_turned(all, polygons, edges, from, part))
     return {};
   if (polygons.size() < from || sight.bucketing == Options::kNoBuckets) return {};
-  const auto boxes = boxes_of(polygons, sight);
+  auto boxes = boxes_of(polygons, sight);
   if (!boxes) return boxes.error();
+  part.fans = take_fans(std::move(hubs), polygons, all.corners, *boxes);
+  if (std::ranges::all_of(*boxes, &ViewBox::empty)) return {};
   if (by_data) return choose(*boxes, edges, sight, part);
   const Result<BucketPlan> plan = plan_of(*boxes, sight);
   if (!plan) return plan.error();

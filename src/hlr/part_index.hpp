@@ -10,8 +10,9 @@ namespace strake::hlr {
 
 /// Gives a part of many polygons buckets or a tree over them, as the sight asks, and one that runs
 /// askew on paper a frame that fits. `edges` are the part's own: what frame and number of buckets
-/// are chosen by. Errors: cancelled.
-[[nodiscard]] Status index(const Polygons& all, std::span<const EdgeView> edges, bool convex,
-                           const Sight& sight, PartView& part);
+/// are chosen by; `hubs` points on paper round which there are many. Errors: cancelled.
+[[nodiscard]] Status index(const Polygons& all, std::span<const EdgeView> edges,
+                           std::vector<Corner> hubs, bool convex, const Sight& sight,
+                           PartView& part);
 
 }  // namespace strake::hlr

@@ -93,9 +93,24 @@ class PartMerger {
     if (!box) return box.error();
     part.box = *box;
     part.outline.box = part.box;
-    if (const Status s = index(view_, edges_, convex, sight_, part); !s) return s.error();
+    if (const Status s = index(view_, edges_, hubs(), convex, sight_, part); !s) return s.error();
     view_.parts.push_back(std::move(part));
     return convex;
+  }
+
+  /// Where many triangles meet, on paper.
+  [[nodiscard]] std::vector<Corner> hubs() const {
+    std::vector<Corner> hubs;
+    if (viewer_.eye || part_.triangles.size() < kLeastInFan) return hubs;
+    std::vector<std::uint32_t> round(part_.vertices.size(), 0);
+    for (const geometry::Triangle& t : part_.triangles)
+      for (const std::uint32_t v : t) ++round[v];
+    for (std::size_t v = 0; v < round.size(); ++v) {
+      if (round[v] < kLeastInFan) continue;
+      const ViewPoint p = sight_.frame(part_.vertices[v].as<std::int64_t>());
+      hubs.push_back({p.u, p.v});
+    }
+    return hubs;
   }
 
   [[nodiscard]] Bend bend_at(std::size_t k) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hlr/buckets.hpp"
+#include "hlr/fan.hpp"
 #include "hlr/feature_edges.hpp"
 #include "hlr/frame.hpp"
 #include "hlr/picture.hpp"
@@ -29,6 +30,7 @@ struct PartView {
   // Over them, where there are many: either, or neither; in that frame.
   ViewTree tree;
   Buckets buckets;
+  std::vector<Fan> fans;  ///< with polygons that are in neither
   /// Exactly convex: the outline, a polygon without a plane. It hides all that lies under it and
   /// below `farthest` by more than `deep_per_contact` times the contact distance, because that
   /// lies deep enough under whichever face is above.

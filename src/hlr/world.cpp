@@ -9,6 +9,7 @@
 
 #include "hlr/shape_loop.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/distinct.hpp"
 #include "strake/parallel/pieces.hpp"
 
 namespace strake::hlr {
@@ -73,7 +74,48 @@ Status make_views(World& world, const parallel::Context& context) {
       });
 }
 
-void place_bodies(World& world) {
+/// Leaves those bodies out that hide what others of other objects hide too.
+Status leave_out_equal(const World& world, std::vector<ViewBox>& boxes,
+                       const parallel::Context& context) {
+  // An edge, or a line that two objects have in common, asks the others: one of three is left.
+  constexpr std::uint32_t kEnough = 3;
+  const auto& first_body = world.job.scene->first_body;
+  std::vector<std::uint32_t> some;
+  for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+    const std::uint32_t object = world.placed[b].object;
+    if (!boxes[b].empty() && first_body[object + 1] - first_body[object] <= kFewBodies)
+      some.push_back(b);
+  }
+  const auto shape = [&](std::size_t i) { return world.job.seen.of[some[i]]; };
+  const auto placed = [&](std::size_t i) -> const Placed& { return world.placed[some[i]]; };
+  const auto kinds = parallel::distinct(
+      context, "hidden lines: equal bodies", some.size(),
+      [&](std::size_t i) {
+        std::uint64_t h = parallel::mixed(shape(i), static_cast<std::uint64_t>(placed(i).contact));
+        for (int k = 0; k < 3; ++k)
+          h = parallel::mixed(h, static_cast<std::uint64_t>(placed(i).offset[k]));
+        return h;
+      },
+      [&](std::size_t i, std::size_t j) {
+        return shape(i) == shape(j) && placed(i).offset == placed(j).offset &&
+               placed(i).contact == placed(j).contact;
+      });
+  if (!kinds) return kinds.error();
+  struct Kept {
+    std::uint32_t objects = 0, last = 0;
+  };
+  std::vector<Kept> kept(kinds->first.size());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    Kept& of_kind = kept[kinds->of[i]];
+    const std::uint32_t object = placed(i).object;
+    if (of_kind.objects == 0 || of_kind.last != object) ++of_kind.objects;
+    of_kind.last = object;
+    if (of_kind.objects > kEnough) boxes[some[i]] = {};
+  }
+  return {};
+}
+
+Status place_bodies(World& world, const parallel::Context& context) {
   const Job& job = world.job;
   const model::Scene& scene = *job.scene;
   world.placed.resize(scene.bodies.size());
@@ -104,7 +146,10 @@ void place_bodies(World& world) {
     }
     if (placed.opaque && !placed.view->box.empty()) boxes[b] = placed.view->box.moved(placed.at);
   }
+  if (job.options.culling)
+    if (const Status status = leave_out_equal(world, boxes, context); !status) return status;
   world.tree = ViewTree(boxes);
+  return {};
 }
 
 /// Bodies of one shape that hide, whole, and take the same contact distance between their parts.
@@ -178,7 +223,7 @@ Result<World> make_world(const Job& job, const parallel::Context& context) {
   World world(job);
   if (job.view.perspective) world.picture.emplace(job.view, nearest_depth(job));
   if (const Status status = make_views(world, context); !status) return status.error();
-  place_bodies(world);
+  if (const Status status = place_bodies(world, context); !status) return status.error();
   if (job.options.culling && job.options.stage != Stage::none && !world.picture)
     find_sharers(world);
   if (const Status status = make_coverage(world, context); !status) return status.error();

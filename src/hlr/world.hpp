@@ -26,6 +26,10 @@ struct Item {
   bool lines = false;
 };
 
+/// Bodies up to which those of an object are looked through for each of its edges: more are found
+/// faster by the tree.
+inline constexpr std::uint32_t kFewBodies = 16;
+
 /// What a shape's own faces hide of its edges: the same for all bodies that place it whole.
 struct OwnHits {
   std::vector<std::uint32_t> first;  ///< per edge, and the end
@@ -52,7 +56,9 @@ struct World {
       views;                      ///< by seen shape or, in perspective, body; of what is drawn
   std::vector<OwnHits> own_hits;  ///< per seen shape; empty where no two bodies share it
   std::vector<Placed> placed;     ///< per body
-  ViewTree tree;                  ///< over the bodies that may hide
+  /// Over the bodies that may hide. Of equal ones at one place a few are enough, of objects of up
+  /// to kFewBodies: what one hides the others hide.
+  ViewTree tree;
   Coverage coverage;              ///< by them; of nothing where there is no culling
   std::vector<Item> items;
 
