@@ -28,6 +28,7 @@ Result<Cases> find_cases(std::span<const geometry::IndexPair> pairs, const PartL
         std::uint64_t h = mixed(0, (std::uint64_t{a(i).unique} << 32U) | b(i).unique);
         for (int k = 0; k < 3; ++k) h = mixed(h, static_cast<std::uint64_t>(at[k]));
         h = mixed(h, settings[i].tolerances);
+        h = mixed(h, std::bit_cast<std::uint64_t>(settings[i].snap));
         return mixed(h, std::bit_cast<std::uint64_t>(settings[i].contact_distance));
       },
       [&](std::size_t i, std::size_t j) {

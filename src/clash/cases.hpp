@@ -22,6 +22,7 @@ using Cases = parallel::Distinct;
 struct CaseSettings {
   std::uint32_t tolerances = 0;
   double contact_distance = 0;
+  double snap = 0;
   friend bool operator==(const CaseSettings&, const CaseSettings&) = default;
 };
 

@@ -2,37 +2,60 @@
 #include "clash/classify.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace strake::clash {
 namespace {
 
-Class class_of(double d, bool interiors_meet, const Thresholds& t) {
-  if (d < -t.overlap || (interiors_meet && !(t.overlap > 0))) return Class::hit;
-  if (d <= t.gap) return Class::contact;
-  if (d < t.clearance) return Class::clearance_violation;
+/// One end of a bracket: a separation on the grid, and what it may be off by.
+struct End {
+  double d = 0, off = 0;
+  bool interiors_meet = false;
+};
+
+/// Whether a tolerance is asked of the grid itself.
+bool is_exact(double tolerance, const Thresholds& t) { return !(tolerance > 0) && !(t.step > 0); }
+
+Class class_of(const End& end, const Thresholds& t) {
+  const auto beside = [&](double tolerance) {
+    return is_exact(tolerance, t) ? end.d : end.d + end.off;
+  };
+  if (beside(t.overlap) < -t.overlap || (end.interiors_meet && !(t.overlap > 0))) return Class::hit;
+  if (beside(t.gap) <= t.gap) return Class::contact;
+  if (beside(t.clearance) < t.clearance) return Class::clearance_violation;
   return Class::no_hit;
+}
+
+/// Of a d whose bracket leaves its class open: numbers in coarse steps do not tell a touch from
+/// what is a step off.
+Class class_of_nominal(const Separation& s, const Thresholds& t) {
+  if (t.step > 0 && std::fabs(s.d) <= t.step) return Class::contact;
+  return class_of({s.d, 0, s.interiors_meet}, t);
 }
 
 }  // namespace
 
 Judgement judge(const Separation& s, const Thresholds& t) {
-  const Class severe = class_of(s.lower, s.interiors_meet, t);
-  const Class mild = class_of(s.upper, s.interiors_meet, t);
+  const double width = s.upper - s.lower + 2 * s.moved;
+  // Whose numbers are coarse may be apart where these meet.
+  const bool meet = s.interiors_meet && !(t.step > 0);
+  const Class severe = class_of({s.lower, -s.moved, s.interiors_meet}, t);
+  const Class mild = class_of({s.upper, s.moved, meet}, t);
   Judgement j;
   if (severe == mild) {
     j.cls = severe;
-  } else if (s.upper - s.lower <= 1) {
+  } else if (width <= kBorderlineWidth) {
     j.cls = severe;
     j.flags = kBorderline;
   } else {
-    j.cls = class_of(s.d, s.interiors_meet, t);
+    j.cls = class_of_nominal(s, t);
     j.flags = kUncertain;
   }
   // With sag the true bodies may be apart even where the meshes' interiors meet.
-  j.severest = class_of(s.lower - s.sag, s.interiors_meet, t);
-  const Class mildest = class_of(s.upper + s.sag, s.interiors_meet && s.sag == 0, t);
+  j.severest = class_of({s.lower - s.sag, -s.moved, s.interiors_meet}, t);
+  const Class mildest = class_of({s.upper + s.sag, s.moved, meet && s.sag == 0}, t);
   if (s.sag > 0 && (j.severest != j.cls || mildest != j.cls)) {
-    if (s.upper - s.lower + 2 * s.sag <= 1) {
+    if (width + 2 * s.sag <= kBorderlineWidth) {
       j.cls = j.severest;
       j.flags |= kBorderline;
     } else {

@@ -10,6 +10,8 @@ namespace strake::clash {
 /// Thresholds of one pair of parts, grid units; `overlap` is t_o', capped by thickness.
 struct Thresholds {
   double overlap = 0, gap = 0, clearance = 0;
+  /// What is no farther apart and no deeper counts as touching: 0 but for coarse numbers.
+  double step = 0;
 };
 
 /// Signed separation of a pair, grid units: the certified bracket of the geometry on the grid, and
@@ -18,6 +20,9 @@ struct Separation {
   double d = 0;
   double lower = 0, upper = 0;
   double sag = 0;
+  /// How far the geometry on the grid may lie from what the source states: what the snap moved, and
+  /// the step of coarse numbers.
+  double moved = 0;
   bool interiors_meet = false;  ///< decided exactly: d < 0, however small
 };
 
@@ -29,8 +34,14 @@ struct Judgement {
   friend bool operator==(const Judgement&, const Judgement&) = default;
 };
 
-/// The class of a bracket. A bracket about a threshold and no wider than a grid unit gives the
-/// severer class and kBorderline; a wider one the class of d and kUncertain.
+/// Grid units: how wide a bracket about a threshold may be for which the grid and the arithmetic
+/// alone account. Two bodies, each with its place and its vertices snapped, are off by less than
+/// 3.5 either way.
+inline constexpr double kBorderlineWidth = 8;
+
+/// The class of a bracket. A bracket about a threshold and no wider than kBorderlineWidth gives the
+/// severer class and kBorderline; a wider one the class of d and kUncertain. A tolerance of 0 is
+/// asked of the grid itself, whatever the snap moved.
 [[nodiscard]] Judgement judge(const Separation& s, const Thresholds& t);
 
 }  // namespace strake::clash

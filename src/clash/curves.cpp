@@ -76,8 +76,12 @@ PartAnswer judge_ordered(const NarrowPart& wire, const NarrowPart& body,
   const Measured m = measure(wire, body, options, limits.overlap, work);
   const ThinSeparation& s = m.separation;
   PartAnswer answer;
-  answer.separation = {
-      .d = s.d, .lower = s.lower, .upper = s.upper, .sag = m.sag, .interiors_meet = s.inside};
+  answer.separation = {.d = s.d,
+                       .lower = s.lower,
+                       .upper = s.upper,
+                       .sag = m.sag,
+                       .moved = options.snap + options.step,
+                       .interiors_meet = s.inside};
   answer.witness = witness_of(s, y.kind == PartKind::solid);
   answer.relation = relation_of(s, wire, body, options.contact_distance);
   answer.judgement = judge(answer.separation, limits);

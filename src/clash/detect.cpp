@@ -16,6 +16,7 @@
 #include "clash/policy.hpp"
 #include "clash/reduce.hpp"
 #include "clash/regions.hpp"
+#include "clash/source_errors.hpp"
 #include "clash/tally.hpp"
 #include "clash/volumes.hpp"
 #include "strake/geometry/grid.hpp"
@@ -76,6 +77,7 @@ class Engine {
     auto parts = list_parts(scene_, sets_, options_.curves, context_);
     if (!parts) return parts.error();
     list_ = std::move(*parts);
+    if (const Status s = note_source_errors(scene_, options_, list_, context_); !s) return s;
     auto pairs = near_pairs(list_, sets_, search_reach(rules_.reach_mm() * geometry::kGridPerMm),
                             options_, context_);
     if (!pairs) return pairs.error();

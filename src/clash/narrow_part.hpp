@@ -22,6 +22,8 @@ struct NarrowPart {
 struct NarrowOptions {
   double touch_overlap = 1000, touch_gap = 1000, clearance = 0;
   double contact_distance = 3;
+  double snap = 0;  ///< how far the snap may have moved the two against each other
+  double step = 0;  ///< of numbers so coarse that what is a step apart may touch; else 0
   bool thickness_cap = true;
 };
 

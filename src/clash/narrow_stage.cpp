@@ -168,7 +168,8 @@ class ExactStage {
         const PartRef &a = judged_.a(i), &b = judged_.b(i);
         const double sag = a.placed.part->sag + b.placed.part->sag;
         // As near as that it may be a contact elsewhere, or as deep as what is worst.
-        far = sag + stage_.pair_options.of(a, b).touch_gap + 1;
+        const NarrowOptions options = stage_.pair_options.of(a, b);
+        far = sag + std::max(options.touch_gap, options.step) + kSnapReach;
       }
       wanted.push_back({judged_.cases.of[i], far});
     }

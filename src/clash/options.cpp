@@ -60,6 +60,12 @@ double contact_distance(const Options& options, float precision_um) {
   return model::contact_distance(precision_um);
 }
 
+float coarse_step(const Options& options, float precision_um) {
+  // Where a reader warns of coarse-coordinates, in half spacings.
+  constexpr float kCoarseUm = 250;
+  return options.contact_distance_mm < 0 && precision_um > kCoarseUm ? 2 * precision_um : 0;
+}
+
 Sets one_set(const model::Scene& scene) {
   const std::size_t n = scene.model->objects.size();
   Sets sets;

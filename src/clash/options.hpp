@@ -16,4 +16,8 @@ namespace strake::clash {
 /// The contact distance δ in grid units of a body whose source has this precision.
 [[nodiscard]] double contact_distance(const Options& options, float precision_um);
 
+/// The step of a body's numbers in grid units where it is so coarse that a touch cannot be told
+/// from what is a step off; 0 where it is not, and where the contact distance is given.
+[[nodiscard]] float coarse_step(const Options& options, float precision_um);
+
 }  // namespace strake::clash

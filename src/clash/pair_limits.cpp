@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "clash/parts.hpp"
+
 namespace strake::clash {
 
 using geometry::Part;
@@ -10,7 +12,8 @@ using geometry::PartKind;
 
 double apart_within(const Part& a, const Part& b, const NarrowOptions& options) {
   if (a.kind != PartKind::sheet || b.kind != PartKind::sheet) return options.contact_distance;
-  return std::min(options.contact_distance, thresholds(a, b, options).overlap);
+  const Thresholds t = thresholds(a, b, options);
+  return std::min(options.contact_distance, std::max(t.overlap, t.step));
 }
 
 std::uint16_t part_flags(const Part& a, const Part& b) {
@@ -23,16 +26,19 @@ std::uint16_t part_flags(const Part& a, const Part& b) {
 }
 
 Thresholds thresholds(const Part& a, const Part& b, const NarrowOptions& options) {
-  Thresholds t{options.touch_overlap, options.touch_gap, options.clearance};
+  Thresholds t{options.touch_overlap, options.touch_gap, options.clearance, options.step};
   if (!options.thickness_cap) return t;
-  for (const Part* part : {&a, &b})
-    if (part->kind == PartKind::solid) t.overlap = std::min(t.overlap, part->thickness() / 4);
+  for (const Part* part : {&a, &b}) {
+    if (part->kind != PartKind::solid) continue;
+    t.overlap = std::min(t.overlap, part->thickness() / 4);
+    t.step = std::min(t.step, part->thickness() / 4);
+  }
   return t;
 }
 
 double reach_of(const NarrowOptions& options) {
-  // A unit more than the thresholds: what lies exactly at one is for judge() to see.
-  return std::max(options.touch_gap, options.clearance) + 1;
+  // More than the thresholds: what the snap may have moved beyond one is for judge() to see.
+  return std::max({options.touch_gap, options.clearance, options.step}) + kSnapReach;
 }
 
 double parting_gap(const Part& a, const Part& b, const NarrowOptions& options) {

@@ -177,6 +177,7 @@ bool PairOfParts::all_one(double lower, double upper) const {
   const auto of = [&](double d) {
     Separation s = separated_by(d);
     s.sag = sag();
+    s.moved = options_.snap + options_.step;
     return judge(s, thresholds_);
   };
   return of(lower) == of(upper);
@@ -328,6 +329,7 @@ void PairOfParts::conclude_touching(PartAnswer& answer) const {
 
 void PairOfParts::conclude(PartAnswer& answer, double sag) const {
   answer.separation.sag = sag;
+  answer.separation.moved = options_.snap + options_.step;
   answer.judgement = judge(answer.separation, thresholds_);
   answer.judgement.flags |= part_flags(*a_.placed.part, *b_.placed.part);
 }

@@ -22,12 +22,14 @@ PairOptions::PairOptions(const PairRules& rules, const Options& options, const m
 NarrowOptions PairOptions::of(const PartRef& a, const PartRef& b) const {
   NarrowOptions options = narrow_[rules_.tolerances(a.object, b.object)];
   options.contact_distance = std::max(band(a), band(b));
+  options.snap = snap(a, b);
+  options.step = static_cast<double>(std::max(a.step, b.step));
   return options;
 }
 
 CaseSettings PairOptions::settings(const PartRef& a, const PartRef& b) const {
   return {static_cast<std::uint32_t>(rules_.tolerances(a.object, b.object)),
-          std::max(band(a), band(b))};
+          std::max(band(a), band(b)), snap(a, b)};
 }
 
 Result<double> PairOptions::widest_band(std::span<const PartRef> parts,
@@ -44,6 +46,10 @@ double PairOptions::least_touch_gap() const {
   double least = std::numeric_limits<double>::infinity();
   for (const NarrowOptions& n : narrow_) least = std::min(least, n.touch_gap);
   return least;
+}
+
+double PairOptions::snap(const PartRef& a, const PartRef& b) {
+  return static_cast<double>(a.snap) + static_cast<double>(b.snap);
 }
 
 double PairOptions::band(const PartRef& part) const {

@@ -31,6 +31,7 @@ class PairOptions {
 
  private:
   [[nodiscard]] double band(const PartRef& part) const;
+  [[nodiscard]] static double snap(const PartRef& a, const PartRef& b);
 
   const PairRules& rules_;
   const Options& options_;

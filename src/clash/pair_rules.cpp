@@ -277,8 +277,9 @@ Status PairRules::count_candidates(const Judged& judged, const ObjectPairs& obje
 
 void PairRules::allow(const PartRef& a, const PartRef& b,
                       const std::optional<geometry::Box3d>& extent_mm, Pair& pair) const {
+  const double moved = static_cast<double>(a.snap) + static_cast<double>(b.snap);
   allowed_.each(a.object, b.object, [&](std::size_t rule) {
-    if (!allows(policy_.allowed[rule], pair)) return false;
+    if (!allows(policy_.allowed[rule], pair, moved * geometry::kMmPerGrid)) return false;
     pair.allowed = static_cast<std::int32_t>(rule);
     return true;
   });
@@ -352,7 +353,7 @@ Status PairRules::note_shadowed_allowances(const parallel::Context& context, Rep
         const Pair& pair = report.pairs[i];
         if (pair.allowed < 0) return;
         allowed_.each(index(pair.a), index(pair.b), [&](std::size_t rule) {
-          if (idle[rule] && allows(policy_.allowed[rule], pair))
+          if (idle[rule] && allows(policy_.allowed[rule], pair, 0))
             take(rule, static_cast<std::uint32_t>(pair.allowed));
           return false;
         });

@@ -127,7 +127,8 @@ Error too_many(const Options& options) {
 }  // namespace
 
 geometry::Box3l inflated_box(const PartRef& ref, double reach) {
-  const auto inflation = static_cast<std::int64_t>(std::ceil(reach / 2 + ref.placed.part->sag));
+  const double beyond = ref.placed.part->sag + static_cast<double>(ref.step);
+  const auto inflation = static_cast<std::int64_t>(std::ceil(reach / 2 + beyond));
   return ref.placed.part->box.as<std::int64_t>().moved(ref.placed.origin).inflated(inflation);
 }
 

@@ -18,6 +18,8 @@ struct PartRef {
   std::uint32_t number = 0;  ///< within its object
   std::uint32_t unique = 0;  ///< number of the part's geometry, shared by all bodies that place it
   std::uint32_t body = 0;    ///< index into Model::bodies
+  float snap = 0;            ///< grid units: how far its skin may lie from the source's
+  float step = 0;            ///< grid units: of the source's numbers where they are coarse, else 0
 };
 
 /// Solids and sheets of the objects in either set, and lines where asked for, by object and number.
@@ -30,12 +32,16 @@ struct PartList {
 [[nodiscard]] Result<PartList> list_parts(const model::Scene& scene, const Sets& sets,
                                           Curves curves, const parallel::Context& context);
 
-/// What is added to the largest tolerance, both in grid units, before boxes are inflated by it:
-/// what lies exactly at a threshold is for the narrow phase to see.
-[[nodiscard]] constexpr double search_reach(double tolerance) { return tolerance + 2; }
+/// Grid units: what lies so much beyond a tolerance is for the narrow phase to see, since the snap
+/// may have moved it there.
+inline constexpr double kSnapReach = 4;
+
+/// What boxes are inflated by for a tolerance, both in grid units.
+[[nodiscard]] constexpr double search_reach(double tolerance) { return tolerance + kSnapReach + 1; }
 
 /// The part's box, so much larger that the boxes of two parts meet where their true surfaces, which
-/// may stand out of the tessellation by the sag, come within `reach` grid units.
+/// may stand out of the tessellation by the sag, come within `reach` grid units, or as near as the
+/// coarser one's numbers can tell.
 [[nodiscard]] geometry::Box3l inflated_box(const PartRef& ref, double reach);
 
 /// What the inflated boxes of two parts have in common, mm.

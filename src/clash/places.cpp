@@ -88,7 +88,7 @@ class PairPlaces {
         make_planes();
     }
     const std::optional<std::uint32_t> deepest =
-        whole_.witness.interiors_meet ? place_of(whole_.witness.point()) : std::nullopt;
+        whole_.separation.interiors_meet ? place_of(whole_.witness.point()) : std::nullopt;
     std::vector<PartPlace> places;
     for (std::size_t n = 0; n < found_.all.size(); ++n)
       places.push_back({n == deepest ? whole_ : answer_at(n), found_.all[n].extent, false});
@@ -158,6 +158,7 @@ class PairPlaces {
                                                                           : Relation::separate;
     if (whole_.separation.interiors_meet && !is_gap(place)) go_deep(number, answer);
     answer.separation.sag = part_a_.sag + part_b_.sag;
+    answer.separation.moved = whole_.separation.moved;
     answer.judgement = judge(answer.separation, thresholds_);
     answer.judgement.flags |= part_flags(part_a_, part_b_);
     return answer;

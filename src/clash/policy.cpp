@@ -63,11 +63,12 @@ bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b) {
          share(test.refers_to, b, test.answers_to, a);
 }
 
-bool allows(const Allowed& rule, const Pair& pair) {
+bool allows(const Allowed& rule, const Pair& pair, double moved_mm) {
   // Half a grid step is what a bracket about a depth on the grid may be off; the next depth that
   // coordinates on the grid can state is a whole step away.
   constexpr double kTieMm = geometry::kMmPerGrid / 2;
-  if (rule.max_depth_mm ? -pair.d_lower_mm > *rule.max_depth_mm + kTieMm : pair.cls == Class::hit)
+  if (rule.max_depth_mm ? -pair.d_lower_mm > *rule.max_depth_mm + kTieMm + moved_mm
+                        : pair.cls == Class::hit)
     return false;
   const geometry::Vec3d& at = pair.point_mm;
   if (rule.region_mm && !rule.region_mm->contains({at, at})) return false;

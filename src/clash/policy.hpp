@@ -17,8 +17,9 @@ namespace strake::clash {
 [[nodiscard]] bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b);
 [[nodiscard]] bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b);
 
-/// Whether a result is meant, by its depth and its point, of whatever objects.
-[[nodiscard]] bool allows(const Allowed& rule, const Pair& pair);
+/// Whether a result is meant, by its depth and its point, of whatever objects. `moved_mm`: what the
+/// snap accounts for in its bracket.
+[[nodiscard]] bool allows(const Allowed& rule, const Pair& pair, double moved_mm);
 /// Of a result that is meant: whether its bracket reaches as deep as the rule allows.
 [[nodiscard]] bool is_as_deep_as_allowed(const Allowed& rule, const Pair& pair);
 

@@ -166,8 +166,8 @@ Pair PartFindings::pair(std::size_t i) const {
   pair.relation = answer.relation;
   pair.flags = answer.judgement.flags;
   pair.d_mm = s.d / geometry::kGridPerMm;
-  pair.d_lower_mm = (s.lower - s.sag) / geometry::kGridPerMm;
-  pair.d_upper_mm = (s.upper + s.sag) / geometry::kGridPerMm;
+  pair.d_lower_mm = (s.lower - s.sag - s.moved) / geometry::kGridPerMm;
+  pair.d_upper_mm = (s.upper + s.sag + s.moved) / geometry::kGridPerMm;
   pair.point_mm = place_mm(x, w.point());
   pair.on_a_mm = place_mm(x, w.on_a);
   pair.on_b_mm = place_mm(x, w.on_b);

@@ -135,6 +135,7 @@ class SphereSearch {
                          .lower = std::min(lower, best_),
                          .upper = best_,
                          .sag = part_a_.sag + part_b_.sag,
+                         .moved = options_.snap + options_.step,
                          .interiors_meet = best_ < 0};
     answer.witness = witness();
     answer.relation = relation();

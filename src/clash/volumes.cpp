@@ -38,7 +38,7 @@ std::vector<Overlap> overlaps_of_hits(const PartFindings& findings,
   std::size_t pair = 0, last = std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < findings.found.size(); ++i) {
     const Found& f = findings.found[i];
-    if (!f.answer->witness.interiors_meet) continue;
+    if (!f.answer->separation.interiors_meet) continue;
     if (f.candidate == last) continue;  // another place of the same parts
     last = f.candidate;
     const PartRef &a = findings.a(i), &b = findings.b(i);

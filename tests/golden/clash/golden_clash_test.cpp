@@ -94,8 +94,8 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
                          testing::Values(Golden{false, "0d2e6409af907c01712cba46bbd42826",
                                                 "2d6f826c395b22109517a830f672d759"},
-                                         Golden{true, "d1aa3981e65e713db03b1cac17a41204",
-                                                "c7f09170052560adc6e7fe39b2884417"}),
+                                         Golden{true, "14c7895e84ec421f7b9d357ebfbf0525",
+                                                "daed336c3bf1a6dbd664d5c214976570"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });

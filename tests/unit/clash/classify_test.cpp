@@ -29,6 +29,30 @@ TEST(Classify, NarrowBracketAboutAThresholdIsBorderlineAndSevere) {
   EXPECT_EQ(j.flags, kBorderline);
 }
 
+TEST(Classify, WhatTheSnapMovedCountsAtAThresholdButNotAtZero) {
+  const Separation near{.d = 1001, .lower = 1001, .upper = 1001, .moved = 1.7};
+  EXPECT_EQ(judge(near, kDefault).cls, Class::contact);
+  EXPECT_EQ(judge(near, kDefault).flags, kBorderline);
+  const Separation touch{.d = 0.5, .lower = 0.5, .upper = 0.5, .moved = 1.7};
+  EXPECT_EQ(judge(touch, {}).cls, Class::no_hit);
+  EXPECT_EQ(judge(touch, {}).flags, 0);
+}
+
+TEST(Classify, CoarseStepsLeaveATouchOpen) {
+  Thresholds coarse = kDefault;
+  coarse.step = 4000;
+  const auto at_step = [&](double d) {
+    return judge({.d = d, .lower = d, .upper = d, .moved = 4000, .interiors_meet = d < 0}, coarse);
+  };
+  for (const double d : {-4000.0, -2000.0, 4000.0}) {
+    EXPECT_EQ(at_step(d).cls, Class::contact) << d;
+    EXPECT_EQ(at_step(d).flags, kUncertain) << d;
+  }
+  EXPECT_EQ(at_step(-4000).severest, Class::hit);
+  EXPECT_EQ(at_step(-6000).cls, Class::hit);
+  EXPECT_EQ(at_step(-6000).flags, 0);
+}
+
 TEST(Classify, WideBracketKeepsTheClassOfD) {
   const Judgement j = at(-5000, -400, -400);
   EXPECT_EQ(j.cls, Class::contact);
