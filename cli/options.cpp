@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "strake/core/atomic_file.hpp"
 #include "strake/core/number.hpp"
 #include "strake/core/units.hpp"
 #include "strake/parallel/team.hpp"
@@ -23,12 +24,13 @@ Error usage(std::string message, std::string option, std::string mend) {
   return {ErrorCode::usage, std::move(message), std::move(option), std::move(mend)};
 }
 
-/// Whether two names lead to one file, which need not be there yet.
+/// Whether two names lead to one file, which need not be there yet: a link to nowhere leads to the
+/// file that writing through it makes.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error) && !error) return true;
   const auto full = [&](const std::filesystem::path& path) {
-    const auto whole = std::filesystem::absolute(path, error);
+    const auto whole = std::filesystem::absolute(link_end(path), error);
     return error ? path : std::filesystem::weakly_canonical(whole, error);
   };
   return full(a) == full(b);

@@ -5,9 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <system_error>
 #include <utility>
+
+#include "strake/core/hash.hpp"
 
 namespace strake {
 
@@ -32,8 +36,52 @@ Error failure(const fs::path& target, int error) {
           target.string(), std::move(mend)};
 }
 
-/// Where a chain of links ends, so that the file is replaced and the links stay.
-fs::path resolved(const fs::path& target) {
+/// The folder's entry of a rename reaches the disk with the folder.
+void sync_folder(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+std::size_t longest_name(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const long longest = ::pathconf(folder.c_str(), _PC_NAME_MAX);
+  return longest > 0 ? static_cast<std::size_t>(longest) : NAME_MAX;
+}
+
+/// Named by process, so that programs writing the same target do not meet, and so that
+/// remove_partials knows its own. A name that is as long as the disk takes leaves no room for
+/// that: its end is told by a hash of all of it, which keeps targets that begin alike apart.
+fs::path partial_name(const fs::path& target, int attempt) {
+  std::string name = target.filename().string();
+  const std::string own =
+      "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
+  const std::size_t longest = longest_name(target);
+  if (name.size() + own.size() > longest) {
+    const std::string hash = "~" + hash_bytes(std::as_bytes(std::span(name))).text();
+    std::size_t kept = longest - std::min(longest, own.size() + hash.size());
+    // Not within a character of UTF-8, which some disks refuse.
+    while (kept > 0 && (static_cast<unsigned char>(name[kept]) & 0xC0U) == 0x80U) --kept;
+    name = name.substr(0, kept) + hash;
+  }
+  return target.parent_path() / (name + own);
+}
+
+/// A file takes over what may be done with the one that it replaces. That its owner and group are
+/// kept is not everybody's right: where they cannot be, the new file is the writer's.
+void take_over(int descriptor, const struct stat& replaced) {
+  const bool owned = ::fchown(descriptor, replaced.st_uid, replaced.st_gid) == 0 ||
+                     ::fchown(descriptor, static_cast<uid_t>(-1), replaced.st_gid) == 0;
+  static_cast<void>(owned);
+  // Not left to open, which takes away what the umask says. A disk without modes refuses.
+  static_cast<void>(::fchmod(descriptor, replaced.st_mode & 0777U));
+}
+
+}  // namespace
+
+fs::path link_end(const fs::path& target) {
   std::error_code error;
   fs::path path = target;
   for (int i = 0; i < 40 && fs::is_symlink(path, error); ++i) {
@@ -44,32 +92,12 @@ fs::path resolved(const fs::path& target) {
   return path;
 }
 
-/// The folder's entry of a rename reaches the disk with the folder.
-void sync_folder(const fs::path& file) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
-/// Named by process, so that programs writing the same target do not meet, and so that
-/// remove_partials knows its own.
-fs::path partial_name(const fs::path& target, int attempt) {
-  fs::path name = target;
-  name += "." + std::to_string(::getpid());
-  name += "-" + std::to_string(attempt);
-  name += ".part";
-  return name;
-}
-
-}  // namespace
-
 Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   AtomicFile file;
-  file.target_ = resolved(target);
+  file.target_ = link_end(target);
   struct stat status{};
   const bool exists = ::stat(file.target_.c_str(), &status) == 0;
+  if (!exists && errno == ELOOP) return failure(target, ELOOP);
   if (exists && S_ISDIR(status.st_mode)) return failure(target, EISDIR);
   if (exists && !S_ISREG(status.st_mode)) {
     file.direct_ = true;
@@ -83,7 +111,10 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     const mode_t mode = exists ? status.st_mode & 0777U : 0666U;
     file.descriptor_ =
         ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (file.descriptor_ >= 0) return file;
+    if (file.descriptor_ >= 0) {
+      if (exists) take_over(file.descriptor_, status);
+      return file;
+    }
     if (errno != EEXIST) break;
   }
   const int error = errno;
@@ -168,7 +199,7 @@ Status AtomicFile::commit() {
 
 void remove_partials(const fs::path& target) noexcept {
   try {
-    const fs::path real = resolved(target);
+    const fs::path real = link_end(target);
     for (int attempt = 0; attempt < kAttempts; ++attempt)
       ::unlink(partial_name(real, attempt).c_str());
   } catch (...) {  // no memory for a name: there is nothing more to be done

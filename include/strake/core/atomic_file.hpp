@@ -19,7 +19,10 @@ namespace strake {
 ///
 /// What is written goes to a file beside the target; commit() brings it to the disk and renames it
 /// over the target. Without a commit the destructor removes it, and what was there before stays.
-/// A link is followed. A target that is no regular file (/dev/stdout, a pipe) is written directly.
+/// A link is followed: its end is replaced, and the link stays. A file that is replaced hands on
+/// its mode, and its owner and group where the writer may give them. A target that is no regular
+/// file
+/// (/dev/stdout, a pipe) is written directly.
 class AtomicFile {
  public:
   [[nodiscard]] static Result<AtomicFile> create(const std::filesystem::path& target);
@@ -46,6 +49,9 @@ class AtomicFile {
   std::filesystem::path target_, temporary_;
   std::string buffer_;
 };
+
+/// Where a chain of links ends, which need not be there yet: what writing to `target` replaces.
+[[nodiscard]] std::filesystem::path link_end(const std::filesystem::path& target);
 
 /// Writes a whole file as above.
 [[nodiscard]] Status write_file(const std::filesystem::path& target, std::string_view text);

@@ -98,6 +98,49 @@ class Files(Scenario):
                 self.assertIn('overwritten', done.stderr)
                 self.assertEqual((self.folder / 'model.json').read_text(), model)
 
+    def test_two_outputs_that_are_one_file_are_said_at_once(self):
+        os.mkdir(self.folder / 'sub')
+        os.symlink('sub', self.folder / 'way')
+        os.symlink('y.json', self.folder / 'link.csv')
+        os.symlink('sub/../link.csv', self.folder / 'chain.csv')
+        os.symlink(self.folder / 'way' / 'z.json', self.folder / 'far.csv')
+        self.write('old.json', 'old')
+        os.link(self.folder / 'old.json', self.folder / 'hard.csv')
+        for first, second in (('y.json', 'link.csv'), ('link.csv', 'y.json'), ('./sub/../y.json', 'chain.csv'),
+                              ('sub/z.json', 'far.csv'), ('way/z.json', 'sub/z.json'), ('old.json', 'hard.csv'),
+                              ('link.csv', 'chain.csv')):
+            with self.subTest(first=first, second=second):
+                done = self.run_strake('clash', 'missing.obj', '-o', first, '-o', second)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn('twice', done.stderr)
+                done = self.run_strake('clash', 'missing.obj', '-o', first, '--log-pairs', second)
+                self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual((self.folder / 'old.json').read_text(), 'old')
+
+    def test_an_output_behind_a_link_is_written_through_it(self):
+        self.two_files()
+        self.write('there.json', 'old')
+        os.chmod(self.folder / 'there.json', 0o666)
+        os.symlink('there.json', self.folder / 'link.json')
+        os.symlink('new.csv', self.folder / 'link.csv')
+        done = self.run_strake('clash', 'a.obj', 'b.obj', '-o', 'link.json', '-o', 'link.csv')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for link, file in (('link.json', 'there.json'), ('link.csv', 'new.csv')):
+            self.assertTrue((self.folder / link).is_symlink())
+            self.assertGreater((self.folder / file).stat().st_size, 100)
+        self.assertEqual((self.folder / 'there.json').stat().st_mode & 0o777, 0o666)
+
+    def test_outputs_have_names_of_any_legal_length(self):
+        self.two_files()
+        for length in (230, 245, 255):
+            name = 'n' * (length - 5) + '.json'
+            done = self.run_strake('clash', 'a.obj', 'b.obj', '-o', name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue((self.folder / name).exists())
+            name = 'n' * (length - 4) + '.glb'
+            done = self.run_strake('generate', 'ship', '--objects', 100, '-o', name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_outputs_that_cannot_be_are_said_at_once(self):
         self.two_files()
         done = self.run_strake('draw', 'missing.obj', '-o', 'x.svg', '-o', './x.svg')

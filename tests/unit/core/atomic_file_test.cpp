@@ -2,6 +2,7 @@
 #include "strake/core/atomic_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -88,6 +89,74 @@ TEST_F(AtomicFileTest, keeps_mode_and_links) {
   EXPECT_TRUE(fs::is_symlink(path("link")));
   EXPECT_EQ(content(path("real")), "new");
   EXPECT_EQ(fs::status(path("real")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+/// Whatever the mask of new files takes away.
+TEST_F(AtomicFileTest, keeps_every_mode_of_what_it_replaces) {
+  const mode_t mask = ::umask(022);
+  for (const unsigned mode : {0600U, 0640U, 0644U, 0660U, 0664U, 0666U, 0755U, 0777U, 0200U}) {
+    ASSERT_TRUE(write_file(path("a"), "old"));
+    fs::permissions(path("a"), static_cast<fs::perms>(mode));
+    ASSERT_TRUE(write_file(path("a"), "new"));
+    EXPECT_EQ(static_cast<unsigned>(fs::status(path("a")).permissions()), mode);
+    fs::remove(path("a"));
+  }
+  ASSERT_TRUE(write_file(path("a"), "new"));
+  EXPECT_EQ(static_cast<unsigned>(fs::status(path("a")).permissions()), 0644U)
+      << "where there is nothing to replace the mask counts";
+  ::umask(mask);
+}
+
+/// Names up to the longest that the disk takes, of one byte a character and of three.
+TEST_F(AtomicFileTest, takes_names_of_any_legal_length) {
+  const auto longest = static_cast<std::size_t>(::pathconf(path("").c_str(), _PC_NAME_MAX));
+  for (std::size_t length = longest - 40; length <= longest; ++length) {
+    std::string three;
+    while (three.size() + 3 <= length) three += "\xE2\x82\xAC";
+    three.resize(length, 'x');
+    for (const std::string& name : {std::string(length, 'n'), three}) {
+      const Result<AtomicFile> left = AtomicFile::create(path(name));
+      ASSERT_TRUE(left) << length;
+      EXPECT_EQ(files(), 1U);
+      remove_partials(path(name));
+      EXPECT_EQ(files(), 0U);
+      ASSERT_TRUE(write_file(path(name), "x")) << length;
+      EXPECT_EQ(content(path(name)), "x");
+      EXPECT_EQ(files(), 1U) << "nothing is left beside it";
+      fs::remove(path(name));
+    }
+  }
+  EXPECT_FALSE(write_file(path(std::string(longest + 1, 'n')), "x"));
+  EXPECT_EQ(files(), 0U);
+}
+
+/// Long names that begin alike are targets of their own.
+TEST_F(AtomicFileTest, long_names_stay_apart) {
+  const std::string one = std::string(250, 'n') + "1", two = std::string(250, 'n') + "2";
+  Result<AtomicFile> first = AtomicFile::create(path(one));
+  Result<AtomicFile> second = AtomicFile::create(path(two));
+  ASSERT_TRUE(first && second);
+  first->write("1");
+  second->write("2");
+  remove_partials(path(one));
+  EXPECT_FALSE(first->commit());
+  ASSERT_TRUE(second->commit());
+  EXPECT_EQ(content(path(two)), "2");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(AtomicFileTest, links_to_nowhere_are_followed_and_circles_are_errors) {
+  fs::create_directory(path("sub"));
+  fs::create_symlink("sub/b", path("a"));
+  fs::create_symlink("../real", path("sub/b"));
+  EXPECT_EQ(fs::weakly_canonical(link_end(path("a"))), fs::weakly_canonical(path("real")));
+  ASSERT_TRUE(write_file(path("a"), "x"));
+  EXPECT_EQ(content(path("real")), "x");
+  EXPECT_TRUE(fs::is_symlink(path("a")) && fs::is_symlink(path("sub/b")));
+  fs::create_symlink("two", path("one"));
+  fs::create_symlink("one", path("two"));
+  EXPECT_FALSE(write_file(path("one"), "x"));
+  EXPECT_TRUE(fs::is_symlink(path("one")) && fs::is_symlink(path("two")));
 }
 
 TEST_F(AtomicFileTest, partial_files_can_be_removed_from_outside) {
