@@ -2,8 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "rules/rule_file.hpp"
 #include "settings/named_sets.hpp"
@@ -23,6 +27,9 @@ using settings::TableReader;
 using settings::Value;
 
 constexpr std::string_view kChecked = "checked", kNotChecked = "not checked";
+/// Results have a cell for each two disciplines, and every pair carries the names of its rules: a
+/// small file must not ask for gigabytes.
+constexpr std::size_t kMostDisciplines = 300, kLongestName = 200;
 
 /// Reads the tables of a file one by one. A fault is kept by the reading, and what is read after it
 /// is thrown away with the rest.
@@ -68,6 +75,11 @@ class Parser {
   }
 
   void claim(const std::string& name, Place at, std::vector<std::string>& taken) {
+    if (name.size() > kLongestName)
+      reading_.fault(at,
+                     "the name '" + name.substr(0, 20) + "...' has " + std::to_string(name.size()) +
+                         " bytes, more than " + std::to_string(kLongestName),
+                     "give it a short one: every result repeats it");
     if (std::find(taken.begin(), taken.end(), name) != taken.end())
       reading_.fault(at, "the name '" + name + "' is given twice", "give each its own");
     taken.push_back(name);
@@ -114,6 +126,12 @@ class Parser {
   void disciplines() {
     std::vector<std::string> names;
     for (const Value* value : top_.tables("discipline")) {
+      if (names.size() == kMostDisciplines) {
+        reading_.fault(value->at,
+                       "there are more than " + std::to_string(kMostDisciplines) + " disciplines",
+                       "join some: a matrix has a cell for each two of them");
+        return;
+      }
       TableReader table(reading_, *value, "[[discipline]]");
       std::string name = new_name(table, names);
       if (auto select = sets_.required(table, "select"))
@@ -168,11 +186,10 @@ class Parser {
     for (const Entry* column : reader.others()) {
       const auto b = discipline(*column);
       if (!b) return;
-      for (const CellRule& other : rules_.matrix->cells)
-        if (std::minmax(other.a, other.b) == std::minmax(*a, *b))
-          reading_.fault(column->at,
-                         "the cell of '" + row.key + "' and '" + column->key + "' is given twice",
-                         "leave one out: the matrix is symmetric");
+      if (!cells_.emplace(std::minmax(*a, *b)).second)
+        reading_.fault(column->at,
+                       "the cell of '" + row.key + "' and '" + column->key + "' is given twice",
+                       "leave one out: the matrix is symmetric");
       rules_.matrix->cells.push_back(cell(*a, *b, *column, base));
     }
   }
@@ -420,6 +437,7 @@ class Parser {
   Tolerances defaults_;
   double contact_distance_mm_ = -1;
   std::vector<std::string> rule_names_, test_names_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> cells_;  ///< of the matrix, that are given
   std::vector<std::pair<std::vector<std::string>, Place>> without_at_;
 };
 

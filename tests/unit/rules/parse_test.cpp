@@ -316,5 +316,33 @@ TEST(RulesFile, TheSceneIsAsFineAsTheFinestTest) {
   EXPECT_TRUE(Rules::parse("[obstruction]", "r").value().scene_options().obstruction);
 }
 
+/// A small file must not ask for a large result: a cell for each two disciplines, and the name of a
+/// rule with every pair.
+TEST(RulesFile, WhatWouldFillTheDiskIsRefused) {
+  const auto disciplines = [](int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i)
+      text += "[[discipline]]\nname = 'd" + std::to_string(i) + "'\nselect = '*'\n";
+    return text + "[matrix]\n";
+  };
+  EXPECT_EQ(fault_of(disciplines(300)), "");
+  for (const int count : {301, 3000}) {
+    const std::string told = fault_of(disciplines(count));
+    EXPECT_NE(told.find("line 901"), std::string::npos) << told;
+    EXPECT_NE(told.find("more than 300 disciplines"), std::string::npos) << told;
+    EXPECT_NE(told.find("join some"), std::string::npos) << told;
+  }
+  for (const std::string table : {"[[test]]", "[[exempt]]\na = '*'\nb = '*'",
+                                  "[[allowed]]\na = '*'\nb = '*'\nmax_depth = '1mm'"}) {
+    const auto named = [&](std::size_t length) {
+      return fault_of("\n" + table + "\nname = '" + std::string(length, 'n') + "'\n");
+    };
+    EXPECT_EQ(named(200), "") << table;
+    EXPECT_NE(named(201).find("line 2"), std::string::npos) << named(201);
+    EXPECT_NE(named(100'000).find("has 100000 bytes, more than 200"), std::string::npos);
+    EXPECT_LT(named(100'000).size(), 500U);
+  }
+}
+
 }  // namespace
 }  // namespace strake::rules
