@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sheets/lettering.hpp"
+#include "sheets/references.hpp"
 #include "sheets/xml_reader.hpp"
 #include "strake/core/number.hpp"
 #include "strake/core/units.hpp"
@@ -54,6 +55,13 @@ std::string reaches_out(std::string_view text) {
   return {};
 }
 
+/// As it will be written.
+std::string id_of(const XmlEvent& event) {
+  for (const auto& [key, value] : event.attributes)
+    if (key == "id") return on_one_line(value);
+  return {};
+}
+
 bool is_inside_reference(std::string_view element, std::string_view value) {
   if (value.starts_with('#')) return true;
   return element == "image" && (value.starts_with("data:image/png;base64,") ||
@@ -72,6 +80,7 @@ class Cleaner {
       if (event->kind == XmlEvent::Kind::finish) break;
       if (const Status status = take(*event); !status) return status.error();
     }
+    if (const Status status = references_.check(); !status) return status.error();
     found_.pieces.push_back({std::move(text_), {}});
     return std::move(found_);
   }
@@ -82,8 +91,7 @@ class Cleaner {
       case XmlEvent::Kind::start:
         return start(event);
       case XmlEvent::Kind::end:
-        end(event);
-        return {};
+        return end(event);
       case XmlEvent::Kind::text:
         return skipped_ > 0 ? Status() : characters(event);
       case XmlEvent::Kind::finish:
@@ -103,6 +111,7 @@ class Cleaner {
       return fault(event.line, "<" + event.name + "> has no place in a template",
                    "take it out; a template is lines, texts and pictures");
     text_ += '<' + event.name;
+    references_.open(event.name, id_of(event));
     for (const auto& [key, value] : event.attributes)
       if (const Status status = attribute(event, key, value); !status) return status;
     text_ += '>';
@@ -115,6 +124,7 @@ class Cleaner {
       return fault(event.line, "the outermost element is <" + event.name + ">, not <svg>",
                    "give a plain SVG file");
     open_.push_back(event.name);
+    references_.open(event.name, {});  // an id of its own is not written
     for (const auto& [key, value] : event.attributes) {
       if (key == "viewBox") found_.view_box = on_one_line(value);
       if (lowered(key).starts_with("on"))
@@ -168,9 +178,12 @@ class Cleaner {
     if (lower == "href" || lower == "xlink:href") {
       if (!is_inside_reference(event.name, value))
         return refuse("the reference '" + value.substr(0, 60) + "'");
+      if (value.starts_with('#')) references_.refer(on_one_line(value).substr(1), event.line);
     } else if (const std::string what = reaches_out(value); !what.empty()) {
       return refuse("'" + what + "'");
     }
+    for (std::string& target : url_targets(on_one_line(value)))
+      references_.refer(std::move(target), event.line);
     // Attributes are read as style sheets are, where an escape can spell url.
     if (!prefixed && value.find('\\') != std::string::npos) return refuse("'\\' in '" + key + "'");
     if (key == "id" && (value.starts_with("view-") || value.starts_with("sheet-")))
@@ -180,13 +193,33 @@ class Cleaner {
     return {};
   }
 
-  void end(const XmlEvent& event) {
+  Status end(const XmlEvent& event) {
     if (skipped_ > 0) {
       --skipped_;
-      return;
+      return {};
+    }
+    if (open_.back() == "style") {
+      if (const Status status = style(event); !status) return status;
     }
     open_.pop_back();
+    references_.close();
     if (!open_.empty()) text_ += "</" + event.name + '>';
+    return {};
+  }
+
+  /// All that the element holds: a word may come in pieces, with comments in between.
+  Status style(const XmlEvent& event) {
+    const std::string sheet = std::exchange(style_, {});
+    if (const std::string what = reaches_out(sheet); !what.empty())
+      return fault(event.line, "'" + what + "' has no place in the style of a template",
+                   "take it out; all of a template stands in one file");
+    if (sheet.find('\\') != std::string::npos)
+      return fault(event.line, "'\\' has no place in the style of a template", "take it out");
+    const std::string line = on_one_line(sheet);
+    for (std::string& target : url_targets(line))
+      references_.refer_in_style(std::move(target), event.line);
+    text_ += drawing::xml_escaped(line);
+    return {};
   }
 
   Status characters(const XmlEvent& event) {
@@ -194,12 +227,7 @@ class Cleaner {
     const std::string line = on_one_line(event.text);
     const bool blank = line.find_first_not_of(' ') == std::string::npos;
     if (element == "style") {
-      if (const std::string what = reaches_out(event.text); !what.empty())
-        return fault(event.line, "'" + what + "' has no place in the style of a template",
-                     "take it out; all of a template stands in one file");
-      if (event.text.find('\\') != std::string::npos)
-        return fault(event.line, "'\\' has no place in the style of a template", "take it out");
-      text_ += drawing::xml_escaped(line);
+      style_ += event.text;
     } else if (among(kWithFields, element)) {
       return with_fields(event, line);
     } else if (!blank) {
@@ -223,7 +251,9 @@ class Cleaner {
   Template found_;
   std::string text_;
   std::vector<std::string> open_;
-  int skipped_ = 0;  ///< elements that are open and passed over
+  References references_;
+  std::string style_;  ///< of the style element that is open
+  int skipped_ = 0;    ///< elements that are open and passed over
 };
 
 }  // namespace

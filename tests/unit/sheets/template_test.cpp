@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,6 +107,80 @@ TEST(Template, WhatIsMoreThanDrawingIsRefused) {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<g>";
   EXPECT_NE(fault_of(svg(deep)).find("nested too deeply"), std::string::npos);
+}
+
+/// `levels` groups, each of which draws the one before it twice by the attribute or element `draw`.
+std::string bomb(int levels, const std::function<std::string(const std::string&)>& draw) {
+  std::string text = "<g id='l0'><path d='M0 0'/></g>\n";
+  for (int i = 1; i <= levels; ++i) {
+    const std::string once = draw("l" + std::to_string(i - 1));
+    text += "<g id='l" + std::to_string(i) + "'>" + once + once + "</g>\n";
+  }
+  return svg(text + draw("l" + std::to_string(levels)));
+}
+
+/// Every way in which one element draws another.
+std::vector<std::function<std::string(const std::string&)>> ways_to_draw() {
+  return {[](const std::string& id) { return "<use href='#" + id + "'/>"; },
+          [](const std::string& id) { return "<use xlink:href='#" + id + "'/>"; },
+          [](const std::string& id) { return "<rect fill='url(#" + id + ")'/>"; },
+          [](const std::string& id) { return "<rect stroke='URL( \"#" + id + "\" ) none'/>"; },
+          [](const std::string& id) { return "<g mask='url(#" + id + ")'/>"; },
+          [](const std::string& id) { return "<g clip-path=\"url('#" + id + "')\"/>"; },
+          [](const std::string& id) { return "<path style='a:b;marker-end:url(#" + id + ")'/>"; },
+          [](const std::string& id) { return "<pattern href='#" + id + "'/>"; }};
+}
+
+TEST(Template, WhatDrawsItselfIsRefused) {
+  for (const auto& draw : ways_to_draw()) {
+    for (int length = 1; length <= 5; ++length) {
+      std::string circle;
+      for (int i = 0; i < length; ++i)
+        circle += "\n<g id='c" + std::to_string(i) + "'><g>" +
+                  draw("c" + std::to_string((i + 1) % length)) + "</g></g>";
+      const std::string told = fault_of(svg(circle));
+      EXPECT_NE(told.find("is drawn within itself"), std::string::npos) << circle << told;
+      EXPECT_NE(told.find("line " + std::to_string(length + 2)), std::string::npos) << told;
+      // Without its last link it is a chain.
+      EXPECT_EQ(fault_of(svg(circle.substr(0, circle.rfind("<g id=")))), "");
+    }
+  }
+  // A chain, however long, is no circle.
+  std::string chain = "<path id='p0'/>";
+  for (int i = 1; i < 20000; ++i)
+    chain += "<g id='p" + std::to_string(i) + "'><use href='#p" + std::to_string(i - 1) + "'/></g>";
+  EXPECT_EQ(fault_of(svg(chain)).find("within itself"), std::string::npos);
+}
+
+TEST(Template, WhatDrawsWithoutEndIsRefused) {
+  for (const auto& draw : ways_to_draw()) {
+    EXPECT_EQ(fault_of(bomb(10, draw)), "");
+    for (const int levels : {20, 64, 200}) {
+      const std::string told = fault_of(bomb(levels, draw));
+      EXPECT_NE(told.find("the references draw more than"), std::string::npos) << told;
+      EXPECT_NE(told.find("line "), std::string::npos) << told;
+    }
+  }
+  std::string many;
+  for (int i = 0; i < 20000; ++i) many += "<use href='#p'/>";
+  EXPECT_EQ(fault_of(svg("<path id='p'/>" + many)), "") << "in proportion to what is there";
+}
+
+TEST(Template, ReferencesMeanTheSameToEverybody) {
+  for (const auto& [text, what] : std::vector<std::pair<std::string, std::string>>{
+           {"<g id='a'/><g id='a'/><use href='#a'/>", "several elements have that id"},
+           {"<g id='a'><use href='#%61'/></g>", "'%' stands in the reference"},
+           {"<g id='a&#10;b'><use href='#a b'/></g>", "drawn within itself"},
+           {"<g id='a b'><path fill=\"url('#a b')\"/></g>", "drawn within itself"},
+           {"<pattern id='p'/><style>a{fill:url(#p)}</style>",
+            "'url(#p)' has no place in the style"},
+           {"<style>@im<![CDATA[port 'x']]></style>", "'@import'"},
+           {"<style>a{b:ur<!-- -->l(x)}</style>", "'url(...)'"}})
+    EXPECT_NE(fault_of(svg(text)).find(what), std::string::npos) << text << fault_of(svg(text));
+  for (const std::string text :
+       {"<g id='a'/><g id='a'/>", "<use href='#nothing'/>", "<rect width='50%' fill='url(#x)'/>",
+        "<linearGradient id='l'/><style>a{width:50%;fill:url(#l)}</style>"})
+    EXPECT_EQ(fault_of(svg(text)), "") << text;
 }
 
 }  // namespace
