@@ -4,8 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
+
+#include "strake/core/checksum.hpp"
+#include "strake/core/seeded_hash.hpp"
 
 namespace strake {
 namespace {
@@ -60,6 +66,30 @@ TEST(Hash, does_not_depend_on_how_bytes_arrive) {
 
 TEST(Hash, text_has_leading_zeros) {
   EXPECT_EQ((Hash128{0, 0xabc}).text(), "00000000000000000000000000000abc");
+}
+
+TEST(Checksum, is_that_of_all_bytes_however_they_come) {
+  std::string bytes;
+  for (int i = 0; i < 5000; ++i) bytes += static_cast<char>(i * 31 % 251);
+  const Hash128 whole = hash_bytes(std::as_bytes(std::span(bytes)));
+  for (const std::size_t piece : {1U, 7U, 1024U, 5000U}) {
+    Checksum checksum;
+    for (std::size_t at = 0; at < bytes.size(); at += piece)
+      checksum.add(std::string_view(bytes).substr(at, piece));
+    EXPECT_EQ(checksum.value(), whole) << piece;
+  }
+  EXPECT_EQ(Checksum().value(), hash_bytes({}));
+}
+
+TEST(SeededHash, is_another_in_each_table_and_the_same_in_one) {
+  const SeededHash one, two;
+  int equal = 0;
+  for (int i = 0; i < 100; ++i) {
+    const std::string text = std::to_string(i);
+    EXPECT_EQ(one(text), one(text));
+    equal += one(text) % 1024 == two(text) % 1024 ? 1 : 0;
+  }
+  EXPECT_LT(equal, 20) << "keys that meet in one table do not in another";
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace strake {
+
+/// A hash for tables whose keys come from files: each is seeded anew, so that nobody can write a
+/// file whose keys all meet in one place and make a table of them as slow as a list.
+///
+///     std::unordered_map<std::string, std::uint32_t, SeededHash> numbers;
+///
+/// The order in such a table is another in every run: look keys up, never go through them.
+class SeededHash {
+ public:
+  SeededHash();
+  [[nodiscard]] std::size_t operator()(std::string_view text) const {
+    return of(std::as_bytes(std::span(text)));
+  }
+  [[nodiscard]] std::size_t of(std::span<const std::byte> bytes) const;
+
+ private:
+  std::uint64_t seed_;
+};
+
+}  // namespace strake
