@@ -309,6 +309,66 @@ TEST(ClashCsv, NoNameBecomesAFormula) {
   EXPECT_NE(text.find(",-50,"), std::string::npos) << "depths are numbers";
 }
 
+/// Cells of a CSV as a spreadsheet takes them: at commas, and at what it takes for one elsewhere.
+std::vector<std::string> cells_of(const std::string& text, const std::string& separators) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : text) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && separators.find(c) != std::string::npos)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+/// Every sign that begins a formula, behind everything that does not show, and between what other
+/// languages part cells at.
+TEST(ClashCsv, NoNameBecomesAFormulaBehindBlanks) {
+  const std::vector<std::string> signs{
+      "=", "+", "-", "@", "\xEF\xBC\x9D", "\xEF\xBC\x8B", "\xEF\xBC\x8D", "\xEF\xBC\xA0"};
+  std::vector<std::string> blanks{"",
+                                  "\xC2\x85",
+                                  "\xC2\xA0",
+                                  "\xC2\xAD",
+                                  "\xE1\x9A\x80",
+                                  "\xE2\x80\x80",
+                                  "\xE2\x80\x8B",
+                                  "\xE2\x80\x8F",
+                                  "\xE2\x80\xA8",
+                                  "\xE2\x80\xAF",
+                                  "\xE2\x81\x9F",
+                                  "\xE2\x81\xA0",
+                                  "\xE3\x80\x80",
+                                  "\xEF\xBB\xBF",
+                                  " \n \xC2\xA0"};
+  for (int c = 1; c <= 0x20; ++c) blanks.emplace_back(1, static_cast<char>(c));
+  blanks.emplace_back(1, '\x7F');
+  for (const std::string& sign : signs) {
+    for (const std::string& blank : blanks) {
+      const std::string name = blank + sign + "1";
+      ClashModel m;
+      m.box(name, {0, 0, 0}, {100, 100, 100}).box("b", {50, 0, 0}, {150, 100, 100});
+      const std::string text = as_csv(m.detect(), m.model);
+      const std::vector<std::string> cells = cells_of(text, ",\r\n");
+      EXPECT_NE(std::find(cells.begin(), cells.end(), "'" + name), cells.end()) << name;
+      EXPECT_EQ(std::find(cells.begin(), cells.end(), name), cells.end()) << name;
+    }
+    for (const std::string separator : {",", ";", "\t"}) {
+      ClashModel m;
+      m.box("a" + separator + sign + "1", {0, 0, 0}, {100, 100, 100});
+      m.box("b", {50, 0, 0}, {150, 100, 100});
+      for (const std::string& cell : cells_of(as_csv(m.detect(), m.model), separator + "\r\n"))
+        EXPECT_FALSE(cell.starts_with(sign) && cell.ends_with(sign + "1")) << cell;
+    }
+  }
+  ClashModel m;
+  m.box("  plain\xE2\x82\xAC-1", {0, 0, 0}, {100, 100, 100}).box("b", {50, 0, 0}, {150, 100, 100});
+  EXPECT_NE(as_csv(m.detect(), m.model).find(",  plain\xE2\x82\xAC-1,"), std::string::npos);
+}
+
 TEST(ClashJson, WitnessesKeysAndVolumes) {
   const ClashModel m = row_of_boxes();
   const clash::Report report = m.detect({.clearance_mm = 25, .volumes = clash::Volumes::on});
