@@ -14,6 +14,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "strake/core/seeded_hash.hpp"
+
 namespace strake::model {
 namespace {
 
@@ -79,7 +81,7 @@ Order sorted_files(const Model& model) {
 
 /// Gives every repetition of a label a number; files are sorted.
 void add_numbers(std::vector<SourceFile>& files) {
-  std::unordered_set<std::string> taken;
+  std::unordered_set<std::string, SeededHash> taken;
   for (const SourceFile& f : files) taken.insert(f.label);
   std::string previous;
   std::uint32_t repeat = 1;

@@ -14,6 +14,7 @@
 
 #include "model/file_order.hpp"
 #include "model/text_order.hpp"
+#include "strake/core/seeded_hash.hpp"
 
 namespace strake::model {
 namespace {
@@ -64,7 +65,7 @@ void note_positional_ids(Model& model) {
 /// Gives every repetition of an id within a file a suffix, in the order of `order`, which is
 /// sorted by (file, id) with the source's order among equals.
 void separate_ids(Model& model, const Order& order) {
-  std::unordered_set<std::string> taken;
+  std::unordered_set<std::string, SeededHash> taken;
   std::uint32_t taken_of = 0;
   for (std::size_t i = 0; i < order.size();) {
     const Object& first = model.objects[order[i]];

@@ -4,16 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "model/equal_shapes.hpp"
 #include "model/grid_shape.hpp"
+#include "strake/core/seeded_hash.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/parallel/distinct.hpp"
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -44,11 +46,12 @@ struct Use {
 /// Negative zero counts as zero: the two place alike.
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
 
-std::uint64_t hash_of(const Body& body, std::int64_t weld) {
-  std::uint64_t h = parallel::mixed(static_cast<std::uint64_t>(weld), index(body.shape));
+std::size_t hash_of(const SeededHash& hash, const Body& body, std::int64_t weld) {
+  std::array<std::uint64_t, 11> words{index(body.shape), static_cast<std::uint64_t>(weld)};
+  std::size_t at = 1;
   for (const geometry::Vec3d& row : body.placement.linear.row)
-    for (int k = 0; k < 3; ++k) h = parallel::mixed(h, bits(row[k]));
-  return h;
+    for (int k = 0; k < 3; ++k) words[++at] = bits(row[k]);
+  return hash.of(std::as_bytes(std::span(words)));
 }
 
 bool same_linear(const Mat3d& a, const Mat3d& b) {
@@ -70,7 +73,7 @@ class UseTable {
     const Body& b = model_.bodies[body];
     const std::int64_t weld = weld_of(model_, b, options_);
     const std::size_t mask = slots_.size() - 1;
-    for (std::size_t slot = hash_of(b, weld) & mask;; slot = (slot + 1) & mask) {
+    for (std::size_t slot = hash_of(hash_, b, weld) & mask;; slot = (slot + 1) & mask) {
       if (slots_[slot] == kEmpty) {
         slots_[slot] = static_cast<std::uint32_t>(uses_.size());
         uses_.push_back({b.shape, weld, body, 1});
@@ -90,6 +93,7 @@ class UseTable {
   static constexpr std::uint32_t kEmpty = 0xffffffffU;
   const Model& model_;
   const SceneOptions& options_;
+  SeededHash hash_;
   std::vector<std::uint32_t> slots_;
   std::vector<Use> uses_;
 };

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "strake/core/seeded_hash.hpp"
 #include "strake/report/clash_document.hpp"
 
 namespace strake::report {
@@ -33,6 +34,7 @@ class ObjectTable {
   [[nodiscard]] std::string_view kept_label(std::string_view text);
 
   ClashDocument& document_;
+  SeededHash hash_;
   std::vector<Slot> slots_;
   /// Results are ordered by their first object: every other one is that of the last result.
   std::uint32_t last_ = kEmpty, last_but_one_ = kEmpty;

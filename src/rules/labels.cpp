@@ -13,6 +13,7 @@
 #include "model/attribute_values.hpp"
 #include "strake/core/glob.hpp"
 #include "strake/core/number.hpp"
+#include "strake/core/seeded_hash.hpp"
 
 namespace strake::rules {
 namespace {
@@ -34,7 +35,7 @@ class Numbers {
   }
 
  private:
-  std::unordered_map<std::string, std::uint32_t> numbers_;
+  std::unordered_map<std::string, std::uint32_t, SeededHash> numbers_;
 };
 
 /// The hierarchy as paths from the outermost group.

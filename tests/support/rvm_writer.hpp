@@ -75,6 +75,11 @@ class RvmWriter {
   RvmWriter& prim(std::uint32_t kind, std::initializer_list<float> parameters,
                   std::array<float, 12> matrix = kUnitMatrix,
                   std::array<float, 6> box = {-1, -1, -1, 1, 1, 1}) {
+    return prim(kind, std::span<const float>(parameters), matrix, box);
+  }
+  RvmWriter& prim(std::uint32_t kind, std::span<const float> parameters,
+                  std::array<float, 12> matrix = kUnitMatrix,
+                  std::array<float, 6> box = {-1, -1, -1, 1, 1, 1}) {
     begin_primitive("PRIM", kind, matrix, box);
     floats(parameters);
     return end();

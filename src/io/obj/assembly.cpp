@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/encoding.hpp"
+#include "strake/core/seeded_hash.hpp"
 
 namespace strake::io::obj {
 namespace {
@@ -24,8 +25,9 @@ class Assembler {
   std::uint32_t material_index(const std::string& name);
 
   Assembly result_;
-  std::unordered_map<std::string, std::uint32_t> groups_;     ///< entry of each g under this o
-  std::unordered_map<std::string, std::uint32_t> materials_;  ///< index of each name
+  std::unordered_map<std::string, std::uint32_t, SeededHash>
+      groups_;  ///< entry of each g under this o
+  std::unordered_map<std::string, std::uint32_t, SeededHash> materials_;  ///< index of each name
   std::string object_name_, group_name_;
   std::uint32_t object_ = 0;
   std::uint32_t entry_ = kNoEntry;  ///< made with the first face, so that empty groups are none

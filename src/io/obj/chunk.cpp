@@ -166,12 +166,14 @@ Chunk ChunkParser::parse(std::string_view text) {
   while (at != text_end) {
     const char* end = find_newline(at, text_end);
     std::uint64_t extra = 0;
+    const std::size_t problems = chunk_.problems.size();
     if (continues(at, end)) {
       const auto [begin, stop] = joined(at, end, text_end, extra);
       line(begin, stop);
     } else {
       line(at, end);
     }
+    chunk_.cut_off = end == text_end && chunk_.problems.size() > problems;
     chunk_.lines += 1 + extra;
     at = end == text_end ? end : end + 1;
   }

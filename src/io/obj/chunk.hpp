@@ -65,6 +65,7 @@ struct Chunk {
   std::vector<Statement> statements;
   std::vector<Problem> problems;
   std::uint64_t lines = 0;
+  bool cut_off = false;  ///< its last line does not end and has a problem
 };
 
 /// Cuts the text into pieces of about `size` bytes at line ends that no continuation crosses.

@@ -65,6 +65,7 @@ class ObjReading {
  private:
   Status parse();
   void report_problems();
+  void note_cut_off();
   Status gather_vertices();
   [[nodiscard]] std::vector<model::Color> material_colors();
   Status build(std::vector<obj::BuiltObject>& built, std::span<const model::Color> colors);
@@ -110,6 +111,16 @@ void ObjReading::report_problems() {
           skipped ? Severity::skipped : Severity::warning, text.code, text.message,
           fmt::format("{}:{}", file_.path.string(), assembly_.line_base[i] + problem.line + 1));
     }
+}
+
+/// An OBJ does not say where it ends, but a line that stops in the middle does.
+void ObjReading::note_cut_off() {
+  if (chunks_.empty() || !chunks_.back().cut_off) return;
+  model_.files.front().ends_early = true;
+  model_.diagnostics.add(
+      Severity::skipped, "obj-truncated",
+      "the file ends within a line; what came before it is kept, the rest is unknown",
+      fmt::format("{}:{}", file_.path.string(), assembly_.line_base.back()));
 }
 
 Status ObjReading::gather_vertices() {
@@ -204,6 +215,7 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
 Result<model::Model> ObjReading::read() {
   if (const Status parsed = parse(); !parsed) return parsed.error();
   report_problems();
+  note_cut_off();
   if (const Status gathered = gather_vertices(); !gathered) return gathered.error();
   const std::vector<model::Color> colors = material_colors();
   std::vector<obj::BuiltObject> built;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/file_content.hpp"
+#include "strake/core/seeded_hash.hpp"
 
 namespace strake::io::rvm {
 
@@ -89,7 +90,10 @@ class AttributeParser {
       values(line);
     }
   }
-  [[nodiscard]] AttributeFile take() { return std::move(file_); }
+  [[nodiscard]] AttributeFile take() {
+    file_.ends_early = !open_.empty();
+    return std::move(file_);
+  }
 
  private:
   [[nodiscard]] std::optional<std::string_view> started(std::string_view line) const {
@@ -140,7 +144,7 @@ class NameIndex {
   }
 
  private:
-  std::unordered_map<std::string, std::uint32_t> nodes_;
+  std::unordered_map<std::string, std::uint32_t, SeededHash> nodes_;
 };
 
 std::string keyed(std::uint32_t parent, std::string_view name) {
@@ -248,6 +252,11 @@ void attach_attributes(Built& built, const AttributeFile& file, const TextDecode
         Severity::warning, "rvm-attribute-lines",
         fmt::format("{} lines are neither a block nor an attribute", file.unreadable_lines),
         std::string(where));
+  if (file.ends_early)
+    diagnostics.add(Severity::warning, "rvm-attributes-truncated",
+                    "the file ends within an element: what it said of that and of what follows is "
+                    "unknown",
+                    std::string(where));
 }
 
 std::string reference_of(const model::Attributes& attributes) {

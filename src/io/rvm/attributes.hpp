@@ -26,6 +26,7 @@ struct AttributeNode {
 struct AttributeFile {
   std::vector<AttributeNode> nodes;  ///< parents before children; the header block left out
   std::uint64_t unreadable_lines = 0;
+  bool ends_early = false;  ///< within an element: what the rest said nobody knows
 };
 
 /// Parses an attribute file (".att" or ".txt" beside the model): blocks `NEW name … END` of

@@ -19,18 +19,24 @@ std::string_view as_key(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::string facet_problem(const FacetMesh& facets) {
-  std::string text = fmt::format("of {} polygons", facets.polygons);
-  if (facets.nonfinite > 0)
-    text += fmt::format(", {} left out with a vertex that is not a number", facets.nonfinite);
-  if (facets.degenerate > 0)
-    text += fmt::format(", {} left out without three distinct vertices", facets.degenerate);
-  if (facets.untriangulated > 0)
-    text += fmt::format(", {} left out with contours that cross", facets.untriangulated);
-  if (facets.short_contours > 0)
-    text +=
-        fmt::format(", {} holes left out without three distinct vertices", facets.short_contours);
-  return text;
+/// Told of what is missing, and of what has no area and therefore is not.
+void tell_facets(Log& log, const FacetMesh& facets, std::uint64_t offset) {
+  std::string lost, empty;
+  const auto add = [](std::string& text, std::uint32_t count, std::string_view what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  };
+  add(lost, facets.nonfinite, "with a corner that is not a finite number");
+  add(lost, facets.untriangulated, "with contours that cross");
+  add(empty, facets.degenerate, "polygons without three distinct corners");
+  add(empty, facets.short_contours, "holes without three distinct corners");
+  if (!lost.empty())
+    log.skip("rvm-facet-left-out",
+             fmt::format("a facet group is kept without some of its {} polygons: {}",
+                         facets.polygons, lost),
+             offset);
+  if (!empty.empty())
+    log.warn("rvm-facet-polygon",
+             fmt::format("a facet group of {} polygons has {}", facets.polygons, empty), offset);
 }
 
 float largest_parameter(const PrimitiveChunk& chunk) {
@@ -59,6 +65,12 @@ bool Builder::end_group() {
 }
 
 void Builder::add(const PrimitiveChunk& chunk) {
+  // Nothing is built from it but the length of some lines, which then is missing and told.
+  if (!std::ranges::all_of(chunk.box, [](float v) { return std::isfinite(v); }))
+    log_->warn("rvm-nonfinite-box",
+               fmt::format("{} has a stored box with an entry that is not a finite number",
+                           kind_with_article(chunk.kind)),
+               chunk.offset);
   BodyRecord& record = bodies_.emplace_back();
   record.group = open_.empty() ? kNoGroup : open_.back();
   record.transparency = chunk.transparency;
@@ -156,9 +168,7 @@ Result<std::vector<Builder::Facets>> Builder::triangulate(const parallel::Contex
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     FacetMesh& built = (*meshes)[i];
     const FacetJob& job = facets_[i];
-    if (built.nonfinite + built.degenerate + built.untriangulated + built.short_contours > 0)
-      log_->warn("rvm-facet-polygon", "a facet group is incomplete: " + facet_problem(built),
-                 job.offset);
+    tell_facets(*log_, built, job.offset);
     if (built.nonfinite + built.untriangulated > 0) facets[job.shape] = Facets::incomplete;
     if (built.mesh.triangles.empty()) facets[job.shape] = Facets::empty;
     largest_[job.shape] = built.largest;
@@ -184,7 +194,7 @@ model::Color Builder::color_of(const BodyRecord& record) {
   auto color = palette_.find(material);
   if (!color) {
     color = default_color(0);
-    if (reported_materials_.emplace(material, true).second)
+    if (reported_materials_.insert(material).second)
       log_->warn(
           "rvm-material",
           fmt::format("material {} has no colour in the palette; grey stands for it", material),

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -12,6 +13,7 @@
 #include "io/rvm/palette.hpp"
 #include "io/rvm/primitive.hpp"
 #include "strake/core/result.hpp"
+#include "strake/core/seeded_hash.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
 
@@ -96,8 +98,9 @@ class Builder {
   std::vector<float> largest_;  ///< per shape: its largest number, local units
   std::vector<FacetJob> facets_;
   /// Equal parameters of a kind are one shape; keys are views of the file.
-  std::array<std::unordered_map<std::string_view, model::ShapeId>, kFacetKind + 1> known_;
-  std::unordered_map<std::uint32_t, bool> reported_materials_;
+  std::array<std::unordered_map<std::string_view, model::ShapeId, SeededHash>, kFacetKind + 1>
+      known_;
+  std::set<std::uint32_t> reported_materials_;
 };
 
 }  // namespace strake::io::rvm

@@ -2,8 +2,8 @@
 #include "io/rvm/facets.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,40 +17,90 @@ using geometry::Vec3d;
 
 constexpr std::size_t kVertexBytes = 24;  // position and normal
 
-/// Gives equal positions one index, in order of first appearance. Open addressing: a facet group
-/// has few vertices, and there are many groups.
-class Welder {
- public:
-  Welder(std::size_t at_most, std::vector<Vec3d>& vertices)
-      : slots_(std::bit_ceil(at_most * 2 + 2), kFree), vertices_(&vertices) {}
+constexpr std::uint32_t kNowhere = 0xffffffffU;
 
-  std::uint32_t index_of(float x, float y, float z) {
-    // Adding zero makes -0 the same as +0.
-    const Vec3d v{static_cast<double>(x) + 0.0, static_cast<double>(y) + 0.0,
-                  static_cast<double>(z) + 0.0};
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t at = hash(v) & mask;; at = (at + 1) & mask) {
-      if (slots_[at] == kFree) {
-        slots_[at] = static_cast<std::uint32_t>(vertices_->size());
-        vertices_->push_back(v);
-      }
-      if ((*vertices_)[slots_[at]] == v) return slots_[at];
-    }
-  }
+struct Corner {
+  float x = 0, y = 0, z = 0;
 
- private:
-  static constexpr std::uint32_t kFree = 0xffffffffU;
-  static std::size_t hash(const Vec3d& v) {
-    std::uint64_t h = 0;
-    for (const double c : {v.x, v.y, v.z}) {
-      h = (h ^ std::bit_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
-      h ^= h >> 29;
-    }
-    return static_cast<std::size_t>(h);
+  [[nodiscard]] bool finite() const {
+    return std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
   }
-  std::vector<std::uint32_t> slots_;
-  std::vector<Vec3d>* vertices_;
+  [[nodiscard]] float largest() const {
+    return std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
+  }
+  /// Adding zero makes -0 the same as +0.
+  [[nodiscard]] Vec3d position() const {
+    return {static_cast<double>(x) + 0.0, static_cast<double>(y) + 0.0,
+            static_cast<double>(z) + 0.0};
+  }
 };
+
+Corner read_corner(Cursor& in) {
+  Corner corner;
+  corner.x = in.f32();
+  corner.y = in.f32();
+  corner.z = in.f32();
+  in.skip(kVertexBytes - 12);  // a normal
+  return corner;
+}
+
+/// All corners of a facet group, one after another.
+std::vector<Corner> read_corners(Cursor in) {
+  std::vector<Corner> corners;
+  corners.reserve(in.left() / kVertexBytes);
+  const std::uint32_t polygons = in.u32();
+  for (std::uint32_t p = 0; p < polygons && !in.failed(); ++p) {
+    const std::uint32_t contours = in.u32();
+    for (std::uint32_t c = 0; c < contours && !in.failed(); ++c) {
+      const std::uint32_t count = in.u32();
+      for (std::uint32_t v = 0; v < count && !in.failed(); ++v) corners.push_back(read_corner(in));
+    }
+  }
+  return corners;
+}
+
+struct NumberedCorner {
+  Corner at;
+  std::uint32_t number = 0;
+
+  [[nodiscard]] bool same_place(const NumberedCorner& other) const {
+    return at.x == other.at.x && at.y == other.at.y && at.z == other.at.z;
+  }
+  friend bool operator<(const NumberedCorner& a, const NumberedCorner& b) {
+    if (a.at.x != b.at.x) return a.at.x < b.at.x;
+    if (a.at.y != b.at.y) return a.at.y < b.at.y;
+    if (a.at.z != b.at.z) return a.at.z < b.at.z;
+    return a.number < b.number;
+  }
+};
+
+/// Gives equal positions one vertex, in order of first appearance, and each corner its vertex:
+/// kNowhere where it has no place. By sorting: corners can be made to meet in any hash.
+std::vector<std::uint32_t> weld(std::span<const Corner> corners, std::vector<Vec3d>& vertices) {
+  std::vector<NumberedCorner> sorted;
+  sorted.reserve(corners.size());
+  for (std::uint32_t i = 0; i < corners.size(); ++i)
+    if (corners[i].finite()) sorted.push_back({corners[i], i});
+  std::sort(sorted.begin(), sorted.end());
+  // First the corner at which each place appears first, then the vertex that this one has by then.
+  std::vector<std::uint32_t> vertex_of(corners.size(), kNowhere);
+  std::uint32_t first = 0;
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    if (k == 0 || !sorted[k].same_place(sorted[k - 1])) first = sorted[k].number;
+    vertex_of[sorted[k].number] = first;
+  }
+  for (std::uint32_t i = 0; i < corners.size(); ++i) {
+    std::uint32_t& vertex = vertex_of[i];
+    if (vertex == kNowhere) continue;
+    if (vertex != i) {
+      vertex = vertex_of[vertex];
+      continue;
+    }
+    vertex = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back(corners[i].position());
+  }
+  return vertex_of;
+}
 
 /// The contours of one polygon as vertex indices; ring i is indices[first[i] .. first[i + 1]).
 struct Polygon {
@@ -67,7 +117,7 @@ struct Polygon {
 class FacetBuilder {
  public:
   explicit FacetBuilder(Bytes payload)
-      : in_(payload), welder_(payload.size() / kVertexBytes, out_.mesh.vertices) {}
+      : in_(payload), corners_(read_corners(in_)), vertex_of_(weld(corners_, out_.mesh.vertices)) {}
 
   FacetMesh build() {
     out_.polygons = in_.u32();
@@ -105,7 +155,9 @@ class FacetBuilder {
 
   Cursor in_;
   FacetMesh out_;
-  Welder welder_;
+  std::vector<Corner> corners_;
+  std::vector<std::uint32_t> vertex_of_;  ///< per corner
+  std::size_t corner_ = 0;                ///< the next
   Polygon polygon_;
   std::vector<Vec3d> points_;
   std::uint32_t face_ = 0;
@@ -116,14 +168,14 @@ bool FacetBuilder::read_contour(bool& finite) {
   const std::uint32_t count = in_.u32();
   const std::size_t begin = polygon_.indices.size();
   for (std::uint32_t v = 0; v < count && !in_.failed(); ++v) {
-    const float x = in_.f32(), y = in_.f32(), z = in_.f32();
-    in_.skip(kVertexBytes - 12);
-    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+    in_.skip(kVertexBytes);
+    const std::uint32_t index = vertex_of_[corner_];
+    const Corner& corner = corners_[corner_++];
+    if (index == kNowhere) {
       finite = false;
       continue;
     }
-    out_.largest = std::max({out_.largest, std::fabs(x), std::fabs(y), std::fabs(z)});
-    const std::uint32_t index = welder_.index_of(x, y, z);
+    out_.largest = std::max(out_.largest, corner.largest());
     if (polygon_.indices.size() == begin || polygon_.indices.back() != index)
       polygon_.indices.push_back(index);
   }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <unordered_map>
 
 #include "strake/model/model.hpp"
 
@@ -23,7 +23,7 @@ class Palette {
   }
 
  private:
-  std::unordered_map<std::uint32_t, model::Color> own_;
+  std::map<std::uint32_t, model::Color> own_;
 };
 
 }  // namespace strake::io::rvm

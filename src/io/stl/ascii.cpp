@@ -28,6 +28,8 @@ std::string_view take_word(std::string_view& line) {
 class AsciiParser {
  public:
   void line(std::string_view line);
+  /// What is left of a line that does not end.
+  void cut_line(std::string_view line);
   std::vector<Solid> take();
   void next_line() { ++line_; }
 
@@ -39,6 +41,7 @@ class AsciiParser {
   void begin(std::string_view name);
   void vertex(std::string_view rest);
   void end_loop();
+  void cut_off();
   void end_solid();
   void damaged(const char* message) {
     if (!solid().damage) solid().damage = Damage{message, line_};
@@ -54,7 +57,7 @@ class AsciiParser {
 };
 
 void AsciiParser::begin(std::string_view name) {
-  end_solid();
+  cut_off();
   solids_.emplace_back().name = TextDecoder()(name);
   open_ = true;
 }
@@ -92,12 +95,19 @@ void AsciiParser::end_solid() {
   open_ = false;
 }
 
+/// Where another solid begins or the file ends.
+void AsciiParser::cut_off() {
+  if (open_) solid().cut_off = line_;
+  end_solid();
+}
+
 void AsciiParser::line(std::string_view line) {
   const std::string_view word = take_word(line);
   if (word.empty()) return;
   if (is_word(word, "vertex")) return vertex(line);
   if (is_word(word, "endloop")) return end_loop();
   if (is_word(word, "facet") || is_word(word, "outer") || is_word(word, "endfacet")) {
+    static_cast<void>(solid());  // of one without a head
     if (in_facet()) end_loop();
     return;
   }
@@ -107,8 +117,14 @@ void AsciiParser::line(std::string_view line) {
   if (in_facet()) damaged("a line within a facet is not understood");
 }
 
+void AsciiParser::cut_line(std::string_view line) {
+  constexpr std::string_view kHead = "solid";
+  const std::string_view word = take_word(line);
+  if (!open_ && !word.empty() && is_word(word, kHead.substr(0, word.size()))) begin("");
+}
+
 std::vector<Solid> AsciiParser::take() {
-  end_solid();
+  cut_off();
   return std::move(solids_);
 }
 
@@ -131,6 +147,7 @@ std::optional<std::vector<Solid>> parse_ascii(std::string_view text, const std::
     if (count % kLinesBetweenLooks == 0 && stop.stop_requested()) return std::nullopt;
     const std::size_t length = std::min(text.find('\n'), text.size());
     parser.line(text.substr(0, length));
+    if (length == text.size()) parser.cut_line(text);
     parser.next_line();
     text.remove_prefix(std::min(length + 1, text.size()));
   }

@@ -25,6 +25,8 @@ struct Solid {
   DigitStatistics digits;        ///< of its corners
   std::optional<Damage> damage;  ///< the first; the facet that it is in is left out
   std::uint64_t bad_facets = 0;  ///< that are left out
+  /// The line on which it stops without its endsolid: what else it held nobody can tell.
+  std::optional<std::uint64_t> cut_off;
 };
 
 /// Text that starts with "solid" and goes on with facets or ends.

@@ -132,6 +132,19 @@ Result<model::Model> read_binary(const FileBytes& file, const ReadOptions& optio
   return end_model(file, std::move(model));
 }
 
+/// Tells of a solid that does not end; true when nobody knows what else it held.
+bool note_cut_off(const FileBytes& file, const stl::Solid& solid, const std::string& name,
+                  model::Model& model) {
+  if (!solid.cut_off) return false;
+  model.diagnostics.add(
+      Severity::skipped, "stl-truncated",
+      fmt::format("solid '{}' ends without 'endsolid'; what came before it is kept, the rest is "
+                  "unknown",
+                  name),
+      fmt::format("{}:{}", file.path.string(), *solid.cut_off));
+  return true;
+}
+
 Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& options,
                                 const parallel::Context& context) {
   model::Model model = start_model(file, "STL text", options, kStlFrame);
@@ -145,10 +158,12 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
       model.diagnostics.add(Severity::skipped, "stl-damaged-solid",
                             fmt::format("solid '{}' is skipped: {}", name, solid.damage->message),
                             fmt::format("{}:{}", file.path.string(), solid.damage->line));
+      note_cut_off(file, solid, name, model);
       model.objects.push_back(new_object(model, std::move(name)));
       model.objects.back().incomplete = true;
       continue;
     }
+    const bool cut_off = note_cut_off(file, solid, name, model);
     if (solid.corners.empty()) continue;
     LeftOut lacks;
     if (solid.damage)
@@ -162,7 +177,9 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
     add_object(model, std::move(name), std::move(mesh),
                frame.unit_mm * text_half_spacing(solid.digits, largest_coordinate(solid.corners)),
                lacks);
+    if (cut_off) model.objects.back().incomplete = true;
   }
+  if (!solids->empty() && solids->back().cut_off) model.files.front().ends_early = true;
   return end_model(file, std::move(model));
 }
 

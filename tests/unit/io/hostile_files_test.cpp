@@ -5,7 +5,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "strake/io/reader.hpp"
 #include "strake/parallel/report.hpp"
@@ -194,6 +199,54 @@ TEST(HostileObj, APolygonOfManyCorners) {
   EXPECT_LT(timed.seconds, kPatience);
   const auto& mesh = std::get<geometry::TriangleMesh>(timed.model->shapes.at(0));
   EXPECT_EQ(mesh.triangles.size(), kCorners - 2U);
+}
+
+/// What a hash that is the same in every run, of three doubles whose bits are multiplied and
+/// folded, makes of a corner.
+std::uint64_t fixed_hash(const std::array<float, 3>& corner) {
+  std::uint64_t h = 0;
+  for (const float c : corner) {
+    h = (h ^ std::bit_cast<std::uint64_t>(static_cast<double>(c))) * 0x9E3779B97F4A7C15ULL;
+    h ^= h >> 29U;
+  }
+  return h;
+}
+
+/// So many corners that meet in the last 18 bits of that hash.
+std::vector<std::array<float, 3>> corners_that_meet(std::size_t count) {
+  constexpr std::uint32_t kMask = (1U << 18U) - 1;
+  std::vector<std::array<float, 3>> corners;
+  for (std::uint32_t first = 0x3F800000U; corners.size() < count; ++first) {
+    const auto x = std::bit_cast<float>(first);
+    for (std::uint32_t low = 0; low <= kMask; ++low) {
+      if ((fixed_hash({x, 0, std::bit_cast<float>(0x3F800000U ^ low)}) & kMask) != 0) continue;
+      // Bits that are as far up do not reach the last ones.
+      for (std::uint32_t high = 0; high < 1U << 14U && corners.size() < count; ++high) {
+        const auto z = std::bit_cast<float>((high << 18U) | (low & kMask));
+        if (std::isfinite(z) && (fixed_hash({x, 0, z}) & kMask) == 0) corners.push_back({x, 0, z});
+      }
+    }
+  }
+  return corners;
+}
+
+TEST(HostileRvm, CornersThatMeetInAHash) {
+  std::vector<test::RvmWriter::FacetPolygon> polygons;
+  const auto corners = corners_that_meet(300'000);
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    test::RvmWriter::Contour contour;
+    for (std::size_t k = i; k < i + 3; ++k)
+      contour.push_back({corners[k][0], corners[k][1], corners[k][2]});
+    polygons.push_back({contour});
+  }
+  test::RvmWriter w;
+  w.head().modl().cntb("/A").facets(polygons).cnte().finish();
+  const std::string_view bytes(reinterpret_cast<const char*>(w.bytes().data()), w.bytes().size());
+  const Timed timed = read(*make_rvm_reader(), bytes);
+  ASSERT_TRUE(timed.model) << timed.model.error().text();
+  EXPECT_LT(timed.seconds, kPatience);
+  EXPECT_EQ(std::get<geometry::TriangleMesh>(timed.model->shapes.at(0)).vertices.size(),
+            corners.size());
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <fstream>
 #include <string>
 
@@ -41,6 +43,28 @@ TEST(RvmAttributes, ParsesBlocksKeysAndValues) {
   EXPECT_EQ(file->nodes[1].values[2].second, "");
   EXPECT_EQ(file->nodes[3].parent, 2U);
   EXPECT_EQ(file->unreadable_lines, 1U);
+}
+
+/// Cut anywhere: what is left is refused, is told to end early, or holds only whole elements.
+TEST(RvmAttributes, WhatIsCutOffIsTold) {
+  const std::string text = attributes_of(
+      "NEW /A\n Name:= '/A' &end& Type:= SITE\nNEW /B\n k:= 1\nEND\nEND\nNEW /C\n l:= 2\nEND\n");
+  ASSERT_FALSE(rvm::parse_attributes(text)->ends_early);
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    const std::string rest = text.substr(0, length);
+    const auto file = rvm::parse_attributes(rest);
+    if (!file || file->ends_early) continue;
+    int open = 0;
+    bool outside = true;  // nothing but blanks since an element closed
+    for (std::size_t at = 0; at < rest.size();) {
+      const std::size_t end = std::min(rest.find('\n', at), rest.size());
+      const std::string line = rest.substr(at, end - at);
+      open += line.starts_with("NEW ") ? 1 : line == "END" ? -1 : 0;
+      outside = line.empty() || line == "END" || line.starts_with("CADC");
+      at = end + 1;
+    }
+    EXPECT_TRUE(open == 0 && (outside || file->unreadable_lines > 0)) << rest;
+  }
 }
 
 TEST(RvmAttributes, ObeysTheDeclaredTokens) {

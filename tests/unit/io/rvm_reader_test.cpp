@@ -252,6 +252,7 @@ TEST(RvmReader, LeavesOutBadPolygonsAndSaysSo) {
   ASSERT_TRUE(model) << model.error().text();
   ASSERT_EQ(model->bodies.size(), 1U);
   EXPECT_EQ(std::get<geometry::TriangleMesh>(model->shapes.at(0)).triangles.size(), 1U);
+  EXPECT_EQ(model->diagnostics.count("rvm-facet-left-out"), 1U);
   EXPECT_EQ(model->diagnostics.count("rvm-facet-polygon"), 2U);
   EXPECT_EQ(model->diagnostics.count("rvm-empty-facets"), 1U);
   // The object whose only primitive is unusable is still listed.
@@ -260,6 +261,52 @@ TEST(RvmReader, LeavesOutBadPolygonsAndSaysSo) {
   EXPECT_EQ(model->objects[1].body_count, 0U);
   EXPECT_TRUE(model->objects[0].incomplete);
   EXPECT_TRUE(model->objects[1].incomplete);
+}
+
+/// A number that is none, at any place where a primitive is built from numbers, is told as
+/// something missing, and the object as incomplete: of every kind, in matrix, parameters and
+/// facets.
+TEST(RvmReader, NoBadNumberIsPassedOver) {
+  constexpr std::size_t kMatrixWords = 2, kBoxWords = 14, kParameterWords = 20;
+  const std::vector<std::pair<std::uint32_t, std::vector<float>>> kinds{
+      {1, {10, 10, 5, 5, 1, 1, 10}},
+      {2, {10, 20, 30}},
+      {3, {10, 20, 5, 1}},
+      {4, {20, 5, 1}},
+      {5, {10, 5}},
+      {6, {10, 5}},
+      {7, {10, 5, 20, 1, 1, 0.1F, 0, 0, 0.1F}},
+      {8, {10, 20}},
+      {9, {10}},
+      {10, {0, 10}}};
+  const auto check = [](const RvmWriter& w, std::uint32_t kind, std::size_t word, bool told) {
+    const auto model = read(w);
+    ASSERT_TRUE(model) << model.error().text();
+    ASSERT_EQ(model->objects.size(), 2U) << kind << ' ' << word;
+    EXPECT_EQ(model->objects[1].incomplete, told) << kind << ' ' << word;
+    EXPECT_EQ(model->diagnostics.skipped() > 0, told) << kind << ' ' << word;
+    EXPECT_FALSE(model->diagnostics.kept().empty()) << kind << ' ' << word;
+  };
+  for (const std::uint32_t bits : {0x7FC00000U, 0x7F800000U, 0xFF800000U}) {
+    for (const auto& [kind, parameters] : kinds) {
+      for (std::size_t word = kMatrixWords; word < kParameterWords + parameters.size(); ++word) {
+        RvmWriter w = one_box();
+        w.cntb("/B").prim(kind, parameters).set_word(4 * word, bits).cnte().finish();
+        check(w, kind, word, word < kBoxWords || word >= kParameterWords);
+      }
+    }
+    for (std::size_t vertex = 0; vertex < 4; ++vertex) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        RvmWriter w = one_box();
+        w.cntb("/B").facets(
+            {{{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}}}, {{{0, 0, 1}, {9, 0, 1}, {9, 9, 1}}}});
+        // Behind the counts of polygons, contours and corners.
+        const std::size_t word = kParameterWords + 3 + 6 * vertex + axis;
+        w.set_word(4 * word, bits).cnte().finish();
+        check(w, 11, word, true);
+      }
+    }
+  }
 }
 
 TEST(RvmReader, SkipsBadPrimitivesWithTheirOffset) {
