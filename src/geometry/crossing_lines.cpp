@@ -204,12 +204,21 @@ std::vector<Segment> lines_of(const PartView& a, const PartView& b, std::int64_t
 
 }  // namespace
 
-std::vector<Segment> crossing_lines(const FramedPart& a, const FramedPart& b, std::int64_t flush,
-                                    PairWork& work) {
+std::optional<std::vector<Segment>> crossing_lines_up_to(std::size_t most, const FramedPart& a,
+                                                         const FramedPart& b, std::int64_t flush,
+                                                         PairWork& work) {
   const PartView x({a.placed, a.tree}, {});
   const PartView y({b.placed, b.tree}, b.placed.origin - a.placed.origin);
-  if (lies_on_one_side(x, y) || lies_on_one_side(y, x)) return {};
-  return lines_of(x, y, flush, crossing_pieces(a, b, work));
+  if (lies_on_one_side(x, y) || lies_on_one_side(y, x)) return std::vector<Segment>{};
+  const CrossingPieces pieces = crossing_pieces(a, b, most, work);
+  if (pieces.truncated) return std::nullopt;
+  return lines_of(x, y, flush, pieces.all);
+}
+
+std::vector<Segment> crossing_lines(const FramedPart& a, const FramedPart& b, std::int64_t flush,
+                                    PairWork& work) {
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  return crossing_lines_up_to(kAll, a, b, flush, work).value_or(std::vector<Segment>{});
 }
 
 std::vector<Segment> crossing_lines_all(const PlacedPart& a, const PlacedPart& b,

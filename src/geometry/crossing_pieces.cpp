@@ -271,11 +271,11 @@ CrossingPieces crossing_pieces(const TreedPart& a, const TreedPart& b, std::size
   return finder.result(work);
 }
 
-std::vector<CrossingPiece> crossing_pieces(const FramedPart& a, const FramedPart& b,
-                                           PairWork& work) {
+CrossingPieces crossing_pieces(const FramedPart& a, const FramedPart& b, std::size_t most,
+                               PairWork& work) {
   const PartView x({a.placed, a.tree}, {});
   const PartView y({b.placed, b.tree}, b.placed.origin - a.placed.origin);
-  Finder finder(x, y);
+  Finder finder(x, y, most);
   if (want_trees(x.part(), y.part())) {
     walk_trees(x, y, finder, work);
   } else {
@@ -283,7 +283,7 @@ std::vector<CrossingPiece> crossing_pieces(const FramedPart& a, const FramedPart
       return finder.look(ta, x.triangle(ta), tb, y.triangle(tb));
     });
   }
-  return finder.result(work).all;
+  return finder.result(work);
 }
 
 std::vector<CrossingPiece> crossing_pieces_all(const PlacedPart& a, const PlacedPart& b,

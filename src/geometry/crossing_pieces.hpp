@@ -34,10 +34,10 @@ struct CrossingPieces {
     const TreedPart& a, const TreedPart& b, std::size_t most, PairWork& work,
     const std::function<bool(const CrossingPiece&)>& enough = {});
 
-/// All of them, in any order; cheap also for parts that stand askew to the coordinate axes. Both
+/// The same, in any order; cheap also for parts that stand askew to the coordinate axes. Both
 /// want a frame, and where want_trees() says so a tree.
-[[nodiscard]] std::vector<CrossingPiece> crossing_pieces(const FramedPart& a, const FramedPart& b,
-                                                         PairWork& work);
+[[nodiscard]] CrossingPieces crossing_pieces(const FramedPart& a, const FramedPart& b,
+                                             std::size_t most, PairWork& work);
 
 /// The same by every pair of triangles.
 [[nodiscard]] std::vector<CrossingPiece> crossing_pieces_all(const PlacedPart& a,

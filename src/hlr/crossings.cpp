@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "strake/geometry/crossing_lines.hpp"
 #include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/part_tree.hpp"
+#include "strake/parallel/allowance.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/distinct.hpp"
@@ -29,6 +31,9 @@ using geometry::Vec3l;
 using parallel::Region;
 
 constexpr std::size_t kGrain = 1024;
+/// Lines along which parts may cross, and more of them for each triangle: many times what models
+/// have, and in proportion to the file, where triangles that all cross each other have the square.
+constexpr std::uint64_t kMostLines = 1000000, kMostLinesOfTriangle = 100;
 
 /// A part that has faces, where it stands.
 struct PlacedSkin {
@@ -196,21 +201,39 @@ class Finder {
     const auto order = parallel::longest_first(some.size(), [&](std::size_t k) {
       return a(some[k]).placed.part->triangles.size() + b(some[k]).placed.part->triangles.size();
     });
+    const std::uint64_t most = most_lines();
+    parallel::Allowance allowance(most);
     return parallel::transform(
         context_, {.name = "intersections: lines", .n = some.size(), .order = order},
-        [&](std::size_t k) {
+        [&](std::size_t k) -> Result<Found> {
           const std::size_t i = some[k];
           geometry::PairWork work;
-          Found found;
-          found.lines = crossing_lines(whole(a(i)), whole(b(i)), contact(i), work);
-          found.tests = work.triangle_pairs;
-          return found;
+          auto lines = crossing_lines_up_to(most, whole(a(i)), whole(b(i)), contact(i), work);
+          if (!lines || !allowance.take(lines->size())) return too_many(most);
+          return Found{std::move(*lines), work.triangle_pairs};
         });
+  }
+
+  static Error too_many(std::uint64_t most) {
+    return {ErrorCode::input,
+            "parts cross each other along more than " + std::to_string(most) + " lines",
+            {},
+            "draw fewer objects at a time, or leave these lines out (--intersections off)"};
+  }
+
+  [[nodiscard]] std::uint64_t most_lines() const {
+    std::uint64_t triangles = 0;
+    for (const PlacedSkin& skin : skins_.placed) triangles += skin.placed.part->triangles.size();
+    return kMostLines + kMostLinesOfTriangle * triangles;
   }
 
   /// By pair, which is by object of the first part.
   Result<std::vector<Crossing>> place(const parallel::Distinct& kinds,
                                       const std::vector<Found>& found) const {
+    // Equal pairs that stand in many places count each time.
+    std::uint64_t lines = 0;
+    for (const std::uint32_t kind : kinds.of) lines += found[kind].lines.size();
+    if (lines > most_lines()) return too_many(most_lines());
     auto placed = parallel::count_fill<Crossing>(
         context_, {.name = "intersections: places", .n = pairs_.size(), .grain = kGrain},
         [&](std::size_t i) { return found[kinds.of[i]].lines.size(); },

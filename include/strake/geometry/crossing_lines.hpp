@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "strake/geometry/grid_shapes.hpp"
@@ -30,6 +31,11 @@ namespace strake::geometry {
 /// tree.
 [[nodiscard]] std::vector<Segment> crossing_lines(const FramedPart& a, const FramedPart& b,
                                                   std::int64_t flush, PairWork& work);
+
+/// The same, or nothing where more than `most` pairs of triangles cross: two small skins that cross
+/// everywhere have as many lines as the product of their triangles.
+[[nodiscard]] std::optional<std::vector<Segment>> crossing_lines_up_to(
+    std::size_t most, const FramedPart& a, const FramedPart& b, std::int64_t flush, PairWork& work);
 
 /// The same by every pair of triangles: the oracle. Neither frame nor tree is asked for.
 [[nodiscard]] std::vector<Segment> crossing_lines_all(const PlacedPart& a, const PlacedPart& b,
