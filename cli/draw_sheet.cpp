@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <utility>
 
 #include "cli/draw_account.hpp"
@@ -55,6 +56,11 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
     return status.error();
   const Result<sheets::SheetFile> file = sheets::SheetFile::read(request.file);
   if (!file) return file.error();
+  if (!file->template_name().empty()) {
+    const auto beside = std::filesystem::path(request.file).parent_path() / file->template_name();
+    if (const Status status = check_outputs(request.outputs, {".svg"}, {beside.string()}); !status)
+      return status.error();
+  }
   const Result<Loaded> loaded = load(session, input, scene);
   if (!loaded) return loaded.error();
   const Result<sheets::Sheet> sheet = [&] {

@@ -80,6 +80,7 @@ struct Description {
   std::string size = "A3";
   bool frame = true;
   std::optional<Template> artwork;
+  std::string template_name;        ///< as the file has it; empty: none
   std::optional<PaperBox> area;     ///< where views may lie; none: that of the frame
   std::vector<PaperBox> keep_free;  ///< of views
   std::optional<double> scale;      ///< of views that say none

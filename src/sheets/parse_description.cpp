@@ -151,6 +151,7 @@ class Parser {
       return;
     }
     found_.artwork = std::move(*parsed);
+    found_.template_name = *name;
   }
 
   void size(TableReader& table) {

@@ -25,6 +25,8 @@ Result<SheetFile> SheetFile::read(const std::filesystem::path& file) {
   });
 }
 
+const std::string& SheetFile::template_name() const { return what_->template_name; }
+
 Result<Sheet> SheetFile::compose(const model::Scene& scene, hlr::Solver solver,
                                  const parallel::Context& context) const {
   return sheets::compose(*what_, scene, solver, context);

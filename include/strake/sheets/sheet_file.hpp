@@ -37,6 +37,9 @@ class SheetFile {
   /// Templates are looked for beside the file.
   [[nodiscard]] static Result<SheetFile> read(const std::filesystem::path& file);
 
+  /// As the file names it, beside itself; empty where it has none.
+  [[nodiscard]] const std::string& template_name() const;
+
   /// Draws the views one after another and puts them on paper. The same for any team.
   ///
   /// Errors: cancelled, memory; input where the views have no room on the sheet at any scale.

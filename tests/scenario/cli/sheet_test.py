@@ -56,6 +56,21 @@ class Sheet(Scenario):
         ids = [element.get('id') for element in root.iter() if element.get('id')]
         self.assertEqual(len(ids), len(set(ids)))
 
+    def test_a_template_is_never_overwritten(self):
+        template = '<svg width="420mm" height="297mm" viewBox="0 0 420 297"><text>{{title}}</text></svg>'
+        self.small('[sheet]\ntemplate = "frame.svg"\n[[view]]\nname = "v"\ndirection = "top"\n')
+        self.write('frame.svg', template)
+        (self.folder / 'link.svg').symlink_to('frame.svg')
+        for out in ('frame.svg', './frame.svg', 'link.svg'):
+            done = self.draw(out=out)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('overwritten', done.stderr)
+            self.assertEqual((self.folder / 'frame.svg').read_text(encoding='utf-8'), template)
+        self.write('frame.svg', template.replace('<text>', '<g id="a">\n<use href="#a"/></g><text>'))
+        done = self.draw()
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r"frame\.svg, line 2.*'#a' is drawn within itself")
+
     def test_views_have_sections(self):
         self.small('[[view]]\nname = "v"\ndirection = "top"\nsections = ["z>400mm", "y<100mm"]\n')
         done = self.draw()
