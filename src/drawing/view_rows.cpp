@@ -11,6 +11,7 @@
 #include "drawing/batches.hpp"
 #include "drawing/chunked.hpp"
 #include "drawing/view_head.hpp"
+#include "strake/core/checksum.hpp"
 #include "strake/drawing/write.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/geometry/vec.hpp"
@@ -104,7 +105,8 @@ void write_form(Chunked& out, const Vec3l& origin) {
       << ",\"fields\":" << row_fields<Int>()
       << ",\n\"origin_um\":" << fmt::format("[{},{},{}]", origin.x, origin.y, origin.z)
       << ",\"kinds\":" << names_of<hlr::EdgeKind>(kind_name)
-      << ",\"states\":" << names_of<LineState>(state_name) << "}}\n";
+      << ",\"states\":" << names_of<LineState>(state_name) << ",\"checksum\":\"" << kChecksumName
+      << "\"}}\n";
 }
 
 /// The text, from its length on, in one piece: the length stands before it.
@@ -127,8 +129,13 @@ template <class Int>
 Status write_all(const NeutralDrawing& drawing, const model::Model& model, const Vec3l& origin,
                  Sink sink, const parallel::Context& context) {
   const Listed listed(drawing.lines, model.objects.size());
-  sink(kViewMagic);
-  sink(head_of<Int>(drawing, model, listed, origin));
+  Checksum checksum;
+  const auto put = [&](std::string_view bytes) {
+    checksum.add(bytes);
+    sink(bytes);
+  };
+  put(kViewMagic);
+  put(head_of<Int>(drawing, model, listed, origin));
   const auto encode = [&](std::size_t begin, std::size_t end, std::string& out) {
     out.reserve((end - begin) * sizeof(Row<Int>));
     for (std::size_t i = begin; i < end; ++i) {
@@ -137,10 +144,19 @@ Status write_all(const NeutralDrawing& drawing, const model::Model& model, const
       out.append(reinterpret_cast<const char*>(&row), sizeof row);
     }
   };
-  return write_in_batches("neutral drawing", drawing.lines.size(), encode, sink, context);
+  const Status written =
+      write_in_batches("neutral drawing", drawing.lines.size(), encode, put, context);
+  if (written) sink(checksum_bytes(checksum.value()));
+  return written;
 }
 
 }  // namespace
+
+std::string checksum_bytes(const Hash128& checksum) {
+  const std::array<std::uint64_t, 2> halves{checksum.low, checksum.high};
+  static_assert(sizeof halves == kChecksumBytes);
+  return {reinterpret_cast<const char*>(halves.data()), sizeof halves};
+}
 
 template <class Int>
 std::string row_fields() {

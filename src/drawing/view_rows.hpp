@@ -8,9 +8,11 @@
 #include <string_view>
 #include <type_traits>
 
+#include "strake/core/hash.hpp"
+
 // The binary neutral drawing (docs/drawing.md): kMagic; the number of bytes of a text; the text, a
-// document of schemas/view.schema.json that has "rows" in the place of "pieces"; the rows. Numbers
-// are little-endian.
+// document of schemas/view.schema.json that has "rows" in the place of "pieces"; the rows; where
+// "rows" has a "checksum", that of everything before it. Numbers are little-endian.
 namespace strake::drawing {
 
 static_assert(std::endian::native == std::endian::little, "rows are copied as they are");
@@ -18,6 +20,13 @@ static_assert(std::endian::native == std::endian::little, "rows are copied as th
 inline constexpr std::string_view kViewMagic = "STRKVIEW";
 /// Rows begin at a multiple of so many bytes; blanks at the end of the text see to it.
 inline constexpr std::uint64_t kRowsAlign = 16;
+
+/// What "checksum" calls the 128 bits of a Checksum, the low half first.
+inline constexpr std::string_view kChecksumName = "XXH3-128";
+inline constexpr std::uint64_t kChecksumBytes = 16;
+
+/// The bytes that a checksum is in a file.
+[[nodiscard]] std::string checksum_bytes(const Hash128& checksum);
 
 /// A Line in whole micrometres: Int is std::int32_t where that suffices, else std::int64_t.
 template <class Int>

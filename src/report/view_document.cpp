@@ -19,6 +19,7 @@
 #include "report/json_reader.hpp"
 #include "report/view_pieces.hpp"
 #include "report/view_rows.hpp"
+#include "strake/core/checksum.hpp"
 
 namespace strake::report {
 namespace {
@@ -53,8 +54,8 @@ class Reader {
   }
 
   /// Those that the text announces.
-  void read_rows(std::istream& in) {
-    document_.pieces = report::read_rows(in, *rows_, said("pieces"));
+  void read_rows(std::istream& in, Checksum& before) {
+    document_.pieces = report::read_rows(in, *rows_, said("pieces"), before);
   }
 
   void check() const {
@@ -213,10 +214,12 @@ class Reader {
   std::optional<RowForm> rows_;
 };
 
-/// The first bytes of another stream, as a stream of their own: the text of a binary document.
+/// The first bytes of another stream, as a stream of their own, which adds them to a checksum: the
+/// text of a binary document.
 class FirstBytes : public std::streambuf {
  public:
-  FirstBytes(std::istream& from, std::uint64_t size) : from_(from), left_(size) {}
+  FirstBytes(std::istream& from, std::uint64_t size, Checksum& checksum)
+      : from_(from), left_(size), checksum_(checksum) {}
   [[nodiscard]] std::uint64_t left() const { return left_; }
 
  private:
@@ -225,12 +228,14 @@ class FirstBytes : public std::streambuf {
                static_cast<std::streamsize>(std::min<std::uint64_t>(left_, buffer_.size())));
     const std::streamsize got = from_.gcount();
     left_ -= static_cast<std::uint64_t>(got);
+    checksum_.add({buffer_.data(), static_cast<std::size_t>(got)});
     setg(buffer_.data(), buffer_.data(), buffer_.data() + got);
     return got == 0 ? traits_type::eof() : traits_type::to_int_type(buffer_[0]);
   }
 
   std::istream& from_;
   std::uint64_t left_;
+  Checksum& checksum_;
   std::array<char, 65536> buffer_{};
 };
 
@@ -242,12 +247,15 @@ void read_binary(ViewDocument& document, std::istream& in) {
   std::uint64_t size = 0;
   if (!in.read(reinterpret_cast<char*>(&size), sizeof size))
     throw contradicts("the document", "ends before its rows begin");
-  FirstBytes first(in, size);
+  Checksum checksum;
+  checksum.add(drawing::kViewMagic);
+  checksum.add({reinterpret_cast<const char*>(&size), sizeof size});
+  FirstBytes first(in, size, checksum);
   std::istream text(&first);
   Reader reader(text, true, document);
   reader.read_text();
   if (first.left() > 0) throw contradicts("the document", "ends before its rows begin");
-  reader.read_rows(in);
+  reader.read_rows(in, checksum);
   reader.check();
 }
 

@@ -78,9 +78,19 @@ ViewPiece piece_of(const drawing::Row<Int>& row, const RowForm& form, std::uint6
   return piece;
 }
 
+void check_checksum(std::istream& in, const Checksum& checksum) {
+  std::string stored(drawing::kChecksumBytes, '\0');
+  if (!in.read(stored.data(), static_cast<std::streamsize>(stored.size())))
+    throw contradicts("the document", "ends in the checksum behind its rows");
+  if (stored != drawing::checksum_bytes(checksum.value()))
+    throw contradicts("the document",
+                      "has not the checksum that stands behind its rows: it was damaged or edited");
+}
+
 /// A run at a time: a file that claims more rows than it has must not claim memory.
 template <class Int>
-std::vector<ViewPiece> read_all(std::istream& in, const RowForm& form, std::uint64_t count) {
+std::vector<ViewPiece> read_all(std::istream& in, const RowForm& form, std::uint64_t count,
+                                Checksum& checksum) {
   constexpr std::uint64_t kRun = 16384;
   std::vector<ViewPiece> pieces;
   std::vector<drawing::Row<Int>> rows;
@@ -90,8 +100,10 @@ std::vector<ViewPiece> read_all(std::istream& in, const RowForm& form, std::uint
     in.read(reinterpret_cast<char*>(rows.data()), static_cast<std::streamsize>(bytes));
     const auto got = static_cast<std::size_t>(in.gcount());
     if (got < bytes) cut_off(pieces.size() + got / sizeof rows[0], count);
+    checksum.add({reinterpret_cast<const char*>(rows.data()), bytes});
     for (const drawing::Row<Int>& row : rows) pieces.push_back(piece_of(row, form, pieces.size()));
   }
+  if (form.has_checksum) check_checksum(in, checksum);
   if (in.peek() != std::istream::traits_type::eof())
     throw contradicts("the document", "goes on behind its last row");
   return pieces;
@@ -128,6 +140,12 @@ RowForm take_row_form(JsonReader& json) {
       form.kinds = take_names<hlr::EdgeKind>(json, name, drawing::kind_name);
     } else if (name == "states") {
       form.states = take_names<drawing::LineState>(json, name, drawing::state_name);
+    } else if (name == "checksum") {
+      const std::string kind = fields.text("rows", name);
+      if (kind != drawing::kChecksumName)
+        throw DocumentFault{"rows",
+                            "have a checksum '" + kind + "', which this version does not know"};
+      form.has_checksum = true;
     } else {
       json.skip();
     }
@@ -137,9 +155,10 @@ RowForm take_row_form(JsonReader& json) {
   return form;
 }
 
-std::vector<ViewPiece> read_rows(std::istream& in, const RowForm& form, std::uint64_t count) {
-  if (is_of<std::int32_t>(form)) return read_all<std::int32_t>(in, form, count);
-  if (is_of<std::int64_t>(form)) return read_all<std::int64_t>(in, form, count);
+std::vector<ViewPiece> read_rows(std::istream& in, const RowForm& form, std::uint64_t count,
+                                 Checksum& before) {
+  if (is_of<std::int32_t>(form)) return read_all<std::int32_t>(in, form, count, before);
+  if (is_of<std::int64_t>(form)) return read_all<std::int64_t>(in, form, count, before);
   throw is_not("rows", "fields", "form of rows that this version knows");
 }
 

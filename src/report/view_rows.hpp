@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report/json_reader.hpp"
+#include "strake/core/checksum.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -21,13 +22,15 @@ struct RowForm {
   geometry::Vec3l origin;
   std::vector<hlr::EdgeKind> kinds;
   std::vector<drawing::LineState> states;
+  bool has_checksum = false;  ///< behind the rows; drawings of older versions have none
 };
 
 /// Takes the member, which must come next. Throws DocumentFault, JsonReader::Fault.
 [[nodiscard]] RowForm take_row_form(JsonReader& json);
 
-/// The rows that follow in the stream, `count` of them and nothing behind. Throws DocumentFault.
+/// The rows that follow in the stream, `count` of them, the checksum where there is one, which must
+/// be that of `before` and the rows, and nothing behind. Throws DocumentFault.
 [[nodiscard]] std::vector<ViewPiece> read_rows(std::istream& in, const RowForm& form,
-                                               std::uint64_t count);
+                                               std::uint64_t count, Checksum& before);
 
 }  // namespace strake::report

@@ -103,7 +103,9 @@ class Draw(Scenario):
         rows = head.pop('rows')
         letters = {'uint8': 'B', 'uint32': 'I', 'int32': 'i', 'int64': 'q'}
         pieces = []
-        for at in range(16 + size, len(content), rows['bytes']):
+        end = 16 + size + head['counts']['pieces'] * rows['bytes']
+        self.assertEqual((rows['checksum'], len(content)), ('XXH3-128', end + 16))
+        for at in range(16 + size, end, rows['bytes']):
             row = {field['name']: struct.unpack_from(f"<{field['count']}{letters[field['type']]}", content,
                                                      at + field['offset']) for field in rows['fields']}
             piece = {'object': head['objects'][row['object_index'][0]]['id'], 'object_index': row['object_index'][0],
@@ -125,6 +127,9 @@ class Draw(Scenario):
         (self.folder / 'y.view').write_bytes(content[:-1])
         done = self.run_strake('draw', 'diff', 'x.json', 'y.view')
         self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r'y\.view: .*ends in the checksum')
+        (self.folder / 'y.view').write_bytes(content[:-17])
+        done = self.run_strake('draw', 'diff', 'x.json', 'y.view')
         self.assertRegex(done.stderr, r'y\.view: .*ends in row')
 
     def test_what_is_clipped_far_out_is_within_what_files_can_say(self):

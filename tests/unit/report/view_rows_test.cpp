@@ -17,6 +17,17 @@ namespace {
 
 using test::ViewForm;
 
+constexpr std::size_t kChecksum = 16;
+
+/// As versions wrote drawings that knew of none.
+std::string without_checksum(const std::string& sound) {
+  const std::string named = ",\"checksum\":\"XXH3-128\"}}";
+  std::string older = sound.substr(0, sound.size() - kChecksum);
+  const std::size_t at = older.find(named);
+  EXPECT_NE(at, std::string::npos);
+  return older.replace(at, named.size(), "}}" + std::string(named.size() - 2, ' '));
+}
+
 model::Model crowd(double apart) {
   test::ClashModel m;
   m.box("a", {0, 0, 0}, {100, 100, 100});
@@ -66,7 +77,7 @@ TEST(ViewRows, PointsThatNothingCanHaveAreTold) {
   for (const auto& [offset, key] : {std::pair(24, "a_um"), std::pair(88, "b_paper_um")})
     for (const std::int64_t um : {INT64_MAX, INT64_MIN, std::int64_t{4} << 60U}) {
       std::string bytes = sound;
-      std::memcpy(bytes.data() + bytes.size() - 104 + offset, &um, sizeof um);
+      std::memcpy(bytes.data() + bytes.size() - kChecksum - 104 + offset, &um, sizeof um);
       std::istringstream in(bytes);
       const auto document = parse_view_document(in, "x.view");
       ASSERT_FALSE(document) << key << " " << um;
@@ -91,7 +102,7 @@ TEST(ViewRows, WhatIsWrongIsTold) {
   // In the last row: what stands so many bytes behind its beginning.
   const auto in_row = [&](std::size_t offset, std::uint32_t value) {
     std::string bytes = sound;
-    std::memcpy(bytes.data() + bytes.size() - 64 + offset, &value, sizeof value);
+    std::memcpy(bytes.data() + bytes.size() - kChecksum - 64 + offset, &value, sizeof value);
     return bytes;
   };
   const auto with_length = [&](std::uint64_t length) {
@@ -112,11 +123,15 @@ TEST(ViewRows, WhatIsWrongIsTold) {
            {with_length(~std::uint64_t{0}), "no JSON"},
            {with_length(length + 3), "no JSON"},
            {with_length(length - 40), "ends too soon"},
-           {sound.substr(0, sound.size() - 65), "ends in row"},
-           {sound.substr(0, sound.size() - 1), "ends in row"},
+           {sound.substr(0, sound.size() - kChecksum - 65), "ends in row"},
+           {sound.substr(0, sound.size() - kChecksum - 1), "ends in row"},
+           {sound.substr(0, sound.size() - kChecksum), "ends in the checksum"},
+           {sound.substr(0, sound.size() - 1), "ends in the checksum"},
+           {in_row(12, 7), "has not the checksum"},
+           {with("\"XXH3-128\"", "\"XXH3-129\""), "have a checksum 'XXH3-129'"},
            {sound + "x", "goes on"},
-           {in_row(0, 7000), "is of object 7000"},
-           {in_row(0, 7000), "row "},
+           {without_checksum(in_row(0, 7000)), "is of object 7000"},
+           {without_checksum(in_row(0, 7000)), "row "},
            {in_row(16, 0x000000ff), "kind of line"},
            {in_row(16, 0x0000ff00), "state"},
            {with("\"bytes\":64", "\"bytes\":96"), "form of rows"},
@@ -135,6 +150,32 @@ TEST(ViewRows, WhatIsWrongIsTold) {
     EXPECT_NE(error_of(bytes).find(words), std::string::npos) << words << ": " << error_of(bytes);
     EXPECT_NE(error_of(bytes).find("x.view"), std::string::npos) << error_of(bytes);
   }
+}
+
+/// One bit is enough, wherever it is.
+TEST(ViewRows, NoBitCanChange) {
+  test::ClashModel m;
+  m.box("a", {0, 0, 0}, {100, 100, 100});
+  const std::string sound = test::view_file(m.model, {}, ViewForm::rows);
+  for (std::size_t bit = 0; bit < 8 * sound.size(); ++bit) {
+    std::string bytes = sound;
+    bytes[bit / 8] = static_cast<char>(static_cast<unsigned char>(bytes[bit / 8]) ^ 1U << bit % 8);
+    std::istringstream in(bytes);
+    EXPECT_FALSE(parse_view_document(in, "x.view")) << "bit " << bit;
+  }
+}
+
+TEST(ViewRows, NoEndCanBeMissing) {
+  const std::string sound = test::view_file(crowd(500), {}, ViewForm::rows);
+  for (std::size_t length = 0; length < sound.size(); ++length) {
+    std::istringstream in(sound.substr(0, length));
+    EXPECT_FALSE(parse_view_document(in, "x.view")) << length;
+  }
+}
+
+TEST(ViewRows, OlderDrawingsAreRead) {
+  const std::string sound = test::view_file(crowd(500), {}, ViewForm::rows);
+  expect_same(test::view_document(sound), test::view_document(without_checksum(sound)));
 }
 
 }  // namespace
