@@ -294,7 +294,7 @@ class Drawn {
 bool print(const Ours& ours, const bench::MoreLines& with) {
   std::string more;
   if (with.intersections != hlr::Intersections::off) more += ", intersections too";
-  if (with.smooth) more += ", smooth too";
+  if (with.smooth != hlr::Smooth::off) more += ", smooth too";
   if (!with.hidden) more += ", visible only";
   if (ours.check.wrong > 0 || ours.check.rays == 0) {
     fmt::print("  Strake{:<35}ERROR: {} of {} rays wrong: {}\n", more, ours.check.wrong,

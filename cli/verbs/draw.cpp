@@ -145,7 +145,9 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
                  "leave out --hidden or --visible-only"};
   if (given.intersections == "off") options.intersections = hlr::Intersections::off;
   if (given.intersections == "parts") options.intersections = hlr::Intersections::parts;
-  options.smooth = given.smooth == "on";
+  if (given.intersections == "objects") options.intersections = hlr::Intersections::objects;
+  if (given.smooth == "on") options.smooth = hlr::Smooth::all;
+  if (given.smooth == "tangent") options.smooth = hlr::Smooth::tangent;
   if (!given.sharp_angle.empty()) {
     const Result<double> angle = quantity(given.sharp_angle, "--sharp-angle", parse_angle_deg);
     if (!angle) return angle.error();
@@ -185,6 +187,7 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
   stats.count("exact fall-backs", work.exact_fallbacks);
   stats.count("intersection pairs", work.crossing_pairs);
   stats.count("intersection tests", work.crossing_tests);
+  stats.count("specks", work.specks);
   stats.count("edges with hidden pieces left out", work.left_out);
   for (std::size_t s = 0; s < drawing::kLineStates; ++s)
     stats.count(fmt::format("lines {}", drawing::state_name(static_cast<drawing::LineState>(s))),
@@ -376,12 +379,14 @@ void add_lines(CLI::App& command, DrawOptions& options) {
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")
       ->group("Lines");
-  add_choice(command, "--intersections", options.intersections, {"off", "objects", "parts"},
-             "Lines where bodies pass through each other: none, those of different objects, or of "
-             "all parts (default objects)")
+  add_choice(command, "--intersections", options.intersections,
+             {"off", "objects", "primitives", "parts"},
+             "Lines where bodies pass through each other: none, those of different objects, those "
+             "and of primitives within an object, or of all parts (default primitives)")
       ->group("Lines");
-  add_choice(command, "--smooth", options.smooth, {"on", "off"},
-             "Edges where faces turn by less than the sharp angle, as thin lines (default off)")
+  add_choice(command, "--smooth", options.smooth, {"off", "tangent", "on"},
+             "Edges where faces turn by less than the sharp angle, as thin lines: none, where a "
+             "curved skin begins or ends, or all (default off)")
       ->group("Lines");
   command
       .add_option("--sharp-angle", options.sharp_angle,
@@ -443,7 +448,9 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
           "same (default auto)")
       ->type_name("off|N|auto")
       ->group("Running");
-  command->add_option("--scale", options->scale, "Paper to model (default: what fits A3)")
+  command
+      ->add_option("--scale", options->scale,
+                   "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits A3)")
       ->type_name("1:N")
       ->group("Output");
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");

@@ -34,14 +34,13 @@ bool fits(const PlaneBox& box, double scale, const Size& space) {
   return box.width() <= space.width * scale && box.height() <= space.height * scale;
 }
 
-/// The first of 1, 2, 5, 10, 20, 50 … at which the box fits.
+/// The largest usual one at which the box fits; of nothing 1:1.
 double usual_scale(const PlaneBox& box, const Size& space) {
-  double decade = 1;
-  for (;;) {
-    for (const double step : {1.0, 2.0, 5.0})
-      if (fits(box, decade * step, space)) return decade * step;
-    decade *= 10;
-  }
+  if (!(box.width() > 0 || box.height() > 0)) return 1;
+  const auto usual = usual_scales();
+  const auto found =
+      std::ranges::find_if(usual, [&](double scale) { return fits(box, scale, space); });
+  return found != usual.end() ? *found : usual.back();
 }
 
 /// Without the last digits that division leaves: 49:1 is kept as 1/49, and 1 over that is not 49.
@@ -114,6 +113,13 @@ PlanePoint ViewPlane::seen(const geometry::Vec3l& grid) const {
   at.x *= at.magnification;
   at.y *= at.magnification;
   return at;
+}
+
+std::span<const double> usual_scales() {
+  static constexpr std::array kScales{0.02, 0.05, 0.1, 0.2, 0.5, 1.,  2.,  5.,  10., 20., 50.,
+                                      1e2,  2e2,  5e2, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5,
+                                      5e5,  1e6,  2e6, 5e6, 1e7, 2e7, 5e7, 1e8, 2e8, 5e8, 1e9};
+  return kScales;
 }
 
 double rounded_paper(double mm) { return std::nearbyint(mm * 1000) / 1000 + 0.0; }

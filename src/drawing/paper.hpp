@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
@@ -82,6 +83,9 @@ struct PlaneBox {
 [[nodiscard]] Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
                                             const geometry::Vec3l& origin,
                                             const parallel::Context& context);
+
+/// The usual scales of ISO 5455, 50:1 to 1:1000000000, the largest first.
+[[nodiscard]] std::span<const double> usual_scales();
 
 /// "1:50", "2:1".
 [[nodiscard]] std::string scale_text(double scale);

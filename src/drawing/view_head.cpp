@@ -71,9 +71,10 @@ void write_counts(Chunked& out, const NeutralDrawing& drawing) {
     out << fmt::format(",\"objects_{}\":{}", fate_name(fate), drawing.account.of(fate));
   }
   out << fmt::format(
-      ",\"objects_in_part\":{},\"feature_edges\":{},\"edges_left_out\":{},\"pieces\":{}",
+      ",\"objects_in_part\":{},\"feature_edges\":{},\"edges_left_out\":{},\"specks\":{},"
+      "\"pieces\":{}",
       drawing.account.in_part, drawing.counters.feature_edges, drawing.counters.left_out,
-      drawing.lines.size());
+      drawing.counters.specks, drawing.lines.size());
   for (std::size_t s = 0; s < kLineStates; ++s)
     out << fmt::format(",\"{}\":{}", state_name(static_cast<LineState>(s)), drawing.count[s]);
   out << "},\n";

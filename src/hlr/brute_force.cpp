@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hlr/job.hpp"
+#include "hlr/specks.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
@@ -307,13 +308,20 @@ std::vector<Stretch> solve(const Job& job, const Solver& solver, const Edge& e,
   return stretches(self, other, kept ? &range : nullptr);
 }
 
+struct Judge {
+  const Job& job;
+  Solver solver;
+  const SpeckRule& rule;
+};
+
 struct ObjectLines {
   std::vector<Piece> pieces;
-  std::uint64_t edges = 0, tests = 0;
+  std::uint64_t edges = 0, tests = 0, specks = 0;
   std::uint32_t left_out = 0;
 };
 
-void solve_edge(const Job& job, const Solver& solver, const Edge& e, ObjectLines& result) {
+void solve_edge(const Judge& judge, const Edge& e, ObjectLines& result) {
+  const auto& [job, solver, rule] = judge;
   const model::Scene& scene = *job.scene;
   const auto at = [&](const Rational& t) {
     Vec3l p = e.a + job.origin;
@@ -321,21 +329,17 @@ void solve_edge(const Job& job, const Solver& solver, const Edge& e, ObjectLines
     return p;
   };
   const auto number = static_cast<std::uint32_t>(result.edges++);
-  bool left_out = false;
-  for (const Stretch& s : solve(job, solver, e, result.tests)) {
-    if (!keeps(job.options, s.state)) {
-      left_out = true;
-      continue;
-    }
+  const std::size_t first = result.pieces.size();
+  for (const Stretch& s : solve(job, solver, e, result.tests))
     result.pieces.push_back({scene.bodies[e.body].object, number, e.kind, s.state,
                              scene.bodies[e.other_body].object, at(s.range.lo), at(s.range.hi)});
-  }
-  result.left_out += left_out ? 1 : 0;
+  result.specks += absorb_specks(rule, first, result.pieces);
+  result.left_out += leave_out_unasked(job.options, first, result.pieces) ? 1U : 0U;
 }
 
-Result<ObjectLines> solve_object(const Job& job, std::uint32_t object) {
+Result<ObjectLines> solve_object(const Job& job, const SpeckRule& rule, std::uint32_t object) {
   const model::Scene& scene = *job.scene;
-  const Solver solver(job);
+  const Judge judge{job, Solver(job), rule};
   ObjectLines result;
   for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b) {
     const model::GridBody& body = scene.bodies[b];
@@ -343,17 +347,17 @@ Result<ObjectLines> solve_object(const Job& job, std::uint32_t object) {
     if (!edges) return edges.error();
     for (const FeatureEdge& f : *edges)
       solve_edge(
-          job, solver,
+          judge,
           {f.a.as<std::int64_t>() + job.offset(body), f.b.as<std::int64_t>() + job.offset(body),
            f.kind, f.projecting, f.cut_away, b, b, f.part},
           result);
   }
   for (const Line& line : job.lines.of(object)) {
     const Vec3l p = line.a - job.origin, q = line.b - job.origin;
-    solve_edge(
-        job, solver,
-        {p, q, line.kind, solver.is_point(p, q), line.cut_away, line.body_a, line.body_b, kNoPart},
-        result);
+    solve_edge(judge,
+               {p, q, line.kind, judge.solver.is_point(p, q), line.cut_away, line.body_a,
+                line.body_b, kNoPart},
+               result);
   }
   return result;
 }
@@ -362,11 +366,12 @@ Result<ObjectLines> solve_object(const Job& job, std::uint32_t object) {
 
 Status solve_brute_force(const Job& job, const parallel::Context& context, Drawing& drawing) {
   const std::size_t objects = job.scene->model->objects.size();
+  const SpeckRule rule(job);
   const auto lines =
       parallel::transform(context, {.name = "hidden lines (brute force)", .n = objects},
                           [&](std::size_t i) -> Result<ObjectLines> {
                             if (!job.drawn[i]) return ObjectLines{};
-                            return solve_object(job, static_cast<std::uint32_t>(i));
+                            return solve_object(job, rule, static_cast<std::uint32_t>(i));
                           });
   if (!lines) return lines.error();
   for (std::size_t i = 0; i < objects; ++i) {
@@ -375,6 +380,7 @@ Status solve_brute_force(const Job& job, const parallel::Context& context, Drawi
     drawing.pieces.insert(drawing.pieces.end(), one.pieces.begin(), one.pieces.end());
     drawing.counters.feature_edges += one.edges;
     drawing.counters.face_tests += one.tests;
+    drawing.counters.specks += one.specks;
   }
   return {};
 }

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "hlr/joints.hpp"
 #include "hlr/shape_loop.hpp"
 #include "strake/geometry/bvh.hpp"
 #include "strake/geometry/crossing_lines.hpp"
@@ -77,11 +78,12 @@ struct Found {
 
 class Finder {
  public:
-  Finder(const model::Scene& scene, const Skins& skins, const parallel::Context& context)
-      : scene_(scene), skins_(skins), context_(context) {}
+  Finder(const model::Scene& scene, const Skins& skins, const CrossingRule& rule,
+         const parallel::Context& context)
+      : scene_(scene), skins_(skins), rule_(rule), context_(context) {}
 
-  Result<Crossings> run(Intersections intersections) {
-    if (const Status s = pair_up(intersections); !s) return s.error();
+  Result<Crossings> run() {
+    if (const Status s = pair_up(); !s) return s.error();
     if (const Status s = leave_out_parted(); !s) return s.error();
     const auto kinds = parallel::distinct(
         context_, "intersections: equal pairs", pairs_.size(),
@@ -106,27 +108,47 @@ class Finder {
   [[nodiscard]] std::int64_t contact(std::size_t i) const {
     return std::max(a(i).contact, b(i).contact);
   }
+  [[nodiscard]] model::ObjectId object(const PlacedSkin& skin) const {
+    return scene_.bodies[skin.body].object;
+  }
+  [[nodiscard]] bool is_joint(const PlacedSkin& x, const PlacedSkin& y) const {
+    return x.placed.part->primitive && y.placed.part->primitive && object(x) == object(y);
+  }
+  /// Whether the parts of a pair are primitives of one object.
+  [[nodiscard]] bool is_joint(std::size_t i) const { return is_joint(a(i), b(i)); }
   [[nodiscard]] std::uint64_t hash(std::size_t i) const {
     std::uint64_t h = parallel::mixed(0, (std::uint64_t{a(i).unique} << 32U) | b(i).unique);
     const Vec3l at = offset(i);
     for (int k = 0; k < 3; ++k) h = parallel::mixed(h, static_cast<std::uint64_t>(at[k]));
-    return parallel::mixed(h, static_cast<std::uint64_t>(contact(i)));
+    h = parallel::mixed(h, static_cast<std::uint64_t>(contact(i)));
+    return parallel::mixed(h, is_joint(i) ? 1 : 0);
   }
   [[nodiscard]] bool same(std::size_t i, std::size_t j) const {
     return a(i).unique == a(j).unique && b(i).unique == b(j).unique && offset(i) == offset(j) &&
-           contact(i) == contact(j);
+           contact(i) == contact(j) && is_joint(i) == is_joint(j);
   }
 
-  Status pair_up(Intersections intersections) {
+  /// Equal for parts that are not asked about together, as far as that can be said of each alone.
+  [[nodiscard]] std::uint32_t owner(std::size_t i) const {
+    const PlacedSkin& skin = skins_.placed[i];
+    const bool alone = rule_.which == Intersections::parts ||
+                       (rule_.which == Intersections::primitives && skin.placed.part->primitive);
+    return alone ? static_cast<std::uint32_t>(scene_.model->objects.size() + i)
+                 : model::index(object(skin));
+  }
+
+  /// Whether the skins of two parts with different owners are asked about.
+  [[nodiscard]] bool is_asked(const PlacedSkin& x, const PlacedSkin& y) const {
+    return rule_.which != Intersections::primitives || object(x) != object(y) || is_joint(x, y);
+  }
+
+  Status pair_up() {
     const auto items = parallel::transform(
         context_, {.name = "intersections: boxes", .n = skins_.placed.size(), .grain = kGrain},
         [&](std::size_t i) {
           const PlacedSkin& skin = skins_.placed[i];
           const geometry::Box3l box = skin.placed.part->box.as<std::int64_t>();
-          return geometry::BoxItem{.box = box.moved(skin.placed.origin),
-                                   .owner = intersections == Intersections::parts
-                                                ? static_cast<std::uint32_t>(i)
-                                                : model::index(scene_.bodies[skin.body].object)};
+          return geometry::BoxItem{.box = box.moved(skin.placed.origin), .owner = owner(i)};
         });
     if (!items) return items.error();
     const auto tree = geometry::BoxTree::build(*items, context_);
@@ -135,7 +157,8 @@ class Finder {
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
     std::erase_if(pairs_, [&](const IndexPair& pair) {
-      return only_touch((*items)[pair.first].box, (*items)[pair.second].box);
+      return only_touch((*items)[pair.first].box, (*items)[pair.second].box) ||
+             !is_asked(skins_.placed[pair.first], skins_.placed[pair.second]);
     });
     return {};
   }
@@ -210,7 +233,11 @@ class Finder {
           geometry::PairWork work;
           auto lines = crossing_lines_up_to(most, whole(a(i)), whole(b(i)), contact(i), work);
           if (!lines || !allowance.take(lines->size())) return too_many(most);
-          return Found{std::move(*lines), work.triangle_pairs};
+          if (!is_joint(i)) return Found{std::move(*lines), work.triangle_pairs};
+          auto edges =
+              joint_lines(a(i).placed, b(i).placed, contact(i), rule_.cos_sharp, std::move(*lines));
+          if (!edges) return edges.error();
+          return Found{std::move(*edges), work.triangle_pairs};
         });
   }
 
@@ -249,6 +276,7 @@ class Finder {
 
   const model::Scene& scene_;
   const Skins& skins_;
+  const CrossingRule& rule_;
   const parallel::Context& context_;
   std::vector<IndexPair> pairs_;
   parallel::Precomputed<geometry::PartFrame> frames_;  ///< by unique part
@@ -257,11 +285,11 @@ class Finder {
 }  // namespace
 
 Result<Crossings> find_crossings(const model::Scene& scene, const std::vector<bool>& drawn,
-                                 const std::vector<std::int64_t>& contact,
-                                 Intersections intersections, const parallel::Context& context) {
-  if (intersections == Intersections::off) return Crossings{};
+                                 const std::vector<std::int64_t>& contact, const CrossingRule& rule,
+                                 const parallel::Context& context) {
+  if (rule.which == Intersections::off) return Crossings{};
   const Skins skins = list_skins(scene, drawn, contact);
-  return Finder(scene, skins, context).run(intersections);
+  return Finder(scene, skins, rule, context).run();
 }
 
 }  // namespace strake::hlr

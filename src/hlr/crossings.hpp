@@ -23,12 +23,18 @@ struct Crossings {
   std::uint64_t pairs = 0, tests = 0;  ///< as Counters::crossing_pairs and crossing_tests
 };
 
+/// Which crossings are lines of a drawing.
+struct CrossingRule {
+  Intersections which = Intersections::objects;
+  double cos_sharp = 1;  ///< skins of one object's primitives cross where they turn by more
+};
+
 /// The crossings among the drawn objects; `contact`: distances by body, within
 /// which faces are meant to touch. Errors: cancelled, too many boxes that meet (input).
 [[nodiscard]] Result<Crossings> find_crossings(const model::Scene& scene,
                                                const std::vector<bool>& drawn,
                                                const std::vector<std::int64_t>& contact,
-                                               Intersections intersections,
+                                               const CrossingRule& rule,
                                                const parallel::Context& context);
 
 }  // namespace strake::hlr

@@ -4,6 +4,7 @@
 #include "hlr/account.hpp"
 #include "hlr/curves.hpp"
 #include "hlr/job.hpp"
+#include "hlr/specks.hpp"
 #include "strake/hlr/hlr.hpp"
 
 namespace strake::hlr {
@@ -40,6 +41,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.origin = view.perspective ? view.perspective->target : job->origin;
   if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
   if (const Status status = solve(*job, context, drawing); !status) return status.error();
+  if (const Status status = dot_lone_specks(*job, context, drawing); !status) return status.error();
   Result<Curves> curves = find_curves(*job, context);
   if (!curves) return curves.error();
   drawing.curves = std::move(*curves);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hlr/shape_loop.hpp"
+#include "hlr/tangent_edges.hpp"
 #include "strake/geometry/part_edges.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -109,22 +110,6 @@ Result<Faces> faces_of(const Part& part, const parallel::Context& context) {
   return result;
 }
 
-// Whether two triangles lie in one plane but for what rounding to the grid bends: each corner is
-// off by half a unit along each axis, so the third corner of `t` by no more than two from the plane
-// of `s`, unless that is a sliver.
-bool bends(const Part& part, const geometry::PartEdge& e, std::uint32_t s, std::uint32_t t) {
-  const NormalVector n = triangle_normal(part, s);
-  const Vec3l from = part.vertices[e.v0].as<std::int64_t>();
-  for (const std::uint32_t v : part.triangles[t]) {
-    if (v == e.v0 || v == e.v1) continue;
-    Int128 off = along(n, part.vertices[v].as<std::int64_t>() - from), size = 0;
-    for (const Int128 component : n) size += component < 0 ? -component : component;
-    if (off < 0) off = -off;
-    if (off > 2 * size) return true;
-  }
-  return false;
-}
-
 std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Faces& faces,
                                 const FeatureOptions& options) {
   const geometry::PartEdge& e = part.edges[edge];
@@ -154,7 +139,7 @@ std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Face
   const bool front_n = options.viewer.is_towards(n, on_t.as<std::int64_t>());
   if (front_m != front_n) return EdgeKind::contour;
   // Between two facets of a curved side there is no edge at all.
-  if (options.smooth && !smooth && (bends(part, e, s, t) || bends(part, e, t, s)))
+  if (options.smooth != Smooth::off && !smooth && (bends(part, e, s, t) || bends(part, e, t, s)))
     return EdgeKind::smooth;
   return std::nullopt;
 }
@@ -198,6 +183,19 @@ double cosine_of_degrees(double degrees) {
   return obtuse ? -sum : sum;
 }
 
+Result<std::vector<FeatureEdge>> lasting_edges(const Part& part, double cos_sharp) {
+  std::vector<FeatureEdge> edges;
+  if (part.edges.empty()) return edges;
+  const Result<Faces> faces = faces_of(part, {});
+  if (!faces) return faces.error();
+  const FeatureOptions options{.viewer = {}, .cos_sharp = cos_sharp};
+  for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e)
+    if (const auto kind = kind_of(part, e, *faces, options); kind && kind != EdgeKind::contour)
+      add_edge(edges, part, {.part_edge = e, .kind = *kind}, part.edges[e].v0, part.edges[e].v1,
+               options.viewer);
+  return edges;
+}
+
 Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
                                                const FeatureOptions& options,
                                                const parallel::Context& context) {
@@ -223,6 +221,7 @@ Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
                      part.edges[e].v1, options.viewer);
         });
     if (!own) return own.error();
+    if (options.smooth == Smooth::tangent) keep_tangent_edges(part, *own);
     sort_edges(*own);
     if (edges.empty())
       edges = std::move(*own);

@@ -31,12 +31,17 @@ inline constexpr std::uint32_t kNoPartEdge = 0xffffffffU;
 struct FeatureOptions {
   Viewer viewer;         ///< in the coordinates of the shape
   double cos_sharp = 0;  ///< an edge is sharp when the cosine between its faces is below this
-  bool smooth = false;   ///< take the others, too
+  Smooth smooth = Smooth::off;  ///< which of the others to take, too
 };
 
 /// The cosine of an angle in [0, 180] degrees from additions and multiplications alone, the same
 /// on every machine.
 [[nodiscard]] double cosine_of_degrees(double degrees);
+
+/// The edges of a part that are drawn wherever it is seen from: sharp ones and those of other than
+/// two triangles.
+[[nodiscard]] Result<std::vector<FeatureEdge>> lasting_edges(const geometry::Part& part,
+                                                             double cos_sharp);
 
 /// The lines of a shape for one viewer: by part, then by (a, b). Errors: cancelled.
 [[nodiscard]] Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,

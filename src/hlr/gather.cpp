@@ -20,7 +20,8 @@ namespace {
 /// Draws the edges of items; for one worker.
 class Drawer {
  public:
-  explicit Drawer(const World& world) : world_(world), gatherer_(world), maker_(world) {}
+  Drawer(const World& world, const SpeckRule& rule)
+      : world_(world), gatherer_(world), maker_(world, rule) {}
 
   Work run(const Item& item, std::vector<Piece>& out) {
     gatherer_.start(item);
@@ -37,7 +38,9 @@ class Drawer {
     ++gatherer_.work.edges;
     std::span<const Hit> hits;
     if (maker_.begin(edge)) hits = gatherer_.hits(edge, maker_.lo(), maker_.hi());
-    if (maker_.finish(number, hits, out)) ++gatherer_.work.left_out;
+    const PieceMaker::Absent absent = maker_.finish(number, hits, out);
+    gatherer_.work.specks += absent.specks;
+    if (absent.left_out) ++gatherer_.work.left_out;
   }
 
   const World& world_;
@@ -92,10 +95,11 @@ Status solve_gather(const Job& job, const parallel::Context& context, Drawing& d
   if (const Status status = share_own_hits(*made, context, drawing.counters); !status)
     return status;
   const World& world = *made;
+  const SpeckRule rule(job);
   std::vector<Work> work(world.items.size());
   Result<std::vector<Piece>> pieces = parallel::collect_with<Piece>(
       context, {.name = "hidden lines: edges", .n = world.items.size()},
-      [&] { return Drawer(world); },
+      [&] { return Drawer(world, rule); },
       [&](Drawer& drawer, std::size_t i, std::vector<Piece>& out) {
         work[i] = drawer.run(world.items[i], out);
       });

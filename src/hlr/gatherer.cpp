@@ -23,6 +23,7 @@ void add(Counters& counters, const Work& work) {
   counters.covered_edges += work.covered;
   counters.face_tests += work.tests;
   counters.exact_fallbacks += work.wide_tests;
+  counters.specks += work.specks;
 }
 
 std::span<const Hit> Gatherer::hits(const AskedEdge& edge, const Param& lo, const Param& hi) {

@@ -15,7 +15,7 @@
 namespace strake::hlr {
 
 struct Work {
-  std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0, left_out = 0;
+  std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0, left_out = 0, specks = 0;
 };
 
 void add(Counters& counters, const Work& work);

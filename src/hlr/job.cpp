@@ -185,8 +185,8 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   job.scene = job.own ? job.own.get() : &scene;
   fill_bodies(job);
   if (const Status status = place(job); !status) return status.error();
-  const auto crossings =
-      find_crossings(*job.scene, job.drawn, job.contact, options.intersections, context);
+  const auto crossings = find_crossings(*job.scene, job.drawn, job.contact,
+                                        {options.intersections, job.cos_sharp}, context);
   if (!crossings) return crossings.error();
   job.counters.crossing_pairs = crossings->pairs;
   job.counters.crossing_tests = crossings->tests;

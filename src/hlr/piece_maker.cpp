@@ -17,7 +17,8 @@ bool PieceMaker::begin(const AskedEdge& edge) {
   return whole_ == State::visible;
 }
 
-bool PieceMaker::finish(std::uint32_t number, std::span<const Hit> hits, std::vector<Piece>& out) {
+PieceMaker::Absent PieceMaker::finish(std::uint32_t number, std::span<const Hit> hits,
+                                      std::vector<Piece>& out) {
   stretches_.clear();
   if (whole_ != State::visible) {
     stretches_.push_back({Param::zero(), Param::one(), whole_});
@@ -30,16 +31,13 @@ bool PieceMaker::finish(std::uint32_t number, std::span<const Hit> hits, std::ve
     if (hi_.num < hi_.den) stretches_.push_back({hi_, Param::one(), State::clipped});
   }
   const geometry::Vec3l& origin = world_.job.origin;
-  bool left_out = false;
-  for (const Stretch& s : stretches_) {
-    if (keeps(world_.job.options, s.state))
-      out.push_back({model::ObjectId{edge_.own->object}, number, edge_.kind, s.state,
-                     model::ObjectId{edge_.other->object}, edge_.at(s.lo, origin),
-                     edge_.at(s.hi, origin)});
-    else
-      left_out = true;
-  }
-  return left_out;
+  const std::size_t first = out.size();
+  for (const Stretch& s : stretches_)
+    out.push_back({model::ObjectId{edge_.own->object}, number, edge_.kind, s.state,
+                   model::ObjectId{edge_.other->object}, edge_.at(s.lo, origin),
+                   edge_.at(s.hi, origin)});
+  const std::size_t specks = absorb_specks(rule_, first, out);
+  return {leave_out_unasked(world_.job.options, first, out), specks};
 }
 
 }  // namespace strake::hlr

@@ -7,6 +7,7 @@
 
 #include "hlr/asked_edge.hpp"
 #include "hlr/occlusion.hpp"
+#include "hlr/specks.hpp"
 #include "hlr/stretches.hpp"
 #include "hlr/world.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -17,7 +18,7 @@ namespace strake::hlr {
 /// memory from edge to edge.
 class PieceMaker {
  public:
-  explicit PieceMaker(const World& world) : world_(world) {}
+  PieceMaker(const World& world, const SpeckRule& rule) : world_(world), rule_(rule) {}
 
   /// Takes an edge in hand. True when what hides it between lo() and hi() is to be told; else all
   /// of it is clipped, or a point on paper.
@@ -25,10 +26,13 @@ class PieceMaker {
   [[nodiscard]] const Param& lo() const { return lo_; }
   [[nodiscard]] const Param& hi() const { return hi_; }
 
-  /// Appends the pieces of the edge in hand, which has this number within its object. True when
-  /// hidden ones were left out.
-  [[nodiscard]] bool finish(std::uint32_t number, std::span<const Hit> hits,
-                            std::vector<Piece>& out);
+  /// What finish() did not append.
+  struct Absent {
+    bool left_out = false;   ///< hidden pieces
+    std::size_t specks = 0;  ///< that other pieces took over
+  };
+  /// Appends the pieces of the edge in hand, which has this number within its object.
+  Absent finish(std::uint32_t number, std::span<const Hit> hits, std::vector<Piece>& out);
 
  private:
   const World& world_;
@@ -37,6 +41,7 @@ class PieceMaker {
   State whole_ = State::visible;  ///< or what all of the edge is
   std::vector<Stretch> stretches_;
   StretchMaker maker_;
+  const SpeckRule& rule_;
 };
 
 }  // namespace strake::hlr

@@ -179,6 +179,7 @@ Status solve_push(const Job& job, const parallel::Context& context, Drawing& dra
   const Result<World> made = make_world(job, context);
   if (!made) return made.error();
   const World& world = *made;
+  const SpeckRule rule(job);
   std::vector<UnderObject> objects(job.drawn.size());
   std::vector<Work> work(objects.size() + world.placed.size());
   struct Local {
@@ -187,7 +188,7 @@ Status solve_push(const Job& job, const parallel::Context& context, Drawing& dra
   };
   const Status local = parallel::for_each_with(
       context, {.name = "push: local step", .n = objects.size()},
-      [&] { return Local{Gatherer(world), PieceMaker(world)}; },
+      [&] { return Local{Gatherer(world), PieceMaker(world, rule)}; },
       [&](Local& own, std::size_t o) {
         if (!job.drawn[o]) return;
         objects[o] = local_step(world, static_cast<std::uint32_t>(o), own.gatherer, own.maker);
@@ -207,12 +208,15 @@ Status solve_push(const Job& job, const parallel::Context& context, Drawing& dra
     if (!global) return global;
   }
   Result<std::vector<Piece>> pieces = parallel::collect_with<Piece>(
-      context, {.name = "push: pieces", .n = objects.size()}, [&] { return PieceMaker(world); },
+      context, {.name = "push: pieces", .n = objects.size()},
+      [&] { return PieceMaker(world, rule); },
       [&](PieceMaker& maker, std::size_t o, std::vector<Piece>& out) {
         for (std::uint32_t e = 0; e < objects[o].edges.size(); ++e) {
           const Under& under = objects[o].edges[e];
           static_cast<void>(maker.begin(under.edge));
-          if (maker.finish(e, under.hits, out)) ++drawing.left_out[o];
+          const PieceMaker::Absent absent = maker.finish(e, under.hits, out);
+          work[o].specks += absent.specks;
+          if (absent.left_out) ++drawing.left_out[o];
         }
       });
   if (!pieces) return pieces.error();

@@ -249,13 +249,6 @@ bool Room::takes(const PaperBox& box) const {
                                          [&](const PaperBox& k) { return k.overlaps(box); });
 }
 
-std::span<const double> usual_scales() {
-  static constexpr std::array kScales{0.02, 0.05, 0.1, 0.2, 0.5, 1.,  2.,  5.,  10., 20., 50.,
-                                      1e2,  2e2,  5e2, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5,
-                                      5e5,  1e6,  2e6, 5e6, 1e7, 2e7, 5e7, 1e8, 2e8, 5e8, 1e9};
-  return kScales;
-}
-
 Result<Arranged> arrange(std::span<const ToPlace> views, Projection projection, const Room& room,
                          double gap_mm, double scale) {
   const Arranger arranger(views, projection, room, gap_mm);
@@ -263,7 +256,7 @@ Result<Arranged> arrange(std::span<const ToPlace> views, Projection projection, 
     const auto found = arranger.at_scale(scale);
     return found ? *found : arranger.anyhow(scale);
   }
-  for (const double usual : usual_scales())
+  for (const double usual : drawing::usual_scales())
     if (const auto found = arranger.at_scale(usual)) return *found;
   return Error{ErrorCode::input, "the views have no room on the sheet at any scale", "",
                "take a larger sheet, a smaller gap, shorter titles or fewer views"};

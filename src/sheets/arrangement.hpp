@@ -44,9 +44,6 @@ struct Arranged {
   std::vector<PaperPoint> at;  ///< where the common point of each view falls
 };
 
-/// The usual scales of ISO 5455, 50:1 to 1:1000000000, the largest first.
-[[nodiscard]] std::span<const double> usual_scales();
-
 /// Places the views of an arrangement in first- or third-angle projection round the front view: in
 /// columns and rows, those of one column with the same x and those of one row with the same y for
 /// each point of the model, to the micrometre. The pictorial view goes to the free place that

@@ -238,13 +238,17 @@ void ViewReader::content(TableReader& table, ViewWish& view) {
     view.options.stage = *word == "none"    ? hlr::Stage::none
                          : *word == "local" ? hlr::Stage::local
                                             : hlr::Stage::global;
-  constexpr std::array<std::string_view, 3> kIntersections{"off", "objects", "parts"};
+  constexpr std::array<std::string_view, 4> kIntersections{"off", "objects", "primitives", "parts"};
   if (const auto word = table.word("intersections", kIntersections))
     view.options.intersections = *word == "off"       ? hlr::Intersections::off
                                  : *word == "objects" ? hlr::Intersections::objects
-                                                      : hlr::Intersections::parts;
-  constexpr std::array<std::string_view, 2> kSwitch{"off", "on"};
-  if (const auto word = table.word("smooth", kSwitch)) view.options.smooth = *word == "on";
+                                 : *word == "parts"   ? hlr::Intersections::parts
+                                                      : hlr::Intersections::primitives;
+  constexpr std::array<std::string_view, 3> kSmooth{"off", "tangent", "on"};
+  if (const auto word = table.word("smooth", kSmooth))
+    view.options.smooth = *word == "on"        ? hlr::Smooth::all
+                          : *word == "tangent" ? hlr::Smooth::tangent
+                                               : hlr::Smooth::off;
   if (const auto angle =
           table.quantity("sharp_angle", parse_angle_deg, "an angle in quotes, as \"20deg\"")) {
     if (!(*angle >= 0 && *angle <= 180))

@@ -122,12 +122,13 @@ class Placer {
   /// The largest usual scale at which views that say where they lie cover nothing that is taken; or
   /// else at which none is larger than the room.
   [[nodiscard]] double scale_for(const std::vector<std::size_t>& views) const {
-    double largest = usual_scales().back();
-    for (auto scale = usual_scales().rbegin(); scale != usual_scales().rend(); ++scale) {
+    double largest = drawing::usual_scales().back();
+    for (auto scale = drawing::usual_scales().rbegin(); scale != drawing::usual_scales().rend();
+         ++scale) {
       if (!sizes_fit(views, *scale)) break;
       largest = *scale;
     }
-    for (const double scale : usual_scales())
+    for (const double scale : drawing::usual_scales())
       if (all_clear(views, scale)) return scale;
     return largest;
   }

@@ -80,7 +80,10 @@ const std::vector<Peer>& peers() {
        {.intersections = hlr::Intersections::objects, .hidden = false},
        {"sharp", "contour"}},
       // Every edge between two faces of a mesh is sharp to it.
-      {"tech_draw", "FreeCAD TechDraw", {.smooth = true}, {"sharp", "contour", "smooth"}}};
+      {"tech_draw",
+       "FreeCAD TechDraw",
+       {.smooth = hlr::Smooth::all},
+       {"sharp", "contour", "smooth"}}};
   return all;
 }
 

@@ -21,8 +21,8 @@ struct Seconds {
 /// Beside visible sharp edges and contours.
 struct MoreLines {
   hlr::Intersections intersections = hlr::Intersections::off;
-  bool smooth = false;  ///< edges of curved faces
-  bool hidden = true;   ///< hidden lines of all kinds
+  hlr::Smooth smooth = hlr::Smooth::off;  ///< edges of curved faces
+  bool hidden = true;                     ///< hidden lines of all kinds
   friend bool operator==(const MoreLines&, const MoreLines&) = default;
 };
 

@@ -23,8 +23,20 @@ enum class Stage : std::uint8_t { none, local, global };
 /// counters of work depend on the schedule.
 enum class Solver : std::uint8_t { gather, brute_force, push };
 
-/// Whose skins' intersections are drawn: those of different objects, or of all parts.
-enum class Intersections : std::uint8_t { off, objects, parts };
+/// Whose skins' intersections are drawn.
+enum class Intersections : std::uint8_t {
+  off,
+  objects,     ///< of different objects
+  primitives,  ///< those, and of one object where a primitive passes through another part of it
+  parts,       ///< of all parts
+};
+
+/// Which smooth edges are drawn, those where faces turn by no more than the sharp angle.
+enum class Smooth : std::uint8_t {
+  off,
+  tangent,  ///< where a curved skin begins or ends
+  all,
+};
 
 enum class EdgeKind : std::uint8_t {
   sharp,
@@ -41,7 +53,7 @@ enum class State : std::uint8_t {
   visible,
   hidden_by_self,
   hidden_by_other,
-  projecting,  ///< parallel to the view direction, or towards the eye: a point on paper
+  projecting,  ///< parallel to the view direction, or towards the eye, or a speck: a point on paper
   clipped,     ///< outside the limits or the window, or cut away by a section
 };
 
@@ -95,10 +107,10 @@ struct Options {
   Stage stage = Stage::global;
   Solver solver = Solver::gather;
   double sharp_angle_deg = 20;
-  bool smooth = false;  ///< draw smooth edges
+  Smooth smooth = Smooth::off;
   /// Contact distance δ, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
-  Intersections intersections = Intersections::objects;
+  Intersections intersections = Intersections::primitives;
   bool culling = true;  ///< changes the work, never the answer
   static constexpr std::int32_t kNoBuckets = 0, kBucketsByData = -1;
   static constexpr std::int32_t kMostBuckets = 4096;
@@ -110,6 +122,9 @@ struct Options {
   /// Keep hidden pieces. Without them a drawing is found in less time and memory; its other pieces
   /// and the fates of its objects are the same.
   bool hidden = true;
+  /// Keep pieces that are shorter than the precision of the sources can tell, each in its exact
+  /// state. Otherwise their neighbours take them over, and what joins nothing becomes a point.
+  bool keep_specks = false;
   /// The usual distance of hatch lines in the model, mm; 0: no hatch; negative: from the size of
   /// what is drawn.
   double hatch_spacing_mm = -1;
@@ -134,6 +149,7 @@ struct Counters {
   std::uint64_t exact_fallbacks = 0;
   std::uint64_t crossing_pairs = 0;  ///< of parts, searched for intersections; equal ones once
   std::uint64_t crossing_tests = 0;  ///< triangle against triangle, for those
+  std::uint64_t specks = 0;          ///< pieces that were taken over, or made points: see Options
   std::uint64_t left_out = 0;  ///< edges with hidden pieces that Options::hidden did not ask for
 };
 

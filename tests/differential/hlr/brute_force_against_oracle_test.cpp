@@ -48,7 +48,8 @@ std::string run(const Case& c, std::size_t& crossings) {
   const hlr::View plain_view = view;
   view.limits = test::random_limits(random, lattice);
   hlr::Options options{.solver = hlr::Solver::brute_force, .contact_distance_mm = c.contact_mm};
-  options.intersections = static_cast<hlr::Intersections>(c.seed % 3);
+  options.keep_specks = true;
+  options.intersections = static_cast<hlr::Intersections>(c.seed % 4);
   if (random.one_in(6)) options.stage = random.one_in(2) ? hlr::Stage::local : hlr::Stage::none;
   const auto drawing = hlr::draw(scene.scene(), {}, view, options, {});
   if (!drawing) return drawing.error().text();

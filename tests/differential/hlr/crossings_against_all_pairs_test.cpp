@@ -61,7 +61,7 @@ Seen judge(const model::Scene& scene, Intersections which, const parallel::Conte
   const std::vector<bool> drawn(scene.model->objects.size(), true);
   std::vector<std::int64_t> contact(scene.bodies.size());
   for (std::size_t b = 0; b < contact.size(); ++b) contact[b] = static_cast<std::int64_t>(b % 4);
-  const auto found = find_crossings(scene, drawn, contact, which, context);
+  const auto found = find_crossings(scene, drawn, contact, {which}, context);
   if (!found) {
     ADD_FAILURE() << found.error().text();
     return {};

@@ -29,7 +29,8 @@ void judge(bool turned, const std::vector<Vec3l>& directions) {
   const auto scene = model::make_scene(ship->model, {}, context);
   ASSERT_TRUE(scene);
   for (const Vec3l& direction : directions) {
-    const auto drawing = hlr::draw(*scene, {}, {.direction = direction, .limits = {}}, {}, context);
+    const auto drawing = hlr::draw(*scene, {}, {.direction = direction, .limits = {}},
+                                   {.keep_specks = true}, context);
     ASSERT_TRUE(drawing) << drawing.error().text();
     const test::RayCheck check = test::check_by_rays(*scene, *drawing, kRays, 1);
     EXPECT_EQ(check.rays, kRays);

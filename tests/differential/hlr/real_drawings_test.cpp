@@ -51,7 +51,8 @@ std::unique_ptr<Platform> platform(const std::vector<std::string>& disciplines) 
 }
 
 hlr::Drawing drawn(const model::Scene& scene, const Vec3l& direction) {
-  auto drawing = hlr::draw(scene, {}, {.direction = direction, .limits = {}}, {}, {});
+  auto drawing =
+      hlr::draw(scene, {}, {.direction = direction, .limits = {}}, {.keep_specks = true}, {});
   EXPECT_TRUE(drawing);
   return drawing ? std::move(*drawing) : hlr::Drawing{};
 }

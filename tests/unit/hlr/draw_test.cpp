@@ -120,13 +120,13 @@ TEST(Draw, SmoothEdgesAreDrawnOnDemand) {
   const auto smooth = [&](double sharp_deg) {
     int count = 0;
     for (const hlr::Piece& p :
-         drawn(scene, kIso, {.sharp_angle_deg = sharp_deg, .smooth = true}).pieces)
+         drawn(scene, kIso, {.sharp_angle_deg = sharp_deg, .smooth = hlr::Smooth::all}).pieces)
       if (p.kind == EdgeKind::smooth) ++count;
     return count;
   };
   // Of a mesh every edge of the mantle but for the contours, and none within the flat ends.
   EXPECT_EQ(drawn(scene, kIso).counters.feature_edges, 2 * sides + 2U);
-  EXPECT_EQ(drawn(scene, kIso, {.smooth = true}).counters.feature_edges, 3 * sides);
+  EXPECT_EQ(drawn(scene, kIso, {.smooth = hlr::Smooth::all}).counters.feature_edges, 3 * sides);
   EXPECT_GE(smooth(20), 22);
   EXPECT_EQ(smooth(0), 0);
   // Of a cylinder none.
@@ -146,7 +146,7 @@ TEST(Draw, TrianglesInOnePlaneHaveNoSmoothEdge) {
   const auto edges = [&](std::int32_t lift) {
     test::SceneBuilder one;
     one.object({{.parts = {quad(lift)}, .origin = {}}});
-    return drawn(one, kIso, {.smooth = true}).counters.feature_edges;
+    return drawn(one, kIso, {.smooth = hlr::Smooth::all}).counters.feature_edges;
   };
   EXPECT_EQ(edges(0), 4U);
   EXPECT_EQ(edges(2), 4U);

@@ -84,14 +84,14 @@ TEST(Arrangement, FirstAngleStandsAcrossThirdAngleBeside) {
 TEST(Arrangement, TheLargestUsualScaleThatFits) {
   const auto views = views_of({Slot::front, Slot::top, Slot::left, Slot::iso});
   const Arranged a = arranged(views, Projection::first_angle);
-  EXPECT_TRUE(std::find(usual_scales().begin(), usual_scales().end(), a.scale) !=
-              usual_scales().end());
-  for (const double larger : usual_scales()) {
+  EXPECT_TRUE(std::find(drawing::usual_scales().begin(), drawing::usual_scales().end(), a.scale) !=
+              drawing::usual_scales().end());
+  for (const double larger : drawing::usual_scales()) {
     if (larger >= a.scale) break;
     EXPECT_FALSE(arranged(views, Projection::first_angle, kA3, larger).fits) << larger;
   }
-  EXPECT_EQ(usual_scales().front(), 0.02);
-  EXPECT_TRUE(std::is_sorted(usual_scales().begin(), usual_scales().end()));
+  EXPECT_EQ(drawing::usual_scales().front(), 0.02);
+  EXPECT_TRUE(std::is_sorted(drawing::usual_scales().begin(), drawing::usual_scales().end()));
   // A scale that is given is kept, whether it fits or not.
   const Arranged given = arranged(views, Projection::first_angle, kA3, 7);
   EXPECT_EQ(given.scale, 7);

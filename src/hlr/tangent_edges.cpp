@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/tangent_edges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "strake/geometry/part_edges.hpp"
+
+namespace strake::hlr {
+namespace {
+
+using geometry::Part;
+using geometry::PartEdge;
+using geometry::Vec3d;
+using geometry::Vec3l;
+
+/// Faces as sets of triangles in one plane, and what their smooth edges turn by.
+class FlatFaces {
+ public:
+  FlatFaces(const Part& part, std::span<const FeatureEdge> edges)
+      : part_(part), of_(part.triangles.size()) {
+    std::iota(of_.begin(), of_.end(), 0U);
+    for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e) {
+      const auto round = geometry::triangles_round(part, e);
+      if (round.size() == 2 && !turns(part.edges[e], round)) unite(round[0], round[1]);
+    }
+    for (std::uint32_t t = 0; t < of_.size(); ++t) of_[t] = root(t);
+    list_members();
+    turns_.resize(of_.size());
+    for (const FeatureEdge& edge : edges)
+      if (edge.kind == EdgeKind::smooth) note(edge.part_edge);
+  }
+
+  [[nodiscard]] bool is_tangent(std::uint32_t edge) const {
+    const auto round = geometry::triangles_round(part_, edge);
+    std::uint32_t f = of_[round[0]], g = of_[round[1]];
+    if (size(f) > size(g)) std::swap(f, g);
+    const double turn = turn_at(edge);
+    const double at_f = most_beside(f, turn), at_g = most_beside(g, turn);
+    if (at_f < 0 && at_g < 0) return true;
+    // Of the larger face no more corners are looked at than it takes to tell.
+    const double far = reach(f, edge);
+    if (reaches_beyond(g, edge, kWider * far)) return is_like(turn, at_f);
+    return !reaches_beyond(g, edge, far / kWider) && is_like(turn, at_g);
+  }
+
+ private:
+  static constexpr double kWider = 2;
+  /// Facets of one skin of which one is that much wider turn by half as much again, which is more
+  /// than twice in the measure of turn_at().
+  static constexpr double kLike = 1.5;
+
+  static bool is_like(double turn, double beside) { return beside < 0 || turn <= kLike * beside; }
+
+  /// The largest turns at smooth edges of a face.
+  struct Turns {
+    double most = -1, second = -1;
+  };
+
+  [[nodiscard]] bool turns(const PartEdge& e, std::span<const std::uint32_t> round) const {
+    if (!part_.faces.empty() && part_.faces[round[0]] != geometry::kNoFace &&
+        part_.faces[round[0]] == part_.faces[round[1]])
+      return false;
+    return bends(part_, e, round[0], round[1]) || bends(part_, e, round[1], round[0]);
+  }
+
+  [[nodiscard]] std::uint32_t root(std::uint32_t t) {
+    for (; of_[t] != t; t = of_[t]) of_[t] = of_[of_[t]];
+    return t;
+  }
+  void unite(std::uint32_t s, std::uint32_t t) {
+    s = root(s);
+    t = root(t);
+    of_[std::max(s, t)] = std::min(s, t);
+  }
+
+  [[nodiscard]] std::uint32_t size(std::uint32_t face) const {
+    return first_[face + 1] - first_[face];
+  }
+
+  void list_members() {
+    first_.resize(of_.size() + 1);
+    for (const std::uint32_t f : of_) ++first_[f + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    members_.resize(of_.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t t = 0; t < of_.size(); ++t) members_[next[of_[t]]++] = t;
+  }
+
+  /// A measure that grows with the angle: one less the cosine.
+  [[nodiscard]] double turn_at(std::uint32_t edge) const {
+    const auto round = geometry::triangles_round(part_, edge);
+    std::array<Vec3d, 2> n;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const NormalVector exact = triangle_normal(part_, round[k]);
+      n[k] = {static_cast<double>(exact[0]), static_cast<double>(exact[1]),
+              static_cast<double>(exact[2])};
+    }
+    return 1 - std::fabs(dot(n[0], n[1])) / std::sqrt(dot(n[0], n[0]) * dot(n[1], n[1]));
+  }
+  void note(std::uint32_t edge) {
+    const double turn = turn_at(edge);
+    for (const std::uint32_t t : geometry::triangles_round(part_, edge)) {
+      Turns& of_face = turns_[of_[t]];
+      of_face.second = std::max(of_face.second, std::min(turn, of_face.most));
+      of_face.most = std::max(of_face.most, turn);
+    }
+  }
+  /// The largest turn at a smooth edge of a face other than one with this turn; negative: none.
+  [[nodiscard]] double most_beside(std::uint32_t face, double turn) const {
+    const Turns& of_face = turns_[face];
+    return of_face.most > turn ? of_face.most : of_face.second;
+  }
+
+  template <class Visit>
+  bool any_corner(std::uint32_t face, Visit&& visit) const {
+    for (std::uint32_t m = first_[face]; m < first_[face + 1]; ++m)
+      for (const std::uint32_t v : part_.triangles[members_[m]])
+        if (visit(part_.vertices[v])) return true;
+    return false;
+  }
+  /// How far away from the line of an edge a point is.
+  [[nodiscard]] double distance(const geometry::Vec3i& point, std::uint32_t edge) const {
+    const PartEdge& e = part_.edges[edge];
+    const Vec3d a = part_.vertices[e.v0].as<double>();
+    const Vec3d along = part_.vertices[e.v1].as<double>() - a;
+    const Vec3d off = cross(point.as<double>() - a, along);
+    return std::sqrt(dot(off, off) / dot(along, along));
+  }
+  [[nodiscard]] double reach(std::uint32_t face, std::uint32_t edge) const {
+    double farthest = 0;
+    any_corner(face, [&](const geometry::Vec3i& p) {
+      farthest = std::max(farthest, distance(p, edge));
+      return false;
+    });
+    return farthest;
+  }
+  [[nodiscard]] bool reaches_beyond(std::uint32_t face, std::uint32_t edge, double far) const {
+    return any_corner(face, [&](const geometry::Vec3i& p) { return distance(p, edge) > far; });
+  }
+
+  const Part& part_;
+  std::vector<std::uint32_t> of_;  ///< by triangle: the first triangle of its face
+  std::vector<std::uint32_t> first_, members_;
+  std::vector<Turns> turns_;  ///< by first triangle
+};
+
+}  // namespace
+
+// Each corner is off by half a unit along each axis, so the third corner of `other` by no more than
+// two from the plane of `one`, unless that is a sliver.
+bool bends(const Part& part, const PartEdge& edge, std::uint32_t one, std::uint32_t other) {
+  const NormalVector n = triangle_normal(part, one);
+  const Vec3l from = part.vertices[edge.v0].as<std::int64_t>();
+  for (const std::uint32_t v : part.triangles[other]) {
+    if (v == edge.v0 || v == edge.v1) continue;
+    Int128 off = along(n, part.vertices[v].as<std::int64_t>() - from), size = 0;
+    for (const Int128 component : n) size += component < 0 ? -component : component;
+    if (off < 0) off = -off;
+    if (off > 2 * size) return true;
+  }
+  return false;
+}
+
+void keep_tangent_edges(const Part& part, std::vector<FeatureEdge>& edges) {
+  const auto is_smooth = [](const FeatureEdge& e) { return e.kind == EdgeKind::smooth; };
+  if (std::ranges::none_of(edges, is_smooth)) return;
+  const FlatFaces faces(part, edges);
+  std::erase_if(
+      edges, [&](const FeatureEdge& e) { return is_smooth(e) && !faces.is_tangent(e.part_edge); });
+}
+
+}  // namespace strake::hlr
