@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,10 @@ namespace strake::geometry {
 namespace {
 
 constexpr std::size_t kMaxVerticesTried = 128;
+/// Of a body with more edges none is tried.
+constexpr std::size_t kMostEdgesTried = 2048;
+/// Points from where a search goes uphill.
+constexpr std::size_t kMostDeepest = 16;
 /// A step off a skin that the exact test of a side can see.
 constexpr double kLeastMove = 1.0 / 64;
 /// Moves of corners no longer than this part what the snap pushed into each other: it moves either
@@ -48,7 +53,25 @@ class Candidates {
       best_ = depth;
       point_ = q;
     }
+    found_.push_back({depth, q});
     return depth;
+  }
+
+  /// The deepest of the points that were tried, but for those that have a deeper one beside them.
+  [[nodiscard]] std::vector<Vec3d> deepest() const {
+    std::vector<Found> all = found_;
+    std::ranges::sort(all, [](const Found& x, const Found& y) {
+      return std::tuple(y.depth, x.at.x, x.at.y, x.at.z) <
+             std::tuple(x.depth, y.at.x, y.at.y, y.at.z);
+    });
+    std::vector<Vec3d> deepest;
+    for (const Found& f : all) {
+      if (deepest.size() == kMostDeepest) break;
+      const bool beside = std::ranges::any_of(
+          deepest, [&](const Vec3d& p) { return length(p - f.at) < 2 * f.depth; });
+      if (!beside) deepest.push_back(f.at);
+    }
+    return deepest;
   }
 
   /// All but as deep as the best, and a better place to point at: it counts, as depth_at() found.
@@ -57,19 +80,25 @@ class Candidates {
   }
 
   void store(Depth& depth) const {
-    if (best_ <= 0) return;
+    if (best_ <= depth.value) return;
     depth.value = best_;
     depth.lower = std::max(0.0, best_ - margin_);
     depth.point = point_;
   }
 
  private:
+  struct Found {
+    double depth = 0;
+    Vec3d at;
+  };
+
   const DepthField &a_, &b_;
   double margin_;
   const DepthGoal& goal_;
   PairWork& work_;
   double best_ = 0;
   Vec3d point_;
+  std::vector<Found> found_;
 };
 
 /// Deepest points by the linear programs, then moved towards the middle of the common part as far
@@ -130,6 +159,35 @@ std::optional<Vec3d> outward(const Part& part, std::uint32_t triangle) {
   const double size = length(n);
   if (!(size > 0)) return std::nullopt;
   return n * (1 / size);
+}
+
+/// The middles of what the edges of one body have in the box of the other: where a body that passes
+/// through the other is out of step with it, it has no corner there.
+void try_edges(const DepthField& of, const DepthField& in, Candidates& candidates) {
+  const auto& edges = of.part().edges;
+  if (edges.size() > kMostEdgesTried) return;
+  const Box3d room = in.box();
+  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+    const Vec3d p = of.common(of.part().vertices[edges[e].v0].as<double>());
+    const Vec3d way = of.common(of.part().vertices[edges[e].v1].as<double>()) - p;
+    double from = 0, to = 1;
+    for (int k = 0; k < 3; ++k) {
+      const double lo = (room.lo[k] - p[k]) / way[k], hi = (room.hi[k] - p[k]) / way[k];
+      if (way[k] != 0) {
+        from = std::max(from, std::min(lo, hi));
+        to = std::min(to, std::max(lo, hi));
+      } else if (p[k] < room.lo[k] || p[k] > room.hi[k]) {
+        to = -1;
+      }
+    }
+    if (!(from < to)) continue;
+    const Vec3d middle = p + way * ((from + to) / 2);
+    // A little way in, out of the rounding.
+    Vec3d inward;
+    for (std::uint32_t i = edges[e].first_triangle; i < edges[e + 1].first_triangle; ++i)
+      if (const auto n = outward(of.part(), of.part().edge_triangles[i])) inward = inward - *n;
+    candidates.depth_at(middle + inward * kLeastMove);
+  }
 }
 
 /// From a point of both skins into both bodies, farther and farther.
@@ -335,7 +393,12 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
   if (depth.lower <= goal.threshold && depth.upper > goal.threshold) parting.bound_tie(depth);
   // That a part of the common region is left by a move of the whole is known of the whole.
   if (!bracket_suffices(depth, goal) && !goal.within) parting.bound_hit(depth);
-  if (!bracket_suffices(depth, goal)) search_solid_depth(fa, fb, goal, depth, work);
+  if (!bracket_suffices(depth, goal)) {
+    try_edges(fa, fb, candidates);
+    try_edges(fb, fa, candidates);
+    candidates.store(depth);
+    search_solid_depth(fa, fb, goal, candidates.deepest(), depth, work);
+  }
   Centring(fa, fb, spaces, goal, work).move(depth);
   depth.upper = std::max(depth.upper, depth.value);
   return depth;

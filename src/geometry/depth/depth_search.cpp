@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -15,6 +18,7 @@
 #include "geometry/depth/blocks.hpp"
 #include "geometry/depth/search_frame.hpp"
 #include "geometry/depth/simplex.hpp"
+#include "geometry/depth/uphill.hpp"
 #include "geometry/range.hpp"
 
 namespace strake::geometry {
@@ -59,6 +63,8 @@ constexpr double kSmallest = 0.25;
 constexpr double kNearlyThere = 1.5;
 /// An edge shorter than the longest by more than this factor is not cut.
 constexpr double kAspect = 16;
+/// Cells, the most promising first, that are climbed from; later ones only now and then.
+constexpr std::uint32_t kFirstClimbs = 16;
 /// What the cut of an edge other than the longest must gain at least, relative to the bound.
 constexpr double kLeastGain = 1e-3;
 
@@ -73,9 +79,12 @@ class Search {
         work_(work),
         axes_(search_frame(a.part(), goal.triangle_a, b.part())) {}
 
-  void run() {
+  void run(std::span<const Vec3d> seeds) {
     const double ceiling = depth_.upper;
-    if (!plant()) return;
+    const auto room = common_box();
+    if (!room) return;
+    for (const Vec3d& seed : seeds) climb(seed);
+    plant(*room);
     double kept = 0;  // the greatest bound of a cell that is too small to cut
     while (!open_.empty() || !blocks_.empty()) {
       const double cells = open_.empty() ? 0 : open_.top().upper;
@@ -89,6 +98,7 @@ class Search {
       }
       const Cell cell = open_.top();
       open_.pop();
+      if (wants_climb()) climb_from_inside(cell.promise);
       const Edge longest = longest_edge(cell.simplex);
       if (longest.squared <= kSmallest * kSmallest)
         kept = std::max(kept, cell.upper);
@@ -104,8 +114,8 @@ class Search {
     return depth_.cells >= (decided ? goal_.cells_decided : goal_.cells_undecided);
   }
 
-  /// The common box of the two in the frame, in blocks.
-  bool plant() {
+  /// The common box of the two in the frame; nothing where there is none.
+  std::optional<Box3d> common_box() {
     Vec3d lo, size;
     double extent = 0;
     for (int k = 0; k < 3; ++k) {
@@ -113,13 +123,17 @@ class Search {
       const Range room = goal_.within ? range_along(*goal_.within, axes_[at(k)]) : x;
       lo[k] = std::max({x.lo, y.lo, room.lo}) - kStandOff;
       size[k] = std::min({x.hi, y.hi, room.hi}) + kStandOff - lo[k];
-      if (!(size[k] > 0)) return false;
+      if (!(size[k] > 0)) return std::nullopt;
       extent = std::max({extent, x.hi - x.lo, y.hi - y.lo});
     }
     margin_ = kFieldError * extent;
     slack_ = 1.0 / 1024 + margin_;
-    const std::vector<Block> blocks =
-        cut_into_blocks(a_, b_, axes_, {lo, lo + size}, slack_, work_);
+    return Box3d{lo, lo + size};
+  }
+
+  /// The common box in blocks.
+  void plant(const Box3d& room) {
+    const std::vector<Block> blocks = cut_into_blocks(a_, b_, axes_, room, slack_, work_);
     if (blocks.size() > 1) depth_.cells += blocks.size();
     for (const Block& block : blocks) {
       for (std::size_t i = 0; i < 2; ++i)
@@ -132,7 +146,6 @@ class Search {
     };
     std::sort(blocks_.begin(), blocks_.end(),
               [&](const Block& x, const Block& y) { return rank(x) < rank(y); });
-    return true;
   }
 
   /// Takes up the block that promises most, as the six simplices round one of its diagonals.
@@ -274,9 +287,30 @@ class Search {
   }
 
   void try_point(const Vec3d& p) {
+    if (deepens(p)) climb(depth_.point);
+  }
+
+  /// Whether a point is deeper than what is known, which it then is.
+  bool deepens(const Vec3d& p) {
     const Vec3d q = on_field_grid(p);
-    const double depth = greater_distance(a_, b_, q);
-    if (depth > depth_.value && a_.contains(q, work_) && b_.contains(q, work_)) improve(depth, q);
+    const double depth = greater_distance(a_, b_, q), before = depth_.value;
+    if (depth > before && a_.contains(q, work_) && b_.contains(q, work_)) improve(depth, q);
+    return depth_.value > before;
+  }
+
+  /// What promises most is seldom deeper than what is known, but a deeper point may lie uphill.
+  bool wants_climb() {
+    ++taken_;
+    return taken_ <= kFirstClimbs || std::has_single_bit(taken_);
+  }
+  void climb_from_inside(const Vec3d& p) {
+    const Vec3d q = on_field_grid(p);
+    if (a_.contains(q, work_) && b_.contains(q, work_)) climb(q);
+  }
+
+  void climb(const Vec3d& from) {
+    deepens(uphill(a_, b_, from, goal_.within));
+    deepens(uphill(b_, a_, from, goal_.within));
   }
 
   void improve(double depth, const Vec3d& at) {
@@ -296,16 +330,17 @@ class Search {
   std::vector<Block> blocks_;  ///< not yet taken up, the most promising last
   std::priority_queue<Cell, std::vector<Cell>, LessPromising> open_;
   std::uint32_t next_id_ = 0;
+  std::uint32_t taken_ = 0;  ///< cells that were the most promising
 };
 
 }  // namespace
 
 void search_solid_depth(const DepthField& a, const DepthField& b, const DepthGoal& goal,
-                        Depth& depth, PairWork& work) {
+                        std::span<const Vec3d> seeds, Depth& depth, PairWork& work) {
   DepthField ready_a = a, ready_b = b;
   ready_a.prepare();
   ready_b.prepare();
-  Search(ready_a, ready_b, goal, depth, work).run();
+  Search(ready_a, ready_b, goal, depth, work).run(seeds);
 }
 
 }  // namespace strake::geometry

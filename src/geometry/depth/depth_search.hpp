@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "geometry/depth/depth_field.hpp"
 
 namespace strake::geometry {
@@ -10,9 +12,10 @@ namespace strake::geometry {
   return decided && d.upper - d.lower <= std::fmax(goal.tolerance, goal.relative * d.upper);
 }
 
-/// Narrows the bracket of two solids by best-first branch and bound over their common region;
-/// coordinates are relative to a's origin.
+/// Narrows the bracket of two solids: points climb to where they are deepest nearby, from `seeds`
+/// and from each deeper point found, and a best-first branch and bound over the common region says
+/// how much deeper any other may be. Coordinates are relative to a's origin.
 void search_solid_depth(const DepthField& a, const DepthField& b, const DepthGoal& goal,
-                        Depth& depth, PairWork& work);
+                        std::span<const Vec3d> seeds, Depth& depth, PairWork& work);
 
 }  // namespace strake::geometry

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/depth/uphill.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/box.hpp"
+#include "geometry/depth/radius_lp.hpp"
+#include "geometry/tree_walk.hpp"
+
+namespace strake::geometry {
+namespace {
+
+constexpr int kMostSteps = 24;
+/// Triangles within reach of a step, of one part, that are all asked at once.
+constexpr std::size_t kMostNear = 64;
+/// Of more, those that stop a step are asked one by one, up to this many.
+constexpr int kMostCuts = 48;
+/// Grid units that a point keeps off the skin that it must not leave: it is still inside when it is
+/// put on the field grid.
+constexpr double kInset = 1.0 / 1024;
+/// Grid units: a shorter reach is not worth a step.
+constexpr double kShortest = 0.25;
+/// A step that gains less, relative to the depth, was the last of its reach.
+constexpr double kGain = 1e-4;
+/// A point nearer to a triangle, grid units, lies on it.
+constexpr double kOnSkin = 1e-6;
+
+struct Near {
+  Vec3d away;  ///< unit, from the triangle's nearest point
+  double distance = 0;
+};
+
+/// What a triangle says of the surroundings of a point in the part's own coordinates; nothing where
+/// it has no area and the point lies on it.
+std::optional<Near> near_of(const PreparedTriangle& triangle, const Vec3d& at) {
+  const Vec3d way = at - nearest_on_triangle(at, triangle.corners);
+  const double distance = length(way);
+  if (distance > kOnSkin) return Near{way * (1 / distance), distance};
+  // On the skin, inwards is away from it.
+  if (triangle.size > 0) return Near{-triangle.unit, distance};
+  return std::nullopt;
+}
+
+/// The triangles no farther than `reach`; false where there are too many.
+bool find_near(const DepthField& field, const Vec3d& p, double reach, std::vector<Near>& near) {
+  const Vec3d at = field.local(p);
+  near.clear();
+  return walk_tree(
+      field.tree(),
+      [&](const PartTree::Node& node) {
+        return squared_gap(at, node.box.as<double>()) <= reach * reach;
+      },
+      [&](std::uint32_t t) {
+        const PreparedTriangle triangle = field.triangle(t);
+        const double height = dot(triangle.unit, at);
+        if (height - triangle.hi > reach || triangle.lo - height > reach) return true;
+        const auto found = near_of(triangle, at);
+        if (found && found->distance <= reach) near.push_back(*found);
+        return near.size() <= kMostNear;
+      });
+}
+
+class Climb {
+ public:
+  Climb(const DepthField& of, const DepthField& in, const std::optional<Box3d>& within)
+      : of_(of), in_(in), within_(within) {}
+
+  Vec3d run(Vec3d at) {
+    double depth = of_.nearest(at).distance;
+    double reach = std::max(depth, 64 * kShortest);
+    for (int step = 0; step < kMostSteps && reach > kShortest; ++step) {
+      if (!find_near(in_, at, reach, beside_)) {
+        reach /= 2;
+        continue;
+      }
+      // No triangle farther than this can stop a ball whose centre moves by `reach` at most.
+      const bool all = find_near(of_, at, depth + 2 * reach, above_);
+      // Within the depth there is no skin that a step could cross unasked.
+      if (!all) reach = std::min(reach, depth);
+      const RadiusSolution next = all ? solve(at, depth, reach) : solve_by_cuts(at, depth, reach);
+      if (next.r > depth * (1 + kGain) + kInset) {
+        const Vec3d there = at + next.x;
+        const double found = of_.nearest(there).distance;
+        if (!(found > depth)) {
+          if (all) return at;
+          reach /= 8;
+          continue;
+        }
+        at = there;
+        // A step that ended where it had to, not where it could have.
+        if (length(next.x) > reach / 4) reach *= 2;
+        depth = found;
+      } else {
+        reach /= 8;
+      }
+    }
+    return at;
+  }
+
+ private:
+  /// The same as solve() over all triangles within reach, where these are many, as inside a fine
+  /// round body: a triangle is asked once it is what the ball would meet (cutting planes).
+  RadiusSolution solve_by_cuts(const Vec3d& at, double depth, double reach) {
+    above_.clear();
+    RadiusSolution next;
+    std::vector<std::uint32_t> asked;
+    std::uint32_t triangle = of_.nearest(at).triangle;
+    for (int cut = 0; cut < kMostCuts; ++cut) {
+      if (std::ranges::find(asked, triangle) != asked.end()) break;
+      asked.push_back(triangle);
+      if (const auto near = near_of(of_.triangle(triangle), of_.local(at))) above_.push_back(*near);
+      next = solve(at, depth, reach);
+      const NearestTriangle there = of_.nearest(at + next.x, triangle);
+      if (there.distance >= next.r * (1 - kGain)) break;
+      triangle = there.triangle;
+    }
+    return next;
+  }
+
+  [[nodiscard]] RadiusSolution solve(const Vec3d& at, double depth, double reach) const {
+    // Within the ball round the box that the centre may move in.
+    const double half = reach / std::sqrt(3.0);
+    std::vector<RadiusConstraint> rows;
+    rows.reserve(16 + above_.size() + beside_.size());
+    for (const Vec3d& n : tetrahedral_directions()) rows.push_back({n, 1, depth + 2 * reach});
+    for (int k = 0; k < 3; ++k)
+      for (const double sign : {1.0, -1.0}) {
+        Vec3d n;
+        n[k] = sign;
+        rows.push_back({n, 0, half});
+        if (within_)
+          rows.push_back({n, 0, sign > 0 ? within_->hi[k] - at[k] : at[k] - within_->lo[k]});
+      }
+    for (const Near& near : above_) rows.push_back({-near.away, 1, near.distance});
+    for (const Near& near : beside_) rows.push_back({-near.away, 0, near.distance - kInset});
+    return maximise_radius({rows, depth + 4 * reach});
+  }
+
+  const DepthField &of_, &in_;
+  const std::optional<Box3d>& within_;
+  std::vector<Near> above_, beside_;
+};
+
+}  // namespace
+
+Vec3d uphill(const DepthField& of, const DepthField& in, const Vec3d& from,
+             const std::optional<Box3d>& within) {
+  return Climb(of, in, within).run(from);
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depths of the pairs that plants are made of, beside closed forms and many points moved uphill.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "strake/geometry/depth.hpp"
+#include "strake/geometry/part_pair.hpp"
+#include "support/deep_pairs.hpp"
+#include "support/rounds.hpp"
+
+namespace strake::test {
+namespace {
+
+using geometry::Depth;
+using geometry::DepthGoal;
+using geometry::Meeting;
+
+/// As the narrow phase asks; nothing where the two have no interior in common.
+std::optional<Depth> depth_of(const DeepPair& pair) {
+  const testing::Subject a(snapped(pair.a)), b(snapped(pair.b));
+  geometry::PairWork work;
+  const geometry::MeetingResult meeting = meet(a.treed(), b.treed(), work);
+  if (meeting.meeting == Meeting::apart || meeting.meeting == Meeting::touching)
+    return std::nullopt;
+  const geometry::SupportPlanes of_a = make_support_planes(a.part);
+  const geometry::SupportPlanes of_b = make_support_planes(b.part);
+  const geometry::DepthPart x{a.treed(), &of_a}, y{b.treed(), &of_b};
+  DepthGoal goal{.threshold = 1000};
+  goal.known_upper = -gap_bound(x, y);
+  goal.triangle_a = meeting.triangle_a;
+  goal.triangle_b = meeting.triangle_b;
+  goal.meeting_point = meeting.point;
+  return solid_depth(x, y, goal, work);
+}
+
+double tolerance(double depth) { return std::max(50.0, 0.01 * depth); }
+
+class DeepPairs : public ::testing::TestWithParam<DeepKind> {
+ protected:
+  template <class Law>
+  static void over_pairs(const Law& law) {
+    int met = 0;
+    for (std::uint64_t seed = 1; seed <= rounds<std::uint64_t>(5, 400); ++seed) {
+      const DeepPair pair = draw_deep_pair(GetParam(), seed);
+      SCOPED_TRACE(pair.recipe);
+      const auto depth = depth_of(pair);
+      if (!depth) continue;
+      ++met;
+      law(pair, *depth, seed);
+    }
+    EXPECT_GT(met, 0);
+  }
+};
+
+TEST_P(DeepPairs, NoPointThatIsFoundOtherwiseIsDeeper) {
+  over_pairs([](const DeepPair& pair, const Depth& depth, std::uint64_t seed) {
+    const double found = sampled_depth(snapped(pair.a), snapped(pair.b), seed, 40);
+    EXPECT_LE(depth.lower, depth.value);
+    EXPECT_LE(depth.value, depth.upper);
+    EXPECT_LE(found, depth.upper + 1e-3);
+    EXPECT_LE(found, depth.value + tolerance(found));
+  });
+}
+
+TEST_P(DeepPairs, ClosedForms) {
+  // What the snap of corners, and of a turn, moves.
+  constexpr double kSnap = 3;
+  over_pairs([](const DeepPair& pair, const Depth& depth, std::uint64_t) {
+    if (!pair.depth) return;
+    const double known = *pair.depth * 1000;
+    EXPECT_LE(known, depth.upper + kSnap);
+    EXPECT_LE(known, depth.value + tolerance(known));
+  });
+}
+
+TEST_P(DeepPairs, TheSameHoweverTheTwoAreTurned) {
+  over_pairs([](const DeepPair& pair, const Depth& depth, std::uint64_t seed) {
+    const auto turned = depth_of(turned_together(pair, seed));
+    ASSERT_TRUE(turned);
+    EXPECT_NEAR(depth.value, turned->value, std::max(3.0, 1e-3 * depth.value));
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, DeepPairs,
+                         ::testing::Values(DeepKind::insulation, DeepKind::sections,
+                                           DeepKind::in_line, DeepKind::round_convex,
+                                           DeepKind::springs, DeepKind::slivers),
+                         [](const auto& kind) { return std::string(name(kind.param)); });
+
+}  // namespace
+}  // namespace strake::test
