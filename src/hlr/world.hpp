@@ -59,7 +59,7 @@ struct World {
   /// Over the bodies that may hide. Of equal ones at one place a few are enough, of objects of up
   /// to kFewBodies: what one hides the others hide.
   ViewTree tree;
-  Coverage coverage;              ///< by them; of nothing where there is no culling
+  Coverage coverage;  ///< by them; of nothing where there is no culling
   std::vector<Item> items;
 
   /// The number of a body's view.
