@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/doubtful_units.hpp"
 #include "strake/core/severity.hpp"
 #include "strake/core/units.hpp"
 
@@ -90,10 +91,10 @@ void tell(Console& console, const Diagnostics& diagnostics,
 namespace {
 
 Result<model::Model> read_model(Session& session, const InputOptions& input) {
-  const Result<io::ReadOptions> options = read_options(input);
-  if (!options) return options.error();
+  const Result<std::vector<io::FileToRead>> files = files_to_read(input);
+  if (!files) return files.error();
   const auto timer = session.step("load");
-  Result<model::Model> model = io::read_models(input.paths(), *options, session.context());
+  Result<model::Model> model = io::read_models(*files, session.context());
   if (!model) return model;
   std::vector<std::uint64_t> objects(model->files.size());
   for (const model::Object& object : model->objects) ++objects[object.file];
@@ -113,6 +114,7 @@ Result<model::Scene> place_model(Session& session, const model::Model& model,
   const auto timer = session.step("place");
   Result<model::Scene> scene = model::make_scene(model, options, session.context());
   if (!scene) return scene;
+  note_doubtful_units(*scene);
   tell(session.console(), scene->diagnostics);
   if (scene->left_out > 0)
     session.console().say(fmt::format(

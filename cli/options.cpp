@@ -5,8 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "strake/core/atomic_file.hpp"
 #include "strake/core/number.hpp"
@@ -72,12 +77,23 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->required()
       ->type_name("FILE");
   command
-      .add_option("--unit", options.unit,
-                  "Length unit of the files, whatever they say themselves: mm, m, in ...")
-      ->type_name("UNIT")
+      .add_option(
+          "--unit", options.units,
+          "Length unit of the files, whatever they say themselves: mm, m, in ...; of one of "
+          "them as part.stl=m; may be repeated")
+      ->type_name("[FILE=]UNIT")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Input");
-  add_choice(command, "--up-axis", options.up_axis, {"x", "y", "z"},
-             "Axis that points up in the files, whatever they say themselves")
+  command
+      .add_option("--up-axis", options.up_axes,
+                  "Axis that points up in the files, whatever they say themselves; of one of them "
+                  "as part.stl=y; may be repeated")
+      ->type_name("[FILE=]x|y|z")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Input");
   command
       .add_flag("--strict", options.strict,
@@ -117,17 +133,102 @@ Result<unsigned> worker_count(const CommonOptions& options) {
   return static_cast<unsigned>(*number);
 }
 
-Result<io::ReadOptions> read_options(const InputOptions& options) {
-  io::ReadOptions read;
-  if (!options.unit.empty()) {
-    const Result<double> unit = quantity(options.unit, "--unit", parse_unit_mm);
-    if (!unit) return unit.error();
-    read.unit_mm = *unit;
+namespace {
+
+/// "part.stl=m" is said of that file, "m" of all. The last '=' counts: names of files may hold
+/// some.
+struct Said {
+  std::string text, file, value;
+  bool of_all;
+
+  explicit Said(std::string all_of_it) : text(std::move(all_of_it)) {
+    const std::size_t at = text.rfind('=');
+    of_all = at == std::string::npos;
+    if (!of_all) file = text.substr(0, at);
+    value = of_all ? text : text.substr(at + 1);
   }
-  if (options.up_axis == "x") read.up_axis = io::UpAxis::x;
-  if (options.up_axis == "y") read.up_axis = io::UpAxis::y;
-  if (options.up_axis == "z") read.up_axis = io::UpAxis::z;
-  return read;
+};
+
+/// Whether a path ends in the folders and the name of another.
+bool ends_in(const std::filesystem::path& path, const std::filesystem::path& end) {
+  const auto from = std::distance(end.begin(), end.end());
+  const auto length = std::distance(path.begin(), path.end());
+  return from <= length &&
+         std::equal(end.begin(), end.end(), std::next(path.begin(), length - from));
+}
+
+/// The files that a value is said of: those of its path, or else the one whose path ends in it, as
+/// the labels of results do.
+Result<std::vector<std::size_t>> files_meant(const Said& said,
+                                             const std::vector<io::FileToRead>& files,
+                                             const std::string& option) {
+  std::vector<std::size_t> same, ending;
+  const std::filesystem::path meant = std::filesystem::path(said.file).lexically_normal();
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    const std::filesystem::path path = files[f].path.lexically_normal();
+    if (said.of_all || path == meant) same.push_back(f);
+    if (!said.file.empty() && ends_in(path, meant)) ending.push_back(f);
+  }
+  if (!same.empty()) return same;
+  if (ending.empty())
+    return usage("'" + said.file + "' is none of the files", option,
+                 "write the path or the name of one, as part.stl=" + said.value);
+  for (const std::size_t f : ending)
+    if (files[f].path.lexically_normal() != files[ending.front()].path.lexically_normal())
+      return usage("'" + said.file + "' may be " + files[ending.front()].path.string() + " or " +
+                       files[f].path.string(),
+                   option, "write more of the path");
+  return ending;
+}
+
+/// Calls take(options, value) for every file that a value is said of; what is said of one goes
+/// before what is said of all.
+template <class Take>
+Status take_said(const std::vector<std::string>& values, const std::string& option,
+                 std::vector<io::FileToRead>& files, const Take& take) {
+  for (const bool of_all : {true, false}) {
+    std::vector<bool> taken(files.size());
+    for (const std::string& text : values) {
+      const Said said(text);
+      if (said.of_all != of_all) continue;
+      const auto meant = files_meant(said, files, option);
+      if (!meant) return meant.error();
+      for (const std::size_t f : *meant) {
+        if (taken[f])
+          return usage(of_all ? "is given more than once for all files"
+                              : "is given more than once for " + files[f].path.string(),
+                       option, "give it once; FILE=" + said.value + " is of one file");
+        taken[f] = true;
+        if (Status status = take(files[f].options, said.value); !status) return status;
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options) {
+  std::vector<io::FileToRead> files;
+  for (const std::string& file : options.files) files.push_back({file, {}});
+  Status status = take_said(options.units, "--unit", files,
+                            [](io::ReadOptions& read, const std::string& text) -> Status {
+                              const Result<double> unit = quantity(text, "--unit", parse_unit_mm);
+                              if (!unit) return unit.error();
+                              read.unit_mm = *unit;
+                              return {};
+                            });
+  if (!status) return status.error();
+  status = take_said(
+      options.up_axes, "--up-axis", files,
+      [](io::ReadOptions& read, const std::string& text) -> Status {
+        if (text != "x" && text != "y" && text != "z")
+          return usage("'" + text + "' is not one of x|y|z", "--up-axis", "write x, y or z");
+        read.up_axis = text == "x" ? io::UpAxis::x : text == "y" ? io::UpAxis::y : io::UpAxis::z;
+        return {};
+      });
+  if (!status) return status.error();
+  return files;
 }
 
 Result<std::vector<double>> number_list(const std::string& text, std::size_t count,

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "strake/core/result.hpp"
-#include "strake/io/reader.hpp"
+#include "strake/io/file_to_read.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
 class App;
@@ -25,12 +24,8 @@ struct CommonOptions {
 /// Options of the verbs that read models, as written.
 struct InputOptions {
   std::vector<std::string> files;
-  std::string unit, up_axis;
+  std::vector<std::string> units, up_axes;  ///< "mm" of all files, "part.stl=m" of one
   bool strict = false;
-
-  [[nodiscard]] std::vector<std::filesystem::path> paths() const {
-    return {files.begin(), files.end()};
-  }
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);
@@ -47,7 +42,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
 
 /// The number of workers asked for, or the machine's own.
 [[nodiscard]] Result<unsigned> worker_count(const CommonOptions& options);
-[[nodiscard]] Result<io::ReadOptions> read_options(const InputOptions& options);
+/// The files, each with what was said of it or of all.
+[[nodiscard]] Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options);
 
 /// "x,y,z" as three numbers, and so on; an error names the option.
 [[nodiscard]] Result<std::vector<double>> number_list(const std::string& text, std::size_t count,

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/file_content.hpp"
-#include "strake/io/reader.hpp"
+#include "strake/io/file_to_read.hpp"
 
 namespace strake::io {
 namespace {
@@ -53,18 +53,19 @@ Result<model::Model> read_one(const Readers& readers, const std::filesystem::pat
 
 }  // namespace
 
-Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
-                                 const ReadOptions& options, const parallel::Context& context) {
-  if (paths.empty())
+Result<model::Model> read_models(std::span<const FileToRead> files,
+                                 const parallel::Context& context) {
+  if (files.empty())
     return Error{ErrorCode::usage, "no model file was given", "", "name at least one file"};
-  if (options.unit_mm && !(*options.unit_mm > 0 && *options.unit_mm < 1e12))
-    return Error{ErrorCode::usage, "the length of a unit must be positive and finite", "",
-                 "give a unit such as mm, m or in"};
+  for (const FileToRead& file : files)
+    if (const auto& unit = file.options.unit_mm; unit && !(*unit > 0 && *unit < 1e12))
+      return Error{ErrorCode::usage, "the length of a unit must be positive and finite", "",
+                   "give a unit such as mm, m or in"};
   const Readers readers = all_readers();
   model::Model all;
   // Told in the order of the files' names, whatever the order in which they were given.
   std::map<std::pair<std::string, std::string>, Diagnostics> diagnostics;
-  for (const std::filesystem::path& path : paths) {
+  for (const auto& [path, options] : files) {
     if (context.stop.stop_requested())
       return Error{ErrorCode::cancelled, "reading was cancelled", path.string(), ""};
     Result<model::Model> one = read_one(readers, path, options, context);
@@ -76,6 +77,14 @@ Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
   for (const auto& [name, of_file] : diagnostics) all.diagnostics.append(of_file);
   model::finish(all);
   return all;
+}
+
+Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
+                                 const ReadOptions& options, const parallel::Context& context) {
+  std::vector<FileToRead> files;
+  files.reserve(paths.size());
+  for (const std::filesystem::path& path : paths) files.push_back({path, options});
+  return read_models(files, context);
 }
 
 }  // namespace strake::io

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/doubtful_units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/meshes.hpp"
+
+namespace strake::cli {
+namespace {
+
+using geometry::Vec3d;
+
+struct File {
+  Vec3d size;
+  std::string unit = "mm (assumed)";
+};
+
+/// How often units are doubted where each file holds one box of its size.
+std::uint64_t doubts(const std::vector<File>& files, const Vec3d& at = {}) {
+  model::Model model;
+  for (const File& file : files) {
+    const auto number = static_cast<std::uint32_t>(model.files.size());
+    model.files.push_back({std::to_string(number) + ".stl", "STL", file.unit, "z", 1, 0});
+    model.shapes.emplace_back(test::box_mesh(at, at + file.size));
+    model::Object object;
+    object.id = std::to_string(number);
+    object.file = number;
+    object.first_body = number;
+    object.body_count = 1;
+    model.objects.push_back(object);
+    model::Body body;
+    body.shape = model::ShapeId{number};
+    model.bodies.push_back(body);
+  }
+  model::Scene scene = model::make_scene(model, {}, {}).value();
+  note_doubtful_units(scene);
+  return scene.diagnostics.count("unit-doubtful");
+}
+
+Vec3d scaled(const Vec3d& v, double factor) { return v * factor; }
+
+constexpr Vec3d kPart{120, 80, 35};
+
+TEST(DoubtfulUnits, FactorsBetweenUnitsAreToldWhicheverFileIsFirst) {
+  for (const double factor : {1000.0, 25.4, 1000 / 25.4, 304.8, 940.0, 1080.0}) {
+    const File large{kPart}, small{scaled(kPart, 1 / factor)};
+    EXPECT_EQ(doubts({large, small}), 1U) << factor;
+    EXPECT_EQ(doubts({small, large}), 1U) << factor;
+    EXPECT_EQ(doubts({small, large}, {5000, -300, 20}), 1U) << factor;
+  }
+}
+
+TEST(DoubtfulUnits, OtherFactorsAreNot) {
+  for (const double factor : {1.0, 2.0, 5.0, 10.0, 12.0, 20.0, 31.0, 60.0, 100.0, 200.0, 500.0})
+    EXPECT_EQ(doubts({{kPart}, {scaled(kPart, 1 / factor)}}), 0U) << factor;
+}
+
+TEST(DoubtfulUnits, OneAxisThatDiffersIsEnoughToTrust) {
+  for (int k = 0; k < 3; ++k) {
+    Vec3d small = scaled(kPart, 1 / 25.4);
+    small[k] *= 1.5;
+    EXPECT_EQ(doubts({{kPart}, {small}}), 0U) << k;
+  }
+}
+
+TEST(DoubtfulUnits, AUnitThatIsKnownOfBothIsTrusted) {
+  const Vec3d small = scaled(kPart, 0.001);
+  for (const char* known : {"mm (given)", "m (stated)"}) {
+    EXPECT_EQ(doubts({{kPart, known}, {small}}), 1U) << known;
+    EXPECT_EQ(doubts({{kPart}, {small, known}}), 1U) << known;
+    EXPECT_EQ(doubts({{kPart, known}, {small, known}}), 0U) << known;
+  }
+}
+
+TEST(DoubtfulUnits, WhatTheGridMakesFlatIsAlikeAndALineSaysNothing) {
+  // A plate of 0.4 mm in metres has no thickness on the grid.
+  EXPECT_EQ(doubts({{{200, 100, 0.4}}, {{0.2, 0.1, 0.0004}}}), 1U);
+  EXPECT_EQ(doubts({{{200, 100, 30}}, {{0.2, 0.1, 0}}}), 0U);
+  EXPECT_EQ(doubts({{{200, 0.4, 0.4}}, {{0.2, 0.002, 0.002}}}), 0U);
+}
+
+TEST(DoubtfulUnits, EachPairOfFilesIsTold) {
+  const File small{scaled(kPart, 0.001)};
+  EXPECT_EQ(doubts({{kPart}, {kPart}, small}), 2U);
+  EXPECT_EQ(doubts({small}), 0U);
+  EXPECT_EQ(doubts({}), 0U);
+}
+
+}  // namespace
+}  // namespace strake::cli
