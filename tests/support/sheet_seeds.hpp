@@ -13,7 +13,7 @@ inline constexpr const char* kSheetTemplate =
 <svg xmlns="http://www.w3.org/2000/svg" width="420mm" height="297mm" viewBox="0 0 420 297">
 <style>.a { stroke: #000; fill: url(#p) }</style>
 <!-- the border --><metadata><x:y z="1"/></metadata>
-<g id="b" class="a"><path d="M20 10H410V287H20Z"/><use xlink:href="#b"/></g>
+<g id="b" class="a"><path d="M20 10H410V287H20Z"/></g><use xlink:href="#b"/>
 <text x="300" y="280">{{title}} &amp; {{number}} &#65;<tspan>{{scale}}</tspan></text>
 </svg>
 )svg";

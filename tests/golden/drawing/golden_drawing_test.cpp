@@ -30,17 +30,17 @@ struct Golden {
 
 const Golden kSafe[] = {
     {"iso",
-     {16422, 14219, 12620, 7, 0, 9751},
-     "4b5e2850eb66511e9f54f0a7640c30b0",
-     "823cebef985f7970a24c73bb1f9be060"},
+     {15589, 14360, 11983, 42, 0, 9496},
+     "0576b6112a104675de71901380a1daf8",
+     "af3b15380dcf58fcf08e74d4e7234db8"},
     {"top",
-     {9874, 3519, 5782, 2320, 0, 28487},
-     "3703e403f1ab3f96ecac90cf42e2e49e",
-     "1cfa446ffabf2d8baf1f205426843d65"},
+     {9488, 3507, 5444, 2438, 0, 28726},
+     "fbd4b306ec3a9ee8dbd03d97cf13f5d0",
+     "cb531fab9be7006b5ae2fef10cfb3ebc"},
     {"front",
-     {9731, 2476, 4533, 2981, 0, 30634},
-     "0a60eff21f6ed0b479824d619f5ec265",
-     "b978e02c0c8dd633abd66603e89fd503"},
+     {9362, 2461, 4145, 2994, 0, 30828},
+     "2891c1831a78cc1acfac23f9d28273bf",
+     "dd06a1109c9c0e819cd88398d4fbebf9"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {

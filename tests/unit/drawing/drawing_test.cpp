@@ -131,11 +131,11 @@ TEST(View, NamesAndDirections) {
 
 TEST(Layout, ScalesAndSheets) {
   const NeutralDrawing small = laid_out(rectangle());
-  EXPECT_EQ(small.sheet.scale_text, "1:1");
+  EXPECT_EQ(small.sheet.scale_text, "2:1");
   EXPECT_EQ(small.sheet.width_mm, 420);
-  // Centred: 100 wide on 420, 50 high on the 289 above the title.
-  EXPECT_EQ(small.lines[0].a_paper, (PaperPoint{160, 169.5}));
-  EXPECT_EQ(small.lines[1].b_paper, (PaperPoint{260, 119.5}));
+  // Centred: 200 wide on 420, 100 high on the 289 above the title.
+  EXPECT_EQ(small.lines[0].a_paper, (PaperPoint{110, 194.5}));
+  EXPECT_EQ(small.lines[1].b_paper, (PaperPoint{310, 94.5}));
   EXPECT_EQ(small.lines[0].b_mm, Vec3d(100, 0, 0));
   hlr::Drawing ship = rectangle();
   for (hlr::Piece& p : ship.pieces) {
@@ -271,10 +271,10 @@ TEST(Svg, HoldsLayersGroupsAndPathsInMillimetres) {
             std::string::npos);
   EXPECT_NE(svg.find("id=\"visible-contour\" class=\"visible contour\""), std::string::npos);
   EXPECT_NE(svg.find("<g data-id=\"one\" data-name=\"one\" data-file=\"a.obj\">"
-                     "<path d=\"M160 169.5L260 169.5 260 119.5 160 119.5Z\"/></g>"),
+                     "<path d=\"M110 194.5L310 194.5 310 94.5 110 94.5Z\"/></g>"),
             std::string::npos)
       << svg;
-  EXPECT_NE(svg.find("M160 169.5L260 119.5\""), std::string::npos);
+  EXPECT_NE(svg.find("M110 194.5L310 94.5\""), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   const std::string visible_only = svg_of(laid_out(rectangle()), false);
   EXPECT_EQ(visible_only.find("class=\"hidden"), std::string::npos);
@@ -319,7 +319,7 @@ TEST(ViewJson, SaysWhatTheDrawingHolds) {
   EXPECT_EQ(first["kind"], "contour");
   EXPECT_EQ(first["state"], "visible");
   EXPECT_EQ(first["b_mm"], nlohmann::json({100.0, 0.0, 0.0}));
-  EXPECT_EQ(first["a_paper_mm"], nlohmann::json({160.0, 169.5}));
+  EXPECT_EQ(first["a_paper_mm"], nlohmann::json({110.0, 194.5}));
   EXPECT_EQ(json["pieces"][4]["object_index"], 1);
 }
 
