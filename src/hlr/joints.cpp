@@ -186,20 +186,19 @@ Result<std::vector<Segment>> joint_lines(const PlacedPart& a, const PlacedPart& 
   if (!edges_b) return edges_b.error();
   const Skin x(a, a.origin, std::move(*edges_a)), y(b, a.origin, std::move(*edges_b));
   const double within = a.part->sag + b.part->sag + static_cast<double>(contact);
-  const auto rest = std::stable_partition(lines.begin(), lines.end(), [&](const Segment& line) {
-    return !x.has_edge_along(line, within) && !y.has_edge_along(line, within) &&
-           turns_sharply(x, y, line, cos_sharp);
-  });
+  std::vector<Segment> joints, others;
   std::vector<Vec3l> ends;
-  for (auto line = lines.begin(); line != rest; ++line)
-    ends.insert(ends.end(), line->begin(), line->end());
-  const std::vector<Segment> others(rest, lines.end());
-  lines.erase(rest, lines.end());
+  for (const Segment& line : lines) {
+    const bool is_edge = !x.has_edge_along(line, within) && !y.has_edge_along(line, within) &&
+                         turns_sharply(x, y, line, cos_sharp);
+    (is_edge ? joints : others).push_back(line);
+    if (is_edge) ends.insert(ends.end(), line.begin(), line.end());
+  }
   const std::vector<bool> kept = Ways(others).between(ends);
   for (std::size_t i = 0; i < others.size(); ++i)
-    if (kept[i]) lines.push_back(others[i]);
-  std::ranges::sort(lines);
-  return lines;
+    if (kept[i]) joints.push_back(others[i]);
+  std::ranges::sort(joints);
+  return joints;
 }
 
 }  // namespace strake::hlr

@@ -20,9 +20,8 @@ namespace strake::hlr {
 ///   out: that edge is drawn already.
 /// - So is one where the skins turn by no more than the sharp angle, as between any two faces, or
 ///   face each other within a milliradian, as flush ends do.
-/// - But what is on the shortest way between the ends of lines that stay does so, too: near the
-/// apex
-///   of a tee the skins are tangent, and the saddle goes on.
+/// - But what is on the shortest way between the ends of lines that stay does so, too: near
+///   the apex of a tee the skins are tangent, and the saddle goes on.
 ///
 /// Cost: for each line the triangles and the edges of both parts. Errors: none but those of
 /// feature_edges().

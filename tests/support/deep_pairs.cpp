@@ -382,6 +382,12 @@ class BruteField {
   std::vector<Face> faces_;
 };
 
+DeepPair drawn_pair(DeepKind kind, Draw& draw, std::ostream& recipe) {
+  constexpr std::array kMakers{draw_insulation,   draw_sections, draw_in_line,
+                               draw_round_convex, draw_springs,  draw_slivers};
+  return kMakers[static_cast<std::size_t>(kind)](draw, recipe);
+}
+
 }  // namespace
 
 const char* name(DeepKind kind) {
@@ -392,11 +398,9 @@ const char* name(DeepKind kind) {
 
 DeepPair draw_deep_pair(DeepKind kind, std::uint64_t seed) {
   Draw draw(seed * 977 + static_cast<std::uint64_t>(kind));
-  constexpr std::array kMakers{draw_insulation,   draw_sections, draw_in_line,
-                               draw_round_convex, draw_springs,  draw_slivers};
   std::ostringstream recipe;
   recipe << name(kind) << " seed " << seed << ": ";
-  DeepPair pair = kMakers[static_cast<std::size_t>(kind)](draw, recipe);
+  DeepPair pair = drawn_pair(kind, draw, recipe);
   pair.recipe = recipe.str();
   return pair;
 }

@@ -136,7 +136,6 @@ TEST(Draw, SmoothEdgesAreDrawnOnDemand) {
 
 // What rounding bends is flat.
 TEST(Draw, TrianglesInOnePlaneHaveNoSmoothEdge) {
-  test::SceneBuilder scene;
   const auto quad = [](std::int32_t lift) {
     return test::HandPart{{{0, 0, 0}, {90000, 0, 7}, {90000, 50000, 11 + lift}, {0, 50000, 4}},
                           {{0, 1, 2}, {0, 2, 3}},
