@@ -114,7 +114,7 @@ class Finder {
   }
 
   void cover(List& list, std::uint32_t other) {
-    if (!list.may_go) return;
+    if (!list.may_go || !may_cover(index_.flat(other), rule_)) return;
     const auto interval = covered(index_.flat(list.position), index_.flat(other), rule_);
     if (!interval) return;
     if (is_all(*interval)) {
@@ -130,6 +130,7 @@ class Finder {
 
   void cover_shorter(std::uint32_t position, std::uint32_t other, std::vector<Cover>& out) {
     if (!may_go(index_.flat(position), rule_) || is_wholly(position)) return;
+    if (!may_cover(index_.flat(other), rule_)) return;
     const auto interval = covered(index_.flat(position), index_.flat(other), rule_);
     if (!interval) return;
     if (is_all(*interval))
@@ -195,6 +196,10 @@ bool stays(std::span<const Flat> lines, std::uint32_t i, std::uint32_t j) {
 
 bool may_go(const Flat& line, const OverlapRule& rule) {
   return line.rank == Rank::hidden || (line.rank == Rank::visible && rule.covers_visible);
+}
+
+bool may_cover(const Flat& line, const OverlapRule& rule) {
+  return line.rank == Rank::visible || (line.rank == Rank::hidden && rule.hidden_covers);
 }
 
 void append_stretches(Stretches& out, std::uint32_t line, std::span<Interval> covers,

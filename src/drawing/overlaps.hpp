@@ -21,6 +21,7 @@ struct OverlapRule {
   /// always is.
   double greatest_sine = 1;
   bool covers_visible = true;
+  bool hidden_covers = true;  ///< otherwise visible lines alone cover others
   /// Stretches of a cut line that are no longer than this, nor than what is covered beside them,
   /// count as covered.
   double shortest = 0;
@@ -69,6 +70,9 @@ struct Interval {
 
 /// Whether a line may be covered at all.
 [[nodiscard]] bool may_go(const Flat& line, const OverlapRule& rule);
+
+/// Whether it may cover others.
+[[nodiscard]] bool may_cover(const Flat& line, const OverlapRule& rule);
 
 /// Appends a line cut at the intervals that are covered, in any order.
 void append_stretches(Stretches& out, std::uint32_t line, std::span<Interval> covers,

@@ -29,9 +29,10 @@ void take_out(std::vector<Entry>& run, std::span<const Flat> lines, const Overla
     if (a.twins() != b.twins()) return a.twins() < b.twins();
     return stays(lines, a.line, b.line);
   });
-  for (std::size_t i = 1; i < run.size(); ++i) {
+  for (std::size_t i = 1, first = 0; i < run.size(); ++i) {
     const Flat& line = lines[run[i].line];
-    if (run[i - 1].twins() != run[i].twins() || !may_go(line, rule)) continue;
+    if (run[i - 1].twins() != run[i].twins()) first = i;
+    if (first == i || !may_cover(lines[run[first].line], rule) || !may_go(line, rule)) continue;
     if (!(line.length() > rule.least)) continue;
     gone.set(run[i].line);
     run[i].key->item = kGone;

@@ -109,7 +109,7 @@ drawing::Stretches cut_by_all_pairs(std::span<const Flat> lines, const drawing::
     if (!drawing::may_go(lines[i], rule) || !(lines[i].length() > 0)) continue;
     std::vector<drawing::Interval> covers;
     for (std::uint32_t j = 0; j < lines.size(); ++j) {
-      if (j == i || !drawing::stays(lines, j, i) || lines[j].rank == Rank::none) continue;
+      if (j == i || !drawing::stays(lines, j, i) || !drawing::may_cover(lines[j], rule)) continue;
       if (!(lines[j].length() > 0)) continue;
       if (const auto interval = drawing::covered(lines[i], lines[j], rule))
         covers.push_back(*interval);

@@ -19,8 +19,9 @@ struct Pens {
 
 struct InkOptions {
   bool hidden = false;  ///< draw hidden lines, dashed; otherwise leave them out
-  /// Leave out what of a hidden line runs along a visible line, or a nearer hidden one, so close
-  /// on paper that their ink touches: two dashed lines out of step look like a third, solid one.
+  /// Leave out what of a hidden line runs along a visible line, or along a hidden one of the same
+  /// object, so close on paper that their ink touches: two dashed lines out of step look like a
+  /// third, solid one. Equal objects get equal ink, whatever other objects hide.
   bool clean_up = true;
   std::optional<Pens> pens = std::nullopt;  ///< none: by how dense the drawing is
 };

@@ -32,15 +32,15 @@ const Golden kSafe[] = {
     {"iso",
      {15589, 14360, 11983, 42, 0, 9496},
      "0576b6112a104675de71901380a1daf8",
-     "af3b15380dcf58fcf08e74d4e7234db8"},
+     "83ac96f668e59182a23c914785304053"},
     {"top",
      {9488, 3507, 5444, 2438, 0, 28726},
      "fbd4b306ec3a9ee8dbd03d97cf13f5d0",
-     "cb531fab9be7006b5ae2fef10cfb3ebc"},
+     "175c21c9348e334a609c927b4ffeb514"},
     {"front",
      {9362, 2461, 4145, 2994, 0, 30828},
      "2891c1831a78cc1acfac23f9d28273bf",
-     "dd06a1109c9c0e819cd88398d4fbebf9"},
+     "e9e363ef1cc9eb696068706db1921045"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {

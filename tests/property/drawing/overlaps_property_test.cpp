@@ -47,6 +47,7 @@ std::vector<Row> found(const std::vector<Flat>& lines, const OverlapRule& rule,
 std::vector<OverlapRule> rules(double reach) {
   return {{.least = 2 * reach, .shortest = 2 * reach},
           {.least = 1e-3, .greatest_sine = 0.2, .covers_visible = false, .shortest = 0.5},
+          {.least = 1e-3, .greatest_sine = 0.2, .covers_visible = false, .hidden_covers = false},
           {}};
 }
 
