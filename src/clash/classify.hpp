@@ -24,6 +24,7 @@ struct Separation {
   /// the step of coarse numbers.
   double moved = 0;
   bool interiors_meet = false;  ///< decided exactly: d < 0, however small
+  bool depth_complete = true;   ///< no work limit ended a search for the depth
 };
 
 struct Judgement {

@@ -81,7 +81,8 @@ PartAnswer judge_ordered(const NarrowPart& wire, const NarrowPart& body,
                        .upper = s.upper,
                        .sag = m.sag,
                        .moved = options.snap + options.step,
-                       .interiors_meet = s.inside};
+                       .interiors_meet = s.inside,
+                       .depth_complete = s.depth_complete};
   answer.witness = witness_of(s, y.kind == PartKind::solid);
   answer.relation = relation_of(s, wire, body, options.contact_distance);
   answer.judgement = judge(answer.separation, limits);

@@ -58,8 +58,12 @@ PairOfParts::PairOfParts(const NarrowPart& a, const NarrowPart& b, const NarrowO
 PartAnswer PairOfParts::analytic(const ClosedForm& form) const {
   const geometry::AnalyticSeparation& s = form.separation;
   PartAnswer answer;
-  answer.separation = {
-      .d = s.d, .lower = s.lower, .upper = s.upper, .sag = 0, .interiors_meet = s.upper < 0};
+  answer.separation = {.d = s.d,
+                       .lower = s.lower,
+                       .upper = s.upper,
+                       .sag = 0,
+                       .interiors_meet = s.upper < 0,
+                       .depth_complete = s.depth_complete};
   answer.witness = witness_of(s, form.point);
   answer.relation = relation_of(s, options_.contact_distance);
   conclude(answer, 0);
@@ -308,8 +312,11 @@ void PairOfParts::interpenetrating(const MeetingResult& meeting, double gap, Par
   // What parts the two by a move bounds the depth of a sheet in a solid as well.
   if (!sheets) depth.upper = std::min(depth.upper, goal.known_upper);
   depth.upper = std::max(depth.upper, depth.value);
-  answer.separation = {
-      .d = -depth.value, .lower = -depth.upper, .upper = -depth.lower, .interiors_meet = true};
+  answer.separation = {.d = -depth.value,
+                       .lower = -depth.upper,
+                       .upper = -depth.lower,
+                       .interiors_meet = true,
+                       .depth_complete = depth.complete};
   answer.witness = witness_of_depth(a_, b_, depth.point);
   answer.relation = relation_of({a_, part_a_.planes}, {b_, part_b_.planes}, meeting, depth,
                                 options_.contact_distance, work_.pair);

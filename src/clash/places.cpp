@@ -205,9 +205,13 @@ class PairPlaces {
                                       : depth_within(number, goal);
     work_.depth_cells += depth.cells;
     answer.separation.lower = -depth.upper;
+    answer.separation.depth_complete = depth.complete;
     if (!(depth.value > 0)) return;
-    answer.separation = {
-        .d = -depth.value, .lower = -depth.upper, .upper = -depth.lower, .interiors_meet = true};
+    answer.separation = {.d = -depth.value,
+                         .lower = -depth.upper,
+                         .upper = -depth.lower,
+                         .interiors_meet = true,
+                         .depth_complete = depth.complete};
     answer.witness = witness_of_depth(a_.treed, b_.treed, depth.point);
     const bool sheet = part_a_.kind == PartKind::sheet || part_b_.kind == PartKind::sheet;
     answer.relation = sheet ? Relation::cross : Relation::interfere;

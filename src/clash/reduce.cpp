@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "strake/geometry/depth.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/count_fill.hpp"
 
@@ -58,19 +59,24 @@ int weight(Relation relation) {
   return 0;
 }
 
+/// The least d is no more than this. Without sag: relations too are those of the tessellated.
+double least_d(const std::vector<Answer>& peers) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Answer& peer : peers) least = std::min(least, peer.of_parts->separation.upper);
+  return least;
+}
+
 /// One answer of those that stand as the worst one does. Where brackets leave open which of them is
 /// the deepest, as between equal depths that were rounded differently, d does not choose among
 /// them: the weightiest relation counts, and the witness is of it wherever that is as deep to a
 /// grid unit.
 Pair decisive(const Pair& worst, const std::vector<Answer>& peers) {
-  // The least d is no more than this. Without sag: relations too are those of the tessellated.
-  double least_d = std::numeric_limits<double>::infinity();
-  for (const Answer& peer : peers) least_d = std::min(least_d, peer.of_parts->separation.upper);
+  const double least = least_d(peers);
   Pair pair = worst;
   Relation relation = worst.relation;
   bool a_in_b = false, b_in_a = false;
   for (const Answer& peer : peers) {
-    if (peer.of_parts->separation.lower > least_d) continue;
+    if (peer.of_parts->separation.lower > least) continue;
     const Pair& p = peer.pair;
     a_in_b = a_in_b || p.relation == Relation::a_in_b;
     b_in_a = b_in_a || p.relation == Relation::b_in_a;
@@ -86,12 +92,20 @@ Pair decisive(const Pair& worst, const std::vector<Answer>& peers) {
   return pair;
 }
 
+/// Whether no work limit left a bracket down to that of an answer wider than a search aims for.
+bool is_complete(const Separation& s, double upper) {
+  return s.depth_complete || geometry::is_narrow(-upper, -s.lower);
+}
+
 /// The d of two objects is the least of their parts': so is either end of its bracket.
 void widen_bracket(Pair& pair, const std::vector<Answer>& peers) {
   for (const Answer& peer : peers) {
     pair.d_lower_mm = std::min(pair.d_lower_mm, peer.pair.d_lower_mm);
     pair.d_upper_mm = std::min(pair.d_upper_mm, peer.pair.d_upper_mm);
   }
+  pair.depth_complete = std::ranges::all_of(peers, [least = least_d(peers)](const Answer& peer) {
+    return is_complete(peer.of_parts->separation, least);
+  });
   pair.d_upper_mm = std::max(pair.d_mm, pair.d_upper_mm);
 }
 
@@ -173,6 +187,7 @@ Pair PartFindings::pair(std::size_t i) const {
   pair.on_b_mm = place_mm(x, w.on_b);
   pair.away = w.away;
   pair.deep_in_a = w.deep_in_a;
+  pair.depth_complete = is_complete(s, s.upper);
   pair.part_a = x.number;
   pair.part_b = y.number;
   pair.level_a = rules.level(x);

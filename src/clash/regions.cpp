@@ -46,7 +46,8 @@ Region region_of(const Place& place) {
           .box_mm = place.box_mm,
           .part_a = p.part_a,
           .part_b = p.part_b,
-          .allowed = p.allowed};
+          .allowed = p.allowed,
+          .depth_complete = p.depth_complete};
 }
 
 /// Whether a place counts for a pair of objects with this answer.

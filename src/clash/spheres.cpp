@@ -136,7 +136,8 @@ class SphereSearch {
                          .upper = best_,
                          .sag = part_a_.sag + part_b_.sag,
                          .moved = options_.snap + options_.step,
-                         .interiors_meet = best_ < 0};
+                         .interiors_meet = best_ < 0,
+                         .depth_complete = !unknown};
     answer.witness = witness();
     answer.relation = relation();
     answer.judgement = judge(answer.separation, thresholds_);

@@ -64,6 +64,7 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
   if (p.regions > 0) out += std::to_string(p.regions);
   out += ',';
   if (p.allowed_regions > 0) out += std::to_string(p.allowed_regions);
+  out += p.depth_complete ? "," : ",false";
   out += "\r\n";
 }
 
@@ -79,7 +80,7 @@ void exempted_line(std::string& out, const model::Model& model, const clash::Rep
   out += ",,";
   discipline(out, test, p.a);
   discipline(out, test, p.b);
-  out += ",,,\r\n";
+  out += ",,,,\r\n";
 }
 
 }  // namespace
@@ -91,7 +92,7 @@ Status write_clash_csv(const ClashContents& contents, Sink sink, const parallel:
       "a_id,a_name,a_file,b_id,b_name,b_file,class,relation,d_mm,d_lower_mm,d_upper_mm,x_mm,y_mm,"
       "z_mm,flags,test,key,volume_mm3,on_a_x_mm,on_a_y_mm,on_a_z_mm,on_b_x_mm,on_b_y_mm,on_b_z_mm,"
       "away_x,away_y,away_z,allowed_by,exempted_by,a_level,b_level,a_discipline,b_discipline,"
-      "group,regions,allowed_regions\r\n";
+      "group,regions,allowed_regions,depth_complete\r\n";
   for (std::size_t t = 0; t < contents.findings.tests.size(); ++t) {
     const clash::Report& test = contents.findings.tests[t];
     const Status pairs =

@@ -30,6 +30,7 @@ void measured(std::string& out, const ClashDocument& run, const DocumentResult& 
   }
   out += ", \"d_mm\": ";
   append_mm(out, r.d_mm);
+  if (!r.depth_complete) out += ", \"depth_complete\": false";
   if (r.regions > 0) out += ", \"region_count\": " + std::to_string(r.regions);
   if (r.allowed_regions > 0)
     out += ", \"allowed_region_count\": " + std::to_string(r.allowed_regions);

@@ -20,6 +20,7 @@ std::string_view short_name(clash::Class cls) {
 
 std::string told(const ClashDocument& run, const DocumentResult& r, bool with_places) {
   std::string out = std::string(short_name(r.cls)) + " " + fixed(r.d_mm, 3);
+  if (!r.depth_complete) out += ", depth incomplete";
   if (with_places && r.regions > 0)
     out += " at " + std::to_string(r.regions) + (r.regions == 1 ? " place" : " places");
   if (with_places && r.allowed_regions > 0)

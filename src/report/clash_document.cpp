@@ -137,6 +137,7 @@ class Reader {
       r.rule = e.rule.value_or(0);
       r.regions = e.regions;
       r.allowed_regions = e.allowed_regions;
+      r.depth_complete = e.depth_complete;
       document_.results.push_back(r);
     });
   }

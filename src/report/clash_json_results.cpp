@@ -90,6 +90,7 @@ void measured(std::string& out, const Found& found) {
   out += ", \"d_range_mm\": [";
   append_range(out, found.d_lower_mm, found.d_upper_mm, ", ");
   out += ']';
+  if (!found.depth_complete) out += ", \"depth_complete\": false";
 }
 
 void flags(std::string& out, std::uint16_t of_found) {

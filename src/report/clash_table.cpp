@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "report/text.hpp"
@@ -22,6 +24,9 @@ constexpr std::size_t kClassColumns = 9, kNumberColumns = 10, kRelationColumns =
 constexpr std::size_t kVolumeColumns = 14;
 constexpr std::size_t kFixedColumns = kClassColumns + kNumberColumns + kRelationColumns + 8;
 constexpr std::size_t kLeastName = 8;
+/// The grid alone may account for a bracket this wide, as for BORDERLINE: d is known as well as its
+/// digits say, and nearly all meshes and primitives have such a bracket.
+constexpr double kUntoldWidthMm = 0.008;
 
 /// The class as a column of the table has room for it.
 std::string_view short_name(clash::Class cls) {
@@ -88,16 +93,37 @@ void strip(std::string& line) {
   while (!line.empty() && line.back() == ' ') line.pop_back();
 }
 
-/// `volume` is empty where the table has no such column.
-std::string row(std::string_view cls, std::string d, std::string volume, std::string_view relation,
-                std::string_view a, std::string_view b, std::size_t name_columns) {
-  if (!volume.empty()) volume = right_aligned(std::move(volume), kVolumeColumns) + "  ";
-  std::string line = fitted(cls, kClassColumns) + "  " +
-                     right_aligned(std::move(d), kNumberColumns) + "  " + volume +
-                     fitted(relation, kRelationColumns) + "  " + fitted(a, name_columns) + "  " +
-                     fitted(b, name_columns);
+struct Row {
+  std::string_view cls;
+  std::string d, range, volume;
+  std::string_view relation, a, b;
+};
+
+/// A table lacks a column that is 0 wide.
+struct Columns {
+  std::size_t range = 0, volume = 0, names = kLeastName;
+};
+
+std::string text_of(const Row& row, const Columns& columns) {
+  const auto number = [](const std::string& text, std::size_t width) {
+    return width == 0 ? std::string() : right_aligned(text, width) + "  ";
+  };
+  std::string line = fitted(row.cls, kClassColumns) + "  " + number(row.d, kNumberColumns) +
+                     number(row.range, columns.range) + number(row.volume, columns.volume) +
+                     fitted(row.relation, kRelationColumns) + "  " + fitted(row.a, columns.names) +
+                     "  " + fitted(row.b, columns.names);
   strip(line);
   return line + "\n";
+}
+
+/// The bracket of d, rounded outward, where d may be another number than its digits say.
+std::string range_of(const Pair& p) {
+  if (!(p.d_upper_mm - p.d_lower_mm > kUntoldWidthMm)) return {};
+  constexpr int kDigits = 3;
+  constexpr double kSteps = 1000;
+  // Not "-0.000".
+  return "[" + fixed(std::floor(p.d_lower_mm * kSteps) / kSteps + 0.0, kDigits) + ", " +
+         fixed(std::ceil(p.d_upper_mm * kSteps) / kSteps + 0.0, kDigits) + "]";
 }
 
 std::string_view label(const model::Model& model, model::ObjectId id) {
@@ -177,28 +203,41 @@ std::string matrix_table(const Report& report, std::size_t width) {
   return out.empty() ? out : out + "\n";
 }
 
+/// Brackets have a column where one of them is worth telling.
+Columns columns_of(const Report& report, const std::array<Block, 3>& blocks,
+                   const TableOptions& options) {
+  Columns columns;
+  for (const Block& block : blocks)
+    for (const std::size_t i : block.pairs)
+      columns.range = std::max(columns.range, range_of(report.pairs[i]).size());
+  if (options.sort == clash::SortBy::volume) columns.volume = kVolumeColumns;
+  std::size_t taken = kFixedColumns;
+  for (const std::size_t width : {columns.range, columns.volume})
+    taken += width > 0 ? width + 2 : 0;
+  const std::size_t room = options.width > taken ? options.width - taken : 0;
+  columns.names = std::max(kLeastName, room / 2);
+  return columns;
+}
+
 std::string test_table(const Report& report, const model::Model& model,
                        const TableOptions& options) {
-  std::string out;
-  const bool volumes = options.sort == clash::SortBy::volume;
-  const std::size_t fixed_columns = kFixedColumns + (volumes ? kVolumeColumns + 2 : 0);
-  const std::size_t room = options.width > fixed_columns ? options.width - fixed_columns : 0;
-  const std::size_t names = std::max(kLeastName, room / 2);
-  if (!report.pairs.empty())
-    out += row("class", "d mm", volumes ? "volume mm3" : "", "relation", "a", "b", names);
-  const auto volume = [&](const Pair& p) {
-    if (!volumes) return std::string();
-    return p.volume_mm3 ? fixed(*p.volume_mm3, 1) : std::string("-");
-  };
   const std::array<ClassRows, 3> classes = shares(report, options.rows);
-  for (const ClassRows& c : classes) {
-    const Block block = worst_of(report, c.cls, c.rows, options.sort);
-    for (const std::size_t i : block.pairs) {
+  std::array<Block, 3> blocks;
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    blocks[c] = worst_of(report, classes[c].cls, classes[c].rows, options.sort);
+  const Columns columns = columns_of(report, blocks, options);
+  std::string out;
+  if (!report.pairs.empty())
+    out += text_of({"class", "d mm", "d range mm", "volume mm3", "relation", "a", "b"}, columns);
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    for (const std::size_t i : blocks[c].pairs) {
       const Pair& p = report.pairs[i];
-      out += row(short_name(p.cls), fixed(p.d_mm, 3), volume(p), name(p.relation),
-                 label(model, p.a), label(model, p.b), names);
+      out += text_of({short_name(p.cls), fixed(p.d_mm, 3), range_of(p),
+                      p.volume_mm3 ? fixed(*p.volume_mm3, 1) : "-", name(p.relation),
+                      label(model, p.a), label(model, p.b)},
+                     columns);
     }
-    if (block.hidden > 0) out += "… and " + counted(c, block.hidden) + " more\n";
+    if (blocks[c].hidden > 0) out += "… and " + counted(classes[c], blocks[c].hidden) + " more\n";
   }
   if (!report.pairs.empty()) out += "\n";
   return out + matrix_table(report, options.width) + summary_of(report, model, classes);

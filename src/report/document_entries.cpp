@@ -44,6 +44,8 @@ void EntryReader::take_member(std::string_view key, DocumentEntry& entry) {
     entry.regions = whole("region_count", "number of places");
   else if (key == "allowed_region_count")
     entry.allowed_regions = whole("allowed_region_count", "number of places");
+  else if (key == "depth_complete")
+    entry.depth_complete = truth("depth_complete");
   else
     json_.skip();
 }
@@ -57,6 +59,13 @@ double EntryReader::millimetres(const char* key) {
   const double d = json_.kind() == Kind::number ? json_.number() : HUGE_VAL;
   if (!std::isfinite(d)) throw is_not(where(), key, "number");
   return d;
+}
+
+bool EntryReader::truth(const char* key) {
+  if (json_.kind() != Kind::boolean) throw is_not(where(), key, "true or false");
+  std::string said;
+  json_.copy(said);
+  return said == "true";
 }
 
 geometry::Vec3d EntryReader::point() {

@@ -26,6 +26,7 @@ struct DocumentEntry {
   std::optional<double> d_mm;
   std::optional<geometry::Vec3d> point_mm;
   std::uint32_t regions = 0, allowed_regions = 0;
+  bool depth_complete = true;
 };
 
 /// Takes the pairs of a list one by one; objects and rules go to the document. Throws
@@ -63,6 +64,7 @@ class EntryReader {
   // The value of a member, which comes next.
   [[nodiscard]] std::string_view text(const char* key);
   [[nodiscard]] double millimetres(const char* key);
+  [[nodiscard]] bool truth(const char* key);
   [[nodiscard]] geometry::Vec3d point();
   [[nodiscard]] std::uint32_t whole(const char* key, const char* what);
   [[nodiscard]] Hash128 pair_key();

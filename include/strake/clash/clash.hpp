@@ -59,6 +59,7 @@ struct Region {
   geometry::Box3d box_mm;                ///< holds the place
   std::uint32_t part_a = 0, part_b = 0;  ///< deciding parts
   std::int32_t allowed = -1;             ///< the rule that allows it, as Pair::allowed
+  bool depth_complete = true;            ///< as of the pair
 };
 
 /// One pair of objects that is not NO_HIT; a < b in the durable order.
@@ -77,6 +78,9 @@ struct Pair {
   /// that touch, sheets that cross.
   geometry::Vec3d away;
   bool deep_in_a = false;  ///< d < 0: measured to the skin of a
+  /// Not where a search for the depth ended at its work limit and left the bracket wider than
+  /// geometry::DepthGoal asks.
+  bool depth_complete = true;
   /// A HIT of solids, where asked for: the volume of the common parts of their parts, added up
   /// (what two parts of one object cover twice counts twice); curved primitives as tessellated.
   /// None where it would take too long.

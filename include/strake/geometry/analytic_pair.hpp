@@ -34,6 +34,7 @@ struct AnalyticSeparation {
   /// Bound on how far the two surfaces lie apart: 0 for duplicates.
   double difference = std::numeric_limits<double>::infinity();
   bool sheet_a = false, sheet_b = false;  ///< without thickness: depth is measured in the other
+  bool depth_complete = true;             ///< no work limit ended a search for the depth
 
   /// Certain bound on the error of d.
   [[nodiscard]] double error() const { return std::max(d - lower, upper - d); }

@@ -26,7 +26,8 @@ struct ThinSeparation {
   /// point of the skin; through a sheet, twice the place. Relative to the thin body's origin (that
   /// of the first).
   Vec3d on_thin, on_other;
-  bool inside = false;  ///< part of it is certainly inside: lower and upper are negative
+  bool inside = false;         ///< part of it is certainly inside: lower and upper are negative
+  bool depth_complete = true;  ///< as Depth::complete
   /// Inside: how deep all of it lies inside; negative or 0: part of it does not.
   double wholly_inside = 0;
 };

@@ -38,6 +38,7 @@ struct DocumentResult {
   std::uint32_t regions = 0;          ///< separate places; 0: not counted
   std::uint32_t allowed_regions = 0;  ///< places besides that a rule allows
   clash::Class cls = clash::Class::no_hit;
+  bool depth_complete = true;  ///< clash::Pair::depth_complete
 };
 
 /// How many results of each class no rule allows, and how many of any class one does.

@@ -27,6 +27,7 @@ AnalyticSeparation overlapping(const DeepestPoint& depth, double lower, double t
   s.upper = -depth.lower;
   s.d = shown(s.lower, s.upper, tolerance);
   s.point = depth.point;
+  s.depth_complete = depth.complete;
   return s;
 }
 

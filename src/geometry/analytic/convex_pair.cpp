@@ -51,6 +51,7 @@ class Meeting {
         deep_in_a = false;
       }
       depth.upper = std::max(depth.upper, other.upper);
+      depth.complete = depth.complete && other.complete;
     }
     if (field_a_ && field_b_ && depth.lower > 0)
       depth.point =
@@ -76,7 +77,11 @@ class Meeting {
   [[nodiscard]] AnalyticSeparation summary(const ConvexGap& gap, const DeepestPoint& depth,
                                            bool deep_in_a) const {
     const double lower = std::max(-depth.upper, gap.lower);
-    if (!(depth.lower > 0)) return not_overlapping(gap, lower, std::max(gap.upper, -depth.upper));
+    if (!(depth.lower > 0)) {
+      AnalyticSeparation s = not_overlapping(gap, lower, std::max(gap.upper, -depth.upper));
+      s.depth_complete = depth.complete;
+      return s;
+    }
     AnalyticSeparation s = overlapping(depth, lower, kDepthTolerance);
     s.deep_in_a = deep_in_a;
     const Vec3d out = (deep_in_a ? field_a_ : field_b_)->nearest(depth.point).normal;

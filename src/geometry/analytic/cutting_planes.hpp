@@ -22,6 +22,7 @@ struct DeepestPoint {
   double lower = 0, upper = std::numeric_limits<double>::infinity();
   Vec3d point;  ///< in both, `lower` deep in the first
   int steps = 0;
+  bool complete = true;  ///< no work limit ended the search
 };
 
 /// What a measured body shows at a point: how deep it certainly is there, and of its half-spaces
@@ -90,6 +91,7 @@ template <class Measured, class Room>
     if (simplex.proves_empty(cut)) result.upper = std::min(result.upper, 0.0);
     break;
   }
+  result.complete = result.steps < kMaxSteps;
   return result;
 }
 

@@ -40,7 +40,11 @@ class DepthSearch {
     while (!open_.empty()) {
       const Cell cell = open_.top();
       best_.upper = std::max({best_.lower, cell.bound, settled_});
-      if (best_.upper - best_.lower <= kTorusDepth || count_ >= kMaxDepths) return best_;
+      if (best_.upper - best_.lower <= kTorusDepth) return best_;
+      if (count_ >= kMaxDepths) {
+        best_.complete = false;
+        return best_;
+      }
       open_.pop();
       for (const Cell& half : halves(a_, b_, cell)) evaluate(half);
     }

@@ -32,7 +32,9 @@ AnalyticSeparation meeting(const PairSide& a, const PairSide& b, ConvexGap gap) 
   const DeepestPoint depth = search.run();
   if (!(depth.lower > 0)) {
     draw_together(a, b, gap);
-    return not_overlapping(gap, -depth.upper, gap.upper);
+    AnalyticSeparation s = not_overlapping(gap, -depth.upper, gap.upper);
+    s.depth_complete = depth.complete;
+    return s;
   }
   AnalyticSeparation s = overlapping(depth, -depth.upper, kTorusDepth);
   s.deep_in_a = search.deep_in_a();

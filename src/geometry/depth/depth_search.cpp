@@ -91,7 +91,11 @@ class Search {
       const double blocks = blocks_.empty() ? 0 : blocks_.back().most();
       const double highest = std::max({cells, blocks, kept, depth_.value});
       depth_.upper = std::min(ceiling, highest);
-      if (bracket_suffices(depth_, goal_) || exhausted()) return;
+      if (bracket_suffices(depth_, goal_)) return;
+      if (exhausted()) {
+        depth_.complete = false;
+        return;
+      }
       if (blocks > cells) {
         open_block();
         continue;

@@ -7,9 +7,12 @@
 
 namespace strake::geometry {
 
+[[nodiscard]] inline bool is_decided(const Depth& d, const DepthGoal& goal) {
+  return d.lower > goal.threshold || d.upper <= goal.threshold;
+}
+
 [[nodiscard]] inline bool bracket_suffices(const Depth& d, const DepthGoal& goal) {
-  const bool decided = d.lower > goal.threshold || d.upper <= goal.threshold;
-  return decided && d.upper - d.lower <= std::fmax(goal.tolerance, goal.relative * d.upper);
+  return is_decided(d, goal) && is_narrow(d.lower, d.upper, goal);
 }
 
 /// Narrows the bracket of two solids: points climb to where they are deepest nearby, from `seeds`

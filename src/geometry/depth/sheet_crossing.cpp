@@ -85,11 +85,16 @@ class CurveSearch {
 
   /// `complete`: whether there is nothing but what was added.
   Depth run(bool complete) {
+    depth_.complete = complete;
     if (!complete) depth_.upper = ceiling_;
     while (!open_.empty()) {
       const Piece piece = open_.top();
       depth_.upper = std::max(complete ? piece.upper : ceiling_, depth_.value);
-      if (bracket_suffices(depth_, goal_) || depth_.cells >= limit()) return depth_;
+      if (bracket_suffices(depth_, goal_)) return depth_;
+      if (depth_.cells >= limit()) {
+        depth_.complete = false;
+        return depth_;
+      }
       open_.pop();
       const Vec3d middle = (piece.end[0] + piece.end[1]) * 0.5;
       evaluate({piece.end[0], middle});
@@ -101,8 +106,7 @@ class CurveSearch {
 
  private:
   [[nodiscard]] std::uint64_t limit() const {
-    const bool decided = depth_.lower > goal_.threshold || depth_.upper <= goal_.threshold;
-    return pieces_ + (decided ? goal_.cells_decided : goal_.cells_undecided);
+    return pieces_ + (is_decided(depth_, goal_) ? goal_.cells_decided : goal_.cells_undecided);
   }
 
   void evaluate(const std::array<Vec3d, 2>& end) {

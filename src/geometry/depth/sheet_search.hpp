@@ -47,7 +47,11 @@ class SheetSearch {
     if (goal_.within) whole_ = std::min<std::uint64_t>(whole_, depth_.cells);
     while (!open_.empty()) {
       depth_.upper = std::min(ceiling, std::max(open_.front().upper, depth_.value));
-      if (bracket_suffices(depth_, goal_) || exhausted()) return;
+      if (bracket_suffices(depth_, goal_)) return;
+      if (exhausted()) {
+        depth_.complete = false;
+        return;
+      }
       std::ranges::pop_heap(open_, LessPromising());
       const Piece piece = open_.back();
       open_.pop_back();
@@ -133,8 +137,8 @@ class SheetSearch {
   }
 
   [[nodiscard]] bool exhausted() const {
-    const bool decided = depth_.lower > goal_.threshold || depth_.upper <= goal_.threshold;
-    const std::uint32_t cells = decided ? goal_.cells_decided : goal_.cells_undecided;
+    const std::uint32_t cells =
+        is_decided(depth_, goal_) ? goal_.cells_decided : goal_.cells_undecided;
     return depth_.cells >= std::uint64_t{kPiecesPerCell} * cells + whole_;
   }
 

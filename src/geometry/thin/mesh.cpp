@@ -107,6 +107,7 @@ class DepthOfPieces {
     SheetSearch<N>(pieces, field_, goal_, depth, margin_, work_).run();
     best_.upper = std::max({best_.upper, depth.upper + off, depth.value});
     best_.cells += depth.cells;
+    best_.complete = best_.complete && depth.complete;
     if (!(depth.value > best_.value)) return;
     best_.value = depth.value;
     best_.lower = std::max(best_.lower, depth.lower - off);
@@ -124,6 +125,7 @@ class DepthOfPieces {
 /// The answer about a solid, from the distance to its skin and the depth.
 ThinSeparation in_solid(const LeastGap& gap, const Depth& depth, const TreedPart& mesh) {
   ThinSeparation s;
+  s.depth_complete = depth.complete;
   if (depth.lower > 0) {
     s.d = -depth.value;
     s.lower = -depth.upper;

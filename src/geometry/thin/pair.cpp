@@ -40,8 +40,10 @@ ThinSeparation apart(const LeastGap& gap, double lower, double enough) {
 struct Deepest {
   double lower = 0, upper = 0;
   Vec3d point;
+  bool complete = true;
 
   void add(const DeepestPoint& found) {
+    complete = complete && found.complete;
     upper = std::max(upper, found.upper);
     if (!(found.lower > lower)) return;
     lower = found.lower;
@@ -111,14 +113,14 @@ std::optional<ThinSeparation> thin_separation(const ThinBody& thin,
   };
   for (const Piece& piece : pieces.simplices) measure(piece.side());
   for (const PairSide& arc : pieces.arcs) measure(arc);
-  if (deepest.lower > 0) {
-    ThinSeparation s = meeting(deepest, body);
-    s.wholly_inside = wholly_inside(pieces, body);
-    return s;
-  }
   if (!meets) return apart(least, std::max(0.0, least.lower), enough);
-  // A touch, as far as this can tell.
-  return apart(least, std::min(-deepest.upper, least.upper), enough);
+  // Without a point inside a touch, as far as this can tell.
+  ThinSeparation s = deepest.lower > 0
+                         ? meeting(deepest, body)
+                         : apart(least, std::min(-deepest.upper, least.upper), enough);
+  if (deepest.lower > 0) s.wholly_inside = wholly_inside(pieces, body);
+  s.depth_complete = deepest.complete;
+  return s;
 }
 
 }  // namespace strake::geometry

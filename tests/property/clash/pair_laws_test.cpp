@@ -3,6 +3,7 @@
 // over seeded pairs of every kind, through the whole engine.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -61,6 +62,7 @@ void expect_same_bits(const Pair& x, const Pair& y) {
   EXPECT_EQ(x.d_lower_mm, y.d_lower_mm);
   EXPECT_EQ(x.d_upper_mm, y.d_upper_mm);
   EXPECT_EQ(x.flags, y.flags);
+  EXPECT_EQ(x.depth_complete, y.depth_complete);
 }
 
 /// The same pair written down in another way: how triangles are cut and numbered may show in how
@@ -97,6 +99,22 @@ TEST(PairLaws, SwappedNamesMirrorTheAnswer) {
     Pair swapped = judged(pair.b, pair.a);
     swapped.relation = mirrored(swapped.relation);
     expect_same_bits(base, swapped);
+  });
+}
+
+/// A depth is told to within 8 um or 2 %, or said not to be: no wide bracket of a hit without the
+/// mark, and no mark beside a narrow one.
+TEST(PairLaws, ABracketOfADepthIsNarrowOrMarkedAsIncomplete) {
+  // What the snap moves widens brackets beyond what a search aims for.
+  constexpr double kSnap = 4e-3;
+  over_pairs([](const SolidPair&, const Pair& base, std::uint64_t) {
+    const double width = base.d_upper_mm - base.d_lower_mm;
+    const double aimed = std::max(8e-3, 0.02 * -base.d_lower_mm);
+    if (base.cls != Class::hit || base.depth_complete) {
+      EXPECT_LE(width, aimed + kSnap);
+    } else {
+      EXPECT_GT(width, aimed - kSnap);
+    }
   });
 }
 

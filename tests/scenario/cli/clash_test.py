@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import math
 
 from scenario import CUBE_FACES, Scenario, cube, main
 
@@ -163,6 +164,25 @@ class Clash(Scenario):
         # Where it is told exactly nothing is left to doubt.
         exactly = [*run[:6], '--clearance', '3mm', '--fail-on', 'contact']
         self.assertEqual(self.run_strake(*exactly).returncode, 0)
+
+    def test_a_depth_that_a_work_limit_ended_is_told_as_such(self):
+        # Of cubes 10 mm deep in each other the baseline finds out no more than that they clash.
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (90, 0, 0), 100))
+        exact = ['clash', 'a.obj', *self.SETTINGS]
+        spheres = [*exact, '--narrow-phase', 'sphere-subdivision']
+        told = {}
+        for name, run in (('exact', exact), ('spheres', spheres)):
+            done = self.run_strake(*run, '-o', f'{name}.json', '-o', f'{name}.csv')
+            (result,) = json.loads((self.folder / f'{name}.json').read_text(encoding='utf-8'))['results']
+            (row,) = csv.DictReader(io.StringIO((self.folder / f'{name}.csv').read_text(encoding='utf-8')))
+            self.assertEqual(result['class'], 'HIT')
+            low, high = result['d_range_mm']
+            bracket = f'[{math.floor(low * 1000) / 1000:.3f}, {math.ceil(high * 1000) / 1000:.3f}]'
+            told[name] = (result.get('depth_complete'), row['depth_complete'], bracket in done.stdout,
+                          'd range mm' in done.stdout)
+        self.assertEqual(told, {'exact': (None, '', False, False), 'spheres': (False, 'false', True, True)})
+        diff = self.run_strake('clash', 'diff', 'exact.json', 'spheres.json')
+        self.assertIn(', depth incomplete (was HIT -10.000)', diff.stdout)
 
     def test_fail_on_counts_pairs_that_could_not_be_compared(self):
         # Together they measure more than 2.147 km: nothing is known of them, whatever they are.

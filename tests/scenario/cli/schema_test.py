@@ -141,6 +141,15 @@ class Schemas(unittest.TestCase):
                 self.assertEqual(sum(r['group'] == number for r in grouped['results']), size)
         self.assertEqual([file['label'] for file in empty['files']], ['odd.obj', 'ship.glb'])
 
+    def test_clash_with_depths_that_a_work_limit_ended(self):
+        self.run_strake('clash', 'ship.glb', '-o', 'exact.json')
+        self.run_strake('clash', 'ship.glb', '--narrow-phase', 'sphere-subdivision', '--most-spheres', 50,
+                        '-o', 'rough.json')
+        rough = self.follows((self.folder / 'rough.json').read_text(encoding='utf-8'), 'clash')
+        self.assertIn(False, [result.get('depth_complete') for result in rough['results']])
+        diff = self.follows(self.run_strake('clash', 'diff', 'exact.json', 'rough.json', '--json'), 'clash-diff')
+        self.assertIn(False, [result.get('depth_complete') for result in diff['changed']])
+
     def test_clash_by_rules(self):
         (self.folder / 'r.toml').write_text(
             '[[discipline]]\nname = "pipes"\nselect = "PIP*"\n[[discipline]]\nname = "rest"\nselect = "*"\n'

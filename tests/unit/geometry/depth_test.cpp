@@ -119,9 +119,10 @@ TEST(Depth, ChannelsStuckIntoEachOther) {
   EXPECT_LE(d.upper - d.lower, 100);
 }
 
-/// The search ends with a narrow bracket round any depth of bodies that are not convex.
+/// The search ends with a narrow bracket round any depth of bodies that are not convex, or says
+/// that its work limit ended it.
 TEST(Depth, BracketsOfConcaveBodiesAreNarrow) {
-  int met = 0;
+  int met = 0, cut_short = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     std::mt19937_64 random(seed);
     const auto draw = [&](int lo, int hi) {
@@ -137,8 +138,13 @@ TEST(Depth, BracketsOfConcaveBodiesAreNarrow) {
     ++met;
     const Depth d = depth_from_touch(a, b, {.threshold = 1000, .cells_decided = 10'000});
     EXPECT_LE(d.upper - d.lower, std::max(8.0, 0.02 * d.upper)) << "seed " << seed;
+    EXPECT_TRUE(d.complete) << "seed " << seed;
+    const Depth ended = depth_from_touch(a, b, {.cells_undecided = 1, .cells_decided = 1});
+    if (!ended.complete) ++cut_short;
+    EXPECT_TRUE(!ended.complete || is_narrow(ended.lower, ended.upper)) << "seed " << seed;
   }
   EXPECT_GT(met, 30);
+  EXPECT_GT(cut_short, 0);
 }
 
 TEST(Depth, ShallowContactInTheHollowOfATurnedChannel) {

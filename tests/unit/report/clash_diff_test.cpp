@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
@@ -158,6 +159,34 @@ TEST(ClashDiff, MoreOrFewerPlacesAreAChange) {
   const ClashDocument& uncounted =
       document(folder, "z.json", run(after, {.most_regions = 0}), after.model);
   EXPECT_EQ(compare(x, uncounted).same.size(), 1U) << "what was not counted is no change";
+}
+
+TEST(ClashDiff, TellsWhichDepthIsIncomplete) {
+  Folder folder;
+  const ClashModel m = row();
+  clash::Findings unfinished = run(m);
+  unfinished.tests[0].pairs[0].depth_complete = false;
+  const ClashDocument& x = document(folder, "x.json", unfinished, m.model);
+  const ClashDocument& y = document(folder, "y.json", run(m), m.model);
+  EXPECT_EQ(std::ranges::count(x.results, false, &DocumentResult::depth_complete), 1);
+  EXPECT_EQ(std::ranges::count(y.results, false, &DocumentResult::depth_complete), 0);
+  // How hard a depth was searched for is no change.
+  EXPECT_EQ(compare(x, y).same.size(), 2U);
+  unfinished.tests[0].pairs[0].d_mm -= 1;
+  unfinished.tests[0].pairs[0].d_lower_mm -= 1;
+  const ClashDocument& deeper = document(folder, "z.json", unfinished, m.model);
+  const ClashDiff diff = compare(y, deeper);
+  ASSERT_EQ(diff.changed.size(), 1U);
+  EXPECT_TRUE(diff.changed[0].before->depth_complete);
+  EXPECT_FALSE(diff.changed[0].after->depth_complete);
+  const std::string table = clash_diff_table(diff, {});
+  EXPECT_NE(table.find("HIT -11.000, depth incomplete (was HIT -10.000)"), std::string::npos)
+      << table;
+  std::string text;
+  write_clash_diff_json(diff, [&](std::string_view piece) { text += piece; });
+  const json changed = json::parse(text)["changed"][0];
+  EXPECT_EQ(changed["depth_complete"], false);
+  EXPECT_FALSE(changed["was"].contains("depth_complete"));
 }
 
 TEST(ClashDiff, AMissingElementIsNotAMendedClash) {
@@ -394,6 +423,7 @@ TEST(ClashDocument, SaysWhatIsWrongAndWhere) {
   expect("{\"results\": [\n{\"key\": \"x\"}]}", "results[0] \"key\" is no key of a pair");
   expect("{\"results\": [5]}", "results[0] is no object");
   expect("{\"results\": [{\"class\": \"MISS\"}]}", "\"class\" is no class of a result");
+  expect("{\"results\": [{\"depth_complete\": 0}]}", "\"depth_complete\" is no true or false");
   expect("{\"schema_version\": 2} {", "bad.json:1: this is no JSON");
   expect("{\"schema_version\": 2}", "has no \"elements\"");
   expect(std::string(100'000, '['), "nested too deeply");

@@ -107,6 +107,55 @@ TEST(ClashJson, LeavesADocumentForTheSchemaTest) {
   ASSERT_TRUE(write_file(STRAKE_CLASH_DOCUMENT, as_json(m.detect({.clearance_mm = 25}), m.model)));
 }
 
+/// A hit whose search for the depth a work limit ended, as is that of one of its two places.
+clash::Report unfinished_report(const ClashModel& m) {
+  clash::Report report = m.detect({.clearance_mm = 25});
+  clash::Pair& hit = report.pairs[1];
+  hit.d_lower_mm = -31.25;
+  hit.depth_complete = false;
+  const clash::Region place{.cls = hit.cls,
+                            .flags = hit.flags,
+                            .d_mm = hit.d_mm,
+                            .d_lower_mm = hit.d_lower_mm,
+                            .d_upper_mm = hit.d_upper_mm,
+                            .point_mm = hit.point_mm,
+                            .box_mm = {hit.point_mm, hit.point_mm},
+                            .part_a = hit.part_a,
+                            .part_b = hit.part_b,
+                            .depth_complete = false};
+  hit.regions = 2;
+  hit.first_region = 0;
+  report.regions = {place, place};
+  report.regions[1].depth_complete = true;
+  return report;
+}
+
+TEST(ClashReports, TellWhereADepthIsIncomplete) {
+  const ClashModel m = row_of_boxes();
+  const clash::Report report = unfinished_report(m);
+  const json results = json::parse(as_json(report, m.model))["results"];
+  EXPECT_EQ(results[1]["depth_complete"], false);
+  EXPECT_EQ(results[1]["regions"][0]["depth_complete"], false);
+  EXPECT_FALSE(results[1]["regions"][1].contains("depth_complete"));
+  for (const std::size_t i : {0U, 2U}) EXPECT_FALSE(results[i].contains("depth_complete")) << i;
+  const std::string csv = as_csv(report, m.model);
+  EXPECT_NE(csv.find(",allowed_regions,depth_complete\r\n"), std::string::npos) << csv;
+  EXPECT_EQ(csv.find(",false\r\n"), csv.rfind(",false\r\n"));
+  EXPECT_NE(csv.find(",2,,false\r\n"), std::string::npos) << csv;
+  // It says how a depth was found, not what: it bears on neither hash.
+  clash::Report finished = report;
+  finished.pairs[1].depth_complete = finished.regions[0].depth_complete = true;
+  EXPECT_EQ(clash::hash_of(clash::Findings{{finished}, {}}),
+            clash::hash_of(clash::Findings{{report}, {}}));
+  EXPECT_EQ(json::parse(as_json(finished, m.model))["results"][1]["key"], results[1]["key"]);
+}
+
+/// Written for the schema test, as above.
+TEST(ClashJson, LeavesAnUnfinishedDocumentForTheSchemaTest) {
+  const ClashModel m = row_of_boxes();
+  ASSERT_TRUE(write_file(STRAKE_UNFINISHED_DOCUMENT, as_json(unfinished_report(m), m.model)));
+}
+
 TEST(ClashReports, NameTheTestOfEachResult) {
   const ClashModel m = row_of_boxes();
   clash::Findings findings{{m.detect(), m.detect({.clearance_mm = 25})}, {}};
@@ -190,9 +239,9 @@ TEST(ClashReports, TellWhatRulesDid) {
   EXPECT_EQ(doc["exempted"][0]["rule"], "matrix");
   EXPECT_EQ(doc["exempted"][0]["a"]["id"], "deck \"1\", port\n");
   const std::string csv = as_csv(report, m.model);
-  EXPECT_NE(csv.find(",sleeve,,hard,soft,\"hull, port\",pipes,,1,\r\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",sleeve,,hard,soft,\"hull, port\",pipes,,1,,\r\n"), std::string::npos) << csv;
   EXPECT_NE(
-      csv.find(",EXEMPTED,,,,,,,,,,,,,,,,,,,,,,matrix,,,\"hull, port\",\"hull, port\",,,\r\n"),
+      csv.find(",EXEMPTED,,,,,,,,,,,,,,,,,,,,,,matrix,,,\"hull, port\",\"hull, port\",,,,\r\n"),
       std::string::npos)
       << csv;
   const std::string table = clash_table({{{report}, {}}, m.model}, {});
@@ -415,6 +464,31 @@ TEST(ClashTable, WorstFirstClippedAndCounted) {
     EXPECT_LE(columns, 72) << line;
     at = end + 1;
   }
+}
+
+TEST(ClashTable, ShowsABracketThatIsWiderThanItsDigits) {
+  const ClashModel m = row_of_boxes();
+  clash::Report report = m.detect({.clearance_mm = 25});
+  const auto shown = [&] { return clash_table({{{report}, {}}, m.model}, {.width = 100}); };
+  const std::string narrow = shown();
+  EXPECT_EQ(narrow.find("d range mm"), std::string::npos) << narrow;
+  EXPECT_EQ(narrow.find('['), std::string::npos) << narrow;
+  clash::Pair& hit = report.pairs[1];
+  // As wide as the grid alone accounts for: not told.
+  hit.d_lower_mm = -20.004;
+  hit.d_upper_mm = -19.9965;
+  EXPECT_EQ(shown(), narrow);
+  // Rounded outward: the true d lies in what is printed.
+  hit.d_lower_mm = -31.2501;
+  hit.d_upper_mm = -19.9999;
+  const std::string wide = shown();
+  EXPECT_NE(wide.find("d range mm"), std::string::npos) << wide;
+  EXPECT_NE(wide.find("-20.000  [-31.251, -19.999]  INTERFERE"), std::string::npos) << wide;
+  EXPECT_EQ(std::count(wide.begin(), wide.end(), '['), 1) << wide;
+  EXPECT_EQ(std::count(wide.begin(), wide.end(), '\n'),
+            std::count(narrow.begin(), narrow.end(), '\n'));
+  hit.d_mm = hit.d_upper_mm = -0.0001;
+  EXPECT_NE(shown().find("[-31.251, 0.000]"), std::string::npos) << shown();
 }
 
 TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
