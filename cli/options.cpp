@@ -96,8 +96,10 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Input");
   command
-      .add_flag("--strict", options.strict,
-                "Exit code 4 when anything was skipped; of clash also where a set is empty")
+      .add_flag(
+          "--strict", options.strict,
+          "Exit code 4 when anything was skipped or, in clash, a set is empty or a pair was not "
+          "compared")
       ->group("Input");
 }
 
@@ -164,9 +166,12 @@ Result<std::vector<std::size_t>> files_meant(const Said& said,
                                              const std::string& option) {
   std::vector<std::size_t> same, ending;
   const std::filesystem::path meant = std::filesystem::path(said.file).lexically_normal();
+  std::error_code ignored;
   for (std::size_t f = 0; f < files.size(); ++f) {
     const std::filesystem::path path = files[f].path.lexically_normal();
-    if (said.of_all || path == meant) same.push_back(f);
+    const std::filesystem::path whole =
+        std::filesystem::absolute(files[f].path, ignored).lexically_normal();
+    if (said.of_all || path == meant || whole == meant) same.push_back(f);
     if (!said.file.empty() && ends_in(path, meant)) ending.push_back(f);
   }
   if (!same.empty()) return same;

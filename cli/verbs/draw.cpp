@@ -465,7 +465,7 @@ Examples:
   strake draw platform.rvm --view iso --hidden dashed -o platform.svg
   strake draw ship.glb --direction 1,-2,1 --up 0,0,1 --scale 1:100 -o cut.svg \
       --limits 0,-5000,0,20000,5000,8000
-  strake draw ship.glb --select 'PIPE*' --view top -o pipes.svg -o pipes.json
+  strake draw ship.glb --select 'PIP-*' --view top -o pipes.svg -o pipes.json
   strake draw ship.glb --view top --section z=4500mm -o section.svg
   strake draw ship.glb --eye 2000,-9000,6000 --target 9000,0,3000 -o seen.svg
   strake draw ship.glb --sheet deck.toml -o deck.svg)");

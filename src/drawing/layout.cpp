@@ -167,6 +167,8 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.stage = drawing.options.stage;
   out.hidden_lines = drawing.options.hidden;
   out.sharp_angle_deg = drawing.options.sharp_angle_deg;
+  out.smooth = drawing.options.smooth;
+  out.intersections = drawing.options.intersections;
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.weld_mm = drawing.weld_mm;
   out.counters = drawing.counters;

@@ -73,6 +73,32 @@ std::string_view stage_name(hlr::Stage stage) {
   return "";
 }
 
+std::string_view smooth_name(hlr::Smooth smooth) {
+  switch (smooth) {
+    case hlr::Smooth::off:
+      return "off";
+    case hlr::Smooth::tangent:
+      return "tangent";
+    case hlr::Smooth::all:
+      return "on";
+  }
+  return "";
+}
+
+std::string_view intersections_name(hlr::Intersections intersections) {
+  switch (intersections) {
+    case hlr::Intersections::off:
+      return "off";
+    case hlr::Intersections::objects:
+      return "objects";
+    case hlr::Intersections::primitives:
+      return "primitives";
+    case hlr::Intersections::parts:
+      return "parts";
+  }
+  return "";
+}
+
 std::string_view fate_name(hlr::Fate fate) {
   switch (fate) {
     case hlr::Fate::unselected:

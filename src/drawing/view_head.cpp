@@ -55,7 +55,9 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
   if (drawing.view.perspective) write_perspective(out, *drawing.view.perspective);
   out << "},\n\"settings\":{\"stage\":\"" << stage_name(drawing.stage)
       << "\",\"hidden_lines\":" << (drawing.hidden_lines ? "true" : "false")
-      << ",\"sharp_angle_deg\":" << shortest(drawing.sharp_angle_deg)
+      << ",\"sharp_angle_deg\":" << shortest(drawing.sharp_angle_deg) << ",\"smooth\":\""
+      << smooth_name(drawing.smooth) << "\",\"intersections\":\""
+      << intersections_name(drawing.intersections) << "\""
       << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
   if (drawing.weld_mm >= 0) out << ",\"weld_mm\":" << shortest(drawing.weld_mm);
   out << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)

@@ -79,9 +79,11 @@ class References::Walk {
   /// agree which one it is.
   [[nodiscard]] Result<std::uint32_t> find(const Reference& reference) const {
     const std::string& id = reference.target;
-    // By its number a letter can spell the name of another element.
-    if (id.find('%') != std::string::npos)
-      return fault(reference.line, "'%' stands in the reference '#" + id + "'",
+    // By its number a letter can spell the name of another element, and programs take blanks off.
+    if (const std::size_t at = id.find_first_of("% "); at != std::string::npos)
+      return fault(reference.line,
+                   std::string(id[at] == '%' ? "'%' stands" : "a blank stands") +
+                       " in the reference '#" + id + "'",
                    "give the element a name of letters and digits");
     if (by_id_.count(id) > 1)
       return fault(reference.line,

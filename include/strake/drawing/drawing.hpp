@@ -35,6 +35,8 @@ inline constexpr std::size_t kLineStates = 6;
 [[nodiscard]] std::string_view kind_name(hlr::EdgeKind kind);
 [[nodiscard]] std::string_view stage_name(hlr::Stage stage);
 [[nodiscard]] std::string_view fate_name(hlr::Fate fate);
+[[nodiscard]] std::string_view smooth_name(hlr::Smooth smooth);
+[[nodiscard]] std::string_view intersections_name(hlr::Intersections intersections);
 
 /// Millimetres on the sheet: x to the right, y down, from the upper left corner.
 struct PaperPoint {
@@ -106,6 +108,8 @@ struct NeutralDrawing {
   hlr::Stage stage = hlr::Stage::global;
   bool hidden_lines = true;  ///< false: left out, see hlr::Options::hidden
   double sharp_angle_deg = 20;
+  hlr::Smooth smooth = hlr::Smooth::off;
+  hlr::Intersections intersections = hlr::Intersections::primitives;
   double contact_distance_mm = 0;
   double weld_mm = -1;  ///< that seams were closed within; negative: the precision of each body
   Sheet sheet;

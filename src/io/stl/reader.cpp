@@ -138,8 +138,8 @@ bool note_cut_off(const FileBytes& file, const stl::Solid& solid, const std::str
   if (!solid.cut_off) return false;
   model.diagnostics.add(
       Severity::skipped, "stl-truncated",
-      fmt::format("solid '{}' ends without 'endsolid'; what came before it is kept, the rest is "
-                  "unknown",
+      fmt::format("solid '{}' ends without 'endsolid'; what came before it is kept, the rest "
+                  "of it is unknown",
                   name),
       fmt::format("{}:{}", file.path.string(), *solid.cut_off));
   return true;

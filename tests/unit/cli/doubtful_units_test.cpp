@@ -19,8 +19,8 @@ struct File {
   std::string unit = "mm (assumed)";
 };
 
-/// How often units are doubted where each file holds one box of its size.
-std::uint64_t doubts(const std::vector<File>& files, const Vec3d& at = {}) {
+/// What is told where each file holds one box of its size.
+Diagnostics told(const std::vector<File>& files, const Vec3d& at = {}) {
   model::Model model;
   for (const File& file : files) {
     const auto number = static_cast<std::uint32_t>(model.files.size());
@@ -38,7 +38,19 @@ std::uint64_t doubts(const std::vector<File>& files, const Vec3d& at = {}) {
   }
   model::Scene scene = model::make_scene(model, {}, {}).value();
   note_doubtful_units(scene);
-  return scene.diagnostics.count("unit-doubtful");
+  return scene.diagnostics;
+}
+
+/// How often units are doubted.
+std::uint64_t doubts(const std::vector<File>& files, const Vec3d& at = {}) {
+  return told(files, at).count("unit-doubtful");
+}
+
+/// The words of the only doubt.
+std::string doubt(const std::vector<File>& files) {
+  const Diagnostics diagnostics = told(files);
+  EXPECT_EQ(diagnostics.kept().size(), 1U);
+  return diagnostics.kept().empty() ? "" : diagnostics.kept().front().message;
 }
 
 Vec3d scaled(const Vec3d& v, double factor) { return v * factor; }
@@ -46,7 +58,7 @@ Vec3d scaled(const Vec3d& v, double factor) { return v * factor; }
 constexpr Vec3d kPart{120, 80, 35};
 
 TEST(DoubtfulUnits, FactorsBetweenUnitsAreToldWhicheverFileIsFirst) {
-  for (const double factor : {1000.0, 25.4, 1000 / 25.4, 304.8, 940.0, 1080.0}) {
+  for (const double factor : {1000.0, 25.4, 1000 / 25.4, 304.8, 940.0, 1080.0, 25.5}) {
     const File large{kPart}, small{scaled(kPart, 1 / factor)};
     EXPECT_EQ(doubts({large, small}), 1U) << factor;
     EXPECT_EQ(doubts({small, large}), 1U) << factor;
@@ -55,7 +67,8 @@ TEST(DoubtfulUnits, FactorsBetweenUnitsAreToldWhicheverFileIsFirst) {
 }
 
 TEST(DoubtfulUnits, OtherFactorsAreNot) {
-  for (const double factor : {1.0, 2.0, 5.0, 10.0, 12.0, 20.0, 31.0, 60.0, 100.0, 200.0, 500.0})
+  for (const double factor :
+       {1.0, 2.0, 5.0, 10.0, 12.0, 20.0, 25.0, 26.0, 31.0, 40.0, 60.0, 100.0, 200.0, 500.0})
     EXPECT_EQ(doubts({{kPart}, {scaled(kPart, 1 / factor)}}), 0U) << factor;
 }
 
@@ -74,6 +87,24 @@ TEST(DoubtfulUnits, AUnitThatIsKnownOfBothIsTrusted) {
     EXPECT_EQ(doubts({{kPart}, {small, known}}), 1U) << known;
     EXPECT_EQ(doubts({{kPart, known}, {small, known}}), 0U) << known;
   }
+}
+
+TEST(DoubtfulUnits, NoOtherUnitIsAdvisedOfAFileWhoseUnitIsKnown) {
+  const auto ends_in = [](const std::string& text, const std::string& end) {
+    return text.ends_with("say " + end);
+  };
+  const Vec3d small = scaled(kPart, 0.001);
+  EXPECT_PRED2(ends_in, doubt({{kPart}, {small}}), "--unit '1.stl=m' --unit '0.stl=mm'");
+  EXPECT_PRED2(ends_in, doubt({{kPart, "m (stated)"}, {small}}), "--unit '1.stl=m'");
+  EXPECT_PRED2(ends_in, doubt({{kPart, "m (assumed)"}, {small, "mm (stated)"}}),
+               "--unit '0.stl=mm'");
+  // Read as millimetres and still too large: no unit that it may have instead is known.
+  EXPECT_PRED2(ends_in, doubt({{kPart}, {small, "mm (stated)"}}), "--unit '0.stl=UNIT'");
+}
+
+TEST(DoubtfulUnits, WhicheverAxisIsUp) {
+  const Vec3d small = scaled({kPart.x, kPart.z, kPart.y}, 0.001);
+  EXPECT_EQ(doubts({{kPart, "m (stated)"}, {small}}), 1U);
 }
 
 TEST(DoubtfulUnits, WhatTheGridMakesFlatIsAlikeAndALineSaysNothing) {
