@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "hlr/edge_on.hpp"
 #include "hlr/job.hpp"
 #include "hlr/specks.hpp"
 #include "strake/parallel/transform.hpp"
@@ -159,6 +160,7 @@ class Solver {
     if (same_part) contact = seen.within;
     for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
       Facet f;
+      if (same_part && job_.forgives_rounding(body_index) && may_be_edge_on(part, t, d_)) continue;
       if (!facet(part, t, job_.offset(body), f)) continue;
       add(e, f, contact, +1, range, sides.left);
       add(e, f, contact, -1, range, sides.right);

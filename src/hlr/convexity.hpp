@@ -14,6 +14,7 @@ namespace strake::hlr {
 struct TrianglePlane {
   std::array<std::int64_t, 3> n{};
   Int128 facing = 0;
+  bool edge_on = false;  ///< see may_be_edge_on(); where it is asked for
 };
 
 /// Whether a locally convex closed surface of one shell bounds a convex body: it does when some

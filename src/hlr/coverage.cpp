@@ -95,7 +95,7 @@ class Coverage::Painter {
     if (placed.view == nullptr || !placed.opaque || placed.cut || !large(placed.view->box)) return;
     const auto& polygons = placed.view->polygons;
     for (std::uint32_t i = 0; i < polygons.size(); ++i)
-      if (large(polygons[i].box))
+      if (large(polygons[i].box) && !polygons[i].edge_on)
         out.push_back({body, i, as_double(polygons[i].box.lo.v + placed.at.v),
                        as_double(polygons[i].box.hi.v + placed.at.v)});
   }

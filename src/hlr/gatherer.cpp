@@ -189,9 +189,10 @@ void Gatherer::test_own_body() {
   for (const PartView& part : edge_.own->view->parts) {
     const bool same = edge_.own->view->polygons[part.first].part == edge_.feature->edge.part;
     if (same && judged) continue;
-    if (!test_part(local, *edge_.own->view, part, same ? edge_.own->within : edge_.own->contact,
-                   true))
-      return;
+    const Rule rule{.contact = same ? edge_.own->within : edge_.own->contact,
+                    .self = true,
+                    .edge_on = !same || !edge_.own->forgives_rounding};
+    if (!test_part(local, *edge_.own->view, part, rule)) return;
   }
 }
 
@@ -202,23 +203,23 @@ bool Gatherer::gather_body(std::uint32_t b, bool self) {
   const LocalEdge local = localized(other);
   const std::int64_t contact = std::max(edge_.contact, other.contact);
   for (const PartView& part : other.view->parts)
-    if (!test_part(local, *other.view, part, contact, self)) return false;
+    if (!test_part(local, *other.view, part, {.contact = contact, .self = self})) return false;
   return true;
 }
 
 bool Gatherer::test_part(const LocalEdge& local, const ShapeView& view, const PartView& part,
-                         std::int64_t contact, bool self) {
+                         const Rule& rule) {
   if (!may_hide(local, part.box)) return true;
   if (!part.turn.is_none() && !loose(local.va, local.vb, part.turn).may_hide(part.turned))
     return true;
-  if (is_deep_under(local, part, contact)) {
+  if (is_deep_under(local, part, rule.contact)) {
     ++work.tests;
     work.wide_tests += local.narrow ? 0 : 1;
-    return add(outlined_stretch(local, view, part.outline), self);
+    return add(outlined_stretch(local, view, part.outline), rule.self);
   }
   bool more = true;
   const auto test = [&](std::uint32_t i) {
-    return more = test_polygon(local, view, view.polygons[part.first + i], contact, self);
+    return more = test_polygon(local, view, view.polygons[part.first + i], rule);
   };
   if (!part.tree.empty()) {
     part.tree.walk(loose(local.va, local.vb, part.turn), test);
@@ -234,11 +235,11 @@ bool Gatherer::test_part(const LocalEdge& local, const ShapeView& view, const Pa
 }
 
 bool Gatherer::test_polygon(const LocalEdge& local, const ShapeView& view, const Polygon& p,
-                            std::int64_t contact, bool self) {
-  if (!may_hide(local, p.box)) return true;
+                            const Rule& rule) {
+  if (!may_hide(local, p.box) || (p.edge_on && !rule.edge_on)) return true;
   ++work.tests;
   work.wide_tests += local.narrow ? 0 : 1;
-  return add(hidden_stretch(local, view, p, contact), self);
+  return add(hidden_stretch(local, view, p, rule.contact), rule.self);
 }
 
 bool Gatherer::is_deep_under(const LocalEdge& local, const PartView& part,

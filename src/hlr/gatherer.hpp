@@ -53,6 +53,13 @@ class Gatherer {
   Work work;
 
  private:
+  /// How the faces of a part hide an edge.
+  struct Rule {
+    std::int64_t contact = 0;
+    bool self = false;    ///< a part of the edge's own object
+    bool edge_on = true;  ///< also faces that may be edge-on but for rounding
+  };
+
   void begin(const AskedEdge& edge, const Param& lo, const Param& hi);
   void gather_own_objects();
   void gather_object(std::uint32_t object);
@@ -65,9 +72,9 @@ class Gatherer {
   // These say false when nothing of the edge is left.
   bool gather_body(std::uint32_t body, bool self);
   bool test_part(const LocalEdge& local, const ShapeView& view, const PartView& part,
-                 std::int64_t contact, bool self);
+                 const Rule& rule);
   bool test_polygon(const LocalEdge& local, const ShapeView& view, const Polygon& polygon,
-                    std::int64_t contact, bool self);
+                    const Rule& rule);
   bool add(std::optional<Hit> hit, bool self);
   bool add(const Hit& hit);
 

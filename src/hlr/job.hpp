@@ -46,6 +46,11 @@ struct Job {
   [[nodiscard]] geometry::Vec3l offset(const model::GridBody& body) const {
     return body.origin - origin;
   }
+  /// Whether facets of a part of a body that is not asked about to the last digit hide none of the
+  /// part's own edges where rounding to the grid alone shows them: those that may be edge-on.
+  [[nodiscard]] bool forgives_rounding(std::uint32_t body) const {
+    return !viewer.eye && !options.keep_specks && contact[body] > 0;
+  }
   /// As a body's shape sees it.
   [[nodiscard]] FeatureOptions features_of(const model::GridBody& body) const {
     return {viewer.seen_at(offset(body)), cos_sharp, options.smooth};

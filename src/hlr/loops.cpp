@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "hlr/edge_on.hpp"
 #include "hlr/shape_loop.hpp"
 #include "strake/geometry/part_edges.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -68,15 +69,17 @@ Status PartSight::find_planes(const parallel::Context& context) {
   auto made = parallel::slots<TrianglePlane>(part.triangles.size(), context);
   if (!made) return made.error();
   planes = std::move(*made);
-  return parallel::for_each(context, over_elements("hidden lines: planes", planes.size()),
-                            [&](std::size_t t) {
-                              const Triangle& i = part.triangles[t];
-                              const Vec3l p = part.vertices[i[0]].as<std::int64_t>();
-                              const Vec3l n = cross(part.vertices[i[1]].as<std::int64_t>() - p,
-                                                    part.vertices[i[2]].as<std::int64_t>() - p);
-                              planes[t].n = {n.x, n.y, n.z};
-                              planes[t].facing = viewer.facing({n.x, n.y, n.z}, p);
-                            });
+  return parallel::for_each(
+      context, over_elements("hidden lines: planes", planes.size()), [&](std::size_t t) {
+        const Triangle& i = part.triangles[t];
+        const Vec3l p = part.vertices[i[0]].as<std::int64_t>();
+        const Vec3l n = cross(part.vertices[i[1]].as<std::int64_t>() - p,
+                              part.vertices[i[2]].as<std::int64_t>() - p);
+        planes[t].n = {n.x, n.y, n.z};
+        planes[t].facing = viewer.facing({n.x, n.y, n.z}, p);
+        planes[t].edge_on =
+            find_edge_on && may_be_edge_on(part, static_cast<std::uint32_t>(t), viewer.direction);
+      });
 }
 
 std::array<std::int64_t, 3> PartSight::towards_viewer(std::uint32_t t) const {

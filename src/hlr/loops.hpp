@@ -23,6 +23,7 @@ struct PartSight {
   std::vector<ViewPoint> points = {};      ///< of the vertices; orthographic
   std::vector<geometry::Vec3l> rays = {};  ///< from the eye to the vertices; in perspective
   std::vector<TrianglePlane> planes = {};  ///< for parts within 2^30
+  bool find_edge_on = false;               ///< look for triangles that may be edge-on
 
   // Errors: cancelled.
   [[nodiscard]] Status project(const Frame& frame, const parallel::Context& context);

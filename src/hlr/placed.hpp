@@ -14,10 +14,11 @@ struct Placed {
   ViewPoint at;
   std::uint32_t object = 0;
   std::int64_t contact = 0;
-  std::int64_t within = 0;       ///< the same among what is one part
-  bool opaque = false;           ///< and, where there are limits, not wholly outside them
-  bool cut = false;              ///< by the limits
-  bool shares_own_hits = false;  ///< with the other bodies of its shape
+  std::int64_t within = 0;         ///< the same among what is one part
+  bool opaque = false;             ///< and, where there are limits, not wholly outside them
+  bool cut = false;                ///< by the limits
+  bool forgives_rounding = false;  ///< see Job::forgives_rounding()
+  bool shares_own_hits = false;    ///< with the other bodies of its shape
 };
 
 }  // namespace strake::hlr

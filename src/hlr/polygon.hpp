@@ -21,6 +21,7 @@ struct Corner {
 struct Polygon {
   ViewBox box;
   geometry::Vec3i at;                    ///< a corner
+  bool edge_on = false;                  ///< but for rounding: see may_be_edge_on()
   std::array<std::int64_t, 3> normal{};  ///< to the viewer's side; unused where wide >= 0
   std::int32_t wide = -1;                ///< index into Polygons::wide_normals
   std::uint32_t first_corner = 0, corners = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "hlr/edge_on.hpp"
 #include "hlr/feature_edges.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/slots.hpp"
@@ -54,6 +55,7 @@ void PolygonMaker::add_wide(std::uint32_t t, Polygons& out) {
   }
   Polygon& p = start(i[0], out);
   p.wide = static_cast<std::int32_t>(out.wide_normals.size());
+  p.edge_on = seen_.find_edge_on && may_be_edge_on(seen_.part, t, seen_.viewer.direction);
   out.wide_normals.push_back(n);
   add_corners(p, i, out);
 }
@@ -75,6 +77,7 @@ Polygon& PolygonMaker::start(std::uint32_t vertex, Polygons& out) const {
 void PolygonMaker::add_found(std::uint32_t t, Polygons& out) {
   Polygon& p = start(loops_.found()[0], out);
   p.normal = seen_.towards_viewer(t);
+  p.edge_on = seen_.planes[t].edge_on;
   add_corners(p, loops_.found(), out);
 }
 

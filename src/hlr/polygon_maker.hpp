@@ -19,7 +19,8 @@ class PolygonMaker {
   PolygonMaker(const PartSight& seen, std::uint32_t part_index, const Picture* picture)
       : seen_(seen), part_index_(part_index), picture_(picture), loops_(seen) {}
 
-  /// Coplanar triangles that look the same way: one polygon if that is convex, or each.
+  /// Coplanar triangles that look the same way and all, or none, may be edge-on: one polygon if
+  /// that is convex, or each.
   void add_group(std::span<const std::uint32_t> triangles, Polygons& out);
   /// A triangle of a part that is too wide for narrow normals, unless it is seen edge-on.
   void add_wide(std::uint32_t triangle, Polygons& out);

@@ -54,7 +54,7 @@ class PartMerger {
         viewer_(sight.features.viewer),
         edges_(edges),
         view_(view),
-        seen_{.part = part, .viewer = sight.features.viewer} {}
+        seen_{.part = part, .viewer = sight.features.viewer, .find_edge_on = sight.find_edge_on} {}
 
   Result<bool> run() {
     first_ = static_cast<std::uint32_t>(view_.polygons.size());
@@ -93,6 +93,7 @@ class PartMerger {
     if (!box) return box.error();
     part.box = *box;
     part.outline.box = part.box;
+    part.edge_on = std::ranges::any_of(polygons, &Polygon::edge_on);
     if (const Status s = index(view_, edges_, hubs(), convex, sight_, part); !s) return s.error();
     view_.parts.push_back(std::move(part));
     return convex;
@@ -140,7 +141,8 @@ class PartMerger {
       convex = convex && bends[k] != Bend::not_convex && bends[k] != Bend::folded;
       if (bends[k] != Bend::flat) continue;
       const std::uint32_t first = part_.edges[k].first_triangle;
-      groups.join(part_.edge_triangles[first], part_.edge_triangles[first + 1]);
+      const std::uint32_t s = part_.edge_triangles[first], t = part_.edge_triangles[first + 1];
+      if (seen_.planes[s].edge_on == seen_.planes[t].edge_on) groups.join(s, t);
     }
     group_.resize(part_.triangles.size());
     for (std::uint32_t t = 0; t < group_.size(); ++t) group_[t] = groups.root(t);

@@ -78,8 +78,10 @@ Result<ShapeView> view_of(const SeenShape& seen, const Sight& sight) {
     if (part.kind == geometry::PartKind::wire) continue;
     const Result<bool> convex = add_polygons(part, p, sight, own, view);
     if (!convex) return convex.error();
-    // What was rounded has a contact distance within the part, which the signs know nothing of.
-    if (*convex && seen.within == 0 && is_outside(part, viewer)) judge_edges(part, viewer, own);
+    // What was rounded has a contact distance within the part, which the signs know nothing of, nor
+    // do they of what is edge-on but for rounding.
+    const bool exact = seen.within == 0 && (view.parts.empty() || !view.parts.back().edge_on);
+    if (*convex && exact && is_outside(part, viewer)) judge_edges(part, viewer, own);
   }
   for (const PartView& part : view.parts) view.box.include(part.box);
   if (!viewer.eye && !view.box.empty())

@@ -24,6 +24,7 @@ namespace strake::hlr {
 struct PartView {
   ViewBox box;                        ///< of its polygons
   std::int64_t farthest = 0;          ///< least product of a corner with the direction
+  bool edge_on = false;               ///< some of its polygons are, see Polygon::edge_on
   std::uint32_t first = 0, last = 0;  ///< its polygons
   Turn turn;                          ///< where the part runs askew on paper
   LooseBox turned;                    ///< the box in that frame
@@ -53,6 +54,7 @@ struct Sight {
   FeatureOptions features;           ///< in the coordinates of the shape
   const Picture* picture = nullptr;  ///< null: orthographic
   std::int32_t bucketing = Options::kBucketsByData;
+  bool find_edge_on = false;       ///< tell polygons that may be edge-on but for rounding
   parallel::Context context = {};  ///< for big shapes
 };
 

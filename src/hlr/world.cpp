@@ -69,8 +69,9 @@ Status make_views(World& world, const parallel::Context& context) {
       context, {.name = "hidden lines: shapes"}, kBigShape, parallel::keys_of(wanted), edges,
       [&](std::size_t view) {
         const std::uint32_t body = body_of[view];
-        return view_of(job.seen_of(body), {world.frame, job.features_of(scene.bodies[body]),
-                                           picture, job.options.bucketing, context});
+        return view_of(job.seen_of(body),
+                       {world.frame, job.features_of(scene.bodies[body]), picture,
+                        job.options.bucketing, !picture && !job.options.keep_specks, context});
       });
 }
 
@@ -134,7 +135,8 @@ Status place_bodies(World& world, const parallel::Context& context) {
               job.contact[b],
               seen.within,
               job.opaque[b],
-              false};
+              false,
+              job.forgives_rounding(b)};
     if (job.limits && !shape.box.empty()) {
       Box3l box = body.box(shape);
       // Hatch lines lie on the plane itself, which rounded rims are as much as 1.5 units off.
