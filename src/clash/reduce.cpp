@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "strake/geometry/depth.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/count_fill.hpp"
 
@@ -92,9 +91,9 @@ Pair decisive(const Pair& worst, const std::vector<Answer>& peers) {
   return pair;
 }
 
-/// Whether no work limit left a bracket down to that of an answer wider than a search aims for.
+/// Whether no work limit left a bracket down to that of an answer wider than the grid accounts for.
 bool is_complete(const Separation& s, double upper) {
-  return s.depth_complete || geometry::is_narrow(-upper, -s.lower);
+  return s.depth_complete || upper - s.lower <= kBorderlineWidth;
 }
 
 /// The d of two objects is the least of their parts': so is either end of its bracket.

@@ -78,8 +78,8 @@ struct Pair {
   /// that touch, sheets that cross.
   geometry::Vec3d away;
   bool deep_in_a = false;  ///< d < 0: measured to the skin of a
-  /// Not where a search for the depth ended at its work limit and left the bracket wider than
-  /// geometry::DepthGoal asks.
+  /// Not where a search for the depth ended at its work limit and left the bracket wider than it
+  /// aims for.
   bool depth_complete = true;
   /// A HIT of solids, where asked for: the volume of the common parts of their parts, added up
   /// (what two parts of one object cover twice counts twice); curved primitives as tessellated.

@@ -20,6 +20,9 @@ namespace strake::geometry {
 
 /// Work limit: pieces are cheaper than the cells of two solids.
 inline constexpr std::uint32_t kPiecesPerCell = 2;
+/// Brackets are to be as narrow as this, relative to the depth, whatever the goal allows: for the
+/// cells of two solids that would take too long.
+inline constexpr double kSheetRelative = 0.01;
 
 /// The deepest point in a solid of what has no thickness: triangles (N = 3) or segments (N = 2) in
 /// the coordinates of the field. Branch and bound, halved at the longest edges.
@@ -47,7 +50,7 @@ class SheetSearch {
     if (goal_.within) whole_ = std::min<std::uint64_t>(whole_, depth_.cells);
     while (!open_.empty()) {
       depth_.upper = std::min(ceiling, std::max(open_.front().upper, depth_.value));
-      if (bracket_suffices(depth_, goal_)) return;
+      if (suffices()) return;
       if (exhausted()) {
         depth_.complete = false;
         return;
@@ -134,6 +137,12 @@ class SheetSearch {
   /// No deeper than what is known already.
   [[nodiscard]] double of_no_interest(const Depth& known) const {
     return std::max(known.value + margin_, goal_.of_no_interest);
+  }
+
+  [[nodiscard]] bool suffices() const {
+    const double relative = std::min(goal_.relative, kSheetRelative);
+    return is_decided(depth_, goal_) &&
+           depth_.upper - depth_.lower <= std::max(goal_.tolerance, relative * depth_.upper);
   }
 
   [[nodiscard]] bool exhausted() const {

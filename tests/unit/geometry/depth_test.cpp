@@ -364,6 +364,22 @@ TEST(SheetDepth, TheWorkLimitGoesByTheWholeOfALargeSheet) {
   EXPECT_GT(told.lower, fine.lower - 1);
 }
 
+TEST(SheetDepth, SaysWhetherAWorkLimitEndedTheSearch) {
+  const Subject sheet(testing::quad_mesh({-90'000, -80'000, 0}, {200'000, 0, 0}, {0, 170'000, 0}));
+  const Subject rod(cylinder(24, 50'000, -500'000, 500'000));
+  const SupportPlanes ps = make_support_planes(sheet.part), pr = make_support_planes(rod.part);
+  PairWork work;
+  const DepthPart s{sheet.treed(), &ps}, r{rod.treed(), &pr};
+  const Depth whole = sheet_in_solid_depth(s, r, {}, work);
+  EXPECT_TRUE(whole.complete);
+  const double known = 50'000 * std::cos(std::numbers::pi / 24);
+  EXPECT_NEAR(whole.value, known, 0.01 * known);
+  EXPECT_LE(whole.upper - whole.lower, 0.01 * known + 2);
+  const Depth ended = sheet_in_solid_depth(s, r, {.cells_undecided = 0, .cells_decided = 0}, work);
+  EXPECT_FALSE(ended.complete);
+  EXPECT_FALSE(is_narrow(ended.lower, ended.upper));
+}
+
 TEST(SheetDepth, SheetsThatCross) {
   const Subject a(testing::quad_mesh({0, 0, 0}, {100'000, 0, 0}, {0, 100'000, 0}));
   const Subject b(testing::quad_mesh({50'000, 20'000, -30'000}, {0, 500'000, 0}, {0, 0, 60'000}));
