@@ -92,7 +92,9 @@ class Coverage::Painter {
   /// The polygons of a body whose box holds a tile.
   void list(std::uint32_t body, std::vector<Large>& out) const {
     const Placed& placed = placed_[body];
-    if (placed.view == nullptr || !placed.opaque || placed.cut || !large(placed.view->box)) return;
+    if (placed.view == nullptr || !placed.opaque || placed.cut || placed.repeated ||
+        !large(placed.view->box))
+      return;
     const auto& polygons = placed.view->polygons;
     for (std::uint32_t i = 0; i < polygons.size(); ++i)
       if (large(polygons[i].box) && !polygons[i].edge_on)

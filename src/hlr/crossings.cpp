@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -70,6 +72,18 @@ Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
   return skins;
 }
 
+/// Parts as they are paired up. Of many equal parts at one place that do not cross each other, one
+/// stands for all: n of them would be n²/2 pairs with nothing to find.
+struct Stacks {
+  std::vector<std::uint32_t> first;    ///< by stack, and the end
+  std::vector<std::uint32_t> members;  ///< ascending within each
+
+  [[nodiscard]] std::size_t size() const { return first.size() - 1; }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t stack) const {
+    return std::span(members).subspan(first[stack], first[stack + 1] - first[stack]);
+  }
+};
+
 /// Of a pair, in the coordinates of its first part.
 struct Found {
   std::vector<Segment> lines;
@@ -94,7 +108,8 @@ class Finder {
     if (!found) return found.error();
     auto placed = place(*kinds, *found);
     if (!placed) return placed.error();
-    Crossings crossings{std::move(*placed), found->size(), 0};
+    Crossings crossings{std::move(*placed), found->size() + stacked_.pairs, stacked_.tests,
+                        pairs_.size() + stacked_.pairs};
     for (const Found& one : *found) crossings.tests += one.tests;
     return crossings;
   }
@@ -137,29 +152,111 @@ class Finder {
                  : model::index(object(skin));
   }
 
+  /// Unlike all others.
+  [[nodiscard]] std::uint32_t owner_of_stack(std::size_t stack) const {
+    return static_cast<std::uint32_t>(scene_.model->objects.size() + skins_.placed.size() + stack);
+  }
+
   /// Whether the skins of two parts with different owners are asked about.
   [[nodiscard]] bool is_asked(const PlacedSkin& x, const PlacedSkin& y) const {
     return rule_.which != Intersections::primitives || object(x) != object(y) || is_joint(x, y);
   }
 
-  Status pair_up() {
-    const auto items = parallel::transform(
-        context_, {.name = "intersections: boxes", .n = skins_.placed.size(), .grain = kGrain},
+  /// By kind of equal parts at one place: whether they are many that do not cross each other.
+  Result<std::vector<bool>> find_quiet(const parallel::Distinct& kinds) {
+    // Fewer are no more work as pairs.
+    constexpr std::uint32_t kMany = 8;
+    std::vector<std::uint32_t> count(kinds.first.size()), second(kinds.first.size());
+    for (std::uint32_t i = 0; i < kinds.of.size(); ++i) {
+      const std::uint32_t kind = kinds.of[i];
+      ++count[kind];
+      // What is left of the lines of joints is some of the lines of others.
+      if (!is_joint(skins_.placed[kinds.first[kind]], skins_.placed[i])) second[kind] = i;
+    }
+    std::vector<bool> quiet(kinds.first.size());
+    std::vector<std::uint32_t> asked;
+    pairs_.clear();
+    for (std::uint32_t kind = 0; kind < count.size(); ++kind) {
+      if (count[kind] < kMany || second[kind] <= kinds.first[kind]) continue;
+      asked.push_back(kind);
+      pairs_.push_back({kinds.first[kind], second[kind]});
+    }
+    if (asked.empty()) return quiet;
+    if (const Status s = make_frames(); !s) return s.error();
+    std::vector<std::uint32_t> all(pairs_.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto found = find_lines(all);
+    if (!found) return found.error();
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      quiet[asked[k]] = (*found)[k].lines.empty();
+      if (!(*found)[k].lines.empty()) continue;
+      ++stacked_.pairs;
+      stacked_.tests += (*found)[k].tests;
+    }
+    return quiet;
+  }
+
+  Result<Stacks> stack_up() {
+    const std::vector<PlacedSkin>& skins = skins_.placed;
+    const auto kinds = parallel::distinct(
+        context_, "intersections: parts at one place", skins.size(),
         [&](std::size_t i) {
+          std::uint64_t h =
+              parallel::mixed(skins[i].unique, static_cast<std::uint64_t>(skins[i].contact));
+          for (int k = 0; k < 3; ++k)
+            h = parallel::mixed(h, static_cast<std::uint64_t>(skins[i].placed.origin[k]));
+          return h;
+        },
+        [&](std::size_t i, std::size_t j) {
+          return skins[i].unique == skins[j].unique && skins[i].contact == skins[j].contact &&
+                 skins[i].placed.origin == skins[j].placed.origin;
+        });
+    if (!kinds) return kinds.error();
+    const auto quiet = find_quiet(*kinds);
+    if (!quiet) return quiet.error();
+    std::vector<std::uint32_t> stack(skins.size());
+    Stacks stacks;
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < skins.size(); ++i) {
+      const std::uint32_t kind = kinds->of[i], first = kinds->first[kind];
+      stack[i] = (*quiet)[kind] && first != i ? stack[first] : count++;
+    }
+    stacks.first.resize(count + 1);
+    for (const std::uint32_t s : stack) ++stacks.first[s + 1];
+    std::partial_sum(stacks.first.begin(), stacks.first.end(), stacks.first.begin());
+    stacks.members.resize(skins.size());
+    std::vector<std::uint32_t> next = stacks.first;
+    for (std::uint32_t i = 0; i < skins.size(); ++i) stacks.members[next[stack[i]]++] = i;
+    return stacks;
+  }
+
+  Status pair_up() {
+    const Result<Stacks> stacks = stack_up();
+    if (!stacks) return stacks.error();
+    const auto items = parallel::transform(
+        context_, {.name = "intersections: boxes", .n = stacks->size(), .grain = kGrain},
+        [&](std::size_t s) {
+          const std::uint32_t i = stacks->of(s).front();
           const PlacedSkin& skin = skins_.placed[i];
           const geometry::Box3l box = skin.placed.part->box.as<std::int64_t>();
-          return geometry::BoxItem{.box = box.moved(skin.placed.origin), .owner = owner(i)};
+          return geometry::BoxItem{
+              .box = box.moved(skin.placed.origin),
+              .owner = stacks->of(s).size() == 1 ? owner(i) : owner_of_stack(s)};
         });
     if (!items) return items.error();
     const auto tree = geometry::BoxTree::build(*items, context_);
     if (!tree) return tree.error();
-    auto pairs = geometry::meeting_pairs(*tree, context_);
-    if (!pairs) return pairs.error();
-    pairs_ = std::move(*pairs);
-    std::erase_if(pairs_, [&](const IndexPair& pair) {
-      return only_touch((*items)[pair.first].box, (*items)[pair.second].box) ||
-             !is_asked(skins_.placed[pair.first], skins_.placed[pair.second]);
-    });
+    const auto met = geometry::meeting_pairs(*tree, context_);
+    if (!met) return met.error();
+    pairs_.clear();
+    for (const IndexPair& pair : *met) {
+      if (only_touch((*items)[pair.first].box, (*items)[pair.second].box)) continue;
+      for (const std::uint32_t x : stacks->of(pair.first))
+        for (const std::uint32_t y : stacks->of(pair.second))
+          if (owner(x) != owner(y) && is_asked(skins_.placed[x], skins_.placed[y]))
+            pairs_.push_back({std::min(x, y), std::max(x, y)});
+    }
+    if (stacks->size() < skins_.placed.size()) std::ranges::sort(pairs_);
     return {};
   }
 
@@ -188,14 +285,19 @@ class Finder {
     return status ? Result(std::move(made)) : Result<parallel::Precomputed<T>>(status.error());
   }
 
-  /// Pairs that a plane along a face of either part keeps apart. Where a model stands askew these
-  /// are nearly all whose boxes meet.
-  Status leave_out_parted() {
+  Status make_frames() {
     auto frames = for_parts(
         "intersections: frames", [](const auto&...) { return true; },
         [&](const geometry::Part& part) { return geometry::make_frame(part, context_); });
     if (!frames) return frames.error();
     frames_ = std::move(*frames);
+    return {};
+  }
+
+  /// Pairs that a plane along a face of either part keeps apart. Where a model stands askew these
+  /// are nearly all whose boxes meet.
+  Status leave_out_parted() {
+    if (const Status s = make_frames(); !s) return s;
     auto left = parallel::collect<IndexPair>(
         context_, {.name = "intersections: parting planes", .n = pairs_.size(), .grain = kGrain},
         [&](std::size_t i, std::vector<IndexPair>& out) {
@@ -278,6 +380,9 @@ class Finder {
   const Skins& skins_;
   const CrossingRule& rule_;
   const parallel::Context& context_;
+  struct {
+    std::uint64_t pairs = 0, tests = 0;
+  } stacked_;  ///< of equal parts at one place, of which there are no pairs
   std::vector<IndexPair> pairs_;
   parallel::Precomputed<geometry::PartFrame> frames_;  ///< by unique part
 };

@@ -21,6 +21,7 @@ struct Crossing {
 struct Crossings {
   std::vector<Crossing> all;           ///< by object of body_a
   std::uint64_t pairs = 0, tests = 0;  ///< as Counters::crossing_pairs and crossing_tests
+  std::uint64_t met = 0;               ///< pairs of parts that were looked at, equal ones each
 };
 
 /// Which crossings are lines of a drawing.

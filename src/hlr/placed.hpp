@@ -19,6 +19,7 @@ struct Placed {
   bool cut = false;                ///< by the limits
   bool forgives_rounding = false;  ///< see Job::forgives_rounding()
   bool shares_own_hits = false;    ///< with the other bodies of its shape
+  bool repeated = false;           ///< others that are equal, at its place, hide what it hides
 };
 
 }  // namespace strake::hlr

@@ -76,7 +76,7 @@ Status make_views(World& world, const parallel::Context& context) {
 }
 
 /// Leaves those bodies out that hide what others of other objects hide too.
-Status leave_out_equal(const World& world, std::vector<ViewBox>& boxes,
+Status leave_out_equal(World& world, std::vector<ViewBox>& boxes,
                        const parallel::Context& context) {
   // An edge, or a line that two objects have in common, asks the others: one of three is left.
   constexpr std::uint32_t kEnough = 3;
@@ -111,7 +111,9 @@ Status leave_out_equal(const World& world, std::vector<ViewBox>& boxes,
     const std::uint32_t object = placed(i).object;
     if (of_kind.objects == 0 || of_kind.last != object) ++of_kind.objects;
     of_kind.last = object;
-    if (of_kind.objects > kEnough) boxes[some[i]] = {};
+    if (of_kind.objects <= kEnough) continue;
+    boxes[some[i]] = {};
+    world.placed[some[i]].repeated = true;
   }
   return {};
 }

@@ -98,6 +98,52 @@ TEST(CrossingsAgainstAllPairs, LatticeScenesStraightAndAskew) {
   EXPECT_GT(all.pairs, kScenes);
 }
 
+/// So many objects of two boxes at one place, which pass through each other where `crossing`, a
+/// few of them elsewhere, and a bar through all.
+test::SceneBuilder stacked(int copies, bool crossing, bool one_part) {
+  test::SceneBuilder scene;
+  test::HandPart box = test::hand_box({0, 0, 0}, {900, 800, 700});
+  test::HandPart second = test::hand_box({crossing ? 400 : 2000, 300, 200}, {3000, 500, 900});
+  if (one_part) {
+    for (const geometry::Triangle& t : second.triangles)
+      box.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+    box.vertices.insert(box.vertices.end(), second.vertices.begin(), second.vertices.end());
+    box.faces.clear();
+    scene.object({{.parts = {box}, .origin = {}}});
+  } else {
+    scene.object({{.parts = {box, second}, .origin = {}}});
+  }
+  for (int i = 1; i < copies; ++i) scene.instance(0, {i % 7 == 3 ? 50 : 0, 0, 0});
+  scene.object({{.parts = {test::hand_box({-500, 100, 100}, {5000, 350, 300})}, .origin = {}}});
+  return scene;
+}
+
+TEST(CrossingsAgainstAllPairs, ManyEqualObjectsAtOnePlace) {
+  std::size_t lines = 0;
+  for (const int copies : {2, 9, 40})
+    for (const bool crossing : {false, true})
+      for (const bool one_part : {false, true})
+        for (const Intersections which : {Intersections::objects, Intersections::parts}) {
+          SCOPED_TRACE(::testing::Message() << copies << crossing << one_part);
+          lines += judge(stacked(copies, crossing, one_part).scene(), which).lines;
+        }
+  EXPECT_GT(lines, 1000U);
+}
+
+TEST(CrossingsAgainstAllPairs, EqualObjectsAtOnePlaceAreNoPairs) {
+  const auto met = [](int copies) {
+    test::SceneBuilder scene;
+    scene.object({{.parts = {test::hand_box({0, 0, 0}, {900, 800, 700})}, .origin = {}}});
+    for (int i = 1; i < copies; ++i) scene.instance(0, {0, 0, 0});
+    scene.object({{.parts = {test::hand_box({-500, 100, 100}, {5000, 350, 300})}, .origin = {}}});
+    const std::vector<std::int64_t> contact(scene.scene().bodies.size(), 3);
+    const std::vector<bool> drawn(scene.scene().model->objects.size(), true);
+    return find_crossings(scene.scene(), drawn, contact, {Intersections::primitives}, {})->met;
+  };
+  EXPECT_GT(met(100), 0U);
+  EXPECT_LE(met(10'000), 101 * met(100));
+}
+
 TEST(CrossingsAgainstAllPairs, ShipStraightAndAskew) {
   parallel::Team team(parallel::default_workers());
   const parallel::Context context{.team = &team};
