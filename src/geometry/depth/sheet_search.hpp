@@ -12,6 +12,7 @@
 #include "geometry/box.hpp"
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/depth_search.hpp"
+#include "geometry/depth/uphill.hpp"
 #include "geometry/part_loop.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/parallel/reduce.hpp"
@@ -24,8 +25,13 @@ inline constexpr std::uint32_t kPiecesPerCell = 2;
 /// cells of two solids that would take too long.
 inline constexpr double kSheetRelative = 0.01;
 
+/// Steps from piece to piece, at most, of a point that climbs, and what is worth one.
+inline constexpr int kMostSteps = 8;
+inline constexpr double kLeastGain = 1e-3;
+
 /// The deepest point in a solid of what has no thickness: triangles (N = 3) or segments (N = 2) in
-/// the coordinates of the field. Branch and bound, halved at the longest edges.
+/// the coordinates of the field. Branch and bound, halved at the longest edges; where the work
+/// limit ends it, the deepest point found climbs to where it is deepest nearby.
 template <std::size_t N>
 class SheetSearch {
  public:
@@ -41,6 +47,7 @@ class SheetSearch {
         goal_(goal),
         depth_(depth),
         margin_(margin),
+        slack_(1.0 / 1024 + margin),
         work_(work),
         whole_(std::max(whole, pieces.size())) {}
 
@@ -52,7 +59,8 @@ class SheetSearch {
       depth_.upper = std::min(ceiling, std::max(open_.front().upper, depth_.value));
       if (suffices()) return;
       if (exhausted()) {
-        depth_.complete = false;
+        climb();
+        depth_.complete = suffices();
         return;
       }
       std::ranges::pop_heap(open_, LessPromising());
@@ -151,6 +159,34 @@ class SheetSearch {
     return depth_.cells >= std::uint64_t{kPiecesPerCell} * cells + whole_;
   }
 
+  /// From the deepest point found along the pieces that have it to where it is deepest nearby, and
+  /// on from there.
+  void climb() {
+    if (goal_.of_no_interest > 0) return;  // nobody needs the deepest point
+    const Shape* climbed = nullptr;
+    for (int step = 0; step < kMostSteps && depth_.value > 0; ++step) {
+      const double known = depth_.value;
+      const Vec3d from = depth_.point;
+      const Shape* const last = climbed;
+      for (const Shape& c : pieces_) {
+        if (&c == last || !box_of(c).inflated(2 * slack_).contains({from, from})) continue;
+        const Vec3d at = on_field_grid(uphill_on(solid_, c, from, goal_.within));
+        const double distance = solid_.nearest(at).distance;
+        if (distance - slack_ <= depth_.value || !goal_.counts(at)) continue;
+        if (!solid_.contains(at, work_)) continue;
+        raise(depth_, distance, at);
+        climbed = &c;
+      }
+      if (!(depth_.value > known * (1 + kLeastGain))) return;
+    }
+  }
+
+  void raise(Depth& best, double distance, const Vec3d& at) const {
+    best.value = distance;
+    best.lower = distance - slack_;
+    best.point = at;
+  }
+
   void halve(const Piece& piece) {
     std::size_t longest = 0;
     double most = -1;
@@ -178,29 +214,25 @@ class SheetSearch {
                                 PairWork& work) const {
     if (goal_.within && !box_of(c).meets(*goal_.within)) return std::nullopt;
     ++best.cells;
-    // A point of the field grid, within slack of the sheet: its side is exact, and it speaks for
+    // A point of the field grid, within slack_ of the sheet: its side is exact, and it speaks for
     // the point of the sheet next to it.
-    const double slack = 1.0 / 1024 + margin_;
     Vec3d sum;
     for (const Vec3d& v : c) sum = sum + v;
     const Vec3d at = on_field_grid(sum * (1.0 / static_cast<double>(N)));
     double radius = 0;
     for (const Vec3d& v : c) radius = std::max(radius, length(v - at));
-    radius += slack;
+    radius += slack_;
     const NearestTriangle near = solid_.nearest(at, nearest);
     nearest = near.triangle;
     // Whatever side it is on: asking for that takes longest.
-    double upper = std::min({ceiling, near.distance + radius, by_face(c, near.triangle) + slack});
+    double upper = std::min({ceiling, near.distance + radius, by_face(c, near.triangle) + slack_});
     if (upper <= of_no_interest(best)) return std::nullopt;
     const bool inside = solid_.contains(at, work);
     const bool one_side = near.distance > radius;  // no skin within that radius
     if (one_side && !inside) return std::nullopt;
     if (one_side && goal_.belongs && !goal_.belongs(at)) return std::nullopt;
-    if (inside && near.distance - slack > best.value && goal_.counts(at)) {
-      best.value = near.distance;
-      best.lower = near.distance - slack;
-      best.point = at;
-    }
+    if (inside && near.distance - slack_ > best.value && goal_.counts(at))
+      raise(best, near.distance, at);
     if (!inside) upper = std::min(upper, radius - near.distance);
     if (upper <= of_no_interest(best)) return std::nullopt;
     return Piece{c, upper, near.triangle};
@@ -222,6 +254,7 @@ class SheetSearch {
   const DepthGoal& goal_;
   Depth& depth_;
   double margin_;
+  double slack_;  ///< how far a point of the field grid may be off the sheet
   PairWork& work_;
   std::uint64_t whole_;
   std::vector<Piece> open_;  ///< a heap, the most promising first

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/box.hpp"
@@ -64,16 +67,86 @@ bool find_near(const DepthField& field, const Vec3d& p, double reach, std::vecto
       });
 }
 
+/// What a centre must not leave: a part.
+class InPart {
+ public:
+  explicit InPart(const DepthField& part) : part_(part) {}
+
+  /// Looks round a point; false where there is too much to say.
+  bool look(const Vec3d& at, double reach) { return find_near(part_, at, reach, beside_); }
+  void add(const Vec3d&, std::vector<RadiusConstraint>& rows) const {
+    for (const Near& near : beside_) rows.push_back({-near.away, 0, near.distance - kInset});
+  }
+  [[nodiscard]] static Vec3d kept(const Vec3d& p) { return p; }
+
+ private:
+  const DepthField& part_;
+  std::vector<Near> beside_;
+};
+
+/// The same: a triangle or a segment.
+class OnFlat {
+ public:
+  explicit OnFlat(std::span<const Vec3d> corners) : corners_(corners) {
+    const Vec3d& origin = corners.front();
+    const Vec3d first = unit(corners[1] - origin);
+    if (corners.size() == 2) {
+      const Vec3d side = unit(any_square_to(first));
+      for (const Vec3d& n : {side, cross(first, side)}) add_both(n, origin);
+      sides_.push_back({-first, 0, dot(-first, origin)});
+      sides_.push_back({first, 0, dot(first, corners[1])});
+      return;
+    }
+    const Vec3d normal = unit(cross(first, corners[2] - origin));
+    add_both(normal, origin);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3d out = unit(cross(corners[(i + 1) % 3] - corners[i], normal));
+      sides_.push_back({out, 0, dot(out, corners[i])});
+    }
+  }
+
+  static bool look(const Vec3d&, double) { return true; }
+  void add(const Vec3d& at, std::vector<RadiusConstraint>& rows) const {
+    for (const RadiusConstraint& side : sides_)
+      rows.push_back({side.normal, 0, side.offset - dot(side.normal, at)});
+  }
+  /// The nearest point of it: what the program and its rounding moved off.
+  [[nodiscard]] Vec3d kept(const Vec3d& p) const {
+    return corners_.size() == 2 ? nearest_on_segment(p, corners_[0], corners_[1])
+                                : nearest_on_triangle(p, {corners_[0], corners_[1], corners_[2]});
+  }
+
+ private:
+  static Vec3d unit(const Vec3d& v) {
+    const double size = length(v);
+    return size > 0 ? v * (1 / size) : Vec3d{};
+  }
+  static Vec3d any_square_to(const Vec3d& v) {
+    const bool along_x = std::fabs(v.x) > std::fabs(v.y) && std::fabs(v.x) > std::fabs(v.z);
+    return cross(v, along_x ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0});
+  }
+  /// Either side of a plane, with room for rounding.
+  void add_both(const Vec3d& n, const Vec3d& on) {
+    for (const double sign : {1.0, -1.0})
+      sides_.push_back({n * sign, 0, dot(n * sign, on) + kInset});
+  }
+
+  std::span<const Vec3d> corners_;
+  std::vector<RadiusConstraint> sides_;
+};
+
+/// `Room`: what the centre must not leave.
+template <class Room>
 class Climb {
  public:
-  Climb(const DepthField& of, const DepthField& in, const std::optional<Box3d>& within)
-      : of_(of), in_(in), within_(within) {}
+  Climb(const DepthField& of, Room room, const std::optional<Box3d>& within)
+      : of_(of), room_(std::move(room)), within_(within) {}
 
   Vec3d run(Vec3d at) {
     double depth = of_.nearest(at).distance;
     double reach = std::max(depth, 64 * kShortest);
     for (int step = 0; step < kMostSteps && reach > kShortest; ++step) {
-      if (!find_near(in_, at, reach, beside_)) {
+      if (!room_.look(at, reach)) {
         reach /= 2;
         continue;
       }
@@ -83,7 +156,7 @@ class Climb {
       if (!all) reach = std::min(reach, depth);
       const RadiusSolution next = all ? solve(at, depth, reach) : solve_by_cuts(at, depth, reach);
       if (next.r > depth * (1 + kGain) + kInset) {
-        const Vec3d there = at + next.x;
+        const Vec3d there = room_.kept(at + next.x);
         const double found = of_.nearest(there).distance;
         if (!(found > depth)) {
           if (all) return at;
@@ -125,7 +198,7 @@ class Climb {
     // Within the ball round the box that the centre may move in.
     const double half = reach / std::sqrt(3.0);
     std::vector<RadiusConstraint> rows;
-    rows.reserve(16 + above_.size() + beside_.size());
+    rows.reserve(16 + above_.size());
     for (const Vec3d& n : tetrahedral_directions()) rows.push_back({n, 1, depth + 2 * reach});
     for (int k = 0; k < 3; ++k)
       for (const double sign : {1.0, -1.0}) {
@@ -136,20 +209,26 @@ class Climb {
           rows.push_back({n, 0, sign > 0 ? within_->hi[k] - at[k] : at[k] - within_->lo[k]});
       }
     for (const Near& near : above_) rows.push_back({-near.away, 1, near.distance});
-    for (const Near& near : beside_) rows.push_back({-near.away, 0, near.distance - kInset});
+    room_.add(at, rows);
     return maximise_radius({rows, depth + 4 * reach});
   }
 
-  const DepthField &of_, &in_;
+  const DepthField& of_;
+  Room room_;
   const std::optional<Box3d>& within_;
-  std::vector<Near> above_, beside_;
+  std::vector<Near> above_;
 };
 
 }  // namespace
 
 Vec3d uphill(const DepthField& of, const DepthField& in, const Vec3d& from,
              const std::optional<Box3d>& within) {
-  return Climb(of, in, within).run(from);
+  return Climb(of, InPart(in), within).run(from);
+}
+
+Vec3d uphill_on(const DepthField& of, std::span<const Vec3d> corners, const Vec3d& from,
+                const std::optional<Box3d>& within) {
+  return Climb(of, OnFlat(corners), within).run(from);
 }
 
 }  // namespace strake::geometry

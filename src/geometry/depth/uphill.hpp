@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "geometry/depth/depth_field.hpp"
 
@@ -14,5 +15,9 @@ namespace strake::geometry {
 /// deep than it says and on the same side of every triangle.
 [[nodiscard]] Vec3d uphill(const DepthField& of, const DepthField& in, const Vec3d& from,
                            const std::optional<Box3d>& within);
+
+/// The same for a point that must not leave a triangle, or a segment of two corners.
+[[nodiscard]] Vec3d uphill_on(const DepthField& of, std::span<const Vec3d> corners,
+                              const Vec3d& from, const std::optional<Box3d>& within);
 
 }  // namespace strake::geometry

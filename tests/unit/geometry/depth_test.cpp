@@ -364,20 +364,38 @@ TEST(SheetDepth, TheWorkLimitGoesByTheWholeOfALargeSheet) {
   EXPECT_GT(told.lower, fine.lower - 1);
 }
 
-TEST(SheetDepth, SaysWhetherAWorkLimitEndedTheSearch) {
+TEST(SheetDepth, FromWhereTheWorkLimitEndsTheSearchAPointClimbs) {
   const Subject sheet(testing::quad_mesh({-90'000, -80'000, 0}, {200'000, 0, 0}, {0, 170'000, 0}));
   const Subject rod(cylinder(24, 50'000, -500'000, 500'000));
   const SupportPlanes ps = make_support_planes(sheet.part), pr = make_support_planes(rod.part);
   PairWork work;
   const DepthPart s{sheet.treed(), &ps}, r{rod.treed(), &pr};
-  const Depth whole = sheet_in_solid_depth(s, r, {}, work);
-  EXPECT_TRUE(whole.complete);
+  const DepthGoal none{.cells_undecided = 0, .cells_decided = 0};
   const double known = 50'000 * std::cos(std::numbers::pi / 24);
-  EXPECT_NEAR(whole.value, known, 0.01 * known);
-  EXPECT_LE(whole.upper - whole.lower, 0.01 * known + 2);
-  const Depth ended = sheet_in_solid_depth(s, r, {.cells_undecided = 0, .cells_decided = 0}, work);
+  for (const DepthGoal& goal : {DepthGoal(), none}) {
+    const Depth d = sheet_in_solid_depth(s, r, goal, work);
+    // The hull of the rod says how deep it may be at most.
+    EXPECT_TRUE(d.complete);
+    EXPECT_NEAR(d.value, known, 0.01 * known);
+    EXPECT_LE(d.upper - d.lower, 0.01 * known + 2);
+  }
+}
+
+TEST(SheetDepth, SaysWhetherAWorkLimitEndedTheSearch) {
+  const Subject sheet(
+      testing::quad_mesh({300'000, -40'000, -30'000}, {0, 190'000, 0}, {70'000, 0, 150'000}));
+  const Subject u(channel(1'000'000, 100'000, 80'000, 10'000));
+  const SupportPlanes ps = make_support_planes(sheet.part), pu = make_support_planes(u.part);
+  PairWork work;
+  const DepthPart s{sheet.treed(), &ps}, c{u.treed(), &pu};
+  const Depth whole = sheet_in_solid_depth(s, c, {}, work);
+  EXPECT_TRUE(whole.complete);
+  EXPECT_LE(whole.upper - whole.lower, 0.01 * whole.upper);
+  const Depth ended = sheet_in_solid_depth(s, c, {.cells_undecided = 0, .cells_decided = 0}, work);
   EXPECT_FALSE(ended.complete);
   EXPECT_FALSE(is_narrow(ended.lower, ended.upper));
+  EXPECT_LE(ended.lower, whole.upper);
+  EXPECT_GE(ended.upper, whole.lower);
 }
 
 TEST(SheetDepth, SheetsThatCross) {
