@@ -33,10 +33,21 @@ Class class_of_nominal(const Separation& s, const Thresholds& t) {
   return class_of({s.d, 0, s.interiors_meet}, t);
 }
 
-}  // namespace
+/// What a weld may have moved out of reach is told as the least that it may be.
+Class least_told(Class severest, const Thresholds& t) {
+  return std::min(severest, t.clearance > t.gap ? Class::clearance_violation : Class::contact);
+}
 
-Judgement judge(const Separation& s, const Thresholds& t) {
-  const double width = s.upper - s.lower + 2 * s.moved;
+/// The same, with what the snap may account for of a weld put to what it moved.
+Separation with_weld(const Separation& s, double by_snap) {
+  Separation of_snap = s;
+  of_snap.sag -= by_snap;
+  of_snap.moved += by_snap;
+  return of_snap;
+}
+
+/// For a bracket of this width.
+Judgement judge(const Separation& s, double width, const Thresholds& t) {
   // Whose numbers are coarse may be apart where these meet.
   const bool meet = s.interiors_meet && !(t.step > 0);
   const Class severe = class_of({s.lower, -s.moved, s.interiors_meet}, t);
@@ -62,8 +73,16 @@ Judgement judge(const Separation& s, const Thresholds& t) {
       j.flags |= kUncertain;
     }
   }
+  if (j.cls == Class::no_hit && t.weld > kMostWeldBySnap) j.cls = least_told(j.severest, t);
   j.severest = std::max(j.severest, j.cls);
   return j;
+}
+
+}  // namespace
+
+Judgement judge(const Separation& s, const Thresholds& t) {
+  const double by_snap = t.weld <= kMostWeldBySnap ? std::min(t.weld, s.sag) : 0;
+  return judge(with_weld(s, by_snap), s.upper - s.lower + 2 * s.moved, t);
 }
 
 }  // namespace strake::clash

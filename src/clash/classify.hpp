@@ -12,6 +12,8 @@ struct Thresholds {
   double overlap = 0, gap = 0, clearance = 0;
   /// What is no farther apart and no deeper counts as touching: 0 but for coarse numbers.
   double step = 0;
+  /// Of the sag, that of meshes: what was closed of their seams may have moved them so far.
+  double weld = 0;
 };
 
 /// Signed separation of a pair, grid units: the certified bracket of the geometry on the grid, and
@@ -40,9 +42,15 @@ struct Judgement {
 /// 3.5 either way.
 inline constexpr double kBorderlineWidth = 8;
 
+/// Grid units: a weld of two bodies whose corners the snap alone took off the edges they are on
+/// moves the two no farther against each other: 2 * sqrt(3). What is more was apart in the source.
+inline constexpr double kMostWeldBySnap = 3.4642;
+
 /// The class of a bracket. A bracket about a threshold and no wider than kBorderlineWidth gives the
 /// severer class and kBorderline; a wider one the class of d and kUncertain. A tolerance of 0 is
-/// asked of the grid itself, whatever the snap moved.
+/// asked of the grid itself, whatever the snap moved. A weld for which the snap may account counts
+/// as what the snap moved and widens nothing here; where a larger one leaves open whether anything
+/// is to be told, that is not NO_HIT.
 [[nodiscard]] Judgement judge(const Separation& s, const Thresholds& t);
 
 }  // namespace strake::clash

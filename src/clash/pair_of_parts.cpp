@@ -136,7 +136,8 @@ PartAnswer PairOfParts::depth(const FirstLook& look, const KnownBefore& known) {
 
 /// The sag that the answer has to count with.
 double PairOfParts::apart(double limit, PartAnswer& answer) {
-  const double reach = std::min(limit + 1, reach_of(options_));
+  // What a weld moved out of reach is told: judge().
+  const double reach = std::min(limit + 1, reach_of(options_) + thresholds_.weld);
   const double parting = reach + sag();
   const auto hulls = geometry::hull_gap(framed(part_a_), framed(part_b_), parting);
   if (hulls.lower >= parting) {

@@ -71,7 +71,7 @@ class SphereSearch {
     point_ = part_a_.vertices.front().as<double>();
     best_ = std::max(b_.signed_distance(point_, work_.pair), 0.0);
     // Half the reach from either: the middle of the closest pair of points lies in both.
-    const Box3d root = a_.box().common(b_.box()).inflated(reach_of(options_) / 2);
+    const Box3d root = a_.box().common(b_.box()).inflated(reach() / 2);
     if (root.empty()) return concluded();
     stack_.push_back(root);
     while (!stack_.empty() && !done_) {
@@ -83,6 +83,8 @@ class SphereSearch {
   }
 
  private:
+  [[nodiscard]] double reach() const { return reach_of(options_) + thresholds_.weld; }
+
   void look(const Box3d& cell) {
     if (++cells_ > most_cells_) {
       exhausted_ = done_ = true;
@@ -90,7 +92,7 @@ class SphereSearch {
     }
     const Vec3d centre = (cell.lo + cell.hi) * 0.5, half = (cell.hi - cell.lo) * 0.5;
     const double radius = std::sqrt(dot(half, half));
-    const double room = radius + reach_of(options_) / 2;
+    const double room = radius + reach() / 2;
     const double in_a = a_.signed_distance(centre, work_.pair);
     if (in_a > room) return;
     const double in_b = b_.signed_distance(centre, work_.pair);
@@ -128,7 +130,7 @@ class SphereSearch {
     const Vec3d size = x.hi - x.lo;
     const double deepest = std::sqrt(dot(size, size)) / 2;
     const bool unknown = exhausted_ || best_ < -thresholds_.overlap;
-    double lower = unknown ? -deepest : std::min(best_ - 2 * finest_, reach_of(options_));
+    double lower = unknown ? -deepest : std::min(best_ - 2 * finest_, reach());
     if (!a_.solid() && !b_.solid()) lower = std::max(lower, 0.0);
     // Where nothing near was found in time, a touch is as good a guess as any, and flagged.
     answer.separation = {.d = exhausted_ && best_ > thresholds_.gap ? 0 : best_,

@@ -54,7 +54,7 @@ void drop_folds(std::vector<Part>& parts) {
 }  // namespace
 
 void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear,
-                              std::int64_t weld, GridShapeResult& result) {
+                              const geometry::Seams& seams, GridShapeResult& result) {
   const geometry::PlacedMesh* placed = placer_.place(mesh, linear);
   if (placed == nullptr) {
     result.fault = kTooWide;
@@ -62,13 +62,15 @@ void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& l
   }
   result.bad_triangles = placed->bad_triangles;
   result.shape.base = placed->base;
-  geometry::MeshAnalysis analysis = analyser_.analyse(placed->mesh, weld);
+  geometry::MeshAnalysis analysis = analyser_.analyse(placed->mesh, seams);
   result.findings = analysis.findings;
   result.shape.parts = std::move(analysis.parts);
   for (Part& part : result.shape.parts) {
     part.flags.unknown_sag = !(mesh.sag_mm >= 0);
     part.sag =
         part.flags.unknown_sag ? 0 : mesh.sag_mm * geometry::kGridPerMm * geometry::stretch(linear);
+    // Which corners of the source's were moved together is not known of a part.
+    part.sag += analysis.findings.largest_weld;
   }
 }
 
@@ -79,7 +81,7 @@ void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const M
   result.fault = made.fault;
   if (!made.fault.empty()) return;
   if (!made.mesh.triangles.empty())
-    add_mesh(made.mesh, Mat3d{}, 0, result);
+    add_mesh(made.mesh, Mat3d{}, {}, result);
   else
     add_lines(made.lines, Mat3d{}, result);
   // A sliver of a primitive may lose triangles to the snap: that is no fault of the source.
@@ -98,7 +100,7 @@ GridShapeResult GridShapeMaker::make(const Shape& shape, const Mat3d& linear,
                                      const GridShapeOptions& options) {
   GridShapeResult result;
   if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
-    add_mesh(*mesh, linear, options.weld, result);
+    add_mesh(*mesh, linear, options.seams, result);
   else if (const auto* lines = std::get_if<geometry::Polylines>(&shape))
     add_lines(*lines, linear, result);
   else

@@ -23,7 +23,7 @@ struct GridShapeResult {
 
 struct GridShapeOptions {
   double sag_mm = 0.5;
-  std::int64_t weld = 0;  ///< of meshes, grid units; see geometry::analyse
+  geometry::Seams seams = {};  ///< of meshes
   /// Primitives with their contours for a view, if it is one; see geometry::tessellate.
   std::optional<geometry::Vec3d> towards = std::nullopt;
 };
@@ -36,7 +36,7 @@ class GridShapeMaker {
 
  private:
   void add_mesh(const geometry::TriangleMesh& mesh, const geometry::Mat3d& linear,
-                std::int64_t weld, GridShapeResult& result);
+                const geometry::Seams& seams, GridShapeResult& result);
   void add_primitive(const geometry::Primitive& primitive, const geometry::Mat3d& linear,
                      const GridShapeOptions& options, GridShapeResult& result);
 

@@ -26,19 +26,24 @@ using geometry::Mat3d;
 
 constexpr double kMostWeldMm = 1000;
 
-/// Within how much the seams of a body close, grid units.
-std::int64_t weld_of(const Model& model, const Body& body, const SceneOptions& options) {
-  if (!std::holds_alternative<geometry::TriangleMesh>(model.shapes[index(body.shape)])) return 0;
-  const double weld = options.weld_mm >= 0 ? options.weld_mm * geometry::kGridPerMm
-                                           : std::ceil(contact_distance(body.precision_um));
-  return static_cast<std::int64_t>(std::min(weld, kMostWeldMm * geometry::kGridPerMm));
+/// Which seams of a body close: those that its numbers cannot tell apart, before wider ones that
+/// are asked for.
+geometry::Seams seams_of(const Model& model, const Body& body, const SceneOptions& options) {
+  if (!std::holds_alternative<geometry::TriangleMesh>(model.shapes[index(body.shape)])) return {};
+  const auto on_grid = [](double units) {
+    return static_cast<std::int64_t>(std::min(units, kMostWeldMm * geometry::kGridPerMm));
+  };
+  const std::int64_t own = on_grid(std::ceil(contact_distance(body.precision_um)));
+  const std::int64_t within =
+      options.weld_mm >= 0 ? on_grid(options.weld_mm * geometry::kGridPerMm) : own;
+  return {within, std::min(own, within)};
 }
 
 /// A shape under one linear part, with its seams closed alike, and the body that asked for it
 /// first. Precisions are few: steps of float32 and of decimals.
 struct Use {
   ShapeId shape{};
-  std::int64_t weld = 0;
+  geometry::Seams seams;
   std::uint32_t body = 0;
   std::uint32_t bodies = 0;
 };
@@ -46,9 +51,10 @@ struct Use {
 /// Negative zero counts as zero: the two place alike.
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
 
-std::size_t hash_of(const SeededHash& hash, const Body& body, std::int64_t weld) {
-  std::array<std::uint64_t, 11> words{index(body.shape), static_cast<std::uint64_t>(weld)};
-  std::size_t at = 1;
+std::size_t hash_of(const SeededHash& hash, const Body& body, const geometry::Seams& seams) {
+  std::array<std::uint64_t, 12> words{index(body.shape), static_cast<std::uint64_t>(seams.within),
+                                      static_cast<std::uint64_t>(seams.first)};
+  std::size_t at = 2;
   for (const geometry::Vec3d& row : body.placement.linear.row)
     for (int k = 0; k < 3; ++k) words[++at] = bits(row[k]);
   return hash.of(std::as_bytes(std::span(words)));
@@ -61,7 +67,7 @@ bool same_linear(const Mat3d& a, const Mat3d& b) {
   return true;
 }
 
-/// Numbers the distinct (shape, linear part, weld distance) in order of first appearance.
+/// Numbers the distinct (shape, linear part, seams) in order of first appearance.
 class UseTable {
  public:
   UseTable(const Model& model, const SceneOptions& options, std::size_t bodies)
@@ -71,16 +77,16 @@ class UseTable {
 
   std::uint32_t number(std::uint32_t body) {
     const Body& b = model_.bodies[body];
-    const std::int64_t weld = weld_of(model_, b, options_);
+    const geometry::Seams seams = seams_of(model_, b, options_);
     const std::size_t mask = slots_.size() - 1;
-    for (std::size_t slot = hash_of(hash_, b, weld) & mask;; slot = (slot + 1) & mask) {
+    for (std::size_t slot = hash_of(hash_, b, seams) & mask;; slot = (slot + 1) & mask) {
       if (slots_[slot] == kEmpty) {
         slots_[slot] = static_cast<std::uint32_t>(uses_.size());
-        uses_.push_back({b.shape, weld, body, 1});
+        uses_.push_back({b.shape, seams, body, 1});
         return slots_[slot];
       }
       Use& use = uses_[slots_[slot]];
-      if (use.shape == b.shape && use.weld == weld &&
+      if (use.shape == b.shape && use.seams == seams &&
           same_linear(model_.bodies[use.body].placement.linear, b.placement.linear)) {
         ++use.bodies;
         return slots_[slot];
@@ -138,8 +144,9 @@ bool ends_somewhere(const geometry::Part& part) {
 template <class Counted>
 void report_weld(const geometry::MeshFindings& findings, const Counted& counted) {
   if (findings.welded_corners == 0) return;
+  const double mm = findings.largest_weld * geometry::kMmPerGrid;
   const std::string apart =
-      fmt::format("up to {:.3g} um", findings.largest_weld * 1000 * geometry::kMmPerGrid);
+      mm < 1 ? fmt::format("up to {:.3g} um", mm * 1000) : fmt::format("up to {:.3f} mm", mm);
   const bool closed = findings.welded_shells > 0;
   const std::string what = closed ? "so that a surface closes" : "so that edges of a surface meet";
   counted(Severity::note, "mesh-welded", findings.welded_corners,
@@ -266,7 +273,7 @@ Result<std::vector<GridShapeResult>> make_shapes(const Assembly& assembly,
       [&](GridShapeMaker& maker, std::size_t i) {
         GridShapeResult made = maker.make(
             model.shapes[index(uses[i].shape)], model.bodies[uses[i].body].placement.linear,
-            {.sag_mm = assembly.options.sag_mm, .weld = uses[i].weld});
+            {.sag_mm = assembly.options.sag_mm, .seams = uses[i].seams});
         made.shape.shape = uses[i].shape;
         return made;
       });

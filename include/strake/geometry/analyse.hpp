@@ -36,6 +36,15 @@ struct MeshAnalysis {
   MeshFindings findings;
 };
 
+/// How wide seams may be that are closed, grid units up to a metre. Shells that close within
+/// `first` are closed first, then those that close within twice that, and so on: what a small
+/// distance makes a solid is one at a large distance, too.
+struct Seams {
+  std::int64_t within = 0;  ///< 0: corners on each other only
+  std::int64_t first = within;
+  friend bool operator==(const Seams&, const Seams&) = default;
+};
+
 /// Splits a mesh into parts: a solid for every nest of closed shells, oriented outward, and one
 /// sheet for all shells whose edges do not balance.
 ///
@@ -52,7 +61,7 @@ struct MeshAnalysis {
 /// 4. Triangles of no area are left out. Where corners lie exactly on an edge that does not match
 ///    those on its other side, its triangles are cut there if edges then match: T-junctions, and
 ///    what a triangle of no area has sealed. Nothing moves.
-/// 5. With `weld` above 0, grid units up to a metre, corners of edges that still do not match count
+/// 5. With seams wider than 0, corners of edges that still do not match count
 ///    as one where they are no farther apart, and as on such an edge where no farther from it, if
 ///    edges then match: seams that the numbers of the source leave open. Meshes whose edges match
 ///    do not change, nor do rims, gaps that are wider and what would be no thicker than that.
@@ -62,7 +71,7 @@ struct MeshAnalysis {
 ///
 /// Every decision is exact. Cost: O(n log n) for one shell; nesting tests only shells whose boxes
 /// lie inside each other.
-[[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh, std::int64_t weld = 0);
+[[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh, const Seams& seams = {});
 
 struct AnalyseScratch;
 
@@ -78,7 +87,7 @@ class MeshAnalyser {
   MeshAnalyser(const MeshAnalyser&) = delete;
   MeshAnalyser& operator=(const MeshAnalyser&) = delete;
 
-  [[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh, std::int64_t weld = 0);
+  [[nodiscard]] MeshAnalysis analyse(const GridMesh& mesh, const Seams& seams = {});
 
  private:
   std::unique_ptr<AnalyseScratch> scratch_;

@@ -188,18 +188,18 @@ MeshAnalyser::~MeshAnalyser() = default;
 MeshAnalyser::MeshAnalyser(MeshAnalyser&&) noexcept = default;
 MeshAnalyser& MeshAnalyser::operator=(MeshAnalyser&&) noexcept = default;
 
-MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh, std::int64_t weld) {
+MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh, const Seams& seams) {
   AnalyseScratch& scratch = *scratch_;
   MeshAnalysis analysis;
   const MeshKey key{mesh.triangles, mesh.faces, weld_vertices(mesh, scratch)};
   const GridMesh& welded = scratch.welded;
   if (const Connectivity* known = scratch.known.find(key))
-    if (auto part = make_known_part(*known, scratch.box, welded.vertices, weld)) {
+    if (auto part = make_known_part(*known, scratch.box, welded.vertices, seams.within)) {
       analysis.parts.push_back(std::move(*part));
       return analysis;
     }
   const std::size_t vertices = welded.vertices.size();
-  const Topology topology = weld_triangles(mesh, key.renumbered, weld, scratch, analysis.findings);
+  const Topology topology = weld_triangles(mesh, key.renumbered, seams, scratch, analysis.findings);
   if (welded.triangles.empty()) return analysis;
   ShellLabels labels = label_shells(welded.vertices, welded.triangles, topology, scratch.topology);
   if (labels.count > 1) {
@@ -222,8 +222,8 @@ MeshAnalysis MeshAnalyser::analyse(const GridMesh& mesh, std::int64_t weld) {
   return analysis;
 }
 
-MeshAnalysis analyse(const GridMesh& mesh, std::int64_t weld) {
-  return MeshAnalyser().analyse(mesh, weld);
+MeshAnalysis analyse(const GridMesh& mesh, const Seams& seams) {
+  return MeshAnalyser().analyse(mesh, seams);
 }
 
 }  // namespace strake::geometry

@@ -39,8 +39,9 @@ Nearness nearness(std::span<const Vec3i> vertices, std::span<const OpenEdge> ope
 /// One attempt after another, until what is left closes seams and makes nothing thin.
 class Welder {
  public:
-  Welder(std::vector<OpenEdge> open, std::int64_t within, AnalyseScratch& scratch)
+  Welder(std::vector<OpenEdge> open, std::int64_t within, Closing closing, AnalyseScratch& scratch)
       : within_(within),
+        closing_(closing),
         scratch_(scratch),
         whole_(scratch.welded),
         open_(std::move(open)),
@@ -137,12 +138,12 @@ class Welder {
     for (const CornerCluster& c : clusters_)
       if (is_useless(c)) useless_.push_back(c.members.front());
     std::sort(useless_.begin(), useless_.end());
-    const bool thin = leave_thin_shells(topology, joined);
-    if (thin)
+    const bool left = leave_shells(topology, joined);
+    if (left)
       find_clusters();
     else
       std::erase_if(clusters_, is_useless);
-    return useless_.size() == before && !thin;
+    return useless_.size() == before && !left;
   }
 
   /// The edges, of the mesh as it is now, at which more triangles meet than at the open edges that
@@ -176,8 +177,9 @@ class Welder {
   }
 
   /// Counts the shells that are closed at these edges. The corners of those that are no thicker
-  /// than corners may lie apart are to stay; whether there are any.
-  bool leave_thin_shells(const Topology& topology, const std::vector<std::uint32_t>& joined) {
+  /// than corners may lie apart are to stay, and where whole shells are asked for those of all
+  /// others; whether there are any.
+  bool leave_shells(const Topology& topology, const std::vector<std::uint32_t>& joined) {
     const GridMesh& mesh = scratch_.welded;
     if (joined.empty()) return false;
     const ShellLabels labels =
@@ -193,7 +195,7 @@ class Welder {
       const std::uint32_t s = shell_of(t);
       if (is_new[s] != 0 && labels.closed[s] != 0) shells[s].push_back(mesh.triangles[t]);
     }
-    std::vector<std::uint8_t> thin(at_.size(), 0);
+    std::vector<std::uint8_t> thin(at_.size(), 0), whole(at_.size(), 0);
     bool any = false;
     for (const std::vector<Triangle>& shell : shells) {
       if (shell.empty()) continue;
@@ -201,18 +203,29 @@ class Welder {
       // Twice the volume by the area is the thickness.
       if (std::fabs(volume_6) / 3 > static_cast<double>(within_) * area_of(mesh.vertices, shell)) {
         ++result_.shells;
+        mark(shell, whole);
         continue;
       }
+      mark(shell, thin);
       any = true;
-      for (const Triangle& t : shell)
-        for (const std::uint32_t v : t) thin[v] = 1;
     }
-    for (const std::uint32_t v : corners_)
-      if (thin[at_[v]] != 0) may_move_[v] = 0;
+    for (const std::uint32_t v : corners_) {
+      const bool stays =
+          thin[at_[v]] != 0 || (closing_ == Closing::whole_shells && whole[at_[v]] == 0);
+      if (!stays || may_move_[v] == 0) continue;
+      may_move_[v] = 0;
+      any = true;
+    }
     return any;
   }
 
+  static void mark(const std::vector<Triangle>& shell, std::vector<std::uint8_t>& vertices) {
+    for (const Triangle& t : shell)
+      for (const std::uint32_t v : t) vertices[v] = 1;
+  }
+
   std::int64_t within_;
+  Closing closing_;
   AnalyseScratch& scratch_;
   GridMesh whole_;  ///< as it came
   std::vector<OpenEdge> open_;
@@ -235,11 +248,11 @@ bool may_weld_near(std::span<const Vec3i> vertices, std::span<const Triangle> tr
          nearness(vertices, open, NearPoints(vertices, ends_of(open)), within) != Nearness::none;
 }
 
-std::optional<NearWeld> weld_near(std::int64_t within, Topology& topology,
+std::optional<NearWeld> weld_near(std::int64_t within, Closing closing, Topology& topology,
                                   AnalyseScratch& scratch) {
   std::vector<OpenEdge> open = open_edges(scratch.welded.triangles, topology);
   if (open.empty()) return std::nullopt;
-  Welder welder(std::move(open), within, scratch);
+  Welder welder(std::move(open), within, closing, scratch);
   return welder.any_near() ? welder.weld(topology) : std::nullopt;
 }
 

@@ -19,6 +19,10 @@ struct NearWeld {
   bool repeated = false;      ///< some triangle comes twice now
 };
 
+/// Which seams close: all, or those alone that make a shell closed, the corners of the others as
+/// they came.
+enum class Closing : std::uint8_t { all, whole_shells };
+
 /// Whether any corner of an edge that does not balance is as near as that to another such edge.
 [[nodiscard]] bool may_weld_near(std::span<const Vec3i> vertices,
                                  std::span<const Triangle> triangles, const Topology& topology,
@@ -41,7 +45,7 @@ struct NearWeld {
 ///
 /// O(k log k) for k edges that do not balance, as long as few corners are near each of them;
 /// nothing where all balance. Sewing, as modellers of surfaces know it, by clusters of corners.
-[[nodiscard]] std::optional<NearWeld> weld_near(std::int64_t within, Topology& topology,
-                                                AnalyseScratch& scratch);
+[[nodiscard]] std::optional<NearWeld> weld_near(std::int64_t within, Closing closing,
+                                                Topology& topology, AnalyseScratch& scratch);
 
 }  // namespace strake::geometry

@@ -244,6 +244,26 @@ void drop_unused_vertices(GridMesh& mesh, std::vector<std::uint32_t>& memory) {
     for (std::uint32_t& v : t) v = renumbered[v];
 }
 
+/// Shells that close within a small distance are closed before a larger one is tried, at which
+/// their corners may run together along fine rims. No corner moves farther than by all that is done
+/// together.
+void close_seams(const Seams& seams, Topology& topology, AnalyseScratch& scratch,
+                 MeshFindings& findings) {
+  for (std::int64_t within = std::min(seams.first, seams.within); within > 0;
+       within = std::min(2 * within, seams.within)) {
+    const Closing closing = within == seams.within ? Closing::all : Closing::whole_shells;
+    if (const std::optional<NearWeld> near = weld_near(within, closing, topology, scratch)) {
+      findings.welded_corners += near->corners;
+      findings.welded_shells += near->shells;
+      findings.largest_weld += near->largest;
+      drop_unused_vertices(scratch.welded, scratch.weld.next);
+      topology = topology_of(scratch);
+      if (near->repeated) topology = drop_duplicates(topology, scratch, findings);
+    }
+    if (within == seams.within) return;
+  }
+}
+
 }  // namespace
 
 std::span<const std::uint32_t> weld_vertices(const GridMesh& mesh, AnalyseScratch& scratch) {
@@ -259,7 +279,7 @@ bool replace_triangles(const GridMesh& mesh, std::span<const std::uint32_t> vert
 }
 
 Topology weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> renumbered,
-                        std::int64_t weld, AnalyseScratch& scratch, MeshFindings& findings) {
+                        const Seams& seams, AnalyseScratch& scratch, MeshFindings& findings) {
   GridMesh& welded = scratch.welded;
   const Rows rows = sorted_rows(mesh, renumbered, welded.vertices, scratch.box, scratch.weld);
   findings.degenerate_triangles += mesh.triangles.size() - rows.rows.size();
@@ -276,15 +296,7 @@ Topology weld_triangles(const GridMesh& mesh, std::span<const std::uint32_t> ren
     topology = topology_of(scratch);
   }
   if (repeated) topology = drop_duplicates(topology, scratch, findings);
-  if (weld > 0)
-    if (const std::optional<NearWeld> near = weld_near(weld, topology, scratch)) {
-      findings.welded_corners += near->corners;
-      findings.welded_shells += near->shells;
-      findings.largest_weld = near->largest;
-      drop_unused_vertices(welded, scratch.weld.next);
-      topology = topology_of(scratch);
-      if (near->repeated) topology = drop_duplicates(topology, scratch, findings);
-    }
+  close_seams(seams, topology, scratch, findings);
   if (const std::uint64_t turned = turn_to_face_one_way(welded, topology)) {
     findings.turned_triangles += turned;
     topology = topology_of(scratch);

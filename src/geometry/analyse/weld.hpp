@@ -21,13 +21,13 @@ namespace strake::geometry {
                                      AnalyseScratch& scratch);
 
 /// Fills the rest of scratch.welded: degenerate and duplicate triangles dropped and counted, those
-/// at T-junctions cut (see cut_at_junctions()), seams closed that are no wider than `weld` (see
-/// weld_near(); 0: none), triangles that face the other way than the rest of a
-/// closed surface turned (see turn_to_face_one_way()), every triangle starting with its lowest
-/// vertex and triangles sorted by (lowest vertex, the other two ascending, side, face); drops
-/// vertices that none of them uses. Returns their topology, which lives in the scratch.
+/// at T-junctions cut (see cut_at_junctions()), seams closed (see weld_near()), triangles that face
+/// the other way than the rest of a closed surface turned (see turn_to_face_one_way()), every
+/// triangle starting with its lowest vertex and triangles sorted by (lowest vertex, the other two
+/// ascending, side, face); drops vertices that none of them uses. Returns their topology, which
+/// lives in the scratch.
 [[nodiscard]] Topology weld_triangles(const GridMesh& mesh,
-                                      std::span<const std::uint32_t> renumbered, std::int64_t weld,
+                                      std::span<const std::uint32_t> renumbered, const Seams& seams,
                                       AnalyseScratch& scratch, MeshFindings& findings);
 
 }  // namespace strake::geometry

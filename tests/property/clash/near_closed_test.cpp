@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "support/clash_model.hpp"
 #include "support/rounds.hpp"
@@ -147,6 +149,86 @@ TEST_P(NearClosed, AGapThreeTimesAsWideStaysOpen) {
   ASSERT_EQ(scene.shapes.size(), exact.shapes.size());
   for (std::size_t s = 0; s < scene.shapes.size(); ++s)
     EXPECT_TRUE(std::ranges::equal(scene.shapes[s].parts, exact.shapes[s].parts, same));
+}
+
+/// A box with a lid of its own, so far above the walls, and as large as they reach.
+TriangleMesh lid_above(const Vec3d& size, double gap) {
+  TriangleMesh box = test::closed_box(size.x, size.y, size.z).mesh;
+  const std::vector<Vec3d> all = box.vertices;
+  for (geometry::Triangle& t : box.triangles) {
+    if (!std::ranges::all_of(t, [&](std::uint32_t v) { return all[v].z > 0; })) continue;
+    for (std::uint32_t& v : t) {
+      box.vertices.push_back(all[v] + Vec3d{0, 0, gap});
+      v = static_cast<std::uint32_t>(box.vertices.size() - 1);
+    }
+  }
+  return box;
+}
+
+/// What is told of a lidded box and a block that stands `d` above the lid, or as deep in it.
+clash::Report lid_and_block(double gap, double d, Draw& draw, const clash::Options& options) {
+  const double x = draw.between(100, 900), y = draw.between(100, 900), z = draw.between(100, 900);
+  TriangleMesh box = lid_above({x, y, z}, gap);
+  const double top = z / 2 + gap + d;
+  TriangleMesh block = test::box_mesh({-20, -20, top}, {20, 20, top + 40});
+  const Mat3d turn = draw.one_in(2) ? draw.rotation() : Mat3d{};
+  const Vec3d by{draw.between(-1e4, 1e4), draw.between(-1e4, 1e4), draw.between(-1e4, 1e4)};
+  for (TriangleMesh* const mesh : {&box, &block}) test::place_mesh(*mesh, turn, by);
+  const ClashModel m = pair_of(box, block, draw.one_in(2));
+  const model::Scene scene = scene_of(m, gap + 0.004);
+  EXPECT_EQ(count_of(scene, PartKind::solid), 2U);
+  return clash::detect(scene, clash::one_set(scene), options, {}).value();
+}
+
+// The lid comes down to the walls, or these up to it: the bracket holds what the source says.
+TEST_P(NearClosed, TheBracketHoldsWhereTheLidWas) {
+  Draw draw(GetParam());
+  for (const double gap : {0.002, 0.0031, 0.4, 4.9}) {
+    const double d = draw.between(-3, 8);
+    SCOPED_TRACE(std::to_string(gap) + ' ' + std::to_string(d));
+    const clash::Report report = lid_and_block(gap, d, draw, {.clearance_mm = 30});
+    ASSERT_EQ(report.pairs.size(), 1U);
+    EXPECT_LE(report.pairs[0].d_lower_mm, d);
+    EXPECT_GE(report.pairs[0].d_upper_mm, d);
+    EXPECT_LE(report.pairs[0].d_upper_mm - report.pairs[0].d_lower_mm, 4 * gap + 0.05);
+  }
+}
+
+// A weld takes nothing out of a tolerance unsaid.
+TEST_P(NearClosed, WhatTheLidWasNearerThanIsTold) {
+  Draw draw(GetParam());
+  for (const double gap : {0.002, 0.0031, 0.4, 4.9})
+    for (const double d : {0.0, 7.9}) {
+      SCOPED_TRACE(std::to_string(gap) + ' ' + std::to_string(d));
+      const clash::Options options{
+          .clearance_mm = d + 0.0001, .touch_gap_mm = 0, .touch_overlap_mm = 0};
+      const clash::Report report = lid_and_block(gap, d, draw, options);
+      ASSERT_EQ(report.pairs.size(), 1U);
+      EXPECT_GE(report.pairs[0].severest, clash::Class::clearance_violation);
+      if (d == 0 && gap > 0.1) {
+        EXPECT_GE(report.pairs[0].severest, clash::Class::contact);
+      }
+    }
+}
+
+// What the numbers of the source close is closed whatever is asked for besides.
+TEST_P(NearClosed, AWiderWeldClosesNoLess) {
+  Draw draw(GetParam());
+  const ClosedBody body = test::drawn_body(draw);
+  TriangleMesh soup = test::soup_of(body.mesh), clean = body.mesh, within = box_within(body);
+  test::jitter(soup, 0.0005, draw);
+  test::shuffle(soup, draw);
+  const Mat3d turn = draw.rotation();
+  for (TriangleMesh* const mesh : {&clean, &within, &soup})
+    test::place_mesh(*mesh, turn, {7, 8, 9});
+  const bool swapped = draw.one_in(2);
+  const ClashModel m = pair_of(soup, within, swapped);
+  for (const double weld_mm : {-1.0, 0.02, 0.5, 2.0, 10.0, 300.0}) {
+    SCOPED_TRACE(weld_mm);
+    const model::Scene scene = scene_of(m, weld_mm);
+    EXPECT_EQ(count_of(scene, PartKind::sheet), 0U);
+    expect_same_hit(pair_of(clean, within, swapped), scene, 0.02);
+  }
 }
 
 // A body in many places is one shape, however exact its places are.

@@ -38,6 +38,34 @@ TEST(Classify, WhatTheSnapMovedCountsAtAThresholdButNotAtZero) {
   EXPECT_EQ(judge(touch, {}).flags, 0);
 }
 
+/// A separation of two of which one was welded.
+Judgement welded(double d, double weld, Thresholds t = kDefault) {
+  t.weld = weld;
+  return judge({.d = d, .lower = d, .upper = d, .sag = weld, .interiors_meet = d < 0}, t);
+}
+
+TEST(Classify, WhatAWeldMovedIsNotLost) {
+  EXPECT_EQ(welded(25400, 500).cls, Class::clearance_violation);
+  EXPECT_EQ(welded(25400, 500).flags, kUncertain);
+  EXPECT_EQ(welded(25600, 500).cls, Class::no_hit);
+  EXPECT_EQ(welded(1400, 500, {.overlap = 1000, .gap = 1000}).cls, Class::contact);
+  EXPECT_EQ(welded(-700, 500).cls, Class::contact);
+  EXPECT_EQ(welded(-700, 500).flags, kUncertain);
+  EXPECT_EQ(welded(-700, 500).severest, Class::hit);
+  EXPECT_EQ(welded(-1600, 500).cls, Class::hit);
+  EXPECT_EQ(welded(-1600, 500).flags, 0);
+}
+
+TEST(Classify, AWeldBeyondTheSnapCountsAtZero) {
+  EXPECT_EQ(welded(1.5, 2, {}).cls, Class::no_hit);
+  EXPECT_EQ(welded(0, 2, {}).flags, 0);
+  EXPECT_EQ(welded(1001, 2).cls, Class::contact);
+  EXPECT_EQ(welded(1001, 2).flags, kBorderline);
+  EXPECT_EQ(welded(400, 500, {}).cls, Class::contact);
+  EXPECT_EQ(welded(400, 500, {}).severest, Class::hit);
+  EXPECT_EQ(welded(600, 500, {}).cls, Class::no_hit);
+}
+
 TEST(Classify, CoarseStepsLeaveATouchOpen) {
   Thresholds coarse = kDefault;
   coarse.step = 4000;

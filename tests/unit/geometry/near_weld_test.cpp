@@ -47,7 +47,7 @@ void expect_same(const MeshAnalysis& a, const MeshAnalysis& b, const Vec3i& move
 
 /// What lies as it came, whether seams may close or not.
 void expect_left_alone(const GridMesh& mesh, std::int64_t weld = kWeld) {
-  const MeshAnalysis exact = analyse(mesh), found = analyse(mesh, weld);
+  const MeshAnalysis exact = analyse(mesh), found = analyse(mesh, {weld});
   expect_same(exact, found);
   EXPECT_EQ(found.findings.welded_corners, 0U);
 }
@@ -83,7 +83,7 @@ TEST(NearWeld, ALidThatStandsOff) {
        {Vec3i{0, 0, 1}, Vec3i{0, 0, 3}, Vec3i{0, 0, -2}, Vec3i{1, 1, 1}, Vec3i{2, 0, 2}}) {
     const GridMesh mesh = lid_off({500'000, 300'000, 200'000}, by);
     EXPECT_EQ(count(analyse(mesh), PartKind::sheet), 1U);
-    const MeshAnalysis found = analyse(mesh, kWeld);
+    const MeshAnalysis found = analyse(mesh, {kWeld});
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::solid);
     EXPECT_EQ(found.parts[0].vertices.size(), 8U);
@@ -193,7 +193,7 @@ TEST(NearWeld, SoupIsTheSolidWhateverItsOrderAndPlace) {
     Draw draw(seed);
     const GridMesh stair = test::grid_stair(90'000);
     GridMesh soup = jittered(stair, draw);
-    const MeshAnalysis found = analyse(soup, kWide), clean = analyse(stair);
+    const MeshAnalysis found = analyse(soup, {kWide}), clean = analyse(stair);
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::solid);
     EXPECT_EQ(found.parts[0].triangles.size(), clean.parts[0].triangles.size());
@@ -202,12 +202,12 @@ TEST(NearWeld, SoupIsTheSolidWhateverItsOrderAndPlace) {
     const Vec3i by{draw.whole(-1000, 1000), draw.whole(-1000, 1000), draw.whole(-1000, 1000)};
     GridMesh moved = soup;
     for (Vec3i& v : moved.vertices) v = v + by;
-    expect_same(found, analyse(moved, kWide), by);
+    expect_same(found, analyse(moved, {kWide}), by);
     for (std::size_t i = soup.triangles.size(); i > 1; --i)
       std::swap(soup.triangles[i - 1], soup.triangles[draw.below(i)]);
     for (Triangle& t : soup.triangles)
       std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(draw.below(3)), t.end());
-    expect_same(found, analyse(soup, kWide));
+    expect_same(found, analyse(soup, {kWide}));
   }
 }
 
@@ -235,7 +235,7 @@ TEST(NearWeld, ACornerBesideAnEdge) {
       const Vec3d at = turn * v.as<double>();
       v = Vec3d{std::round(at.x), std::round(at.y), std::round(at.z)}.as<std::int32_t>();
     }
-    const MeshAnalysis found = analyse(mesh, kWeld);
+    const MeshAnalysis found = analyse(mesh, {kWeld});
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::solid);
     EXPECT_EQ(found.parts[0].shell_count, 1U);
@@ -249,9 +249,9 @@ TEST(NearWeld, MeshesThatHangTogetherAlike) {
   const GridMesh apart = lid_off({500'000, 300'000, 200'000}, {0, 0, 40});
   const GridMesh near = lid_off({500'000, 300'000, 200'000}, {0, 0, 2});
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(count(analyser.analyse(apart, kWeld), PartKind::sheet), 1U);
-    EXPECT_EQ(count(analyser.analyse(near, kWeld), PartKind::solid), 1U);
-    EXPECT_EQ(count(analyser.analyse(near, 0), PartKind::sheet), 1U);
+    EXPECT_EQ(count(analyser.analyse(apart, {kWeld}), PartKind::sheet), 1U);
+    EXPECT_EQ(count(analyser.analyse(near, {kWeld}), PartKind::solid), 1U);
+    EXPECT_EQ(count(analyser.analyse(near, {0}), PartKind::sheet), 1U);
   }
 }
 
