@@ -12,6 +12,10 @@ namespace {
 
 constexpr std::size_t kDeepest = 64;
 
+/// Of the directions from a point within, those that meet an odd number of triangles: what stands
+/// in a body or parts it makes the others even, as they all are in a bore.
+constexpr double kLeastOdd = 0.25;
+
 double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 /// Half the solid angle of a triangle as seen from the origin (A. van Oosterom and J. Strackee,
@@ -49,10 +53,34 @@ std::optional<double> meet(const Vec3d& from, const Vec3d& way, const Vec3d& a, 
   return dot(v, turned) / det;
 }
 
+/// Whether a triangle runs from the lower vertex of its edge to the higher one.
+bool runs_up(const Triangle& t, const PartEdge& e) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (t[k] == e.v0) return t[(k + 1) % 3] == e.v1;
+  return false;
+}
+
+/// Whether a part is one surface, no edge of which has more than two triangles, and these the same
+/// side.
+bool faces_one_way(const Part& part) {
+  if (part.shell_count > 1) return false;
+  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e) {
+    const std::uint32_t first = part.edges[e].first_triangle;
+    const std::uint32_t count = part.edges[e + 1].first_triangle - first;
+    if (count > 2) return false;
+    if (count < 2) continue;
+    const auto up = [&](std::uint32_t k) {
+      return runs_up(part.triangles[part.edge_triangles[first + k]], part.edges[e]);
+    };
+    if (up(0) == up(1)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 WindingNumber::WindingNumber(const Part& part)
-    : triangles_(part.triangles.begin(), part.triangles.end()) {
+    : triangles_(part.triangles.begin(), part.triangles.end()), one_way_(faces_one_way(part)) {
   vertices_.reserve(part.vertices.size());
   for (const Vec3i& v : part.vertices) vertices_.push_back(v.as<double>());
   if (triangles_.empty()) return;
@@ -152,15 +180,76 @@ std::optional<double> WindingNumber::first_hit(const Vec3d& from, const Vec3d& w
   return far < kNoHit ? std::optional(far) : std::nullopt;
 }
 
-bool WindingNumber::nearly_encloses() const {
+int WindingNumber::crossings(const Vec3d& from, const Vec3d& way) const {
+  constexpr double kEverywhere = 1e300;
+  int met = 0;
+  std::array<std::uint32_t, kDeepest> waiting{};
+  for (std::size_t count = nodes_.empty() ? 0 : 1; count > 0;) {
+    const Node& node = nodes_[waiting[--count]];
+    if (!meets(node.box, from, way, kEverywhere)) continue;
+    if (node.left != 0) {
+      waiting[count++] = node.left;
+      waiting[count++] = node.left + 1;
+      continue;
+    }
+    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+      const auto hit = meet(from, way, corner(t, 0), corner(t, 1), corner(t, 2));
+      met += hit && *hit > 0 ? 1 : 0;
+    }
+  }
+  return met;
+}
+
+WindingNumber::Look WindingNumber::look_round(const Vec3d& from, int rays) const {
+  // The same in three dimensions: directions of points in a ball lie evenly.
+  constexpr double kStepX = 0.8191725133961645, kStepY = 0.6710436067037893,
+                   kStepZ = 0.5497004779019703;
+  int out = 0, odd = 0, looked = 0;
+  for (int i = 1; looked < rays; ++i) {
+    const Vec3d way{2 * std::fmod(i * kStepX, 1) - 1, 2 * std::fmod(i * kStepY, 1) - 1,
+                    2 * std::fmod(i * kStepZ, 1) - 1};
+    const double squared = dot(way, way);
+    if (squared > 1 || squared == 0) continue;
+    const int met = crossings(from, way);
+    out += met == 0 ? 1 : 0;
+    odd += met % 2;
+    ++looked;
+  }
+  return {static_cast<double>(out) / rays, static_cast<double>(odd) / rays};
+}
+
+/// The part of all directions that lead out from a point; nothing where that is not within.
+std::optional<double> WindingNumber::out_of(const Vec3d& at) const {
+  constexpr double kHalf = 0.5;
+  if (one_way_) {
+    // A little less than none is rounding, which so cancels on average.
+    const double winding = std::fabs(this->at(at));
+    if (winding <= kHalf) return std::nullopt;
+    return winding > 1 + kHalf ? winding - 1 : 1 - winding;
+  }
+  constexpr int kRays = 64;
+  const Look look = look_round(at, kRays);
+  return look.out < kHalf && look.odd >= kLeastOdd ? std::optional(look.out) : std::nullopt;
+}
+
+bool WindingNumber::surrounds(const Vec3d& at) const {
+  if (one_way_) return out_of(at).has_value();
+  constexpr int kRays = 256;
+  // Between a fin and the skin that it stands on a quarter leads out.
+  constexpr double kMostOut = 0.2;
+  const Look look = look_round(at, kRays);
+  return look.out < kMostOut && look.odd >= kLeastOdd;
+}
+
+double WindingNumber::openness() const {
   constexpr int kSamples = 48;
-  constexpr double kMostOut = 0.05, kHalf = 0.5;
+  constexpr double kHalf = 0.5, kMostLost = 0.1;
   // Numbers whose multiples lie evenly in 0 to 1, and do together (R. Kronecker).
   constexpr double kStepS = 0.7548776662466927, kStepT = 0.5698402909980532;
-  if (nodes_.empty()) return false;
+  if (nodes_.empty()) return 1;
   const Node& all = nodes_.front();
   // Where so much of the area does not cancel, as much is missing.
-  if (length(all.area) > 2 * kMostOut * all.size) return false;
+  if (one_way_ && length(all.area) > kMostLost * all.size) return 1;
   double out = 0, passed = 0;
   int inside = 0, sample = 0;
   for (std::uint32_t i = 0; i < triangles_.size() && sample < kSamples; ++i) {
@@ -175,14 +264,14 @@ bool WindingNumber::nearly_encloses() const {
       for (const Vec3d& way : {back, back * -1.0}) {
         const auto hit = first_hit(on, way);
         if (!hit) continue;
-        const double winding = std::fabs(at(on + way * (*hit / 2)));
-        if (winding <= kHalf) continue;
+        const auto leads_out = out_of(on + way * (*hit / 2));
+        if (!leads_out) continue;
         ++inside;
-        out += std::fabs(1 - winding);
+        out += *leads_out;
       }
     }
   }
-  return inside * 2 >= kSamples && out <= kMostOut * inside;
+  return inside * 2 >= kSamples ? out / inside : 1;
 }
 
 }  // namespace strake::geometry

@@ -16,12 +16,17 @@ namespace strake::geometry {
 /// and 0 outside, and nearly so where little of it is missing.
 ///
 ///     const WindingNumber winding(part);
-///     if (std::fabs(winding.at(point)) > 0.5) ...
+///     if (winding.openness() < 0.05 && winding.surrounds(point)) ...
 ///
 /// 1. Floating point, the same on every machine: far triangles count together as what a small flat
 ///    one would fill (G. Barill et al., Fast Winding Numbers for Soups and Clouds, 2018), which is
 ///    off by about a hundredth. For what is to be told, not for what is to be decided.
-/// 2. Building costs n log n, a question some hundred boxes and triangles.
+/// 2. Where triangles do not all face the same way, more than two meet at an edge, or the surface
+/// is
+///    several, as with a shelf in it or a fin on it, the sum says nothing. Then rays tell: the
+///    directions that lead out meet no triangle, and from within a good part of the others meets an
+///    odd number of them.
+/// 3. Building costs n log n, a question some hundred boxes and triangles.
 class WindingNumber {
  public:
   explicit WindingNumber(const Part& part);
@@ -33,10 +38,13 @@ class WindingNumber {
   /// What is nearer than a millionth of `way` does not count.
   [[nodiscard]] std::optional<double> first_hit(const Vec3d& from, const Vec3d& way) const;
 
-  /// Whether the surface encloses what it surrounds but for a little: on average over its inside no
-  /// more than a twentieth of all directions lead out of it. So a body with a gap in a seam or a
-  /// face too few does, and a tank without its lid, a deck and a shallow tray do not.
-  [[nodiscard]] bool nearly_encloses() const;
+  /// The part of all directions that lead out of what the surface surrounds, on average over its
+  /// inside: little for a body with a gap in a seam or a face too few, an eighth and more for a
+  /// tank without its lid. 1 where it surrounds nothing much, as a deck and a shallow tray.
+  [[nodiscard]] double openness() const;
+
+  /// Whether a point is within, of a surface that is not very open.
+  [[nodiscard]] bool surrounds(const Vec3d& at) const;
 
  private:
   struct Node {
@@ -48,13 +56,23 @@ class WindingNumber {
     std::uint32_t left = 0;              ///< child, the right one behind it; 0: a leaf
   };
 
+  /// Of the directions from a point, those that lead out and those that meet an odd number of
+  /// triangles.
+  struct Look {
+    double out = 0, odd = 0;
+  };
+
   [[nodiscard]] const Vec3d& corner(std::uint32_t triangle, std::size_t k) const;
+  [[nodiscard]] int crossings(const Vec3d& from, const Vec3d& way) const;
+  [[nodiscard]] Look look_round(const Vec3d& from, int rays) const;
+  [[nodiscard]] std::optional<double> out_of(const Vec3d& at) const;
   void split(std::size_t node);
   void measure(Node& node) const;
 
   std::vector<Vec3d> vertices_;
   std::vector<Triangle> triangles_;  ///< leaf by leaf
   std::vector<Node> nodes_;
+  bool one_way_ = false;  ///< one surface of which all triangles face the same way
 };
 
 }  // namespace strake::geometry

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "strake/geometry/winding_number.hpp"
 #include "support/clash_model.hpp"
@@ -113,6 +114,130 @@ TEST(OpenSurfaces, TanksTraysAndDecksAreMeant) {
   for (const double depth : {100.0, 500.0, 1000.0, 3000.0})
     for (const double height : {-0.4, 0.0, 0.3})
       EXPECT_FALSE(told(lidless(1000, 1000, depth), cube_at({0, 0, height * depth}, 20)));
+}
+
+/// A box of `cells` by as many squares a side, without one triangle of `left_out`.
+TriangleMesh tank(double size, std::uint32_t cells, std::size_t left_out) {
+  TriangleMesh mesh;
+  const auto corner = [&](int axis, double across, double u, double v) {
+    Vec3d p;
+    p[axis] = across * size;
+    p[(axis + 1) % 3] = u * size;
+    p[(axis + 2) % 3] = v * size;
+    mesh.vertices.push_back(p);
+    return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double across : {0.0, 1.0})
+      for (std::uint32_t i = 0; i < cells; ++i)
+        for (std::uint32_t j = 0; j < cells; ++j) {
+          const double u = 1.0 * i / cells, v = 1.0 * j / cells, w = 1.0 / cells;
+          const std::uint32_t p = corner(axis, across, u, v), q = corner(axis, across, u + w, v);
+          const std::uint32_t r = corner(axis, across, u + w, v + w);
+          const std::uint32_t s = corner(axis, across, u, v + w);
+          const bool out = across > 0;
+          mesh.triangles.push_back(out ? geometry::Triangle{p, q, r} : geometry::Triangle{p, r, q});
+          mesh.triangles.push_back(out ? geometry::Triangle{p, r, s} : geometry::Triangle{p, s, r});
+        }
+  mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(left_out));
+  return mesh;
+}
+
+void add_quad(TriangleMesh& mesh, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Vec3d& v : {a, b, c, d}) mesh.vertices.push_back(v);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+void turn_some(TriangleMesh& mesh, double share, Draw& draw) {
+  for (geometry::Triangle& t : mesh.triangles)
+    if (draw.between(0, 1) < share) std::swap(t[1], t[2]);
+}
+
+// What stands in a tank, on it or beside it, and triangles that face the wrong way.
+TEST(OpenSurfaces, WhatASkinHasBesidesMakesNoDifference) {
+  for (std::uint64_t seed = 1; seed <= test::rounds(4U, 40U); ++seed) {
+    SCOPED_TRACE(seed);
+    Draw draw(seed);
+    const double s = draw.between(400, 3000);
+    const auto cells = static_cast<std::uint32_t>(4 + draw.below(5));
+    for (int kind = 0; kind < 6; ++kind) {
+      SCOPED_TRACE(kind);
+      TriangleMesh mesh = tank(s, cells, static_cast<std::size_t>(draw.below(12 * cells * cells)));
+      const double h = draw.between(0.6, 0.9) * s;
+      if (kind == 1)
+        add_quad(mesh, {0.2 * s, 0.2 * s, h}, {0.8 * s, 0.2 * s, h}, {0.8 * s, 0.8 * s, h},
+                 {0.2 * s, 0.8 * s, h});
+      if (kind == 2) add_quad(mesh, {s, 0, 0}, {s, s, 0}, {1.9 * s, s, 0}, {1.9 * s, 0, 0});
+      if (kind == 3)
+        add_quad(mesh, {1.3 * s, 0, 0}, {2.5 * s, 0, 0}, {2.5 * s, s, 0}, {1.3 * s, s, 0});
+      if (kind == 4) add_quad(mesh, {s / 2, 0, 0}, {s / 2, s, 0}, {s / 2, s, s}, {s / 2, 0, s});
+      turn_some(mesh,
+                kind == 0   ? 0.05
+                : kind == 5 ? 0.5
+                            : 0.1 * static_cast<double>(draw.below(2)),
+                draw);
+      EXPECT_TRUE(told(mesh, cube_at({0.25 * s, 0.4 * s, 0.3 * s}, 0.1 * s)));
+      EXPECT_FALSE(told(mesh, cube_at({1.2 * s, 0.4 * s, 0.3 * s}, 0.05 * s)));
+    }
+  }
+}
+
+// The bore of a tube is not within, whichever way its triangles face.
+TEST(OpenSurfaces, WhatIsInABoreIsOutside) {
+  for (std::uint64_t seed = 1; seed <= test::rounds(4U, 40U); ++seed) {
+    SCOPED_TRACE(seed);
+    Draw draw(seed);
+    TriangleMesh mesh = test::closed_tube(500, 200, 1500, 24).mesh;
+    mesh.triangles.erase(mesh.triangles.begin() +
+                         static_cast<std::ptrdiff_t>(draw.below(mesh.triangles.size())));
+    turn_some(mesh, 0.1 * static_cast<double>(draw.below(3)), draw);
+    EXPECT_FALSE(told(mesh, cube_at({0, 0, draw.between(-500, 500)}, 30)));
+  }
+}
+
+// A rod that reaches out through the gap, by little or by much.
+TEST(OpenSurfaces, ARodThroughTheGap) {
+  TriangleMesh mesh = tank(1000, 6, 0);
+  std::erase_if(mesh.triangles, [&](const geometry::Triangle& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) {
+      const Vec3d& p = mesh.vertices[v];
+      return p.z > 999 && p.x > 300 && p.x < 520 && p.y > 300 && p.y < 520;
+    });
+  });
+  for (const double top : {900.0, 999.0, 1001.0, 1400.0, 9000.0})
+    EXPECT_TRUE(told(mesh, test::box_mesh({380, 380, 200}, {440, 440, top})));
+  EXPECT_FALSE(told(mesh, test::box_mesh({380, 380, 1002}, {440, 440, 1400})));
+}
+
+/// What is said of a box that stands on the floor of a tank, or on its lid.
+clash::Pair standing(const TriangleMesh& around, double floor) {
+  ClashModel m;
+  m.object("a").body(around).object("b").body(
+      test::box_mesh({400, 400, floor}, {600, 600, floor + 200}));
+  const clash::Report report = m.detect();
+  EXPECT_TRUE(report.not_compared.empty());
+  EXPECT_EQ(report.pairs.size(), 1U);
+  return report.pairs.empty() ? clash::Pair{} : report.pairs[0];
+}
+
+// A touch is told in any case; in what is nearly closed, that it may be more.
+TEST(OpenSurfaces, WhatStandsOnTheFloorMayBeAHit) {
+  for (const std::size_t left_out : {5U, 100U, 300U}) {
+    const TriangleMesh mesh = tank(1000, 6, left_out);
+    for (const double off : {0.0, 0.2, 0.9}) {
+      const clash::Pair in = standing(mesh, off), on = standing(mesh, 1000 + off);
+      for (const clash::Pair* const p : {&in, &on}) EXPECT_EQ(p->cls, clash::Class::contact);
+      EXPECT_EQ(in.severest, clash::Class::hit);
+      EXPECT_NE(in.flags & clash::kUncertain, 0);
+      EXPECT_EQ(on.severest, clash::Class::contact);
+      EXPECT_EQ(on.flags & clash::kUncertain, 0);
+    }
+  }
+  TriangleMesh open = lidless(1000, 1000, 1000);
+  test::place_mesh(open, {}, {500, 500, 500});
+  EXPECT_EQ(standing(open, 0).severest, clash::Class::contact);
 }
 
 TEST(OpenSurfaces, AHitIsTold) {
