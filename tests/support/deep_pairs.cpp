@@ -299,6 +299,14 @@ DeepBody spring(double radius, double pitch, double wire, int turns) {
   return body;
 }
 
+/// Some rotation, half way up and somewhere along x. Drawn one after the other, not as arguments of
+/// one call: compilers differ in which they draw first.
+Place draw_place(Draw& draw, double least_x, double greatest_x, double height) {
+  const auto axes = draw_turn(draw);
+  const double x = draw.in(least_x, greatest_x);
+  return turn_about(axes, {x, 0, height / 2});
+}
+
 DeepPair draw_springs(Draw& draw, std::ostream& recipe) {
   const double radius = draw.in(20, 60), wire = draw.in(2, 6), pitch = wire * draw.in(2.5, 5);
   const int turns = 3 + draw.below(4);
@@ -309,15 +317,15 @@ DeepPair draw_springs(Draw& draw, std::ostream& recipe) {
   recipe << "spring " << radius << " wire " << wire << " pitch " << pitch << " turns " << turns
          << " other " << other;
   if (other == 0) {
-    pair.b = placed(spring(radius * draw.in(0.9, 1.1), pitch, wire, turns),
-                    turn_about(draw_turn(draw), {draw.in(0, radius), 0, height / 2}));
+    const double other_radius = radius * draw.in(0.9, 1.1);
+    pair.b = placed(spring(other_radius, pitch, wire, turns), draw_place(draw, 0, radius, height));
   } else if (other == 1) {
     pair.b =
         extruded({ring(24, radius * 1.6, 0), ring(24, radius - wire * draw.in(-0.6, 0.6), 0.1)},
                  height * 0.2, height * 0.8);
   } else {
     pair.b = placed(extruded({{{-80, -80}, {80, -80}, {80, 80}, {-80, 80}}}, -wire, wire),
-                    turn_about(draw_turn(draw), {draw.in(-10, 10), 0, height / 2}));
+                    draw_place(draw, -10, 10, height));
   }
   return pair;
 }
@@ -407,7 +415,9 @@ DeepPair draw_deep_pair(DeepKind kind, std::uint64_t seed) {
 
 DeepPair turned_together(const DeepPair& pair, std::uint64_t seed) {
   Draw draw(seed + 1000003);
-  const Place turn = turn_about(draw_turn(draw), {draw.in(-9, 9), draw.in(-9, 9), draw.in(-9, 9)});
+  // Not as arguments of one call: compilers differ in which they draw first.
+  const auto axes = draw_turn(draw);
+  const Place turn = turn_about(axes, {draw.in(-9, 9), draw.in(-9, 9), draw.in(-9, 9)});
   DeepPair turned = pair;
   turned.a = placed(std::move(turned.a), turn);
   turned.b = placed(std::move(turned.b), turn);

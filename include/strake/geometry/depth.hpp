@@ -110,9 +110,9 @@ struct SkinPoint {
 /// is inside all of the part's half-spaces), by weak duality; and since a translation changes D by
 /// no more than its length, any short one that exactly parts the interiors. Lower bound: a point
 /// whose side is decided exactly, with its distances. Where the two differ by more than the goal
-/// allows, as between parts that are not convex, best-first branch and bound over the simplices of
-/// their common box: within one, the distance to a triangle is convex, so that a linear program
-/// through its corner values bounds the depth, exactly where the skins are flat or locally convex.
+/// allows, as between parts that are not convex, points climb to where they are deepest nearby, and
+/// the surfaces parallel to either skin, a little deeper than the deepest point known, are searched
+/// for points of both.
 /// Work is limited by the goal; the bracket is certain wherever it stops.
 [[nodiscard]] Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
                                 PairWork& work);

@@ -24,6 +24,8 @@ namespace strake::geometry {
 namespace {
 
 constexpr std::size_t kMaxVerticesTried = 128;
+/// How wide a bracket may be at most, relative to the depth: as little as a turn may change it.
+constexpr double kFinely = 1e-3;
 /// Of a body with more edges none is tried.
 constexpr std::size_t kMostEdgesTried = 2048;
 /// Points from where a search goes uphill.
@@ -370,7 +372,9 @@ class Centring {
 
 }  // namespace
 
-Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal, PairWork& work) {
+Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& asked, PairWork& work) {
+  DepthGoal goal = asked;
+  goal.relative = std::min(asked.relative, kFinely);
   // Flush faces of a model that stands askew: what the snap made of a touch.
   if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};

@@ -73,9 +73,10 @@ class DepthField {
     return side(p, work) != PointSide::outside;
   }
 
-  [[nodiscard]] NearestTriangle nearest(const Vec3d& p, std::uint32_t hint = kNoFace) const {
-    return nearest_triangle(part(), *part_->tree, local(p), hint,
-                            std::numeric_limits<double>::infinity(), prepared_);
+  [[nodiscard]] NearestTriangle nearest(
+      const Vec3d& p, std::uint32_t hint = kNoFace,
+      double limit = std::numeric_limits<double>::infinity()) const {
+    return nearest_triangle(part(), *part_->tree, local(p), hint, limit, prepared_);
   }
 
   /// No less than nearest().distance.

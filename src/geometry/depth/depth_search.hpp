@@ -16,8 +16,8 @@ namespace strake::geometry {
 }
 
 /// Narrows the bracket of two solids: points climb to where they are deepest nearby, from `seeds`
-/// and from each deeper point found, and a best-first branch and bound over the common region says
-/// how much deeper any other may be. Coordinates are relative to a's origin.
+/// and from each deeper point found, and levels above it are asked for until none is left that may
+/// be deeper. Coordinates are relative to a's origin.
 void search_solid_depth(const DepthField& a, const DepthField& b, const DepthGoal& goal,
                         std::span<const Vec3d> seeds, Depth& depth, PairWork& work);
 

@@ -67,6 +67,13 @@ TEST_P(DeepPairs, NoPointThatIsFoundOtherwiseIsDeeper) {
   });
 }
 
+/// None is so hard that the work limit ends the search.
+TEST_P(DeepPairs, BracketsAreNarrow) {
+  over_pairs([](const DeepPair&, const Depth& depth, std::uint64_t) {
+    EXPECT_LE(depth.upper - depth.lower, tolerance(depth.value));
+  });
+}
+
 TEST_P(DeepPairs, ClosedForms) {
   // What the snap of corners, and of a turn, moves.
   constexpr double kSnap = 3;

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/depth/level_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/box.hpp"
+#include "geometry/depth/level_cell.hpp"
+#include "geometry/depth/parallel_surface.hpp"
+#include "geometry/range.hpp"
+#include "geometry/tree_walk.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Triangles near a cell beyond which it is only halved.
+constexpr std::size_t kMostNear = 24;
+/// The least difference of the ways to two triangles that a cut goes between.
+constexpr double kLeastTurn = 0.1;
+
+class LevelSearch {
+ public:
+  LevelSearch(const DepthField& of, const DepthField& in, const LevelQuestion& question,
+              const DepthGoal& goal, PairWork& work)
+      : of_(of),
+        in_(in),
+        q_(question),
+        goal_(goal),
+        work_(work),
+        flat_((question.level - question.known) / 8) {
+    const Box3d x = of.box(), y = in.box();
+    Box3d within = x;
+    if (goal.within) within = goal.within->inflated(question.ceiling - question.level);
+    for (int k = 0; k < 3; ++k) {
+      room_.lo[k] = std::max({x.lo[k], y.lo[k], within.lo[k]});
+      room_.hi[k] = std::min({x.hi[k], y.hi[k], within.hi[k]});
+    }
+  }
+
+  LevelAnswer run() {
+    answer_.none = clears(skin()) && clears(parallel_surface(of_, room_, q_.level, flat_));
+    return answer_;
+  }
+
+ private:
+  /// The skin of the second.
+  [[nodiscard]] std::optional<std::vector<LevelCell>> skin() const {
+    const auto near = triangles_near(in_, room_, 0);
+    if (!near) return std::nullopt;
+    std::vector<LevelCell> cells;
+    cells.reserve(near->size());
+    for (const std::uint32_t t : *near) {
+      cells.push_back(flat_cell(in_.placed(t), {}));
+      cells.back().on_skin = true;
+    }
+    return cells;
+  }
+
+  /// Whether nothing of a surface is a point that is looked for.
+  bool clears(const std::optional<std::vector<LevelCell>>& surface) {
+    if (!surface) return false;
+    std::vector<LevelCell> open;
+    for (const LevelCell& cell : *surface) {
+      open.push_back(cell);
+      while (!open.empty()) {
+        if (++answer_.cells > q_.most_cells) return false;
+        const LevelCell next = std::move(open.back());
+        open.pop_back();
+        if (next.corners.size() < 3 || is_clear(next)) continue;
+        if (answer_.deeper.has_value() || radius_ - slack_ < flat_) return false;
+        cut(next, open);
+      }
+    }
+    return true;
+  }
+
+  bool is_clear(const LevelCell& cell) {
+    slack_ = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
+    const Box3d box = box_of(cell.corners).inflated(slack_);
+    if (!box.meets(room_)) return true;
+    Vec3d sum;
+    for (const Vec3d& p : cell.corners) sum = sum + p;
+    middle_ = on_field_grid(sum * (1 / static_cast<double>(cell.corners.size())));
+    radius_ = 0;
+    for (const Vec3d& p : cell.corners) radius_ = std::max(radius_, length(p - middle_));
+    radius_ += slack_;
+    if (hint_ != kNoFace && is_near_triangle(cell, hint_)) return true;
+    const NearestTriangle near = of_.nearest(middle_, hint_, q_.level + radius_);
+    if (near.triangle != kNoFace) hint_ = near.triangle;
+    if (near.distance + radius_ < q_.level) return true;
+    if (near.triangle != kNoFace && is_near_triangle(cell, near.triangle)) return true;
+    const bool in_first = of_.contains(middle_, work_);
+    if (!in_first && near.distance > radius_) return true;
+    crossing_.clear();
+    near_.clear();
+    const std::size_t of_first = find_crossing(of_, cell, box);
+    if (!in_first && of_first == 0) return true;
+    const bool in_second = in_.contains(middle_, work_);
+    if (in_first && in_second && near.distance > (q_.known + q_.level) / 2 &&
+        goal_.counts(middle_)) {
+      answer_.deeper = middle_;
+      return false;
+    }
+    bool one_piece = true;
+    if (!cell.on_skin) {
+      const std::size_t of_second = find_crossing(in_, cell, box);
+      if (of_second == 0 && !in_second) return true;
+      // Otherwise all of what is in the second is next to the skin, in one piece.
+      one_piece = of_second == 0;
+    }
+    if (one_piece && of_first == 0 && goal_.belongs && !goal_.belongs(middle_)) return true;
+    // What is deeper than the level is not taken out by a shorter move.
+    return !(in_first && near.distance > q_.level) && near.triangle != kNoFace &&
+           leads_out(cell, near.triangle);
+  }
+
+  [[nodiscard]] bool is_near_triangle(const LevelCell& cell, std::uint32_t triangle) const {
+    const Corners c = of_.placed(triangle);
+    return std::ranges::all_of(cell.corners, [&](const Vec3d& p) {
+      return length(p - nearest_on_triangle(p, c)) + slack_ < q_.level;
+    });
+  }
+
+  /// Adds the triangles that may come near to the hull of a cell: how many.
+  std::size_t find_crossing(const DepthField& field, const LevelCell& cell, const Box3d& box) {
+    const std::size_t before = crossing_.size();
+    for_near(field, box, [&](const Corners& c) {
+      if (!are_apart(cell.corners, c, slack_)) crossing_.push_back(c);
+      return crossing_.size() - before <= kMostNear;
+    });
+    return crossing_.size() - before;
+  }
+
+  template <class Visit>
+  static bool for_near(const DepthField& field, const Box3d& box, const Visit& visit) {
+    const Box3d local{field.local(box.lo), field.local(box.hi)};
+    return walk_tree(
+        field.tree(),
+        [&](const PartTree::Node& node) { return node.box.as<double>().meets(local); },
+        [&](std::uint32_t t) {
+          const Corners c = field.placed(t);
+          return !box_of(c).meets(box) || visit(c);
+        });
+  }
+
+  /// Whether a move shorter than the level takes all of a cell out of the first part: no point of
+  /// it is farther from the skin. Along the normals of the triangles that are nearest to it, and
+  /// along the ways to these.
+  bool leads_out(const LevelCell& cell, std::uint32_t nearest) {
+    near_ = {nearest};
+    ways_.clear();
+    if (leads_out(cell, middle_, nearest)) return true;
+    for (const Vec3d& p : cell.corners) {
+      const std::uint32_t t = of_.nearest(p, nearest, q_.level).triangle;
+      if (t == kNoFace) return false;
+      if (std::ranges::find(near_, t) == near_.end()) near_.push_back(t);
+      if (leads_out(cell, p, t)) return true;
+    }
+    return false;
+  }
+
+  bool leads_out(const LevelCell& cell, const Vec3d& from, std::uint32_t triangle) {
+    const Vec3d n = of_.triangle(triangle).unit;
+    const Vec3d way =
+        of_.common(nearest_on_triangle(of_.local(from), of_.corners(triangle))) - from;
+    return is_way_out(cell, n) || is_way_out(cell, dot(n, way) < 0 ? -way : way);
+  }
+
+  bool is_way_out(const LevelCell& cell, const Vec3d& way) {
+    const double size = length(way);
+    if (!(size > 0)) return false;
+    const Vec3d unit = way * (1 / size);
+    constexpr double kSameWay = 1 - 1e-7;
+    if (std::ranges::any_of(ways_, [&](const Vec3d& w) { return dot(w, unit) > kSameWay; }))
+      return false;
+    ways_.push_back(unit);
+    const Vec3d move = unit * (q_.level - 2 * q_.slack);
+    std::vector<Vec3d> moved = cell.corners;
+    for (Vec3d& p : moved) p = p + move;
+    if (of_.contains(on_field_grid(middle_ + move), work_)) return false;
+    return for_near(of_, box_of(moved).inflated(slack_),
+                    [&](const Corners& near) { return are_apart(moved, near, slack_); });
+  }
+
+  /// Along the plane of the largest triangle that goes through a flat cell, a little above it: the
+  /// part above is clear of it. Or along that of a near triangle, lowered as far as the level: a
+  /// move takes out what is above. Or between two triangles that are near to different corners.
+  /// Else in half.
+  void cut(LevelCell cell, std::vector<LevelCell>& open) const {
+    // Curved by no more than this, it is as good as flat.
+    const double smooth = 2 * flat_;
+    if (cell.slack <= smooth) cell.about.clear();
+    if (cell.about.empty()) {
+      if (const auto plane = plane_to_cut_along(cell)) {
+        open.push_back(below(cell, plane->normal, plane->offset));
+        open.push_back(below(cell, -plane->normal, -plane->offset));
+        return;
+      }
+    }
+    for (LevelCell& half : halves_of(cell)) open.push_back(std::move(half));
+  }
+
+  /// normal·x <= offset, relative to the common origin.
+  struct Plane {
+    Vec3d normal;  ///< unit
+    double offset = 0;
+  };
+
+  [[nodiscard]] std::optional<Plane> plane_to_cut_along(const LevelCell& cell) const {
+    const double clear = slack_ + flat_;
+    std::optional<Plane> best;
+    double most = 0;
+    if (crossing_.size() <= kMostNear)
+      for (const Corners& c : crossing_) {
+        const Vec3d n = normal_of(c);
+        const double area = length(n);
+        if (!(area > most)) continue;
+        const double top = std::max({dot(n, c[0]), dot(n, c[1]), dot(n, c[2])}) / area;
+        const Plane plane{n * (1 / area), top + clear};
+        if (!goes_through(cell, plane)) continue;
+        most = area;
+        best = plane;
+      }
+    if (best) return best;
+    for (const Way& way : ways_from(near_)) {
+      const Plane plane{-way.unit, dot(-way.unit, middle_) + way.distance + clear - q_.level};
+      if (goes_through(cell, plane)) return plane;
+    }
+    return plane_between(cell);
+  }
+
+  /// From a triangle to the middle of the cell.
+  struct Way {
+    Vec3d unit;
+    double distance = 0;
+  };
+
+  [[nodiscard]] std::vector<Way> ways_from(const std::vector<std::uint32_t>& triangles) const {
+    std::vector<Way> ways;
+    for (const std::uint32_t t : triangles) {
+      const Vec3d p = of_.local(middle_);
+      const Vec3d way = p - nearest_on_triangle(p, of_.corners(t));
+      if (const double size = length(way); size > 0) ways.push_back({way * (1 / size), size});
+    }
+    return ways;
+  }
+
+  /// Where two triangles are equally near, as it is about the middle: the plane nearest to that.
+  [[nodiscard]] std::optional<Plane> plane_between(const LevelCell& cell) const {
+    const std::vector<Way> ways = ways_from(near_);
+    std::optional<Plane> best;
+    double least = radius_;
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vec3d n = ways[i].unit - ways[j].unit;
+        const double size = length(n);
+        if (!(size > kLeastTurn)) continue;
+        const double off = (ways[j].distance - ways[i].distance) / size;
+        if (!(std::fabs(off) < least)) continue;
+        const Vec3d normal = n * (1 / size);
+        const Plane plane{normal, dot(normal, middle_) + off};
+        if (!goes_through(cell, plane)) continue;
+        least = std::fabs(off);
+        best = plane;
+      }
+    return best;
+  }
+
+  /// Not where it would hardly cut anything off.
+  [[nodiscard]] bool goes_through(const LevelCell& cell, const Plane& plane) const {
+    Range r;
+    for (const Vec3d& p : cell.corners) r.include(dot(plane.normal, p) - plane.offset);
+    return r.lo < -2 * flat_ && r.hi > 2 * flat_;
+  }
+
+  const DepthField &of_, &in_;
+  const LevelQuestion& q_;
+  const DepthGoal& goal_;
+  PairWork& work_;
+  double flat_;
+  Box3d room_;
+  LevelAnswer answer_;
+  // Of the cell that was looked at last.
+  Vec3d middle_;
+  double radius_ = 0, slack_ = 0;
+  std::vector<Corners> crossing_;
+  std::uint32_t hint_ = kNoFace;
+  std::vector<std::uint32_t> near_;
+  std::vector<Vec3d> ways_;
+};
+
+}  // namespace
+
+LevelAnswer look_above_level(const DepthField& of, const DepthField& in,
+                             const LevelQuestion& question, const DepthGoal& goal, PairWork& work) {
+  return LevelSearch(of, in, question, goal, work).run();
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "geometry/depth/depth_field.hpp"
+
+namespace strake::geometry {
+
+/// What is asked: whether a point of both parts is farther from the skin of the first than `level`.
+struct LevelQuestion {
+  double level = 0;
+  double known = 0;    ///< such a depth is known; less than the level
+  double ceiling = 0;  ///< none is greater
+  double slack = 0;    ///< how far a point of the field grid may be off, distances' errors included
+  std::uint64_t most_cells = 0;
+};
+
+struct LevelAnswer {
+  bool none = false;            ///< certainly no point is
+  std::optional<Vec3d> deeper;  ///< a point of both that is deeper than what is known
+  std::uint64_t cells = 0;
+};
+
+/// If x is deeper in the first part than the level, the straight way from x to the nearest point of
+/// its skin leads to a point at the level, which is on the surface parallel to the skin. Either the
+/// way crosses the skin of the second part at the level or deeper, or that point is in the second.
+/// So only surfaces are searched: the skin of the second for points in the first that are as deep,
+/// and the parallel surface (triangles moved inwards, round edges and corners that stand in) for
+/// points in both that are no nearer to another triangle.
+[[nodiscard]] LevelAnswer look_above_level(const DepthField& of, const DepthField& in,
+                                           const LevelQuestion& question, const DepthGoal& goal,
+                                           PairWork& work);
+
+}  // namespace strake::geometry

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/depth/parallel_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "geometry/tree_walk.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Triangles beyond which a surface is not made.
+constexpr std::size_t kMostTriangles = 4096;
+/// Rounding of heights over a triangle's plane, grid units, and of unit vectors.
+constexpr double kHeightError = 1e-3, kUnitError = 1e-9;
+
+Vec3d unit(const Vec3d& v) { return v * (1 / length(v)); }
+
+/// Some direction square to a unit vector.
+Vec3d beside(const Vec3d& v) {
+  Vec3d axis;
+  int least = 0;
+  for (int k = 1; k < 3; ++k)
+    if (std::fabs(v[k]) < std::fabs(v[least])) least = k;
+  axis[least] = 1;
+  return unit(cross(v, axis));
+}
+
+class Builder {
+ public:
+  Builder(const DepthField& of, std::vector<std::uint32_t> near, double distance, double flat)
+      : of_(of), near_(std::move(near)), distance_(distance), flat_(flat) {}
+
+  std::vector<LevelCell> run() {
+    for (const std::uint32_t t : near_) {
+      const Vec3d n = of_.triangle(t).unit;
+      if (dot(n, n) > 0) cells_.push_back(flat_cell(of_.placed(t), n * -distance_));
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Triangle& c = of_.part().triangles[t];
+        const auto [least, most] = std::minmax(c[i], c[(i + 1) % 3]);
+        ends_.push_back({least, most});
+      }
+    }
+    std::ranges::sort(ends_);
+    const auto twice = std::ranges::unique(ends_);
+    ends_.erase(twice.begin(), twice.end());
+    for (const Ends& e : ends_) add_edge(e);
+    add_corners();
+    return std::move(cells_);
+  }
+
+ private:
+  using Ends = std::array<std::uint32_t, 2>;
+  /// How far the skin bends in, in all, at the edges of a corner.
+  struct Bend {
+    std::uint32_t corner = 0;
+    double angle = 0;
+  };
+
+  [[nodiscard]] Vec3d at(std::uint32_t v) const {
+    return of_.common(of_.part().vertices[v].as<double>());
+  }
+
+  void add_edge(const Ends& ends) {
+    const auto& edges = of_.part().edges;
+    std::size_t lo = 0, hi = edges.size() - 1;
+    while (lo < hi) {
+      const std::size_t middle = (lo + hi) / 2;
+      if (Ends{edges[middle].v0, edges[middle].v1} < ends)
+        lo = middle + 1;
+      else
+        hi = middle;
+    }
+    const std::uint32_t first = edges[lo].first_triangle, last = edges[lo + 1].first_triangle;
+    const Vec3d along = unit(at(ends[1]) - at(ends[0]));
+    constexpr double kHalfTurn = 3.2;
+    if (last - first != 2) {
+      add_turn(ends, beside(along), along);
+      bends_.push_back({ends[0], 2 * kHalfTurn});
+      bends_.push_back({ends[1], 2 * kHalfTurn});
+      return;
+    }
+    const std::uint32_t t = of_.part().edge_triangles[first],
+                        u = of_.part().edge_triangles[first + 1];
+    const Vec3d n = of_.triangle(t).unit, m = of_.triangle(u).unit;
+    double highest = -kHalfTurn / kUnitError;
+    for (const std::uint32_t v : of_.part().triangles[u])
+      if (v != ends[0] && v != ends[1]) highest = dot(n, at(v) - at(ends[0]));
+    if (dot(n, n) > 0 && dot(m, m) > 0 && highest < -kHeightError) return;  // stands out
+    const double sine = length(cross(n, m)), cosine = dot(n, m);
+    const double angle =
+        cosine > 0 ? std::min(2 * sine, kHalfTurn) : kHalfTurn;  // no less than it is
+    bends_.push_back({ends[0], angle});
+    bends_.push_back({ends[1], angle});
+    if (distance_ * angle <= flat_) return;
+    if (cosine > 0) {
+      add_sector(ends, -n, -m);
+    } else if (cosine > kSharp) {
+      const Vec3d middle = unit(-(n + m));
+      add_sector(ends, -n, middle);
+      add_sector(ends, middle, -m);
+    } else {
+      add_turn(ends, beside(along), along);
+    }
+  }
+
+  void add_sector(const Ends& ends, const Vec3d& from, const Vec3d& to) {
+    cells_.push_back(round_edge({at(ends[0]), at(ends[1])}, {from, to}, distance_));
+  }
+
+  /// All round an edge.
+  void add_turn(const Ends& ends, const Vec3d& across, const Vec3d& along) {
+    const Vec3d up = cross(along, across);
+    const std::array<Vec3d, 4> ways{across, up, -across, -up};
+    for (std::size_t i = 0; i < 4; ++i) add_sector(ends, ways[i], ways[(i + 1) % 4]);
+  }
+
+  void add_corners() {
+    std::vector<Ends> both;
+    for (const auto& [v, w] : ends_) {
+      both.push_back({v, w});
+      both.push_back({w, v});
+    }
+    std::ranges::sort(both);
+    std::ranges::sort(bends_, {}, &Bend::corner);
+    for (std::size_t i = 0; i < bends_.size();) {
+      const std::uint32_t v = bends_[i].corner;
+      double sum = 0;
+      for (; i < bends_.size() && bends_[i].corner == v; ++i) sum += bends_[i].angle;
+      if (distance_ * sum <= flat_) continue;
+      std::vector<Vec3d> edges;
+      for (auto e = std::ranges::lower_bound(both, Ends{v, 0}); e != both.end() && (*e)[0] == v;
+           ++e)
+        edges.push_back(unit(at((*e)[1]) - at(v)));
+      add_corner(at(v), edges);
+    }
+  }
+
+  /// A ball that only touches a corner has none of its edges on its side.
+  void add_corner(const Vec3d& corner, const std::vector<Vec3d>& edges) {
+    std::vector<Vec3d> rays;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      for (std::size_t j = i + 1; j < edges.size(); ++j) {
+        const Vec3d square = cross(edges[i], edges[j]);
+        const double size = length(square);
+        if (!(size > kUnitError)) continue;
+        for (const double sign : {1.0, -1.0}) {
+          const Vec3d ray = square * (sign / size);
+          const auto above = [&](const Vec3d& e) { return dot(ray, e) > kUnitError; };
+          const auto same = [&](const Vec3d& r) { return dot(ray, r) > 1 - kUnitError; };
+          if (std::ranges::none_of(edges, above) && std::ranges::none_of(rays, same))
+            rays.push_back(ray);
+        }
+      }
+    if (rays.size() < 3) return;
+    Vec3d sum;
+    for (const Vec3d& r : rays) sum = sum + r;
+    const Vec3d middle = unit(sum), across = beside(middle), up = cross(middle, across);
+    std::ranges::sort(rays, {},
+                      [&](const Vec3d& r) { return std::atan2(dot(r, up), dot(r, across)); });
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      cells_.push_back(
+          round_corner(corner, {middle, rays[i], rays[(i + 1) % rays.size()]}, distance_));
+  }
+
+  static constexpr double kSharp = -0.9;
+
+  const DepthField& of_;
+  std::vector<std::uint32_t> near_;
+  double distance_, flat_;
+  std::vector<Ends> ends_;
+  std::vector<Bend> bends_;
+  std::vector<LevelCell> cells_;
+};
+
+}  // namespace
+
+std::optional<std::vector<std::uint32_t>> triangles_near(const DepthField& of, const Box3d& box,
+                                                         double distance) {
+  std::vector<std::uint32_t> near;
+  const Box3d local = Box3d{of.local(box.lo), of.local(box.hi)}.inflated(distance);
+  const bool all = walk_tree(
+      of.tree(), [&](const PartTree::Node& node) { return node.box.as<double>().meets(local); },
+      [&](std::uint32_t t) {
+        if (box_of(of.corners(t)).meets(local)) near.push_back(t);
+        return near.size() <= kMostTriangles;
+      });
+  if (!all) return std::nullopt;
+  std::ranges::sort(near);
+  return near;
+}
+
+std::optional<std::vector<LevelCell>> parallel_surface(const DepthField& of, const Box3d& room,
+                                                       double distance, double flat) {
+  auto near = triangles_near(of, room, distance);
+  if (!near) return std::nullopt;
+  return Builder(of, std::move(*near), distance, flat).run();
+}
+
+}  // namespace strake::geometry
