@@ -115,13 +115,17 @@ bool are_apart(const std::vector<Vec3d>& cell, const Corners& triangle, double b
     for (const Vec3d& p : triangle) y.include(dot(way, p));
     return std::max(x.lo - y.hi, y.lo - x.hi) > by * size;
   };
-  if (apart_along(normal_of(triangle))) return true;
   const std::size_t n = cell.size();
-  if (apart_along(cross(cell[1] - cell[0], cell[2] - cell[0]))) return true;
-  for (std::size_t i = 0; i < n; ++i)
+  const Vec3d up = cross(cell[1] - cell[0], cell[2] - cell[0]), normal = normal_of(triangle);
+  if (apart_along(normal) || apart_along(up)) return true;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3d edge = cell[(i + 1) % n] - cell[i];
+    if (apart_along(cross(up, edge))) return true;
     for (std::size_t j = 0; j < 3; ++j)
-      if (apart_along(cross(cell[(i + 1) % n] - cell[i], triangle[(j + 1) % 3] - triangle[j])))
-        return true;
+      if (apart_along(cross(edge, triangle[(j + 1) % 3] - triangle[j]))) return true;
+  }
+  for (std::size_t j = 0; j < 3; ++j)
+    if (apart_along(cross(normal, triangle[(j + 1) % 3] - triangle[j]))) return true;
   return false;
 }
 

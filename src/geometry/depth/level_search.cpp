@@ -42,7 +42,7 @@ class LevelSearch {
   }
 
   LevelAnswer run() {
-    answer_.none = clears(skin()) && clears(parallel_surface(of_, room_, q_.level, flat_));
+    answer_.none = clears(skin()) && clears(parallel_surface(of_, room_, q_.level, flat_, work_));
     return answer_;
   }
 

@@ -30,15 +30,52 @@ Vec3d beside(const Vec3d& v) {
   return unit(cross(v, axis));
 }
 
+bool share_a_corner(const Triangle& x, const Triangle& y) {
+  return std::ranges::any_of(x,
+                             [&](std::uint32_t v) { return v == y[0] || v == y[1] || v == y[2]; });
+}
+
+/// Whether a triangle meets another of its part beside its corners and edges.
+bool is_crossed(const DepthField& of, std::uint32_t triangle) {
+  const Corners own = of.corners(triangle);
+  const Box3d box = box_of(own);
+  const auto& triangles = of.part().triangles;
+  return !walk_tree(
+      of.tree(), [&](const PartTree::Node& node) { return node.box.as<double>().meets(box); },
+      [&](std::uint32_t t) {
+        if (t == triangle || share_a_corner(triangles[t], triangles[triangle])) return true;
+        return are_apart({own.begin(), own.end()}, of.corners(t), 0);
+      });
+}
+
+/// Whether the part is on the outer side of a triangle too, at its middle.
+bool has_part_outside(const DepthField& of, std::uint32_t triangle, PairWork& work) {
+  constexpr double kStep = 1.0 / 64;
+  const Corners c = of.placed(triangle);
+  const Vec3d middle = (c[0] + c[1] + c[2]) * (1.0 / 3);
+  return of.contains(on_field_grid(middle + of.triangle(triangle).unit * kStep), work);
+}
+
+/// The triangles that may have the part on both sides, as where a mesh overlaps itself; ascending.
+std::vector<std::uint32_t> inner_faces(const DepthField& of, const std::vector<std::uint32_t>& near,
+                                       PairWork& work) {
+  std::vector<std::uint32_t> inner;
+  for (const std::uint32_t t : near)
+    if (is_crossed(of, t) || has_part_outside(of, t, work)) inner.push_back(t);
+  return inner;
+}
+
 class Builder {
  public:
   Builder(const DepthField& of, std::vector<std::uint32_t> near, double distance, double flat)
       : of_(of), near_(std::move(near)), distance_(distance), flat_(flat) {}
 
-  std::vector<LevelCell> run() {
+  std::vector<LevelCell> run(PairWork& work) {
+    inner_ = inner_faces(of_, near_, work);
     for (const std::uint32_t t : near_) {
       const Vec3d n = of_.triangle(t).unit;
       if (dot(n, n) > 0) cells_.push_back(flat_cell(of_.placed(t), n * -distance_));
+      if (dot(n, n) > 0 && is_inner(t)) cells_.push_back(flat_cell(of_.placed(t), n * distance_));
       for (std::size_t i = 0; i < 3; ++i) {
         const Triangle& c = of_.part().triangles[t];
         const auto [least, most] = std::minmax(c[i], c[(i + 1) % 3]);
@@ -77,15 +114,16 @@ class Builder {
     }
     const std::uint32_t first = edges[lo].first_triangle, last = edges[lo + 1].first_triangle;
     const Vec3d along = unit(at(ends[1]) - at(ends[0]));
-    constexpr double kHalfTurn = 3.2;
-    if (last - first != 2) {
+    const auto& of_edge = of_.part().edge_triangles;
+    bool between_two = last - first == 2;
+    for (std::uint32_t i = first; i < last; ++i) between_two = between_two && !is_inner(of_edge[i]);
+    if (!between_two) {
       add_turn(ends, beside(along), along);
       bends_.push_back({ends[0], 2 * kHalfTurn});
       bends_.push_back({ends[1], 2 * kHalfTurn});
       return;
     }
-    const std::uint32_t t = of_.part().edge_triangles[first],
-                        u = of_.part().edge_triangles[first + 1];
+    const std::uint32_t t = of_edge[first], u = of_edge[first + 1];
     const Vec3d n = of_.triangle(t).unit, m = of_.triangle(u).unit;
     double highest = -kHalfTurn / kUnitError;
     for (const std::uint32_t v : of_.part().triangles[u])
@@ -132,12 +170,30 @@ class Builder {
       double sum = 0;
       for (; i < bends_.size() && bends_[i].corner == v; ++i) sum += bends_[i].angle;
       if (distance_ * sum <= flat_) continue;
+      if (sum > kHalfTurn) {
+        add_ball(at(v));
+        continue;
+      }
       std::vector<Vec3d> edges;
       for (auto e = std::ranges::lower_bound(both, Ends{v, 0}); e != both.end() && (*e)[0] == v;
            ++e)
         edges.push_back(unit(at((*e)[1]) - at(v)));
       add_corner(at(v), edges);
     }
+  }
+
+  /// All round a corner.
+  void add_ball(const Vec3d& corner) {
+    for (const double x : {1.0, -1.0})
+      for (const double y : {1.0, -1.0})
+        for (const double z : {1.0, -1.0}) {
+          const std::array<Vec3d, 3> ways{Vec3d{x, 0, 0}, Vec3d{0, y, 0}, Vec3d{0, 0, z}};
+          cells_.push_back(round_corner(corner, ways, distance_));
+        }
+  }
+
+  [[nodiscard]] bool is_inner(std::uint32_t t) const {
+    return std::ranges::binary_search(inner_, t);
   }
 
   /// A ball that only touches a corner has none of its edges on its side.
@@ -168,10 +224,12 @@ class Builder {
   }
 
   static constexpr double kSharp = -0.9;
+  static constexpr double kHalfTurn = 3.2;  ///< and a little
 
   const DepthField& of_;
   std::vector<std::uint32_t> near_;
   double distance_, flat_;
+  std::vector<std::uint32_t> inner_;  ///< triangles that may have the part on both sides
   std::vector<Ends> ends_;
   std::vector<Bend> bends_;
   std::vector<LevelCell> cells_;
@@ -195,10 +253,11 @@ std::optional<std::vector<std::uint32_t>> triangles_near(const DepthField& of, c
 }
 
 std::optional<std::vector<LevelCell>> parallel_surface(const DepthField& of, const Box3d& room,
-                                                       double distance, double flat) {
+                                                       double distance, double flat,
+                                                       PairWork& work) {
   auto near = triangles_near(of, room, distance);
   if (!near) return std::nullopt;
-  return Builder(of, std::move(*near), distance, flat).run();
+  return Builder(of, std::move(*near), distance, flat).run(work);
 }
 
 }  // namespace strake::geometry
