@@ -33,12 +33,17 @@ class Search {
 
   void run(std::span<const Vec3d> seeds) {
     for (const Vec3d& seed : seeds) climb(seed);
+    narrow();
+    depth_.complete = is_narrow(depth_.lower, depth_.upper, goal_);
+  }
+
+ private:
+  /// Lowers the upper bound by one level after the other.
+  void narrow() {
     double share = std::min(kNearestLevel, goal_.relative / 2);
-    bool complete = true;
     while (const std::uint64_t left = cells_left()) {
       const double step = std::max(kLeastStep * goal_.tolerance, share * depth_.value);
       const double level = depth_.value + step;
-      depth_.complete = complete;
       if (level >= depth_.upper) return;
       switch (ask(level, left / 2 + 1)) {
         case Found::none:
@@ -47,14 +52,11 @@ class Search {
         case Found::deeper:
           break;
         case Found::unknown:
-          complete = false;
           share *= kNextLevel;
       }
     }
-    depth_.complete = false;
   }
 
- private:
   enum class Found : std::uint8_t { none, deeper, unknown };
 
   /// Whether some point is deeper than a level.
