@@ -36,9 +36,9 @@ struct MeshAnalysis {
   MeshFindings findings;
 };
 
-/// How wide seams may be that are closed, grid units up to a metre. Shells that close within
-/// `first` are closed first, then those that close within twice that, and so on: what a small
-/// distance makes a solid is one at a large distance, too.
+/// How wide seams may be that are closed, grid units up to a metre. Where that leaves some open,
+/// shells that close within `first` are closed first, then those that close within twice that, and
+/// so on: what a small distance makes a solid is one at a large distance, too.
 struct Seams {
   std::int64_t within = 0;  ///< 0: corners on each other only
   std::int64_t first = within;

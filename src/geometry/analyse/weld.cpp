@@ -244,24 +244,40 @@ void drop_unused_vertices(GridMesh& mesh, std::vector<std::uint32_t>& memory) {
     for (std::uint32_t& v : t) v = renumbered[v];
 }
 
-/// Shells that close within a small distance are closed before a larger one is tried, at which
-/// their corners may run together along fine rims. No corner moves farther than by all that is done
-/// together.
+bool is_open(const Topology& topology, const AnalyseScratch& scratch) {
+  return !open_edges(scratch.welded.triangles, topology).empty();
+}
+
+void close_within(std::int64_t within, Closing closing, Topology& topology, AnalyseScratch& scratch,
+                  MeshFindings& findings) {
+  const std::optional<NearWeld> near = weld_near(within, closing, topology, scratch);
+  if (!near) return;
+  findings.welded_corners += near->corners;
+  findings.welded_shells += near->shells;
+  findings.largest_weld += near->largest;
+  drop_unused_vertices(scratch.welded, scratch.weld.next);
+  topology = topology_of(scratch);
+  if (near->repeated) topology = drop_duplicates(topology, scratch, findings);
+}
+
+/// At a large distance corners may run together along fine rims. Where that leaves something open,
+/// shells that close within a small one are closed first. No corner moves farther than by all that
+/// is done together.
 void close_seams(const Seams& seams, Topology& topology, AnalyseScratch& scratch,
                  MeshFindings& findings) {
-  for (std::int64_t within = std::min(seams.first, seams.within); within > 0;
-       within = std::min(2 * within, seams.within)) {
-    const Closing closing = within == seams.within ? Closing::all : Closing::whole_shells;
-    if (const std::optional<NearWeld> near = weld_near(within, closing, topology, scratch)) {
-      findings.welded_corners += near->corners;
-      findings.welded_shells += near->shells;
-      findings.largest_weld += near->largest;
-      drop_unused_vertices(scratch.welded, scratch.weld.next);
-      topology = topology_of(scratch);
-      if (near->repeated) topology = drop_duplicates(topology, scratch, findings);
-    }
-    if (within == seams.within) return;
-  }
+  if (!(seams.within > 0) || !is_open(topology, scratch)) return;
+  const bool wide = seams.first < seams.within;
+  const GridMesh before = wide ? scratch.welded : GridMesh{};
+  const MeshFindings found = findings;
+  close_within(seams.within, Closing::all, topology, scratch, findings);
+  if (!wide || !is_open(topology, scratch)) return;
+  scratch.welded = before;
+  findings = found;
+  topology = topology_of(scratch);
+  for (std::int64_t within = std::max<std::int64_t>(seams.first, 1); within < seams.within;
+       within *= 2)
+    close_within(within, Closing::whole_shells, topology, scratch, findings);
+  close_within(seams.within, Closing::all, topology, scratch, findings);
 }
 
 }  // namespace

@@ -242,6 +242,22 @@ TEST(NearClosedScenes, InstancesShareAShape) {
   EXPECT_EQ(scene_of(m, -1).shapes.size(), 1U);
 }
 
+// How far corners were moved is told in the unit that suits it.
+TEST(NearClosedScenes, ALongWeldIsToldInMillimetres) {
+  ClashModel m;
+  m.object("box").body(lid_above({300, 200, 100}, 4.9));
+  const auto told = [&](double weld_mm) {
+    const model::Scene scene = scene_of(m, weld_mm);
+    for (const Diagnostic& d : scene.diagnostics.kept())
+      if (d.code == "mesh-welded") return d.message;
+    return std::string();
+  };
+  EXPECT_NE(told(5).find("4.900 mm"), std::string::npos) << told(5);
+  m = {};
+  m.object("box").body(lid_above({300, 200, 100}, 0.05));
+  EXPECT_NE(told(1).find("50 um"), std::string::npos) << told(1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Drawn, NearClosed,
                          test::seeds(test::rounds(std::uint64_t{60}, std::uint64_t{2000})));
 
