@@ -221,8 +221,12 @@ void expect_depth(const Found& found, double depth, bool sheet) {
   EXPECT_LE(found.d_lower_mm, -depth + kSnap);
   EXPECT_GE(found.d_upper_mm, -depth - kSnap);
   const double within = std::max(0.05, relative * depth) + kSnap;
-  if (sheet || found.depth_complete) EXPECT_NEAR(found.d_mm, -depth, within);
-  if (found.depth_complete) EXPECT_LE(found.d_upper_mm - found.d_lower_mm, within * (1 + relative));
+  if (sheet || found.depth_complete) {
+    EXPECT_NEAR(found.d_mm, -depth, within);
+  }
+  if (found.depth_complete) {
+    EXPECT_LE(found.d_upper_mm - found.d_lower_mm, within * (1 + relative));
+  }
 }
 
 /// Places one by one, and the pair that is as deep as the worst of them.
