@@ -154,6 +154,7 @@ void cut(const HiddenLine& line, std::span<Interval> covers, const HiddenInkRule
 
 void choose_hidden(std::vector<HiddenLine>& lines, const HiddenInkRule& rule,
                    const std::stop_token& stop, Stretches& out) {
+  if (lines.empty()) return;
   std::ranges::sort(lines, {},
                     [](const HiddenLine& line) { return std::pair(-line.order, line.number); });
   double reach = 0;
