@@ -65,14 +65,15 @@ struct Depth {
       const double lean = (c * s.offset_x + n * s.offset_y) / s.height;
       return (r - out) / std::hypot(1, lean + narrowing);
     };
-    const auto end = [&](double shear_x, double shear_y, double sign) {
-      const double x = std::tan(shear_x), y = std::tan(shear_y);
+    const auto end = [&](double radius, double shear_x, double shear_y, double sign) {
+      // A point has no plane.
+      const double x = radius > 0 ? std::tan(shear_x) : 0, y = radius > 0 ? std::tan(shear_y) : 0;
       const double over = p.z - sign * s.height / 2 - x * (p.x - sign * s.offset_x / 2) -
                           y * (p.y - sign * s.offset_y / 2);
       return -sign * over / std::sqrt(1 + x * x + y * y);
     };
-    const double ends =
-        std::min(end(s.bottom_shear_x, s.bottom_shear_y, -1), end(s.top_shear_x, s.top_shear_y, 1));
+    const double ends = std::min(end(s.bottom_radius, s.bottom_shear_x, s.bottom_shear_y, -1),
+                                 end(s.top_radius, s.top_shear_x, s.top_shear_y, 1));
     return ends < -kNear * s.height ? ends : std::min(ends, least_over(0, 2 * kPi, side));
   }
   double operator()(const SpherePrimitive& s) const {

@@ -144,10 +144,12 @@ struct Points {
   Vec3d operator()(const LinePrimitive&) const { return {}; }
 
   static double above_bottom(const SnoutPrimitive& s, const Vec3d& p) {
+    if (s.bottom_radius == 0) return p.z + s.height / 2;  // a point has no plane
     return p.z + s.height / 2 - std::tan(s.bottom_shear_x) * (p.x + s.offset_x / 2) -
            std::tan(s.bottom_shear_y) * (p.y + s.offset_y / 2);
   }
   static double above_top(const SnoutPrimitive& s, const Vec3d& p) {
+    if (s.top_radius == 0) return p.z - s.height / 2;
     return p.z - s.height / 2 - std::tan(s.top_shear_x) * (p.x - s.offset_x / 2) -
            std::tan(s.top_shear_y) * (p.y - s.offset_y / 2);
   }
