@@ -143,11 +143,12 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
   if (given.visible_only && !given.hidden.empty() && given.hidden != "off")
     return Error{ErrorCode::usage, "hidden lines cannot be drawn and left out", "--visible-only",
                  "leave out --hidden or --visible-only"};
-  if (given.intersections == "off") options.intersections = hlr::Intersections::off;
-  if (given.intersections == "parts") options.intersections = hlr::Intersections::parts;
-  if (given.intersections == "objects") options.intersections = hlr::Intersections::objects;
-  if (given.smooth == "on") options.smooth = hlr::Smooth::all;
-  if (given.smooth == "tangent") options.smooth = hlr::Smooth::tangent;
+  using hlr::Intersections, hlr::Smooth;
+  for (const Intersections which : {Intersections::off, Intersections::objects,
+                                    Intersections::primitives, Intersections::parts})
+    if (given.intersections == drawing::intersections_name(which)) options.intersections = which;
+  for (const Smooth which : {Smooth::off, Smooth::tangent, Smooth::all})
+    if (given.smooth == drawing::smooth_name(which)) options.smooth = which;
   if (!given.sharp_angle.empty()) {
     const Result<double> angle = quantity(given.sharp_angle, "--sharp-angle", parse_angle_deg);
     if (!angle) return angle.error();

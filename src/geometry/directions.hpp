@@ -9,6 +9,9 @@ namespace strake::geometry {
 
 [[nodiscard]] inline double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
+/// For a vector that is not zero.
+[[nodiscard]] inline Vec3d unit(const Vec3d& v) { return v * (1 / length(v)); }
+
 /// A unit vector square to a unit vector: to the axis that this one leans on least, too.
 [[nodiscard]] inline Vec3d square_to(const Vec3d& n) {
   const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);

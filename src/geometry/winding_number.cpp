@@ -11,6 +11,8 @@ namespace strake::geometry {
 namespace {
 
 constexpr std::size_t kDeepest = 64;
+/// Farther than any ray goes.
+constexpr double kNoHit = 1e300;
 
 /// Of the directions from a point within, those that meet an odd number of triangles: what stands
 /// in a body or parts it makes the others even, as they all are in a bore.
@@ -160,9 +162,11 @@ double WindingNumber::at(const Vec3d& at) const {
   return filled / kFull;
 }
 
-std::optional<double> WindingNumber::first_hit(const Vec3d& from, const Vec3d& way) const {
-  constexpr double kNoHit = 1e300, kStart = 1e-6;
-  double far = kNoHit;
+/// Calls visit(where it is met, in lengths of `way`) for triangles that a ray meets; `far`, which
+/// may fall meanwhile, is how far it goes.
+template <class Visit>
+void WindingNumber::along(const Vec3d& from, const Vec3d& way, const double& far,
+                          const Visit& visit) const {
   std::array<std::uint32_t, kDeepest> waiting{};
   for (std::size_t count = nodes_.empty() ? 0 : 1; count > 0;) {
     const Node& node = nodes_[waiting[--count]];
@@ -172,31 +176,23 @@ std::optional<double> WindingNumber::first_hit(const Vec3d& from, const Vec3d& w
       waiting[count++] = node.left + 1;
       continue;
     }
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-      const auto hit = meet(from, way, corner(t, 0), corner(t, 1), corner(t, 2));
-      if (hit && *hit > kStart) far = std::min(far, *hit);
-    }
+    for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
+      if (const auto hit = meet(from, way, corner(t, 0), corner(t, 1), corner(t, 2))) visit(*hit);
   }
+}
+
+std::optional<double> WindingNumber::first_hit(const Vec3d& from, const Vec3d& way) const {
+  constexpr double kStart = 1e-6;
+  double far = kNoHit;
+  along(from, way, far, [&](double hit) {
+    if (hit > kStart) far = std::min(far, hit);
+  });
   return far < kNoHit ? std::optional(far) : std::nullopt;
 }
 
 int WindingNumber::crossings(const Vec3d& from, const Vec3d& way) const {
-  constexpr double kEverywhere = 1e300;
   int met = 0;
-  std::array<std::uint32_t, kDeepest> waiting{};
-  for (std::size_t count = nodes_.empty() ? 0 : 1; count > 0;) {
-    const Node& node = nodes_[waiting[--count]];
-    if (!meets(node.box, from, way, kEverywhere)) continue;
-    if (node.left != 0) {
-      waiting[count++] = node.left;
-      waiting[count++] = node.left + 1;
-      continue;
-    }
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-      const auto hit = meet(from, way, corner(t, 0), corner(t, 1), corner(t, 2));
-      met += hit && *hit > 0 ? 1 : 0;
-    }
-  }
+  along(from, way, kNoHit, [&](double hit) { met += hit > 0 ? 1 : 0; });
   return met;
 }
 

@@ -49,8 +49,10 @@ struct Job {
   /// Whether facets of a part of a body that is not asked about to the last digit hide none of the
   /// part's own edges where rounding to the grid alone shows them: those that may be edge-on.
   [[nodiscard]] bool forgives_rounding(std::uint32_t body) const {
-    return !viewer.eye && !options.keep_specks && contact[body] > 0;
+    return may_forgive_rounding() && contact[body] > 0;
   }
+  /// Whether that is so of any body.
+  [[nodiscard]] bool may_forgive_rounding() const { return !viewer.eye && !options.keep_specks; }
   /// As a body's shape sees it.
   [[nodiscard]] FeatureOptions features_of(const model::GridBody& body) const {
     return {viewer.seen_at(offset(body)), cos_sharp, options.smooth};

@@ -71,7 +71,7 @@ Status make_views(World& world, const parallel::Context& context) {
         const std::uint32_t body = body_of[view];
         return view_of(job.seen_of(body),
                        {world.frame, job.features_of(scene.bodies[body]), picture,
-                        job.options.bucketing, !picture && !job.options.keep_specks, context});
+                        job.options.bucketing, job.may_forgive_rounding(), context});
       });
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -78,18 +77,13 @@ struct DepthGoal {
   }
 };
 
-/// Whether the bracket of a depth is as narrow as the goal asks.
-[[nodiscard]] inline bool is_narrow(double lower, double upper, const DepthGoal& goal = {}) {
-  return upper - lower <= std::max(goal.tolerance, goal.relative * upper);
-}
-
 /// Depth D of an interpenetrating pair, grid units: lower <= D <= upper is certain.
 struct Depth {
   double lower = 0, upper = 0;
   double value = 0;  ///< the nominal depth, in [lower, upper]: that at `point`, but for ties
   Vec3d point;       ///< deepest point found, relative to a's origin
   std::uint64_t cells = 0;
-  bool complete = true;  ///< no work limit ended the search
+  bool complete = true;  ///< no work limit left the bracket wide
 };
 
 /// The point of a part's skin nearest to a point; lengths and coordinates are grid units relative

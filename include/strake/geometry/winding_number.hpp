@@ -21,11 +21,10 @@ namespace strake::geometry {
 /// 1. Floating point, the same on every machine: far triangles count together as what a small flat
 ///    one would fill (G. Barill et al., Fast Winding Numbers for Soups and Clouds, 2018), which is
 ///    off by about a hundredth. For what is to be told, not for what is to be decided.
-/// 2. Where triangles do not all face the same way, more than two meet at an edge, or the surface
-/// is
-///    several, as with a shelf in it or a fin on it, the sum says nothing. Then rays tell: the
-///    directions that lead out meet no triangle, and from within a good part of the others meets an
-///    odd number of them.
+/// 2. Where triangles do not all face the same way, more than two meet at an edge, or there are
+///    several surfaces, as with a shelf within or a fin without, the sum says nothing. Then rays
+///    tell: the directions that lead out meet no triangle, and from within a good part of the
+///    others meets an odd number of them.
 /// 3. Building costs n log n, a question some hundred boxes and triangles.
 class WindingNumber {
  public:
@@ -63,6 +62,8 @@ class WindingNumber {
   };
 
   [[nodiscard]] const Vec3d& corner(std::uint32_t triangle, std::size_t k) const;
+  template <class Visit>
+  void along(const Vec3d& from, const Vec3d& way, const double& far, const Visit& visit) const;
   [[nodiscard]] int crossings(const Vec3d& from, const Vec3d& way) const;
   [[nodiscard]] Look look_round(const Vec3d& from, int rays) const;
   [[nodiscard]] std::optional<double> out_of(const Vec3d& at) const;

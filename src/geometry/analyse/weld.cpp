@@ -244,10 +244,6 @@ void drop_unused_vertices(GridMesh& mesh, std::vector<std::uint32_t>& memory) {
     for (std::uint32_t& v : t) v = renumbered[v];
 }
 
-bool is_open(const Topology& topology, const AnalyseScratch& scratch) {
-  return !open_edges(scratch.welded.triangles, topology).empty();
-}
-
 void close_within(std::int64_t within, Closing closing, Topology& topology, AnalyseScratch& scratch,
                   MeshFindings& findings) {
   const std::optional<NearWeld> near = weld_near(within, closing, topology, scratch);
@@ -265,12 +261,12 @@ void close_within(std::int64_t within, Closing closing, Topology& topology, Anal
 /// is done together.
 void close_seams(const Seams& seams, Topology& topology, AnalyseScratch& scratch,
                  MeshFindings& findings) {
-  if (!(seams.within > 0) || !is_open(topology, scratch)) return;
   const bool wide = seams.first < seams.within;
+  if (wide && unbalanced_edges(scratch.welded, topology) == 0) return;
   const GridMesh before = wide ? scratch.welded : GridMesh{};
   const MeshFindings found = findings;
-  close_within(seams.within, Closing::all, topology, scratch, findings);
-  if (!wide || !is_open(topology, scratch)) return;
+  if (seams.within > 0) close_within(seams.within, Closing::all, topology, scratch, findings);
+  if (!wide || unbalanced_edges(scratch.welded, topology) == 0) return;
   scratch.welded = before;
   findings = found;
   topology = topology_of(scratch);

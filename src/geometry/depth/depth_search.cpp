@@ -37,8 +37,7 @@ class Search {
     for (const Vec3d& seed : seeds) climb(seed);
     narrow();
     // The goal may ask for more, for as long as there is work left.
-    const double narrow_enough = std::max(goal_.tolerance, kComplete * depth_.upper);
-    depth_.complete = depth_.upper - depth_.lower <= narrow_enough;
+    depth_.complete = is_tight(depth_, goal_, kComplete);
   }
 
  private:

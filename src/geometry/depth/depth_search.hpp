@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "geometry/depth/depth_field.hpp"
@@ -11,8 +12,13 @@ namespace strake::geometry {
   return d.lower > goal.threshold || d.upper <= goal.threshold;
 }
 
+/// Whether the bracket is no wider than this relative to the depth, or than the goal's tolerance.
+[[nodiscard]] inline bool is_tight(const Depth& d, const DepthGoal& goal, double relative) {
+  return d.upper - d.lower <= std::max(goal.tolerance, relative * d.upper);
+}
+
 [[nodiscard]] inline bool bracket_suffices(const Depth& d, const DepthGoal& goal) {
-  return is_decided(d, goal) && is_narrow(d.lower, d.upper, goal);
+  return is_decided(d, goal) && is_tight(d, goal, goal.relative);
 }
 
 /// Narrows the bracket of two solids: points climb to where they are deepest nearby, from `seeds`

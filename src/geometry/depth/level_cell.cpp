@@ -12,8 +12,6 @@
 namespace strake::geometry {
 namespace {
 
-Vec3d unit(const Vec3d& v) { return v * (1 / length(v)); }
-
 /// How far a sphere or cylinder about the points stands out of the hull of a cell's corners.
 double bulge(const LevelCell& cell) {
   const double radius = length(cell.corners[0] - cell.about[0]);
@@ -116,7 +114,8 @@ bool are_apart(const std::vector<Vec3d>& cell, const Corners& triangle, double b
     return std::max(x.lo - y.hi, y.lo - x.hi) > by * size;
   };
   const std::size_t n = cell.size();
-  const Vec3d up = cross(cell[1] - cell[0], cell[2] - cell[0]), normal = normal_of(triangle);
+  const Vec3d normal = normal_of(triangle);
+  const Vec3d up = n > 2 ? cross(cell[1] - cell[0], cell[2] - cell[0]) : normal;
   if (apart_along(normal) || apart_along(up)) return true;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3d edge = cell[(i + 1) % n] - cell[i];

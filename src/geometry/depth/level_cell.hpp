@@ -38,7 +38,7 @@ struct LevelCell {
 /// What of a flat cell is no higher than `offset` along a direction; no corners where that is none.
 [[nodiscard]] LevelCell below(const LevelCell& cell, const Vec3d& way, double offset);
 
-/// Whether a triangle certainly stays farther from the hull of a cell than `by`.
+/// Whether a triangle certainly stays farther from the hull of a cell, or a segment, than `by`.
 [[nodiscard]] bool are_apart(const std::vector<Vec3d>& cell, const Corners& triangle, double by);
 
 }  // namespace strake::geometry

@@ -21,8 +21,6 @@ constexpr double kAlong = 1e-9;
 /// that costs a thousandth of the move.
 constexpr double kHolds = 1e-3;
 
-Vec3d unit(const Vec3d& v) { return v * (1 / length(v)); }
-
 /// Orthonormal directions that a point may still be moved along.
 class FreeDirections {
  public:

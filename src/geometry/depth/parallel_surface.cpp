@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "geometry/directions.hpp"
 #include "geometry/tree_walk.hpp"
+#include "strake/geometry/trig.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -18,33 +20,31 @@ constexpr std::size_t kMostTriangles = 4096;
 /// Rounding of heights over a triangle's plane, grid units, and of unit vectors.
 constexpr double kHeightError = 1e-3, kUnitError = 1e-9;
 
-Vec3d unit(const Vec3d& v) { return v * (1 / length(v)); }
-
-/// Some direction square to a unit vector.
-Vec3d beside(const Vec3d& v) {
-  Vec3d axis;
-  int least = 0;
-  for (int k = 1; k < 3; ++k)
-    if (std::fabs(v[k]) < std::fabs(v[least])) least = k;
-  axis[least] = 1;
-  return unit(cross(v, axis));
+/// The corners of a triangle that another does not have.
+std::vector<Vec3d> corners_beside(const DepthField& of, std::uint32_t triangle,
+                                  std::uint32_t other) {
+  const Triangle &x = of.part().triangles[triangle], &y = of.part().triangles[other];
+  const Corners c = of.corners(triangle);
+  std::vector<Vec3d> corners;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (std::ranges::find(y, x[k]) == y.end()) corners.push_back(c[k]);
+  return corners;
 }
 
-bool share_a_corner(const Triangle& x, const Triangle& y) {
-  return std::ranges::any_of(x,
-                             [&](std::uint32_t v) { return v == y[0] || v == y[1] || v == y[2]; });
-}
-
-/// Whether a triangle meets another of its part beside its corners and edges.
+/// Whether a triangle may meet another of its part beside what they have in common. Triangles of
+/// one corner that do so reach with one side, opposite to it, into the other; those of one edge are
+/// folded onto each other and have nothing between them.
 bool is_crossed(const DepthField& of, std::uint32_t triangle) {
   const Corners own = of.corners(triangle);
   const Box3d box = box_of(own);
-  const auto& triangles = of.part().triangles;
   return !walk_tree(
       of.tree(), [&](const PartTree::Node& node) { return node.box.as<double>().meets(box); },
       [&](std::uint32_t t) {
-        if (t == triangle || share_a_corner(triangles[t], triangles[triangle])) return true;
-        return are_apart({own.begin(), own.end()}, of.corners(t), 0);
+        const std::vector<Vec3d> beside = corners_beside(of, triangle, t);
+        if (beside.size() < 2) return true;
+        const Corners other = of.corners(t);
+        return are_apart(beside, other, 0) &&
+               (beside.size() == 3 || are_apart(corners_beside(of, t, triangle), own, 0));
       });
 }
 
@@ -118,7 +118,7 @@ class Builder {
     bool between_two = last - first == 2;
     for (std::uint32_t i = first; i < last; ++i) between_two = between_two && !is_inner(of_edge[i]);
     if (!between_two) {
-      add_turn(ends, beside(along), along);
+      add_turn(ends, square_to(along), along);
       bends_.push_back({ends[0], 2 * kHalfTurn});
       bends_.push_back({ends[1], 2 * kHalfTurn});
       return;
@@ -142,7 +142,7 @@ class Builder {
       add_sector(ends, -n, middle);
       add_sector(ends, middle, -m);
     } else {
-      add_turn(ends, beside(along), along);
+      add_turn(ends, square_to(along), along);
     }
   }
 
@@ -215,9 +215,9 @@ class Builder {
     if (rays.size() < 3) return;
     Vec3d sum;
     for (const Vec3d& r : rays) sum = sum + r;
-    const Vec3d middle = unit(sum), across = beside(middle), up = cross(middle, across);
+    const Vec3d middle = unit(sum), across = square_to(middle), up = cross(middle, across);
     std::ranges::sort(rays, {},
-                      [&](const Vec3d& r) { return std::atan2(dot(r, up), dot(r, across)); });
+                      [&](const Vec3d& r) { return arc_tan2(dot(r, up), dot(r, across)); });
     for (std::size_t i = 0; i < rays.size(); ++i)
       cells_.push_back(
           round_corner(corner, {middle, rays[i], rays[(i + 1) % rays.size()]}, distance_));

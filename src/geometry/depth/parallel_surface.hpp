@@ -11,8 +11,8 @@ namespace strake::geometry {
 
 /// All points of a part at some distance from its skin that lie in a box, or more: its triangles
 /// moved inwards, and round edges and corners that stand in; to both sides and all round where the
-/// part overlaps itself. What bends by less than `flat` grid
-/// units there is left out: it is so near to what is not. Nothing where there is too much of it.
+/// part overlaps itself. What bends by less than `flat` grid units there is left out: it is so near
+/// to what is not. Nothing where there is too much of it.
 [[nodiscard]] std::optional<std::vector<LevelCell>> parallel_surface(const DepthField& of,
                                                                      const Box3d& room,
                                                                      double distance, double flat,

@@ -148,9 +148,8 @@ class SheetSearch {
   }
 
   [[nodiscard]] bool suffices() const {
-    const double relative = std::min(goal_.relative, kSheetRelative);
     return is_decided(depth_, goal_) &&
-           depth_.upper - depth_.lower <= std::max(goal_.tolerance, relative * depth_.upper);
+           is_tight(depth_, goal_, std::min(goal_.relative, kSheetRelative));
   }
 
   [[nodiscard]] bool exhausted() const {

@@ -91,7 +91,7 @@ class OnFlat {
     const Vec3d& origin = corners.front();
     const Vec3d first = unit(corners[1] - origin);
     if (corners.size() == 2) {
-      const Vec3d side = unit(any_square_to(first));
+      const Vec3d side = square_to(first);
       for (const Vec3d& n : {side, cross(first, side)}) add_both(n, origin);
       sides_.push_back({-first, 0, dot(-first, origin)});
       sides_.push_back({first, 0, dot(first, corners[1])});
@@ -120,10 +120,6 @@ class OnFlat {
   static Vec3d unit(const Vec3d& v) {
     const double size = length(v);
     return size > 0 ? v * (1 / size) : Vec3d{};
-  }
-  static Vec3d any_square_to(const Vec3d& v) {
-    const bool along_x = std::fabs(v.x) > std::fabs(v.y) && std::fabs(v.x) > std::fabs(v.z);
-    return cross(v, along_x ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0});
   }
   /// Either side of a plane, with room for rounding.
   void add_both(const Vec3d& n, const Vec3d& on) {

@@ -24,6 +24,7 @@
 #include "support/clash_model.hpp"
 #include "support/draw.hpp"
 #include "support/meshes.hpp"
+#include "support/prism.hpp"
 #include "support/rounds.hpp"
 
 namespace strake {
@@ -90,23 +91,11 @@ Row random_row(test::Draw& draw) {
 /// A box, or a prism of as many corners.
 geometry::TriangleMesh thing(const Row& row) {
   if (row.corners == 4) return test::box_mesh({0, 0, 0}, row.size);
-  geometry::TriangleMesh mesh;
-  const auto n = static_cast<std::uint32_t>(row.corners);
-  for (std::uint32_t i = 0; i < 2 * n; ++i) {
-    const std::uint32_t corner = i / 2;
-    const double angle = 2 * std::numbers::pi * corner / n;
-    mesh.vertices.push_back({row.size.x * (1 + std::cos(angle)) / 2,
-                             row.size.y * (1 + std::sin(angle)) / 2, i % 2 == 0 ? 0 : row.size.z});
-  }
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % n);
-    mesh.triangles.push_back({a, b, b + 1});
-    mesh.triangles.push_back({a, b + 1, a + 1});
-    if (i == 0 || i + 1 == n) continue;
-    mesh.triangles.push_back({0, b, a});
-    mesh.triangles.push_back({1, a + 1, b + 1});
-  }
-  return mesh;
+  return test::prism(static_cast<std::uint32_t>(row.corners), 0, row.size.z,
+                     [&](double angle, double z) {
+                       return Vec3d{row.size.x * (1 + std::cos(angle)) / 2,
+                                    row.size.y * (1 + std::sin(angle)) / 2, z};
+                     });
 }
 
 Vec3d on_grid(const Vec3d& mm) { return geometry::to_mm(*geometry::snap(mm)); }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "../../support/depth_subjects.hpp"
+#include "geometry/depth/depth_search.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -141,7 +142,7 @@ TEST(Depth, BracketsOfConcaveBodiesAreNarrow) {
     EXPECT_TRUE(d.complete) << "seed " << seed;
     const Depth ended = depth_from_touch(a, b, {.cells_undecided = 1, .cells_decided = 1});
     if (!ended.complete) ++cut_short;
-    EXPECT_TRUE(!ended.complete || is_narrow(ended.lower, ended.upper)) << "seed " << seed;
+    EXPECT_TRUE(!ended.complete || is_tight(ended, {}, 0.01)) << "seed " << seed;
   }
   EXPECT_GT(met, 30);
   EXPECT_GT(cut_short, 0);
@@ -393,7 +394,7 @@ TEST(SheetDepth, SaysWhetherAWorkLimitEndedTheSearch) {
   EXPECT_LE(whole.upper - whole.lower, 0.01 * whole.upper);
   const Depth ended = sheet_in_solid_depth(s, c, {.cells_undecided = 0, .cells_decided = 0}, work);
   EXPECT_FALSE(ended.complete);
-  EXPECT_FALSE(is_narrow(ended.lower, ended.upper));
+  EXPECT_FALSE(is_tight(ended, {}, 0.01));
   EXPECT_LE(ended.lower, whole.upper);
   EXPECT_GE(ended.upper, whole.lower);
 }
