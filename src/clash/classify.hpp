@@ -12,7 +12,7 @@ struct Thresholds {
   double overlap = 0, gap = 0, clearance = 0;
   /// What is no farther apart and no deeper counts as touching: 0 but for coarse numbers.
   double step = 0;
-  /// Of the sag, that of meshes: what was closed of their seams may have moved them so far.
+  /// Of the sag: what was closed of the two meshes' seams may have moved them so far.
   double weld = 0;
 };
 

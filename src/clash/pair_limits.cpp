@@ -6,14 +6,6 @@
 #include "clash/parts.hpp"
 
 namespace strake::clash {
-namespace {
-
-/// How far a mesh may lie from its source.
-double weld_of(const geometry::Part& part) {
-  return part.primitive || part.kind == geometry::PartKind::wire ? 0 : part.sag;
-}
-
-}  // namespace
 
 using geometry::Part;
 using geometry::PartKind;
@@ -35,7 +27,7 @@ std::uint16_t part_flags(const Part& a, const Part& b) {
 
 Thresholds thresholds(const Part& a, const Part& b, const NarrowOptions& options) {
   Thresholds t{options.touch_overlap, options.touch_gap, options.clearance, options.step,
-               weld_of(a) + weld_of(b)};
+               a.weld + b.weld};
   if (!options.thickness_cap) return t;
   for (const Part* part : {&a, &b}) {
     if (part->kind != PartKind::solid) continue;

@@ -33,7 +33,7 @@ bool same_part(const Part& a, const Part& b, const Vec3l& moved) {
   const auto same_place = [&](const Vec3i& p, const Vec3i& q) {
     return p.as<std::int64_t>() + moved == q.as<std::int64_t>();
   };
-  return a.kind == b.kind && same_flags(a.flags, b.flags) && a.sag == b.sag &&
+  return a.kind == b.kind && same_flags(a.flags, b.flags) && a.sag == b.sag && a.weld == b.weld &&
          a.volume == b.volume && a.area == b.area && a.shell_count == b.shell_count &&
          a.chain_first == b.chain_first && a.triangles == b.triangles && a.faces == b.faces &&
          a.shells == b.shells && std::ranges::equal(a.vertices, b.vertices, same_place);

@@ -70,7 +70,8 @@ void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& l
     part.sag =
         part.flags.unknown_sag ? 0 : mesh.sag_mm * geometry::kGridPerMm * geometry::stretch(linear);
     // Which corners of the source's were moved together is not known of a part.
-    part.sag += analysis.findings.largest_weld;
+    part.weld = analysis.findings.largest_weld;
+    part.sag += part.weld;
   }
 }
 

@@ -61,6 +61,7 @@ struct Part {
   /// The primitive that the triangles stand for, in the local frame of its body, if analytic.
   std::optional<Primitive> primitive;
   double sag = 0;     ///< grid units: bound on the distance between triangles and true surface
+  double weld = 0;    ///< of that, how far the closing of seams may have moved corners
   double volume = 0;  ///< cubic grid units (solids), rounded from the exact value
   double area = 0;    ///< square grid units
   /// 2·volume/area in grid units: t for a plate of thickness t. 0 for sheets and wires.

@@ -254,8 +254,26 @@ class Parting {
     }
   }
 
+  /// As far as the depth that is known, out of the skins nearest to its point and along the
+  /// normals: what stands a little way in a body's cavity leaves it so, and its hull tells nothing.
+  void bound_hit(Depth& depth) {
+    // Where the two bounds are near each other, they are so for a cause: a search ends soon.
+    if (!(depth.value > 0 && depth.upper > kApart * depth.value)) return;
+    const Vec3d& p = depth.point;
+    const Vec3d shift = (b_.treed.placed.origin - a_.treed.placed.origin).as<double>();
+    for (const double sign : {1.0, -1.0}) {
+      const Vec3d way = sign > 0 ? nearest_on_skin(a_.treed, p).point - p
+                                 : nearest_on_skin(b_.treed, p - shift).point - (p - shift);
+      if (const double size = length(way); size > 0) add(way * (1 / size), sign);
+    }
+    (void)try_all(depth.value + kRoom, depth);
+  }
+
  private:
+  /// What the snap of a move adds to it, on either side.
+  static constexpr double kRoom = 2;
   static constexpr double kSameWay = 1 - 1e-6;
+  static constexpr double kApart = 1.5;
 
   void add(const std::optional<Vec3d>& way, double sign) {
     if (!way) return;
@@ -375,8 +393,10 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& asked
     try_inwards(a, b, goal, candidates);
     candidates.store(depth);
   }
-  if (depth.lower <= goal.threshold && depth.upper > goal.threshold)
-    Parting(a, b, goal, work).bound_tie(depth);
+  Parting parting(a, b, goal, work);
+  if (depth.lower <= goal.threshold && depth.upper > goal.threshold) parting.bound_tie(depth);
+  // That a part of the common region is left by a move of the whole is known of the whole.
+  if (!bracket_suffices(depth, goal) && !goal.within) parting.bound_hit(depth);
   if (!bracket_suffices(depth, goal)) {
     try_edges(fa, fb, candidates);
     try_edges(fb, fa, candidates);

@@ -158,5 +158,18 @@ TEST(SourceErrors, WhatIsNoCoarserThanATouchIsJudgedAsItStands) {
   EXPECT_EQ(at_steps(-1, 3.90625, false, 0.01).flags, 0);
 }
 
+/// A mesh whose source says how far it lies from its surface is not one whose seams were closed:
+/// what that leaves open beyond all tolerances is not told.
+TEST(SourceErrors, ASagThatIsKnownIsNoWeld) {
+  for (const double gap : {0.25, 0.75, 1.5}) {
+    ClashModel m;
+    m.box("a", {0, 0, 0}, {100, 100, 100});
+    TriangleMesh mesh = test::box_mesh({100 + gap, 0, 0}, {200, 100, 100});
+    mesh.sag_mm = 1;
+    m.object("b").body(std::move(mesh));
+    EXPECT_TRUE(m.detect({.clearance_mm = 0.2, .touch_gap_mm = 0}).pairs.empty()) << gap;
+  }
+}
+
 }  // namespace
 }  // namespace strake::clash
