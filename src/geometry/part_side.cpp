@@ -28,16 +28,6 @@ Winding shortest_ray(const Box3i& box, const ScaledPoint& p) {
   return best;
 }
 
-bool ray_meets(const Winding& ray, const Box3i& box) {
-  const ScaledPoint& p = ray.point();
-  for (int k = 0; k < 3; ++k) {
-    const bool below = p.numerator[k] < box.lo[k] * p.denominator;
-    const bool above = p.numerator[k] > box.hi[k] * p.denominator;
-    if (k != ray.axis() ? (below || above) : (ray.upward() ? above : below)) return false;
-  }
-  return true;
-}
-
 /// Counts what of a part a ray passes through, looking at every triangle where there is no tree;
 /// false where the point is on the skin.
 bool pass_all(const PartView& view, Winding& ray, PairWork& work) {
@@ -49,7 +39,7 @@ bool pass_all(const PartView& view, Winding& ray, PairWork& work) {
     return t == n;
   }
   const auto meets = [&](const PartTree::Node& node) {
-    const bool met = ray_meets(ray, node.box);
+    const bool met = ray.may_meet(node.box.lo, node.box.hi);
     if (met) ++work.node_pairs;
     return met;
   };

@@ -2,7 +2,9 @@
 #include "geometry/analytic/inside.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 namespace strake::geometry::analytic {
 namespace {
@@ -41,26 +43,103 @@ double beside_notch(const PairSide& inner, const ConvexBody& hull, const Torus& 
   return least;
 }
 
-/// A torus is not convex: a body may have its ends in it and its middle in the hole. So beside its
-/// extremes its place nearest to the axis is looked at, and those half way through it.
-double inside_ring(const PairSide& inner, const ConvexBody& hull, const Torus& ring) {
-  const auto depth = [&](const Vec3d& p) { return ring.depth(inner.real(p)); };
-  double least = depth(convex_gap(ring.axis(), hull).on_b);
-  if (ring.notched()) least = std::min(least, beside_notch(inner, hull, ring));
-  for (int x = -2; x <= 2; ++x)
-    for (int y = -2; y <= 2; ++y)
-      for (int z = -2; z <= 2; ++z) {
-        Vec3d n = ring.turned({x * 1.0, y * 1.0, z * 1.0});
-        const Vec3d middle = (support(hull.shape, n) + support(hull.shape, -n)) * 0.5;
-        least = std::min(least, depth(middle));
-        for (int step = 0; step < kMaxDescents; ++step) {
-          const Vec3d at = inner.real(support(hull.shape, n));
-          const double next = ring.depth(at);
-          if (step > 0 && !(next < least)) break;
-          least = std::min(least, next);
-          n = ring.way_out(at);
-        }
-      }
+/// The least depth in a ring that points of a hull have been found to have, and where.
+class LeastInRing {
+ public:
+  LeastInRing(const PairSide& inner, const ConvexBody& hull, const Torus& ring)
+      : inner_(inner), hull_(hull), ring_(ring) {}
+
+  /// A torus is not convex: a body may have its ends in it and its middle in the hole. So beside
+  /// its extremes its place nearest to the axis is looked at, and those half way through it.
+  [[nodiscard]] double run() {
+    look(convex_gap(ring_.axis(), hull_).on_b);
+    if (ring_.notched()) least_ = std::min(least_, beside_notch(inner_, hull_, ring_));
+    for (int x = -2; x <= 2; ++x)
+      for (int y = -2; y <= 2; ++y)
+        for (int z = -2; z <= 2; ++z) descend(ring_.turned({x * 1.0, y * 1.0, z * 1.0}));
+    slide();
+    return least_;
+  }
+
+ private:
+  [[nodiscard]] double depth(const Vec3d& p) const { return ring_.depth(inner_.real(p)); }
+  double look(const Vec3d& p) {
+    const double d = depth(p);
+    if (d < least_) {
+      least_ = d;
+      at_ = p;
+    }
+    return d;
+  }
+
+  /// From extreme to extreme, each the farthest along the way out of the one before.
+  void descend(Vec3d n) {
+    look((support(hull_.shape, n) + support(hull_.shape, -n)) * 0.5);
+    double last = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < kMaxDescents; ++step) {
+      const Vec3d p = support(hull_.shape, n);
+      const double next = look(p);
+      if (!(next < last)) break;
+      last = next;
+      n = ring_.way_out(inner_.real(p));
+    }
+  }
+
+  /// The skin towards the hole is a saddle, so the least depth may be at no extreme and no middle:
+  /// from the best place on towards extremes, each time as far as pays (Frank and Wolfe 1956).
+  void slide() {
+    constexpr int kMaxSlides = 32, kStops = 16;
+    constexpr double kPays = 1e-4;
+    for (int step = 0; step < kMaxSlides; ++step) {
+      const double before = least_;
+      const Vec3d from = at_, to = support(hull_.shape, ring_.way_out(inner_.real(from)));
+      for (int i = 1; i <= kStops; ++i) look(from + (to - from) * (1.0 * i / kStops));
+      for (int i = 1; i <= kStops; ++i) look(from + (to - from) * (1.0 * i / kStops / kStops));
+      if (!(least_ < before - kPays * std::abs(before))) return;
+    }
+  }
+
+  const PairSide& inner_;
+  const ConvexBody& hull_;
+  const Torus& ring_;
+  double least_ = std::numeric_limits<double>::infinity();
+  Vec3d at_;
+};
+
+struct ArcInRing {
+  Arc arc;
+  double least = std::numeric_limits<double>::infinity();
+};
+
+ArcInRing least_of(const PairSide& inner, const std::vector<Arc>& arcs, const Torus& ring) {
+  ArcInRing of;
+  for (const Arc& arc : arcs) {
+    const double least = LeastInRing(inner, inner.hull(arc), ring).run();
+    if (least < of.least) of = {arc, least};
+  }
+  return of;
+}
+
+std::vector<Arc> parts_of(const Arc& arc) {
+  constexpr int kParts = 4;
+  std::vector<Arc> parts;
+  for (int i = 0; i < kParts; ++i) {
+    const double step = (arc.to - arc.from) / kParts;
+    parts.push_back(Arc::between(arc.from + step * i, arc.from + step * (i + 1)));
+  }
+  return parts;
+}
+
+/// The inner side of an arc is no extreme of its hull: what seems to lie inside is looked at again
+/// in shorter arcs, where it is nearly one.
+double inside_ring(const PairSide& inner, const Torus& ring) {
+  constexpr int kTimesShorter = 3;
+  ArcInRing of = least_of(inner, inner.arcs(), ring);
+  double least = of.least;
+  for (int i = 0; inner.torus && least > 0 && i < kTimesShorter; ++i) {
+    of = least_of(inner, parts_of(of.arc), ring);
+    least = std::min(least, of.least);
+  }
   return least;
 }
 
@@ -83,16 +162,11 @@ double inside_by(const ConvexBody& inner, const ConvexBody& outer, const InnerFi
 }
 
 double inside_by(const PairSide& inner, const PairSide& outer) {
+  if (!outer.field && !outer.torus) return -std::numeric_limits<double>::infinity();
+  if (outer.torus) return inside_ring(inner, *outer.torus);
   double least = std::numeric_limits<double>::infinity();
-  for (const Arc& arc : inner.arcs()) {
-    const ConvexBody hull = inner.hull(arc);
-    if (outer.field) {
-      least = std::min(least, inside_by(hull, *outer.convex, *outer.field));
-      continue;
-    }
-    if (!outer.torus) return -std::numeric_limits<double>::infinity();
-    least = std::min(least, inside_ring(inner, hull, *outer.torus));
-  }
+  for (const Arc& arc : inner.arcs())
+    least = std::min(least, inside_by(inner.hull(arc), *outer.convex, *outer.field));
   return least;
 }
 

@@ -6,6 +6,7 @@
 
 #include "geometry/basic/triangle_places.hpp"
 #include "geometry/basic/winding.hpp"
+#include "geometry/box.hpp"
 #include "strake/geometry/predicates.hpp"
 
 namespace strake::geometry {
@@ -85,6 +86,9 @@ PointSide side_of_polygon(std::span<const Vec3l> points, std::span<const std::ui
 }
 
 bool Winding::pass(const TriangleCorners& t) {
+  // Most triangles end here, and the exact normal is what takes the time.
+  const auto box = box_of(t);
+  if (!may_meet(box.lo, box.hi)) return true;
   const Vec3<Int128> normal = cross_exact(t[1] - t[0], t[2] - t[0]);
   const int side = side_of_plane(t, normal, point_);
   // A ray within the plane of a triangle does not cross it.

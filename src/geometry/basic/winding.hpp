@@ -17,10 +17,18 @@ class Winding {
   /// False when the point lies on the triangle: then nothing else matters.
   [[nodiscard]] bool pass(const TriangleCorners& t);
 
+  /// False where the ray certainly misses all from one corner of a box to the other.
+  template <class T>
+  [[nodiscard]] bool may_meet(const Vec3<T>& lo, const Vec3<T>& hi) const {
+    for (int k = 0; k < 3; ++k) {
+      const bool below = point_.numerator[k] < lo[k] * point_.denominator;
+      const bool above = point_.numerator[k] > hi[k] * point_.denominator;
+      if (k != axis_ ? (below || above) : (upward_ ? above : below)) return false;
+    }
+    return true;
+  }
+
   [[nodiscard]] int number() const { return number_; }
-  [[nodiscard]] const ScaledPoint& point() const { return point_; }
-  [[nodiscard]] int axis() const { return axis_; }
-  [[nodiscard]] bool upward() const { return upward_; }
 
  private:
   ScaledPoint point_;

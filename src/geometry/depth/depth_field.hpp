@@ -59,6 +59,11 @@ class DepthField {
     return prepared_.empty() ? moved(corners_of(part(), t)) : moved(prepared_[t].corners);
   }
 
+  [[nodiscard]] PreparedTriangle placed_triangle(std::uint32_t t) const {
+    return prepared_.empty() ? PreparedTriangle(placed(t))
+                             : prepared_[t].moved(-shift_.as<double>());
+  }
+
   /// Exact for points of on_field_grid().
   [[nodiscard]] PointSide side(const Vec3d& p, PairWork& work) const {
     constexpr double kSteps = static_cast<double>(kFieldDenominator);

@@ -16,7 +16,7 @@ namespace {
 /// one after that which is not answered is farther above it by a factor.
 constexpr double kNearestLevel = 5e-4, kNextLevel = 16;
 /// The least that a level is above the deepest point known, relative to the goal's tolerance.
-constexpr double kLeastStep = 0.25;
+constexpr double kLeastStep = 0.5;
 /// A bracket that is no wider than this, relative to the depth, says all that anybody acts on.
 constexpr double kComplete = 0.01;
 /// Cells of a level that count as one of the goal's.

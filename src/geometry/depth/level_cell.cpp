@@ -104,27 +104,30 @@ LevelCell below(const LevelCell& cell, const Vec3d& way, double offset) {
   return part;
 }
 
-bool are_apart(const std::vector<Vec3d>& cell, const Corners& triangle, double by) {
+bool are_apart(std::span<const Vec3d> cell, const Corners& triangle, double by) {
   const auto apart_along = [&](const Vec3d& way) {
-    const double size = length(way);
-    if (!(size > 0)) return false;
+    const double squared = dot(way, way);
+    if (!(squared > 0)) return false;
     Range x, y;
     for (const Vec3d& p : cell) x.include(dot(way, p));
     for (const Vec3d& p : triangle) y.include(dot(way, p));
-    return std::max(x.lo - y.hi, y.lo - x.hi) > by * size;
+    const double gap = std::max(x.lo - y.hi, y.lo - x.hi);
+    return gap > 0 ? gap * gap > by * by * squared : gap > by * std::sqrt(squared);
   };
   const std::size_t n = cell.size();
   const Vec3d normal = normal_of(triangle);
   const Vec3d up = n > 2 ? cross(cell[1] - cell[0], cell[2] - cell[0]) : normal;
   if (apart_along(normal) || apart_along(up)) return true;
+  const std::array<Vec3d, 3> sides{triangle[1] - triangle[0], triangle[2] - triangle[1],
+                                   triangle[0] - triangle[2]};
+  for (const Vec3d& side : sides)
+    if (apart_along(cross(normal, side))) return true;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3d edge = cell[(i + 1) % n] - cell[i];
     if (apart_along(cross(up, edge))) return true;
-    for (std::size_t j = 0; j < 3; ++j)
-      if (apart_along(cross(edge, triangle[(j + 1) % 3] - triangle[j]))) return true;
+    for (const Vec3d& side : sides)
+      if (apart_along(cross(edge, side))) return true;
   }
-  for (std::size_t j = 0; j < 3; ++j)
-    if (apart_along(cross(normal, triangle[(j + 1) % 3] - triangle[j]))) return true;
   return false;
 }
 

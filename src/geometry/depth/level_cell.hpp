@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "geometry/box.hpp"
@@ -39,6 +40,6 @@ struct LevelCell {
 [[nodiscard]] LevelCell below(const LevelCell& cell, const Vec3d& way, double offset);
 
 /// Whether a triangle certainly stays farther from the hull of a cell, or a segment, than `by`.
-[[nodiscard]] bool are_apart(const std::vector<Vec3d>& cell, const Corners& triangle, double by);
+[[nodiscard]] bool are_apart(std::span<const Vec3d> cell, const Corners& triangle, double by);
 
 }  // namespace strake::geometry

@@ -10,15 +10,13 @@
 
 #include "geometry/box.hpp"
 #include "geometry/depth/level_cell.hpp"
+#include "geometry/depth/level_scope.hpp"
 #include "geometry/depth/parallel_surface.hpp"
 #include "geometry/range.hpp"
-#include "geometry/tree_walk.hpp"
 
 namespace strake::geometry {
 namespace {
 
-/// Triangles near a cell beyond which it is only halved.
-constexpr std::size_t kMostNear = 24;
 /// The least difference of the ways to two triangles that a cut goes between.
 constexpr double kLeastTurn = 0.1;
 
@@ -31,7 +29,9 @@ class LevelSearch {
         q_(question),
         goal_(goal),
         work_(work),
-        flat_((question.level - question.known) / 8) {
+        flat_((question.level - question.known) / 8),
+        about_of_(of),
+        about_in_(in) {
     const Box3d x = of.box(), y = in.box();
     Box3d within = x;
     if (goal.within) within = goal.within->inflated(question.ceiling - question.level);
@@ -60,62 +60,67 @@ class LevelSearch {
     return cells;
   }
 
+  /// A cell and what is known of either part about it.
+  struct OpenCell {
+    LevelCell cell;
+    PartScope::About of, in;
+  };
+
   /// Whether nothing of a surface is a point that is looked for.
   bool clears(const std::optional<std::vector<LevelCell>>& surface) {
     if (!surface) return false;
-    std::vector<LevelCell> open;
+    std::vector<OpenCell> open;
     for (const LevelCell& cell : *surface) {
-      open.push_back(cell);
+      open.push_back({cell, {}, {}});
       while (!open.empty()) {
-        if (++answer_.cells > q_.most_cells) return false;
-        const LevelCell next = std::move(open.back());
+        OpenCell next = std::move(open.back());
         open.pop_back();
-        if (next.corners.size() < 3 || is_clear(next)) continue;
+        if (next.cell.corners.size() < 3 || is_clear(next)) continue;
         if (answer_.deeper.has_value() || radius_ - slack_ < flat_) return false;
-        cut(next, open);
+        answer_.cells += 2;
+        if (answer_.cells > q_.most_cells) return false;
+        for (LevelCell& part : cut(std::move(next.cell)))
+          open.push_back({std::move(part), next.of, next.in});
       }
     }
     return true;
   }
 
-  bool is_clear(const LevelCell& cell) {
+  /// Also tells what is known of the parts about the cell, for those that it is cut into.
+  bool is_clear(OpenCell& open) {
+    const LevelCell& cell = open.cell;
     slack_ = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
-    const Box3d box = box_of(cell.corners).inflated(slack_);
-    if (!box.meets(room_)) return true;
-    Vec3d sum;
-    for (const Vec3d& p : cell.corners) sum = sum + p;
-    middle_ = on_field_grid(sum * (1 / static_cast<double>(cell.corners.size())));
-    radius_ = 0;
-    for (const Vec3d& p : cell.corners) radius_ = std::max(radius_, length(p - middle_));
-    radius_ += slack_;
+    const CellHull hull(cell, slack_);
+    if (!hull.box().meets(room_)) return true;
+    middle_ = on_field_grid(hull.middle());
+    radius_ = hull.radius(middle_);
+    near_.clear();
+    crossing_.clear();
     if (hint_ != kNoFace && is_near_triangle(cell, hint_)) return true;
     const NearestTriangle near = of_.nearest(middle_, hint_, q_.level + radius_);
     if (near.triangle != kNoFace) hint_ = near.triangle;
     if (near.distance + radius_ < q_.level) return true;
     if (near.triangle != kNoFace && is_near_triangle(cell, near.triangle)) return true;
-    const bool in_first = of_.contains(middle_, work_);
-    if (!in_first && near.distance > radius_) return true;
-    crossing_.clear();
-    near_.clear();
-    const std::size_t of_first = find_crossing(of_, cell, box);
-    if (!in_first && of_first == 0) return true;
-    const bool in_second = in_.contains(middle_, work_);
-    if (in_first && in_second && near.distance > (q_.known + q_.level) / 2 &&
+    if (!cell.on_skin) {
+      open.in = about_in_.look(hull, open.in, middle_, crossing_, work_);
+      if (open.in.side == PartScope::Side::outside) return true;
+    }
+    open.of = about_of_.look(hull, open.of, middle_, crossing_, work_);
+    if (open.of.side == PartScope::Side::outside) return true;
+    const bool in_first = open.of.side == PartScope::Side::inside || of_.contains(middle_, work_);
+    if (in_first && near.distance > (q_.known + q_.level) / 2 && in_.contains(middle_, work_) &&
         goal_.counts(middle_)) {
       answer_.deeper = middle_;
       return false;
     }
-    bool one_piece = true;
-    if (!cell.on_skin) {
-      const std::size_t of_second = find_crossing(in_, cell, box);
-      if (of_second == 0 && !in_second) return true;
-      // Otherwise all of what is in the second is next to the skin, in one piece.
-      one_piece = of_second == 0;
-    }
-    if (one_piece && of_first == 0 && goal_.belongs && !goal_.belongs(middle_)) return true;
-    // What is deeper than the level is not taken out by a shorter move.
-    return !(in_first && near.distance > q_.level) && near.triangle != kNoFace &&
-           leads_out(cell, near.triangle);
+    // What of the cell is in the second is next to the skin, in one piece.
+    const bool one_piece = cell.on_skin || open.in.side != PartScope::Side::both;
+    if (one_piece && open.of.side != PartScope::Side::both && goal_.belongs &&
+        !goal_.belongs(middle_))
+      return true;
+    if (near.triangle == kNoFace) return false;
+    if (in_first && near.distance > q_.level) return false;
+    return leads_out(cell, near.triangle, in_first && near.distance > q_.level - 2 * q_.slack);
   }
 
   [[nodiscard]] bool is_near_triangle(const LevelCell& cell, std::uint32_t triangle) const {
@@ -125,40 +130,17 @@ class LevelSearch {
     });
   }
 
-  /// Adds the triangles that may come near to the hull of a cell: how many.
-  std::size_t find_crossing(const DepthField& field, const LevelCell& cell, const Box3d& box) {
-    const std::size_t before = crossing_.size();
-    for_near(field, box, [&](const Corners& c) {
-      if (!are_apart(cell.corners, c, slack_)) crossing_.push_back(c);
-      return crossing_.size() - before <= kMostNear;
-    });
-    return crossing_.size() - before;
-  }
-
-  template <class Visit>
-  static bool for_near(const DepthField& field, const Box3d& box, const Visit& visit) {
-    const Box3d local{field.local(box.lo), field.local(box.hi)};
-    return walk_tree(
-        field.tree(),
-        [&](const PartTree::Node& node) { return node.box.as<double>().meets(local); },
-        [&](std::uint32_t t) {
-          const Corners c = field.placed(t);
-          return !box_of(c).meets(box) || visit(c);
-        });
-  }
-
-  /// Whether a move shorter than the level takes all of a cell out of the first part: no point of
-  /// it is farther from the skin. Along the normals of the triangles that are nearest to it, and
-  /// along the ways to these.
-  bool leads_out(const LevelCell& cell, std::uint32_t nearest) {
+  /// Whether a move shorter than the level, out of the triangle that is nearest to its middle or to
+  /// a corner, takes all of a cell out of the first part: no point of it is farther from the skin.
+  /// As deep as the level, its middle is not taken out: then only these triangles are found.
+  bool leads_out(const LevelCell& cell, std::uint32_t nearest, bool as_deep) {
     near_ = {nearest};
-    ways_.clear();
-    if (leads_out(cell, middle_, nearest)) return true;
+    if (!as_deep && leads_out(cell, middle_, nearest)) return true;
     for (const Vec3d& p : cell.corners) {
       const std::uint32_t t = of_.nearest(p, nearest, q_.level).triangle;
-      if (t == kNoFace) return false;
-      if (std::ranges::find(near_, t) == near_.end()) near_.push_back(t);
-      if (leads_out(cell, p, t)) return true;
+      if (t == kNoFace || std::ranges::find(near_, t) != near_.end()) continue;
+      near_.push_back(t);
+      if (!as_deep && leads_out(cell, p, t)) return true;
     }
     return false;
   }
@@ -167,41 +149,27 @@ class LevelSearch {
     const Vec3d n = of_.triangle(triangle).unit;
     const Vec3d way =
         of_.common(nearest_on_triangle(of_.local(from), of_.corners(triangle))) - from;
-    return is_way_out(cell, n) || is_way_out(cell, dot(n, way) < 0 ? -way : way);
-  }
-
-  bool is_way_out(const LevelCell& cell, const Vec3d& way) {
     const double size = length(way);
-    if (!(size > 0)) return false;
-    const Vec3d unit = way * (1 / size);
-    constexpr double kSameWay = 1 - 1e-7;
-    if (std::ranges::any_of(ways_, [&](const Vec3d& w) { return dot(w, unit) > kSameWay; }))
-      return false;
-    ways_.push_back(unit);
-    const Vec3d move = unit * (q_.level - 2 * q_.slack);
-    std::vector<Vec3d> moved = cell.corners;
-    for (Vec3d& p : moved) p = p + move;
-    if (of_.contains(on_field_grid(middle_ + move), work_)) return false;
-    return for_near(of_, box_of(moved).inflated(slack_),
-                    [&](const Corners& near) { return are_apart(moved, near, slack_); });
+    const Vec3d out = size > 0 ? way * ((dot(n, way) < 0 ? -1 : 1) / size) : n;
+    const Vec3d move = out * (q_.level - 2 * q_.slack);
+    LevelCell moved{.corners = cell.corners, .about = {}};
+    for (Vec3d& p : moved.corners) p = p + move;
+    return is_outside(of_, {moved, slack_}, on_field_grid(middle_ + move), work_);
   }
 
   /// Along the plane of the largest triangle that goes through a flat cell, a little above it: the
   /// part above is clear of it. Or along that of a near triangle, lowered as far as the level: a
   /// move takes out what is above. Or between two triangles that are near to different corners.
   /// Else in half.
-  void cut(LevelCell cell, std::vector<LevelCell>& open) const {
+  [[nodiscard]] std::array<LevelCell, 2> cut(LevelCell cell) const {
     // Curved by no more than this, it is as good as flat.
     const double smooth = 2 * flat_;
     if (cell.slack <= smooth) cell.about.clear();
-    if (cell.about.empty()) {
-      if (const auto plane = plane_to_cut_along(cell)) {
-        open.push_back(below(cell, plane->normal, plane->offset));
-        open.push_back(below(cell, -plane->normal, -plane->offset));
-        return;
-      }
-    }
-    for (LevelCell& half : halves_of(cell)) open.push_back(std::move(half));
+    if (cell.about.empty())
+      if (const auto plane = plane_to_cut_along(cell))
+        return {below(cell, plane->normal, plane->offset),
+                below(cell, -plane->normal, -plane->offset)};
+    return halves_of(cell);
   }
 
   /// normal·x <= offset, relative to the common origin.
@@ -214,7 +182,7 @@ class LevelSearch {
     const double clear = slack_ + flat_;
     std::optional<Plane> best;
     double most = 0;
-    if (crossing_.size() <= kMostNear)
+    if (crossing_.size() <= kMostCrossing)
       for (const Corners& c : crossing_) {
         const Vec3d n = normal_of(c);
         const double area = length(n);
@@ -282,6 +250,7 @@ class LevelSearch {
   const DepthGoal& goal_;
   PairWork& work_;
   double flat_;
+  PartScope about_of_, about_in_;
   Box3d room_;
   LevelAnswer answer_;
   // Of the cell that was looked at last.
@@ -290,7 +259,6 @@ class LevelSearch {
   std::vector<Corners> crossing_;
   std::uint32_t hint_ = kNoFace;
   std::vector<std::uint32_t> near_;
-  std::vector<Vec3d> ways_;
 };
 
 }  // namespace

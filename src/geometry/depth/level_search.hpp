@@ -14,13 +14,13 @@ struct LevelQuestion {
   double known = 0;    ///< such a depth is known; less than the level
   double ceiling = 0;  ///< none is greater
   double slack = 0;    ///< how far a point of the field grid may be off, distances' errors included
-  std::uint64_t most_cells = 0;
+  std::uint64_t most_cells = 0;  ///< work limit, beyond the pieces that the surfaces come in
 };
 
 struct LevelAnswer {
   bool none = false;            ///< certainly no point is
   std::optional<Vec3d> deeper;  ///< a point of both that is deeper than what is known
-  std::uint64_t cells = 0;
+  std::uint64_t cells = 0;      ///< that pieces and cells were cut into
 };
 
 /// If x is deeper in the first part than the level, the straight way from x to the nearest point of

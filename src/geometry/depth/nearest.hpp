@@ -34,6 +34,14 @@ struct PreparedTriangle {
     lo = std::min({x, y, z});
     hi = std::max({x, y, z});
   }
+
+  [[nodiscard]] PreparedTriangle moved(const Vec3d& by) const {
+    PreparedTriangle there = *this;
+    for (Vec3d& p : there.corners) p = p + by;
+    there.lo += dot(unit, by);
+    there.hi += dot(unit, by);
+    return there;
+  }
 };
 
 struct NearestTriangle {

@@ -6,10 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "geometry/directions.hpp"
 #include "geometry/tree_walk.hpp"
+#include "strake/core/disjoint_sets.hpp"
+#include "strake/geometry/part_edges.hpp"
 #include "strake/geometry/trig.hpp"
 
 namespace strake::geometry {
@@ -21,15 +25,20 @@ constexpr std::size_t kMostTriangles = 4096;
 constexpr double kHeightError = 1e-3, kUnitError = 1e-9;
 
 /// The corners of a triangle that another does not have.
-std::vector<Vec3d> corners_beside(const DepthField& of, std::uint32_t triangle,
-                                  std::uint32_t other) {
-  const Triangle &x = of.part().triangles[triangle], &y = of.part().triangles[other];
-  const Corners c = of.corners(triangle);
-  std::vector<Vec3d> corners;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (std::ranges::find(y, x[k]) == y.end()) corners.push_back(c[k]);
-  return corners;
-}
+class CornersBeside {
+ public:
+  CornersBeside(const DepthField& of, std::uint32_t triangle, std::uint32_t other) {
+    const Triangle &x = of.part().triangles[triangle], &y = of.part().triangles[other];
+    const Corners c = of.corners(triangle);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::ranges::find(y, x[k]) == y.end()) corners_[count_++] = c[k];
+  }
+  [[nodiscard]] std::span<const Vec3d> all() const { return {corners_.data(), count_}; }
+
+ private:
+  Corners corners_{};
+  std::size_t count_ = 0;
+};
 
 /// Whether a triangle may meet another of its part beside what they have in common. Triangles of
 /// one corner that do so reach with one side, opposite to it, into the other; those of one edge are
@@ -40,11 +49,12 @@ bool is_crossed(const DepthField& of, std::uint32_t triangle) {
   return !walk_tree(
       of.tree(), [&](const PartTree::Node& node) { return node.box.as<double>().meets(box); },
       [&](std::uint32_t t) {
-        const std::vector<Vec3d> beside = corners_beside(of, triangle, t);
-        if (beside.size() < 2) return true;
+        const CornersBeside beside(of, triangle, t);
+        const std::size_t count = beside.all().size();
+        if (count < 2) return true;
         const Corners other = of.corners(t);
-        return are_apart(beside, other, 0) &&
-               (beside.size() == 3 || are_apart(corners_beside(of, t, triangle), own, 0));
+        return are_apart(beside.all(), other, 0) &&
+               (count == 3 || are_apart(CornersBeside(of, t, triangle).all(), own, 0));
       });
 }
 
@@ -56,36 +66,22 @@ bool has_part_outside(const DepthField& of, std::uint32_t triangle, PairWork& wo
   return of.contains(on_field_grid(middle + of.triangle(triangle).unit * kStep), work);
 }
 
-/// The triangles that may have the part on both sides, as where a mesh overlaps itself; ascending.
-std::vector<std::uint32_t> inner_faces(const DepthField& of, const std::vector<std::uint32_t>& near,
-                                       PairWork& work) {
-  std::vector<std::uint32_t> inner;
-  for (const std::uint32_t t : near)
-    if (is_crossed(of, t) || has_part_outside(of, t, work)) inner.push_back(t);
-  return inner;
-}
-
 class Builder {
  public:
   Builder(const DepthField& of, std::vector<std::uint32_t> near, double distance, double flat)
       : of_(of), near_(std::move(near)), distance_(distance), flat_(flat) {}
 
   std::vector<LevelCell> run(PairWork& work) {
-    inner_ = inner_faces(of_, near_, work);
-    for (const std::uint32_t t : near_) {
+    find_edges();
+    find_inner(work);
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      const std::uint32_t t = near_[i];
       const Vec3d n = of_.triangle(t).unit;
-      if (dot(n, n) > 0) cells_.push_back(flat_cell(of_.placed(t), n * -distance_));
-      if (dot(n, n) > 0 && is_inner(t)) cells_.push_back(flat_cell(of_.placed(t), n * distance_));
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Triangle& c = of_.part().triangles[t];
-        const auto [least, most] = std::minmax(c[i], c[(i + 1) % 3]);
-        ends_.push_back({least, most});
-      }
+      if (!(dot(n, n) > 0)) continue;
+      cells_.push_back(flat_cell(of_.placed(t), n * -distance_));
+      if (inner_[i] != 0) cells_.push_back(flat_cell(of_.placed(t), n * distance_));
     }
-    std::ranges::sort(ends_);
-    const auto twice = std::ranges::unique(ends_);
-    ends_.erase(twice.begin(), twice.end());
-    for (const Ends& e : ends_) add_edge(e);
+    for (const std::uint32_t e : edges_) add_edge(e);
     add_corners();
     return std::move(cells_);
   }
@@ -102,28 +98,61 @@ class Builder {
     return of_.common(of_.part().vertices[v].as<double>());
   }
 
-  void add_edge(const Ends& ends) {
-    const auto& edges = of_.part().edges;
-    std::size_t lo = 0, hi = edges.size() - 1;
-    while (lo < hi) {
-      const std::size_t middle = (lo + hi) / 2;
-      if (Ends{edges[middle].v0, edges[middle].v1} < ends)
-        lo = middle + 1;
-      else
-        hi = middle;
+  [[nodiscard]] Ends ends_of(std::uint32_t edge) const {
+    return {of_.part().edges[edge].v0, of_.part().edges[edge].v1};
+  }
+
+  /// Those of the near triangles, ascending.
+  void find_edges() {
+    for (const std::uint32_t t : near_)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Triangle& c = of_.part().triangles[t];
+        edges_.push_back(edge_between(of_.part(), c[i], c[(i + 1) % 3]));
+      }
+    std::ranges::sort(edges_);
+    const auto twice = std::ranges::unique(edges_);
+    edges_.erase(twice.begin(), twice.end());
+  }
+
+  /// Of a near triangle; nothing for others.
+  [[nodiscard]] std::optional<std::uint32_t> place(std::uint32_t t) const {
+    const auto found = std::ranges::lower_bound(near_, t);
+    if (found == near_.end() || *found != t) return std::nullopt;
+    return static_cast<std::uint32_t>(found - near_.begin());
+  }
+
+  /// Those that may have the part on both sides, as where a mesh overlaps itself. From a triangle
+  /// to its neighbour over an edge of two the outside stays what it is while nothing else touches
+  /// either: of such a patch one triangle tells about all.
+  void find_inner(PairWork& work) {
+    DisjointSets patches(near_.size());
+    for (const std::uint32_t t : near_) inner_.push_back(is_crossed(of_, t) ? 1 : 0);
+    for (const std::uint32_t e : edges_) {
+      const auto round = triangles_round(of_.part(), e);
+      if (round.size() != 2) continue;
+      const auto i = place(round[0]), j = place(round[1]);
+      if (i && j && inner_[*i] == 0 && inner_[*j] == 0) patches.join(*i, *j);
     }
-    const std::uint32_t first = edges[lo].first_triangle, last = edges[lo + 1].first_triangle;
+    for (std::uint32_t i = 0; i < near_.size(); ++i) {
+      if (inner_[i] != 0) continue;
+      const std::uint32_t first_of_patch = patches.root(i);
+      inner_[i] = first_of_patch == i ? (has_part_outside(of_, near_[i], work) ? 1 : 0)
+                                      : inner_[first_of_patch];
+    }
+  }
+
+  void add_edge(std::uint32_t edge) {
+    const Ends ends = ends_of(edge);
     const Vec3d along = unit(at(ends[1]) - at(ends[0]));
-    const auto& of_edge = of_.part().edge_triangles;
-    bool between_two = last - first == 2;
-    for (std::uint32_t i = first; i < last; ++i) between_two = between_two && !is_inner(of_edge[i]);
+    const auto round = triangles_round(of_.part(), edge);
+    const bool between_two = round.size() == 2 && !is_inner(round[0]) && !is_inner(round[1]);
     if (!between_two) {
       add_turn(ends, square_to(along), along);
       bends_.push_back({ends[0], 2 * kHalfTurn});
       bends_.push_back({ends[1], 2 * kHalfTurn});
       return;
     }
-    const std::uint32_t t = of_edge[first], u = of_edge[first + 1];
+    const std::uint32_t t = round[0], u = round[1];
     const Vec3d n = of_.triangle(t).unit, m = of_.triangle(u).unit;
     double highest = -kHalfTurn / kUnitError;
     for (const std::uint32_t v : of_.part().triangles[u])
@@ -159,7 +188,8 @@ class Builder {
 
   void add_corners() {
     std::vector<Ends> both;
-    for (const auto& [v, w] : ends_) {
+    for (const std::uint32_t e : edges_) {
+      const auto [v, w] = ends_of(e);
       both.push_back({v, w});
       both.push_back({w, v});
     }
@@ -193,7 +223,8 @@ class Builder {
   }
 
   [[nodiscard]] bool is_inner(std::uint32_t t) const {
-    return std::ranges::binary_search(inner_, t);
+    const auto i = place(t);
+    return i && inner_[*i] != 0;
   }
 
   /// A ball that only touches a corner has none of its edges on its side.
@@ -229,8 +260,8 @@ class Builder {
   const DepthField& of_;
   std::vector<std::uint32_t> near_;
   double distance_, flat_;
-  std::vector<std::uint32_t> inner_;  ///< triangles that may have the part on both sides
-  std::vector<Ends> ends_;
+  std::vector<char> inner_;  ///< of each near triangle, whether it may have the part on both sides
+  std::vector<std::uint32_t> edges_;
   std::vector<Bend> bends_;
   std::vector<LevelCell> cells_;
 };

@@ -74,7 +74,7 @@ std::string run(std::uint64_t seed, const Settings& settings, parallel::Team& pu
 std::uint64_t count(std::uint64_t usual) {
   const char* more = std::getenv("STRAKE_ORACLE_SCENES");
   if (more != nullptr) return std::strtoull(more, nullptr, 10);
-  return test::kSanitized ? (usual + 9) / 10 : usual;
+  return test::kSanitized ? (usual + 19) / 20 : usual;
 }
 
 /// Seeds from 1 on, shared out over all CPUs: what the lowest one says of which `settings_of` finds

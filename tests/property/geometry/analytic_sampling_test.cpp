@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,8 @@ void check_inside(const AnalyticSeparation& s, const Sampled& found) {
   }
 }
 
+auto first(std::uint64_t count) { return std::views::iota(std::uint64_t{1}, count + 1); }
+
 /// How many pairs were seen of each sort.
 struct Seen {
   std::uint64_t answered = 0, apart = 0, meeting = 0, held = 0;
@@ -179,10 +182,10 @@ struct Seen {
 
 /// Draws a pair for each seed and holds its answer against samples; `more(seed, answer, samples)`
 /// for each that was answered.
-template <class Draw, class More>
-Seen check_pairs(std::uint64_t pairs, const Draw& draw, const More& more) {
+template <class Seeds, class Draw, class More>
+Seen check_pairs(const Seeds& seeds, const Draw& draw, const More& more) {
   Seen seen;
-  for (std::uint64_t seed = 1; seed <= pairs; ++seed) {
+  for (const std::uint64_t seed : seeds) {
     const auto [a, b] = draw(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(a.primitive)) +
                  " and " + std::string(kind_name(b.primitive)));
@@ -209,7 +212,7 @@ TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
   std::uint64_t sampled_deep = 0;
   std::array<std::uint64_t, kKinds * kKinds> of_kinds{};
   const Seen seen =
-      check_pairs(kPairs, draw_bodies,
+      check_pairs(first(kPairs), draw_bodies,
                   [&](std::uint64_t seed, const AnalyticSeparation& s, const Sampled& found) {
                     ++of_kinds[seed % (kKinds * kKinds)];
                     if (s.lower > 0) {
@@ -227,12 +230,22 @@ TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
 }
 
 TEST(AnalyticSampling, NoPointOfSlenderBodiesContradictsABracket) {
-  const Seen seen = check_pairs(kSlenderPairs, draw_slender,
+  const Seen seen = check_pairs(first(kSlenderPairs), draw_slender,
                                 [](std::uint64_t, const AnalyticSeparation&, const Sampled&) {});
   EXPECT_GT(seen.answered, kSlenderPairs * 8 / 10);
   EXPECT_GT(seen.apart, kSlenderPairs / 8);
   EXPECT_GT(seen.meeting, kSlenderPairs / 8);
   EXPECT_GT(seen.held, kSlenderPairs / 200);
+}
+
+/// Bodies in a ring whose place nearest to the skin is no corner, no end and no middle: where the
+/// ring's hole bends in, or on the inner side of an arc.
+TEST(AnalyticSampling, BodiesLieNoDeeperInRingsThanTheirNearestPlace) {
+  constexpr std::array<std::uint64_t, 9> kSeeds{11338, 12058, 22097, 39274, 79208,
+                                                87649, 93701, 97514, 99620};
+  const Seen seen = check_pairs(kSeeds, draw_slender,
+                                [](std::uint64_t, const AnalyticSeparation&, const Sampled&) {});
+  EXPECT_EQ(seen.held, kSeeds.size());
 }
 
 /// Next to either end of a sweep of any angle the way out is through that end, and deep inside one

@@ -16,6 +16,7 @@
 #include "strake/geometry/tessellate.hpp"
 #include "strake/geometry/trig.hpp"
 #include "support/random_primitives.hpp"
+#include "support/rounds.hpp"
 #include "support/true_surface.hpp"
 
 namespace strake::geometry {
@@ -89,7 +90,7 @@ double worst_end(const Primitive& primitive, const Tessellation& t, const Vec3d&
 
 TEST(Contours, OfACylinderAreTwoGenerators) {
   PrimitiveDraw draw(1);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < test::rounds(200); ++i) {
     const CylinderPrimitive pipe{draw.between(1, 500), draw.between(1, 3000)};
     const Vec3d towards = draw.direction();
     if (std::hypot(towards.x, towards.y) < 0.01) continue;
@@ -105,7 +106,7 @@ TEST(Contours, OfACylinderAreTwoGenerators) {
 TEST(Contours, OfASnoutAreTwoGeneratorsOrNone) {
   PrimitiveDraw draw(2);
   int two = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < test::rounds(400); ++i) {
     SnoutPrimitive s{draw.between(20, 80), draw.between(0, 80), draw.between(60, 200)};
     if (i % 2 == 0) s.offset_x = draw.between(-60, 60), s.offset_y = draw.between(-60, 60);
     if (i % 3 == 0) s.bottom_shear_x = draw.between(-0.2, 0.2);
@@ -122,12 +123,12 @@ TEST(Contours, OfASnoutAreTwoGeneratorsOrNone) {
     ++two;
     if (worst_end(s, t, towards) > 1e-9) --two;
   }
-  EXPECT_GT(two, 250);
+  EXPECT_GT(two, test::rounds(250));
 }
 
 TEST(Contours, OfABallAreItsEquator) {
   PrimitiveDraw draw(3);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < test::rounds(100); ++i) {
     const SpherePrimitive ball{draw.between(2, 900)};
     const Vec3d towards = draw.direction();
     const Tessellation t = tessellate(ball, {}, 0.5, towards);
@@ -141,7 +142,7 @@ TEST(Contours, OfABallAreItsEquator) {
 TEST(Contours, OfAnEllipticalDishRunFromRimToRim) {
   PrimitiveDraw draw(4);
   int seen = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < test::rounds(200); ++i) {
     const EllipticalDishPrimitive dish{draw.between(10, 900), draw.between(10, 900)};
     const Vec3d towards = draw.direction();
     const Tessellation t = tessellate(dish, {}, 0.5, towards);
@@ -161,7 +162,7 @@ TEST(Contours, OfAnEllipticalDishRunFromRimToRim) {
     }
     EXPECT_EQ(loose, contours.empty() ? 0 : 2);
   }
-  EXPECT_GT(seen, 150);
+  EXPECT_GT(seen, test::rounds(150));
 }
 
 /// The ends of lines where only one of them ends; more than two lines nowhere.
@@ -179,7 +180,7 @@ std::vector<Vec3d> loose_ends(const std::vector<std::pair<Vec3d, Vec3d>>& lines)
 TEST(Contours, OfASphericalDishRunFromRimToRim) {
   PrimitiveDraw draw(14);
   int crossed = 0, spared = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < test::rounds(600); ++i) {
     const double radius = draw.between(10, 900);
     const SphericalDishPrimitive dish{radius, radius * draw.between(0.05, i % 5 == 0 ? 3 : 1)};
     const Vec3d towards = draw.direction();
@@ -210,7 +211,7 @@ TEST(Contours, OfASphericalDishRunFromRimToRim) {
     }
     EXPECT_LE(t.mesh.sag_mm, 0.8);
   }
-  EXPECT_GT(crossed, 400);
+  EXPECT_GT(crossed, test::rounds(400));
   EXPECT_LT(spared, 20);
 }
 
@@ -218,7 +219,7 @@ TEST(Contours, OfASphericalDishRunFromRimToRim) {
 TEST(Contours, RimsOfPipeAndSphericalDishMeet) {
   PrimitiveDraw draw(15);
   std::size_t met = 0, missed = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < test::rounds(100); ++i) {
     const double radius = draw.between(20, 600);
     const SphericalDishPrimitive dish{radius, radius * draw.between(0.1, 1)};
     const Vec3d towards = draw.direction();
@@ -243,7 +244,7 @@ TEST(Contours, RimsOfPipeAndSphericalDishMeet) {
 TEST(Contours, OfATorusLieOnTheTrueOnes) {
   PrimitiveDraw draw(5);
   double worst = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < test::rounds(200); ++i) {
     const double tube = draw.between(10, 200);
     const CircularTorusPrimitive bend{tube * draw.between(1.2, 5), tube,
                                       i % 4 == 0   ? 2 * kPi
