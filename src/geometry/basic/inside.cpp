@@ -2,6 +2,7 @@
 #include "strake/geometry/inside.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "geometry/basic/triangle_places.hpp"
@@ -15,6 +16,12 @@ namespace {
 /// Sign of the 2D orientation of a, b and the point, seen along `axis`.
 int turn2d(const Vec3l& a, const Vec3l& b, const ScaledPoint& p, int axis) {
   const Vec3l u = drop_axis(b - a, axis), v = drop_axis(p.from(a), axis);
+  // Far above what rounding four numbers, two products and their difference is off by.
+  constexpr double kRounding = 1e-15;
+  const double left = static_cast<double>(u.x) * static_cast<double>(v.y);
+  const double right = static_cast<double>(u.y) * static_cast<double>(v.x);
+  const double turn = left - right;
+  if (std::fabs(turn) > kRounding * (std::fabs(left) + std::fabs(right))) return turn > 0 ? 1 : -1;
   return sign_of(static_cast<Int128>(u.x) * v.y - static_cast<Int128>(u.y) * v.x);
 }
 
@@ -86,9 +93,12 @@ PointSide side_of_polygon(std::span<const Vec3l> points, std::span<const std::ui
 }
 
 bool Winding::pass(const TriangleCorners& t) {
-  // Most triangles end here, and the exact normal is what takes the time.
+  // Most triangles end here: the ray goes past them. The exact normal is what takes the time.
   const auto box = box_of(t);
   if (!may_meet(box.lo, box.hi)) return true;
+  const int x = turn2d(t[0], t[1], point_, axis_), y = turn2d(t[1], t[2], point_, axis_),
+            z = turn2d(t[2], t[0], point_, axis_);
+  if (std::min({x, y, z}) < 0 && std::max({x, y, z}) > 0) return true;
   const Vec3<Int128> normal = cross_exact(t[1] - t[0], t[2] - t[0]);
   const int side = side_of_plane(t, normal, point_);
   // A ray within the plane of a triangle does not cross it.
