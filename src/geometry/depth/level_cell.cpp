@@ -112,7 +112,7 @@ bool are_apart(std::span<const Vec3d> cell, const Corners& triangle, double by) 
     for (const Vec3d& p : cell) x.include(dot(way, p));
     for (const Vec3d& p : triangle) y.include(dot(way, p));
     const double gap = std::max(x.lo - y.hi, y.lo - x.hi);
-    return gap > 0 ? gap * gap > by * by * squared : gap > by * std::sqrt(squared);
+    return gap > 0 && gap * gap > by * by * squared;
   };
   const std::size_t n = cell.size();
   const Vec3d normal = normal_of(triangle);

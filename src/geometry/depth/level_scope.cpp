@@ -12,9 +12,7 @@ CellHull::CellHull(const LevelCell& cell, double slack)
     : cell_(cell), slack_(slack), box_(box_of(cell.corners).inflated(slack)) {
   const auto& p = cell.corners;
   const Vec3d normal = cross(p[1] - p[0], p[2] - p[0]);
-  const double size = length(normal);
-  if (!(size > 0)) return;
-  up_ = normal * (1 / size);
+  if (const double size = length(normal); size > 0) up_ = normal * (1 / size);
   for (const Vec3d& q : p) along_up_.include(dot(up_, q));
 }
 

@@ -32,7 +32,7 @@ class CellHull {
   const LevelCell& cell_;
   double slack_ = 0;
   Box3d box_;
-  Vec3d up_;  ///< unit normal; none where the cell has no area
+  Vec3d up_;  ///< unit normal of the first three corners; none where they are in line
   Range along_up_;
 };
 

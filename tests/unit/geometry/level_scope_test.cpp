@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is told of a cell and of those that it is cut into holds for points of it.
+#include "geometry/depth/level_scope.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "../../support/depth_subjects.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using testing::box_mesh;
+using testing::IndexedMesh;
+using testing::Subject;
+using testing::turned;
+
+class LevelScope : public ::testing::Test {
+ protected:
+  LevelScope() {
+    IndexedMesh mesh = box_mesh({0, 0, 0}, {10'000, 10'000, 10'000});
+    mesh.append(box_mesh({5'000, 5'000, 12'000}, {9'000, 20'000, 14'000}));
+    subject_ = std::make_unique<Subject>(turned(mesh));
+  }
+
+  double in(double lo, double hi) {
+    return lo + (hi - lo) * static_cast<double>(random_() % 1'000'000) * 1e-6;
+  }
+  Vec3d point() { return {in(-12'000, 20'000), in(-12'000, 20'000), in(-12'000, 20'000)}; }
+
+  Vec3d point_of(const LevelCell& cell) {
+    Vec3d sum;
+    double all = 0;
+    for (const Vec3d& p : cell.corners) {
+      const double weight = in(0, 1);
+      sum = sum + p * weight;
+      all += weight;
+    }
+    return on_field_grid(sum * (1 / all));
+  }
+
+  /// Asks about a cell, then about its halves by what is known of it.
+  void follow(PartScope& scope, const DepthField& field, const LevelCell& cell,
+              const PartScope::About& from, int times) {
+    constexpr double kSlack = 1;
+    const CellHull hull(cell, kSlack);
+    std::vector<Corners> crossing;
+    const PartScope::About about =
+        scope.look(hull, from, on_field_grid(hull.middle()), crossing, work_);
+    EXPECT_EQ(crossing.empty(), about.side != PartScope::Side::both);
+    ++seen_[static_cast<std::size_t>(about.side)];
+    for (int i = 0; i < 20 && about.side != PartScope::Side::both; ++i)
+      EXPECT_EQ(field.contains(point_of(cell), work_), about.side == PartScope::Side::inside);
+    if (times == 0) return;
+    for (const LevelCell& half : halves_of(cell))
+      if (half.corners.size() >= 3) follow(scope, field, half, about, times - 1);
+  }
+
+  std::mt19937_64 random_{5};
+  std::unique_ptr<Subject> subject_;
+  PairWork work_;
+  std::array<int, 3> seen_{};
+};
+
+TEST_F(LevelScope, PointsOfCellsAreOnTheSideThatIsTold) {
+  const TreedPart treed = subject_->treed();
+  const DepthField field(treed, {});
+  DepthField ready = field;
+  ready.prepare();
+  for (const DepthField* of : {&field, &std::as_const(ready)}) {
+    PartScope scope(*of);
+    for (int i = 0; i < 100; ++i)
+      follow(scope, *of, flat_cell({point(), point(), point()}, {}), {}, 6);
+  }
+  for (const int times : seen_) EXPECT_GT(times, 1'000);
+}
+
+/// As cutting makes them: no plane is to be had from the first three.
+TEST_F(LevelScope, CornersInLineAtFirst) {
+  const TreedPart treed = subject_->treed();
+  const DepthField field(treed, {});
+  PartScope scope(field);
+  const auto beside = [&](const Vec3d& p) {
+    return p + Vec3d{in(-4'000, 4'000), in(-4'000, 4'000), in(-4'000, 4'000)};
+  };
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3d p = point(), q = beside(p);
+    const LevelCell cell{.corners = {p, (p + q) * 0.5, q, beside(p)}, .about = {}};
+    follow(scope, field, cell, {}, 0);
+  }
+  for (const int times : seen_) EXPECT_GT(times, 10);
+}
+
+}  // namespace
+}  // namespace strake::geometry
