@@ -8,19 +8,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "clocks.hpp"
 #include "strake/geometry/depth.hpp"
-#include "strake/geometry/part_pair.hpp"
-#include "support/part_builder.hpp"
 
 namespace {
 
 using namespace strake;
 using geometry::Depth;
-using geometry::Meeting;
 
 constexpr std::uint64_t kSeeds = 20;
 constexpr int kRepeats = 3;
@@ -29,30 +27,15 @@ constexpr double kGridPerMm = 1000;
 struct Timed {
   Depth depth;
   double milliseconds = 0;  ///< median of the repeats
-  std::size_t triangles = 0;
-  bool met = false;
 };
 
-Timed timed(const test::DeepPair& pair) {
-  const testing::Subject a(test::snapped(pair.a)), b(test::snapped(pair.b));
-  const geometry::SupportPlanes of_a = make_support_planes(a.part);
-  const geometry::SupportPlanes of_b = make_support_planes(b.part);
-  const geometry::DepthPart x{a.treed(), &of_a}, y{b.treed(), &of_b};
-  geometry::PairWork work;
-  const geometry::MeetingResult meeting = meet(a.treed(), b.treed(), work);
+/// Of a pair that meets.
+Timed timed(const test::AskedPair& pair) {
   Timed t;
-  if (meeting.meeting == Meeting::apart || meeting.meeting == Meeting::touching) return t;
-  t.met = true;
-  t.triangles = pair.a.triangles.size() + pair.b.triangles.size();
-  geometry::DepthGoal goal{.threshold = kGridPerMm};
-  goal.known_upper = -gap_bound(x, y);
-  goal.triangle_a = meeting.triangle_a;
-  goal.triangle_b = meeting.triangle_b;
-  goal.meeting_point = meeting.point;
   std::vector<double> laps;
   for (int i = 0; i < kRepeats; ++i) {
     bench::CpuLap lap;
-    t.depth = solid_depth(x, y, goal, work);
+    t.depth = pair.depth();
     laps.push_back(lap() * 1e3);
   }
   std::nth_element(laps.begin(), laps.begin() + kRepeats / 2, laps.end());
@@ -67,7 +50,7 @@ bool right(const test::DeepPair& pair, const Depth& depth) {
 }
 
 bool narrow(const Depth& depth) {
-  return depth.upper - depth.lower <= std::max(0.05 * kGridPerMm, 0.01 * depth.value);
+  return depth.upper - depth.lower <= test::tolerance(depth.value);
 }
 
 void report(test::DeepKind kind) {
@@ -77,12 +60,13 @@ void report(test::DeepKind kind) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const test::DeepPair straight = test::draw_deep_pair(kind, seed);
     for (const test::DeepPair& pair : {straight, test::turned_together(straight, seed)}) {
-      const Timed t = timed(pair);
-      if (!t.met) continue;
+      const test::AskedPair asked(pair);
+      if (!asked.meets()) continue;
+      const Timed t = timed(asked);
       ++pairs;
       sum += t.milliseconds;
       greatest = std::max(greatest, t.milliseconds);
-      triangles = std::max(triangles, t.triangles);
+      triangles = std::max(triangles, pair.a.triangles.size() + pair.b.triangles.size());
       if (narrow(t.depth)) ++narrow_ones;
       if (!right(pair, t.depth)) ++wrong;
     }

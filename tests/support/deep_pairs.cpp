@@ -438,6 +438,27 @@ testing::IndexedMesh snapped(const DeepBody& body) {
   return volume < 0 ? mesh.flipped() : mesh;
 }
 
+AskedPair::AskedPair(const DeepPair& pair)
+    : a_(snapped(pair.a)),
+      b_(snapped(pair.b)),
+      of_a_(make_support_planes(a_.part)),
+      of_b_(make_support_planes(b_.part)) {
+  geometry::PairWork work;
+  const geometry::MeetingResult meeting = meet(a_.treed(), b_.treed(), work);
+  meets_ =
+      meeting.meeting != geometry::Meeting::apart && meeting.meeting != geometry::Meeting::touching;
+  goal_.threshold = 1000;
+  goal_.known_upper = -geometry::gap_bound({a_.treed(), &of_a_}, {b_.treed(), &of_b_});
+  goal_.triangle_a = meeting.triangle_a;
+  goal_.triangle_b = meeting.triangle_b;
+  goal_.meeting_point = meeting.point;
+}
+
+geometry::Depth AskedPair::depth() const {
+  geometry::PairWork work;
+  return solid_depth({a_.treed(), &of_a_}, {b_.treed(), &of_b_}, goal_, work);
+}
+
 double sampled_depth(const testing::IndexedMesh& a, const testing::IndexedMesh& b,
                      std::uint64_t seed, int starts) {
   Draw draw(seed);

@@ -3,11 +3,14 @@
 // insulation, crossing profiles, pipes in line, fine convex bodies, springs.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "strake/geometry/depth.hpp"
+#include "strake/geometry/part_pair.hpp"
 #include "strake/geometry/vec.hpp"
 #include "support/part_builder.hpp"
 
@@ -44,6 +47,26 @@ struct DeepPair {
 
 /// In grid units.
 [[nodiscard]] testing::IndexedMesh snapped(const DeepBody& body);
+
+/// A pair as the narrow phase asks for its depth.
+class AskedPair {
+ public:
+  explicit AskedPair(const DeepPair& pair);
+
+  /// Whether the two have interior in common.
+  [[nodiscard]] bool meets() const { return meets_; }
+  /// Of a pair that meets; all is worked out anew.
+  [[nodiscard]] geometry::Depth depth() const;
+
+ private:
+  testing::Subject a_, b_;
+  geometry::SupportPlanes of_a_, of_b_;
+  geometry::DepthGoal goal_;
+  bool meets_ = false;
+};
+
+/// How wide the bracket of a depth may be, grid units: 0.05 mm or 1 %.
+[[nodiscard]] inline double tolerance(double depth) { return std::max(50.0, 0.01 * depth); }
 
 /// A depth by definition of two bodies in grid units: what is deepest among many points of both,
 /// each moved uphill by random steps. No more than the supremum, and seldom less.

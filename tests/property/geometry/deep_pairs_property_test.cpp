@@ -9,7 +9,6 @@
 #include <string>
 
 #include "strake/geometry/depth.hpp"
-#include "strake/geometry/part_pair.hpp"
 #include "support/deep_pairs.hpp"
 #include "support/rounds.hpp"
 
@@ -17,28 +16,12 @@ namespace strake::test {
 namespace {
 
 using geometry::Depth;
-using geometry::DepthGoal;
-using geometry::Meeting;
 
-/// As the narrow phase asks; nothing where the two have no interior in common.
+/// Nothing where the two have no interior in common.
 std::optional<Depth> depth_of(const DeepPair& pair) {
-  const testing::Subject a(snapped(pair.a)), b(snapped(pair.b));
-  geometry::PairWork work;
-  const geometry::MeetingResult meeting = meet(a.treed(), b.treed(), work);
-  if (meeting.meeting == Meeting::apart || meeting.meeting == Meeting::touching)
-    return std::nullopt;
-  const geometry::SupportPlanes of_a = make_support_planes(a.part);
-  const geometry::SupportPlanes of_b = make_support_planes(b.part);
-  const geometry::DepthPart x{a.treed(), &of_a}, y{b.treed(), &of_b};
-  DepthGoal goal{.threshold = 1000};
-  goal.known_upper = -gap_bound(x, y);
-  goal.triangle_a = meeting.triangle_a;
-  goal.triangle_b = meeting.triangle_b;
-  goal.meeting_point = meeting.point;
-  return solid_depth(x, y, goal, work);
+  const AskedPair asked(pair);
+  return asked.meets() ? std::optional(asked.depth()) : std::nullopt;
 }
-
-double tolerance(double depth) { return std::max(50.0, 0.01 * depth); }
 
 class DeepPairs : public ::testing::TestWithParam<DeepKind> {
  protected:

@@ -7,11 +7,11 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <random>
 #include <utility>
 #include <vector>
 
 #include "../../support/depth_subjects.hpp"
+#include "../../support/draw.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -29,9 +29,7 @@ class LevelScope : public ::testing::Test {
     subject_ = std::make_unique<Subject>(turned(mesh));
   }
 
-  double in(double lo, double hi) {
-    return lo + (hi - lo) * static_cast<double>(random_() % 1'000'000) * 1e-6;
-  }
+  double in(double lo, double hi) { return draw_.between(lo, hi); }
   Vec3d point() { return {in(-12'000, 20'000), in(-12'000, 20'000), in(-12'000, 20'000)}; }
 
   Vec3d point_of(const LevelCell& cell) {
@@ -62,7 +60,7 @@ class LevelScope : public ::testing::Test {
       if (half.corners.size() >= 3) follow(scope, field, half, about, times - 1);
   }
 
-  std::mt19937_64 random_{5};
+  test::Draw draw_{5};
   std::unique_ptr<Subject> subject_;
   PairWork work_;
   std::array<int, 3> seen_{};
