@@ -7,10 +7,12 @@
 namespace strake::clash {
 namespace {
 
-/// One end of a bracket: a separation on the grid, and what it may be off by.
+/// One end of a bracket: a separation on the grid, or of what may lie beside the grid's bodies, and
+/// what it may be off by.
 struct End {
   double d = 0, off = 0;
   bool interiors_meet = false;
+  bool on_grid = true;
 };
 
 /// Whether a tolerance is asked of the grid itself.
@@ -18,7 +20,7 @@ bool is_exact(double tolerance, const Thresholds& t) { return !(tolerance > 0) &
 
 Class class_of(const End& end, const Thresholds& t) {
   const auto beside = [&](double tolerance) {
-    return is_exact(tolerance, t) ? end.d : end.d + end.off;
+    return end.on_grid && is_exact(tolerance, t) ? end.d : end.d + end.off;
   };
   if (beside(t.overlap) < -t.overlap || (end.interiors_meet && !(t.overlap > 0))) return Class::hit;
   if (beside(t.gap) <= t.gap) return Class::contact;
@@ -62,9 +64,11 @@ Judgement judge(const Separation& s, double width, const Thresholds& t) {
     j.cls = class_of_nominal(s, t);
     j.flags = kUncertain;
   }
-  // With sag the true bodies may be apart even where the meshes' interiors meet.
-  j.severest = class_of({s.lower - s.sag, -s.moved, s.interiors_meet}, t);
-  const Class mildest = class_of({s.upper + s.sag, s.moved, meet && s.sag == 0}, t);
+  // With sag the true bodies may be apart even where the meshes' interiors meet, and are not the
+  // grid's: what the snap moved counts at a tolerance of 0 too.
+  const bool no_sag = !(s.sag > 0);
+  j.severest = class_of({s.lower - s.sag, -s.moved, s.interiors_meet, no_sag}, t);
+  const Class mildest = class_of({s.upper + s.sag, s.moved, meet && no_sag, no_sag}, t);
   if (s.sag > 0 && (j.severest != j.cls || mildest != j.cls)) {
     if (width + 2 * s.sag <= kBorderlineWidth) {
       j.cls = j.severest;

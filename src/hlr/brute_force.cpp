@@ -9,6 +9,7 @@
 
 #include "hlr/edge_on.hpp"
 #include "hlr/job.hpp"
+#include "hlr/occlusion.hpp"
 #include "hlr/specks.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -74,6 +75,7 @@ struct Edge {
   EdgeKind kind = EdgeKind::sharp;
   bool projecting = false;
   bool cut_away = false;
+  bool away = false;
   std::uint32_t body = 0, other_body = 0;  ///< two of an intersection, otherwise one
   std::uint32_t part = 0;                  ///< kNoPart of a line that is no edge
 };
@@ -158,10 +160,13 @@ class Solver {
         std::max({job_.contact[e.body], job_.contact[e.other_body], job_.contact[body_index]});
     if (e.part == kNoPart) contact = std::max(contact, job_.lines.contact);
     if (same_part) contact = seen.within;
+    const bool forgives = same_part && job_.forgives_rounding(body_index);
+    const std::int64_t lying = forgives && !e.away ? kLyingInPlane : 0;
     for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
       Facet f;
-      if (same_part && job_.forgives_rounding(body_index) && may_be_edge_on(part, t, d_)) continue;
+      if (forgives && may_be_edge_on(part, t, d_)) continue;
       if (!facet(part, t, job_.offset(body), f)) continue;
+      if (lies_in_plane(e, f, lying)) continue;
       add(e, f, contact, +1, range, sides.left);
       add(e, f, contact, -1, range, sides.right);
     }
@@ -180,6 +185,13 @@ class Solver {
       f.facing = -f.facing;
     }
     return true;
+  }
+
+  static bool lies_in_plane(const Edge& e, const Facet& f, std::int64_t lying) {
+    Int128 size = 0;
+    for (const Int128& x : f.normal) size += x < 0 ? -x : x;
+    return dot(f.normal, f.corner[0] - e.a) <= lying * size &&
+           dot(f.normal, f.corner[0] - e.b) <= lying * size;
   }
 
   // Side +1 is the left of the edge, where the inside of a facet lies along an edge of the facet
@@ -351,13 +363,13 @@ Result<ObjectLines> solve_object(const Job& job, const SpeckRule& rule, std::uin
       solve_edge(
           judge,
           {f.a.as<std::int64_t>() + job.offset(body), f.b.as<std::int64_t>() + job.offset(body),
-           f.kind, f.projecting, f.cut_away, b, b, f.part},
+           f.kind, f.projecting, f.cut_away, f.away, b, b, f.part},
           result);
   }
   for (const Line& line : job.lines.of(object)) {
     const Vec3l p = line.a - job.origin, q = line.b - job.origin;
     solve_edge(judge,
-               {p, q, line.kind, judge.solver.is_point(p, q), line.cut_away, line.body_a,
+               {p, q, line.kind, judge.solver.is_point(p, q), line.cut_away, false, line.body_a,
                 line.body_b, kNoPart},
                result);
   }

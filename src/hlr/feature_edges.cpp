@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hlr/shape_loop.hpp"
+#include "hlr/slivers.hpp"
 #include "hlr/tangent_edges.hpp"
 #include "strake/geometry/part_edges.hpp"
 #include "strake/parallel/collect.hpp"
@@ -25,17 +26,30 @@ using geometry::Vec3l;
 
 NormalVector negated(const NormalVector& n) { return {-n[0], -n[1], -n[2]}; }
 
+double length(const NormalVector& n) {
+  const double x = static_cast<double>(n[0]), y = static_cast<double>(n[1]),
+               z = static_cast<double>(n[2]);
+  return std::sqrt(x * x + y * y + z * z);
+}
+
 // A fixed expression of doubles: the normals are rounded once each, so the decision depends on
-// the shape alone and survives translation, reordering and scaling by powers of two.
-bool is_sharp(const NormalVector& m, const NormalVector& n, double cos_sharp) {
+// the shape alone and survives translation, reordering and scaling by powers of two. Facets that
+// turn by just the sharp angle are not sharp, however rounding left them: all edges of a prism are
+// drawn or none.
+template <class Turn>
+bool is_sharp(const NormalVector& m, const NormalVector& n, double cos_sharp,
+              const Turn& turn_by_rounding) {
   const double mx = static_cast<double>(m[0]), my = static_cast<double>(m[1]),
                mz = static_cast<double>(m[2]);
   const double nx = static_cast<double>(n[0]), ny = static_cast<double>(n[1]),
                nz = static_cast<double>(n[2]);
   const double dot = mx * nx + my * ny + mz * nz;
-  const double lengths =
-      std::sqrt(mx * mx + my * my + mz * mz) * std::sqrt(nx * nx + ny * ny + nz * nz);
-  return dot < cos_sharp * lengths;
+  const double lengths = length(m) * length(n);
+  if (!(dot < cos_sharp * lengths)) return false;
+  // The cosine of the sharp angle and a small one more.
+  const double more = turn_by_rounding(),
+               sin_sharp = std::sqrt(std::max(0.0, 1 - cos_sharp * cos_sharp));
+  return dot < (cos_sharp * (1 - more * more / 2) - sin_sharp * more) * lengths;
 }
 
 /// The plane that says to which side a face looks.
@@ -93,12 +107,15 @@ struct Faces {
   /// two of them there is no edge however coarse the tessellation of a thin pipe is. Empty where
   /// the part has no curved side.
   std::vector<bool> facet;
+  std::vector<std::uint32_t> owners;  ///< of plane_owners()
 };
 
 Result<Faces> faces_of(const Part& part, const parallel::Context& context) {
   auto planes = face_planes(part, context);
   if (!planes) return planes.error();
-  Faces result{std::move(*planes), {}};
+  Faces result{std::move(*planes), {}, plane_owners(part)};
+  for (std::size_t t = 0; t < result.owners.size(); ++t)
+    result.planes[t] = result.planes[result.owners[t]];
   if (!part.primitive || !geometry::is_round(*part.primitive) || part.faces.empty()) return result;
   std::vector<std::uint32_t> sorted = part.faces.to_vector();
   std::sort(sorted.begin(), sorted.end());
@@ -110,12 +127,17 @@ Result<Faces> faces_of(const Part& part, const parallel::Context& context) {
   return result;
 }
 
-std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Faces& faces,
-                                const FeatureOptions& options) {
+struct Judged {
+  EdgeKind kind = EdgeKind::sharp;
+  bool away = false;
+};
+
+std::optional<Judged> judged(const Part& part, std::uint32_t edge, const Faces& faces,
+                             const FeatureOptions& options) {
   const geometry::PartEdge& e = part.edges[edge];
   const std::span<const std::uint32_t> round = geometry::triangles_round(part, edge);
   if (round.empty()) return std::nullopt;
-  if (round.size() == 1) return EdgeKind::boundary;
+  if (round.size() == 1) return Judged{EdgeKind::boundary};
   const auto face = [&](std::uint32_t t) {
     return part.faces.empty() ? geometry::kNoFace : part.faces[t];
   };
@@ -123,7 +145,7 @@ std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Face
   const bool one_face = first != geometry::kNoFace &&
                         std::ranges::all_of(round, [&](auto t) { return face(t) == first; });
   if (one_face) return std::nullopt;
-  if (round.size() > 2) return EdgeKind::non_manifold;
+  if (round.size() > 2) return Judged{EdgeKind::non_manifold};
 
   const std::uint32_t s = round[0], t = round[1];
   const bool consistent =
@@ -132,15 +154,22 @@ std::optional<EdgeKind> kind_of(const Part& part, std::uint32_t edge, const Face
   const auto& [of_t, on_t] = faces.planes[t];
   const NormalVector n = consistent ? of_t : negated(of_t);
   const bool smooth = !faces.facet.empty() && faces.facet[s] && faces.facet[t];
-  if (!smooth && is_sharp(m, n, options.cos_sharp)) return EdgeKind::sharp;
+  const auto owner = [&](std::uint32_t x) { return faces.owners.empty() ? x : faces.owners[x]; };
+  const auto by_rounding = [&] {
+    return turn_by_rounding(part, owner(s)) + turn_by_rounding(part, owner(t));
+  };
   // A face seen edge-on counts as turned away: between a front face, an edge-on strip and a back
   // face exactly one line is the contour.
   const bool front_m = options.viewer.is_towards(m, on_s.as<std::int64_t>());
   const bool front_n = options.viewer.is_towards(n, on_t.as<std::int64_t>());
-  if (front_m != front_n) return EdgeKind::contour;
+  const bool away = !front_m && !front_n;
+  if (!smooth && is_sharp(m, n, options.cos_sharp, by_rounding))
+    return Judged{EdgeKind::sharp, away};
+  if (front_m != front_n) return Judged{EdgeKind::contour, false};
   // Between two facets of a curved side there is no edge at all.
-  if (options.smooth != Smooth::off && !smooth && (bends(part, e, s, t) || bends(part, e, t, s)))
-    return EdgeKind::smooth;
+  if (options.smooth != Smooth::off && !smooth &&
+      (bends(part, faces.owners, e, s, t) || bends(part, faces.owners, e, t, s)))
+    return Judged{EdgeKind::smooth, away};
   return std::nullopt;
 }
 
@@ -190,8 +219,8 @@ Result<std::vector<FeatureEdge>> lasting_edges(const Part& part, double cos_shar
   if (!faces) return faces.error();
   const FeatureOptions options{.viewer = {}, .cos_sharp = cos_sharp};
   for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e)
-    if (const auto kind = kind_of(part, e, *faces, options); kind && kind != EdgeKind::contour)
-      add_edge(edges, part, {.part_edge = e, .kind = *kind}, part.edges[e].v0, part.edges[e].v1,
+    if (const auto is = judged(part, e, *faces, options); is && is->kind != EdgeKind::contour)
+      add_edge(edges, part, {.part_edge = e, .kind = is->kind}, part.edges[e].v0, part.edges[e].v1,
                options.viewer);
   return edges;
 }
@@ -216,12 +245,12 @@ Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
         context, over_elements("hidden lines: feature edges", part.edges.size() - 1),
         [&](std::size_t i, std::vector<FeatureEdge>& out) {
           const auto e = static_cast<std::uint32_t>(i);
-          if (const auto kind = kind_of(part, e, *faces, options))
-            add_edge(out, part, {.part = p, .part_edge = e, .kind = *kind}, part.edges[e].v0,
-                     part.edges[e].v1, options.viewer);
+          if (const auto is = judged(part, e, *faces, options))
+            add_edge(out, part, {.part = p, .part_edge = e, .kind = is->kind, .away = is->away},
+                     part.edges[e].v0, part.edges[e].v1, options.viewer);
         });
     if (!own) return own.error();
-    if (options.smooth == Smooth::tangent) keep_tangent_edges(part, *own);
+    if (options.smooth == Smooth::tangent) keep_tangent_edges(part, faces->owners, *own);
     sort_edges(*own);
     if (edges.empty())
       edges = std::move(*own);

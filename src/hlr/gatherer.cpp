@@ -189,9 +189,11 @@ void Gatherer::test_own_body() {
   for (const PartView& part : edge_.own->view->parts) {
     const bool same = edge_.own->view->polygons[part.first].part == edge_.feature->edge.part;
     if (same && judged) continue;
+    const bool forgives = same && edge_.own->forgives_rounding;
     const Rule rule{.contact = same ? edge_.own->within : edge_.own->contact,
+                    .lying = forgives && !edge_.feature->edge.away ? kLyingInPlane : 0,
                     .self = true,
-                    .edge_on = !same || !edge_.own->forgives_rounding};
+                    .edge_on = !forgives};
     if (!test_part(local, *edge_.own->view, part, rule)) return;
   }
 }
@@ -212,7 +214,7 @@ bool Gatherer::test_part(const LocalEdge& local, const ShapeView& view, const Pa
   if (!may_hide(local, part.box)) return true;
   if (!part.turn.is_none() && !loose(local.va, local.vb, part.turn).may_hide(part.turned))
     return true;
-  if (is_deep_under(local, part, rule.contact)) {
+  if (is_deep_under(local, part, std::max(rule.contact, rule.lying))) {
     ++work.tests;
     work.wide_tests += local.narrow ? 0 : 1;
     return add(outlined_stretch(local, view, part.outline), rule.self);
@@ -239,7 +241,7 @@ bool Gatherer::test_polygon(const LocalEdge& local, const ShapeView& view, const
   if (!may_hide(local, p.box) || (p.edge_on && !rule.edge_on)) return true;
   ++work.tests;
   work.wide_tests += local.narrow ? 0 : 1;
-  return add(hidden_stretch(local, view, p, rule.contact), rule.self);
+  return add(hidden_stretch(local, view, p, rule.contact, rule.lying), rule.self);
 }
 
 bool Gatherer::is_deep_under(const LocalEdge& local, const PartView& part,

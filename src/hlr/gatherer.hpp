@@ -56,8 +56,9 @@ class Gatherer {
   /// How the faces of a part hide an edge.
   struct Rule {
     std::int64_t contact = 0;
-    bool self = false;    ///< a part of the edge's own object
-    bool edge_on = true;  ///< also faces that may be edge-on but for rounding
+    std::int64_t lying = 0;  ///< edges no deeper than this at both ends lie in a face's plane
+    bool self = false;       ///< a part of the edge's own object
+    bool edge_on = true;     ///< also faces that may be edge-on but for rounding
   };
 
   void begin(const AskedEdge& edge, const Param& lo, const Param& hi);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hlr/occlusion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -182,11 +183,13 @@ std::optional<Hit> outlined_stretch(const LocalEdge& edge, const ShapeView& shap
 }
 
 std::optional<Hit> hidden_stretch(const LocalEdge& edge, const ShapeView& shape,
-                                  const Polygon& polygon, std::int64_t contact) {
+                                  const Polygon& polygon, std::int64_t contact,
+                                  std::int64_t lying) {
   // The plane first: it costs less than the outline, and half of all edges lie above it.
   const Depth depth = depth_of(edge, shape, polygon);
   const Int128 least = contact * depth.size;
-  if (depth.at_a <= least && depth.at_b <= least) return std::nullopt;
+  const Int128 beside = std::max(least, lying * depth.size);
+  if (depth.at_a <= beside && depth.at_b <= beside) return std::nullopt;
   std::optional<Hit> found = outlined_stretch(edge, shape, polygon);
   if (!found) return found;
   Hit& hit = *found;

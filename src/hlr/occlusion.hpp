@@ -11,6 +11,10 @@
 
 namespace strake::hlr {
 
+/// Grid units, in the measure of a contact distance: an edge of a part whose ends are no deeper
+/// than this under the plane of one of its faces lies in that plane, as both were rounded.
+inline constexpr std::int64_t kLyingInPlane = 2;
+
 enum Side : std::uint8_t { kLeft = 1, kRight = 2, kBothSides = 3 };
 
 /// A stretch of an edge that something hides, on one side of the edge or on both.
@@ -37,9 +41,11 @@ struct LocalEdge {
 
 /// The closed stretch of the edge that a polygon hides, by the two-sided rule: what lies strictly
 /// under its open inside for points a hair left or right of the edge, deeper than `contact` in
-/// the sense of docs/hlr.md. Exact. The caller has found that may_hide(edge, polygon.box).
+/// the sense of docs/hlr.md. An edge of which neither end is deeper than `lying` lies in the
+/// polygon's plane: nothing. Exact. The caller has found that may_hide(edge, polygon.box).
 [[nodiscard]] std::optional<Hit> hidden_stretch(const LocalEdge& edge, const ShapeView& shape,
-                                                const Polygon& polygon, std::int64_t contact);
+                                                const Polygon& polygon, std::int64_t contact,
+                                                std::int64_t lying);
 
 /// The same for what lies deep under an outline (PartView::outline), planes apart.
 [[nodiscard]] std::optional<Hit> outlined_stretch(const LocalEdge& edge, const ShapeView& shape,

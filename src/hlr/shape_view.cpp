@@ -39,7 +39,7 @@ void judge_edges(const geometry::Part& part, const Viewer& viewer, std::span<Edg
       away = away && facing < 0;
       towards = towards || facing > 0;
     }
-    e.surely_behind_part = away;
+    e.surely_behind_part = away && e.edge.away;
     e.surely_clear_of_part = towards;
   }
 }

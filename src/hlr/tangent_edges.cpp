@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "hlr/slivers.hpp"
 #include "strake/geometry/part_edges.hpp"
 
 namespace strake::hlr {
@@ -23,8 +24,9 @@ using geometry::Vec3l;
 /// Faces as sets of triangles in one plane, and what their smooth edges turn by.
 class FlatFaces {
  public:
-  FlatFaces(const Part& part, std::span<const FeatureEdge> edges)
-      : part_(part), of_(part.triangles.size()) {
+  FlatFaces(const Part& part, const std::vector<std::uint32_t>& owners,
+            std::span<const FeatureEdge> edges)
+      : part_(part), owners_(owners), of_(part.triangles.size()) {
     std::iota(of_.begin(), of_.end(), 0U);
     for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e) {
       const auto round = geometry::triangles_round(part, e);
@@ -67,7 +69,8 @@ class FlatFaces {
     if (!part_.faces.empty() && part_.faces[round[0]] != geometry::kNoFace &&
         part_.faces[round[0]] == part_.faces[round[1]])
       return false;
-    return bends(part_, e, round[0], round[1]) || bends(part_, e, round[1], round[0]);
+    return bends(part_, owners_, e, round[0], round[1]) ||
+           bends(part_, owners_, e, round[1], round[0]);
   }
 
   [[nodiscard]] std::uint32_t root(std::uint32_t t) {
@@ -98,7 +101,8 @@ class FlatFaces {
     const auto round = geometry::triangles_round(part_, edge);
     std::array<Vec3d, 2> n;
     for (std::size_t k = 0; k < 2; ++k) {
-      const NormalVector exact = triangle_normal(part_, round[k]);
+      const NormalVector exact =
+          triangle_normal(part_, owners_.empty() ? round[k] : owners_[round[k]]);
       n[k] = {static_cast<double>(exact[0]), static_cast<double>(exact[1]),
               static_cast<double>(exact[2])};
     }
@@ -146,6 +150,7 @@ class FlatFaces {
   }
 
   const Part& part_;
+  const std::vector<std::uint32_t>& owners_;
   std::vector<std::uint32_t> of_;  ///< by triangle: the first triangle of its face
   std::vector<std::uint32_t> first_, members_;
   std::vector<Turns> turns_;  ///< by first triangle
@@ -153,25 +158,11 @@ class FlatFaces {
 
 }  // namespace
 
-// Each corner is off by half a unit along each axis, so the third corner of `other` by no more than
-// two from the plane of `one`, unless that is a sliver.
-bool bends(const Part& part, const PartEdge& edge, std::uint32_t one, std::uint32_t other) {
-  const NormalVector n = triangle_normal(part, one);
-  const Vec3l from = part.vertices[edge.v0].as<std::int64_t>();
-  for (const std::uint32_t v : part.triangles[other]) {
-    if (v == edge.v0 || v == edge.v1) continue;
-    Int128 off = along(n, part.vertices[v].as<std::int64_t>() - from), size = 0;
-    for (const Int128 component : n) size += component < 0 ? -component : component;
-    if (off < 0) off = -off;
-    if (off > 2 * size) return true;
-  }
-  return false;
-}
-
-void keep_tangent_edges(const Part& part, std::vector<FeatureEdge>& edges) {
+void keep_tangent_edges(const Part& part, const std::vector<std::uint32_t>& owners,
+                        std::vector<FeatureEdge>& edges) {
   const auto is_smooth = [](const FeatureEdge& e) { return e.kind == EdgeKind::smooth; };
   if (std::ranges::none_of(edges, is_smooth)) return;
-  const FlatFaces faces(part, edges);
+  const FlatFaces faces(part, owners, edges);
   std::erase_if(
       edges, [&](const FeatureEdge& e) { return is_smooth(e) && !faces.is_tangent(e.part_edge); });
 }

@@ -9,11 +9,6 @@
 
 namespace strake::hlr {
 
-/// Whether two triangles with an edge in common do not lie in one plane: not even where rounding to
-/// the grid may have bent them.
-[[nodiscard]] bool bends(const geometry::Part& part, const geometry::PartEdge& edge,
-                         std::uint32_t one, std::uint32_t other);
-
 /// Takes out of the edges of a part those smooth ones that run between facets of one curved skin,
 /// so that those stay where a curved skin begins or ends.
 ///
@@ -21,7 +16,8 @@ namespace strake::hlr {
 /// than twice as far away from it as the other, and the edge turns by hardly more than the narrower
 /// one does at another smooth edge: a tessellation turns by half a step or one where it leaves a
 /// plane, and by one and a half where two of its own facets are as unlike in width. An edge also
-/// stays where neither face has another smooth one: a plain fold.
-void keep_tangent_edges(const geometry::Part& part, std::vector<FeatureEdge>& edges);
+/// stays where neither face has another smooth one: a plain fold. `owners`: of plane_owners().
+void keep_tangent_edges(const geometry::Part& part, const std::vector<std::uint32_t>& owners,
+                        std::vector<FeatureEdge>& edges);
 
 }  // namespace strake::hlr

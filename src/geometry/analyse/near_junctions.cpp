@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <map>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "geometry/analyse/open_edges.hpp"
@@ -31,53 +32,61 @@ double distance_to_line(const Vec3i& from, const Vec3i& to, const Vec3i& p) {
   return std::sqrt(dot(off, off) / dot(way, way));
 }
 
-bool by_ends(const OpenEdge& x, const OpenEdge& y) {
-  return std::tie(x.low, x.high) < std::tie(y.low, y.high);
-}
-
-/// The pieces of edges, each once, with all triangles that would run along it and back.
+/// The pieces of edges, each once, with all triangles that run along it and back.
 class Pieces {
  public:
   explicit Pieces(const std::vector<Beside>& edges) {
     for (const Beside& b : edges) {
       std::uint32_t from = b.edge.low;
       for (const std::uint32_t p : b.corners) {
-        add(from, p, b.edge);
+        add(from, p, b.edge, 1);
         from = p;
       }
-      add(from, b.edge.high, b.edge);
+      add(from, b.edge.high, b.edge, 1);
     }
-    std::sort(all_.begin(), all_.end(), by_ends);
-    std::size_t kept = 0;
-    for (const OpenEdge& piece : all_) {
-      if (kept > 0 && all_[kept - 1].low == piece.low && all_[kept - 1].high == piece.high) {
-        all_[kept - 1].along += piece.along;
-        all_[kept - 1].back += piece.back;
-      } else {
-        all_[kept++] = piece;
-      }
-    }
-    all_.resize(kept);
   }
 
   /// Whether triangles run along a piece and back.
   [[nodiscard]] bool matches(std::uint32_t p, std::uint32_t q) const {
-    const OpenEdge key{std::min(p, q), std::max(p, q), 0, 0};
-    const auto at = std::lower_bound(all_.begin(), all_.end(), key, by_ends);
-    return at->along > 0 && at->back > 0;
+    const auto [along, back] = of(p, q);
+    return along > 0 && back > 0;
+  }
+
+  /// By how many triangles fewer the pieces fail to balance where an edge with the neighbours
+  /// `from` and `to` of the corner p is not cut at p.
+  [[nodiscard]] std::int64_t gain(const OpenEdge& edge, std::uint32_t from, std::uint32_t p,
+                                  std::uint32_t to) const {
+    const auto change = [&](std::uint32_t a, std::uint32_t b, std::int64_t times) {
+      const auto [along, back] = of(a, b);
+      const std::int64_t off = a < b ? along - back : back - along;
+      const std::int64_t own = std::int64_t{edge.along} - std::int64_t{edge.back};
+      return std::abs(off) - std::abs(off + times * own);
+    };
+    return change(from, p, -1) + change(p, to, -1) + change(from, to, 1);
+  }
+
+  void join(const OpenEdge& edge, std::uint32_t from, std::uint32_t p, std::uint32_t to) {
+    add(from, p, edge, -1);
+    add(p, to, edge, -1);
+    add(from, to, edge, 1);
   }
 
  private:
-  void add(std::uint32_t from, std::uint32_t to, const OpenEdge& whole) {
-    OpenEdge piece{from, to, whole.along, whole.back};
-    if (from > to) {
-      std::swap(piece.low, piece.high);
-      std::swap(piece.along, piece.back);
-    }
-    all_.push_back(piece);
+  struct Counts {
+    std::int64_t along = 0, back = 0;
+  };
+
+  [[nodiscard]] Counts of(std::uint32_t p, std::uint32_t q) const {
+    const auto at = all_.find(std::minmax(p, q));
+    return at == all_.end() ? Counts{} : at->second;
+  }
+  void add(std::uint32_t from, std::uint32_t to, const OpenEdge& whole, std::int64_t times) {
+    Counts& counts = all_[std::minmax(from, to)];
+    counts.along += times * (from < to ? whole.along : whole.back);
+    counts.back += times * (from < to ? whole.back : whole.along);
   }
 
-  std::vector<OpenEdge> all_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Counts> all_;
 };
 
 /// The corners beside an edge: no corner of its own triangles, and near neither end.
@@ -146,6 +155,30 @@ void keep_matching(Beside& b, const Pieces& pieces) {
       b.corners.push_back(ends[i]);
 }
 
+/// Drops corners by which more pieces stay open than without them: a corner of one edge may lie
+/// beside another as well, where the two meet at a small angle. One after another, until none is
+/// left or that has gone on for long.
+void drop_needless(std::vector<Beside>& edges) {
+  constexpr int kMostPasses = 16;
+  Pieces pieces(edges);
+  bool dropped = true;
+  for (int pass = 0; pass < kMostPasses && dropped; ++pass) {
+    dropped = false;
+    for (Beside& b : edges)
+      for (std::size_t i = 0; i < b.corners.size();) {
+        const std::uint32_t from = i == 0 ? b.edge.low : b.corners[i - 1],
+                            to = i + 1 == b.corners.size() ? b.edge.high : b.corners[i + 1];
+        if (pieces.gain(b.edge, from, b.corners[i], to) <= 0) {
+          ++i;
+          continue;
+        }
+        pieces.join(b.edge, from, b.corners[i], to);
+        b.corners.erase(b.corners.begin() + static_cast<std::ptrdiff_t>(i));
+        dropped = true;
+      }
+  }
+}
+
 }  // namespace
 
 NearJunctions near_junctions(const GridMesh& welded, const Topology& topology,
@@ -166,9 +199,10 @@ NearJunctions near_junctions(const GridMesh& welded, const Topology& topology,
   }
   if (corners == 0) return found;
   const Pieces pieces(edges);
+  for (Beside& b : edges) keep_matching(b, pieces);
+  drop_needless(edges);
   const std::vector<Vec3i>& at = welded.vertices;
-  for (Beside& b : edges) {
-    keep_matching(b, pieces);
+  for (const Beside& b : edges) {
     if (b.corners.empty()) continue;
     const std::size_t first = found.cuts.points();
     for (const std::uint32_t p : b.corners) {

@@ -20,7 +20,8 @@ struct NearJunctions {
 };
 
 /// The T-junctions of a welded mesh whose corner lies within `within` of the edge, and of neither
-/// end: a corner is kept where a piece of the edge beside it so matches another that runs back.
+/// end: a corner is kept where a piece of the edge beside it so matches another that runs back, and
+/// no fewer pieces would be left open without it.
 /// `may_cut`: per vertex, 1 for corners to cut at, and for ends of edges that may be cut. Nothing
 /// where that takes far more than faces of solids would.
 [[nodiscard]] NearJunctions near_junctions(const GridMesh& welded, const Topology& topology,

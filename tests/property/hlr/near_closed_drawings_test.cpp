@@ -2,14 +2,10 @@
 // A soup whose corners are a little off is drawn as the body that it stands for.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <map>
-#include <utility>
 
 #include "strake/hlr/hlr.hpp"
-#include "support/clash_model.hpp"
+#include "support/drawn_lengths.hpp"
 #include "support/near_closed.hpp"
 #include "support/rounds.hpp"
 
@@ -18,28 +14,6 @@ namespace {
 
 using geometry::TriangleMesh;
 using geometry::Vec3l;
-
-struct Drawn {
-  std::map<std::pair<hlr::EdgeKind, hlr::State>, double> lengths;
-  std::map<std::pair<hlr::EdgeKind, hlr::State>, std::size_t> edges;  ///< of a millimetre and more
-};
-
-Drawn drawn(const TriangleMesh& mesh, double weld_mm, const Vec3l& direction) {
-  test::ClashModel m;
-  m.object("a").body(mesh);
-  const model::Scene scene = make_scene(m.model, {.weld_mm = weld_mm}, {}).value();
-  const auto drawing = hlr::draw(scene, {}, {.direction = direction, .limits = {}}, {}, {});
-  EXPECT_TRUE(drawing.has_value());
-  Drawn found;
-  if (!drawing) return found;
-  for (const hlr::Piece& p : drawing->pieces) {
-    const auto way = (p.b - p.a).as<double>();
-    const double length = std::sqrt(dot(way, way));
-    found.lengths[{p.kind, p.state}] += length;
-    if (length > 1000) ++found.edges[{p.kind, p.state}];
-  }
-  return found;
-}
 
 TEST(NearClosedDrawings, LookLikeTheCleanBody) {
   for (std::uint64_t seed = 1; seed <= test::rounds(40U, 2'000U); ++seed) {
@@ -56,7 +30,8 @@ TEST(NearClosedDrawings, LookLikeTheCleanBody) {
     const auto turn = draw.rotation();
     for (TriangleMesh* const mesh : {&clean, &soup}) test::place_mesh(*mesh, turn, {10, 20, 30});
     const Vec3l direction{draw.whole(-50, 50), draw.whole(-50, 50), 60};
-    const Drawn is = drawn(soup, kWeldMm, direction), was = drawn(clean, 0, direction);
+    const test::DrawnLengths is = test::drawn_lengths(soup, kWeldMm, direction),
+                             was = test::drawn_lengths(clean, 0, direction);
     for (const auto& [what, count] : was.edges) {
       const auto edges = is.edges.find(what);
       ASSERT_NE(edges, is.edges.end());

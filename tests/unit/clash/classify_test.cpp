@@ -66,6 +66,15 @@ TEST(Classify, AWeldBeyondTheSnapCountsAtZero) {
   EXPECT_EQ(welded(600, 500, {}).cls, Class::no_hit);
 }
 
+// A lid that lay on a block before it was drawn down to its walls: rounding apart, its whole way.
+TEST(Classify, WhatTheSnapMovedCountsAtZeroBesideAWeld) {
+  const Separation lid{.d = 501, .lower = 501, .upper = 501, .sag = 500, .moved = 1.7};
+  EXPECT_EQ(judge(lid, {.weld = 500}).cls, Class::contact);
+  EXPECT_EQ(judge(lid, {.weld = 500}).severest, Class::hit);
+  const Separation apart{.d = 502, .lower = 502, .upper = 502, .sag = 500, .moved = 1.7};
+  EXPECT_EQ(judge(apart, {.weld = 500}).cls, Class::no_hit);
+}
+
 TEST(Classify, CoarseStepsLeaveATouchOpen) {
   Thresholds coarse = kDefault;
   coarse.step = 4000;
