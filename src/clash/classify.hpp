@@ -48,9 +48,9 @@ inline constexpr double kMostWeldBySnap = 3.4642;
 
 /// The class of a bracket. A bracket about a threshold and no wider than kBorderlineWidth gives the
 /// severer class and kBorderline; a wider one the class of d and kUncertain. A tolerance of 0 is
-/// asked of the grid itself, whatever the snap moved, where no sag lies between the two. A weld for which the snap may account counts
-/// as what the snap moved and widens nothing here; where a larger one leaves open whether anything
-/// is to be told, that is not NO_HIT.
+/// asked of the grid itself, whatever the snap moved, where no sag lies between the two. A weld for
+/// which the snap may account counts as what the snap moved and widens nothing here; where a larger
+/// one leaves open whether anything is to be told, that is not NO_HIT.
 [[nodiscard]] Judgement judge(const Separation& s, const Thresholds& t);
 
 }  // namespace strake::clash
