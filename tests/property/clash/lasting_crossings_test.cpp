@@ -287,11 +287,20 @@ TEST(LastingCrossings, OfFoldsThatReachThroughByLittle) {
                      high = scene.size(0.05, 30);
         const double on = scene.chance(0.5) ? scene.size(0.01, 20) : 0;
         const auto slope = [&] { return scene.size(0.01, 300); };
+        // A fold whose ends are as near to each other as corners of one point is one skin, which
+        // ends where it folds.
+        const auto is_one_skin = [](const Profile& v) {
+          const Point &p = v.front(), &q = v.back();
+          return std::hypot(p[0] - q[0], p[1] - q[1]) < kOff;
+        };
         Profile v;
-        v.push_back(beside(at.at, at.along, -on - (high + down) * slope(), side * high));
-        v.push_back(beside(at.at, at.along, -on, -side * down));
-        if (on > 0) v.push_back(beside(at.at, at.along, on, -side * down));
-        v.push_back(beside(at.at, at.along, on + (high + down) * slope(), side * high));
+        do {
+          v.clear();
+          v.push_back(beside(at.at, at.along, -on - (high + down) * slope(), side * high));
+          v.push_back(beside(at.at, at.along, -on, -side * down));
+          if (on > 0) v.push_back(beside(at.at, at.along, on, -side * down));
+          v.push_back(beside(at.at, at.along, on + (high + down) * slope(), side * high));
+        } while (is_one_skin(v));
         const double wide = scene.chance(0.3) ? scene.size(0.2, 5) : scene.any(20, 300);
         return Two{scene.sheet(v, -wide / 2, wide / 2, scene.any(-0.3, 0.3) * wide),
                    scene.sheet(base, -170, 180, 0)};
