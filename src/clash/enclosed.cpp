@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "strake/geometry/face_holes.hpp"
 #include "strake/geometry/winding_number.hpp"
 #include "strake/parallel/for_each.hpp"
 
@@ -62,16 +63,16 @@ bool lies_within(const WindingNumber& winding, const PartRef& around, const Part
   });
 }
 
-/// A surface, and how open it is.
+/// A surface, how open it is, and may be.
 struct Around {
   WindingNumber winding;
-  double openness = 1;
+  double openness = 1, most = 0;
 };
 
 /// Of the directions within a surface, those that may lead out on average, if it is to be meant as
-/// a body: where skins are apart, and where they touch, which is told already, but not as what it
-/// may be.
-constexpr double kMostOut = 0.05, kMostOutOfContact = 0.01;
+/// a body: where skins are apart, there where it lacks pieces of flat faces alone, and where they
+/// touch, which is told already, but not as what it may be.
+constexpr double kMostOut = 0.05, kMostOutOfFaces = 0.25, kMostOutOfContact = 0.01;
 
 bool may_be_hit(const Candidate& c) {
   const Judgement& j = c.look.answer.judgement;
@@ -96,14 +97,15 @@ Status mark_enclosed(const Stage& stage, std::vector<Candidate>& candidates) {
     if (may_enclose(b, a)) parts[b.unique] = b.placed.part;
   }
   std::vector<std::optional<Around>> around(parts.size());
-  const Status made =
-      parallel::for_each(work.context(), {.name = "winding numbers", .n = parts.size(), .grain = 1},
-                         [&](std::size_t p) {
-                           if (parts[p] == nullptr) return;
-                           WindingNumber winding(*parts[p]);
-                           const double openness = winding.openness();
-                           if (openness <= kMostOut) around[p] = {std::move(winding), openness};
-                         });
+  const Status made = parallel::for_each(
+      work.context(), {.name = "winding numbers", .n = parts.size(), .grain = 1},
+      [&](std::size_t p) {
+        if (parts[p] == nullptr) return;
+        WindingNumber winding(*parts[p]);
+        const double most = geometry::lacks_pieces_of_faces(*parts[p]) ? kMostOutOfFaces : kMostOut;
+        const double openness = winding.openness(most);
+        if (openness <= most) around[p] = {std::move(winding), openness, most};
+      });
   if (!made) return made.error();
   return work.over(*asked, "pairs within open surfaces", CaseWork::kGrain,
                    [&](std::size_t i, const PartRef& a, const PartRef& b) {
@@ -111,7 +113,7 @@ Status mark_enclosed(const Stage& stage, std::vector<Candidate>& candidates) {
                      const bool touch = judgement.cls == Class::contact;
                      const auto within = [&](const PartRef& skin, const PartRef& part) {
                        const auto& of = around[skin.unique];
-                       return of && of->openness <= (touch ? kMostOutOfContact : kMostOut) &&
+                       return of && of->openness <= (touch ? kMostOutOfContact : of->most) &&
                               may_enclose(skin, part) && lies_within(of->winding, skin, part);
                      };
                      if (!within(a, b) && !within(b, a)) return;

@@ -237,15 +237,15 @@ bool WindingNumber::surrounds(const Vec3d& at) const {
   return look.out < kMostOut && look.odd >= kLeastOdd;
 }
 
-double WindingNumber::openness() const {
+double WindingNumber::openness(double most) const {
   constexpr int kSamples = 48;
-  constexpr double kHalf = 0.5, kMostLost = 0.1;
+  constexpr double kHalf = 0.5;
   // Numbers whose multiples lie evenly in 0 to 1, and do together (R. Kronecker).
   constexpr double kStepS = 0.7548776662466927, kStepT = 0.5698402909980532;
   if (nodes_.empty()) return 1;
   const Node& all = nodes_.front();
-  // Where so much of the area does not cancel, as much is missing.
-  if (one_way_ && length(all.area) > kMostLost * all.size) return 1;
+  // Where so much of the area does not cancel, as much is missing, and half of that leads out.
+  if (one_way_ && length(all.area) > 2 * most * all.size) return 1;
   double out = 0, passed = 0;
   int inside = 0, sample = 0;
   for (std::uint32_t i = 0; i < triangles_.size() && sample < kSamples; ++i) {

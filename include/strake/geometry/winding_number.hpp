@@ -16,7 +16,7 @@ namespace strake::geometry {
 /// and 0 outside, and nearly so where little of it is missing.
 ///
 ///     const WindingNumber winding(part);
-///     if (winding.openness() < 0.05 && winding.surrounds(point)) ...
+///     if (winding.openness(0.05) < 0.05 && winding.surrounds(point)) ...
 ///
 /// 1. Floating point, the same on every machine: far triangles count together as what a small flat
 ///    one would fill (G. Barill et al., Fast Winding Numbers for Soups and Clouds, 2018), which is
@@ -39,8 +39,9 @@ class WindingNumber {
 
   /// The part of all directions that lead out of what the surface surrounds, on average over its
   /// inside: little for a body with a gap in a seam or a face too few, an eighth and more for a
-  /// tank without its lid. 1 where it surrounds nothing much, as a deck and a shallow tray.
-  [[nodiscard]] double openness() const;
+  /// tank without its lid. 1 where it surrounds nothing much, as a deck and a shallow tray, and
+  /// where it is certainly more than `most`.
+  [[nodiscard]] double openness(double most) const;
 
   /// Whether a point is within, of a surface that is not very open.
   [[nodiscard]] bool surrounds(const Vec3d& at) const;

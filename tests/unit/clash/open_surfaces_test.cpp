@@ -110,6 +110,52 @@ TEST(OpenSurfaces, AFacetTooFew) {
   }
 }
 
+// Half a side of a box is a triangle that its file lost, however much leads out; so are a window,
+// and two triangles of two sides.
+TEST(OpenSurfaces, APieceOfAFaceTooFew) {
+  for (const Vec3d& size : {Vec3d{400, 400, 400}, Vec3d{900, 500, 200}, Vec3d{300, 300, 1500}}) {
+    const TriangleMesh box = test::closed_box(size.x, size.y, size.z).mesh;
+    for (std::size_t t = 0; t < box.triangles.size(); ++t) {
+      TriangleMesh mesh = box;
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+      EXPECT_TRUE(told(mesh, cube_at({0, 0, 0}, 30))) << t;
+      EXPECT_FALSE(told(mesh, cube_at({0, 0, 900}, 30))) << t;
+    }
+  }
+  for (const std::uint32_t sectors : {3U, 4U, 6U, 12U}) {
+    const test::ClosedBody body = test::closed_cylinder(200, 600, sectors);
+    for (std::size_t t = 0; t < body.mesh.triangles.size(); ++t) {
+      TriangleMesh mesh = body.mesh;
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+      EXPECT_TRUE(told(mesh, cube_at({0, 0, 300}, 20))) << sectors << ' ' << t;
+    }
+  }
+}
+
+/// A tank without a lid, with a flange round its mouth, outwards or inwards.
+TriangleMesh flanged(double x, double y, double z, double flange) {
+  TriangleMesh mesh = lidless(x, y, z);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const double by : {0.0, flange})
+    for (const auto& [sx, sy] :
+         {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+      mesh.vertices.push_back({sx * (x / 2 + by), sy * (y / 2 + by), z / 2});
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4, a = first + i, b = first + j, c = first + 4 + j,
+                        d = first + 4 + i;
+    mesh.triangles.push_back({a, d, c});
+    mesh.triangles.push_back({a, c, b});
+  }
+  return mesh;
+}
+
+TEST(OpenSurfaces, TanksWithFlangesAreMeant) {
+  for (const double flange : {20.0, 80.0, -20.0, -80.0}) {
+    EXPECT_FALSE(told(flanged(1000, 1000, 1000, flange), cube_at({0, 0, -200}, 100))) << flange;
+    EXPECT_FALSE(told(flanged(1500, 700, 900, flange), cube_at({0, 0, -200}, 100))) << flange;
+  }
+}
+
 TEST(OpenSurfaces, TanksTraysAndDecksAreMeant) {
   for (const double depth : {100.0, 500.0, 1000.0, 3000.0})
     for (const double height : {-0.4, 0.0, 0.3})
