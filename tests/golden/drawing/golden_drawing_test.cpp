@@ -30,17 +30,17 @@ struct Golden {
 
 const Golden kSafe[] = {
     {"iso",
-     {15589, 14360, 11983, 42, 0, 9496},
-     "0576b6112a104675de71901380a1daf8",
-     "83ac96f668e59182a23c914785304053"},
+     {15586, 14353, 11983, 42, 0, 9496},
+     "ed8ad6681d639e2e8c01d6dafd6e71d7",
+     "2b6bacaf90f1de49f5dc8ab0ea40ef09"},
     {"top",
-     {9488, 3507, 5444, 2438, 0, 28726},
-     "fbd4b306ec3a9ee8dbd03d97cf13f5d0",
-     "175c21c9348e334a609c927b4ffeb514"},
+     {9488, 3499, 5444, 2438, 0, 28726},
+     "9fce79a2c0cbef312c344ec0cc636ec8",
+     "7696c6b97aa318a8864e0bc2bd9b8b87"},
     {"front",
-     {9362, 2461, 4145, 2994, 0, 30828},
-     "2891c1831a78cc1acfac23f9d28273bf",
-     "e9e363ef1cc9eb696068706db1921045"},
+     {9356, 2458, 4145, 2994, 0, 30828},
+     "ad625e9c7cfc800926a4dda7106393da",
+     "c331dd3450568e02520e209186daae73"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {
