@@ -7,8 +7,8 @@
 namespace strake::clash {
 namespace {
 
-/// One end of a bracket: a separation on the grid, or of what may lie beside the grid's bodies, and
-/// what it may be off by.
+/// One end of a bracket: a separation of the grid's bodies, or with sag of the true ones, and what
+/// the snap may have moved it by.
 struct End {
   double d = 0, off = 0;
   bool interiors_meet = false;

@@ -26,47 +26,44 @@ using geometry::Vec3l;
 
 NormalVector negated(const NormalVector& n) { return {-n[0], -n[1], -n[2]}; }
 
-double length(const NormalVector& n) {
-  const double x = static_cast<double>(n[0]), y = static_cast<double>(n[1]),
-               z = static_cast<double>(n[2]);
-  return std::sqrt(x * x + y * y + z * z);
+geometry::Vec3d rounded(const NormalVector& n) {
+  return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
 
 // A fixed expression of doubles: the normals are rounded once each, so the decision depends on
-// the shape alone and survives translation, reordering and scaling by powers of two. Facets that
-// turn by just the sharp angle are not sharp, however rounding left them: all edges of a prism are
-// drawn or none.
-template <class Turn>
+// the shape alone and survives translation and reordering. Facets that turn by just the sharp angle
+// are not sharp, however rounding left them: all edges of a prism are drawn or none, as long as its
+// facets are wider than slivers.
+template <class Allowance>
 bool is_sharp(const NormalVector& m, const NormalVector& n, double cos_sharp,
-              const Turn& turn_by_rounding) {
-  const double mx = static_cast<double>(m[0]), my = static_cast<double>(m[1]),
-               mz = static_cast<double>(m[2]);
-  const double nx = static_cast<double>(n[0]), ny = static_cast<double>(n[1]),
-               nz = static_cast<double>(n[2]);
-  const double dot = mx * nx + my * ny + mz * nz;
-  const double lengths = length(m) * length(n);
-  if (!(dot < cos_sharp * lengths)) return false;
+              const Allowance& by_rounding) {
+  const geometry::Vec3d p = rounded(m), q = rounded(n);
+  const double along = dot(p, q), lengths = std::sqrt(dot(p, p)) * std::sqrt(dot(q, q));
+  if (!(along < cos_sharp * lengths)) return false;
   // The cosine of the sharp angle and a small one more.
-  const double more = turn_by_rounding(),
+  const double more = by_rounding(),
                sin_sharp = std::sqrt(std::max(0.0, 1 - cos_sharp * cos_sharp));
-  return dot < (cos_sharp * (1 - more * more / 2) - sin_sharp * more) * lengths;
+  return along < (cos_sharp * (1 - more * more / 2) - sin_sharp * more) * lengths;
 }
 
 /// The plane that says to which side a face looks.
 struct FacePlane {
   NormalVector normal{};
   Vec3i on{};
+  double turn = 0;  ///< that rounding may account for, radians
 };
 
 FacePlane plane_of(const Part& part, std::uint32_t t) {
   const Triangle& i = part.triangles[t];
   return {triangle_normal(part, t),
-          std::min({part.vertices[i[0]], part.vertices[i[1]], part.vertices[i[2]]})};
+          std::min({part.vertices[i[0]], part.vertices[i[1]], part.vertices[i[2]]}),
+          part.primitive ? 0 : turn_by_rounding(part, t)};
 }
 
 // For each triangle the area vector and the lexicographically least corner of the whole source
-// face that it is a piece of. They depend on the outline of the face alone, so neither the
-// triangulation nor the way that snapping bends a polygon decides whether it faces the viewer.
+// face that it is a piece of, and what rounding turns its steadiest triangle by. They depend on the
+// outline of the face alone, so neither the triangulation nor the way that snapping bends a polygon
+// decides whether it faces the viewer.
 Result<std::vector<FacePlane>> face_planes(const Part& part, const parallel::Context& context) {
   const std::size_t count = part.triangles.size();
   std::vector<FacePlane> result(count);
@@ -87,11 +84,12 @@ Result<std::vector<FacePlane>> face_planes(const Part& part, const parallel::Con
     std::sort(order.begin(), order.end(), by_face);
   for (std::size_t i = 0; i < order.size();) {
     std::size_t end = i;
-    FacePlane sum{{}, result[order[i]].on};
+    FacePlane sum{{}, result[order[i]].on, result[order[i]].turn};
     for (; end < order.size() && part.faces[order[end]] == part.faces[order[i]]; ++end) {
       const FacePlane& own = result[order[end]];
       for (std::size_t k = 0; k < 3; ++k) sum.normal[k] += own.normal[k];
       sum.on = std::min(sum.on, own.on);
+      sum.turn = std::min(sum.turn, own.turn);
     }
     if (!is_zero(sum.normal))
       for (std::size_t j = i; j < end; ++j) result[order[j]] = sum;
@@ -107,15 +105,18 @@ struct Faces {
   /// two of them there is no edge however coarse the tessellation of a thin pipe is. Empty where
   /// the part has no curved side.
   std::vector<bool> facet;
-  std::vector<std::uint32_t> owners;  ///< of plane_owners()
+  PlaneOwners owners;
 };
 
 Result<Faces> faces_of(const Part& part, const parallel::Context& context) {
   auto planes = face_planes(part, context);
   if (!planes) return planes.error();
   Faces result{std::move(*planes), {}, plane_owners(part)};
-  for (std::size_t t = 0; t < result.owners.size(); ++t)
-    result.planes[t] = result.planes[result.owners[t]];
+  for (std::size_t t = 0; t < result.owners.of.size(); ++t) {
+    if (result.owners.of[t] == t) continue;
+    result.planes[t] = result.planes[result.owners.of[t]];
+    if (result.owners.turned[t] != 0) result.planes[t].normal = negated(result.planes[t].normal);
+  }
   if (!part.primitive || !geometry::is_round(*part.primitive) || part.faces.empty()) return result;
   std::vector<std::uint32_t> sorted = part.faces.to_vector();
   std::sort(sorted.begin(), sorted.end());
@@ -150,19 +151,16 @@ std::optional<Judged> judged(const Part& part, std::uint32_t edge, const Faces& 
   const std::uint32_t s = round[0], t = round[1];
   const bool consistent =
       runs_along(part.triangles[s], e.v0, e.v1) != runs_along(part.triangles[t], e.v0, e.v1);
-  const auto& [m, on_s] = faces.planes[s];
-  const auto& [of_t, on_t] = faces.planes[t];
-  const NormalVector n = consistent ? of_t : negated(of_t);
+  const FacePlane &one = faces.planes[s], &other = faces.planes[t];
+  const NormalVector &m = one.normal, n = consistent ? other.normal : negated(other.normal);
   const bool smooth = !faces.facet.empty() && faces.facet[s] && faces.facet[t];
-  const auto owner = [&](std::uint32_t x) { return faces.owners.empty() ? x : faces.owners[x]; };
-  const auto by_rounding = [&] {
-    return turn_by_rounding(part, owner(s)) + turn_by_rounding(part, owner(t));
-  };
+  const auto by_rounding = [&] { return one.turn + other.turn; };
   // A face seen edge-on counts as turned away: between a front face, an edge-on strip and a back
   // face exactly one line is the contour.
-  const bool front_m = options.viewer.is_towards(m, on_s.as<std::int64_t>());
-  const bool front_n = options.viewer.is_towards(n, on_t.as<std::int64_t>());
-  const bool away = !front_m && !front_n;
+  const bool front_m = options.viewer.is_towards(m, one.on.as<std::int64_t>());
+  const bool front_n = options.viewer.is_towards(n, other.on.as<std::int64_t>());
+  // Which way a sheet is wound means nothing.
+  const bool away = part.kind == geometry::PartKind::solid && !front_m && !front_n;
   if (!smooth && is_sharp(m, n, options.cos_sharp, by_rounding))
     return Judged{EdgeKind::sharp, away};
   if (front_m != front_n) return Judged{EdgeKind::contour, false};

@@ -23,7 +23,7 @@ struct FeatureEdge {
   std::uint32_t part_edge = 0;  ///< index into Part::edges; kNoPartEdge for a polyline's segment
   EdgeKind kind = EdgeKind::sharp;
   bool projecting = false;  ///< a point on paper
-  bool away = false;        ///< between two faces of which neither looks towards the viewer
+  bool away = false;        ///< of a solid, between two faces that both look away from the viewer
   bool cut_away = false;    ///< by a section plane: neither hidden nor seen
 };
 

@@ -48,7 +48,7 @@ struct Job {
   }
   /// Whether facets of a part of a body that is not asked about to the last digit hide none of the
   /// part's own edges where rounding to the grid alone has them do so: facets that may be edge-on,
-  /// and edges of faces towards the viewer that lie in the facet's plane (see kLyingInPlane).
+  /// and edges that lie in the facet's plane (see kLyingInPlane and FeatureEdge::away).
   [[nodiscard]] bool forgives_rounding(std::uint32_t body) const {
     return may_forgive_rounding() && contact[body] > 0;
   }

@@ -20,6 +20,10 @@ using geometry::PartEdge;
 using geometry::Vec3d;
 using geometry::Vec3l;
 
+/// Half the diagonal of a grid cell: the farthest that the snap moves a corner, grid units.
+constexpr double kSnapMove = 0.8660254037844386;
+constexpr double kMostTurn = 0.0044;  // a quarter of a degree
+
 std::array<double, 3> squared_sides(const Part& part, std::uint32_t t) {
   std::array<double, 3> sides{};
   const geometry::Triangle& corners = part.triangles[t];
@@ -49,36 +53,44 @@ double off_plane(const Part& part, std::uint32_t triangle, std::uint32_t vertex)
 /// Hands planes on to slivers, from those that know their own, step by step.
 class Owners {
  public:
-  explicit Owners(const Part& part) : part_(part), within_(2 * (1 + part.weld)) {
+  explicit Owners(const Part& part) : part_(part), within_(2 + part.weld) {
     for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
       const bool alone = part.faces.empty() || part.faces[t] == geometry::kNoFace;
       if (alone && turn_by_rounding(part, t) >= kMostTurn) slivers_.push_back(t);
     }
   }
 
-  [[nodiscard]] std::vector<std::uint32_t> take() && {
+  [[nodiscard]] PlaneOwners take() && {
     if (slivers_.empty()) return {};
-    owners_.resize(part_.triangles.size());
-    std::iota(owners_.begin(), owners_.end(), 0U);
-    known_.assign(owners_.size(), 1);
+    owners_.of.resize(part_.triangles.size());
+    std::iota(owners_.of.begin(), owners_.of.end(), 0U);
+    owners_.turned.assign(owners_.of.size(), 0);
+    known_.assign(owners_.of.size(), 1);
     for (const std::uint32_t t : slivers_) known_[t] = 0;
     bool found = false;
     for (std::vector<std::uint32_t> left = slivers_; !left.empty();) {
-      const std::vector<std::pair<std::uint32_t, std::uint32_t>> next = owned(left);
+      const std::vector<Owned> next = owned(left);
       if (next.empty()) break;
       found = true;
-      for (const auto& [t, owner] : next) {
-        owners_[t] = owner;
-        known_[t] = 1;
+      for (const Owned& o : next) {
+        owners_.of[o.sliver] = o.owner;
+        owners_.turned[o.sliver] = o.turned ? 1 : 0;
+        known_[o.sliver] = 1;
       }
       left = beside(next);
     }
-    if (!found) owners_.clear();
+    if (!found) owners_ = {};
     return std::move(owners_);
   }
 
  private:
-  /// Calls take() with each triangle beyond a long side of this one.
+  struct Owned {
+    std::uint32_t sliver = 0, owner = 0;
+    bool turned = false;
+  };
+
+  /// Calls take() with each triangle beyond a long side of this one, and whether the two are wound
+  /// differently.
   template <class Take>
   void each_beside(std::uint32_t t, const Take& take) const {
     constexpr double kLong = 0.25;  // half the longest, squared
@@ -90,32 +102,35 @@ class Owners {
       const std::uint32_t e = geometry::edge_between(part_, corners[k], corners[(k + 1) % 3]);
       if (e == geometry::kNoFace) continue;
       const std::span<const std::uint32_t> round = geometry::triangles_round(part_, e);
-      if (round.size() == 2) take(round[0] == t ? round[1] : round[0]);
+      if (round.size() != 2) continue;
+      const std::uint32_t other = round[0] == t ? round[1] : round[0];
+      take(other, geometry::runs_along(part_.triangles[other], corners[k], corners[(k + 1) % 3]));
     }
   }
 
   /// Those of the slivers that lie in a plane which one beside them knows, with its owner: of two
   /// planes, as where a corner of a flat face was rounded beyond its rim, the one to which it turns
   /// less.
-  [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> owned(
-      const std::vector<std::uint32_t>& slivers) const {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+  [[nodiscard]] std::vector<Owned> owned(const std::vector<std::uint32_t>& slivers) const {
+    std::vector<Owned> found;
     for (const std::uint32_t t : slivers) {
-      std::uint32_t best = t;
+      Owned best{t, t, false};
       double most = 0;
-      each_beside(t, [&](std::uint32_t other) {
-        if (known_[other] == 0 || !lies_in_plane(t, owners_[other])) return;
-        const double along = cosine(t, owners_[other]);
-        if (best != t && !(along > most)) return;
-        best = owners_[other];
+      each_beside(t, [&](std::uint32_t other, bool wound_differently) {
+        const std::uint32_t owner = owners_.of[other];
+        if (known_[other] == 0 || !is_near_plane(t, owner)) return;
+        const bool turned = wound_differently != (owners_.turned[other] != 0);
+        const double along = turned ? -cosine(t, owner) : cosine(t, owner);
+        if (best.owner != t && !(along > most)) return;
+        best = {t, owner, turned};
         most = along;
       });
-      if (best != t) found.emplace_back(t, best);
+      if (best.owner != t) found.push_back(best);
     }
     return found;
   }
 
-  [[nodiscard]] bool lies_in_plane(std::uint32_t t, std::uint32_t owner) const {
+  [[nodiscard]] bool is_near_plane(std::uint32_t t, std::uint32_t owner) const {
     return std::ranges::all_of(
         part_.triangles[t], [&](std::uint32_t v) { return off_plane(part_, owner, v) <= within_; });
   }
@@ -125,11 +140,10 @@ class Owners {
   }
 
   /// The slivers without a plane beside these, each once, ascending.
-  [[nodiscard]] std::vector<std::uint32_t> beside(
-      const std::vector<std::pair<std::uint32_t, std::uint32_t>>& some) const {
+  [[nodiscard]] std::vector<std::uint32_t> beside(const std::vector<Owned>& some) const {
     std::vector<std::uint32_t> found;
-    for (const auto& [t, owner] : some)
-      each_beside(t, [&](std::uint32_t other) {
+    for (const Owned& o : some)
+      each_beside(o.sliver, [&](std::uint32_t other, bool) {
         if (known_[other] == 0) found.push_back(other);
       });
     std::sort(found.begin(), found.end());
@@ -139,7 +153,8 @@ class Owners {
 
   const Part& part_;
   double within_;
-  std::vector<std::uint32_t> slivers_, owners_;
+  std::vector<std::uint32_t> slivers_;
+  PlaneOwners owners_;
   std::vector<std::uint8_t> known_;
 };
 
@@ -159,19 +174,19 @@ double turn_by_rounding(const Part& part, std::uint32_t triangle) {
   return std::sqrt(squared / size);
 }
 
-std::vector<std::uint32_t> plane_owners(const Part& part) {
+PlaneOwners plane_owners(const Part& part) {
   if (part.primitive) return {};
   return Owners(part).take();
 }
 
 // Each corner is off by half a unit along each axis, so the third corner of `other` by no more than
 // two from the plane of `one`, unless that is a sliver.
-bool bends(const Part& part, const std::vector<std::uint32_t>& owners, const PartEdge& edge,
-           std::uint32_t one, std::uint32_t other) {
-  const auto owner = [&](std::uint32_t t) { return owners.empty() ? t : owners[t]; };
-  if (owner(one) == owner(other)) return false;
-  const geometry::NormalVector n = triangle_normal(part, owner(one));
-  const Vec3l from = part.vertices[part.triangles[owner(one)][0]].as<std::int64_t>();
+bool bends(const Part& part, const PlaneOwners& owners, const PartEdge& edge, std::uint32_t one,
+           std::uint32_t other) {
+  const std::uint32_t owner = owners.owner(one);
+  if (owner == owners.owner(other)) return false;
+  const geometry::NormalVector n = triangle_normal(part, owner);
+  const Vec3l from = part.vertices[part.triangles[owner][0]].as<std::int64_t>();
   for (const std::uint32_t v : part.triangles[other]) {
     if (v == edge.v0 || v == edge.v1) continue;
     geometry::Int128 off = along(n, part.vertices[v].as<std::int64_t>() - from), size = 0;

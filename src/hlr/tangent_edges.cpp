@@ -10,7 +10,6 @@
 #include <span>
 #include <utility>
 
-#include "hlr/slivers.hpp"
 #include "strake/geometry/part_edges.hpp"
 
 namespace strake::hlr {
@@ -24,8 +23,7 @@ using geometry::Vec3l;
 /// Faces as sets of triangles in one plane, and what their smooth edges turn by.
 class FlatFaces {
  public:
-  FlatFaces(const Part& part, const std::vector<std::uint32_t>& owners,
-            std::span<const FeatureEdge> edges)
+  FlatFaces(const Part& part, const PlaneOwners& owners, std::span<const FeatureEdge> edges)
       : part_(part), owners_(owners), of_(part.triangles.size()) {
     std::iota(of_.begin(), of_.end(), 0U);
     for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e) {
@@ -101,8 +99,7 @@ class FlatFaces {
     const auto round = geometry::triangles_round(part_, edge);
     std::array<Vec3d, 2> n;
     for (std::size_t k = 0; k < 2; ++k) {
-      const NormalVector exact =
-          triangle_normal(part_, owners_.empty() ? round[k] : owners_[round[k]]);
+      const NormalVector exact = triangle_normal(part_, owners_.owner(round[k]));
       n[k] = {static_cast<double>(exact[0]), static_cast<double>(exact[1]),
               static_cast<double>(exact[2])};
     }
@@ -150,7 +147,7 @@ class FlatFaces {
   }
 
   const Part& part_;
-  const std::vector<std::uint32_t>& owners_;
+  const PlaneOwners& owners_;
   std::vector<std::uint32_t> of_;  ///< by triangle: the first triangle of its face
   std::vector<std::uint32_t> first_, members_;
   std::vector<Turns> turns_;  ///< by first triangle
@@ -158,7 +155,7 @@ class FlatFaces {
 
 }  // namespace
 
-void keep_tangent_edges(const Part& part, const std::vector<std::uint32_t>& owners,
+void keep_tangent_edges(const Part& part, const PlaneOwners& owners,
                         std::vector<FeatureEdge>& edges) {
   const auto is_smooth = [](const FeatureEdge& e) { return e.kind == EdgeKind::smooth; };
   if (std::ranges::none_of(edges, is_smooth)) return;

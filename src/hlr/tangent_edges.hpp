@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hlr/feature_edges.hpp"
+#include "hlr/slivers.hpp"
 #include "strake/geometry/part.hpp"
 
 namespace strake::hlr {
@@ -16,8 +17,8 @@ namespace strake::hlr {
 /// than twice as far away from it as the other, and the edge turns by hardly more than the narrower
 /// one does at another smooth edge: a tessellation turns by half a step or one where it leaves a
 /// plane, and by one and a half where two of its own facets are as unlike in width. An edge also
-/// stays where neither face has another smooth one: a plain fold. `owners`: of plane_owners().
-void keep_tangent_edges(const geometry::Part& part, const std::vector<std::uint32_t>& owners,
+/// stays where neither face has another smooth one: a plain fold.
+void keep_tangent_edges(const geometry::Part& part, const PlaneOwners& owners,
                         std::vector<FeatureEdge>& edges);
 
 }  // namespace strake::hlr

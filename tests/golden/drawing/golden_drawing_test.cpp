@@ -30,17 +30,17 @@ struct Golden {
 
 const Golden kSafe[] = {
     {"iso",
-     {15586, 14353, 11983, 42, 0, 9496},
-     "ed8ad6681d639e2e8c01d6dafd6e71d7",
-     "2b6bacaf90f1de49f5dc8ab0ea40ef09"},
+     {15587, 14355, 11983, 42, 0, 9496},
+     "3752d1536f5ab7b0cbfbe498b972f8de",
+     "8815f6f6393b77088b0926ecb5537c7d"},
     {"top",
-     {9488, 3499, 5444, 2438, 0, 28726},
-     "9fce79a2c0cbef312c344ec0cc636ec8",
-     "7696c6b97aa318a8864e0bc2bd9b8b87"},
+     {9488, 3501, 5444, 2438, 0, 28726},
+     "4e1d81f053391d99f9c7ad82afa8a4e2",
+     "a235cf242a2d914199dfdd5cb99889cd"},
     {"front",
-     {9356, 2458, 4145, 2994, 0, 30828},
-     "ad625e9c7cfc800926a4dda7106393da",
-     "c331dd3450568e02520e209186daae73"},
+     {9358, 2459, 4145, 2994, 0, 30828},
+     "a94c51469759660ed797f5f924eabc28",
+     "1c53cd63a81357569c25abb1d187317e"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {

@@ -8,7 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "strake/hlr/hlr.hpp"
 #include "support/drawn_lengths.hpp"
 #include "support/near_closed.hpp"
 #include "support/rounds.hpp"
@@ -115,6 +118,41 @@ TEST(RefinedBodies, LookAsBefore) {
     unlike += "seed " + std::to_string(seed) + ": " + alike.message() + '\n';
   }
   EXPECT_LE(others * 100, bodies) << unlike;
+}
+
+/// A flat sheet cut into strips along it, so wide: each wound as it says.
+TriangleMesh strips(const std::vector<std::pair<double, bool>>& widths) {
+  constexpr double kLength = 100;
+  TriangleMesh mesh;
+  double y = 0;
+  mesh.vertices = {{0, y, 0}, {kLength, y, 0}};
+  for (const auto& [width, turned] : widths) {
+    y += width;
+    const auto a = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back({0, y, 0});
+    mesh.vertices.push_back({kLength, y, 0});
+    for (Triangle t : {Triangle{a - 2, a - 1, a + 1}, Triangle{a - 2, a + 1, a}}) {
+      if (turned) std::swap(t[1], t[2]);
+      mesh.triangles.push_back(t);
+    }
+  }
+  return mesh;
+}
+
+// Which way the strips of a sheet are wound means nothing, slivers among them.
+TEST(RefinedBodies, TurnedSliversOfASheetLeaveNoLines) {
+  test::Draw draw(5);
+  for (const double width : {0.002, 0.01, 0.1})
+    for (int i = 0; i < 20; ++i) {
+      TriangleMesh sheet = strips({{50, draw.one_in(2)},
+                                   {width, draw.one_in(2)},
+                                   {width, draw.one_in(2)},
+                                   {50, draw.one_in(2)}});
+      test::place_mesh(sheet, draw.rotation(), {10, 20, 30});
+      const Vec3l direction{draw.whole(-50, 50), draw.whole(-50, 50), 60};
+      for (const auto& [what, length] : test::drawn_lengths(sheet, 0, direction).lengths)
+        EXPECT_EQ(what.first, hlr::EdgeKind::boundary) << width << ": " << length;
+    }
 }
 
 }  // namespace
