@@ -112,6 +112,31 @@ class PartLines {
     return dot(sum, sum) == 0 ? triangle_area(t) : sum;
   }
 
+  /// What moves of its corners within a grid cell may turn a triangle by about its longest side,
+  /// radians; no more than a quarter of a degree.
+  double triangle_turn(std::uint32_t t) const {
+    constexpr double kMost = 0.0044;
+    const auto& i = part_.triangles[t];
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec side = corner(i[(k + 1) % 3]) - corner(i[k]);
+      longest = std::max(longest, std::sqrt(dot(side, side).get_d()));
+    }
+    const Vec area = triangle_area(t);
+    const double height = std::sqrt(dot(area, area).get_d()) / longest;
+    return std::min(kMost, 2 * (std::sqrt(0.75) + part_.weld) / height);
+  }
+
+  /// That of the face that decides: of its steadiest triangle.
+  double face_turn(std::uint32_t t) const {
+    if (part_.primitive) return 0;
+    double least = triangle_turn(t);
+    if (part_.faces.empty()) return least;
+    for (std::uint32_t s = 0; s < part_.triangles.size(); ++s)
+      if (part_.faces[s] == part_.faces[t]) least = std::min(least, triangle_turn(s));
+    return least;
+  }
+
   bool has_directed(std::uint32_t t, std::uint32_t v, std::uint32_t w) const {
     for (std::size_t k = 0; k < 3; ++k)
       if (part_.triangles[t][k] == v && part_.triangles[t][(k + 1) % 3] == w) return true;
@@ -132,7 +157,8 @@ class PartLines {
     if (has_directed(triangles[0], v, w) == has_directed(triangles[1], v, w)) n = mpq_class(-1) * n;
     const double lengths = std::sqrt(dot(m, m).get_d()) * std::sqrt(dot(n, n).get_d());
     const double turn = std::acos(std::clamp(dot(m, n).get_d() / lengths, -1.0, 1.0));
-    if (turn > angle_ * std::acos(-1.0) / 180) return EdgeKind::sharp;
+    const double by_rounding = face_turn(triangles[0]) + face_turn(triangles[1]);
+    if (turn > angle_ * std::acos(-1.0) / 180 + by_rounding) return EdgeKind::sharp;
     const bool front_m = dot(m, sight_.from(least_corner(triangles[0]))) > 0;
     const bool front_n = dot(n, sight_.from(least_corner(triangles[1]))) > 0;
     if (front_m != front_n) return EdgeKind::contour;

@@ -74,6 +74,15 @@ TEST(BruteForceAgainstOracle, TiesDoNotHideOnTheFinestLattice) {
   EXPECT_GT(crossings, 0U);
 }
 
+/// One of its edges turns by a little more than the sharp angle: less than rounding may add.
+TEST(BruteForceAgainstOracle, WhatRoundingMayHaveMadeSharpIsNot) {
+  std::size_t crossings = 0;
+  constexpr std::uint64_t kSeed = 1371;
+  EXPECT_EQ(run({.seed = kSeed}, crossings), "");
+  EXPECT_EQ(run({.seed = kSeed, .unit = 6, .contact_mm = 0.003}, crossings), "");
+  EXPECT_EQ(run({.seed = kSeed, .perspective = true}, crossings), "");
+}
+
 TEST(BruteForceAgainstOracle, ContactDistanceOnACoarseLattice) {
   std::size_t crossings = 0;
   for (std::uint64_t seed = 1; seed <= count(12); ++seed)
