@@ -59,6 +59,25 @@ Vec3d largest(const Part& part, Pass&& pass) {
   return mean_of_needles(part, normal, tilt);
 }
 
+/// The normals of the largest face, of the largest about square to it, and one square to both.
+std::array<Vec3d, 3> largest_faces(const Part& part) {
+  std::array<Vec3d, 3> axis;
+  const Vec3d x = largest(part, [](const Vec3d&, double) { return true; });
+  axis[0] = dot(x, x) > 0 ? x : Vec3d{1, 0, 0};
+  const Vec3d y = largest(part, [&](const Vec3d& n, double squared) {
+    const double along = dot(n, axis[0]);
+    return along * along < kSquare * kSquare * squared;
+  });
+  axis[1] = dot(y, y) > 0 ? y : square_to(axis[0]);
+  const Vec3d z = cross(axis[0], axis[1]);
+  axis[2] = z * (1 / std::sqrt(dot(z, z)));
+  return axis;
+}
+
+std::array<Vec3d, 3> squared(const std::array<Vec3d, 3>& axis) {
+  return {axis[0], cross(axis[2], axis[0]), axis[2]};
+}
+
 /// `vertices`: those of the part, or empty.
 Range range_along(const Part& part, const VertexTree& vertices, const Vec3d& n) {
   if (!vertices.empty())
@@ -123,15 +142,7 @@ void widen_by_vertices(PartingGap& widest, const Beside& pair, double enough) {
 PartFrame make_frame(const Part& part, const parallel::Context& context) {
   PartFrame frame;
   if (part.vertices.size() >= kManyVertices) frame.vertices = VertexTree(part.vertices, context);
-  const Vec3d x = largest(part, [](const Vec3d&, double) { return true; });
-  frame.axis[0] = dot(x, x) > 0 ? x : Vec3d{1, 0, 0};
-  const Vec3d y = largest(part, [&](const Vec3d& n, double squared) {
-    const double along = dot(n, frame.axis[0]);
-    return along * along < kSquare * kSquare * squared;
-  });
-  frame.axis[1] = dot(y, y) > 0 ? y : square_to(frame.axis[0]);
-  const Vec3d z = cross(frame.axis[0], frame.axis[1]);
-  frame.axis[2] = z * (1 / std::sqrt(dot(z, z)));
+  frame.axis = largest_faces(part);
   for (std::size_t i = 0; i < 3; ++i) {
     const Range r = range_along(part, frame.vertices, frame.axis[i]);
     frame.lo[i] = r.lo;
@@ -146,9 +157,9 @@ PartFrame make_frame(const Part& part, const parallel::Context& context) {
   return frame;
 }
 
-std::array<Vec3d, 3> square_axes(const PartFrame& frame) {
-  return {frame.axis[0], cross(frame.axis[2], frame.axis[0]), frame.axis[2]};
-}
+std::array<Vec3d, 3> square_axes(const PartFrame& frame) { return squared(frame.axis); }
+
+std::array<Vec3d, 3> square_axes(const Part& part) { return squared(largest_faces(part)); }
 
 PartingGap frame_gap(const FramedPart& a, const FramedPart& b, double enough) {
   const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();

@@ -44,7 +44,7 @@ bool may_meet(const Vec3d& from, const Vec3d& to, const Box3d& box) {
 
 std::optional<TurnedFrame> frame_along_faces(const TreedPart& part,
                                              const parallel::Context& context) {
-  const Axes axes = square_axes(make_frame(*part.placed.part, context));
+  const Axes axes = square_axes(*part.placed.part);
   auto turned = turned_part(PartView(part, {}), axes, context);
   if (!turned) return std::nullopt;
   return TurnedFrame{axes, std::move(*turned)};

@@ -149,6 +149,16 @@ inline IndexedMesh crosswise(IndexedMesh mesh) {
   return mesh;
 }
 
+/// Snapped to the grid again.
+inline IndexedMesh turned_by(const geometry::Mat3d& turn, IndexedMesh mesh) {
+  for (Vec3i& v : mesh.vertices) {
+    const geometry::Vec3d p = v.as<double>();
+    for (int k = 0; k < 3; ++k)
+      v[k] = static_cast<std::int32_t>(std::lround(dot(turn.row[static_cast<std::size_t>(k)], p)));
+  }
+  return mesh;
+}
+
 /// Turned by a rational rotation (quaternion 1, 2, 3, 4 over 30) and snapped.
 inline IndexedMesh turned(IndexedMesh mesh) {
   const std::array<std::array<double, 3>, 3> m{{{-20, 4, 22}, {20, -10, 20}, {10, 28, 4}}};

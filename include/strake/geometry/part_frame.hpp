@@ -32,6 +32,8 @@ struct PartFrame {
 /// Unit vectors at right angles to each other along the axes of a frame, or as near to them as that
 /// allows.
 [[nodiscard]] std::array<Vec3d, 3> square_axes(const PartFrame& frame);
+/// Those of a part's frame, of which nothing else is asked.
+[[nodiscard]] std::array<Vec3d, 3> square_axes(const Part& part);
 
 struct FramedPart {
   PlacedPart placed;

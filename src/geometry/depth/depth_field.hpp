@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/depth/nearest.hpp"
+#include "geometry/pair_view.hpp"
 #include "geometry/range.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/grid.hpp"
@@ -91,6 +92,7 @@ class DepthField {
 
   [[nodiscard]] Vec3d local(const Vec3d& p) const { return p + shift_.as<double>(); }
   [[nodiscard]] Vec3d common(const Vec3d& p) const { return p - shift_.as<double>(); }
+  [[nodiscard]] PartView view() const { return {*part_, Vec3l{} - shift_}; }
   [[nodiscard]] const Part& part() const { return *part_->placed.part; }
   [[nodiscard]] Box3d box() const { return part().box.as<double>().moved(-shift_.as<double>()); }
   [[nodiscard]] const PartTree& tree() const { return *part_->tree; }

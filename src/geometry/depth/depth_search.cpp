@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "geometry/depth/level_frame.hpp"
 #include "geometry/depth/level_search.hpp"
 #include "geometry/depth/uphill.hpp"
 
@@ -24,9 +25,9 @@ constexpr std::uint64_t kPerCell = 16;
 
 class Search {
  public:
-  Search(const DepthField& a, const DepthField& b, const DepthGoal& goal, Depth& depth,
-         PairWork& work)
-      : a_(a), b_(b), goal_(goal), depth_(depth), work_(work) {
+  Search(const DepthField& a, const DepthField& b, const LevelFrame& frame, const DepthGoal& goal,
+         Depth& depth, PairWork& work)
+      : a_(a), b_(b), frame_(frame), goal_(goal), depth_(depth), work_(work) {
     double extent = 0;
     for (const Box3d& box : {a.box(), b.box()})
       for (int k = 0; k < 3; ++k) extent = std::max(extent, box.hi[k] - box.lo[k]);
@@ -64,20 +65,18 @@ class Search {
 
   /// Whether some point is deeper than a level.
   Found ask(double level, std::uint64_t most_cells) {
-    const LevelQuestion question{.level = level,
-                                 .known = depth_.value,
-                                 .ceiling = depth_.upper,
-                                 .slack = 1.0 / 1024 + margin_,
+    const double scale = frame_.scale();
+    const LevelQuestion question{.level = (level - frame_.error()) * scale,
+                                 .known = depth_.value * scale,
+                                 .ceiling = depth_.upper * scale,
+                                 .slack = 1.0 / 1024 + margin_ * scale,
                                  .most_cells = most_cells};
     for (const bool in_a : {true, false}) {
-      const LevelAnswer answer =
-          look_above_level(in_a ? a_ : b_, in_a ? b_ : a_, question, goal_, work_);
+      const LevelAnswer answer = look_above_level(
+          in_a ? frame_.a() : frame_.b(), in_a ? frame_.b() : frame_.a(), question, goal_, work_);
       cells_ += answer.cells;
       depth_.cells = cells_ / kPerCell;
-      if (answer.deeper && deepens(*answer.deeper)) {
-        climb(depth_.point);
-        return Found::deeper;
-      }
+      if (answer.deeper && climb(frame_.back(*answer.deeper, work_))) return Found::deeper;
       if (!answer.none) return Found::unknown;
     }
     return Found::none;
@@ -89,25 +88,29 @@ class Search {
     return most - std::min(most, cells_);
   }
 
-  void climb(const Vec3d& from) {
+  /// Whether that leads to a deeper point.
+  bool climb(const Vec3d& from) {
+    const double known = depth_.value;
+    deepens(from);
     deepens(uphill(a_, b_, from, goal_.within));
     deepens(uphill(b_, a_, from, goal_.within));
+    return depth_.value > known;
   }
 
-  /// Whether a point is deeper than what is known, which it then is.
-  bool deepens(const Vec3d& p) {
+  /// A point that is deeper than what is known is so from then on.
+  void deepens(const Vec3d& p) {
     const Vec3d q = on_field_grid(p);
     const double depth = greater_distance(a_, b_, q);
     if (!(depth > depth_.value) || !a_.contains(q, work_) || !b_.contains(q, work_) ||
         !goal_.counts(q))
-      return false;
+      return;
     depth_.value = depth;
     depth_.lower = std::max(0.0, depth - margin_);
     depth_.point = q;
-    return true;
   }
 
   const DepthField &a_, &b_;
+  const LevelFrame& frame_;
   const DepthGoal& goal_;
   Depth& depth_;
   PairWork& work_;
@@ -122,7 +125,9 @@ void search_solid_depth(const DepthField& a, const DepthField& b, const DepthGoa
   DepthField ready_a = a, ready_b = b;
   ready_a.prepare();
   ready_b.prepare();
-  Search(ready_a, ready_b, goal, depth, work).run(seeds);
+  // What is asked of points is asked of them as they are.
+  const LevelFrame frame(ready_a, ready_b, goal.within || goal.belongs);
+  Search(ready_a, ready_b, frame, goal, depth, work).run(seeds);
 }
 
 }  // namespace strake::geometry

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "geometry/directions.hpp"
@@ -108,11 +109,16 @@ bool are_apart(std::span<const Vec3d> cell, const Corners& triangle, double by) 
   const auto apart_along = [&](const Vec3d& way) {
     const double squared = dot(way, way);
     if (!(squared > 0)) return false;
-    Range x, y;
-    for (const Vec3d& p : cell) x.include(dot(way, p));
-    for (const Vec3d& p : triangle) y.include(dot(way, p));
-    const double gap = std::max(x.lo - y.hi, y.lo - x.hi);
-    return gap > 0 && gap * gap > by * by * squared;
+    Range r;
+    for (const Vec3d& p : triangle) r.include(dot(way, p));
+    const bool above = dot(way, cell.front()) > r.hi;
+    double gap = std::numeric_limits<double>::infinity();
+    for (const Vec3d& p : cell) {
+      const double at = dot(way, p);
+      gap = std::min(gap, above ? at - r.hi : r.lo - at);
+      if (!(gap > 0)) return false;
+    }
+    return gap * gap > by * by * squared;
   };
   const std::size_t n = cell.size();
   const Vec3d normal = normal_of(triangle);

@@ -137,12 +137,26 @@ class LevelSearch {
     near_ = {nearest};
     if (!as_deep && leads_out(cell, middle_, nearest)) return true;
     for (const Vec3d& p : cell.corners) {
-      const std::uint32_t t = of_.nearest(p, nearest, q_.level).triangle;
+      const std::uint32_t t = nearest_to_corner(p, nearest);
       if (t == kNoFace || std::ranges::find(near_, t) != near_.end()) continue;
       near_.push_back(t);
       if (!as_deep && leads_out(cell, p, t)) return true;
     }
     return false;
+  }
+
+  /// Cells that are cut from one have most of its corners.
+  std::uint32_t nearest_to_corner(const Vec3d& p, std::uint32_t hint) {
+    const auto known = std::ranges::find(asked_, p, &AskedCorner::at);
+    if (known != asked_.end()) return known->nearest;
+    const std::uint32_t t = of_.nearest(p, hint, q_.level).triangle;
+    if (asked_.size() < kRemembered) {
+      asked_.push_back({p, t});
+    } else {
+      asked_[oldest_] = {p, t};
+      oldest_ = (oldest_ + 1) % kRemembered;
+    }
+    return t;
   }
 
   bool leads_out(const LevelCell& cell, const Vec3d& from, std::uint32_t triangle) {
@@ -258,6 +272,13 @@ class LevelSearch {
   double radius_ = 0, slack_ = 0;
   std::vector<Corners> crossing_;
   std::uint32_t hint_ = kNoFace;
+  static constexpr std::size_t kRemembered = 32;
+  struct AskedCorner {
+    Vec3d at;
+    std::uint32_t nearest = kNoFace;  ///< none within the level
+  };
+  std::vector<AskedCorner> asked_;  ///< the last
+  std::size_t oldest_ = 0;
   std::vector<std::uint32_t> near_;
 };
 

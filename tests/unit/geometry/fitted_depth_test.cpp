@@ -26,6 +26,7 @@ using testing::extruded;
 using testing::IndexedMesh;
 using testing::interiors_meet;
 using testing::Subject;
+using testing::turned_by;
 
 /// What the snap to the grid may add to a depth, or take from it: each body moves by less than one
 /// diagonal of a cell.
@@ -33,15 +34,6 @@ constexpr double kSnap = 2;
 
 /// None for seed 0.
 Mat3d drawn_turn(std::uint64_t seed) { return seed == 0 ? Mat3d{} : Draw(seed).rotation(); }
-
-IndexedMesh turned_by(const Mat3d& turn, IndexedMesh mesh) {
-  for (Vec3i& v : mesh.vertices) {
-    const Vec3d p = v.as<double>();
-    for (int k = 0; k < 3; ++k)
-      v[k] = static_cast<std::int32_t>(std::lround(dot(turn.row[static_cast<std::size_t>(k)], p)));
-  }
-  return mesh;
-}
 
 constexpr std::int32_t kLength = 1'000'000, kWidth = 120'000, kHeight = 110'000, kWall = 10'000;
 

@@ -28,18 +28,10 @@ using testing::depth_from_touch;
 using testing::IndexedMesh;
 using testing::interiors_meet;
 using testing::Subject;
+using testing::turned_by;
 
 constexpr double kMost = 3;
 constexpr std::int32_t kLength = 1'000'000, kWidth = 120'000, kHeight = 110'000, kWall = 10'000;
-
-IndexedMesh turned_by(const Mat3d& turn, IndexedMesh mesh) {
-  for (Vec3i& v : mesh.vertices) {
-    const Vec3d p = v.as<double>();
-    for (int k = 0; k < 3; ++k)
-      v[k] = static_cast<std::int32_t>(std::lround(dot(turn.row[static_cast<std::size_t>(k)], p)));
-  }
-  return mesh;
-}
 
 /// Fills a channel from `from` to `to`, and goes into its walls and its floor by `over`.
 IndexedMesh filling(std::int32_t from, std::int32_t to, std::int32_t over) {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/depth/level_frame.hpp"
+
+#include <utility>
+
+#include "geometry/aligned_parts.hpp"
+
+namespace strake::geometry {
+namespace {
+
+constexpr double kFiner = 16;
+/// A little way in, grid units.
+constexpr double kIn = 1.0 / 16;
+
+}  // namespace
+
+LevelFrame::Turned::Turned(TurnedPart&& from, const Part& original)
+    : turned(std::move(from)), part{{&turned.part, {}}, &turned.tree}, field(part, {}) {
+  turned.part.edges = original.edges;
+  turned.part.edge_triangles = original.edge_triangles;
+  turned.part.box = turned.tree.nodes().front().box;
+  field.prepare();
+}
+
+LevelFrame::LevelFrame(const DepthField& a, const DepthField& b, bool as_they_are) : a_(a), b_(b) {
+  if (as_they_are) return;
+  const auto axes = needle_axes(a.view(), b.view());
+  if (!axes) return;
+  for (std::size_t k = 0; k < 3; ++k) axes_[k] = (*axes)[k] * kFiner;
+  auto of_a = turned_part(a.view(), axes_, {});
+  if (!of_a) return;
+  auto of_b = turned_part(b.view(), axes_, {});
+  if (!of_b) return;
+  turned_a_.emplace(std::move(*of_a), a.part());
+  turned_b_.emplace(std::move(*of_b), b.part());
+}
+
+double LevelFrame::scale() const { return turned_a_ ? kFiner : 1; }
+
+/// A point of a solid that is farther from its skin than corners move stays in it, and another is
+/// within twice that way of the moved skin; its distance to the other skin changes by the way once
+/// more.
+double LevelFrame::error() const { return turned_a_ ? 3 * kTurnRounding / kFiner : 0; }
+
+Vec3d LevelFrame::back(const Vec3d& in_frame, PairWork& work) const {
+  if (!turned_a_) return in_frame;
+  Vec3d p;
+  for (int k = 0; k < 3; ++k)
+    p = p + axes_[static_cast<std::size_t>(k)] * (in_frame[k] / (kFiner * kFiner));
+  for (const DepthField* f : {&a_, &b_}) {
+    if (f->contains(on_field_grid(p), work)) continue;
+    const NearestTriangle skin = f->nearest(p);
+    const Vec3d way = nearest_on_triangle(f->local(p), f->corners(skin.triangle)) - f->local(p);
+    if (skin.distance > 0) p = p + way * (1 + kIn / skin.distance);
+  }
+  return p;
+}
+
+}  // namespace strake::geometry
