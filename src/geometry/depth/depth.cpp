@@ -411,8 +411,8 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& asked
   // Flush faces of a model that stands askew: what the snap made of a touch.
   if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};
-  const DepthField fa(a.treed, {}, &a.planes->vertices);
-  const DepthField fb(b.treed, a.treed.placed.origin - b.treed.placed.origin, &b.planes->vertices);
+  const DepthField fa(a.treed, {}, a.planes);
+  const DepthField fb(b.treed, a.treed.placed.origin - b.treed.placed.origin, b.planes);
   const Halfspaces spaces(a, fa, b, fb, goal.within);
   Candidates candidates(fa, fb, spaces.extent(), goal, work);
   Depth depth;

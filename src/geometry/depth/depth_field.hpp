@@ -30,10 +30,10 @@ inline constexpr double kFieldError = 1e-12;
 /// A part as a function of a point that is given relative to a common origin.
 class DepthField {
  public:
-  /// `shift` = common origin minus the part's origin, grid units. `vertices`: the part's, for
-  /// those who ask for them.
-  DepthField(const TreedPart& part, const Vec3l& shift, const VertexTree* vertices = nullptr)
-      : part_(&part), shift_(shift), vertices_(vertices) {}
+  /// `shift` = common origin minus the part's origin, grid units. `planes`: the part's, for those
+  /// who ask for them or for vertices.
+  DepthField(const TreedPart& part, const Vec3l& shift, const SupportPlanes* planes = nullptr)
+      : part_(&part), shift_(shift), planes_(planes) {}
 
   /// Makes a small part's triangles ready for many questions. Answers stay the same.
   void prepare() {
@@ -97,7 +97,9 @@ class DepthField {
   [[nodiscard]] Box3d box() const { return part().box.as<double>().moved(-shift_.as<double>()); }
   [[nodiscard]] const PartTree& tree() const { return *part_->tree; }
   /// In the part's own coordinates.
-  [[nodiscard]] const VertexTree& vertices() const { return *vertices_; }
+  [[nodiscard]] const VertexTree& vertices() const { return planes_->vertices; }
+  /// In the part's own coordinates; may be null.
+  [[nodiscard]] const SupportPlanes* planes() const { return planes_; }
   [[nodiscard]] Range range_along(const Vec3d& axis) const {
     if (has_many_vertices()) {
       const double at = dot(axis, common({}));
@@ -113,7 +115,7 @@ class DepthField {
  private:
   const TreedPart* part_;
   Vec3l shift_;
-  const VertexTree* vertices_;
+  const SupportPlanes* planes_;
   std::vector<PreparedTriangle> prepared_;
 };
 

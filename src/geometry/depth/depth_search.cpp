@@ -66,12 +66,14 @@ class Search {
   /// Whether some point is deeper than a level.
   Found ask(double level, std::uint64_t most_cells) {
     const double scale = frame_.scale();
-    const LevelQuestion question{.level = (level - frame_.error()) * scale,
-                                 .known = depth_.value * scale,
-                                 .ceiling = depth_.upper * scale,
-                                 .slack = 1.0 / 1024 + margin_ * scale,
-                                 .most_cells = most_cells};
+    LevelQuestion question{.level = (level - frame_.error()) * scale,
+                           .known = depth_.value * scale,
+                           .ceiling = depth_.upper * scale,
+                           .slack = 1.0 / 1024 + margin_ * scale,
+                           .most_cells = most_cells};
     for (const bool in_a : {true, false}) {
+      question.hull_of = in_a ? frame_.hull_a() : frame_.hull_b();
+      question.hull_in = in_a ? frame_.hull_b() : frame_.hull_a();
       const LevelAnswer answer = look_above_level(
           in_a ? frame_.a() : frame_.b(), in_a ? frame_.b() : frame_.a(), question, goal_, work_);
       cells_ += answer.cells;

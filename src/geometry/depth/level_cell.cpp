@@ -89,15 +89,16 @@ std::array<LevelCell, 2> halves_of(const LevelCell& cell) {
   Range r;
   for (const Vec3d& q : p) r.include(dot(longest, q));
   const double middle = (r.lo + r.hi) / 2;
-  return {below(cell, longest, middle), below(cell, -longest, -middle)};
+  return {part_in(cell, {longest, middle}), part_in(cell, {-longest, -middle})};
 }
 
-LevelCell below(const LevelCell& cell, const Vec3d& way, double offset) {
+LevelCell part_in(const LevelCell& cell, const HalfSpace& space) {
   LevelCell part{.corners = {}, .about = {}, .slack = cell.slack, .on_skin = cell.on_skin};
   const auto& p = cell.corners;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vec3d& q = p[(i + 1) % p.size()];
-    const double at_p = dot(way, p[i]) - offset, at_q = dot(way, q) - offset;
+    const double at_p = dot(space.normal, p[i]) - space.offset;
+    const double at_q = dot(space.normal, q) - space.offset;
     if (at_p <= 0) part.corners.push_back(p[i]);
     if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0))
       part.corners.push_back(p[i] + (q - p[i]) * (at_p / (at_p - at_q)));

@@ -10,6 +10,12 @@
 
 namespace strake::geometry {
 
+/// normal·x <= offset.
+struct HalfSpace {
+  Vec3d normal;
+  double offset = 0;
+};
+
 /// A piece of a skin, or of the surface that runs parallel to one, on its inner side: all of it is
 /// within `slack` of the convex hull of its corners, which lie in one plane or nearly so.
 struct LevelCell {
@@ -36,8 +42,8 @@ struct LevelCell {
 /// Two cells that hold all of a cell: a flat one is cut across, a curved one where it bends.
 [[nodiscard]] std::array<LevelCell, 2> halves_of(const LevelCell& cell);
 
-/// What of a flat cell is no higher than `offset` along a direction; no corners where that is none.
-[[nodiscard]] LevelCell below(const LevelCell& cell, const Vec3d& way, double offset);
+/// What of a flat cell is in a half-space; no corners where that is none.
+[[nodiscard]] LevelCell part_in(const LevelCell& cell, const HalfSpace& space);
 
 /// Whether a triangle certainly stays farther from the hull of a cell, or a segment, than `by`.
 [[nodiscard]] bool are_apart(std::span<const Vec3d> cell, const Corners& triangle, double by);

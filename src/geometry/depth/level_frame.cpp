@@ -23,16 +23,36 @@ LevelFrame::Turned::Turned(TurnedPart&& from, const Part& original)
 }
 
 LevelFrame::LevelFrame(const DepthField& a, const DepthField& b, bool as_they_are) : a_(a), b_(b) {
-  if (as_they_are) return;
-  const auto axes = needle_axes(a.view(), b.view());
+  if (!as_they_are) turn();
+  hull_a_ = hull_of(a);
+  hull_b_ = hull_of(b);
+}
+
+void LevelFrame::turn() {
+  const auto axes = needle_axes(a_.view(), b_.view());
   if (!axes) return;
   for (std::size_t k = 0; k < 3; ++k) axes_[k] = (*axes)[k] * kFiner;
-  auto of_a = turned_part(a.view(), axes_, {});
+  auto of_a = turned_part(a_.view(), axes_, {});
   if (!of_a) return;
-  auto of_b = turned_part(b.view(), axes_, {});
+  auto of_b = turned_part(b_.view(), axes_, {});
   if (!of_b) return;
-  turned_a_.emplace(std::move(*of_a), a.part());
-  turned_b_.emplace(std::move(*of_b), b.part());
+  turned_a_.emplace(std::move(*of_a), a_.part());
+  turned_b_.emplace(std::move(*of_b), b_.part());
+}
+
+std::vector<HalfSpace> LevelFrame::hull_of(const DepthField& original) const {
+  std::vector<HalfSpace> hull;
+  if (original.planes() == nullptr) return hull;
+  const Vec3d shift = original.local({});
+  hull.reserve(original.planes()->planes.size());
+  for (const SupportPlanes::Plane& p : original.planes()->planes) {
+    const double offset = p.support - dot(p.normal, shift);
+    if (turned_a_)
+      hull.push_back({turned(axes_, p.normal) * (1 / kFiner), offset * kFiner + kTurnRounding});
+    else
+      hull.push_back({p.normal, offset});
+  }
+  return hull;
 }
 
 double LevelFrame::scale() const { return turned_a_ ? kFiner : 1; }

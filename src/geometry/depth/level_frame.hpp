@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "geometry/depth/depth_field.hpp"
+#include "geometry/depth/level_cell.hpp"
 #include "geometry/turned_part.hpp"
 
 namespace strake::geometry {
@@ -19,6 +21,9 @@ class LevelFrame {
 
   [[nodiscard]] const DepthField& a() const { return turned_a_ ? turned_a_->field : a_; }
   [[nodiscard]] const DepthField& b() const { return turned_b_ ? turned_b_->field : b_; }
+  /// Half-spaces that hold either.
+  [[nodiscard]] const std::vector<HalfSpace>& hull_a() const { return hull_a_; }
+  [[nodiscard]] const std::vector<HalfSpace>& hull_b() const { return hull_b_; }
   /// Units of the frame in a grid unit.
   [[nodiscard]] double scale() const;
   /// Grid units that the two may be less deep in each other here than they are.
@@ -34,9 +39,13 @@ class LevelFrame {
     Turned(TurnedPart&& from, const Part& original);
   };
 
+  void turn();
+  [[nodiscard]] std::vector<HalfSpace> hull_of(const DepthField& original) const;
+
   const DepthField &a_, &b_;
   Axes axes_{};  ///< as long as a grid unit has units
   std::optional<Turned> turned_a_, turned_b_;
+  std::vector<HalfSpace> hull_a_, hull_b_;
 };
 
 }  // namespace strake::geometry

@@ -71,7 +71,7 @@ class LevelSearch {
     if (!surface) return false;
     std::vector<OpenCell> open;
     for (const LevelCell& cell : *surface) {
-      open.push_back({cell, {}, {}});
+      if (auto rest = part_in_hulls(cell)) open.push_back({std::move(*rest), {}, {}});
       while (!open.empty()) {
         OpenCell next = std::move(open.back());
         open.pop_back();
@@ -84,6 +84,24 @@ class LevelSearch {
       }
     }
     return true;
+  }
+
+  /// What of a cell is in the hulls of both, and as deep as the level in that of the first: a ball
+  /// so large about any point that is looked for is in the first part.
+  [[nodiscard]] std::optional<LevelCell> part_in_hulls(LevelCell cell) const {
+    const double slack = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
+    const auto meets = [&](const HalfSpace& hull, double inset) {
+      const HalfSpace room{hull.normal, hull.offset - inset + slack};
+      if (std::ranges::all_of(cell.corners,
+                              [&](const Vec3d& p) { return dot(room.normal, p) > room.offset; }))
+        return false;
+      if (cell.about.empty() && goes_through(cell, room)) cell = part_in(cell, room);
+      return true;
+    };
+    const bool some =
+        std::ranges::all_of(q_.hull_of, [&](const HalfSpace& h) { return meets(h, q_.level); }) &&
+        std::ranges::all_of(q_.hull_in, [&](const HalfSpace& h) { return meets(h, 0); });
+    return some ? std::optional(std::move(cell)) : std::nullopt;
   }
 
   /// Also tells what is known of the parts about the cell, for those that it is cut into.
@@ -181,20 +199,13 @@ class LevelSearch {
     if (cell.slack <= smooth) cell.about.clear();
     if (cell.about.empty())
       if (const auto plane = plane_to_cut_along(cell))
-        return {below(cell, plane->normal, plane->offset),
-                below(cell, -plane->normal, -plane->offset)};
+        return {part_in(cell, *plane), part_in(cell, {-plane->normal, -plane->offset})};
     return halves_of(cell);
   }
 
-  /// normal·x <= offset, relative to the common origin.
-  struct Plane {
-    Vec3d normal;  ///< unit
-    double offset = 0;
-  };
-
-  [[nodiscard]] std::optional<Plane> plane_to_cut_along(const LevelCell& cell) const {
+  [[nodiscard]] std::optional<HalfSpace> plane_to_cut_along(const LevelCell& cell) const {
     const double clear = slack_ + flat_;
-    std::optional<Plane> best;
+    std::optional<HalfSpace> best;
     double most = 0;
     if (crossing_.size() <= kMostCrossing)
       for (const Corners& c : crossing_) {
@@ -202,14 +213,14 @@ class LevelSearch {
         const double area = length(n);
         if (!(area > most)) continue;
         const double top = std::max({dot(n, c[0]), dot(n, c[1]), dot(n, c[2])}) / area;
-        const Plane plane{n * (1 / area), top + clear};
+        const HalfSpace plane{n * (1 / area), top + clear};
         if (!goes_through(cell, plane)) continue;
         most = area;
         best = plane;
       }
     if (best) return best;
     for (const Way& way : ways_from(near_)) {
-      const Plane plane{-way.unit, dot(-way.unit, middle_) + way.distance + clear - q_.level};
+      const HalfSpace plane{-way.unit, dot(-way.unit, middle_) + way.distance + clear - q_.level};
       if (goes_through(cell, plane)) return plane;
     }
     return plane_between(cell);
@@ -232,9 +243,9 @@ class LevelSearch {
   }
 
   /// Where two triangles are equally near, as it is about the middle: the plane nearest to that.
-  [[nodiscard]] std::optional<Plane> plane_between(const LevelCell& cell) const {
+  [[nodiscard]] std::optional<HalfSpace> plane_between(const LevelCell& cell) const {
     const std::vector<Way> ways = ways_from(near_);
-    std::optional<Plane> best;
+    std::optional<HalfSpace> best;
     double least = radius_;
     for (std::size_t i = 0; i < ways.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
@@ -244,7 +255,7 @@ class LevelSearch {
         const double off = (ways[j].distance - ways[i].distance) / size;
         if (!(std::fabs(off) < least)) continue;
         const Vec3d normal = n * (1 / size);
-        const Plane plane{normal, dot(normal, middle_) + off};
+        const HalfSpace plane{normal, dot(normal, middle_) + off};
         if (!goes_through(cell, plane)) continue;
         least = std::fabs(off);
         best = plane;
@@ -253,7 +264,7 @@ class LevelSearch {
   }
 
   /// Not where it would hardly cut anything off.
-  [[nodiscard]] bool goes_through(const LevelCell& cell, const Plane& plane) const {
+  [[nodiscard]] bool goes_through(const LevelCell& cell, const HalfSpace& plane) const {
     Range r;
     for (const Vec3d& p : cell.corners) r.include(dot(plane.normal, p) - plane.offset);
     return r.lo < -2 * flat_ && r.hi > 2 * flat_;

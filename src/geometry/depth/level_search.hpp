@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "geometry/depth/depth_field.hpp"
+#include "geometry/depth/level_cell.hpp"
 
 namespace strake::geometry {
 
@@ -14,6 +16,7 @@ struct LevelQuestion {
   double known = 0;    ///< such a depth is known; less than the level
   double ceiling = 0;  ///< none is greater
   double slack = 0;    ///< how far a point of the field grid may be off, distances' errors included
+  std::span<const HalfSpace> hull_of = {}, hull_in = {};  ///< hold either part; unit normals
   std::uint64_t most_cells = 0;  ///< work limit, beyond the pieces that the surfaces come in
 };
 

@@ -61,9 +61,9 @@ std::vector<Corners> pieces_near(const DepthField& sheet, const Box3d& room) {
 
 Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid, const DepthGoal& goal,
                            PairWork& work) {
-  const DepthField fs(sheet.treed, {}, &sheet.planes->vertices);
+  const DepthField fs(sheet.treed, {}, sheet.planes);
   const DepthField fb(solid.treed, sheet.treed.placed.origin - solid.treed.placed.origin,
-                      &solid.planes->vertices);
+                      solid.planes);
   double extent = 1;
   for (const Part* part : {&fs.part(), &fb.part()})
     for (int k = 0; k < 3; ++k)

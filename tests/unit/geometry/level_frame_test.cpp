@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "../../support/depth_subjects.hpp"
 #include "../../support/draw.hpp"
@@ -27,7 +29,10 @@ constexpr int kSides = 24;
 struct PipeAndInsulation {
   Subject pipe, insulation;
   TreedPart of_pipe = pipe.treed(), of_insulation = insulation.treed();
-  DepthField a{of_pipe, {}}, b{of_insulation, pipe.origin - insulation.origin};
+  SupportPlanes planes_of_pipe = make_support_planes(pipe.part),
+                planes_of_insulation = make_support_planes(insulation.part);
+  DepthField a{of_pipe, {}, &planes_of_pipe},
+      b{of_insulation, pipe.origin - insulation.origin, &planes_of_insulation};
 
   explicit PipeAndInsulation(const Mat3d& turn)
       : pipe(turned_by(turn, tube(kSides, 57'000, 52'000, 0, 900'000)), {5000, 7000, -3000}),
@@ -85,6 +90,27 @@ TEST(LevelFrame, PointsAreAsDeepAsBefore) {
   EXPECT_GT(in_both, 200);
   // Not quite all: at the edges where skins meet a point may be out of the one it was moved off.
   EXPECT_GT(in_both_before, in_both * 49 / 50);
+}
+
+/// And no farther out than the turn needs.
+TEST(LevelFrame, HullsHoldTheTurnedSolids) {
+  for (std::uint64_t seed = 0; seed <= 20; ++seed) {
+    const PipeAndInsulation pair(seed == 0 ? Mat3d{} : Draw(seed).rotation());
+    const LevelFrame frame(pair.a, pair.b, false);
+    const auto expect_tight = [&](const DepthField& field, const std::vector<HalfSpace>& hull) {
+      EXPECT_GT(hull.size(), 10U);
+      for (const HalfSpace& h : hull) {
+        double most = -std::numeric_limits<double>::infinity();
+        for (const Vec3i& v : field.part().vertices)
+          most = std::max(most, dot(h.normal, field.common(v.as<double>())));
+        EXPECT_LE(most, h.offset) << "seed " << seed;
+        EXPECT_GE(most, h.offset - 3) << "seed " << seed;
+        EXPECT_NEAR(length(h.normal), 1, 1e-9) << "seed " << seed;
+      }
+    };
+    expect_tight(frame.a(), frame.hull_a());
+    expect_tight(frame.b(), frame.hull_b());
+  }
 }
 
 }  // namespace

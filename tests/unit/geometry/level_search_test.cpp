@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "../../support/depth_subjects.hpp"
+#include "geometry/depth/level_frame.hpp"
 #include "geometry/depth/uphill.hpp"
 #include "geometry/directions.hpp"
 
@@ -102,7 +103,8 @@ void expect_no_level_clear_below_a_point(const Make& make) {
     const IndexedMesh two = make(draw);
     const Subject a(seed % 2 == 0 ? turned(two) : two);
     const TreedPart part = a.treed();
-    DepthField of(part, {});
+    const SupportPlanes planes_of = make_support_planes(a.part);
+    DepthField of(part, {}, &planes_of);
     of.prepare();
     PairWork work;
     Vec3d start = draw.point(of.box());
@@ -113,16 +115,21 @@ void expect_no_level_clear_below_a_point(const Make& make) {
     if (!(depth > 1000)) continue;
     const Subject b(about(top, 0.05 * depth, 0.9 * depth, draw));
     const TreedPart box = b.treed();
-    DepthField in(box, {});
+    const SupportPlanes planes_in = make_support_planes(b.part);
+    DepthField in(box, {}, &planes_in);
     in.prepare();
+    const LevelFrame frame(of, in, true);
     ++asked;
     for (const double share : {0.5, 0.9, 0.99}) {
-      const LevelQuestion question{.level = share * depth,
-                                   .known = share * depth * 0.99,
-                                   .ceiling = 2 * depth,
-                                   .slack = 1.0 / 1024,
-                                   .most_cells = 100'000};
+      LevelQuestion question{.level = share * depth,
+                             .known = share * depth * 0.99,
+                             .ceiling = 2 * depth,
+                             .slack = 1.0 / 1024,
+                             .most_cells = 100'000};
       EXPECT_FALSE(look_above_level(of, in, question, {}, work).none) << share;
+      question.hull_of = frame.hull_a();
+      question.hull_in = frame.hull_b();
+      EXPECT_FALSE(look_above_level(of, in, question, {}, work).none) << share << ", with hulls";
     }
   }
   EXPECT_GT(asked, 500);
