@@ -32,6 +32,13 @@ class FlatFaces {
     }
     for (std::uint32_t t = 0; t < of_.size(); ++t) of_[t] = root(t);
     list_members();
+    even_.resize(of_.size());
+    widest_.resize(of_.size());
+    for (std::uint32_t f = 0; f < of_.size(); ++f) {
+      if (of_[f] != f) continue;
+      even_[f] = is_even(f) ? 1 : 0;
+      widest_[f] = width_of_widest(f);
+    }
     turns_.resize(of_.size());
     for (const FeatureEdge& edge : edges)
       if (edge.kind == EdgeKind::smooth) note(edge.part_edge);
@@ -46,8 +53,9 @@ class FlatFaces {
     if (at_f < 0 && at_g < 0) return true;
     // Of the larger face no more corners are looked at than it takes to tell.
     const double far = reach(f, edge);
-    if (reaches_beyond(g, edge, kWider * far)) return is_like(turn, at_f);
-    return !reaches_beyond(g, edge, far / kWider) && is_like(turn, at_g);
+    if (is_wider(g, edge, clearly_wider(far, turn))) return is_like(turn, at_f);
+    if (reaches_beyond(g, edge, far / kWider)) return false;
+    return is_wider(f, edge, clearly_wider(reach(g, edge), turn)) && is_like(turn, at_g);
   }
 
  private:
@@ -55,6 +63,52 @@ class FlatFaces {
   /// Facets of one skin of which one is that much wider turn by half as much again, which is more
   /// than twice in the measure of turn_at().
   static constexpr double kLike = 1.5;
+
+  /// Grid units that a flat face may be off its plane by.
+  static constexpr double kEven = 4;
+
+  /// The least width of a face that is no facet of the skin that one of this width, turned by this
+  /// at its edge, belongs to. Facets that bend by less than rounding are one face, as wide as the
+  /// chord that stands so far off the skin.
+  static double clearly_wider(double width, double turn) {
+    const double radius = width / std::sqrt(2 * turn);
+    return std::max(kWider * width, width + 2 * std::sqrt(8 * radius * kEven));
+  }
+
+  /// Whether a face reaches so far and is flat, or has a triangle that is so wide: a row of narrow
+  /// facets, each in one plane with the next but for rounding, is neither.
+  [[nodiscard]] bool is_wider(std::uint32_t face, std::uint32_t edge, double than) const {
+    return reaches_beyond(face, edge, than) && (even_[face] != 0 || widest_[face] > than);
+  }
+  [[nodiscard]] bool is_even(std::uint32_t face) const {
+    Vec3d normal, on;
+    for (std::uint32_t m = first_[face]; m < first_[face + 1]; ++m) {
+      const Vec3d n = normal_at(members_[m]);
+      if (dot(n, n) <= dot(normal, normal)) continue;
+      normal = n;
+      on = part_.vertices[part_.triangles[members_[m]][0]].as<double>();
+    }
+    const double most = kEven * std::sqrt(dot(normal, normal));
+    return !any_corner(face, [&](const geometry::Vec3i& p) {
+      return std::fabs(dot(normal, p.as<double>() - on)) > most;
+    });
+  }
+  /// The least width of the triangle of a face that is widest across.
+  [[nodiscard]] double width_of_widest(std::uint32_t face) const {
+    double most = 0;
+    for (std::uint32_t m = first_[face]; m < first_[face + 1]; ++m) {
+      const geometry::Triangle& t = part_.triangles[members_[m]];
+      double longest = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d side =
+            part_.vertices[t[(k + 1) % 3]].as<double>() - part_.vertices[t[k]].as<double>();
+        longest = std::max(longest, dot(side, side));
+      }
+      const Vec3d n = normal_at(members_[m]);
+      most = std::max(most, dot(n, n) / longest);
+    }
+    return std::sqrt(most);
+  }
 
   static bool is_like(double turn, double beside) { return beside < 0 || turn <= kLike * beside; }
 
@@ -94,15 +148,17 @@ class FlatFaces {
     for (std::uint32_t t = 0; t < of_.size(); ++t) members_[next[of_[t]]++] = t;
   }
 
+  /// As long as the triangle has area, twice.
+  [[nodiscard]] Vec3d normal_at(std::uint32_t triangle) const {
+    const NormalVector exact = triangle_normal(part_, triangle);
+    return {static_cast<double>(exact[0]), static_cast<double>(exact[1]),
+            static_cast<double>(exact[2])};
+  }
   /// A measure that grows with the angle: one less the cosine.
   [[nodiscard]] double turn_at(std::uint32_t edge) const {
     const auto round = geometry::triangles_round(part_, edge);
     std::array<Vec3d, 2> n;
-    for (std::size_t k = 0; k < 2; ++k) {
-      const NormalVector exact = triangle_normal(part_, owners_.owner(round[k]));
-      n[k] = {static_cast<double>(exact[0]), static_cast<double>(exact[1]),
-              static_cast<double>(exact[2])};
-    }
+    for (std::size_t k = 0; k < 2; ++k) n[k] = normal_at(owners_.owner(round[k]));
     return 1 - std::fabs(dot(n[0], n[1])) / std::sqrt(dot(n[0], n[0]) * dot(n[1], n[1]));
   }
   void note(std::uint32_t edge) {
@@ -150,7 +206,9 @@ class FlatFaces {
   const PlaneOwners& owners_;
   std::vector<std::uint32_t> of_;  ///< by triangle: the first triangle of its face
   std::vector<std::uint32_t> first_, members_;
-  std::vector<Turns> turns_;  ///< by first triangle
+  std::vector<std::uint8_t> even_;  ///< by first triangle, whether the face is flat
+  std::vector<double> widest_;      ///< by first triangle
+  std::vector<Turns> turns_;        ///< by first triangle
 };
 
 }  // namespace

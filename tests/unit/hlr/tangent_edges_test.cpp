@@ -92,6 +92,25 @@ TEST(TangentEdges, OfABentSheetAreFourHoweverManyFacetsItHas) {
       }
 }
 
+/// Facets so narrow that rounding to the grid turns them by as much as the bend does, and lays some
+/// in one plane with their neighbours.
+TEST(TangentEdges, RoundingOfFineFacetsMakesNone) {
+  test::Draw random(5);
+  for (const std::uint32_t facets : {48U, 96U, 192U})
+    for (const double radius : {2000.0, 5000.0, 10000.0, 30000.0})
+      for (int i = 0; i < 6; ++i) {
+        const geometry::Mat3d turn = i == 0 ? geometry::Mat3d{} : random.rotation();
+        const Sheet sheet{.facets = facets, .inner_radius = radius};
+        const std::size_t tangent = smooth(bent(sheet, turn), hlr::Smooth::tangent);
+        EXPECT_LE(tangent, 4U) << facets << " " << radius << " " << i;
+        // Where it takes a grid unit or two to tell facets, the first ones count as flat.
+        const double step = std::numbers::pi / 2 / facets;
+        if (radius * step * step > 3) {
+          EXPECT_GE(tangent, 2U) << facets << " " << radius << " " << i;
+        }
+      }
+}
+
 TEST(TangentEdges, AFoldByLessThanTheSharpAngleIsOne) {
   const Sheet sheet{.facets = 1, .bend = 15};
   EXPECT_EQ(smooth(bent(sheet, {}), hlr::Smooth::tangent),
