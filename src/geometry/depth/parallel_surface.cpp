@@ -20,7 +20,7 @@ namespace strake::geometry {
 namespace {
 
 /// Triangles beyond which a surface is not made.
-constexpr std::size_t kMostTriangles = 4096;
+constexpr std::size_t kMostTriangles = 16384;
 /// Rounding of heights over a triangle's plane, grid units, and of unit vectors.
 constexpr double kHeightError = 1e-3, kUnitError = 1e-9;
 
