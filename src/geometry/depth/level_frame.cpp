@@ -9,6 +9,8 @@ namespace strake::geometry {
 namespace {
 
 constexpr double kFiner = 16;
+/// Half-spaces of a body that are looked at: more of a round one cost more than they cut off.
+constexpr std::size_t kMostPlanes = 64;
 /// A little way in, grid units.
 constexpr double kIn = 1.0 / 16;
 
@@ -44,8 +46,11 @@ std::vector<HalfSpace> LevelFrame::hull_of(const DepthField& original) const {
   std::vector<HalfSpace> hull;
   if (original.planes() == nullptr) return hull;
   const Vec3d shift = original.local({});
-  hull.reserve(original.planes()->planes.size());
-  for (const SupportPlanes::Plane& p : original.planes()->planes) {
+  const std::vector<SupportPlanes::Plane>& planes = original.planes()->planes;
+  // They stand by their normals: any share looks to all sides.
+  const std::size_t step = planes.size() / (kMostPlanes + 1) + 1;
+  for (std::size_t i = 0; i < planes.size(); i += step) {
+    const SupportPlanes::Plane& p = planes[i];
     const double offset = p.support - dot(p.normal, shift);
     if (turned_a_)
       hull.push_back({turned(axes_, p.normal) * (1 / kFiner), offset * kFiner + kTurnRounding});
