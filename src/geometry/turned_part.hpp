@@ -18,13 +18,14 @@ using Axes = std::array<Vec3d, 3>;
 }
 
 /// A part's triangles with corners in another frame, and a tree over them. Each corner is off by
-/// less than kTurnRounding along each axis.
+/// less than kTurnRounding in all.
 struct TurnedPart {
   Part part;  ///< vertices and triangles only
   PartTree tree;
 };
 
-/// Turning a corner and rounding it takes it up to half a unit and some rounding of doubles away.
+/// Turning a corner and rounding it takes it up to half a unit along each axis, half the root of
+/// three in all, and some rounding of doubles away.
 inline constexpr double kTurnRounding = 1;
 
 /// Over the triangles of a view's own tree; nothing where the part is too large to be turned.

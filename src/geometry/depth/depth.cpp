@@ -30,7 +30,8 @@ constexpr double kFinely = 1e-3;
 constexpr std::size_t kMostEdgesTried = 2048;
 /// Points from where a search goes uphill.
 constexpr std::size_t kMostDeepest = 16;
-constexpr std::size_t kTried = 4;
+/// Points of edges that are found, for each of those.
+constexpr std::size_t kTriedForEach = 4;
 /// A step off a skin that the exact test of a side can see.
 constexpr double kLeastMove = 1.0 / 64;
 /// Moves of corners no longer than this part what the snap pushed into each other: it moves either
@@ -55,7 +56,7 @@ class Candidates {
   }
 
   /// The same of many: those that may be deepest first, until there are some for each of deepest().
-  void try_all(const std::vector<Vec3d>& points) {
+  void try_points(const std::vector<Vec3d>& points) {
     std::vector<Found> all;
     all.reserve(points.size());
     for (const Vec3d& p : points) {
@@ -65,7 +66,7 @@ class Candidates {
     std::ranges::sort(all, deeper);
     std::vector<Vec3d> spread;
     for (const Found& f : all) {
-      if (spread.size() == kTried * kMostDeepest) return;
+      if (spread.size() == kTriedForEach * kMostDeepest) return;
       const auto depth = depth_at(f.at);
       if (depth && !is_beside({*depth, f.at}, spread)) spread.push_back(f.at);
     }
@@ -107,9 +108,9 @@ class Candidates {
            std::tuple(x.depth, y.at.x, y.at.y, y.at.z);
   }
 
-  /// Whether a deeper point that is near has been found before.
-  static bool is_beside(const Found& f, const std::vector<Vec3d>& deeper_ones) {
-    return std::ranges::any_of(deeper_ones,
+  /// Whether a point that is near has been found before.
+  static bool is_beside(const Found& f, const std::vector<Vec3d>& found_before) {
+    return std::ranges::any_of(found_before,
                                [&](const Vec3d& p) { return length(p - f.at) < 2 * f.depth; });
   }
 
@@ -223,7 +224,7 @@ void try_edges(const DepthField& of, const DepthField& in, Candidates& candidate
       if (const auto n = outward(of.part(), of.part().edge_triangles[i])) inward = inward - *n;
     middles.push_back(middle + inward * kLeastMove);
   }
-  candidates.try_all(middles);
+  candidates.try_points(middles);
 }
 
 /// From a point of both skins into both bodies, farther and farther.

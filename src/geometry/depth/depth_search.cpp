@@ -18,6 +18,8 @@ namespace {
 constexpr double kNearestLevel = 5e-4, kNextLevel = 16;
 /// The least that a level is above the deepest point known, relative to the goal's tolerance.
 constexpr double kLeastStep = 0.5;
+/// And the least whatever the goal, grid units.
+constexpr double kFinestStep = 1.0 / 64;
 /// A bracket that is no wider than this, relative to the depth, says all that anybody acts on.
 constexpr double kComplete = 0.01;
 /// Cells of a level that count as one of the goal's.
@@ -44,10 +46,12 @@ class Search {
  private:
   /// Lowers the upper bound by one level after the other.
   void narrow() {
-    double share = std::min(kNearestLevel, goal_.relative / 2);
+    const double share = std::min(kNearestLevel, goal_.relative / 2);
+    // Above what the frame takes off a depth, too.
+    const double least = std::max({kLeastStep * goal_.tolerance, 2 * frame_.error(), kFinestStep});
+    double farther = 1;
     while (const std::uint64_t left = cells_left()) {
-      const double step = std::max(kLeastStep * goal_.tolerance, share * depth_.value);
-      const double level = depth_.value + step;
+      const double level = depth_.value + farther * std::max(least, share * depth_.value);
       if (level >= depth_.upper) return;
       switch (ask(level, left / 2 + 1)) {
         case Found::none:
@@ -56,7 +60,7 @@ class Search {
         case Found::deeper:
           break;
         case Found::unknown:
-          share *= kNextLevel;
+          farther *= kNextLevel;
       }
     }
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/depth/level_frame.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "geometry/aligned_parts.hpp"
 
@@ -48,7 +51,8 @@ std::vector<HalfSpace> LevelFrame::hull_of(const DepthField& original) const {
   const Vec3d shift = original.local({});
   const std::vector<SupportPlanes::Plane>& planes = original.planes()->planes;
   // They stand by their normals: any share looks to all sides.
-  const std::size_t step = planes.size() / (kMostPlanes + 1) + 1;
+  const std::size_t step =
+      std::max<std::size_t>(1, (planes.size() + kMostPlanes - 1) / kMostPlanes);
   for (std::size_t i = 0; i < planes.size(); i += step) {
     const SupportPlanes::Plane& p = planes[i];
     const double offset = p.support - dot(p.normal, shift);

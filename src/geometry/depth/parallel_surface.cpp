@@ -145,7 +145,9 @@ class Builder {
     const Ends ends = ends_of(edge);
     const Vec3d along = unit(at(ends[1]) - at(ends[0]));
     const auto round = triangles_round(of_.part(), edge);
-    const bool between_two = round.size() == 2 && !is_inner(round[0]) && !is_inner(round[1]);
+    const auto has_area = [&](std::uint32_t t) { return length(of_.triangle(t).unit) > 0; };
+    const bool between_two = round.size() == 2 && !is_inner(round[0]) && !is_inner(round[1]) &&
+                             has_area(round[0]) && has_area(round[1]);
     if (!between_two) {
       add_turn(ends, square_to(along), along);
       bends_.push_back({ends[0], 2 * kHalfTurn});
@@ -157,7 +159,7 @@ class Builder {
     double highest = -kHalfTurn / kUnitError;
     for (const std::uint32_t v : of_.part().triangles[u])
       if (v != ends[0] && v != ends[1]) highest = dot(n, at(v) - at(ends[0]));
-    if (dot(n, n) > 0 && dot(m, m) > 0 && highest < -kHeightError) return;  // stands out
+    if (highest < -kHeightError) return;  // stands out
     const double sine = length(cross(n, m)), cosine = dot(n, m);
     const double angle =
         cosine > 0 ? std::min(2 * sine, kHalfTurn) : kHalfTurn;  // no less than it is

@@ -206,6 +206,17 @@ TEST(Depth, ChangesByNoMoreThanTheMove) {
   }
 }
 
+/// More triangles than levels are asked of, and no point that counts: the search must not ask the
+/// same again.
+TEST(Depth, WhatNoLevelTellsEnds) {
+  const IndexedMesh pipe = testing::tube(2500, 1'000'000, 900'000, 0, 500'000);
+  const Subject a(pipe), b(pipe, {100, 0, 0});
+  const Depth d = testing::depth_of(
+      a, b, {.within = a.part.box.as<double>(), .belongs = [](const Vec3d&) { return false; }});
+  EXPECT_EQ(d.value, 0);
+  EXPECT_GT(d.upper, 40'000);
+}
+
 TEST(SupportPlanes, AreWhatAWalkOverTheVerticesFinds) {
   for (const int sides : {5, 40, 300}) {
     const Part part = testing::build_part(turned(cylinder(sides, 100'000, -50'000, 90'000)));
