@@ -15,7 +15,7 @@ namespace {
 
 /// The first level that is asked for, above the deepest point known and relative to its depth; each
 /// one after that which is not answered is farther above it by a factor.
-constexpr double kNearestLevel = 5e-4, kNextLevel = 16;
+constexpr double kNearestLevel = 5e-4, kNextLevel = 8;
 /// The least that a level is above the deepest point known, relative to the goal's tolerance.
 constexpr double kLeastStep = 0.5;
 /// And the least whatever the goal, grid units.
