@@ -74,7 +74,7 @@ std::array<Vec3d, 3> largest_faces(const Part& part) {
   return axis;
 }
 
-std::array<Vec3d, 3> squared(const std::array<Vec3d, 3>& axis) {
+std::array<Vec3d, 3> at_right_angles(const std::array<Vec3d, 3>& axis) {
   return {axis[0], cross(axis[2], axis[0]), axis[2]};
 }
 
@@ -157,9 +157,9 @@ PartFrame make_frame(const Part& part, const parallel::Context& context) {
   return frame;
 }
 
-std::array<Vec3d, 3> square_axes(const PartFrame& frame) { return squared(frame.axis); }
+std::array<Vec3d, 3> square_axes(const PartFrame& frame) { return at_right_angles(frame.axis); }
 
-std::array<Vec3d, 3> square_axes(const Part& part) { return squared(largest_faces(part)); }
+std::array<Vec3d, 3> square_axes(const Part& part) { return at_right_angles(largest_faces(part)); }
 
 PartingGap frame_gap(const FramedPart& a, const FramedPart& b, double enough) {
   const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();

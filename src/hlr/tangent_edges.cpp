@@ -80,7 +80,9 @@ class FlatFaces {
   [[nodiscard]] bool is_wider(std::uint32_t face, std::uint32_t edge, double than) const {
     return reaches_beyond(face, edge, than) && (even_[face] != 0 || widest_[face] > than);
   }
+  /// One that the source made one face is what it says, however that bends.
   [[nodiscard]] bool is_even(std::uint32_t face) const {
+    if (is_of_source(face)) return true;
     Vec3d normal, on;
     for (std::uint32_t m = first_[face]; m < first_[face + 1]; ++m) {
       const Vec3d n = normal_at(members_[m]);
@@ -92,6 +94,11 @@ class FlatFaces {
     return !any_corner(face, [&](const geometry::Vec3i& p) {
       return std::fabs(dot(normal, p.as<double>() - on)) > most;
     });
+  }
+  [[nodiscard]] bool is_of_source(std::uint32_t face) const {
+    if (part_.faces.empty() || part_.faces[face] == geometry::kNoFace) return false;
+    return std::all_of(members_.begin() + first_[face], members_.begin() + first_[face + 1],
+                       [&](std::uint32_t t) { return part_.faces[t] == part_.faces[face]; });
   }
   /// The least width of the triangle of a face that is widest across.
   [[nodiscard]] double width_of_widest(std::uint32_t face) const {

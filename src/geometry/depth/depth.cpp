@@ -30,8 +30,6 @@ constexpr double kFinely = 1e-3;
 constexpr std::size_t kMostEdgesTried = 2048;
 /// Points from where a search goes uphill.
 constexpr std::size_t kMostDeepest = 16;
-/// Points of edges that are found, for each of those.
-constexpr std::size_t kTriedForEach = 4;
 /// A step off a skin that the exact test of a side can see.
 constexpr double kLeastMove = 1.0 / 64;
 /// Moves of corners no longer than this part what the snap pushed into each other: it moves either
@@ -49,39 +47,33 @@ class Candidates {
   /// The depth at a point, or nothing when it is not in both.
   std::optional<double> depth_at(const Vec3d& p) {
     const Vec3d q = on_field_grid(p);
-    if (!is_in_both(q)) return std::nullopt;
+    if (goal_.within && !goal_.within->contains({q, q})) return std::nullopt;
+    if (!a_.contains(q, work_) || !b_.contains(q, work_)) return std::nullopt;
+    if (!goal_.counts(q)) return std::nullopt;
     const double depth = greater_distance(a_, b_, q);
-    add({depth, q});
+    if (depth > best_) {
+      best_ = depth;
+      point_ = q;
+    }
+    found_.push_back({depth, q});
     return depth;
-  }
-
-  /// The same of many: those that may be deepest first, until there are some for each of deepest().
-  void try_points(const std::vector<Vec3d>& points) {
-    std::vector<Found> all;
-    all.reserve(points.size());
-    for (const Vec3d& p : points) {
-      const Vec3d q = on_field_grid(p);
-      all.push_back({std::max(a_.some_distance(q), b_.some_distance(q)), q});
-    }
-    std::ranges::sort(all, deeper);
-    std::vector<Vec3d> spread;
-    for (const Found& f : all) {
-      if (spread.size() == kTriedForEach * kMostDeepest) return;
-      const auto depth = depth_at(f.at);
-      if (depth && !is_beside({*depth, f.at}, spread)) spread.push_back(f.at);
-    }
   }
 
   /// The deepest of the points that were tried, but for those that have a deeper one beside them.
   [[nodiscard]] std::vector<Vec3d> deepest() const {
     std::vector<Found> all = found_;
-    std::ranges::sort(all, deeper);
-    std::vector<Vec3d> spread;
+    std::ranges::sort(all, [](const Found& x, const Found& y) {
+      return std::tuple(y.depth, x.at.x, x.at.y, x.at.z) <
+             std::tuple(x.depth, y.at.x, y.at.y, y.at.z);
+    });
+    std::vector<Vec3d> deepest;
     for (const Found& f : all) {
-      if (spread.size() == kMostDeepest) break;
-      if (!is_beside(f, spread)) spread.push_back(f.at);
+      if (deepest.size() == kMostDeepest) break;
+      const bool beside = std::ranges::any_of(
+          deepest, [&](const Vec3d& p) { return length(p - f.at) < 2 * f.depth; });
+      if (!beside) deepest.push_back(f.at);
     }
-    return spread;
+    return deepest;
   }
 
   /// All but as deep as the best, and a better place to point at: it counts, as depth_at() found.
@@ -101,31 +93,6 @@ class Candidates {
     double depth = 0;
     Vec3d at;
   };
-
-  /// Of equally deep ones in the same order, whatever order they came in.
-  static bool deeper(const Found& x, const Found& y) {
-    return std::tuple(y.depth, x.at.x, x.at.y, x.at.z) <
-           std::tuple(x.depth, y.at.x, y.at.y, y.at.z);
-  }
-
-  /// Whether a point that is near has been found before.
-  static bool is_beside(const Found& f, const std::vector<Vec3d>& found_before) {
-    return std::ranges::any_of(found_before,
-                               [&](const Vec3d& p) { return length(p - f.at) < 2 * f.depth; });
-  }
-
-  [[nodiscard]] bool is_in_both(const Vec3d& q) const {
-    if (goal_.within && !goal_.within->contains({q, q})) return false;
-    return a_.contains(q, work_) && b_.contains(q, work_) && goal_.counts(q);
-  }
-
-  void add(const Found& f) {
-    if (f.depth > best_) {
-      best_ = f.depth;
-      point_ = f.at;
-    }
-    found_.push_back(f);
-  }
 
   const DepthField &a_, &b_;
   double margin_;
@@ -202,7 +169,6 @@ void try_edges(const DepthField& of, const DepthField& in, Candidates& candidate
   const auto& edges = of.part().edges;
   if (edges.size() > kMostEdgesTried) return;
   const Box3d room = in.box();
-  std::vector<Vec3d> middles;
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     const Vec3d p = of.common(of.part().vertices[edges[e].v0].as<double>());
     const Vec3d way = of.common(of.part().vertices[edges[e].v1].as<double>()) - p;
@@ -222,9 +188,8 @@ void try_edges(const DepthField& of, const DepthField& in, Candidates& candidate
     Vec3d inward;
     for (std::uint32_t i = edges[e].first_triangle; i < edges[e + 1].first_triangle; ++i)
       if (const auto n = outward(of.part(), of.part().edge_triangles[i])) inward = inward - *n;
-    middles.push_back(middle + inward * kLeastMove);
+    candidates.depth_at(middle + inward * kLeastMove);
   }
-  candidates.try_points(middles);
 }
 
 /// From a point of both skins into both bodies, farther and farther.

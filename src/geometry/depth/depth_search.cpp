@@ -27,9 +27,9 @@ constexpr std::uint64_t kPerCell = 16;
 
 class Search {
  public:
-  Search(const DepthField& a, const DepthField& b, const LevelFrame& frame, const DepthGoal& goal,
-         Depth& depth, PairWork& work)
-      : a_(a), b_(b), frame_(frame), goal_(goal), depth_(depth), work_(work) {
+  Search(const DepthField& a, const DepthField& b, const DepthGoal& goal, Depth& depth,
+         PairWork& work)
+      : a_(a), b_(b), goal_(goal), depth_(depth), work_(work) {
     double extent = 0;
     for (const Box3d& box : {a.box(), b.box()})
       for (int k = 0; k < 3; ++k) extent = std::max(extent, box.hi[k] - box.lo[k]);
@@ -38,7 +38,7 @@ class Search {
 
   void run(std::span<const Vec3d> seeds) {
     for (const Vec3d& seed : seeds) climb(seed);
-    narrow();
+    if (!bracket_suffices(depth_, goal_)) narrow();
     // The goal may ask for more, for as long as there is work left.
     depth_.complete = is_tight(depth_, goal_, kComplete);
   }
@@ -46,14 +46,17 @@ class Search {
  private:
   /// Lowers the upper bound by one level after the other.
   void narrow() {
+    // What is asked of points is asked of them as they are.
+    const LevelFrame frame(a_, b_, goal_.within || goal_.belongs);
     const double share = std::min(kNearestLevel, goal_.relative / 2);
     // Above what the frame takes off a depth, too.
-    const double least = std::max({kLeastStep * goal_.tolerance, 2 * frame_.error(), kFinestStep});
+    const double least = std::max({kLeastStep * goal_.tolerance, 2 * frame.error(), kFinestStep});
     double farther = 1;
     while (const std::uint64_t left = cells_left()) {
       const double level = depth_.value + farther * std::max(least, share * depth_.value);
       if (level >= depth_.upper) return;
-      switch (ask(level, left / 2 + 1)) {
+      // Most of it for the nearest level: those farther off are the easier and the less worth.
+      switch (ask(frame, level, left - left / 4)) {
         case Found::none:
           depth_.upper = level;
           return;
@@ -68,21 +71,21 @@ class Search {
   enum class Found : std::uint8_t { none, deeper, unknown };
 
   /// Whether some point is deeper than a level.
-  Found ask(double level, std::uint64_t most_cells) {
-    const double scale = frame_.scale();
-    LevelQuestion question{.level = (level - frame_.error()) * scale,
+  Found ask(const LevelFrame& frame, double level, std::uint64_t most_cells) {
+    const double scale = frame.scale();
+    LevelQuestion question{.level = (level - frame.error()) * scale,
                            .known = depth_.value * scale,
                            .ceiling = depth_.upper * scale,
                            .slack = 1.0 / 1024 + margin_ * scale,
                            .most_cells = most_cells};
     for (const bool in_a : {true, false}) {
-      question.hull_of = in_a ? frame_.hull_a() : frame_.hull_b();
-      question.hull_in = in_a ? frame_.hull_b() : frame_.hull_a();
+      question.hull_of = in_a ? frame.hull_a() : frame.hull_b();
+      question.hull_in = in_a ? frame.hull_b() : frame.hull_a();
       const LevelAnswer answer = look_above_level(
-          in_a ? frame_.a() : frame_.b(), in_a ? frame_.b() : frame_.a(), question, goal_, work_);
+          in_a ? frame.a() : frame.b(), in_a ? frame.b() : frame.a(), question, goal_, work_);
       cells_ += answer.cells;
       depth_.cells = cells_ / kPerCell;
-      if (answer.deeper && climb(frame_.back(*answer.deeper, work_))) return Found::deeper;
+      if (answer.deeper && climb(frame.back(*answer.deeper, work_))) return Found::deeper;
       if (!answer.none) return Found::unknown;
     }
     return Found::none;
@@ -116,7 +119,6 @@ class Search {
   }
 
   const DepthField &a_, &b_;
-  const LevelFrame& frame_;
   const DepthGoal& goal_;
   Depth& depth_;
   PairWork& work_;
@@ -131,9 +133,7 @@ void search_solid_depth(const DepthField& a, const DepthField& b, const DepthGoa
   DepthField ready_a = a, ready_b = b;
   ready_a.prepare();
   ready_b.prepare();
-  // What is asked of points is asked of them as they are.
-  const LevelFrame frame(ready_a, ready_b, goal.within || goal.belongs);
-  Search(ready_a, ready_b, frame, goal, depth, work).run(seeds);
+  Search(ready_a, ready_b, goal, depth, work).run(seeds);
 }
 
 }  // namespace strake::geometry

@@ -34,7 +34,7 @@ using test::PrimitiveDraw;
 using test::SolidPair;
 using testing::IndexedMesh;
 
-constexpr auto kPairs = test::rounds<std::uint64_t>(150, 5'000);
+constexpr auto kPairs = test::rounds<std::uint64_t>(150, 10'000);
 
 Pair judged(const ClashModel& m) {
   const Report report = m.detect(test::exact_options());

@@ -18,7 +18,7 @@ using testing::exact;
 using testing::Lattice;
 using testing::RationalPoint;
 
-constexpr int kRounds = test::rounds(1000, 75'000);
+constexpr int kRounds = test::rounds(1000, 150'000);
 
 /// Farther than any end of a stretch on the lattice, and nearer than any two different ones.
 const mpq_class kFar(1'000'000);

@@ -23,11 +23,11 @@ using testing::IndexedMesh;
 using testing::mapped;
 using testing::Subject;
 
-constexpr int kRounds = test::rounds(200, 6000);
+constexpr int kRounds = test::rounds(200, 20000);
 /// Where all near triangles are listed.
-constexpr int kListedRounds = test::rounds(60, 1500);
+constexpr int kListedRounds = test::rounds(60, 4000);
 /// Where cells are paired by brute force.
-constexpr int kReachRounds = test::rounds(150, 2000);
+constexpr int kReachRounds = test::rounds(150, 5000);
 
 /// Cells of side 1 in a cube of kSize cells.
 constexpr int kSize = 8;

@@ -27,7 +27,7 @@ using strake::testing::SheetCover;
 using strake::testing::Subject;
 using strake::testing::Tetrahedron;
 
-constexpr int kRounds = test::rounds(80, 2000);
+constexpr int kRounds = test::rounds(80, 6000);
 
 /// What must come out, from the oracle.
 struct Truth {

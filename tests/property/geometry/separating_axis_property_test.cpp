@@ -19,7 +19,7 @@ using testing::as_mesh;
 using testing::big;
 using testing::Lattice;
 
-constexpr int kRounds = test::rounds(400, 25'000);
+constexpr int kRounds = test::rounds(400, 60'000);
 
 using Points = std::vector<Vec3l>;
 

@@ -21,6 +21,7 @@ using geometry::Vec3i;
 struct Sheet {
   std::uint32_t facets = 24;
   double inner_radius = 6000, thickness = 2000, plate = 60000, width = 40000, bend = 90;
+  bool one_face = false;  ///< the bend, on either side
 };
 
 /// A bent sheet: plate, bend, plate. Its sides are one face each.
@@ -54,8 +55,10 @@ test::HandPart bent(const Sheet& sheet, const geometry::Mat3d& turn) {
   std::uint32_t face = 2;
   for (std::uint32_t i = 0; i < last; ++i) {
     const std::uint32_t at = 4 * i, to = at + 4;  // inner, inner far, outer, outer far
-    quad(at, to, to + 1, at + 1, face++);
-    quad(at + 2, at + 3, to + 3, to + 2, face++);
+    quad(at, to, to + 1, at + 1, face);
+    quad(at + 2, at + 3, to + 3, to + 2, face + 1);
+    const bool goes_on = sheet.one_face && i > 0 && i + 2 < last;
+    if (!goes_on) face += 2;
     quad(at, at + 2, to + 2, to, 0);
     quad(at + 1, to + 1, to + 3, at + 3, 1);
   }
@@ -109,6 +112,18 @@ TEST(TangentEdges, RoundingOfFineFacetsMakesNone) {
           EXPECT_GE(tangent, 2U) << facets << " " << radius << " " << i;
         }
       }
+}
+
+/// Wider than the plates beside it, and no plane; but the source says that it is one face.
+TEST(TangentEdges, ABendThatIsOneFaceBeginsAndEnds) {
+  test::Draw random(7);
+  for (int i = 0; i < 8; ++i) {
+    const geometry::Mat3d turn = i == 0 ? geometry::Mat3d{} : random.rotation();
+    const Sheet sheet{
+        .facets = 12, .inner_radius = 60000, .plate = 3000, .bend = 30, .one_face = true};
+    EXPECT_EQ(smooth(bent(sheet, turn), hlr::Smooth::tangent), 4U) << i;
+    EXPECT_EQ(smooth(bent(sheet, turn), hlr::Smooth::all), 4U) << i;
+  }
 }
 
 TEST(TangentEdges, AFoldByLessThanTheSharpAngleIsOne) {
