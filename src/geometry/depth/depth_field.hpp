@@ -37,7 +37,7 @@ class DepthField {
 
   /// Makes a small part's triangles ready for many questions. Answers stay the same.
   void prepare() {
-    constexpr std::size_t kMost = 4096;
+    constexpr std::size_t kMost = 16384;
     const std::size_t n = part().triangles.size();
     if (n > kMost || !prepared_.empty()) return;
     prepared_.reserve(n);

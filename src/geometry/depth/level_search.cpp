@@ -17,6 +17,9 @@
 namespace strake::geometry {
 namespace {
 
+/// Nodes of a tree, visited on the way to the nearest triangle, that count as one cell. In the
+/// middle of a round body all of its skin is about equally near.
+constexpr std::uint64_t kVisitedPerCell = 256;
 /// The least difference of the ways to two triangles that a cut goes between.
 constexpr double kLeastTurn = 0.1;
 
@@ -43,10 +46,20 @@ class LevelSearch {
 
   LevelAnswer run() {
     answer_.none = clears(skin()) && clears(parallel_surface(of_, room_, q_.level, flat_, work_));
+    answer_.cells = cells();
     return answer_;
   }
 
  private:
+  [[nodiscard]] std::uint64_t cells() const { return cut_ + visited_ / kVisitedPerCell; }
+
+  /// The triangle of the first part that is nearest to a point, if nearer than `limit`.
+  NearestTriangle nearest(const Vec3d& p, std::uint32_t hint, double limit) {
+    const NearestTriangle near = of_.nearest(p, hint, limit);
+    visited_ += near.visited;
+    return near;
+  }
+
   /// The skin of the second.
   [[nodiscard]] std::optional<std::vector<LevelCell>> skin() const {
     const auto near = triangles_near(in_, room_, 0);
@@ -77,8 +90,8 @@ class LevelSearch {
         open.pop_back();
         if (next.cell.corners.size() < 3 || is_clear(next)) continue;
         if (answer_.deeper.has_value() || radius_ - slack_ < flat_) return false;
-        answer_.cells += 2;
-        if (answer_.cells > q_.most_cells) return false;
+        cut_ += 2;
+        if (cells() > q_.most_cells) return false;
         for (LevelCell& part : cut(std::move(next.cell)))
           open.push_back({std::move(part), next.of, next.in});
       }
@@ -115,7 +128,7 @@ class LevelSearch {
     near_.clear();
     crossing_.clear();
     if (hint_ != kNoFace && is_near_triangle(cell, hint_)) return true;
-    const NearestTriangle near = of_.nearest(middle_, hint_, q_.level + radius_);
+    const NearestTriangle near = nearest(middle_, hint_, q_.level + radius_);
     if (near.triangle != kNoFace) hint_ = near.triangle;
     if (near.distance + radius_ < q_.level) return true;
     if (near.triangle != kNoFace && is_near_triangle(cell, near.triangle)) return true;
@@ -167,7 +180,7 @@ class LevelSearch {
   std::uint32_t nearest_to_corner(const Vec3d& p, std::uint32_t hint) {
     const auto known = std::ranges::find(asked_, p, &AskedCorner::at);
     if (known != asked_.end()) return known->nearest;
-    const std::uint32_t t = of_.nearest(p, hint, q_.level).triangle;
+    const std::uint32_t t = nearest(p, hint, q_.level).triangle;
     if (asked_.size() < kRemembered) {
       asked_.push_back({p, t});
     } else {
@@ -278,6 +291,7 @@ class LevelSearch {
   PartScope about_of_, about_in_;
   Box3d room_;
   LevelAnswer answer_;
+  std::uint64_t cut_ = 0, visited_ = 0;
   // Of the cell that was looked at last.
   Vec3d middle_;
   double radius_ = 0, slack_ = 0;

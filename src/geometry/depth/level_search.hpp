@@ -23,7 +23,7 @@ struct LevelQuestion {
 struct LevelAnswer {
   bool none = false;            ///< certainly no point is
   std::optional<Vec3d> deeper;  ///< a point of both that is deeper than what is known
-  std::uint64_t cells = 0;      ///< that pieces and cells were cut into
+  std::uint64_t cells = 0;      ///< that pieces and cells were cut into, and searches as long
 };
 
 /// If x is deeper in the first part than the level, the straight way from x to the nearest point of

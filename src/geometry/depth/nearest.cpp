@@ -29,8 +29,12 @@ class Search {
     best_ = limit * limit;
     if (hint != kNoFace) test(hint);
     if (!tree_.nodes().empty()) descend(0, squared_gap(p_, tree_.nodes()[0].box.as<double>()));
-    if (triangle_ == kNoFace) return {};
-    return {std::sqrt(best_), triangle_};
+    NearestTriangle found{.visited = visited_};
+    if (triangle_ != kNoFace) {
+      found.distance = std::sqrt(best_);
+      found.triangle = triangle_;
+    }
+    return found;
   }
 
  private:
@@ -55,6 +59,7 @@ class Search {
 
   void descend(std::uint32_t index, double at) {
     if (at > best_) return;
+    ++visited_;
     const PartTree::Node& node = tree_.nodes()[index];
     if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) test(tree_.order()[i]);
@@ -76,7 +81,7 @@ class Search {
   Vec3d p_;
   std::span<const PreparedTriangle> prepared_;
   double best_ = 0;
-  std::uint32_t triangle_ = kNoFace;
+  std::uint32_t triangle_ = kNoFace, visited_ = 0;
 };
 
 }  // namespace

@@ -47,6 +47,7 @@ struct PreparedTriangle {
 struct NearestTriangle {
   double distance = std::numeric_limits<double>::infinity();
   std::uint32_t triangle = kNoFace;
+  std::uint32_t visited = 0;  ///< nodes of the tree that the question went to
 };
 
 /// The triangle of a part nearest to p (in the part's own coordinates), if nearer than `limit`;
