@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/directions.hpp"
 #include "strake/geometry/trig.hpp"
 
 namespace strake::geometry {
@@ -17,8 +18,6 @@ constexpr double kNoHit = 1e300;
 /// Of the directions from a point within, those that meet an odd number of triangles: what stands
 /// in a body or parts it makes the others even, as they all are in a bore.
 constexpr double kLeastOdd = 0.25;
-
-double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 /// Half the solid angle of a triangle as seen from the origin (A. van Oosterom and J. Strackee,
 /// 1983).

@@ -267,6 +267,23 @@ std::vector<Vec3d> surface_points(const Primitive& primitive, std::size_t count,
   return points;
 }
 
+std::vector<Vec3d> snout_outlines(const SnoutPrimitive& s, std::size_t count) {
+  std::vector<Vec3d> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = 2 * kPi * static_cast<double>(i) / static_cast<double>(count);
+    const auto at = [&](double t) {
+      return polar(s.bottom_radius + t * (s.top_radius - s.bottom_radius), angle, 0) +
+             Vec3d{s.offset_x * (t - 0.5), s.offset_y * (t - 0.5), s.height * (t - 0.5)};
+    };
+    // Along a generator the height over a plane is linear.
+    for (const auto above : {Points::above_bottom, Points::above_top}) {
+      const double from = above(s, at(0)), to = above(s, at(1));
+      points.push_back(at(from / (from - to)));
+    }
+  }
+  return points;
+}
+
 double distance_to_primitive(const Primitive& primitive, const Vec3d& p) {
   return std::visit(Distance{p}, primitive);
 }

@@ -16,6 +16,10 @@ namespace strake::test {
                                                           std::size_t count,
                                                           std::mt19937_64& random);
 
+/// Points of the two outlines of a snout's ends, along generators at even angles.
+[[nodiscard]] std::vector<geometry::Vec3d> snout_outlines(const geometry::SnoutPrimitive& snout,
+                                                          std::size_t count);
+
 /// An upper bound on the distance of a local point near the surface to the true surface, tight
 /// where the surface is smooth.
 [[nodiscard]] double distance_to_primitive(const geometry::Primitive& primitive,

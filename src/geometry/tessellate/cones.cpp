@@ -3,10 +3,14 @@
 #include <array>
 #include <optional>
 
+#include "geometry/depth/nearest.hpp"
+#include "geometry/directions.hpp"
 #include "geometry/tessellate/build.hpp"
 
 namespace strake::geometry::tessellation {
 namespace {
+
+constexpr int kMostSegments = 4096;
 
 using Ring = std::vector<std::uint32_t>;
 
@@ -44,21 +48,23 @@ struct Snout {
   SnoutPrimitive p;
   EndPlane bottom, top;
 
+  /// How fast a generator, from the bottom circle to the top circle, rises over an end plane.
+  [[nodiscard]] double rise(const EndPlane& end, const SinCos& a) const {
+    const double grow = p.top_radius - p.bottom_radius;
+    return p.height - end.slope_x * (p.offset_x + grow * a.cos) -
+           end.slope_y * (p.offset_y + grow * a.sin);
+  }
   /// Part of the generator, from the bottom circle (0) to the top circle (1), at which the bottom
   /// plane cuts it: the true outline is where cone and plane meet.
   [[nodiscard]] double bottom_cut(const SinCos& a) const {
-    const double grow = p.top_radius - p.bottom_radius;
-    const double rise = p.height - bottom.slope_x * (p.offset_x + grow * a.cos) -
-                        bottom.slope_y * (p.offset_y + grow * a.sin);
-    const double wanted = p.bottom_radius * (bottom.slope_x * a.cos + bottom.slope_y * a.sin);
-    return wanted == 0 ? 0 : rise > 0 ? wanted / rise : kNever;
+    return cut(bottom, p.bottom_radius, a);
   }
-  [[nodiscard]] double top_cut(const SinCos& a) const {
-    const double grow = p.top_radius - p.bottom_radius;
-    const double rise = p.height - top.slope_x * (p.offset_x + grow * a.cos) -
-                        top.slope_y * (p.offset_y + grow * a.sin);
-    const double wanted = p.top_radius * (top.slope_x * a.cos + top.slope_y * a.sin);
-    return 1 + (wanted == 0 ? 0 : rise > 0 ? wanted / rise : kNever);
+  [[nodiscard]] double top_cut(const SinCos& a) const { return 1 + cut(top, p.top_radius, a); }
+  [[nodiscard]] double cut(const EndPlane& end, double circle, const SinCos& a) const {
+    const double wanted = circle * (end.slope_x * a.cos + end.slope_y * a.sin);
+    if (wanted == 0) return 0;
+    const double rises = rise(end, a);
+    return rises > 0 ? wanted / rises : kNever;
   }
   [[nodiscard]] double radius(double cut) const {
     return p.bottom_radius + cut * (p.top_radius - p.bottom_radius);
@@ -82,7 +88,45 @@ struct Snout {
          {(against * y - half * x) / square, (against * x + half * y) / square}}};
   }
   static constexpr double kNever = 1e300;
+
+  /// How far the true skin is from the facet between two generators, at most; infinite where an end
+  /// plane runs too much along the skin. A section of the facet across the axis is a chord of the
+  /// skin's circle; beyond those the outline of an end is what is farthest.
+  [[nodiscard]] double sag_between(const SinCos& a, const SinCos& b) const {
+    const double cosine = a.cos * b.cos + a.sin * b.sin;
+    // In it the tangents of a unit circle meet.
+    const SinCos t{(a.sin + b.sin) / (1 + cosine), (a.cos + b.cos) / (1 + cosine)};
+    const double half = std::sqrt((1 + cosine) / 2);
+    double sag = 0;
+    for (const bool at_top : {false, true}) {
+      const EndPlane& end = at_top ? top : bottom;
+      if ((at_top ? p.top_radius : p.bottom_radius) == 0) continue;  // the apex
+      const auto cut_at = [&](const SinCos& g) { return at_top ? top_cut(g) : bottom_cut(g); };
+      const double weight = rise(end, t);
+      if (!(weight > 0)) return kNever;
+      const double widest = std::max({radius(cut_at(a)), radius(cut_at(b)), radius(cut_at(t))});
+      const Vec3d from = point(a, cut_at(a)), to = point(b, cut_at(b)), pole = point(t, cut_at(t));
+      // The outline is a conic. As a rational Bezier curve (Farin, Curves and Surfaces for CAGD)
+      // it has the weight w in the middle. Between its ends and the points w / (1 + w) of the way
+      // from them to the pole it lies in a quadrilateral.
+      const double w = half * weight / std::sqrt(rise(end, a) * rise(end, b));
+      sag = std::max(sag, widest * (1 - half));
+      for (const Vec3d& v : {from, to}) {
+        const Vec3d corner = v + (pole - v) * (w / (1 + w));
+        sag = std::max(sag, length(corner - nearest_on_segment(corner, from, to)));
+      }
+    }
+    return sag;
+  }
 };
+
+/// Of all facets of a ring of generators.
+double sag_of(const Snout& snout, const std::vector<SinCos>& angles) {
+  double sag = 0;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    sag = std::max(sag, snout.sag_between(angles[k], angles[k + 1 == angles.size() ? 0 : k + 1]));
+  return sag;
+}
 
 /// The largest radius on the cuts; negative when a plane misses a generator, passes the apex, or
 /// the planes cross inside.
@@ -124,22 +168,34 @@ Tessellation make(const SnoutPrimitive& p, const Target& target) {
   const double steepness = std::max(snout.bottom.steepness(), snout.top.steepness());
   if (!(steepness < 100)) return fault("an end plane of a snout is too steep");
   const SinCos phase = rim_phase(target);
+  const auto contours = target.towards ? snout.contours(*target.towards) : std::nullopt;
+  const auto generators = [&](int n) {
+    return contours ? rim_with(n, phase, *contours) : rim(n, phase);
+  };
+  constexpr std::string_view kCross = "the end planes of a snout cross or pass its apex";
   // The cuts decide the widest radius, which decides the number of segments: look first.
   double radius = widest(snout, rim(256, phase));
-  if (radius < 0) return fault("the end planes of a snout cross or pass its apex");
-  // Between the looks the radius grows by less than this.
-  radius = std::max({radius * (1 + 1e-3 * (steepness - 1)), p.bottom_radius, p.top_radius});
-  const int n = circle_segments(radius, kRimShare * target.sag / steepness);
-  const auto contours = target.towards ? snout.contours(*target.towards) : std::nullopt;
-  const auto angles = contours ? rim_with(n, phase, *contours) : rim(n, phase);
-  if (widest(snout, angles) < 0) return fault("the end planes of a snout cross or pass its apex");
+  if (radius < 0) return fault(kCross);
+  radius = std::max({radius, p.bottom_radius, p.top_radius});
+  int n = circle_segments(radius, kRimShare * target.sag / steepness, kMostSegments);
+  auto angles = generators(n);
+  double sag = steepness == 1 ? sagitta(radius, contours ? widest_step(angles) : 2 * kPi / n)
+                              : sag_of(snout, angles);
+  // An outline may bend more than the circle that it is the image of.
+  while (sag > target.sag && n < kMostSegments) {
+    const double more = std::clamp(std::sqrt(sag / target.sag), 1.1, 4.0);
+    n = std::min(static_cast<int>(n * more / 4 + 1) * 4, kMostSegments);
+    angles = generators(n);
+    sag = sag_of(snout, angles);
+  }
+  if (widest(snout, angles) < 0) return fault(kCross);
+  if (sag == Snout::kNever) return fault("an end plane of a snout runs along its skin");
   std::vector<Vec3d> lower, upper;
   for (const SinCos& a : angles) {
     lower.push_back(snout.point(a, snout.bottom_cut(a)));
     upper.push_back(snout.point(a, snout.top_cut(a)));
   }
-  const double step = contours ? widest_step(angles) : 2 * kPi / n;
-  return frustum(lower, upper, sagitta(radius, step) * steepness);
+  return frustum(lower, upper, sag);
 }
 
 }  // namespace strake::geometry::tessellation

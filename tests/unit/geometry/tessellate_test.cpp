@@ -292,6 +292,46 @@ TEST(Tessellate, ShearedConeEndsLieOnTheConeAndThePlane) {
   }
 }
 
+/// Cut along its skin, a cone that widens has an outline that bends far more than its circles do.
+TEST(Tessellate, ShearedConeEndsKeepTheSag) {
+  std::size_t tried = 0, tight = 0;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto length = [&](double least, double most) {
+      return std::exp(uniform(random, std::log(least), std::log(most)));
+    };
+    const auto shear = [&] { return random() % 3 == 0 ? 0 : uniform(random, -1.2, 1.2); };
+    SnoutPrimitive s{length(0.1, 100), length(0.1, 100), length(0.1, 200)};
+    if (random() % 2 == 0) {
+      s.offset_x = uniform(random, -30, 30);
+      s.offset_y = uniform(random, -30, 30);
+    }
+    s.bottom_shear_x = shear();
+    s.bottom_shear_y = shear();
+    s.top_shear_x = shear();
+    s.top_shear_y = shear();
+    const double sag = length(0.01, 5);
+    std::optional<Vec3d> towards;
+    if (random() % 2 == 0)
+      towards = unit({uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)});
+    const Tessellation t = tessellate(s, {}, sag, towards);
+    if (!t.fault.empty()) continue;
+    ++tried;
+    constexpr std::size_t kMostSegments = 4096;
+    if (t.mesh.vertices.size() < 2 * kMostSegments) {
+      ASSERT_LE(t.mesh.sag_mm, sag * (1 + 1e-12));
+    }
+    double worst = 0;
+    for (const Vec3d& p : test::snout_outlines(s, 120))
+      worst = std::max(worst, test::distance_to_mesh(t.mesh, p));
+    ASSERT_LE(worst, t.mesh.sag_mm + 1e-7);
+    if (worst > t.mesh.sag_mm / 2) ++tight;
+  }
+  EXPECT_GT(tried, 100U);
+  EXPECT_GT(tight, tried / 2);
+}
+
 TEST(Tessellate, FlatPrimitivesAreSheets) {
   const std::vector<Primitive> flat{
       BoxPrimitive{10, 20, 0},
