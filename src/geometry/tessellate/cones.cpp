@@ -56,9 +56,7 @@ struct Snout {
   }
   /// Part of the generator, from the bottom circle (0) to the top circle (1), at which the bottom
   /// plane cuts it: the true outline is where cone and plane meet.
-  [[nodiscard]] double bottom_cut(const SinCos& a) const {
-    return cut(bottom, p.bottom_radius, a);
-  }
+  [[nodiscard]] double bottom_cut(const SinCos& a) const { return cut(bottom, p.bottom_radius, a); }
   [[nodiscard]] double top_cut(const SinCos& a) const { return 1 + cut(top, p.top_radius, a); }
   [[nodiscard]] double cut(const EndPlane& end, double circle, const SinCos& a) const {
     const double wanted = circle * (end.slope_x * a.cos + end.slope_y * a.sin);
