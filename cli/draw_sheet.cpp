@@ -10,7 +10,6 @@
 
 #include "cli/draw_account.hpp"
 #include "strake/drawing/drawing.hpp"
-#include "strake/sheets/sheet_file.hpp"
 #include "strake/sheets/write.hpp"
 
 namespace strake::cli {
@@ -65,7 +64,7 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
   if (!loaded) return loaded.error();
   const Result<sheets::Sheet> sheet = [&] {
     const auto timer = session.step("views");
-    return file->compose(loaded->scene, request.solver, session.context());
+    return file->compose(loaded->scene, request.options, session.context());
   }();
   if (!sheet) return sheet.error();
   tell_sheet(session, *sheet, *loaded->model);

@@ -8,7 +8,7 @@
 #include "cli/load.hpp"
 #include "cli/session.hpp"
 #include "strake/core/result.hpp"
-#include "strake/hlr/hlr.hpp"
+#include "strake/sheets/sheet_file.hpp"
 
 namespace strake::cli {
 
@@ -16,7 +16,7 @@ namespace strake::cli {
 struct SheetRequest {
   std::string file;
   std::vector<std::string> outputs;
-  hlr::Solver solver = hlr::Solver::gather;
+  sheets::ComposeOptions options;
 };
 
 /// Draws the sheet that a file describes and writes it as SVG. With --strict a view that shows

@@ -27,6 +27,7 @@ namespace strake::cli {
 
 namespace {
 
+/// At most; less where that would show on paper.
 constexpr double kSagMm = 0.5;
 
 struct DrawOptions {
@@ -253,6 +254,7 @@ struct Request {
   drawing::LayoutOptions layout;
   std::vector<model::Selection> selections;
   std::vector<HatchRule> hatches;
+  bool sag_for_paper = true;
 };
 
 Result<Request> request_of(const DrawOptions& given, Console& console) {
@@ -268,7 +270,7 @@ Result<Request> request_of(const DrawOptions& given, Console& console) {
   if (!selections) return selections.error();
   const auto hatches = parse_hatches(given.hatches);
   if (!hatches) return hatches.error();
-  return Request{*scene, *view, *options, *layout, *selections, *hatches};
+  return Request{*scene, *view, *options, *layout, *selections, *hatches, given.scene.sag.empty()};
 }
 
 Result<drawing::NeutralDrawing> compute(Session& session, const Request& request,
@@ -279,6 +281,12 @@ Result<drawing::NeutralDrawing> compute(Session& session, const Request& request
   if (!hatches) return hatches.error();
   hlr::Options options = request.options;
   options.hatches = std::move(*hatches);
+  if (request.sag_for_paper) {
+    const Result<double> sag =
+        drawing::sag_for_paper(scene, *drawn, request.view, request.layout, session.context());
+    if (!sag) return sag.error();
+    options.sag_mm = *sag;
+  }
   const Result<hlr::Drawing> lines = [&] {
     const auto timer = session.step("hidden lines");
     return hlr::draw(scene, *drawn, request.view, options, session.context());
@@ -295,8 +303,12 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   const Result<Request> request = request_of(given, session.console());
   if (!request) return request.error();
   if (!given.sheet.empty())
-    return draw_sheet(session, {given.sheet, given.outputs, request->options.solver}, given.input,
-                      request->scene);
+    return draw_sheet(
+        session,
+        {given.sheet,
+         given.outputs,
+         {.solver = request->options.solver, .sag_for_paper = request->sag_for_paper}},
+        given.input, request->scene);
   if (given.outputs.empty() && !session.json())
     return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
   if (const Status status =
@@ -425,7 +437,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       program.add_subcommand("draw", "Line drawings of models, hidden lines removed exactly");
   add_input_options(*command, options->input);
   command->get_option("files")->required(false);  // 'strake draw diff' has files of its own
-  add_scene_options(*command, options->scene, "0.5mm");
+  add_scene_options(*command, options->scene, "0.05mm on paper, 0.5mm at most");
   add_view(*command, *options);
   add_lines(*command, *options);
   add_choice(*command, "--solver", options->solver, {"gather", "brute-force"},

@@ -170,6 +170,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.smooth = drawing.options.smooth;
   out.intersections = drawing.options.intersections;
   out.contact_distance_mm = drawing.contact_distance_mm;
+  out.sag_mm = drawing.sag_mm;
   out.weld_mm = drawing.weld_mm;
   out.counters = drawing.counters;
   const Result<Hash128> hash = hash_of(drawing, model, context);

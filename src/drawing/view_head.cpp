@@ -59,6 +59,7 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
       << smooth_name(drawing.smooth) << "\",\"intersections\":\""
       << intersections_name(drawing.intersections) << "\""
       << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
+  if (drawing.sag_mm > 0) out << ",\"sag_mm\":" << shortest(drawing.sag_mm);
   if (drawing.weld_mm >= 0) out << ",\"weld_mm\":" << shortest(drawing.weld_mm);
   out << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)
       << ",\"height_mm\":" << shortest(drawing.sheet.height_mm)

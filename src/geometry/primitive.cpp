@@ -14,6 +14,10 @@ bool is_round(const Primitive& primitive) {
          std::holds_alternative<CircularTorusPrimitive>(primitive);
 }
 
+bool is_curved(const Primitive& primitive) {
+  return is_round(primitive) || std::holds_alternative<RectangularTorusPrimitive>(primitive);
+}
+
 std::string_view kind_name(const Primitive& primitive) {
   static constexpr std::array<std::string_view, std::variant_size_v<Primitive>> kNames{
       "box",

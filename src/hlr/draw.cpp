@@ -36,6 +36,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.options = options;
   drawing.contact_distance_mm = job->contact_distance_mm;
   drawing.weld_mm = scene.weld_mm;
+  drawing.sag_mm = job->scene->sag_mm;
   drawing.counters = job->counters;
   drawing.diagnostics = job->diagnostics;
   drawing.origin = view.perspective ? view.perspective->target : job->origin;

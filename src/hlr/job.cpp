@@ -177,11 +177,10 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   job.window = window(view);
   job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
   // Contours along a direction are no contours from an eye.
-  if (!view.perspective) {
-    auto own = model::seen_from(scene, job.drawn, job.direction(), context);
-    if (!own) return own.error();
-    if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
-  }
+  const auto towards = view.perspective ? std::nullopt : std::optional(job.direction());
+  auto own = model::seen_from(scene, job.drawn, {towards, options.sag_mm}, context);
+  if (!own) return own.error();
+  if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
   job.scene = job.own ? job.own.get() : &scene;
   fill_bodies(job);
   if (const Status status = place(job); !status) return status.error();

@@ -24,18 +24,23 @@ std::vector<std::uint32_t> first_bodies(const Scene& scene, const std::vector<bo
   return first;
 }
 
-bool changes(const Scene& scene, std::uint32_t shape) {
+bool is_finer(const Scene& scene, const Sight& sight) {
+  return sight.sag_mm > 0 && sight.sag_mm < scene.sag_mm;
+}
+
+bool changes(const Scene& scene, std::uint32_t shape, const Sight& sight) {
   const auto* primitive =
       std::get_if<geometry::Primitive>(&scene.model->shapes[index(scene.shapes[shape].shape)]);
-  return primitive != nullptr && geometry::is_round(*primitive);
+  if (primitive == nullptr) return false;
+  return (sight.towards && geometry::is_round(*primitive)) ||
+         (is_finer(scene, sight) && geometry::is_curved(*primitive));
 }
 
 /// A shape anew; as it was where that has no place on the grid.
 GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3d& linear,
-                   const geometry::Vec3d& towards, GridShapeMaker& maker) {
+                   const GridShapeOptions& wanted, GridShapeMaker& maker) {
   const GridShape& old = scene.shapes[shape];
-  GridShapeResult made = maker.make(scene.model->shapes[index(old.shape)], linear,
-                                    {.sag_mm = scene.sag_mm, .towards = towards});
+  GridShapeResult made = maker.make(scene.model->shapes[index(old.shape)], linear, wanted);
   if (!made.fault.empty()) return old;
   made.shape.shape = old.shape;
   return std::move(made.shape);
@@ -44,15 +49,16 @@ GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3
 }  // namespace
 
 Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<bool>& drawn,
-                                       const geometry::Vec3l& towards,
-                                       const parallel::Context& context) {
+                                       const Sight& sight, const parallel::Context& context) {
   if (scene.model == nullptr || !(scene.sag_mm > 0)) return std::optional<Scene>();
   const std::vector<std::uint32_t> first = first_bodies(scene, drawn);
   bool any = false;
   for (std::uint32_t s = 0; s < first.size() && !any; ++s)
-    any = first[s] != kNone && changes(scene, s);
+    any = first[s] != kNone && changes(scene, s, sight);
   if (!any) return std::optional<Scene>();
 
+  GridShapeOptions wanted{.sag_mm = is_finer(scene, sight) ? sight.sag_mm : scene.sag_mm};
+  if (sight.towards) wanted.towards = sight.towards->as<double>();
   constexpr std::size_t kGrain = 16;
   auto shapes = parallel::transform_with(
       context, {.name = "shapes of the view", .n = first.size(), .grain = kGrain},
@@ -65,9 +71,9 @@ Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<boo
           empty.base = scene.shapes[s].base;
           return empty;
         }
-        if (!changes(scene, s)) return scene.shapes[s];
+        if (!changes(scene, s, sight)) return scene.shapes[s];
         const Body& body = scene.model->bodies[scene.bodies[first[s]].body];
-        return made_for(scene, s, body.placement.linear, towards.as<double>(), maker);
+        return made_for(scene, s, body.placement.linear, wanted, maker);
       });
   if (!shapes) return shapes.error();
   Scene seen;
@@ -77,7 +83,7 @@ Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<boo
   seen.left_out = scene.left_out;
   seen.diagnostics = scene.diagnostics;
   seen.lacking = scene.lacking;
-  seen.sag_mm = scene.sag_mm;
+  seen.sag_mm = wanted.sag_mm;
   seen.weld_mm = scene.weld_mm;
   for (GridBody& body : seen.bodies)
     body.origin =

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "drawing/expected_extent.hpp"
 #include "drawing/paper.hpp"
 #include "sheets/canvas.hpp"
 #include "sheets/fields.hpp"
@@ -29,9 +30,9 @@ using Picks = std::vector<std::vector<std::uint8_t>>;
 
 class Composer {
  public:
-  Composer(const Description& what, const model::Scene& scene, hlr::Solver solver,
+  Composer(const Description& what, const model::Scene& scene, const ComposeOptions& options,
            const parallel::Context& context)
-      : what_(what), scene_(scene), solver_(solver), context_(context), room_(room_of(what)) {}
+      : what_(what), scene_(scene), options_(options), context_(context), room_(room_of(what)) {}
 
   Result<Sheet> run() {
     sheet_.width_mm = what_.width_mm;
@@ -99,15 +100,30 @@ class Composer {
     return std::move(hatching).by_object();
   }
 
+  /// What of a view selections say.
+  struct Chosen {
+    std::vector<bool> drawn;
+    std::vector<hlr::Hatch> hatches;
+  };
+
   Status draw() {
+    std::vector<Chosen> chosen;
     for (const ViewWish& view : what_.views) {
+      chosen.push_back({next_picks(view.select.size()), {}});
+      chosen.back().hatches = hatches_of(view);
+    }
+    const Result<std::vector<double>> scales =
+        options_.sag_for_paper ? scales_of(chosen) : std::vector<double>{};
+    if (!scales) return scales.error();
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const ViewWish& view = what_.views[v];
       hlr::Options options = view.options;
-      options.solver = solver_;
+      options.solver = options_.solver;
       // What the sheet does not show is not worked out.
       options.hidden = view.hidden != HiddenLines::off;
-      const std::vector<bool> drawn = next_picks(view.select.size());
-      options.hatches = hatches_of(view);
-      Result<hlr::Drawing> lines = hlr::draw(scene_, drawn, view.view, options, context_);
+      options.hatches = std::move(chosen[v].hatches);
+      if (!scales->empty()) options.sag_mm = drawing::kSagOnPaperMm * (*scales)[v];
+      Result<hlr::Drawing> lines = hlr::draw(scene_, chosen[v].drawn, view.view, options, context_);
       if (!lines) {
         Error error = lines.error();
         if (error.code != ErrorCode::cancelled)
@@ -118,6 +134,21 @@ class Composer {
       drawings_.push_back(std::move(*lines));
     }
     return {};
+  }
+
+  /// About the scale of each view, before it is drawn.
+  [[nodiscard]] Result<std::vector<double>> scales_of(const std::vector<Chosen>& chosen) const {
+    std::vector<drawing::PlaneBox> extents;
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const ViewWish& wish = what_.views[v];
+      const auto& eye = wish.view.perspective;
+      const geometry::Vec3l origin = wish.anchor.value_or(eye ? eye->target : geometry::Vec3l{});
+      const auto extent =
+          drawing::expected_extent(scene_, chosen[v].drawn, wish.view, origin, context_);
+      if (!extent) return extent.error();
+      extents.push_back(*extent);
+    }
+    return expected_scales(what_, extents, room_);
   }
 
   Status place() {
@@ -309,7 +340,7 @@ class Composer {
 
   const Description& what_;
   const model::Scene& scene_;
-  hlr::Solver solver_;
+  const ComposeOptions& options_;
   const parallel::Context& context_;
   Room room_;
   Picks picks_;
@@ -321,9 +352,9 @@ class Composer {
 
 }  // namespace
 
-Result<Sheet> compose(const Description& what, const model::Scene& scene, hlr::Solver solver,
-                      const parallel::Context& context) {
-  return Composer(what, scene, solver, context).run();
+Result<Sheet> compose(const Description& what, const model::Scene& scene,
+                      const ComposeOptions& options, const parallel::Context& context) {
+  return Composer(what, scene, options, context).run();
 }
 
 }  // namespace strake::sheets

@@ -6,11 +6,13 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/sheets/sheet.hpp"
+#include "strake/sheets/sheet_file.hpp"
 
 namespace strake::sheets {
 
 /// The sheet that a file describes, of this scene.
 [[nodiscard]] Result<Sheet> compose(const Description& what, const model::Scene& scene,
-                                    hlr::Solver solver, const parallel::Context& context);
+                                    const ComposeOptions& options,
+                                    const parallel::Context& context);
 
 }  // namespace strake::sheets

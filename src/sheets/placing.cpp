@@ -22,7 +22,7 @@ class Placer {
   Placer(const Description& what, const Room& room)
       : what_(what), room_(room), places_(what.views.size()) {}
 
-  /// To be done first.
+  /// Takes what finished views measure.
   Status measure(std::span<const hlr::Drawing> drawings, const parallel::Context& context) {
     // One for all that say none, so that they are aligned.
     Vec3l common;
@@ -34,15 +34,21 @@ class Placer {
       const ViewWish& view = what_.views[v];
       const Vec3l own = view.view.perspective ? view.view.perspective->target : common;
       places_[v].anchor = view.anchor.value_or(own);
-      ToPlace place = to_place(v);
+      drawing::PlaneBox measured;
       if (const auto axes = drawing::paper_axes(what_.views[v].view)) {
         const auto extent = drawing::plane_extent(drawings[v], *axes, places_[v].anchor, context);
         if (!extent) return extent.error();
-        place.extent = *extent;
+        measured = *extent;
       }
-      wanted_.push_back(place);
+      take(v, measured);
     }
     return {};
+  }
+
+  /// To be done first, view by view.
+  void take(std::size_t v, const drawing::PlaneBox& extent) {
+    wanted_.push_back(to_place(v));
+    wanted_.back().extent = extent;
   }
 
   Result<std::vector<ViewPlace>> run() {
@@ -172,6 +178,17 @@ Result<std::vector<ViewPlace>> place_views(const Description& what,
   Placer placer(what, room);
   if (const Status status = placer.measure(drawings, context); !status) return status.error();
   return placer.run();
+}
+
+std::vector<double> expected_scales(const Description& what,
+                                    std::span<const drawing::PlaneBox> extents, const Room& room) {
+  Placer placer(what, room);
+  for (std::size_t v = 0; v < extents.size(); ++v) placer.take(v, extents[v]);
+  const auto places = placer.run();
+  std::vector<double> scales;
+  if (places)
+    for (const ViewPlace& place : *places) scales.push_back(place.scale);
+  return scales;
 }
 
 double main_scale(const Description& what, std::span<const ViewPlace> places) {

@@ -38,6 +38,12 @@ struct ViewPlace {
                                                          const Room& room,
                                                          const parallel::Context& context);
 
+/// About the scales that place_views() will give, from extents that are expected: views with the
+/// same anchor, or none, about the same point. Nothing where nothing would fit.
+[[nodiscard]] std::vector<double> expected_scales(const Description& what,
+                                                  std::span<const drawing::PlaneBox> extents,
+                                                  const Room& room);
+
 /// The scale for the title block: that of the arrangement, or of most views.
 [[nodiscard]] double main_scale(const Description& what, std::span<const ViewPlace> places);
 

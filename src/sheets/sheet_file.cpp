@@ -27,9 +27,9 @@ Result<SheetFile> SheetFile::read(const std::filesystem::path& file) {
 
 const std::string& SheetFile::template_name() const { return what_->template_name; }
 
-Result<Sheet> SheetFile::compose(const model::Scene& scene, hlr::Solver solver,
+Result<Sheet> SheetFile::compose(const model::Scene& scene, const ComposeOptions& options,
                                  const parallel::Context& context) const {
-  return sheets::compose(*what_, scene, solver, context);
+  return sheets::compose(*what_, scene, options, context);
 }
 
 }  // namespace strake::sheets

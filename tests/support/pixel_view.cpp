@@ -318,7 +318,8 @@ void check_jumps(const PixelView& view, const std::vector<bool>& inked, PixelChe
 PixelCheck check_by_pixels(const model::Scene& scene, const hlr::Drawing& drawing, int width) {
   PixelCheck check;
   // The meshes that the view is made of, with contours of round primitives.
-  const auto seen = model::seen_from(scene, {}, drawing.view.direction, {});
+  const auto seen =
+      model::seen_from(scene, {}, {drawing.view.direction, drawing.options.sag_mm}, {});
   if (!seen) return check;
   const PixelView view(*seen ? **seen : scene, drawing.view, width);
   std::vector<bool> inked(static_cast<std::size_t>(view.width()) *

@@ -386,7 +386,8 @@ RayCheck check_by_rays(const model::Scene& scene, const hlr::Drawing& drawing, s
   RayCheck result;
   const Candidates candidates(drawing);
   if (candidates.piece.empty()) return result;
-  const auto seen = model::seen_from(scene, {}, drawing.view.direction, {});
+  const auto seen =
+      model::seen_from(scene, {}, {drawing.view.direction, drawing.options.sag_mm}, {});
   if (!seen) return result;
   Checker checker(*seen ? **seen : scene, drawing);
   if (!checker.within_reach()) {

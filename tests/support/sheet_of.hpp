@@ -54,7 +54,7 @@ inline Result<Drawn> drawn(const std::string& text, const Templates& templates =
   const auto scene = model::make_scene(d.model.model, {}, context).value();
   const auto file = sheet_file(text, templates);
   if (!file) return file.error();
-  auto sheet = file->compose(scene, hlr::Solver::gather, context);
+  auto sheet = file->compose(scene, {}, context);
   if (!sheet) return sheet.error();
   d.sheet = std::move(*sheet);
   sheets::write_svg(d.sheet, d.model.model, [&](std::string_view part) { d.svg += part; });

@@ -111,6 +111,7 @@ struct NeutralDrawing {
   hlr::Smooth smooth = hlr::Smooth::off;
   hlr::Intersections intersections = hlr::Intersections::primitives;
   double contact_distance_mm = 0;
+  double sag_mm = 0;    ///< of curved primitives; 0: unknown
   double weld_mm = -1;  ///< that seams were closed within; negative: the precision of each body
   Sheet sheet;
   std::vector<Line> lines;
@@ -120,6 +121,15 @@ struct NeutralDrawing {
   hlr::Account account;
   Hash128 hash;  ///< of the view and of every line in the model; not of the sheet or of settings
 };
+
+/// How far curved primitives may be from their true surfaces so that nobody sees it on paper
+/// (hlr::Options::sag_mm): 0.05 mm at the scale of the drawing, model mm. Where the scale is to be
+/// chosen, the corners of the objects tell what it will be, or nearly where limits or sections cut
+/// them. Errors: cancelled.
+[[nodiscard]] Result<double> sag_for_paper(const model::Scene& scene,
+                                           const std::vector<bool>& drawn, const hlr::View& view,
+                                           const LayoutOptions& options,
+                                           const parallel::Context& context);
 
 /// Puts a finished hidden-line run on paper: axes from direction and up, the scale, the sheet.
 /// Objects whose visible lines all are duplicates become Fate::coincident.

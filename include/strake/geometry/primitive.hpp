@@ -71,6 +71,9 @@ using Primitive = std::variant<BoxPrimitive, PyramidPrimitive, CylinderPrimitive
 /// facets stand for a smooth skin, the outline of which depends on where it is seen from.
 [[nodiscard]] bool is_round(const Primitive& primitive);
 
+/// Whether it has a curved side at all, so that its triangles depend on the sag.
+[[nodiscard]] bool is_curved(const Primitive& primitive);
+
 /// Stable name of a primitive's kind, as reports and JSON spell it ("circular_torus").
 [[nodiscard]] std::string_view kind_name(const Primitive& primitive);
 

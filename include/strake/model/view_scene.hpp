@@ -11,17 +11,24 @@
 
 namespace strake::model {
 
-/// A scene as one direction sees it: its round primitives are tessellated anew, so that their
-/// contours are edges (geometry::tessellate), once per shape and rotation as in `scene`. All else
-/// stays, bodies in their order. `drawn` says which objects are asked for (empty: all); shapes
-/// that none of them uses are left empty. Nothing where nothing changes: where no object that is
-/// drawn has a round primitive, or the scene was not made by make_scene.
+/// What a view wants of the primitives that it shows.
+struct Sight {
+  /// To the viewer, in lowest terms: contours of round primitives are edges (geometry::tessellate).
+  /// None: no direction.
+  std::optional<geometry::Vec3l> towards;
+  double sag_mm = 0;  ///< the largest sag of curved primitives; 0: that of the scene
+};
+
+/// A scene as a view sees it: its primitives are tessellated anew where that changes them, once per
+/// shape and rotation as in `scene`. All else stays, bodies in their order. `drawn` says which
+/// objects are asked for (empty: all); shapes that none of them uses are left empty. Nothing where
+/// nothing changes: where no object that is drawn has a curved primitive that is not fine enough or
+/// a round one with contours, or the scene was not made by make_scene.
 ///
-/// `towards` points to the viewer, in lowest terms. Applied twice it changes nothing more. The
-/// model must outlive the result. Errors: cancelled.
+/// Applied twice it changes nothing more. The model must outlive the result. Errors: cancelled.
 [[nodiscard]] Result<std::optional<Scene>> seen_from(const Scene& scene,
                                                      const std::vector<bool>& drawn,
-                                                     const geometry::Vec3l& towards,
+                                                     const Sight& sight,
                                                      const parallel::Context& context);
 
 }  // namespace strake::model

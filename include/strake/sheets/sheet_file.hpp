@@ -20,11 +20,18 @@ struct Description;
 /// The text of the template of that name.
 using ReadTemplate = parallel::FunctionRef<Result<std::string>(std::string_view name)>;
 
+struct ComposeOptions {
+  hlr::Solver solver = hlr::Solver::gather;
+  /// Curved primitives are tessellated for the scale of each view (drawing::sag_for_paper), where
+  /// the scene's are coarser. Otherwise they stay as they are.
+  bool sag_for_paper = true;
+};
+
 /// A file that describes a sheet, understood but not yet held against a model. Immutable; cheap to
 /// copy.
 ///
 ///     const auto file = sheets::SheetFile::read("deck.toml");
-///     const auto sheet = file->compose(*scene, hlr::Solver::gather, context);
+///     const auto sheet = file->compose(*scene, {}, context);
 ///     sheets::write_svg(*sheet, model, sink);
 class SheetFile {
  public:
@@ -43,7 +50,7 @@ class SheetFile {
   /// Draws the views one after another and puts them on paper. The same for any team.
   ///
   /// Errors: cancelled, memory; input where the views have no room on the sheet at any scale.
-  [[nodiscard]] Result<Sheet> compose(const model::Scene& scene, hlr::Solver solver,
+  [[nodiscard]] Result<Sheet> compose(const model::Scene& scene, const ComposeOptions& options,
                                       const parallel::Context& context) const;
 
  private:

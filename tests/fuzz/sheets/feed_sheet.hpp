@@ -29,7 +29,7 @@ inline void feed_sheet(std::string_view bytes) {
     if (where.find("s.toml") == std::string::npos) stop("an error without a file");
     return;
   }
-  const auto sheet = file->compose(scene, hlr::Solver::gather, {});
+  const auto sheet = file->compose(scene, {}, {});
   if (!sheet) {
     if (sheet.error().where.find("s.toml") == std::string::npos) stop("an error without a file");
     return;

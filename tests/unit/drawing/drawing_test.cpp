@@ -69,10 +69,9 @@ std::string svg_of(const NeutralDrawing& drawing, bool hidden = true) {
   return text;
 }
 
-std::string json_of(const NeutralDrawing& drawing) {
+std::string json_of(const NeutralDrawing& drawing, const model::Model& model = two_objects()) {
   std::string text;
-  EXPECT_TRUE(
-      write_view_json(drawing, two_objects(), [&](std::string_view part) { text += part; }, {}));
+  EXPECT_TRUE(write_view_json(drawing, model, [&](std::string_view part) { text += part; }, {}));
   return text;
 }
 
@@ -159,6 +158,68 @@ TEST(Layout, ScalesAndSheets) {
   stated.scale = 0;
   EXPECT_FALSE(lay_out(ship, two_objects(), stated, {}));
   EXPECT_EQ(laid_out(from_top({})).sheet.scale_text, "1:1");
+}
+
+/// A cylinder along x, so long.
+model::Model pipe(double length_mm) {
+  model::Model model;
+  model.files.emplace_back();
+  model.objects.emplace_back();
+  model.objects[0].body_count = 1;
+  model.shapes.emplace_back(geometry::CylinderPrimitive{50, length_mm});
+  model.bodies.emplace_back();
+  model.bodies[0].placement.linear = {{Vec3d{0, 0, 1}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}};
+  return model;
+}
+
+TEST(SagForPaper, FollowsTheScale) {
+  const model::Model model = pipe(1500);
+  const auto scene = model::make_scene(model, {.sag_mm = 0.5}, {});
+  ASSERT_TRUE(scene);
+  const auto sag = [&](const hlr::View& view, const LayoutOptions& options = {},
+                       const std::vector<bool>& drawn = {}) {
+    return sag_for_paper(*scene, drawn, view, options, {}).value();
+  };
+  hlr::View top;
+  top.direction = {0, 0, 1};
+  top.up = {0, 1, 0};
+  EXPECT_DOUBLE_EQ(sag(top), 0.05 * 5);
+  LayoutOptions stated;
+  stated.scale = 20;
+  EXPECT_DOUBLE_EQ(sag(top, stated), 0.05 * 20);
+  stated.placement = Placement{{420, 297, 0.5, "2:1"}, {}, {}};
+  EXPECT_DOUBLE_EQ(sag(top, stated), 0.05 * 0.5);
+  // Only what is drawn and lies within the limits counts.
+  EXPECT_DOUBLE_EQ(sag(top, {}, {false}), 0.05);
+  hlr::View end = top;
+  end.limits = geometry::Box3l{{700 * kMm, -1000 * kMm, -1000 * kMm}, {900 * kMm, 0, 1000 * kMm}};
+  EXPECT_DOUBLE_EQ(sag(end), 0.05 * 0.2);
+  hlr::View along = top;
+  along.direction = {1, 0, 0};
+  along.up = {0, 0, 1};
+  EXPECT_DOUBLE_EQ(sag(along), 0.05 * 0.5);
+  // Twice as near as the plane of the target, and cut off by the field of view.
+  hlr::View seen = along;
+  seen.perspective = hlr::Perspective{{2000 * kMm, 0, 0}, {}, 100, 90};
+  EXPECT_DOUBLE_EQ(sag(seen), 0.05);
+  seen.perspective->field_of_view_deg = 2;
+  EXPECT_DOUBLE_EQ(sag(seen), 0.05 * 0.5);
+}
+
+/// What a drawing is made with stands in it.
+TEST(SagForPaper, IsToldInTheDrawing) {
+  const model::Model model = pipe(1500);
+  const auto scene = model::make_scene(model, {.sag_mm = 0.5}, {});
+  ASSERT_TRUE(scene);
+  for (const double sag : {0.0, 0.05, 2.0}) {
+    const auto lines = hlr::draw(*scene, {}, {}, {.sag_mm = sag}, {});
+    ASSERT_TRUE(lines);
+    const auto sheet = lay_out(*lines, model, {}, {});
+    ASSERT_TRUE(sheet);
+    EXPECT_EQ(sheet->sag_mm, sag == 0.05 ? 0.05 : 0.5);
+    const auto json = nlohmann::json::parse(json_of(*sheet, model));
+    EXPECT_EQ(json["settings"]["sag_mm"], sheet->sag_mm);
+  }
 }
 
 TEST(Layout, AMoveOfTheModelDoesNotMoveTheDrawing) {

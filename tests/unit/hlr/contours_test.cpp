@@ -247,13 +247,14 @@ TEST(SceneOfAView, ChangesNothingWhereNothingIsRound) {
   plant.object(geometry::BoxPrimitive{10, 20, 30});
   plant.object(geometry::SpherePrimitive{50});
   const model::Scene& scene = plant.scene();
-  const auto without = model::seen_from(scene, {true, false}, {1, 2, 3}, {});
+  const model::Sight kSight{.towards = Vec3l{1, 2, 3}};
+  const auto without = model::seen_from(scene, {true, false}, kSight, {});
   ASSERT_TRUE(without);
   EXPECT_FALSE(without->has_value());
-  const auto once = model::seen_from(scene, {}, {1, 2, 3}, {});
+  const auto once = model::seen_from(scene, {}, kSight, {});
   ASSERT_TRUE(once);
   ASSERT_TRUE(once->has_value());
-  const auto twice = model::seen_from(**once, {}, {1, 2, 3}, {});
+  const auto twice = model::seen_from(**once, {}, kSight, {});
   ASSERT_TRUE(twice);
   ASSERT_TRUE(twice->has_value());
   EXPECT_NE((*once)->shapes[1].parts[0].vertices, scene.shapes[1].parts[0].vertices);

@@ -48,16 +48,19 @@ class Component {
     ++model_.objects[0].body_count;
     return *this;
   }
+  /// `sag_mm` 0: that of the scene, 0.5.
   [[nodiscard]] std::vector<hlr::Piece> intersections(
-      const Vec3l& direction, Intersections which = Intersections::primitives) const {
+      const Vec3l& direction, Intersections which = Intersections::primitives,
+      double sag_mm = 0) const {
     std::vector<hlr::Piece> lines;
     const auto scene = model::make_scene(model_, {.sag_mm = 0.5}, {});
     EXPECT_TRUE(scene);
     if (!scene) return lines;
-    const auto drawing =
-        hlr::draw(*scene, {}, {.direction = direction, .limits = {}}, {.intersections = which}, {});
+    const auto drawing = hlr::draw(*scene, {}, {.direction = direction, .limits = {}},
+                                   {.intersections = which, .sag_mm = sag_mm}, {});
     EXPECT_TRUE(drawing);
     if (!drawing) return lines;
+    EXPECT_EQ(drawing->sag_mm, sag_mm > 0 ? sag_mm : 0.5);
     for (const hlr::Piece& p : drawing->pieces)
       if (p.kind == EdgeKind::intersection) lines.push_back(p);
     return lines;
@@ -131,6 +134,23 @@ TEST(Joints, ATeeHasItsSaddle) {
         EXPECT_NEAR(length_mm(component.intersections(direction)), expected, 0.06 * expected)
             << run << " " << branch << " from " << direction.x << "," << direction.y;
         EXPECT_TRUE(component.intersections(direction, Intersections::objects).empty());
+      }
+}
+
+/// Made fine for the paper, its ends lie on both pipes to within the sag: a saddle without zigzag.
+TEST(Joints, ASaddleIsAsFineAsTheDrawingAsksFor) {
+  for (const auto& [run, branch] : {std::pair{57.0, 36.0}, {57.0, 57.0}})
+    for (const Vec3l& direction : kDirections)
+      for (const double sag : {0.2, 0.05, 0.01}) {
+        const auto lines =
+            tee(run, branch, {}).intersections(direction, Intersections::primitives, sag);
+        EXPECT_GT(lines.size(), 20U);
+        for (const hlr::Piece& piece : lines)
+          for (const Vec3l& end : {piece.a, piece.b}) {
+            const Vec3d p = end.as<double>() * 0.001;
+            EXPECT_NEAR(std::hypot(p.y, p.z), run, sag + 0.002);
+            EXPECT_NEAR(std::hypot(p.x, p.y), branch, sag + 0.002);
+          }
       }
 }
 

@@ -107,6 +107,32 @@ TEST(Sheet, AViewLiesWhereItSays) {
             std::string::npos);  // beside the view, it is not the sheet's
 }
 
+/// A pipe of 3 m: as fine as the scale of each view asks for, given or chosen.
+TEST(Sheet, CurvesAreAsFineAsTheScaleAsksFor) {
+  model::Model model;
+  model.files.emplace_back();
+  model.objects.emplace_back();
+  model.objects[0].body_count = 1;
+  model.shapes.emplace_back(geometry::CylinderPrimitive{50, 3000});
+  model.bodies.emplace_back();
+  const auto scene = model::make_scene(model, {.sag_mm = 0.5}, {}).value();
+  const auto sags = [&](const std::string& text, const ComposeOptions& options = {}) {
+    std::vector<double> found;
+    const auto sheet =
+        test::sheet_file(with_frame(text), {}).value().compose(scene, options, {}).value();
+    for (const PlacedView& view : sheet.views) found.push_back(view.drawing.sag_mm);
+    return found;
+  };
+  const std::string two =
+      "[[view]]\nname=\"a\"\ndirection=\"front\"\nscale=\"1:20\"\nposition=[\"100mm\",\"80mm\"]\n"
+      "[[view]]\nname=\"b\"\ndirection=\"top\"\nscale=\"1:2\"\nposition=[\"300mm\",\"100mm\"]\n";
+  EXPECT_EQ(sags(two), (std::vector<double>{0.5, 0.1}));
+  EXPECT_EQ(sags(two, {.sag_for_paper = false}), (std::vector<double>{0.5, 0.5}));
+  EXPECT_EQ(sags("[[view]]\nname=\"a\"\ndirection=\"top\"\nposition=[\"200mm\",\"100mm\"]\n"),
+            (std::vector<double>{0.05}));
+  EXPECT_EQ(sags("[[view]]\nname=\"a\"\ndirection=\"front\"\n"), (std::vector<double>{0.5}));
+}
+
 TEST(Sheet, AViewFromAnEyeIsTrueInThePlaneOfItsTarget) {
   const std::string eye =
       "[[view]]\nname=\"v\"\neye=[\"2m\",\"-10m\",\"500mm\"]\ntarget=[\"2m\",0,\"500mm\"]\n"
