@@ -13,13 +13,17 @@
 namespace strake::geometry {
 namespace {
 
-/// The first level that is asked for, above the deepest point known and relative to its depth; each
-/// one after that which is not answered is farther above it by a factor.
-constexpr double kNearestLevel = 5e-4, kNextLevel = 8;
-/// The least that a level is above the deepest point known, relative to the goal's tolerance.
-constexpr double kLeastStep = 0.5;
-/// And the least whatever the goal, grid units.
-constexpr double kFinestStep = 1.0 / 64;
+/// The first level that is asked for, above the deepest point known and relative to its depth.
+constexpr double kNearestLevel = 5e-4;
+/// Of shallow ones up to twice that, since a level is the easier the farther it is; but no farther
+/// than this, relative to the goal's tolerance.
+constexpr double kFarStep = 0.5;
+/// The least that a level is above the deepest point known: relative to the goal's tolerance, and
+/// whatever the goal, grid units.
+constexpr double kLeastStep = 0.15, kFinestStep = 1.0 / 64;
+/// The next one is farther above it by a factor, where it took too much work, or where a place was
+/// too near to the level to be told from it.
+constexpr double kAfterWork = 8, kAfterPlace = 2;
 /// A bracket that is no wider than this, relative to the depth, says all that anybody acts on.
 constexpr double kComplete = 0.01;
 /// Cells of a level that count as one of the goal's.
@@ -48,12 +52,13 @@ class Search {
   void narrow() {
     // What is asked of points is asked of them as they are.
     const LevelFrame frame(a_, b_, goal_.within || goal_.belongs);
-    const double share = std::min(kNearestLevel, goal_.relative / 2);
     // Above what the frame takes off a depth, too.
     const double least = std::max({kLeastStep * goal_.tolerance, 2 * frame.error(), kFinestStep});
     double farther = 1;
     while (const std::uint64_t left = cells_left()) {
-      const double level = depth_.value + farther * std::max(least, share * depth_.value);
+      const double near = std::min(kNearestLevel, goal_.relative / 2) * depth_.value;
+      const double step = std::max({least, near, std::min(kFarStep * goal_.tolerance, 2 * near)});
+      const double level = depth_.value + farther * step;
       if (level >= depth_.upper) return;
       // Most of it for the nearest level: those farther off are the easier and the less worth.
       switch (ask(frame, level, left - left / 4)) {
@@ -62,13 +67,16 @@ class Search {
           return;
         case Found::deeper:
           break;
-        case Found::unknown:
-          farther *= kNextLevel;
+        case Found::too_much:
+          farther *= kAfterWork;
+          break;
+        case Found::too_near:
+          farther *= kAfterPlace;
       }
     }
   }
 
-  enum class Found : std::uint8_t { none, deeper, unknown };
+  enum class Found : std::uint8_t { none, deeper, too_much, too_near };
 
   /// Whether some point is deeper than a level.
   Found ask(const LevelFrame& frame, double level, std::uint64_t most_cells) {
@@ -86,7 +94,7 @@ class Search {
       cells_ += answer.cells;
       depth_.cells = cells_ / kPerCell;
       if (answer.deeper && climb(frame.back(*answer.deeper, work_))) return Found::deeper;
-      if (!answer.none) return Found::unknown;
+      if (!answer.none) return answer.cells > most_cells ? Found::too_much : Found::too_near;
     }
     return Found::none;
   }
