@@ -24,6 +24,7 @@ struct SupportPlanes {
   std::vector<Plane> planes;            ///< by normal; the largest faces when there are many
   std::array<double, 4> tetrahedral{};  ///< supports in four fixed directions
   VertexTree vertices;                  ///< for supports in any other direction
+  std::array<Vec3d, 3> axes{};          ///< square_axes() of the part
   /// Every edge is convex to within a few grid units: the part very nearly is its half-spaces.
   bool nearly_convex = false;
 };

@@ -18,7 +18,6 @@
 #include "geometry/depth/radius_lp.hpp"
 #include "geometry/depth/shrink.hpp"
 #include "geometry/range.hpp"
-#include "strake/geometry/part_frame.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -352,15 +351,19 @@ class Centring {
     return true;
   }
 
-  /// Where half-spaces do not tell, as in a profile: to the middle of the common box along each
-  /// axis along which that is as deep.
+  /// Where half-spaces do not tell, as in a profile: to the middle of the common box, or of the box
+  /// that counts, along each axis along which that is as deep.
   void move_along_axes(Depth& depth) const {
-    for (const Vec3d& axis : square_axes(a_.part())) {
-      const Range p = a_.range_along(axis), q = b_.range_along(axis);
-      const double middle = (std::max(p.lo, q.lo) + std::min(p.hi, q.hi)) / 2;
-      const double way = middle - dot(axis, depth.point);
+    for (const Vec3d& axis : a_.planes()->axes) {
+      const double way = middle_along(axis) - dot(axis, depth.point);
       if (std::fabs(way) > kShort) (void)move_to(depth.point + axis * way, depth);
     }
+  }
+
+  [[nodiscard]] double middle_along(const Vec3d& axis) const {
+    if (goal_.within) return dot(axis, goal_.within->lo + goal_.within->hi) / 2;
+    const Range p = a_.range_along(axis), q = b_.range_along(axis);
+    return (std::max(p.lo, q.lo) + std::min(p.hi, q.hi)) / 2;
   }
 
   const DepthField &a_, &b_;

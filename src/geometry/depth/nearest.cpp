@@ -40,13 +40,22 @@ class Search {
  private:
   void test(std::uint32_t t) {
     if (!prepared_.empty()) {
-      // It is farther along its normal, whatever the rounding.
       const PreparedTriangle& at = prepared_[t];
-      const double along = dot(at.unit, p_), gap = std::max({along - at.hi, at.lo - along, 0.0});
-      if (gap * gap > best_ * (1 + kRounding) + kRounding) return;
-      return compare(t, at.corners);
+      if (!is_farther_along(at.unit, 1, at.lo, at.hi)) compare(t, at.corners);
+      return;
     }
-    compare(t, corners_of(part_, t));
+    const Corners c = corners_of(part_, t);
+    const Vec3d n = normal_of(c);
+    const double x = dot(n, c[0]), y = dot(n, c[1]), z = dot(n, c[2]);
+    if (!is_farther_along(n, squared(n), std::min({x, y, z}), std::max({x, y, z}))) compare(t, c);
+  }
+
+  /// Whether a triangle, from `lo` to `hi` along a vector of that length squared, is farther than
+  /// the nearest by that alone, whatever the rounding.
+  [[nodiscard]] bool is_farther_along(const Vec3d& n, double length_squared, double lo,
+                                      double hi) const {
+    const double along = dot(n, p_), gap = std::max({along - hi, lo - along, 0.0});
+    return gap * gap > (best_ * (1 + kRounding) + kRounding) * length_squared;
   }
 
   void compare(std::uint32_t t, const Corners& corners) {

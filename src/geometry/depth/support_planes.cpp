@@ -15,6 +15,7 @@
 #include "geometry/snap_tilt.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/meeting_places.hpp"
+#include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/predicates.hpp"
 #include "strake/parallel/find.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -263,6 +264,7 @@ SupportPlanes make_support_planes(const Part& part, const parallel::Context& con
   SupportPlanes result;
   result.nearly_convex = convex_edges(part, kConvexSlack, context);
   result.vertices = VertexTree(part.vertices, context);
+  result.axes = square_axes(part);
   const double rounding = rounding_of(part);
   const auto support = [&](const Vec3d& n) {
     return result.vertices.greatest_along(n).value + rounding;
