@@ -2,6 +2,7 @@
 #include "drawing/expected_extent.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
@@ -40,6 +41,26 @@ constexpr double kLargeMm = 20'000;
 
 enum class By : std::uint8_t { boxes, corners };
 
+/// What of a box is on the near side of a plane at right angles to an axis, or all of it: by how
+/// much another plane cuts it is not asked. Nothing where it is cut away.
+Box3l without_cut(Box3l box, const hlr::Section& section) {
+  const Vec3l& n = section.normal;
+  double least = 0, size = 0;
+  for (int k = 0; k < 3; ++k) {
+    const std::int64_t near = (n[k] > 0 ? box.lo[k] : box.hi[k]) - section.point[k];
+    const double along = static_cast<double>(n[k]) * static_cast<double>(near);
+    least += along;
+    size += std::fabs(along);
+  }
+  if (least > 1e-9 * size) return geometry::empty_box<std::int64_t>();
+  for (int k = 0; k < 3; ++k) {
+    if (n[(k + 1) % 3] != 0 || n[(k + 2) % 3] != 0) continue;
+    if (n[k] > 0) box.hi[k] = std::min(box.hi[k], section.point[k]);
+    if (n[k] < 0) box.lo[k] = std::max(box.lo[k], section.point[k]);
+  }
+  return box;
+}
+
 class Extent {
  public:
   Extent(const model::Scene& scene, const std::vector<bool>& drawn, const hlr::View& view,
@@ -58,7 +79,9 @@ class Extent {
     const model::GridShape& shape = scene_.shapes[body.grid_shape];
     if (shape.box.empty() || (!drawn_.empty() && !drawn_[model::index(body.object)])) return;
     const Box3l whole = body.box(shape);
-    const Box3l box = view_.limits ? common_part(whole, *view_.limits) : whole;
+    Box3l box = view_.limits ? common_part(whole, *view_.limits) : whole;
+    for (const hlr::Section& section : view_.sections)
+      if (!box.empty()) box = without_cut(box, section);
     if (box.empty()) return;
     if (by == By::corners && box == whole) {
       for (const geometry::Part& part : shape.parts)
@@ -104,14 +127,20 @@ Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bo
   return extent;
 }
 
+double unseen_sag_mm(const PlaneBox& extent, double scale) {
+  constexpr double kPerMm = 20, kFinestMm = 0.001, kLargestSheetMm = 1189;
+  const double longest = std::max(extent.width(), extent.height());
+  if (!(longest > 0)) return 0;
+  return std::max({scale / kPerMm, longest / kLargestSheetMm / kPerMm, kFinestMm});
+}
+
 Result<double> sag_for_paper(const model::Scene& scene, const std::vector<bool>& drawn,
                              const hlr::View& view, const LayoutOptions& options,
                              const parallel::Context& context) {
-  if (options.placement) return kSagOnPaperMm * options.placement->sheet.scale;
-  if (options.scale) return kSagOnPaperMm * *options.scale;
   const Result<PlaneBox> extent = expected_extent(scene, drawn, view, {}, context);
   if (!extent) return extent.error();
-  return kSagOnPaperMm * choose_sheet(*extent, options).scale;
+  return unseen_sag_mm(*extent, options.placement ? options.placement->sheet.scale
+                                                  : choose_sheet(*extent, options).scale);
 }
 
 }  // namespace strake::drawing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/model/view_scene.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <variant>
@@ -24,16 +25,23 @@ std::vector<std::uint32_t> first_bodies(const Scene& scene, const std::vector<bo
   return first;
 }
 
-bool is_finer(const Scene& scene, const Sight& sight) {
-  return sight.sag_mm > 0 && sight.sag_mm < scene.sag_mm;
+const geometry::Primitive* primitive_of(const Scene& scene, std::uint32_t shape) {
+  return std::get_if<geometry::Primitive>(&scene.model->shapes[index(scene.shapes[shape].shape)]);
 }
 
-bool changes(const Scene& scene, std::uint32_t shape, const Sight& sight) {
-  const auto* primitive =
-      std::get_if<geometry::Primitive>(&scene.model->shapes[index(scene.shapes[shape].shape)]);
-  if (primitive == nullptr) return false;
-  return (sight.towards && geometry::is_round(*primitive)) ||
-         (is_finer(scene, sight) && geometry::is_curved(*primitive));
+/// By shape whether it is to be finer than in the scene: that of a body which may be seen.
+std::vector<bool> finer_shapes(const Scene& scene, const std::vector<bool>& drawn,
+                               const Sight& sight) {
+  std::vector<bool> finer(scene.shapes.size());
+  if (!(sight.sag_mm > 0 && sight.sag_mm < scene.sag_mm)) return finer;
+  for (const GridBody& body : scene.bodies) {
+    if (finer[body.grid_shape] || (!drawn.empty() && !drawn[index(body.object)])) continue;
+    const geometry::Primitive* const primitive = primitive_of(scene, body.grid_shape);
+    if (primitive == nullptr || !geometry::is_curved(*primitive)) continue;
+    const geometry::Box3l box = body.box(scene.shapes[body.grid_shape]);
+    finer[body.grid_shape] = !box.empty() && (!sight.shows || sight.shows(box));
+  }
+  return finer;
 }
 
 /// A shape anew; as it was where that has no place on the grid.
@@ -52,13 +60,15 @@ Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<boo
                                        const Sight& sight, const parallel::Context& context) {
   if (scene.model == nullptr || !(scene.sag_mm > 0)) return std::optional<Scene>();
   const std::vector<std::uint32_t> first = first_bodies(scene, drawn);
+  const std::vector<bool> finer = finer_shapes(scene, drawn, sight);
+  const auto changes = [&](std::uint32_t s) {
+    const geometry::Primitive* const primitive = primitive_of(scene, s);
+    return finer[s] || (sight.towards && primitive != nullptr && geometry::is_round(*primitive));
+  };
   bool any = false;
-  for (std::uint32_t s = 0; s < first.size() && !any; ++s)
-    any = first[s] != kNone && changes(scene, s, sight);
+  for (std::uint32_t s = 0; s < first.size() && !any; ++s) any = first[s] != kNone && changes(s);
   if (!any) return std::optional<Scene>();
 
-  GridShapeOptions wanted{.sag_mm = is_finer(scene, sight) ? sight.sag_mm : scene.sag_mm};
-  if (sight.towards) wanted.towards = sight.towards->as<double>();
   constexpr std::size_t kGrain = 16;
   auto shapes = parallel::transform_with(
       context, {.name = "shapes of the view", .n = first.size(), .grain = kGrain},
@@ -71,7 +81,9 @@ Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<boo
           empty.base = scene.shapes[s].base;
           return empty;
         }
-        if (!changes(scene, s, sight)) return scene.shapes[s];
+        if (!changes(s)) return scene.shapes[s];
+        GridShapeOptions wanted{.sag_mm = finer[s] ? sight.sag_mm : scene.sag_mm};
+        if (sight.towards) wanted.towards = sight.towards->as<double>();
         const Body& body = scene.model->bodies[scene.bodies[first[s]].body];
         return made_for(scene, s, body.placement.linear, wanted, maker);
       });
@@ -83,7 +95,8 @@ Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<boo
   seen.left_out = scene.left_out;
   seen.diagnostics = scene.diagnostics;
   seen.lacking = scene.lacking;
-  seen.sag_mm = wanted.sag_mm;
+  seen.sag_mm = scene.sag_mm;
+  if (sight.sag_mm > 0) seen.sag_mm = std::min(seen.sag_mm, sight.sag_mm);
   seen.weld_mm = scene.weld_mm;
   for (GridBody& body : seen.bodies)
     body.origin =

@@ -112,9 +112,9 @@ class Composer {
       chosen.push_back({next_picks(view.select.size()), {}});
       chosen.back().hatches = hatches_of(view);
     }
-    const Result<std::vector<double>> scales =
-        options_.sag_for_paper ? scales_of(chosen) : std::vector<double>{};
-    if (!scales) return scales.error();
+    const Result<std::vector<double>> sags =
+        options_.sag_for_paper ? sags_for_paper(chosen) : std::vector<double>{};
+    if (!sags) return sags.error();
     for (std::size_t v = 0; v < what_.views.size(); ++v) {
       const ViewWish& view = what_.views[v];
       hlr::Options options = view.options;
@@ -122,7 +122,7 @@ class Composer {
       // What the sheet does not show is not worked out.
       options.hidden = view.hidden != HiddenLines::off;
       options.hatches = std::move(chosen[v].hatches);
-      if (!scales->empty()) options.sag_mm = drawing::kSagOnPaperMm * (*scales)[v];
+      if (!sags->empty()) options.sag_mm = (*sags)[v];
       Result<hlr::Drawing> lines = hlr::draw(scene_, chosen[v].drawn, view.view, options, context_);
       if (!lines) {
         Error error = lines.error();
@@ -136,8 +136,9 @@ class Composer {
     return {};
   }
 
-  /// About the scale of each view, before it is drawn.
-  [[nodiscard]] Result<std::vector<double>> scales_of(const std::vector<Chosen>& chosen) const {
+  /// Of each view, from about the scale that it will have. Nothing where nothing would fit.
+  [[nodiscard]] Result<std::vector<double>> sags_for_paper(
+      const std::vector<Chosen>& chosen) const {
     std::vector<drawing::PlaneBox> extents;
     for (std::size_t v = 0; v < what_.views.size(); ++v) {
       const ViewWish& wish = what_.views[v];
@@ -148,7 +149,10 @@ class Composer {
       if (!extent) return extent.error();
       extents.push_back(*extent);
     }
-    return expected_scales(what_, extents, room_);
+    std::vector<double> sags = expected_scales(what_, extents, room_);
+    for (std::size_t v = 0; v < sags.size(); ++v)
+      sags[v] = drawing::unseen_sag_mm(extents[v], sags[v]);
+    return sags;
   }
 
   Status place() {

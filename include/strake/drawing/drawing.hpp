@@ -111,7 +111,7 @@ struct NeutralDrawing {
   hlr::Smooth smooth = hlr::Smooth::off;
   hlr::Intersections intersections = hlr::Intersections::primitives;
   double contact_distance_mm = 0;
-  double sag_mm = 0;    ///< of curved primitives; 0: unknown
+  double sag_mm = 0;    ///< asked for, of curved primitives; 0: unknown
   double weld_mm = -1;  ///< that seams were closed within; negative: the precision of each body
   Sheet sheet;
   std::vector<Line> lines;
@@ -123,9 +123,10 @@ struct NeutralDrawing {
 };
 
 /// How far curved primitives may be from their true surfaces so that nobody sees it on paper
-/// (hlr::Options::sag_mm): 0.05 mm at the scale of the drawing, model mm. Where the scale is to be
-/// chosen, the corners of the objects tell what it will be, or nearly where limits or sections cut
-/// them. Errors: cancelled.
+/// (hlr::Options::sag_mm), model mm: 0.05 mm at the scale of the drawing, in perspective in the
+/// plane of the target; no less than the grid's 1 µm, and than 0.05 mm on an A0 sheet that has all
+/// of the view. Where the scale is to be chosen, the corners of the objects tell what it will be,
+/// or nearly where limits or sections cut them. 0 of a view of nothing. Errors: cancelled.
 [[nodiscard]] Result<double> sag_for_paper(const model::Scene& scene,
                                            const std::vector<bool>& drawn, const hlr::View& view,
                                            const LayoutOptions& options,

@@ -111,8 +111,9 @@ struct Options {
   /// Contact distance δ, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
   Intersections intersections = Intersections::primitives;
-  /// Curved primitives are tessellated at most this far from their true surfaces, where the scene's
-  /// are farther; 0: as in the scene. See drawing::sag_for_paper.
+  /// Curved primitives are tessellated at most this far from their true surfaces, as far as the
+  /// most segments of each kind allow, where the scene's are farther and the view may show them; 0:
+  /// as in the scene. See drawing::sag_for_paper.
   double sag_mm = 0;
   bool culling = true;  ///< changes the work, never the answer
   static constexpr std::int32_t kNoBuckets = 0, kBucketsByData = -1;
@@ -216,7 +217,7 @@ struct Drawing {
   Options options;
   double contact_distance_mm = 0;  ///< the largest that was applied
   double weld_mm = -1;             ///< of the scene: model::SceneOptions::weld_mm
-  double sag_mm = 0;               ///< of curved primitives as drawn; 0: unknown
+  double sag_mm = 0;               ///< asked for, of curved primitives; 0: unknown
   std::vector<Piece> pieces;       ///< by (object, edge, parameter)
   Curves curves;
   /// By object: edges of which hidden pieces were left out, see Options::hidden. Empty: none were.

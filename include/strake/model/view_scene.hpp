@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,11 @@ namespace strake::model {
 struct Sight {
   /// To the viewer, in lowest terms: contours of round primitives are edges (geometry::tessellate).
   /// None: no direction.
-  std::optional<geometry::Vec3l> towards;
+  std::optional<geometry::Vec3l> towards = {};
   double sag_mm = 0;  ///< the largest sag of curved primitives; 0: that of the scene
+  /// Whether anything of a body in that box, grid units, may be seen: those of which nothing is
+  /// keep the sag of the scene. None: all may.
+  std::function<bool(const geometry::Box3l&)> shows = {};
 };
 
 /// A scene as a view sees it: its primitives are tessellated anew where that changes them, once per

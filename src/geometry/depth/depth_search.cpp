@@ -67,6 +67,8 @@ class Search {
           return;
         case Found::deeper:
           break;
+        case Found::too_large:
+          return;
         case Found::too_much:
           farther *= kAfterWork;
           break;
@@ -76,7 +78,7 @@ class Search {
     }
   }
 
-  enum class Found : std::uint8_t { none, deeper, too_much, too_near };
+  enum class Found : std::uint8_t { none, deeper, too_large, too_much, too_near };
 
   /// Whether some point is deeper than a level.
   Found ask(const LevelFrame& frame, double level, std::uint64_t most_cells) {
@@ -94,6 +96,7 @@ class Search {
       cells_ += answer.cells;
       depth_.cells = cells_ / kPerCell;
       if (answer.deeper && climb(frame.back(*answer.deeper, work_))) return Found::deeper;
+      if (answer.too_large) return Found::too_large;
       if (!answer.none) return answer.cells > most_cells ? Found::too_much : Found::too_near;
     }
     return Found::none;

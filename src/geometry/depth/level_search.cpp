@@ -20,6 +20,8 @@ namespace {
 /// Nodes of a tree, visited on the way to the nearest triangle, that count as one cell. In the
 /// middle of a round body all of its skin is about equally near.
 constexpr std::uint64_t kVisitedPerCell = 256;
+/// And what making a piece of a surface counts as.
+constexpr std::uint64_t kVisitedPerPiece = 16;
 /// The least difference of the ways to two triangles that a cut goes between.
 constexpr double kLeastTurn = 0.1;
 
@@ -81,7 +83,9 @@ class LevelSearch {
 
   /// Whether nothing of a surface is a point that is looked for.
   bool clears(const std::optional<std::vector<LevelCell>>& surface) {
+    answer_.too_large = !surface;
     if (!surface) return false;
+    visited_ += kVisitedPerPiece * surface->size();
     std::vector<OpenCell> open;
     for (const LevelCell& cell : *surface) {
       if (auto rest = part_in_hulls(cell)) open.push_back({std::move(*rest), {}, {}});

@@ -22,6 +22,7 @@ struct LevelQuestion {
 
 struct LevelAnswer {
   bool none = false;            ///< certainly no point is
+  bool too_large = false;       ///< the surfaces have too many triangles; a deeper one has no fewer
   std::optional<Vec3d> deeper;  ///< a point of both that is deeper than what is known
   std::uint64_t cells = 0;      ///< that pieces and cells were cut into, and searches as long
 };

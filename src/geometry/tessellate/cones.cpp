@@ -126,6 +126,18 @@ double sag_of(const Snout& snout, const std::vector<SinCos>& angles) {
   return sag;
 }
 
+/// How many even generators the sag wants, `least` at least: an outline may bend more than the
+/// circle that it is the image of.
+int segments_for(const Snout& snout, double sag, int least, const SinCos& phase) {
+  int n = least;
+  for (;;) {
+    const double reached = sag_of(snout, rim(n, phase));
+    if (reached <= sag || n >= kMostSegments) return n;
+    const double more = std::clamp(std::sqrt(reached / sag), 1.1, 4.0);
+    n = std::min(static_cast<int>(n * more / 4 + 1) * 4, kMostSegments);
+  }
+}
+
 /// The largest radius on the cuts; negative when a plane misses a generator, passes the apex, or
 /// the planes cross inside.
 double widest(const Snout& snout, const std::vector<SinCos>& angles) {
@@ -167,25 +179,16 @@ Tessellation make(const SnoutPrimitive& p, const Target& target) {
   if (!(steepness < 100)) return fault("an end plane of a snout is too steep");
   const SinCos phase = rim_phase(target);
   const auto contours = target.towards ? snout.contours(*target.towards) : std::nullopt;
-  const auto generators = [&](int n) {
-    return contours ? rim_with(n, phase, *contours) : rim(n, phase);
-  };
   constexpr std::string_view kCross = "the end planes of a snout cross or pass its apex";
   // The cuts decide the widest radius, which decides the number of segments: look first.
   double radius = widest(snout, rim(256, phase));
   if (radius < 0) return fault(kCross);
   radius = std::max({radius, p.bottom_radius, p.top_radius});
   int n = circle_segments(radius, kRimShare * target.sag / steepness, kMostSegments);
-  auto angles = generators(n);
-  double sag = steepness == 1 ? sagitta(radius, contours ? widest_step(angles) : 2 * kPi / n)
-                              : sag_of(snout, angles);
-  // An outline may bend more than the circle that it is the image of.
-  while (sag > target.sag && n < kMostSegments) {
-    const double more = std::clamp(std::sqrt(sag / target.sag), 1.1, 4.0);
-    n = std::min(static_cast<int>(n * more / 4 + 1) * 4, kMostSegments);
-    angles = generators(n);
-    sag = sag_of(snout, angles);
-  }
+  if (steepness > 1) n = segments_for(snout, target.sag, n, phase);
+  const auto angles = contours ? rim_with(n, phase, *contours) : rim(n, phase);
+  const double sag = steepness == 1 ? sagitta(radius, contours ? widest_step(angles) : 2 * kPi / n)
+                                    : sag_of(snout, angles);
   if (widest(snout, angles) < 0) return fault(kCross);
   if (sag == Snout::kNever) return fault("an end plane of a snout runs along its skin");
   std::vector<Vec3d> lower, upper;

@@ -188,9 +188,21 @@ TEST(SagForPaper, FollowsTheScale) {
   stated.scale = 20;
   EXPECT_DOUBLE_EQ(sag(top, stated), 0.05 * 20);
   stated.placement = Placement{{420, 297, 0.5, "2:1"}, {}, {}};
-  EXPECT_DOUBLE_EQ(sag(top, stated), 0.05 * 0.5);
-  // Only what is drawn and lies within the limits counts.
-  EXPECT_DOUBLE_EQ(sag(top, {}, {false}), 0.05);
+  // No finer than on an A0 sheet that has all of it.
+  EXPECT_DOUBLE_EQ(sag(top, stated), 1500.0 / 1189 / 20);
+  // Only what is drawn and lies within the limits counts, and is not cut away.
+  EXPECT_EQ(sag(top, {}, {false}), 0);
+  hlr::View cut = top;
+  cut.sections = {{{1, 0, 0}, {-700 * kMm, 0, 0}}};
+  EXPECT_DOUBLE_EQ(sag(cut), 0.05 * 0.5);
+  cut.sections = {{{-1, 0, 2}, {0, 0, -500 * kMm}}};
+  EXPECT_EQ(sag(cut), 0);
+  for (const std::int64_t z : {0, 500}) {
+    cut.sections = {{{-1, 0, 2}, {0, 0, z * kMm}}};
+    EXPECT_DOUBLE_EQ(sag(cut), 0.05 * 5);
+  }
+  cut.sections = {{{0, -1, 0}, {0, 60 * kMm, 0}}};
+  EXPECT_EQ(sag(cut), 0);
   hlr::View end = top;
   end.limits = geometry::Box3l{{700 * kMm, -1000 * kMm, -1000 * kMm}, {900 * kMm, 0, 1000 * kMm}};
   EXPECT_DOUBLE_EQ(sag(end), 0.05 * 0.2);

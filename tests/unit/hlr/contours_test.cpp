@@ -262,5 +262,27 @@ TEST(SceneOfAView, ChangesNothingWhereNothingIsRound) {
   EXPECT_EQ((*once)->shapes[0].parts[0].vertices, scene.shapes[0].parts[0].vertices);
 }
 
+/// What limits or an eye leave out keeps the triangles of the scene, however fine the rest is.
+TEST(SceneOfAView, IsFinerOnlyWhereItShows) {
+  Plant plant;
+  plant.object(geometry::SpherePrimitive{50});
+  plant.object(geometry::SpherePrimitive{60});
+  const model::Scene& scene = plant.scene();
+  const auto triangles = [&](const model::Sight& sight) {
+    const auto seen = model::seen_from(scene, {}, sight, {}).value();
+    const model::Scene& made = seen ? *seen : scene;
+    return std::pair(made.shapes[0].parts[0].triangles.size(),
+                     made.shapes[1].parts[0].triangles.size());
+  };
+  const auto as_is = triangles({});
+  const auto fine = triangles({.sag_mm = 0.01});
+  EXPECT_GT(fine.first, 4 * as_is.first);
+  EXPECT_GT(fine.second, 4 * as_is.second);
+  const geometry::Box3l second = scene.bodies[1].box(scene.shapes[1]);
+  const auto one = triangles(
+      {.sag_mm = 0.01, .shows = [&](const geometry::Box3l& box) { return box == second; }});
+  EXPECT_EQ(one, std::pair(as_is.first, fine.second));
+}
+
 }  // namespace
 }  // namespace strake
