@@ -21,7 +21,7 @@ namespace {
 /// middle of a round body all of its skin is about equally near.
 constexpr std::uint64_t kVisitedPerCell = 256;
 /// And what making a piece of a surface counts as.
-constexpr std::uint64_t kVisitedPerPiece = 16;
+constexpr std::uint64_t kVisitedPerPiece = 4;
 /// The least difference of the ways to two triangles that a cut goes between.
 constexpr double kLeastTurn = 0.1;
 
