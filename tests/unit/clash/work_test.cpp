@@ -198,7 +198,8 @@ TEST(ClashWork, CopiesOfABodyNeedNoWalk) {
   const Looked l = look(hills, hills, {}, {.clearance_mm = 25});
   EXPECT_EQ(l.pair.relation, Relation::duplicate);
   EXPECT_EQ(l.work.triangle_pairs, 0U);
-  EXPECT_LE(l.work.depth_cells, 1000U);
+  // The work limit, and what the last surface comes in.
+  EXPECT_LE(l.work.depth_cells, 1100U);
   EXPECT_LE(l.pair.d_lower_mm, -940);
   EXPECT_GE(l.pair.d_upper_mm, -960);
 }
