@@ -2,11 +2,13 @@
 #include "drawing/expected_extent.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
 
+#include "hlr/section_planes.hpp"
+#include "hlr/shown_space.hpp"
+#include "hlr/window.hpp"
 #include "strake/geometry/trig.hpp"
 #include "strake/parallel/reduce.hpp"
 
@@ -27,32 +29,16 @@ PlaneBox field_of_view(const hlr::Perspective& perspective, const PlanePoint& ta
   return {target.x - reach, target.x + reach, target.y - reach, target.y + reach};
 }
 
-Box3l common_part(Box3l a, const Box3l& b) {
-  for (int k = 0; k < 3; ++k) {
-    a.lo[k] = std::max(a.lo[k], b.lo[k]);
-    a.hi[k] = std::min(a.hi[k], b.hi[k]);
-  }
-  return a;
-}
-
 /// Of what is larger than this the scale is so small that it need not be known better than from
 /// boxes.
 constexpr double kLargeMm = 20'000;
 
 enum class By : std::uint8_t { boxes, corners };
 
-/// What of a box is on the near side of a plane at right angles to an axis, or all of it: by how
-/// much another plane cuts it is not asked. Nothing where it is cut away.
-Box3l without_cut(Box3l box, const hlr::Section& section) {
+/// What of a box a section leaves that is at right angles to an axis; by how much another one cuts
+/// it is not asked.
+Box3l cut_along_axis(Box3l box, const hlr::Section& section) {
   const Vec3l& n = section.normal;
-  double least = 0, size = 0;
-  for (int k = 0; k < 3; ++k) {
-    const std::int64_t near = (n[k] > 0 ? box.lo[k] : box.hi[k]) - section.point[k];
-    const double along = static_cast<double>(n[k]) * static_cast<double>(near);
-    least += along;
-    size += std::fabs(along);
-  }
-  if (least > 1e-9 * size) return geometry::empty_box<std::int64_t>();
   for (int k = 0; k < 3; ++k) {
     if (n[(k + 1) % 3] != 0 || n[(k + 2) % 3] != 0) continue;
     if (n[k] > 0) box.hi[k] = std::min(box.hi[k], section.point[k]);
@@ -64,8 +50,8 @@ Box3l without_cut(Box3l box, const hlr::Section& section) {
 class Extent {
  public:
   Extent(const model::Scene& scene, const std::vector<bool>& drawn, const hlr::View& view,
-         const ViewPlane& plane)
-      : scene_(scene), drawn_(drawn), view_(view), plane_(plane) {}
+         const hlr::ShownSpace& shown, const ViewPlane& plane)
+      : scene_(scene), drawn_(drawn), view_(view), shown_(shown), plane_(plane) {}
 
   [[nodiscard]] Result<PlaneBox> of_all(By by, const parallel::Context& context) const {
     return parallel::reduce(
@@ -79,9 +65,9 @@ class Extent {
     const model::GridShape& shape = scene_.shapes[body.grid_shape];
     if (shape.box.empty() || (!drawn_.empty() && !drawn_[model::index(body.object)])) return;
     const Box3l whole = body.box(shape);
-    Box3l box = view_.limits ? common_part(whole, *view_.limits) : whole;
-    for (const hlr::Section& section : view_.sections)
-      if (!box.empty()) box = without_cut(box, section);
+    if (!shown_.meets(whole)) return;
+    Box3l box = view_.limits ? whole.common(*view_.limits) : whole;
+    for (const hlr::Section& section : view_.sections) box = cut_along_axis(box, section);
     if (box.empty()) return;
     if (by == By::corners && box == whole) {
       for (const geometry::Part& part : shape.parts)
@@ -102,6 +88,7 @@ class Extent {
   const model::Scene& scene_;
   const std::vector<bool>& drawn_;
   const hlr::View& view_;
+  const hlr::ShownSpace& shown_;
   const ViewPlane& plane_;
 };
 
@@ -111,9 +98,12 @@ Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bo
                                  const hlr::View& view, const Vec3l& origin,
                                  const parallel::Context& context) {
   const auto axes = paper_axes(view);
-  if (!axes) return PlaneBox{};
+  const auto sections = hlr::section_planes(view.sections);
+  // hlr::draw says what is wrong with it.
+  if (!axes || !sections || !hlr::check_perspective(view)) return PlaneBox{};
   const ViewPlane plane(*axes, origin);
-  const Extent measure(scene, drawn, view, plane);
+  const hlr::ShownSpace shown(view, *sections);
+  const Extent measure(scene, drawn, view, shown, plane);
   Result<PlaneBox> extent = measure.of_all(By::boxes, context);
   if (extent && std::max(extent->width(), extent->height()) < kLargeMm)
     extent = measure.of_all(By::corners, context);

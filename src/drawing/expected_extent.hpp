@@ -19,8 +19,8 @@ namespace strake::drawing {
 
 /// About the extent that a view has on its plane, before it is drawn, about a point of the model:
 /// of the corners of all bodies, `drawn` as in hlr::draw, within the limits and the field of view;
-/// of large models, and where limits or sections cut a body, of boxes. Of a view without a plane
-/// nothing. Errors: cancelled.
+/// of large models, and where limits or sections cut a body, of boxes. Of a view that makes no
+/// sense nothing. Errors: cancelled.
 [[nodiscard]] Result<PlaneBox> expected_extent(const model::Scene& scene,
                                                const std::vector<bool>& drawn,
                                                const hlr::View& view, const geometry::Vec3l& origin,

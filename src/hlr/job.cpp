@@ -9,6 +9,7 @@
 
 #include "hlr/eye_report.hpp"
 #include "hlr/section_report.hpp"
+#include "hlr/shown_space.hpp"
 #include "hlr/view_axes.hpp"
 #include "hlr/window.hpp"
 #include "strake/geometry/grid.hpp"
@@ -107,35 +108,6 @@ void place_limits(Job& job, const Box3l& box) {
   job.limits = limits;
 }
 
-/// Whether a box has a point p with normal · (p - from) >= least, but for rounding.
-bool reaches(const Box3l& box, const Vec3l& normal, const Vec3l& from, double least) {
-  double highest = 0, size = 0;
-  for (int k = 0; k < 3; ++k) {
-    const std::int64_t far = (normal[k] > 0 ? box.hi[k] : box.lo[k]) - from[k];
-    const double along = static_cast<double>(normal[k]) * static_cast<double>(far);
-    highest += along;
-    size += std::fabs(along);
-  }
-  return highest + 1e-9 * size >= least;
-}
-
-/// Whether anything in a box may be seen: within the limits and the window, and not cut away.
-bool shows(const Job& job, const Box3l& box) {
-  // What tessellation, the contact distance and the grid may be off by.
-  constexpr std::int64_t kRoom = 2000;
-  const Box3l room = box.inflated(kRoom);
-  const View& view = job.view;
-  return (!view.limits || room.meets(*view.limits)) &&
-         std::ranges::all_of(job.window,
-                             [&](const HalfSpace& side) {
-                               return reaches(room, side.normal, view.perspective->eye,
-                                              static_cast<double>(side.least));
-                             }) &&
-         std::ranges::all_of(view.sections, [&](const Section& section) {
-           return reaches(room, -section.normal, section.point, 0);
-         });
-}
-
 double longest_side(const Job& job) {
   std::int64_t side = 0;
   for (const model::GridBody& body : job.scene->bodies) {
@@ -207,9 +179,11 @@ Result<Job> prepare(const model::Scene& scene, const std::vector<bool>& drawn, c
   job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
   // Contours along a direction are no contours from an eye.
   const auto towards = view.perspective ? std::nullopt : std::optional(job.direction());
-  auto own = model::seen_from(
-      scene, job.drawn,
-      {towards, options.sag_mm, [&](const Box3l& box) { return shows(job, box); }}, context);
+  const ShownSpace shown(view, *planes);
+  // What tessellation and the grid may be off by.
+  constexpr std::int64_t kRoom = 2000;
+  const auto shows = [&](const Box3l& box) { return shown.meets(box.inflated(kRoom)); };
+  auto own = model::seen_from(scene, job.drawn, {towards, options.sag_mm, shows}, context);
   if (!own) return own.error();
   if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
   job.scene = job.own ? job.own.get() : &scene;

@@ -31,15 +31,15 @@ const geometry::Primitive* primitive_of(const Scene& scene, std::uint32_t shape)
 
 /// By shape whether it is to be finer than in the scene: that of a body which may be seen.
 std::vector<bool> finer_shapes(const Scene& scene, const std::vector<bool>& drawn,
-                               const Sight& sight) {
+                               const SeenFrom& seen_by) {
   std::vector<bool> finer(scene.shapes.size());
-  if (!(sight.sag_mm > 0 && sight.sag_mm < scene.sag_mm)) return finer;
+  if (!(seen_by.sag_mm > 0 && seen_by.sag_mm < scene.sag_mm)) return finer;
   for (const GridBody& body : scene.bodies) {
     if (finer[body.grid_shape] || (!drawn.empty() && !drawn[index(body.object)])) continue;
     const geometry::Primitive* const primitive = primitive_of(scene, body.grid_shape);
     if (primitive == nullptr || !geometry::is_curved(*primitive)) continue;
     const geometry::Box3l box = body.box(scene.shapes[body.grid_shape]);
-    finer[body.grid_shape] = !box.empty() && (!sight.shows || sight.shows(box));
+    finer[body.grid_shape] = !box.empty() && (!seen_by.shows || seen_by.shows(box));
   }
   return finer;
 }
@@ -57,13 +57,13 @@ GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3
 }  // namespace
 
 Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<bool>& drawn,
-                                       const Sight& sight, const parallel::Context& context) {
+                                       const SeenFrom& seen_by, const parallel::Context& context) {
   if (scene.model == nullptr || !(scene.sag_mm > 0)) return std::optional<Scene>();
   const std::vector<std::uint32_t> first = first_bodies(scene, drawn);
-  const std::vector<bool> finer = finer_shapes(scene, drawn, sight);
+  const std::vector<bool> finer = finer_shapes(scene, drawn, seen_by);
   const auto changes = [&](std::uint32_t s) {
     const geometry::Primitive* const primitive = primitive_of(scene, s);
-    return finer[s] || (sight.towards && primitive != nullptr && geometry::is_round(*primitive));
+    return finer[s] || (seen_by.towards && primitive != nullptr && geometry::is_round(*primitive));
   };
   bool any = false;
   for (std::uint32_t s = 0; s < first.size() && !any; ++s) any = first[s] != kNone && changes(s);
@@ -82,8 +82,8 @@ Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<boo
           return empty;
         }
         if (!changes(s)) return scene.shapes[s];
-        GridShapeOptions wanted{.sag_mm = finer[s] ? sight.sag_mm : scene.sag_mm};
-        if (sight.towards) wanted.towards = sight.towards->as<double>();
+        GridShapeOptions wanted{.sag_mm = finer[s] ? seen_by.sag_mm : scene.sag_mm};
+        if (seen_by.towards) wanted.towards = seen_by.towards->as<double>();
         const Body& body = scene.model->bodies[scene.bodies[first[s]].body];
         return made_for(scene, s, body.placement.linear, wanted, maker);
       });
@@ -96,7 +96,7 @@ Result<std::optional<Scene>> seen_from(const Scene& scene, const std::vector<boo
   seen.diagnostics = scene.diagnostics;
   seen.lacking = scene.lacking;
   seen.sag_mm = scene.sag_mm;
-  if (sight.sag_mm > 0) seen.sag_mm = std::min(seen.sag_mm, sight.sag_mm);
+  if (seen_by.sag_mm > 0) seen.sag_mm = std::min(seen.sag_mm, seen_by.sag_mm);
   seen.weld_mm = scene.weld_mm;
   for (GridBody& body : seen.bodies)
     body.origin =

@@ -13,7 +13,7 @@
 namespace strake::model {
 
 /// What a view wants of the primitives that it shows.
-struct Sight {
+struct SeenFrom {
   /// To the viewer, in lowest terms: contours of round primitives are edges (geometry::tessellate).
   /// None: no direction.
   std::optional<geometry::Vec3l> towards = {};
@@ -32,7 +32,7 @@ struct Sight {
 /// Applied twice it changes nothing more. The model must outlive the result. Errors: cancelled.
 [[nodiscard]] Result<std::optional<Scene>> seen_from(const Scene& scene,
                                                      const std::vector<bool>& drawn,
-                                                     const Sight& sight,
+                                                     const SeenFrom& seen_by,
                                                      const parallel::Context& context);
 
 }  // namespace strake::model

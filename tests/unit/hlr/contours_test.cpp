@@ -247,14 +247,14 @@ TEST(SceneOfAView, ChangesNothingWhereNothingIsRound) {
   plant.object(geometry::BoxPrimitive{10, 20, 30});
   plant.object(geometry::SpherePrimitive{50});
   const model::Scene& scene = plant.scene();
-  const model::Sight kSight{.towards = Vec3l{1, 2, 3}};
-  const auto without = model::seen_from(scene, {true, false}, kSight, {});
+  const model::SeenFrom from{.towards = Vec3l{1, 2, 3}};
+  const auto without = model::seen_from(scene, {true, false}, from, {});
   ASSERT_TRUE(without);
   EXPECT_FALSE(without->has_value());
-  const auto once = model::seen_from(scene, {}, kSight, {});
+  const auto once = model::seen_from(scene, {}, from, {});
   ASSERT_TRUE(once);
   ASSERT_TRUE(once->has_value());
-  const auto twice = model::seen_from(**once, {}, kSight, {});
+  const auto twice = model::seen_from(**once, {}, from, {});
   ASSERT_TRUE(twice);
   ASSERT_TRUE(twice->has_value());
   EXPECT_NE((*once)->shapes[1].parts[0].vertices, scene.shapes[1].parts[0].vertices);
@@ -268,7 +268,7 @@ TEST(SceneOfAView, IsFinerOnlyWhereItShows) {
   plant.object(geometry::SpherePrimitive{50});
   plant.object(geometry::SpherePrimitive{60});
   const model::Scene& scene = plant.scene();
-  const auto triangles = [&](const model::Sight& sight) {
+  const auto triangles = [&](const model::SeenFrom& sight) {
     const auto seen = model::seen_from(scene, {}, sight, {}).value();
     const model::Scene& made = seen ? *seen : scene;
     return std::pair(made.shapes[0].parts[0].triangles.size(),
