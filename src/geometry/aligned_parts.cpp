@@ -85,10 +85,12 @@ std::optional<Axes> axes_of(std::vector<LongEdge> edges) {
 }  // namespace
 
 std::optional<Axes> needle_axes(const PartView& a, const PartView& b) {
-  auto axes = axes_of(long_edges(a));
-  if (!axes) axes = axes_of(long_edges(b));
+  auto axes = needle_axes(a);
+  if (!axes) axes = needle_axes(b);
   return axes;
 }
+
+std::optional<Axes> needle_axes(const PartView& part) { return axes_of(long_edges(part)); }
 
 std::optional<AlignedParts> aligned_parts(const PartView& a, const PartView& b,
                                           const parallel::Context& context) {

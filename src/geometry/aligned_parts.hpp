@@ -18,6 +18,9 @@ struct AlignedParts {
 /// trees.
 [[nodiscard]] std::optional<Axes> needle_axes(const PartView& a, const PartView& b);
 
+/// Of one part alone.
+[[nodiscard]] std::optional<Axes> needle_axes(const PartView& part);
+
 /// The parts in such a frame, if there is one.
 [[nodiscard]] std::optional<AlignedParts> aligned_parts(const PartView& a, const PartView& b,
                                                         const parallel::Context& context);

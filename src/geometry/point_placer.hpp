@@ -13,12 +13,6 @@ namespace strake::geometry {
 
 enum class PointPlace : std::uint8_t { near_skin, inside, outside };
 
-/// A part in a frame along its own faces.
-struct TurnedFrame {
-  Axes axes;
-  TurnedPart part;
-};
-
 /// Along the largest faces of a part; nothing where the part is too large to be turned.
 [[nodiscard]] std::optional<TurnedFrame> frame_along_faces(const TreedPart& part,
                                                            const parallel::Context& context);

@@ -5,9 +5,6 @@
 
 namespace strake::geometry {
 
-/// Grid units: what coordinates along turned axes may be off by, far above their rounding.
-inline constexpr double kFrameRounding = 0x1p-10;
-
 /// The axis along which boxes are shortest in relation to all that is swept. `lengths`: of one box,
 /// or the sums of several.
 [[nodiscard]] inline int best_axis(const Vec3d& lengths, const Box3d& within) {

@@ -7,6 +7,7 @@
 
 #include "geometry/box.hpp"
 #include "geometry/sweep_axis.hpp"
+#include "geometry/turned_part.hpp"
 
 namespace strake::geometry {
 namespace {

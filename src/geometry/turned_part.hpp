@@ -24,9 +24,18 @@ struct TurnedPart {
   PartTree tree;
 };
 
+/// A part and the frame that it is turned into.
+struct TurnedFrame {
+  Axes axes;
+  TurnedPart part;
+};
+
 /// Turning a corner and rounding it takes it up to half a unit along each axis, half the root of
 /// three in all, and some rounding of doubles away.
 inline constexpr double kTurnRounding = 1;
+
+/// Grid units: what coordinates along turned axes may be off by, far above their rounding.
+inline constexpr double kFrameRounding = 0x1p-10;
 
 /// Over the triangles of a view's own tree; nothing where the part is too large to be turned.
 [[nodiscard]] std::optional<TurnedPart> turned_part(const PartView& view, const Axes& axes,

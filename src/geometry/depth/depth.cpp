@@ -44,10 +44,12 @@ class Candidates {
       : a_(a), b_(b), margin_(kFieldError * extent), goal_(goal), work_(work) {}
 
   /// The depth at a point, or nothing when it is not in both.
-  std::optional<double> depth_at(const Vec3d& p) {
+  std::optional<double> depth_at(const Vec3d& p) { return depth_at(p, a_, b_); }
+  /// Of the two, the point is likely in the first.
+  std::optional<double> depth_at(const Vec3d& p, const DepthField& of, const DepthField& in) {
     const Vec3d q = on_field_grid(p);
     if (goal_.within && !goal_.within->contains({q, q})) return std::nullopt;
-    if (!a_.contains(q, work_) || !b_.contains(q, work_)) return std::nullopt;
+    if (!in.contains(q, work_) || !of.contains(q, work_)) return std::nullopt;
     if (!goal_.counts(q)) return std::nullopt;
     const double depth = greater_distance(a_, b_, q);
     if (depth > best_) {
@@ -136,14 +138,14 @@ void try_vertices(const DepthField& of, const DepthField& in, Candidates& candid
   if (of.has_many_vertices()) {
     const Box3d own{of.local(room.lo), of.local(room.hi)};
     for (const Vec3i& v : of.vertices().some_within(own, kMaxVerticesTried))
-      candidates.depth_at(of.common(v.as<double>()));
+      candidates.depth_at(of.common(v.as<double>()), of, in);
     return;
   }
   std::size_t tried = 0;
   for (const Vec3i& v : of.part().vertices) {
     const Vec3d p = of.common(v.as<double>());
     if (!Box3d{p, p}.meets(room)) continue;
-    candidates.depth_at(p);
+    candidates.depth_at(p, of, in);
     if (++tried == kMaxVerticesTried) return;
   }
 }
@@ -187,7 +189,7 @@ void try_edges(const DepthField& of, const DepthField& in, Candidates& candidate
     Vec3d inward;
     for (std::uint32_t i = edges[e].first_triangle; i < edges[e + 1].first_triangle; ++i)
       if (const auto n = outward(of.part(), of.part().edge_triangles[i])) inward = inward - *n;
-    candidates.depth_at(middle + inward * kLeastMove);
+    candidates.depth_at(middle + inward * kLeastMove, of, in);
   }
 }
 
@@ -380,8 +382,8 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& asked
   // Flush faces of a model that stands askew: what the snap made of a touch.
   if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};
-  const DepthField fa(a.treed, {}, a.planes);
-  const DepthField fb(b.treed, a.treed.placed.origin - b.treed.placed.origin, b.planes);
+  DepthField fa(a.treed, {}, a.planes);
+  DepthField fb(b.treed, a.treed.placed.origin - b.treed.placed.origin, b.planes);
   const Halfspaces spaces(a, fa, b, fb, goal.within);
   Candidates candidates(fa, fb, spaces.extent(), goal, work);
   Depth depth;
@@ -400,6 +402,8 @@ Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& asked
   // That a part of the common region is left by a move of the whole is known of the whole.
   if (!bracket_suffices(depth, goal) && !goal.within) parting.bound_hit(depth);
   if (!bracket_suffices(depth, goal)) {
+    fa.prepare();
+    fb.prepare();
     try_edges(fa, fb, candidates);
     try_edges(fb, fa, candidates);
     candidates.store(depth);

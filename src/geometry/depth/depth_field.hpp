@@ -5,12 +5,17 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
+#include <memory>
+#include <span>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "geometry/depth/nearest.hpp"
 #include "geometry/pair_view.hpp"
+#include "geometry/part_side.hpp"
 #include "geometry/range.hpp"
+#include "geometry/tree_walk.hpp"
+#include "geometry/turned_part.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -35,14 +40,10 @@ class DepthField {
   DepthField(const TreedPart& part, const Vec3l& shift, const SupportPlanes* planes = nullptr)
       : part_(&part), shift_(shift), planes_(planes) {}
 
-  /// Makes a small part's triangles ready for many questions. Answers stay the same.
-  void prepare() {
-    constexpr std::size_t kMost = 16384;
-    const std::size_t n = part().triangles.size();
-    if (n > kMost || !prepared_.empty()) return;
-    prepared_.reserve(n);
-    for (std::uint32_t t = 0; t < n; ++t) prepared_.emplace_back(corners_of(part(), t));
-  }
+  /// Makes a small part ready for many questions: its triangles and, where these are needles that
+  /// lie askew, of which boxes along the axes tell nothing, a frame along them. Answers stay the
+  /// same.
+  void prepare();
 
   /// In the part's own coordinates.
   [[nodiscard]] PreparedTriangle triangle(std::uint32_t t) const {
@@ -71,7 +72,7 @@ class DepthField {
     const Vec3l numerator{std::llround(p.x * kSteps) + shift_.x * kFieldDenominator,
                           std::llround(p.y * kSteps) + shift_.y * kFieldDenominator,
                           std::llround(p.z * kSteps) + shift_.z * kFieldDenominator};
-    return side_of(*part_, numerator, kFieldDenominator, work);
+    return side_of(*part_, numerator, kFieldDenominator, work, frame_.get());
   }
 
   /// Closed solid: inside or on the boundary.
@@ -82,12 +83,29 @@ class DepthField {
   [[nodiscard]] NearestTriangle nearest(
       const Vec3d& p, std::uint32_t hint = kNoFace,
       double limit = std::numeric_limits<double>::infinity()) const {
-    return nearest_triangle(part(), *part_->tree, local(p), hint, limit, prepared_);
+    return nearest_triangle({part(), *part_->tree, frame_.get(), prepared_}, local(p), hint, limit);
   }
 
   /// No less than nearest().distance.
   [[nodiscard]] double some_distance(const Vec3d& p) const {
-    return geometry::some_distance(part(), *part_->tree, local(p));
+    return geometry::some_distance({part(), *part_->tree, frame_.get(), prepared_}, local(p));
+  }
+
+  /// Calls visit(triangle) for those whose boxes may be within `slack` of the box of some points,
+  /// until it returns false; whether it never did.
+  template <class Visit>
+  bool for_near(std::span<const Vec3d> points, double slack, const Visit& visit) const {
+    Box3d box = empty_box<double>();
+    for (const Vec3d& p : points) box.include(in_tree(p));
+    box = box.inflated(slack + tree_margin());
+    return walk([&](const Box3d& other) { return other.meets(box); }, visit);
+  }
+  /// And whose boxes may be as near to a point.
+  template <class Visit>
+  bool for_near(const Vec3d& p, double distance, const Visit& visit) const {
+    const Vec3d at = in_tree(p);
+    const double reach = distance + tree_margin();
+    return walk([&](const Box3d& box) { return squared_gap(at, box) <= reach * reach; }, visit);
   }
 
   [[nodiscard]] Vec3d local(const Vec3d& p) const { return p + shift_.as<double>(); }
@@ -95,6 +113,7 @@ class DepthField {
   [[nodiscard]] PartView view() const { return {*part_, Vec3l{} - shift_}; }
   [[nodiscard]] const Part& part() const { return *part_->placed.part; }
   [[nodiscard]] Box3d box() const { return part().box.as<double>().moved(-shift_.as<double>()); }
+  /// Of the part as it is.
   [[nodiscard]] const PartTree& tree() const { return *part_->tree; }
   /// In the part's own coordinates.
   [[nodiscard]] const VertexTree& vertices() const { return planes_->vertices; }
@@ -113,10 +132,28 @@ class DepthField {
   [[nodiscard]] bool has_many_vertices() const { return part().vertices.size() >= kManyVertices; }
 
  private:
+  [[nodiscard]] Vec3d in_tree(const Vec3d& p) const {
+    return frame_ ? turned(frame_->axes, local(p)) : local(p);
+  }
+  /// What boxes may be off by.
+  [[nodiscard]] double tree_margin() const { return frame_ ? kTurnRounding + kFrameRounding : 0; }
+
+  /// Calls visit(triangle) for those whose boxes are near.
+  template <class Near, class Visit>
+  bool walk(const Near& near, const Visit& visit) const {
+    const auto of_node = [&](const PartTree::Node& node) { return near(node.box.as<double>()); };
+    if (!frame_) return walk_tree(tree(), of_node, visit);
+    const Part& turned_part = frame_->part.part;
+    return walk_tree(frame_->part.tree, of_node, [&](std::uint32_t t) {
+      return !near(box_of(corners_of(turned_part, t))) || visit(t);
+    });
+  }
+
   const TreedPart* part_;
   Vec3l shift_;
   const SupportPlanes* planes_;
   std::vector<PreparedTriangle> prepared_;
+  std::shared_ptr<const TurnedFrame> frame_;
 };
 
 /// How far a point is from the skin that is farther from it. In the middle of a round body its

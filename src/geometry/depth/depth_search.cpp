@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "geometry/depth/level_frame.hpp"
 #include "geometry/depth/level_search.hpp"
 #include "geometry/depth/uphill.hpp"
 
@@ -50,10 +50,9 @@ class Search {
  private:
   /// Lowers the upper bound by one level after the other.
   void narrow() {
-    // What is asked of points is asked of them as they are.
-    const LevelFrame frame(a_, b_, goal_.within || goal_.belongs);
-    // Above what the frame takes off a depth, too.
-    const double least = std::max({kLeastStep * goal_.tolerance, 2 * frame.error(), kFinestStep});
+    hull_a_ = half_spaces_of(a_);
+    hull_b_ = half_spaces_of(b_);
+    const double least = std::max(kLeastStep * goal_.tolerance, kFinestStep);
     double farther = 1;
     while (const std::uint64_t left = cells_left()) {
       const double near = std::min(kNearestLevel, goal_.relative / 2) * depth_.value;
@@ -61,7 +60,7 @@ class Search {
       const double level = depth_.value + farther * step;
       if (level >= depth_.upper) return;
       // Most of it for the nearest level: those farther off are the easier and the less worth.
-      switch (ask(frame, level, left - left / 4)) {
+      switch (ask(level, left - left / 4)) {
         case Found::none:
           depth_.upper = level;
           return;
@@ -81,21 +80,20 @@ class Search {
   enum class Found : std::uint8_t { none, deeper, too_large, too_much, too_near };
 
   /// Whether some point is deeper than a level.
-  Found ask(const LevelFrame& frame, double level, std::uint64_t most_cells) {
-    const double scale = frame.scale();
-    LevelQuestion question{.level = (level - frame.error()) * scale,
-                           .known = depth_.value * scale,
-                           .ceiling = depth_.upper * scale,
-                           .slack = 1.0 / 1024 + margin_ * scale,
+  Found ask(double level, std::uint64_t most_cells) {
+    LevelQuestion question{.level = level,
+                           .known = depth_.value,
+                           .ceiling = depth_.upper,
+                           .slack = 1.0 / 1024 + margin_,
                            .most_cells = most_cells};
     for (const bool in_a : {true, false}) {
-      question.hull_of = in_a ? frame.hull_a() : frame.hull_b();
-      question.hull_in = in_a ? frame.hull_b() : frame.hull_a();
-      const LevelAnswer answer = look_above_level(
-          in_a ? frame.a() : frame.b(), in_a ? frame.b() : frame.a(), question, goal_, work_);
+      question.hull_of = in_a ? hull_a_ : hull_b_;
+      question.hull_in = in_a ? hull_b_ : hull_a_;
+      const LevelAnswer answer =
+          look_above_level(in_a ? a_ : b_, in_a ? b_ : a_, question, goal_, work_);
       cells_ += answer.cells;
       depth_.cells = cells_ / kPerCell;
-      if (answer.deeper && climb(frame.back(*answer.deeper, work_))) return Found::deeper;
+      if (answer.deeper && climb(*answer.deeper)) return Found::deeper;
       if (answer.too_large) return Found::too_large;
       if (!answer.none) return answer.cells > most_cells ? Found::too_much : Found::too_near;
     }
@@ -133,6 +131,7 @@ class Search {
   const DepthGoal& goal_;
   Depth& depth_;
   PairWork& work_;
+  std::vector<HalfSpace> hull_a_, hull_b_;
   double margin_ = 0;
   std::uint64_t cells_ = 0;
 };
@@ -141,10 +140,7 @@ class Search {
 
 void search_solid_depth(const DepthField& a, const DepthField& b, const DepthGoal& goal,
                         std::span<const Vec3d> seeds, Depth& depth, PairWork& work) {
-  DepthField ready_a = a, ready_b = b;
-  ready_a.prepare();
-  ready_b.prepare();
-  Search(ready_a, ready_b, goal, depth, work).run(seeds);
+  Search(a, b, goal, depth, work).run(seeds);
 }
 
 }  // namespace strake::geometry

@@ -23,7 +23,8 @@ namespace strake::geometry {
 
 /// Narrows the bracket of two solids: points climb to where they are deepest nearby, from `seeds`
 /// and from each deeper point found, and levels above it are asked for until none is left that may
-/// be deeper. Coordinates are relative to a's origin.
+/// be deeper. Coordinates are relative to a's
+/// origin; the fields are prepared for many questions.
 void search_solid_depth(const DepthField& a, const DepthField& b, const DepthGoal& goal,
                         std::span<const Vec3d> seeds, Depth& depth, PairWork& work);
 

@@ -61,6 +61,18 @@ std::array<LevelCell, 2> halves_round_corner(const LevelCell& cell) {
 
 }  // namespace
 
+Vec3d middle_of(const LevelCell& cell) {
+  Vec3d sum;
+  for (const Vec3d& p : cell.corners) sum = sum + p;
+  return sum * (1 / static_cast<double>(cell.corners.size()));
+}
+
+double radius_of(const LevelCell& cell, const Vec3d& from) {
+  double most = 0;
+  for (const Vec3d& p : cell.corners) most = std::max(most, dot(p - from, p - from));
+  return std::sqrt(most);
+}
+
 LevelCell flat_cell(const Corners& triangle, const Vec3d& way) {
   return {.corners = {triangle[0] + way, triangle[1] + way, triangle[2] + way}, .about = {}};
 }

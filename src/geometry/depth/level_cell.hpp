@@ -27,6 +27,11 @@ struct LevelCell {
   bool on_skin = false;  ///< of the part that is looked for points in
 };
 
+/// The mean of the corners.
+[[nodiscard]] Vec3d middle_of(const LevelCell& cell);
+/// No corner is farther from a point.
+[[nodiscard]] double radius_of(const LevelCell& cell, const Vec3d& from);
+
 /// Of a triangle moved by `way`.
 [[nodiscard]] LevelCell flat_cell(const Corners& triangle, const Vec3d& way);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "geometry/box.hpp"
-#include "geometry/tree_walk.hpp"
 
 namespace strake::geometry {
 
@@ -14,18 +13,6 @@ CellHull::CellHull(const LevelCell& cell, double slack)
   const Vec3d normal = cross(p[1] - p[0], p[2] - p[0]);
   if (const double size = length(normal); size > 0) up_ = normal * (1 / size);
   for (const Vec3d& q : p) along_up_.include(dot(up_, q));
-}
-
-Vec3d CellHull::middle() const {
-  Vec3d sum;
-  for (const Vec3d& p : cell_.corners) sum = sum + p;
-  return sum * (1 / static_cast<double>(cell_.corners.size()));
-}
-
-double CellHull::radius(const Vec3d& from) const {
-  double most = 0;
-  for (const Vec3d& p : cell_.corners) most = std::max(most, dot(p - from, p - from));
-  return std::sqrt(most) + slack_;
 }
 
 bool CellHull::is_clearly_apart(const PreparedTriangle& triangle) const {
@@ -42,27 +29,28 @@ bool CellHull::is_clearly_apart(const PreparedTriangle& triangle) const {
   return r.lo - triangle.hi > slack_ || triangle.lo - r.hi > slack_;
 }
 
-namespace {
-
-/// Calls visit(triangle) for those whose boxes may meet a cell's, until it returns false.
-template <class Visit>
-bool for_near(const DepthField& field, const CellHull& cell, const Visit& visit) {
-  const Box3d local{field.local(cell.box().lo), field.local(cell.box().hi)};
-  return walk_tree(
-      field.tree(), [&](const PartTree::Node& node) { return node.box.as<double>().meets(local); },
-      visit);
+bool CellHull::goes_through(const PreparedTriangle& triangle) const {
+  const Vec3d line = cross(triangle.unit, up_);
+  const auto chord = [&](std::span<const Vec3d> corners, const Vec3d& normal, double offset) {
+    Range r;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec3d &p = corners[i], &q = corners[i + 1 == corners.size() ? 0 : i + 1];
+      const double at_p = dot(normal, p) - offset, at_q = dot(normal, q) - offset;
+      if ((at_p < 0) != (at_q < 0)) r.include(dot(line, p + (q - p) * (at_p / (at_p - at_q))));
+    }
+    return r;
+  };
+  const Range own = chord(cell_.corners, triangle.unit, triangle.lo);
+  const Range other = chord(triangle.corners, up_, along_up_.lo);
+  return own.lo < other.hi && other.lo < own.hi;
 }
-
-}  // namespace
 
 bool is_outside(const DepthField& field, const CellHull& cell, const Vec3d& middle,
                 PairWork& work) {
-  return for_near(field, cell,
-                  [&](std::uint32_t t) {
-                    const Corners c = field.placed(t);
-                    return !box_of(c).meets(cell.box()) || cell.is_apart(c);
-                  }) &&
-         !field.contains(middle, work);
+  return field.for_near(cell.corners(), cell.slack(), [&](std::uint32_t t) {
+    const PreparedTriangle triangle = field.placed_triangle(t);
+    return cell.is_clearly_apart(triangle) || cell.is_apart(triangle);
+  }) && !field.contains(middle, work);
 }
 
 PartScope::About PartScope::look(const CellHull& cell, const About& from, const Vec3d& middle,
@@ -76,7 +64,7 @@ PartScope::About PartScope::look(const CellHull& cell, const About& from, const 
   for (std::uint32_t i = before.first; i < before.last; ++i) {
     const PreparedTriangle& triangle = triangles_[list_[i]];
     const bool many = crossing.size() - others > kMostCrossing;
-    if (cell.is_clearly_apart(triangle) || (!many && cell.is_apart(triangle.corners))) continue;
+    if (cell.is_clearly_apart(triangle) || (!many && cell.is_apart(triangle))) continue;
     if (!many) crossing.push_back(triangle.corners);
     list_.push_back(list_[i]);
   }
@@ -89,7 +77,7 @@ PartScope::About PartScope::look(const CellHull& cell, const About& from, const 
 std::uint32_t PartScope::read(const CellHull& cell) {
   triangles_.clear();
   list_.clear();
-  for_near(field_, cell, [&](std::uint32_t t) {
+  field_.for_near(cell.corners(), cell.slack(), [&](std::uint32_t t) {
     list_.push_back(static_cast<std::uint32_t>(triangles_.size()));
     triangles_.push_back(field_.placed_triangle(t));
     return true;

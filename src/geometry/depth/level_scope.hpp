@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/depth/depth_field.hpp"
@@ -17,18 +18,21 @@ class CellHull {
   /// Keeps a reference to the cell.
   CellHull(const LevelCell& cell, double slack);
 
+  [[nodiscard]] std::span<const Vec3d> corners() const { return cell_.corners; }
+  [[nodiscard]] double slack() const { return slack_; }
   [[nodiscard]] const Box3d& box() const { return box_; }
-  [[nodiscard]] Vec3d middle() const;
-  /// No point is farther from `from`.
-  [[nodiscard]] double radius(const Vec3d& from) const;
   /// Whether a triangle certainly stays out of it, as far as boxes and the planes of both tell.
   [[nodiscard]] bool is_clearly_apart(const PreparedTriangle& triangle) const;
   /// As far as anything tells.
-  [[nodiscard]] bool is_apart(const Corners& triangle) const {
-    return are_apart(cell_.corners, triangle, slack_);
+  [[nodiscard]] bool is_apart(const PreparedTriangle& triangle) const {
+    return !goes_through(triangle) && are_apart(cell_.corners, triangle.corners, slack_);
   }
 
  private:
+  /// Whether a triangle and the hull of the corners have points in common, but for rounding, where
+  /// each goes through the plane of the other: the chords along the line of both.
+  [[nodiscard]] bool goes_through(const PreparedTriangle& triangle) const;
+
   const LevelCell& cell_;
   double slack_ = 0;
   Box3d box_;

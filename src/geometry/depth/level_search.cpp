@@ -25,6 +25,9 @@ constexpr std::uint64_t kVisitedPerPiece = 4;
 /// The least difference of the ways to two triangles that a cut goes between.
 constexpr double kLeastTurn = 0.1;
 
+/// Half-spaces of a part that are looked at: more of a round one cost more than they cut off.
+constexpr std::size_t kMostPlanes = 64;
+
 class LevelSearch {
  public:
   LevelSearch(const DepthField& of, const DepthField& in, const LevelQuestion& question,
@@ -47,7 +50,8 @@ class LevelSearch {
   }
 
   LevelAnswer run() {
-    answer_.none = clears(skin()) && clears(parallel_surface(of_, room_, q_.level, flat_, work_));
+    answer_.none = clears(skin()) &&
+                   clears(parallel_surface(of_, {room_, q_.hull_in}, q_.level, flat_, work_));
     answer_.cells = cells();
     return answer_;
   }
@@ -107,8 +111,12 @@ class LevelSearch {
   /// so large about any point that is looked for is in the first part.
   [[nodiscard]] std::optional<LevelCell> part_in_hulls(LevelCell cell) const {
     const double slack = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
+    // A ball round the cell tells for most half-spaces that all of it is inside.
+    const Vec3d middle = middle_of(cell);
+    const double radius = radius_of(cell, middle);
     const auto meets = [&](const HalfSpace& hull, double inset) {
       const HalfSpace room{hull.normal, hull.offset - inset + slack};
+      if (dot(room.normal, middle) + radius < room.offset) return true;
       if (std::ranges::all_of(cell.corners,
                               [&](const Vec3d& p) { return dot(room.normal, p) > room.offset; }))
         return false;
@@ -127,8 +135,8 @@ class LevelSearch {
     slack_ = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
     const CellHull hull(cell, slack_);
     if (!hull.box().meets(room_)) return true;
-    middle_ = on_field_grid(hull.middle());
-    radius_ = hull.radius(middle_);
+    middle_ = on_field_grid(middle_of(cell));
+    radius_ = radius_of(cell, middle_) + slack_;
     near_.clear();
     crossing_.clear();
     if (hint_ != kNoFace && is_near_triangle(cell, hint_)) return true;
@@ -159,9 +167,10 @@ class LevelSearch {
   }
 
   [[nodiscard]] bool is_near_triangle(const LevelCell& cell, std::uint32_t triangle) const {
-    const Corners c = of_.placed(triangle);
-    return std::ranges::all_of(cell.corners, [&](const Vec3d& p) {
-      return length(p - nearest_on_triangle(p, c)) + slack_ < q_.level;
+    const PreparedTriangle& t = of_.triangle(triangle);
+    return std::ranges::all_of(cell.corners, [&](const Vec3d& corner) {
+      const Vec3d p = of_.local(corner);
+      return length(p - t.nearest(p)) + slack_ < q_.level;
     });
   }
 
@@ -195,14 +204,15 @@ class LevelSearch {
   }
 
   bool leads_out(const LevelCell& cell, const Vec3d& from, std::uint32_t triangle) {
-    const Vec3d n = of_.triangle(triangle).unit;
-    const Vec3d way =
-        of_.common(nearest_on_triangle(of_.local(from), of_.corners(triangle))) - from;
+    const PreparedTriangle t = of_.triangle(triangle);
+    const Vec3d way = t.nearest(of_.local(from)) - of_.local(from);
     const double size = length(way);
-    const Vec3d out = size > 0 ? way * ((dot(n, way) < 0 ? -1 : 1) / size) : n;
+    const Vec3d out = size > 0 ? way * ((dot(t.unit, way) < 0 ? -1 : 1) / size) : t.unit;
     const Vec3d move = out * (q_.level - 2 * q_.slack);
     LevelCell moved{.corners = cell.corners, .about = {}};
     for (Vec3d& p : moved.corners) p = p + move;
+    const auto stays_in = [&](const Vec3d& p) { return t.has_behind(of_.local(p)); };
+    if (stays_in(middle_ + move) || std::ranges::any_of(moved.corners, stays_in)) return false;
     return is_outside(of_, {moved, slack_}, on_field_grid(middle_ + move), work_);
   }
 
@@ -312,6 +322,19 @@ class LevelSearch {
 };
 
 }  // namespace
+
+std::vector<HalfSpace> half_spaces_of(const DepthField& part) {
+  std::vector<HalfSpace> hull;
+  if (part.planes() == nullptr) return hull;
+  const std::vector<SupportPlanes::Plane>& planes = part.planes()->planes;
+  // They stand by their normals: any share looks to all sides.
+  const std::size_t step =
+      std::max<std::size_t>(1, (planes.size() + kMostPlanes - 1) / kMostPlanes);
+  const Vec3d shift = part.local({});
+  for (std::size_t i = 0; i < planes.size(); i += step)
+    hull.push_back({planes[i].normal, planes[i].support - dot(planes[i].normal, shift)});
+  return hull;
+}
 
 LevelAnswer look_above_level(const DepthField& of, const DepthField& in,
                              const LevelQuestion& question, const DepthGoal& goal, PairWork& work) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "geometry/depth/depth_field.hpp"
 #include "geometry/depth/level_cell.hpp"
@@ -26,6 +27,10 @@ struct LevelAnswer {
   std::optional<Vec3d> deeper;  ///< a point of both that is deeper than what is known
   std::uint64_t cells = 0;      ///< that pieces and cells were cut into, and searches as long
 };
+
+/// Half-spaces that hold a part, relative to the common origin: those of its support planes, or a
+/// share of them that looks to all sides.
+[[nodiscard]] std::vector<HalfSpace> half_spaces_of(const DepthField& part);
 
 /// If x is deeper in the first part than the level, the straight way from x to the nearest point of
 /// its skin leads to a point at the level, which is on the surface parallel to the skin. Either the

@@ -14,6 +14,10 @@ namespace {
 
 double squared(const Vec3d& v) { return dot(v, v); }
 
+/// A triangle whose height is less than this relative to its longest edge has no sides to speak of.
+constexpr double kSliver = 1e-6;
+/// Grid units: a point so far inside of a side may be outside of it.
+constexpr double kBeside = 1e-3;
 /// Relative, and grid units squared: far above what a height is off by.
 constexpr double kRounding = 1e-3;
 
@@ -21,14 +25,16 @@ constexpr double kRounding = 1e-3;
 /// hint nor the tree's shape shows in the answer.
 class Search {
  public:
-  Search(const Part& part, const PartTree& tree, const Vec3d& p,
-         std::span<const PreparedTriangle> prepared)
-      : part_(part), tree_(tree), p_(p), prepared_(prepared) {}
+  Search(const SkinTree& skin, const Vec3d& p)
+      : skin_(skin),
+        tree_(skin.frame == nullptr ? skin.tree : skin.frame->part.tree),
+        p_(p),
+        in_tree_(skin.frame == nullptr ? p : turned(skin.frame->axes, p)) {}
 
   NearestTriangle run(std::uint32_t hint, double limit) {
-    best_ = limit * limit;
+    shrink(limit * limit);
     if (hint != kNoFace) test(hint);
-    if (!tree_.nodes().empty()) descend(0, squared_gap(p_, tree_.nodes()[0].box.as<double>()));
+    if (!tree_.nodes().empty()) descend(0, gap(0));
     NearestTriangle found{.visited = visited_};
     if (triangle_ != kNoFace) {
       found.distance = std::sqrt(best_);
@@ -39,15 +45,16 @@ class Search {
 
  private:
   void test(std::uint32_t t) {
-    if (!prepared_.empty()) {
-      const PreparedTriangle& at = prepared_[t];
-      if (!is_farther_along(at.unit, 1, at.lo, at.hi)) compare(t, at.corners);
+    if (!skin_.prepared.empty()) {
+      const PreparedTriangle& at = skin_.prepared[t];
+      if (!is_farther_along(at.unit, 1, at.lo, at.hi)) compare(t, at.nearest(p_));
       return;
     }
-    const Corners c = corners_of(part_, t);
+    const Corners c = corners_of(skin_.part, t);
     const Vec3d n = normal_of(c);
     const double x = dot(n, c[0]), y = dot(n, c[1]), z = dot(n, c[2]);
-    if (!is_farther_along(n, squared(n), std::min({x, y, z}), std::max({x, y, z}))) compare(t, c);
+    if (!is_farther_along(n, squared(n), std::min({x, y, z}), std::max({x, y, z})))
+      compare(t, nearest_on_triangle(p_, c));
   }
 
   /// Whether a triangle, from `lo` to `hi` along a vector of that length squared, is farther than
@@ -58,24 +65,35 @@ class Search {
     return gap * gap > (best_ * (1 + kRounding) + kRounding) * length_squared;
   }
 
-  void compare(std::uint32_t t, const Corners& corners) {
-    const double d = squared(nearest_on_triangle(p_, corners) - p_);
+  void compare(std::uint32_t t, const Vec3d& nearest) {
+    const double d = squared(nearest - p_);
     if (d < best_ || (d == best_ && t < triangle_)) {
-      best_ = d;
+      shrink(d);
       triangle_ = t;
     }
   }
 
+  /// Nothing farther is of interest.
+  void shrink(double squared_distance) {
+    best_ = reach_ = squared_distance;
+    if (skin_.frame == nullptr) return;
+    const double off = std::sqrt(best_) + kTurnRounding + kFrameRounding;
+    reach_ = off * off;
+  }
+
+  [[nodiscard]] double gap(std::uint32_t index) const {
+    return squared_gap(in_tree_, tree_.nodes()[index].box.as<double>());
+  }
+
   void descend(std::uint32_t index, double at) {
-    if (at > best_) return;
+    if (at > reach_) return;
     ++visited_;
     const PartTree::Node& node = tree_.nodes()[index];
     if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) test(tree_.order()[i]);
       return;
     }
-    const double left = squared_gap(p_, tree_.nodes()[node.first].box.as<double>());
-    const double right = squared_gap(p_, tree_.nodes()[node.first + 1].box.as<double>());
+    const double left = gap(node.first), right = gap(node.first + 1);
     if (left <= right) {
       descend(node.first, left);
       descend(node.first + 1, right);
@@ -85,11 +103,10 @@ class Search {
     }
   }
 
-  const Part& part_;
+  const SkinTree& skin_;
   const PartTree& tree_;
-  Vec3d p_;
-  std::span<const PreparedTriangle> prepared_;
-  double best_ = 0;
+  Vec3d p_, in_tree_;
+  double best_ = 0, reach_ = 0;  ///< squared; of triangles, of boxes
   std::uint32_t triangle_ = kNoFace, visited_ = 0;
 };
 
@@ -115,28 +132,64 @@ Vec3d nearest_on_triangle(const Vec3d& p, const Corners& t) {
   return best;
 }
 
-NearestTriangle nearest_triangle(const Part& part, const PartTree& tree, const Vec3d& p,
-                                 std::uint32_t hint, double limit,
-                                 std::span<const PreparedTriangle> prepared) {
-  return Search(part, tree, p, prepared).run(hint, limit);
+PreparedTriangle::PreparedTriangle(const Corners& c) : corners(c) {
+  const Vec3d n = normal_of(c);
+  size = length(n);
+  if (!(size > 0)) return;
+  unit = n * (1 / size);
+  const double x = dot(unit, c[0]), y = dot(unit, c[1]), z = dot(unit, c[2]);
+  lo = std::min({x, y, z});
+  hi = std::max({x, y, z});
+  const Vec3d longest = longest_edge(c);
+  if (size < kSliver * squared(longest)) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d side = cross(unit, c[(i + 1) % 3] - c[i]);
+    inwards[i] = side * (1 / length(side));
+  }
 }
 
-double some_distance(const Part& part, const PartTree& tree, const Vec3d& p) {
+Vec3d PreparedTriangle::nearest(const Vec3d& p) const {
+  if (!(squared(inwards[0]) > 0)) return nearest_on_triangle(p, corners);
+  bool over = true;
+  Vec3d best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double in = dot(inwards[i], p - corners[i]);
+    if (in > kBeside) continue;
+    over = over && in >= 0;
+    const Vec3d q = nearest_on_segment(p, corners[i], corners[(i + 1) % 3]);
+    const double d = squared(q - p);
+    if (!(d < least)) continue;
+    least = d;
+    best = q;
+  }
+  return over ? p - unit * dot(unit, p - corners[0]) : best;
+}
+
+NearestTriangle nearest_triangle(const SkinTree& skin, const Vec3d& p, std::uint32_t hint,
+                                 double limit) {
+  return Search(skin, p).run(hint, limit);
+}
+
+double some_distance(const SkinTree& skin, const Vec3d& p) {
+  const PartTree& tree = skin.frame == nullptr ? skin.tree : skin.frame->part.tree;
+  const Vec3d in_tree = skin.frame == nullptr ? p : turned(skin.frame->axes, p);
   double least = std::numeric_limits<double>::infinity();
   if (tree.nodes().empty()) return least;
   const PartTree::Node* node = tree.nodes().data();
   const auto gap = [&](std::uint32_t index) {
-    return squared_gap(p, tree.nodes()[index].box.as<double>());
+    return squared_gap(in_tree, tree.nodes()[index].box.as<double>());
   };
   while (node->count == 0)
     node = &tree.nodes()[node->first + (gap(node->first + 1) < gap(node->first) ? 1 : 0)];
   for (std::uint32_t i = node->first; i < node->first + node->count; ++i)
-    least = std::min(least, squared(nearest_on_triangle(p, corners_of(part, tree.order()[i])) - p));
+    least = std::min(least,
+                     squared(nearest_on_triangle(p, corners_of(skin.part, tree.order()[i])) - p));
   return std::sqrt(least);
 }
 
 SkinPoint nearest_on_skin(const TreedPart& part, const Vec3d& p) {
-  const NearestTriangle nearest = nearest_triangle(*part.placed.part, *part.tree, p);
+  const NearestTriangle nearest = nearest_triangle({*part.placed.part, *part.tree}, p);
   if (nearest.triangle == kNoFace) return {p, 0, {}, kNoFace};
   const Corners c = corners_of(*part.placed.part, nearest.triangle);
   const Vec3d n = normal_of(c);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
 
 #include "geometry/corners.hpp"
 #include "geometry/directions.hpp"
+#include "geometry/turned_part.hpp"
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/part_tree.hpp"
 
@@ -20,20 +21,23 @@ namespace strake::geometry {
 
 /// A triangle as it is asked for again and again, in the part's own coordinates.
 struct PreparedTriangle {
-  Corners corners;
   Vec3d unit;             ///< normal; none without area
   double lo = 0, hi = 0;  ///< least and greatest unit·x of its corners
   double size = 0;        ///< twice the area
+  Corners corners;
+  /// Unit vectors in its plane, square to its sides; none of a sliver.
+  std::array<Vec3d, 3> inwards{};
 
-  explicit PreparedTriangle(const Corners& c) : corners(c) {
-    const Vec3d n = normal_of(c);
-    size = length(n);
-    if (!(size > 0)) return;
-    unit = n * (1 / size);
-    const double x = dot(unit, c[0]), y = dot(unit, c[1]), z = dot(unit, c[2]);
-    lo = std::min({x, y, z});
-    hi = std::max({x, y, z});
+  explicit PreparedTriangle(const Corners& c);
+
+  /// Whether a point stands over it, on its inner side.
+  [[nodiscard]] bool has_behind(const Vec3d& p) const {
+    const auto inside = [&](std::size_t i) { return dot(inwards[i], p - corners[i]) > 0; };
+    return dot(unit, p) < lo && inside(0) && inside(1) && inside(2);
   }
+
+  /// As nearest_on_triangle().
+  [[nodiscard]] Vec3d nearest(const Vec3d& p) const;
 
   [[nodiscard]] PreparedTriangle moved(const Vec3d& by) const {
     PreparedTriangle there = *this;
@@ -50,15 +54,22 @@ struct NearestTriangle {
   std::uint32_t visited = 0;  ///< nodes of the tree that the question went to
 };
 
+/// The triangles of a part and the boxes that they are found by: those of its tree or of a frame of
+/// its own. What is prepared, all triangles or none, and the frame change only the work.
+struct SkinTree {
+  const Part& part;
+  const PartTree& tree;
+  const TurnedFrame* frame = nullptr;
+  std::span<const PreparedTriangle> prepared = {};
+};
+
 /// The triangle of a part nearest to p (in the part's own coordinates), if nearer than `limit`;
-/// `hint` is tried first and changes only the work, and so does `prepared`: all triangles, or none.
-/// Floating point: relative error about 1e-12.
+/// `hint` is tried first and changes only the work. Floating point: relative error about 1e-12.
 [[nodiscard]] NearestTriangle nearest_triangle(
-    const Part& part, const PartTree& tree, const Vec3d& p, std::uint32_t hint = kNoFace,
-    double limit = std::numeric_limits<double>::infinity(),
-    std::span<const PreparedTriangle> prepared = {});
+    const SkinTree& skin, const Vec3d& p, std::uint32_t hint = kNoFace,
+    double limit = std::numeric_limits<double>::infinity());
 
 /// The distance to some triangle that is near: no less than that to the nearest.
-[[nodiscard]] double some_distance(const Part& part, const PartTree& tree, const Vec3d& p);
+[[nodiscard]] double some_distance(const SkinTree& skin, const Vec3d& p);
 
 }  // namespace strake::geometry

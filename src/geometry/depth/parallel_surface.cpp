@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "geometry/directions.hpp"
-#include "geometry/tree_walk.hpp"
+#include "geometry/range.hpp"
 #include "strake/core/disjoint_sets.hpp"
 #include "strake/geometry/part_edges.hpp"
 #include "strake/geometry/trig.hpp"
@@ -40,22 +40,29 @@ class CornersBeside {
   std::size_t count_ = 0;
 };
 
+/// Whether some points are on one side of a triangle's plane, off it.
+bool is_on_one_side(const PreparedTriangle& triangle, std::span<const Vec3d> points) {
+  Range r;
+  for (const Vec3d& p : points) r.include(dot(triangle.unit, p));
+  return r.lo > triangle.hi + kHeightError || r.hi < triangle.lo - kHeightError;
+}
+
 /// Whether a triangle may meet another of its part beside what they have in common. Triangles of
 /// one corner that do so reach with one side, opposite to it, into the other; those of one edge are
 /// folded onto each other and have nothing between them.
 bool is_crossed(const DepthField& of, std::uint32_t triangle) {
-  const Corners own = of.corners(triangle);
-  const Box3d box = box_of(own);
-  return !walk_tree(
-      of.tree(), [&](const PartTree::Node& node) { return node.box.as<double>().meets(box); },
-      [&](std::uint32_t t) {
-        const CornersBeside beside(of, triangle, t);
-        const std::size_t count = beside.all().size();
-        if (count < 2) return true;
-        const Corners other = of.corners(t);
-        return are_apart(beside.all(), other, 0) &&
-               (count == 3 || are_apart(CornersBeside(of, t, triangle).all(), own, 0));
-      });
+  const PreparedTriangle own = of.triangle(triangle);
+  const Box3d box = box_of(own.corners);
+  return !of.for_near(of.placed(triangle), 0, [&](std::uint32_t t) {
+    if (!box_of(of.corners(t)).meets(box)) return true;
+    const CornersBeside own_rest(of, triangle, t), rest(of, t, triangle);
+    const std::size_t count = rest.all().size();
+    if (count < 2) return true;
+    const PreparedTriangle other = of.triangle(t);
+    if (is_on_one_side(own, rest.all()) || is_on_one_side(other, own_rest.all())) return true;
+    return are_apart(own_rest.all(), other.corners, 0) &&
+           (count == 3 || are_apart(rest.all(), own.corners, 0));
+  });
 }
 
 /// Whether the part is on the outer side of a triangle too, at its middle.
@@ -273,23 +280,32 @@ class Builder {
 std::optional<std::vector<std::uint32_t>> triangles_near(const DepthField& of, const Box3d& box,
                                                          double distance) {
   std::vector<std::uint32_t> near;
-  const Box3d local = Box3d{of.local(box.lo), of.local(box.hi)}.inflated(distance);
-  const bool all = walk_tree(
-      of.tree(), [&](const PartTree::Node& node) { return node.box.as<double>().meets(local); },
-      [&](std::uint32_t t) {
-        if (box_of(of.corners(t)).meets(local)) near.push_back(t);
-        return near.size() <= kMostTriangles;
-      });
+  const Box3d room = box.inflated(distance);
+  std::array<Vec3d, 8> corners;
+  for (unsigned i = 0; i < corners.size(); ++i)
+    for (int k = 0; k < 3; ++k) corners[i][k] = ((i >> k) & 1U) == 0 ? room.lo[k] : room.hi[k];
+  const bool all = of.for_near(corners, 0, [&](std::uint32_t t) {
+    if (box_of(of.placed(t)).meets(room)) near.push_back(t);
+    return near.size() <= kMostTriangles;
+  });
   if (!all) return std::nullopt;
   std::ranges::sort(near);
   return near;
 }
 
-std::optional<std::vector<LevelCell>> parallel_surface(const DepthField& of, const Box3d& room,
+std::optional<std::vector<LevelCell>> parallel_surface(const DepthField& of, const Room& room,
                                                        double distance, double flat,
                                                        PairWork& work) {
-  auto near = triangles_near(of, room, distance);
+  auto near = triangles_near(of, room.box, distance);
   if (!near) return std::nullopt;
+  const auto stays_out = [&](std::uint32_t t) {
+    const Corners c = of.placed(t);
+    return std::ranges::any_of(room.hull, [&](const HalfSpace& h) {
+      return std::ranges::all_of(
+          c, [&](const Vec3d& p) { return dot(h.normal, p) > h.offset + distance + kHeightError; });
+    });
+  };
+  std::erase_if(*near, stays_out);
   return Builder(of, std::move(*near), distance, flat).run(work);
 }
 

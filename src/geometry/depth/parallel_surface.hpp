@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/depth/depth_field.hpp"
@@ -9,12 +10,18 @@
 
 namespace strake::geometry {
 
-/// All points of a part at some distance from its skin that lie in a box, or more: its triangles
+/// Where a surface is asked for: a box and half-spaces with unit normals.
+struct Room {
+  const Box3d& box;
+  std::span<const HalfSpace> hull;
+};
+
+/// All points of a part at some distance from its skin that lie in a room, or more: its triangles
 /// moved inwards, and round edges and corners that stand in; to both sides and all round where the
 /// part overlaps itself. What bends by less than `flat` grid units there is left out: it is so near
 /// to what is not. Nothing where there is too much of it.
 [[nodiscard]] std::optional<std::vector<LevelCell>> parallel_surface(const DepthField& of,
-                                                                     const Box3d& room,
+                                                                     const Room& room,
                                                                      double distance, double flat,
                                                                      PairWork& work);
 

@@ -12,7 +12,6 @@
 
 #include "geometry/box.hpp"
 #include "geometry/depth/radius_lp.hpp"
-#include "geometry/tree_walk.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -40,7 +39,7 @@ struct Near {
 /// What a triangle says of the surroundings of a point in the part's own coordinates; nothing where
 /// it has no area and the point lies on it.
 std::optional<Near> near_of(const PreparedTriangle& triangle, const Vec3d& at) {
-  const Vec3d way = at - nearest_on_triangle(at, triangle.corners);
+  const Vec3d way = at - triangle.nearest(at);
   const double distance = length(way);
   if (distance > kOnSkin) return Near{way * (1 / distance), distance};
   // On the skin, inwards is away from it.
@@ -52,19 +51,14 @@ std::optional<Near> near_of(const PreparedTriangle& triangle, const Vec3d& at) {
 bool find_near(const DepthField& field, const Vec3d& p, double reach, std::vector<Near>& near) {
   const Vec3d at = field.local(p);
   near.clear();
-  return walk_tree(
-      field.tree(),
-      [&](const PartTree::Node& node) {
-        return squared_gap(at, node.box.as<double>()) <= reach * reach;
-      },
-      [&](std::uint32_t t) {
-        const PreparedTriangle triangle = field.triangle(t);
-        const double height = dot(triangle.unit, at);
-        if (height - triangle.hi > reach || triangle.lo - height > reach) return true;
-        const auto found = near_of(triangle, at);
-        if (found && found->distance <= reach) near.push_back(*found);
-        return near.size() <= kMostNear;
-      });
+  return field.for_near(p, reach, [&](std::uint32_t t) {
+    const PreparedTriangle triangle = field.triangle(t);
+    const double height = dot(triangle.unit, at);
+    if (height - triangle.hi > reach || triangle.lo - height > reach) return true;
+    const auto found = near_of(triangle, at);
+    if (found && found->distance <= reach) near.push_back(*found);
+    return near.size() <= kMostNear;
+  });
 }
 
 /// What a centre must not leave: a part.

@@ -9,8 +9,8 @@ strake_test(geometry_caving_depth_test
   SOURCES caving_depth_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_level_scope_test
   SOURCES level_scope_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
-strake_test(geometry_level_frame_test
-  SOURCES level_frame_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
+strake_test(geometry_depth_field_test
+  SOURCES depth_field_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_level_search_test
   SOURCES level_search_test.cpp ../../support/part_builder.cpp MODULES geometry LABELS fast)
 strake_test(geometry_fitted_depth_test

@@ -50,7 +50,7 @@ class LevelScope : public ::testing::Test {
     const CellHull hull(cell, kSlack);
     std::vector<Corners> crossing;
     const PartScope::About about =
-        scope.look(hull, from, on_field_grid(hull.middle()), crossing, work_);
+        scope.look(hull, from, on_field_grid(middle_of(cell)), crossing, work_);
     EXPECT_EQ(crossing.empty(), about.side != PartScope::Side::both);
     ++seen_[static_cast<std::size_t>(about.side)];
     for (int i = 0; i < 20 && about.side != PartScope::Side::both; ++i)

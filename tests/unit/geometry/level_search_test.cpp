@@ -10,9 +10,9 @@
 #include <optional>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "../../support/depth_subjects.hpp"
-#include "geometry/depth/level_frame.hpp"
 #include "geometry/depth/uphill.hpp"
 #include "geometry/directions.hpp"
 
@@ -118,7 +118,7 @@ void expect_no_level_clear_below_a_point(const Make& make) {
     const SupportPlanes planes_in = make_support_planes(b.part);
     DepthField in(box, {}, &planes_in);
     in.prepare();
-    const LevelFrame frame(of, in, true);
+    const std::vector<HalfSpace> hull_of = half_spaces_of(of), hull_in = half_spaces_of(in);
     ++asked;
     for (const double share : {0.5, 0.9, 0.99}) {
       LevelQuestion question{.level = share * depth,
@@ -127,8 +127,8 @@ void expect_no_level_clear_below_a_point(const Make& make) {
                              .slack = 1.0 / 1024,
                              .most_cells = 100'000};
       EXPECT_FALSE(look_above_level(of, in, question, {}, work).none) << share;
-      question.hull_of = frame.hull_a();
-      question.hull_in = frame.hull_b();
+      question.hull_of = hull_of;
+      question.hull_in = hull_in;
       EXPECT_FALSE(look_above_level(of, in, question, {}, work).none) << share << ", with hulls";
     }
   }
