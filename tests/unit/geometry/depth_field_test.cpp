@@ -109,7 +109,6 @@ TEST(DepthField, NeedlesThatLieAskewAreFoundByBoxesAlongThem) {
   for (const std::uint64_t seed : {0U, 1U}) {
     const Insulation of(seed);
     Draw draws(300);
-    PairWork work;
     for (int i = 0; i < 400; ++i)
       visited[seed] += of.prepared.nearest(draw_point(of.field, draws)).visited;
   }
