@@ -110,7 +110,9 @@ int run(int argc, char** argv) {
                                 add_draw_diff(*draw.command, common),
                                 draw,
                                 add_info(program, common),
-                                add_generate(program, common)};
+                                add_generate(program, common),
+                                add_man(program),
+                                add_completion(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version

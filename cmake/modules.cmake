@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 
-# strake_module(NAME [PACKAGED] SOURCES... DEPENDS modules... [LIBS private libraries...])
-# One layer of the library: library strake_NAME, alias strake::NAME. Static, unless it is PACKAGED,
-# part of what is installed for other projects: those obey BUILD_SHARED_LIBS.
+# strake_module(NAME SOURCES... DEPENDS modules... [LIBS private libraries...])
+# One layer of the library: library strake_NAME, alias strake::NAME; static, unless
+# BUILD_SHARED_LIBS. Position-independent when static, too: it may end up in a plug-in.
 function(strake_module name)
-  cmake_parse_arguments(arg "PACKAGED" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
-  set(kind STATIC)
-  if(arg_PACKAGED AND BUILD_SHARED_LIBS)
-    set(kind SHARED)
-  endif()
-  add_library(strake_${name} ${kind} ${arg_SOURCES})
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
+  add_library(strake_${name} ${arg_SOURCES})
   add_library(strake::${name} ALIAS strake_${name})
   target_include_directories(strake_${name}
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> PRIVATE ${PROJECT_SOURCE_DIR}/src)
@@ -17,17 +13,16 @@ function(strake_module name)
     target_link_libraries(strake_${name} PUBLIC strake::${module})
   endforeach()
   target_link_libraries(strake_${name} PRIVATE $<BUILD_INTERFACE:strake_flags> ${arg_LIBS})
-  if(arg_PACKAGED)
-    target_compile_features(strake_${name} PUBLIC cxx_std_20)
-    # Before version 1 any minor version may change the interface, hence its place in SOVERSION.
-    # Position-independent when static too: it may end up in a plug-in.
-    set_target_properties(strake_${name} PROPERTIES
-      EXPORT_NAME ${name}
-      VERSION ${PROJECT_VERSION}
-      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-      POSITION_INDEPENDENT_CODE ON
-      INSTALL_RPATH $ORIGIN)
-  endif()
+  target_compile_features(strake_${name} PUBLIC cxx_std_20)
+  # Calls within a module are inlined although it may become a shared library.
+  target_compile_options(strake_${name} PRIVATE -fno-semantic-interposition)
+  # Before version 1 any minor version may change the interface, hence its place in SOVERSION.
+  set_target_properties(strake_${name} PROPERTIES
+    EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    POSITION_INDEPENDENT_CODE ON
+    INSTALL_RPATH $ORIGIN)
 endfunction()
 
 # strake_test(NAME SOURCES... MODULES modules... [LIBS ...] [LABELS fast|slow|parallel ...] [TIMEOUT s])

@@ -4,7 +4,7 @@ option(STRAKE_SLOW_TESTS "Build the nightly oracles too (CGAL, long fuzzing)" OF
 option(STRAKE_BENCHMARKS "Build the benchmarks" OFF)
 option(STRAKE_FUZZERS "Build the libFuzzer targets (Clang only)" OFF)
 option(STRAKE_ONLY_PARALLEL "Build strake::parallel and nothing else: needs no other package" OFF)
-option(BUILD_SHARED_LIBS "Make what other projects link shared libraries" OFF)
+option(BUILD_SHARED_LIBS "Make shared libraries" OFF)
 option(STRAKE_WERROR "Warnings are errors" ON)
 set(STRAKE_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them")
 

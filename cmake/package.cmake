@@ -1,22 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 # What other projects find with find_package(strake COMPONENTS ...). A component is installed alone
-# with `cmake --install BUILD --component NAME`.
+# with `cmake --install BUILD --component NAME`, and needs those that it depends on.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(strake_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/strake)
-configure_package_config_file(cmake/strake-config.cmake.in strake-config.cmake
-  INSTALL_DESTINATION ${strake_package_dir}
-  NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
-# Before version 1 any minor version may change the interface.
-write_basic_package_version_file(strake-config-version.cmake COMPATIBILITY SameMinorVersion)
 
-# strake_component(NAME MODULES packaged modules... HEADERS files and folders of include/strake...
-#   GUIDE folders of pages and examples...)
+# strake_component(NAME MODULES modules... DEPENDS components... PACKAGES others... HEADERS files and
+#   folders of include/strake... PAGES files and folders...)
 # Installs the modules as targets strake::MODULE, with their headers and all that finds them.
+# PACKAGES: what find_dependency() has to find for whoever links them. PAGES: pages of docs and
+# examples that come with it.
 function(strake_component name)
-  cmake_parse_arguments(arg "" "" "MODULES;HEADERS;GUIDE" ${ARGN})
-  list(TRANSFORM arg_MODULES PREPEND strake_)
-  install(TARGETS ${arg_MODULES} EXPORT strake-${name}
+  cmake_parse_arguments(arg "" "" "MODULES;DEPENDS;PACKAGES;HEADERS;PAGES" ${ARGN})
+  list(TRANSFORM arg_MODULES PREPEND strake_ OUTPUT_VARIABLE targets)
+  install(TARGETS ${targets} EXPORT strake-${name}
     ARCHIVE COMPONENT ${name}
     LIBRARY COMPONENT ${name}
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -31,14 +28,57 @@ function(strake_component name)
     install(${what} ${PROJECT_SOURCE_DIR}/include/strake/${entry}
       DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/strake/${folder} COMPONENT ${name})
   endforeach()
+  foreach(page ${arg_PAGES})
+    get_filename_component(folder ${page} DIRECTORY)
+    string(REGEX REPLACE "^docs/?" "" folder "${folder}")
+    set(what FILES)
+    if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${page})
+      set(what DIRECTORY)
+    endif()
+    install(${what} ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
+      COMPONENT ${name})
+  endforeach()
   install(FILES
     ${PROJECT_BINARY_DIR}/strake-config.cmake ${PROJECT_BINARY_DIR}/strake-config-version.cmake
     DESTINATION ${strake_package_dir} COMPONENT ${name})
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
     DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${name})
-  foreach(folder ${arg_GUIDE})
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_DOCDIR}
-      COMPONENT ${name} FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.cpp PATTERN *.hpp
-      PATTERN expected EXCLUDE PATTERN basic_tests.cpp EXCLUDE)
+  set_property(GLOBAL APPEND PROPERTY strake_components ${name})
+  set_property(GLOBAL APPEND PROPERTY strake_modules ${arg_MODULES})
+  set_property(GLOBAL PROPERTY strake_modules_${name} ${arg_MODULES})
+  set_property(GLOBAL PROPERTY strake_depends_${name} ${arg_DEPENDS})
+  set_property(GLOBAL PROPERTY strake_packages_${name} ${arg_PACKAGES})
+endfunction()
+
+# strake_package()
+# After the last component: the files that find them, by CMake and by pkg-config.
+function(strake_package)
+  get_property(components GLOBAL PROPERTY strake_components)
+  get_property(modules GLOBAL PROPERTY strake_modules)
+  set(strake_facts "set(strake_components ${components})\n")
+  foreach(component ${components})
+    foreach(fact depends packages)
+      get_property(value GLOBAL PROPERTY strake_${fact}_${component})
+      string(APPEND strake_facts "set(strake_${fact}_${component} ${value})\n")
+    endforeach()
   endforeach()
+  string(REPLACE ";" " " strake_facts "${strake_facts}")
+  configure_package_config_file(cmake/strake-config.cmake.in strake-config.cmake
+    INSTALL_DESTINATION ${strake_package_dir}
+    NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+  # Before version 1 any minor version may change the interface.
+  write_basic_package_version_file(strake-config-version.cmake COMPATIBILITY SameMinorVersion)
+  # Static libraries are named before those that they need.
+  list(REMOVE_ITEM modules library)
+  list(REVERSE modules)
+  list(TRANSFORM modules PREPEND "-lstrake_")
+  list(JOIN modules " " strake_libraries)
+  # Who links a static library links what it needs.
+  set(strake_requires "Requires")
+  if(BUILD_SHARED_LIBS)
+    set(strake_requires "Requires.private")
+  endif()
+  file(RELATIVE_PATH strake_prefix_from_pkgconfig
+    ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+  configure_file(cmake/strake.pc.in strake.pc @ONLY)
 endfunction()

@@ -1,15 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -D PACKAGE=folder -D MUST_NOT_NAME=folders -D BUILD=folder -P make_package.cmake
+# cmake -D PACKAGE=folder -D MUST_NOT_NAME=folders -D BUILD=folder -D COMPONENTS=... -P ...
 # cmake -D PACKAGE=folder -D MUST_NOT_NAME=folders -D SOURCE=folder -D OPTIONS=... -P ...
-# Installs the patterns from a build, or builds them alone from the sources first; moves what was
-# installed to PACKAGE/moved; fails where a text of it names a folder of the machine that built it.
+# Installs components of a build, or builds the patterns alone from the sources first; moves what
+# was installed to PACKAGE/moved; fails where a text of it names a folder of the machine that built
+# it, where it lacks one of MUST_HAVE, or has a header that does not match the expression HEADERS.
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
 endfunction()
 
-file(REMOVE_RECURSE ${PACKAGE}/staging ${PACKAGE}/moved)
+# Lists come with | between their items.
+foreach(list COMPONENTS MUST_HAVE OPTIONS)
+  string(REPLACE "|" ";" ${list} "${${list}}")
+endforeach()
+
+# What was found in an older package is not to be remembered.
+file(REMOVE_RECURSE ${PACKAGE}/staging ${PACKAGE}/moved ${PACKAGE}/consumer ${PACKAGE}/pkg_config)
 if(SOURCE)
   set(BUILD ${PACKAGE}/build)
   # As on a machine that has none of what the rest of Strake needs.
@@ -21,25 +28,23 @@ if(SOURCE)
   run(${CMAKE_COMMAND} --build ${BUILD})
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PACKAGE}/staging)
 else()
-  run(${CMAKE_COMMAND} --install ${BUILD} --component parallel --prefix ${PACKAGE}/staging)
+  foreach(component ${COMPONENTS})
+    run(${CMAKE_COMMAND} --install ${BUILD} --component ${component} --prefix ${PACKAGE}/staging)
+  endforeach()
 endif()
 file(RENAME ${PACKAGE}/staging ${PACKAGE}/moved)
 
 file(GLOB_RECURSE files RELATIVE ${PACKAGE}/moved ${PACKAGE}/moved/*)
-if(NOT "include/strake/parallel/for_each.hpp" IN_LIST files)
-  message(FATAL_ERROR "the package lacks its headers: ${files}")
-endif()
-foreach(page patterns/README.md patterns/convert.md examples/ordered_sum.cpp)
-  if(NOT "share/doc/strake/${page}" IN_LIST files)
-    message(FATAL_ERROR "the package lacks its guide, ${page}: ${files}")
+foreach(file ${MUST_HAVE})
+  if(NOT file IN_LIST files)
+    message(FATAL_ERROR "the package lacks ${file}: ${files}")
   endif()
 endforeach()
 foreach(file ${files})
-  if(file MATCHES "^(bin|include)/"
-      AND NOT file MATCHES "^include/strake/(parallel/|core/result[.]hpp$)")
-    message(FATAL_ERROR "${file} is no part of the component")
+  if(file MATCHES "^(bin|include)/" AND NOT file MATCHES "^include/strake/(${HEADERS})")
+    message(FATAL_ERROR "${file} is no part of the components")
   endif()
-  if(file MATCHES "[.](cmake|hpp)$")
+  if(file MATCHES "[.](cmake|hpp|pc)$")
     file(READ ${PACKAGE}/moved/${file} text)
     foreach(folder ${MUST_NOT_NAME} ${PACKAGE})
       string(FIND "${text}" "${folder}" at)

@@ -90,8 +90,8 @@ struct Placement {
 
 struct LayoutOptions {
   std::string view_name = "view";
-  std::string title;            ///< of the sheet; empty: from the view's name
-  std::optional<double> scale;  ///< model mm per paper mm; none: chosen to fit A3
+  std::string title = {};                      ///< of the sheet; empty: from the view's name
+  std::optional<double> scale = std::nullopt;  ///< model mm per paper mm; none: chosen to fit A3
   double margin_mm = 10;
   std::optional<Placement> placement = std::nullopt;  ///< instead of scale, sheet and margin
   /// Find pieces that lie on each other within the contact distance (3 µm at least) in the plane of

@@ -80,8 +80,8 @@ struct Perspective {
 struct View {
   geometry::Vec3l direction{1, -1, 1};  ///< points to the viewer; |component| <= 2^20
   geometry::Vec3l up{0, 0, 1};
-  std::optional<geometry::Box3l>
-      limits;  ///< grid units: lines outside are clipped, points outside do not hide
+  std::optional<geometry::Box3l> limits =
+      std::nullopt;  ///< grid units: lines outside are clipped, points outside do not hide
   std::vector<Section> sections = {};  ///< in any order, 16 at most
   std::optional<Perspective> perspective = std::nullopt;
 };

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+# The public library: what is installed for other projects, grouped by job. A header that is not
+# named here promises nothing to anybody outside.
+set(pattern_examples
+  examples/convert
+  examples/cancellation.cpp
+  examples/first_defect.cpp
+  examples/first_program.cpp
+  examples/host_threads.cpp
+  examples/load_balance.cpp
+  examples/near_pairs.cpp
+  examples/ordered_sum.cpp
+  examples/packed_lists.cpp
+  examples/paired_triangles.cpp
+  examples/pipelined_text.cpp
+  examples/prepared_parts.cpp
+  examples/queued_jobs.cpp
+  examples/shared_words.cpp
+  examples/uneven_meshes.cpp
+  examples/worker_scratch.cpp)
+strake_component(parallel
+  MODULES result parallel
+  HEADERS core/result.hpp parallel
+  PAGES docs/patterns ${pattern_examples})
+if(STRAKE_ONLY_PARALLEL)
+  return()
+endif()
+
+strake_component(geometry
+  MODULES core geometry
+  DEPENDS parallel
+  HEADERS
+    core/atomic_file.hpp
+    core/diagnostics.hpp
+    core/hash.hpp
+    core/shared_array.hpp
+    core/version.hpp
+    geometry/analytic_pair.hpp
+    geometry/closest.hpp
+    geometry/depth.hpp
+    geometry/ellipse.hpp
+    geometry/grid.hpp
+    geometry/grid_shapes.hpp
+    geometry/inside.hpp
+    geometry/intersect.hpp
+    geometry/mesh.hpp
+    geometry/part.hpp
+    geometry/part_pair.hpp
+    geometry/part_tree.hpp
+    geometry/predicates.hpp
+    geometry/primitive.hpp
+    geometry/rational.hpp
+    geometry/separating_axis.hpp
+    geometry/thin_body.hpp
+    geometry/thin_pair.hpp
+    geometry/triangle_contact.hpp
+    geometry/triangulate.hpp
+    geometry/vec.hpp
+    geometry/vertex_tree.hpp
+    geometry/wide_int.hpp
+  PAGES docs/geometry.md examples/basic_tests.cpp)
+
+strake_component(model
+  MODULES model io settings
+  DEPENDS parallel geometry
+  PACKAGES fmt re2
+  HEADERS
+    io/reader.hpp
+    io/writer.hpp
+    model/model.hpp
+    model/scene.hpp
+    model/selection.hpp
+  PAGES docs/selection.md)
+
+strake_component(clash
+  MODULES clash rules
+  DEPENDS parallel geometry model
+  HEADERS
+    clash/clash.hpp
+    clash/group.hpp
+    clash/options.hpp
+    clash/policy.hpp
+    rules/rules.hpp
+  PAGES
+    docs/clash.md
+    docs/rules.md)
+
+strake_component(drawing
+  MODULES hlr drawing sheets
+  DEPENDS parallel geometry model
+  HEADERS
+    drawing/drawing.hpp
+    drawing/hatching.hpp
+    drawing/ink.hpp
+    drawing/view.hpp
+    drawing/write.hpp
+    hlr/hlr.hpp
+    sheets/sheet.hpp
+    sheets/sheet_file.hpp
+    sheets/write.hpp
+  PAGES
+    docs/drawing.md
+    docs/hlr.md
+    docs/sheets.md
+    examples/draw_view.cpp)
+
+strake_component(report
+  MODULES report
+  DEPENDS parallel geometry model clash drawing
+  HEADERS
+    report/clash.hpp
+    report/clash_diff.hpp
+    report/clash_document.hpp
+    report/view_diff.hpp
+    report/view_document.hpp
+  PAGES docs/reading-results.md examples/find_clashes.cpp)
+
+strake_component(generate
+  MODULES generate
+  DEPENDS parallel geometry model clash
+  HEADERS generate/ship.hpp)
+
+# All of it, as one target.
+add_library(strake_library INTERFACE)
+add_library(strake::strake ALIAS strake_library)
+get_property(modules GLOBAL PROPERTY strake_modules)
+list(TRANSFORM modules PREPEND strake::)
+target_link_libraries(strake_library INTERFACE ${modules})
+set_target_properties(strake_library PROPERTIES EXPORT_NAME strake)
+strake_component(all
+  MODULES library
+  DEPENDS parallel geometry model clash drawing report generate
+  HEADERS strake.hpp
+  PAGES docs/library.md)
+
+# What finds the packages that the libraries need, and pkg-config's description of all of them.
+install(FILES cmake/re2.cmake DESTINATION ${strake_package_dir} COMPONENT model)
+install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  COMPONENT all)
+
+# For users of the program and of the library alike.
+install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
+install(FILES examples/ship_rules.toml examples/ship_sheet.toml
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/strake/examples COMPONENT program)

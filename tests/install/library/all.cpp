@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads, clashes and draws with what one header names.
+#include <array>
+#include <cstdio>
+#include <strake/strake.hpp>
+#include <vector>
+
+#include "two_boxes.hpp"
+
+int main() {
+  using namespace strake;
+  parallel::Team team(2);
+  const parallel::Context context{.team = &team};
+  const std::array files{two_boxes()};
+  const auto model = io::read_models(files, {.unit_mm = 1}, context);
+  if (!model) return std::puts(model.error().text().c_str()), 1;
+  const auto scene = model::make_scene(*model, {}, context);
+  if (!scene) return 1;
+  const auto report = clash::detect(*scene, clash::one_set(*scene), {}, context);
+  const auto lines = hlr::draw(*scene, std::vector<bool>(2, true), {}, {}, context);
+  if (!report || !lines) return 1;
+  std::printf("Strake %s: %zu pairs, %zu pieces\n", version().data(), report->pairs.size(),
+              lines->pieces.size());
+  return report->pairs.size() == 1 && !lines->pieces.empty() ? 0 : 1;
+}
