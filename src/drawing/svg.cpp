@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "drawing/chunked.hpp"
+#include "drawing/buffered.hpp"
 #include "drawing/pens.hpp"
 #include "drawing/svg_layers.hpp"
 #include "strake/core/number.hpp"
@@ -15,7 +15,7 @@ namespace strake::drawing {
 
 namespace {
 
-void write_style(Chunked& out, const Ink& ink, bool sections) {
+void write_style(Buffered& out, const Ink& ink, bool sections) {
   const Pens& pens = ink.pens;
   // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
   out << fmt::format(
@@ -46,7 +46,7 @@ void write_style(Chunked& out, const Ink& ink, bool sections) {
 
 std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-void write_head(Chunked& out, const NeutralDrawing& drawing, const Ink& ink) {
+void write_head(Buffered& out, const NeutralDrawing& drawing, const Ink& ink) {
   const Sheet& sheet = drawing.sheet;
   const std::string width = shortest(sheet.width_mm), height = shortest(sheet.height_mm);
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -71,7 +71,7 @@ void write_head(Chunked& out, const NeutralDrawing& drawing, const Ink& ink) {
   out << fmt::format(" hidden-left-out=\"{}\"", ink.left_out) << "/>\n</drawing>\n</metadata>\n";
 }
 
-void write_title(Chunked& out, const NeutralDrawing& drawing) {
+void write_title(Buffered& out, const NeutralDrawing& drawing) {
   const Sheet& sheet = drawing.sheet;
   const double x = sheet.width_mm - 10, y = sheet.height_mm - 6;
   out << "<g inkscape:groupmode=\"layer\" inkscape:label=\"Title\" id=\"title\" class=\"frame\">\n"
@@ -89,7 +89,7 @@ void write_title(Chunked& out, const NeutralDrawing& drawing) {
 
 void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model,
                Sink sink) {
-  Chunked out(sink);
+  Buffered out(sink);
   write_head(out, drawing, ink);
   write_style(out, ink, !drawing.view.sections.empty());
   out << fmt::format("<rect class=\"sheet\" width=\"{}\" height=\"{}\"/>\n",

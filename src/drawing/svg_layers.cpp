@@ -15,7 +15,7 @@ namespace strake::drawing {
 
 namespace {
 
-void write_object(Chunked& out, const PaperCurves& curves, const model::Model& model,
+void write_object(Buffered& out, const PaperCurves& curves, const model::Model& model,
                   std::span<const Line* const> lines) {
   const std::vector<JoinedLines> chains = join_lines(lines);
   if (chains.empty()) return;
@@ -23,14 +23,14 @@ void write_object(Chunked& out, const PaperCurves& curves, const model::Model& m
   out << "<g data-id=\"" << xml_escaped(object.id) << "\" data-name=\"" << xml_escaped(object.name)
       << "\" data-file=\"" << xml_escaped(model.files[object.file].label) << "\"><path d=\"";
   for (const JoinedLines& chain : chains) {
-    append_svg_path(out.buffer(), chain, curves);
+    append_svg_path(out.text(), chain, curves);
     out << "";
   }
   out << "\"/></g>\n";
 }
 
-void write_layer(Chunked& out, const PaperCurves& curves, const Ink& ink, const model::Model& model,
-                 const Layer& layer, std::string_view prefix) {
+void write_layer(Buffered& out, const PaperCurves& curves, const Ink& ink,
+                 const model::Model& model, const Layer& layer, std::string_view prefix) {
   std::vector<const Line*> lines;
   for (const Line& line : ink.lines)
     if (belongs(line, layer)) lines.push_back(&line);
@@ -51,7 +51,7 @@ void write_layer(Chunked& out, const PaperCurves& curves, const Ink& ink, const 
 
 }  // namespace
 
-void write_layers(Chunked& out, const PaperCurves& curves, const Ink& ink,
+void write_layers(Buffered& out, const PaperCurves& curves, const Ink& ink,
                   const model::Model& model, std::string_view prefix) {
   for (const Layer& layer : kLayers) write_layer(out, curves, ink, model, layer, prefix);
 }

@@ -20,18 +20,18 @@ std::string whole_numbers(const geometry::Vec3l& v) {
   return fmt::format("[{},{},{}]", v.x, v.y, v.z);
 }
 
-void write_perspective(Chunked& out, const hlr::Perspective& perspective) {
+void write_perspective(Buffered& out, const hlr::Perspective& perspective) {
   const geometry::Vec3d eye = geometry::to_mm(perspective.eye);
   const geometry::Vec3d target = geometry::to_mm(perspective.target);
   out << ",\"perspective\":{\"eye_mm\":";
-  append_numbers(out.buffer(), {eye.x, eye.y, eye.z});
+  append_numbers(out.text(), {eye.x, eye.y, eye.z});
   out << ",\"target_mm\":";
-  append_numbers(out.buffer(), {target.x, target.y, target.z});
+  append_numbers(out.text(), {target.x, target.y, target.z});
   out << ",\"near_mm\":" << shortest(perspective.near_mm)
       << ",\"field_of_view_deg\":" << shortest(perspective.field_of_view_deg) << "}";
 }
 
-void write_view(Chunked& out, const NeutralDrawing& drawing) {
+void write_view(Buffered& out, const NeutralDrawing& drawing) {
   out << "\"view\":{\"name\":" << json_quoted(drawing.view_name) << ",\"projection\":\""
       << (drawing.view.perspective ? "perspective" : "orthographic")
       << "\",\"direction\":" << whole_numbers(drawing.view.direction)
@@ -39,7 +39,7 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
   if (drawing.view.limits) {
     const geometry::Vec3d lo = geometry::to_mm(drawing.view.limits->lo);
     const geometry::Vec3d hi = geometry::to_mm(drawing.view.limits->hi);
-    append_numbers(out.buffer(), {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z});
+    append_numbers(out.text(), {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z});
   } else {
     out << "null";
   }
@@ -48,7 +48,7 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
     const geometry::Vec3d point = geometry::to_mm(section.point);
     out << (&section == drawing.view.sections.data() ? "" : ",")
         << "{\"normal\":" << whole_numbers(section.normal) << ",\"point_mm\":";
-    append_numbers(out.buffer(), {point.x, point.y, point.z});
+    append_numbers(out.text(), {point.x, point.y, point.z});
     out << "}";
   }
   out << "]";
@@ -67,7 +67,7 @@ void write_view(Chunked& out, const NeutralDrawing& drawing) {
       << drawing.sheet.scale_text << "\"},\n";
 }
 
-void write_counts(Chunked& out, const NeutralDrawing& drawing) {
+void write_counts(Buffered& out, const NeutralDrawing& drawing) {
   out << fmt::format("\"counts\":{{\"objects\":{}", drawing.account.objects());
   for (std::size_t f = 1; f < hlr::kFates; ++f) {
     const auto fate = static_cast<hlr::Fate>(f);
@@ -89,16 +89,16 @@ void append_object(std::string& out, const model::Model& model, model::ObjectId 
          ",\"file\":" + json_quoted(model.files[object.file].label);
 }
 
-void write_curves(Chunked& out, const PaperCurves& curves) {
+void write_curves(Buffered& out, const PaperCurves& curves) {
   out << "\"curves\":[";
   const char* separator = "\n";
   for (const PaperCurve& curve : curves.all) {
     out << separator << "{\"centre_paper_mm\":";
-    append_numbers(out.buffer(), {curve.centre.x, curve.centre.y});
+    append_numbers(out.text(), {curve.centre.x, curve.centre.y});
     out << ",\"u_paper_mm\":";
-    append_numbers(out.buffer(), {curve.u.x, curve.u.y});
+    append_numbers(out.text(), {curve.u.x, curve.u.y});
     out << ",\"v_paper_mm\":";
-    append_numbers(out.buffer(), {curve.v.x, curve.v.y});
+    append_numbers(out.text(), {curve.v.x, curve.v.y});
     out << "}";
     separator = ",\n";
   }
@@ -106,13 +106,13 @@ void write_curves(Chunked& out, const PaperCurves& curves) {
 }
 
 /// Objects of which something could not be drawn, each with all that says why.
-void write_defects(Chunked& out, const NeutralDrawing& drawing, const model::Model& model) {
+void write_defects(Buffered& out, const NeutralDrawing& drawing, const model::Model& model) {
   const std::vector<hlr::Defect>& defects = drawing.account.defects;
   out << "\"defects\":[";
   for (std::size_t d = 0; d < defects.size();) {
     const model::ObjectId id = defects[d].object;
     out << (d == 0 ? "\n" : ",\n");
-    append_object(out.buffer(), model, id);
+    append_object(out.text(), model, id);
     out << ",\"fate\":\"" << fate_name(drawing.account.fates[model::index(id)]) << "\",\"why\":";
     const char* separator = "[";
     for (; d < defects.size() && defects[d].object == id; ++d, separator = ",")
@@ -123,7 +123,7 @@ void write_defects(Chunked& out, const NeutralDrawing& drawing, const model::Mod
 }
 
 /// Files of which nobody knows what the rest held, where there are such.
-void write_cut_files(Chunked& out, const model::Model& model) {
+void write_cut_files(Buffered& out, const model::Model& model) {
   const char* separator = "\"files_ending_early\":[";
   for (const model::SourceFile& file : model.files) {
     if (!file.ends_early) continue;
@@ -155,7 +155,7 @@ Listed::Listed(const std::vector<Line>& lines, std::size_t objects) : number_(ob
   }
 }
 
-void write_view_head(Chunked& out, const NeutralDrawing& drawing, const model::Model& model,
+void write_view_head(Buffered& out, const NeutralDrawing& drawing, const model::Model& model,
                      const Listed& listed) {
   out << "{\"schema_version\":1,\n\"generator\":{\"name\":\"strake\",\"version\":"
       << json_quoted(version()) << "},\n";
@@ -166,7 +166,7 @@ void write_view_head(Chunked& out, const NeutralDrawing& drawing, const model::M
   out << "\"hash\":\"" << drawing.hash.text() << "\",\n\"objects\":[";
   for (const model::ObjectId o : listed.objects()) {
     out << (listed.number(o) == 0 ? "\n" : ",\n");
-    append_object(out.buffer(), model, o);
+    append_object(out.text(), model, o);
     out << "}";
   }
   out << "],\n";

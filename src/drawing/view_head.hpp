@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drawing/chunked.hpp"
+#include "drawing/buffered.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/model/model.hpp"
 
@@ -28,7 +28,7 @@ class Listed {
 };
 
 /// What both neutral forms begin with: the opened object and all its members but the lines.
-void write_view_head(Chunked& out, const NeutralDrawing& drawing, const model::Model& model,
+void write_view_head(Buffered& out, const NeutralDrawing& drawing, const model::Model& model,
                      const Listed& listed);
 
 /// "[1,2.5]"

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "drawing/batches.hpp"
-#include "drawing/chunked.hpp"
+#include "drawing/buffered.hpp"
 #include "drawing/view_head.hpp"
 #include "strake/drawing/write.hpp"
 
@@ -43,7 +43,7 @@ Status write_view_json(const NeutralDrawing& drawing, const model::Model& model,
                        const parallel::Context& context) {
   const Listed listed(drawing.lines, model.objects.size());
   {
-    Chunked out(sink);
+    Buffered out(sink);
     write_view_head(out, drawing, model, listed);
     out << "\"pieces\":[";
   }

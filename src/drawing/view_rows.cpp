@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "drawing/batches.hpp"
-#include "drawing/chunked.hpp"
+#include "drawing/buffered.hpp"
 #include "drawing/view_head.hpp"
 #include "strake/core/checksum.hpp"
 #include "strake/drawing/write.hpp"
@@ -100,7 +100,7 @@ std::string names_of(Name&& name) {
 }
 
 template <class Int>
-void write_form(Chunked& out, const Vec3l& origin) {
+void write_form(Buffered& out, const Vec3l& origin) {
   out << "\"rows\":{\"bytes\":" << std::to_string(sizeof(Row<Int>))
       << ",\"fields\":" << row_fields<Int>()
       << ",\n\"origin_um\":" << fmt::format("[{},{},{}]", origin.x, origin.y, origin.z)
@@ -116,7 +116,7 @@ std::string head_of(const NeutralDrawing& drawing, const model::Model& model, co
   std::string text;
   {
     const auto append = [&](std::string_view part) { text += part; };
-    Chunked out(append);
+    Buffered out(append);
     write_view_head(out, drawing, model, listed);
     write_form<Int>(out, origin);
   }

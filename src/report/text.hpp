@@ -2,45 +2,17 @@
 #pragma once
 
 #include <cstddef>
-#include <exception>
 #include <string>
 #include <string_view>
 
+#include "drawing/buffered.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::report {
 
-/// Gathers text and hands it on in large pieces.
-class Buffered {
- public:
-  explicit Buffered(Sink sink) : sink_(sink) {}
-  /// An exception that unwinds has cut the text short: what is gathered goes nowhere then.
-  ~Buffered() noexcept(false) {
-    if (std::uncaught_exceptions() == exceptions_) flush();
-  }
-  Buffered(const Buffered&) = delete;
-  Buffered& operator=(const Buffered&) = delete;
-  Buffered(Buffered&&) = delete;
-  Buffered& operator=(Buffered&&) = delete;
-
-  /// What to append to; call done() after each record.
-  std::string& text() { return text_; }
-  void done() {
-    if (text_.size() >= kFull) flush();
-  }
-
- private:
-  void flush() {
-    if (!text_.empty()) sink_(text_);
-    text_.clear();
-  }
-  static constexpr std::size_t kFull = std::size_t{1} << 16U;
-  Sink sink_;
-  std::string text_;
-  int exceptions_ = std::uncaught_exceptions();
-};
+using drawing::Buffered;
 
 /// A JSON string with its quotes.
 void append_json(std::string& out, std::string_view text);

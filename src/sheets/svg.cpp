@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "drawing/chunked.hpp"
+#include "drawing/buffered.hpp"
 #include "drawing/layers.hpp"
 #include "drawing/paper.hpp"
 #include "drawing/svg_layers.hpp"
@@ -24,7 +24,7 @@ namespace strake::sheets {
 
 namespace {
 
-using drawing::Chunked;
+using drawing::Buffered;
 using drawing::xml_escaped;
 
 std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
@@ -53,7 +53,7 @@ std::string selector(LineClass line) {
   return list + ".strake ." + std::string(class_name(line));
 }
 
-void write_style(Chunked& out, const Sheet& sheet, const std::set<double>& heights) {
+void write_style(Buffered& out, const Sheet& sheet, const std::set<double>& heights) {
   out << "<style>\n"
          ".strake path, .strake circle { fill: none; stroke-linecap: round; stroke-linejoin: "
          "round; }\n";
@@ -77,7 +77,7 @@ void write_style(Chunked& out, const Sheet& sheet, const std::set<double>& heigh
   out << ".strake .paper { fill: #fff; stroke: none; }\n</style>\n";
 }
 
-void write_metadata(Chunked& out, const Sheet& sheet) {
+void write_metadata(Buffered& out, const Sheet& sheet) {
   out << "<metadata>\n<sheet xmlns=\"urn:strake:sheet:1\">\n";
   for (const PlacedView& view : sheet.views) {
     const drawing::NeutralDrawing& drawing = view.drawing;
@@ -105,7 +105,7 @@ void write_metadata(Chunked& out, const Sheet& sheet) {
   out << "</sheet>\n</metadata>\n";
 }
 
-void write_marks(Chunked& out, const Marks& marks) {
+void write_marks(Buffered& out, const Marks& marks) {
   for (const Text& text : marks.texts) {
     if (!text.clears) continue;
     const PaperBox box = box_of(text);
@@ -117,7 +117,7 @@ void write_marks(Chunked& out, const Marks& marks) {
   }
   for (const Path& path : marks.paths) {
     out << "<path class=\"" << class_name(path.line) << (path.filled ? " filled" : "") << "\" d=\"";
-    drawing::append_svg_chain(out.buffer(), path.points);
+    drawing::append_svg_chain(out.text(), path.points);
     out << "\"/>\n";
   }
   for (const Circle& circle : marks.circles)
@@ -134,7 +134,7 @@ void write_marks(Chunked& out, const Marks& marks) {
 }
 
 /// A layer of marks, where there are any.
-void write_layer(Chunked& out, const Marks& marks, const std::string& id, std::string_view label) {
+void write_layer(Buffered& out, const Marks& marks, const std::string& id, std::string_view label) {
   if (marks.paths.empty() && marks.circles.empty() && marks.texts.empty()) return;
   out << fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" id=\"{}\">\n", label,
                      id);
@@ -142,7 +142,7 @@ void write_layer(Chunked& out, const Marks& marks, const std::string& id, std::s
   out << "</g>\n";
 }
 
-void write_view(Chunked& out, const PlacedView& view, const model::Model& model,
+void write_view(Buffered& out, const PlacedView& view, const model::Model& model,
                 std::size_t number) {
   const std::string id = fmt::format("view-{}", number);
   out << "<g class=\"view\" id=\"" << id << "\" inkscape:groupmode=\"layer\" inkscape:label=\""
@@ -169,7 +169,7 @@ std::set<double> heights_of(const Sheet& sheet) {
 }  // namespace
 
 void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink) {
-  Chunked out(sink);
+  Buffered out(sink);
   const std::string width = shortest(sheet.width_mm), height = shortest(sheet.height_mm);
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<svg xmlns=\"http://www.w3.org/2000/svg\" "

@@ -429,5 +429,18 @@ TEST(ViewJson, FollowsItsSchema) {
   EXPECT_NE(run_on("python3", check, "{}"), 0) << "the schema accepts anything";
 }
 
+/// Wherever the text ends that a sink takes: the exception comes out, and the process goes on.
+TEST(Drawing, WhatASinkThrowsComesOut) {
+  struct Full {};
+  const NeutralDrawing drawing = laid_out(from_top({piece(0, {0, 0, 0}, {100 * kMm, 0, 0})}));
+  const model::Model model = two_objects();
+  const auto ink = choose_ink(drawing, {}, {});
+  ASSERT_TRUE(ink);
+  const auto full = [](std::string_view) { throw Full(); };
+  EXPECT_THROW(write_svg(drawing, *ink, model, full), Full);
+  EXPECT_THROW((void)write_view_json(drawing, model, full, {}), Full);
+  EXPECT_THROW((void)write_view_rows(drawing, model, full, {}), Full);
+}
+
 }  // namespace
 }  // namespace strake::drawing
