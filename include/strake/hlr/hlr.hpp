@@ -139,7 +139,7 @@ struct Options {
 /// A piece of an edge in one state. Coordinates are grid units, rounded once from exact values.
 struct Piece {
   model::ObjectId object{};
-  std::uint32_t edge = 0;  ///< number of the feature edge within the run
+  std::uint32_t edge = 0;  ///< number of the feature edge among those of its object
   EdgeKind kind = EdgeKind::sharp;
   State state = State::visible;
   model::ObjectId other{};  ///< of an intersection the second object; otherwise the same again
@@ -231,7 +231,7 @@ struct Drawing {
 };
 
 /// The lines of the scene in one view, each piece with its state. `drawn` selects the objects
-/// (empty: all); `transparent` objects are hidden but hide nothing.
+/// (empty: all); bodies whose colour is transparent are hidden but hide nothing.
 [[nodiscard]] Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn,
                                    const View& view, const Options& options,
                                    const parallel::Context& context);
