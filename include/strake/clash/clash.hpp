@@ -265,6 +265,7 @@ struct Sets {
 /// 1. A pair's result is a function of the pair alone: neither the team, nor the broad phase, nor
 ///    other objects, nor the order of the sets show in it.
 /// 2. Parts of one object are no pair; wires (polylines) only with Options::curves.
+///
 /// Errors: usage for a tolerance that is negative, infinite or not a number and for sets of the
 /// wrong size; input for more pairs than most_pairs; cancelled.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,

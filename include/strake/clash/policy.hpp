@@ -99,6 +99,7 @@ struct Policy {
 ///    (Pair::allowed_regions). Its place is the worst one: where the boxes of the two parts meet
 ///    beyond region and cavity too, the result is flagged kUncertain.
 /// 4. A hard part decides before a soft one, and that before insulation, where the class is equal.
+///
 /// Errors: those of detect(); usage for lists of the wrong size.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const Policy& policy,

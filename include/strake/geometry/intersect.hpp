@@ -26,6 +26,7 @@ struct LineStretch {
 /// 2. Shapes are closed: a touch counts. A line whose two points are one is that point, with
 ///    parameter 0.
 /// 3. Of a triangle no area is an error of the caller (asserted), of a plane likewise.
+///
 /// Pure; no allocation; well below a microsecond.
 ///
 /// Parameters are the zeros of the shapes' boundary functions, which are linear along a line (M.

@@ -62,6 +62,7 @@ struct ConvexSurface {
 ///    lexicographically positive one.
 /// 4. Two bodies overlap when their insides have points in common; a flat shape that passes through
 ///    another, flat or not, overlaps it; two in one plane never do more than touch.
+///
 /// Pure. O(edges² · points) for bodies; some microseconds for boxes and triangles.
 [[nodiscard]] SeparatingAxis separating_axis(const TriangleCorners& a, const TriangleCorners& b);
 [[nodiscard]] SeparatingAxis separating_axis(const Box3l& a, const Box3l& b);

@@ -15,6 +15,7 @@ __extension__ typedef unsigned __int128 UInt128;
 /// A signed two's-complement integer of N 64-bit limbs (lowest first) for exact predicates.
 ///
 /// Start here:
+///
 ///     const Int256 a = mul(n1, d2), b = mul(n2, d1);   // Int128 x Int128, never overflows
 ///     if (a < b) ...
 ///
@@ -22,6 +23,7 @@ __extension__ typedef unsigned __int128 UInt128;
 /// 2. + and - wrap like unsigned integers; the caller chooses N with room for the sum.
 /// 3. A narrower value converts to a wider type by itself, never the other way round: narrow()
 ///    drops limbs where the caller knows the value to fit.
+///
 /// No allocation, no global state; every function is pure.
 template <std::size_t N>
 class WideInt {

@@ -25,6 +25,7 @@ struct WriteOptions {
 /// 2. Coordinates are float32 in the shape's own frame, node matrices are doubles.
 /// 3. Bodies of one object that stand apart are written in the frame of its first body, so that
 ///    a node with a mesh is always one whole object.
+///
 /// Not kept: source polygons of triangles, body categories, analytic primitives as such.
 ///
 /// Errors: output (cannot write, more than 4 GiB, a coordinate that is not finite), cancelled.

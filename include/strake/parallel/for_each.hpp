@@ -109,6 +109,7 @@ Status run_alone(const Region& region, Body&& body) {
 ///    any team and schedule.
 /// 3. A triggered stop token returns ErrorCode::cancelled as soon as the running items end.
 /// 4. Without a team the same loop runs on the calling thread.
+///
 /// Not promised: which worker runs an item, and what a worker's context has seen before. A result
 /// must not depend on either: write to slot i, or use transform, collect, reduce.
 ///

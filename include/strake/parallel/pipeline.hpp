@@ -194,6 +194,7 @@ class PipelineRun {
 ///    items before, and the error is that of the lowest failing item. Items after it may have been
 ///    fetched and worked on.
 /// 4. A triggered stop token returns ErrorCode::cancelled as soon as the running calls end.
+///
 /// Not promised: which worker makes which call. Cost per item: some microseconds; give it batches.
 template <class Source, class Work, class Sink>
 [[nodiscard]] Status pipeline(const Context& context, const Flow& flow, Source&& source,

@@ -119,7 +119,7 @@ struct Sheet {
   std::vector<PlacedView> views;
   Marks frame;  ///< border and title block, where they are the built-in ones
   /// Otherwise the template with its fields filled in: elements of SVG and a viewBox of the size of
-  /// the sheet, or what a nested <svg> with that viewBox shows.
+  /// the sheet, or what a nested `<svg>` with that viewBox shows.
   struct Template {
     std::string view_box, elements;
   };
