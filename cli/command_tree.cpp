@@ -4,14 +4,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 
 namespace strake::cli {
 namespace {
 
-/// "hit|contact" as its words; nothing of a value that is none of a few.
+/// "hit|contact" as its words, "[FILE=]x|y|z" as those that stand for all files; nothing of a value
+/// that is none of a few.
 std::vector<std::string> words_of(const std::string& value) {
+  constexpr std::string_view kOfOneFile = "[FILE=]";
   std::vector<std::string> words;
-  std::istringstream text(value);
+  std::istringstream text(value.starts_with(kOfOneFile) ? value.substr(kOfOneFile.size()) : value);
   for (std::string word; std::getline(text, word, '|');) words.push_back(word);
   const auto is_word = [](const std::string& word) {
     return !word.empty() && std::ranges::all_of(word, [](char c) {
@@ -34,8 +37,23 @@ OptionText text_of(const CLI::Option& option) {
   }
   if (option.get_items_expected_max() > 0) text.value = option.get_type_name();
   text.words = words_of(text.value);
-  text.takes_file = text.value.find("FILE") != std::string::npos || option.get_positional();
+  text.takes_file = text.value == "FILE" || text.value == "OLD" || text.value == "NEW";
+  text.takes_verb = text.value == "VERB";
+  text.repeats = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   return text;
+}
+
+/// The command line as --help shows it, but for the word VERB.
+std::string usage_of(const CLI::App& command, const CommandTree& tree) {
+  std::string usage = "[OPTIONS]";
+  for (const CLI::Option* option :
+       command.get_options([](const CLI::Option* any) { return any->get_positional(); })) {
+    const bool many = option->get_expected_max() >= CLI::detail::expected_max_vector_size;
+    const std::string name = option->get_name(true) + (many ? "..." : "");
+    usage += option->get_required() ? " " + name : " [" + name + "]";
+  }
+  if (!tree.verbs.empty()) usage += command.get_require_subcommand_min() == 0 ? " [VERB]" : " VERB";
+  return usage;
 }
 
 }  // namespace
@@ -49,8 +67,7 @@ CommandTree command_tree(const CLI::App& program) {
     (option->get_positional() ? tree.arguments : tree.options).push_back(text_of(*option));
   for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
     tree.verbs.push_back(command_tree(*verb));
-  tree.usage = tree.verbs.empty() || !tree.arguments.empty() ? "[OPTIONS]" : "VERB [OPTIONS]";
-  for (const OptionText& argument : tree.arguments) tree.usage += " " + argument.names.front();
+  tree.usage = usage_of(program, tree);
   return tree;
 }
 

@@ -17,6 +17,8 @@ struct OptionText {
   std::string description, group;
   std::vector<std::string> words;  ///< that the value may be; empty: anything
   bool takes_file = false;
+  bool takes_verb = false;  ///< the words of a verb of the program
+  bool repeats = false;     ///< may be given more than once
 };
 
 /// A command as `--help` tells it: what manual pages and completions are made from.

@@ -8,19 +8,34 @@
 namespace strake::cli {
 namespace {
 
+/// What troff prints as the ASCII character that it is, so that a reader may copy it to a shell.
+std::string as_typed(char c) {
+  switch (c) {
+    case '\\':
+      return "\\e";
+    case '-':
+      return "\\-";
+    case '\'':
+      return "\\(aq";
+    case '`':
+      return "\\(ga";
+    case '^':
+      return "\\(ha";
+    case '~':
+      return "\\(ti";
+    default:
+      return {c};
+  }
+}
+
 /// Text that troff takes as it stands: no escapes, no requests at the start of a line.
 std::string plain(std::string_view text) {
   std::string out;
   bool starts_line = true;
   for (const char c : text) {
-    if (starts_line && (c == '.' || c == '\'')) out += "\\&";
+    if (starts_line && c == '.') out += "\\&";
     starts_line = c == '\n';
-    if (c == '\\')
-      out += "\\e";
-    else if (c == '-')
-      out += "\\-";
-    else
-      out += c;
+    out += as_typed(c);
   }
   return out;
 }

@@ -327,8 +327,10 @@ Status check_no_empty_values(const CLI::App& command) {
   for (const CLI::Option* const option : command.get_options())
     for (const std::string& value : option->results())
       if (value.empty())
-        return usage("the value is empty", option->get_positional() ? "FILE" : option->get_name(),
-                     "give a value, or leave the option out");
+        return usage("the value is empty",
+                     option->get_positional() ? option->get_type_name() : option->get_name(),
+                     option->get_positional() ? "give a value, or leave it out"
+                                              : "give a value, or leave the option out");
   for (const CLI::App* const inner : command.get_subcommands())
     if (Status status = check_no_empty_values(*inner); !status) return status;
   return {};

@@ -30,8 +30,8 @@ Result<Picked> pick_all(Session& session, const model::Scene& scene,
     if (!picked) return picked.error();
     bool some = false;
     for (std::size_t o = 0; o < all.any.size(); ++o) {
-      some = some || (*picked)[o] != 0;
-      all.any[o] = all.any[o] || (*picked)[o] != 0;
+      some = some || (*picked)[o];
+      all.any[o] = all.any[o] || (*picked)[o];
     }
     if (!some) all.idle.push_back(selection.text());
   }

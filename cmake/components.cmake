@@ -60,6 +60,19 @@ strake_component(geometry
     geometry/wide_int.hpp
   PAGES docs/geometry.md examples/basic_tests.cpp)
 
+# The pages of all components from here on refer to each other, so they come together.
+set(manual
+  docs/clash.md
+  docs/decisions
+  docs/drawing.md
+  docs/hlr.md
+  docs/pictures
+  docs/reading-results.md
+  docs/rules.md
+  docs/selection.md
+  docs/sheets.md
+  examples/ship_rules.toml
+  examples/ship_sheet.toml)
 strake_component(model
   MODULES model io settings
   DEPENDS parallel geometry
@@ -70,7 +83,7 @@ strake_component(model
     model/model.hpp
     model/scene.hpp
     model/selection.hpp
-  PAGES docs/selection.md)
+  PAGES ${manual})
 
 strake_component(clash
   MODULES clash rules
@@ -80,10 +93,7 @@ strake_component(clash
     clash/group.hpp
     clash/options.hpp
     clash/policy.hpp
-    rules/rules.hpp
-  PAGES
-    docs/clash.md
-    docs/rules.md)
+    rules/rules.hpp)
 
 strake_component(drawing
   MODULES hlr drawing sheets
@@ -97,12 +107,7 @@ strake_component(drawing
     hlr/hlr.hpp
     sheets/sheet.hpp
     sheets/sheet_file.hpp
-    sheets/write.hpp
-  PAGES
-    docs/drawing.md
-    docs/hlr.md
-    docs/sheets.md
-    examples/draw_view.cpp)
+    sheets/write.hpp)
 
 strake_component(report
   MODULES report
@@ -112,8 +117,7 @@ strake_component(report
     report/clash_diff.hpp
     report/clash_document.hpp
     report/view_diff.hpp
-    report/view_document.hpp
-  PAGES docs/reading-results.md examples/find_clashes.cpp)
+    report/view_document.hpp)
 
 strake_component(generate
   MODULES generate
@@ -131,7 +135,7 @@ strake_component(all
   MODULES library
   DEPENDS parallel geometry model clash drawing report generate
   HEADERS strake.hpp
-  PAGES docs/library.md)
+  PAGES CHANGELOG.md docs/library.md examples/draw_view.cpp examples/find_clashes.cpp)
 
 # What finds the packages that the libraries need, and pkg-config's description of all of them.
 install(FILES cmake/re2.cmake DESTINATION ${strake_package_dir} COMPONENT model)

@@ -39,7 +39,7 @@ Verb add_man(CLI::App& program) {
   const auto verbs = std::make_shared<std::vector<std::string>>();
   CLI::App* command =
       program.add_subcommand("man", "The manual page of the program or of a verb, for man");
-  command->add_option("verbs", *verbs, "The verb, as it is typed: clash diff");
+  command->add_option("verbs", *verbs, "The verb, as it is typed: clash diff")->type_name("VERB");
   command->footer("Example:\n  strake man clash diff | man -l -");
   return {command, [&program, verbs](Session&) { return print_page(program, *verbs); }};
 }

@@ -2,6 +2,7 @@
 #include "rules/asking.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace strake::rules {
 
@@ -10,13 +11,10 @@ Asking::Asking(const model::Scene& scene, const std::vector<const Chooser*>& cho
     : scene_(scene) {
   std::vector<model::Selection> selections;
   for (const Chooser* chooser : choosers) selections.push_back(chooser->selection);
-  const auto answers = model::pick(selections, scene, context);
+  auto answers = model::pick(selections, scene, context);
   if (!answers) error_ = answers.error();
-  for (std::size_t c = 0; c < choosers.size(); ++c) {
-    std::vector<bool>& picked = picked_[choosers[c]];
-    picked.resize(objects());
-    for (std::size_t o = 0; answers && o < picked.size(); ++o) picked[o] = (*answers)[c][o] != 0;
-  }
+  for (std::size_t c = 0; c < choosers.size(); ++c)
+    picked_[choosers[c]] = answers ? std::move((*answers)[c]) : std::vector<bool>(objects());
 }
 
 std::vector<bool> Asking::pick(const Chooser& chooser) {

@@ -26,7 +26,7 @@ namespace {
 
 using drawing::LineState;
 using drawing::rounded_paper;
-using Picks = std::vector<std::vector<std::uint8_t>>;
+using Picks = std::vector<std::vector<bool>>;
 
 class Composer {
  public:
@@ -74,7 +74,7 @@ class Composer {
     picks_ = std::move(*picked);
     std::vector<std::string> told;
     for (std::size_t s = 0; s < picks_.size(); ++s) {
-      const bool some = std::find(picks_[s].begin(), picks_[s].end(), 1) != picks_[s].end();
+      const bool some = std::find(picks_[s].begin(), picks_[s].end(), true) != picks_[s].end();
       if (some || std::find(told.begin(), told.end(), choosers[s]->where) != told.end()) continue;
       told.push_back(choosers[s]->where);
       warn("selection-matches-nothing", "'" + choosers[s]->selection.text() + "' picks no object",
@@ -89,7 +89,7 @@ class Composer {
     if (count == 0) return any;
     any.resize(scene_.model->objects.size());
     for (const std::size_t end = asked_ + count; asked_ < end; ++asked_)
-      for (std::size_t o = 0; o < any.size(); ++o) any[o] = any[o] || picks_[asked_][o] != 0;
+      for (std::size_t o = 0; o < any.size(); ++o) any[o] = any[o] || picks_[asked_][o];
     return any;
   }
 
@@ -310,13 +310,13 @@ class Composer {
       }
     }
     for (const TagWish& tag : what_.tags) {
-      const std::vector<std::uint8_t>& picked = picks_[asked_++];
+      const std::vector<bool>& picked = picks_[asked_++];
       std::size_t seen = 0;
       for (PlacedView& view : sheet_.views)
         if (tag.views.empty() ||
             std::find(tag.views.begin(), tag.views.end(), view.name) != tag.views.end())
           seen += tag_view(tag, picked, view, canvas);
-      if (seen == 0 && std::find(picked.begin(), picked.end(), 1) != picked.end())
+      if (seen == 0 && std::find(picked.begin(), picked.end(), true) != picked.end())
         warn("tag-not-seen",
              "none of the objects of '" + tag.select->selection.text() + "' is seen in a view",
              tag.where);
@@ -324,8 +324,8 @@ class Composer {
   }
 
   /// How many of the objects show in the view.
-  std::size_t tag_view(const TagWish& tag, const std::vector<std::uint8_t>& picked,
-                       PlacedView& view, Canvas& canvas) {
+  std::size_t tag_view(const TagWish& tag, const std::vector<bool>& picked, PlacedView& view,
+                       Canvas& canvas) {
     const TagCount count = write_tags(tag, picked, *scene_.model, room_, view, canvas);
     const std::string where = tag.where + ", the view '" + view.name + "'";
     const auto say = [&](std::size_t number, const char* code, const std::string& one,

@@ -71,12 +71,11 @@ double length_of(const Line& line) {
 }
 
 /// The picked objects that have visible lines, in the order of the model.
-std::vector<Seen> seen_objects(const drawing::Ink& ink, const std::vector<std::uint8_t>& picked) {
+std::vector<Seen> seen_objects(const drawing::Ink& ink, const std::vector<bool>& picked) {
   std::vector<Seen> all;
   double longest = 0;
   for (const Line& line : ink.lines) {
-    if (line.state != drawing::LineState::visible || picked[model::index(line.object)] == 0)
-      continue;
+    if (line.state != drawing::LineState::visible || !picked[model::index(line.object)]) continue;
     const double length = length_of(line);
     if (!(length > 0)) continue;
     if (all.empty() || all.back().object != line.object) {
@@ -223,13 +222,14 @@ bool is_tag_name(std::string_view name) {
          (name.size() > 1 && name.front() == '@');
 }
 
-TagCount write_tags(const TagWish& wish, const std::vector<std::uint8_t>& picked,
-                    const model::Model& model, const Room& room, PlacedView& view, Canvas& canvas) {
+TagCount write_tags(const TagWish& wish, const std::vector<bool>& picked, const model::Model& model,
+                    const Room& room, PlacedView& view, Canvas& canvas) {
   TagCount count;
   const auto pieces = split_placeholders(wish.text);
   if (!pieces) return count;
   std::vector<Seen> all = seen_objects(view.ink, picked);
-  count.unseen = static_cast<std::size_t>(std::count(picked.begin(), picked.end(), 1)) - all.size();
+  count.unseen =
+      static_cast<std::size_t>(std::count(picked.begin(), picked.end(), true)) - all.size();
   std::vector<Seen> texts;
   for (Seen& seen : all) {
     std::size_t named = 0, lacking = 0;

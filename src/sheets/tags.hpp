@@ -33,7 +33,7 @@ struct TagCount {
 ///
 /// Objects come in the order of the model, so that the same tags stand in the same places for any
 /// team.
-[[nodiscard]] TagCount write_tags(const TagWish& wish, const std::vector<std::uint8_t>& picked,
+[[nodiscard]] TagCount write_tags(const TagWish& wish, const std::vector<bool>& picked,
                                   const model::Model& model, const Room& room, PlacedView& view,
                                   Canvas& canvas);
 

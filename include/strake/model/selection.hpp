@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -43,20 +42,22 @@ class Selection {
   [[nodiscard]] bool picks(const Scene& scene, ObjectId object) const;
 
  private:
-  friend Result<std::vector<std::vector<std::uint8_t>>> pick(std::span<const Selection> selections,
-                                                             const Scene& scene,
-                                                             const parallel::Context& context);
+  friend Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selections,
+                                                     const Scene& scene,
+                                                     const parallel::Context& context);
   explicit Selection(std::shared_ptr<const selection::Query> query) : query_(std::move(query)) {}
   std::shared_ptr<const selection::Query> query_;
 };
 
-/// One entry per object of the scene: 1 where it is picked. Errors: cancelled.
-[[nodiscard]] Result<std::vector<std::uint8_t>> pick(const Selection& selection, const Scene& scene,
-                                                     const parallel::Context& context);
+/// One entry per object of the scene: whether it is picked. What hlr::draw() draws and the sets
+/// that clash::detect() compares are given so. Errors: cancelled.
+[[nodiscard]] Result<std::vector<bool>> pick(const Selection& selection, const Scene& scene,
+                                             const parallel::Context& context);
 
 /// The same for several selections in one pass: what they share, as an object's path and the sets
 /// they name, is found out once per object.
-[[nodiscard]] Result<std::vector<std::vector<std::uint8_t>>> pick(
-    std::span<const Selection> selections, const Scene& scene, const parallel::Context& context);
+[[nodiscard]] Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selections,
+                                                          const Scene& scene,
+                                                          const parallel::Context& context);
 
 }  // namespace strake::model

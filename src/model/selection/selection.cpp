@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/model/selection.hpp"
 
+#include <cstdint>
 #include <utility>
 
 #include "model/selection/evaluate.hpp"
@@ -37,25 +38,28 @@ bool Selection::picks(const Scene& scene, ObjectId object) const {
   return selection::Asked(scene, object).by(*query_);
 }
 
-Result<std::vector<std::vector<std::uint8_t>>> pick(std::span<const Selection> selections,
-                                                    const Scene& scene,
-                                                    const parallel::Context& context) {
+Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selections,
+                                            const Scene& scene, const parallel::Context& context) {
   constexpr std::size_t kGrain = 256;
   const std::size_t objects = scene.model->objects.size();
-  std::vector<std::vector<std::uint8_t>> picked(selections.size(),
-                                                std::vector<std::uint8_t>(objects));
+  // Bytes, because several workers cannot write bits of one word.
+  std::vector<std::vector<std::uint8_t>> answers(selections.size(),
+                                                 std::vector<std::uint8_t>(objects));
   const Status status = parallel::for_each(
       context, {.name = "selection", .n = objects, .grain = kGrain}, [&](std::size_t o) {
         selection::Asked asked(scene, static_cast<ObjectId>(o));
         for (std::size_t s = 0; s < selections.size(); ++s)
-          picked[s][o] = asked.by(*selections[s].query_) ? 1 : 0;
+          answers[s][o] = asked.by(*selections[s].query_) ? 1 : 0;
       });
   if (!status) return status.error();
+  std::vector<std::vector<bool>> picked;
+  for (const std::vector<std::uint8_t>& answer : answers)
+    picked.emplace_back(answer.begin(), answer.end());
   return picked;
 }
 
-Result<std::vector<std::uint8_t>> pick(const Selection& selection, const Scene& scene,
-                                       const parallel::Context& context) {
+Result<std::vector<bool>> pick(const Selection& selection, const Scene& scene,
+                               const parallel::Context& context) {
   auto picked = pick(std::span(&selection, 1), scene, context);
   if (!picked) return picked.error();
   return std::move(picked->front());

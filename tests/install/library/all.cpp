@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads, clashes and draws with what one header names.
+// Reads, clashes and draws with what one header names; and some of the objects, too.
 #include <array>
 #include <cstdio>
 #include <strake/strake.hpp>
@@ -19,6 +19,16 @@ int main() {
   const auto report = clash::detect(*scene, clash::one_set(*scene), {}, context);
   const auto lines = hlr::draw(*scene, std::vector<bool>(2, true), {}, {}, context);
   if (!report || !lines) return 1;
+  const auto one = model::Selection::parse("name = box1");
+  const auto other = model::Selection::parse("name = box0");
+  if (!one || !other) return 1;
+  const auto in_a = model::pick(*one, *scene, context);
+  const auto in_b = model::pick(*other, *scene, context);
+  if (!in_a || !in_b) return 1;
+  const auto between = clash::detect(*scene, {.in_a = *in_a, .in_b = *in_b}, {}, context);
+  const auto alone = hlr::draw(*scene, *in_a, {}, {}, context);
+  if (!between || between->pairs.size() != 1 || !alone) return 1;
+  if (alone->account.of(hlr::Fate::unselected) != 1) return 1;
   std::printf("Strake %s: %zu pairs, %zu pieces\n", version().data(), report->pairs.size(),
               lines->pieces.size());
   return report->pairs.size() == 1 && !lines->pieces.empty() ? 0 : 1;

@@ -19,7 +19,7 @@ int main() {
   const auto picked = model::pick(*second, *scene, {});
   if (!picked) return 1;
   int count = 0;
-  for (const auto one : *picked) count += one;
+  for (const bool one : *picked) count += one ? 1 : 0;
   std::printf("%zu objects, %d picked\n", model->objects.size(), count);
   return model->objects.size() == 2 && count == 1 ? 0 : 1;
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the scenarios of the program share: a folder of their own, the program, small models."""
+import re
 import struct
 import subprocess
 import sys
@@ -7,6 +8,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+VERBS = [[], ['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'], ['generate'], ['generate', 'ship'],
+         ['man'], ['completion']]
 CUBE_FACES = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
 
 
@@ -72,6 +75,16 @@ class Scenario(unittest.TestCase):
     def run_strake(self, *arguments, **more):
         return subprocess.run([self.STRAKE, *map(str, arguments)], capture_output=True, text=True, timeout=200,
                               cwd=self.folder, check=False, **more)
+
+    def text(self, *arguments):
+        """What the program prints when it ends well."""
+        done = self.run_strake(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def options(self, verb):
+        """The long options that --help of a verb names."""
+        return set(re.findall(r'^  (?:-\w,)?(--[a-z-]+)', self.text(*verb, '--help'), re.MULTILINE))
 
     def files(self):
         return sorted(path.name for path in self.folder.iterdir())

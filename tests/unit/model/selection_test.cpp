@@ -59,7 +59,7 @@ class SelectionTest : public ::testing::Test {
     std::string out;
     const auto bits = pick(*selection, scene_, context).value();
     for (std::size_t i = 0; i < bits.size(); ++i)
-      if (bits[i] != 0) out += (out.empty() ? "" : " ") + model_.objects[i].id;
+      if (bits[i]) out += (out.empty() ? "" : " ") + model_.objects[i].id;
     return out;
   }
 
