@@ -23,6 +23,7 @@ function(strake_module name)
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     POSITION_INDEPENDENT_CODE ON
     INSTALL_RPATH $ORIGIN)
+  strake_precompile(strake_${name} modules)
 endfunction()
 
 # strake_test(NAME SOURCES... MODULES modules... [LIBS ...] [LABELS fast|slow|parallel ...] [TIMEOUT s])
@@ -35,6 +36,14 @@ function(strake_test name)
     target_link_libraries(${name} PRIVATE strake::${module})
   endforeach()
   target_link_libraries(${name} PRIVATE strake_flags GTest::gtest_main ${arg_LIBS})
+  # A test that is run once is not worth what optimising GoogleTest's macros takes; the library
+  # under it, and what searches for hours, are optimised as ever.
+  if(slow IN_LIST arg_LABELS)
+    strake_precompile(${name} slow_tests HEADERS <gtest/gtest.h>)
+  else()
+    target_compile_options(${name} PRIVATE -O1)
+    strake_precompile(${name} tests HEADERS <gtest/gtest.h>)
+  endif()
   add_test(NAME ${name} COMMAND ${name})
   if(NOT arg_TIMEOUT)
     # Against hanging; a machine that is busy with other things must not fail by it.

@@ -2,8 +2,9 @@
 # Sourced by the other scripts: packages, presets, the list of sources.
 
 jobs=$(nproc)
-# One cache for every checkout of the sources, wherever it lies.
+# One cache for every checkout of the sources, wherever it lies, precompiled headers included.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
 say() { printf '== %s\n' "$*" >&2; }
 

@@ -56,11 +56,15 @@ std::size_t longest_name(const fs::path& file) {
 /// that: its end is told by a hash of all of it, which keeps targets that begin alike apart.
 fs::path partial_name(const fs::path& target, int attempt) {
   std::string name = target.filename().string();
-  const std::string own =
-      "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
+  std::string own = ".";
+  own += std::to_string(::getpid());
+  own += '-';
+  own += std::to_string(attempt);
+  own += ".part";
   const std::size_t longest = longest_name(target);
   if (name.size() + own.size() > longest) {
-    const std::string hash = "~" + hash_bytes(std::as_bytes(std::span(name))).text();
+    std::string hash = "~";
+    hash += hash_bytes(std::as_bytes(std::span(name))).text();
     std::size_t kept = longest - std::min(longest, own.size() + hash.size());
     // Not within a character of UTF-8, which some disks refuse.
     while (kept > 0 && (static_cast<unsigned char>(name[kept]) & 0xC0U) == 0x80U) --kept;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "strake/core/number.hpp"
+#include "strake/core/text.hpp"
 
 namespace strake {
 
@@ -37,8 +38,6 @@ Error usage(std::string message, std::string mend) {
   return {ErrorCode::usage, std::move(message), {}, std::move(mend)};
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
-
 }  // namespace
 
 std::optional<Quantity> parse_quantity(std::string_view text) {
@@ -65,32 +64,34 @@ std::optional<double> unit_mm(std::string_view unit) {
 
 Result<double> parse_unit_mm(std::string_view text) {
   if (const auto mm = unit_mm(trimmed(text))) return *mm;
-  return usage("no length unit: " + quoted(text), "write " + std::string(kUnitNames));
+  return usage("no length unit: " + in_quotes(text), "write " + std::string(kUnitNames));
 }
 
 Result<double> parse_length_mm(std::string_view text) {
   const auto q = parse_quantity(text);
-  if (!q) return usage("no length: " + quoted(text), "write a number and a unit, as 25mm");
+  if (!q) return usage("no length: " + in_quotes(text), "write a number and a unit, as 25mm");
   if (q->unit.empty()) {
     if (q->number == 0) return 0.0;
-    return usage("the length " + quoted(text) + " has no unit",
+    return usage("the length " + in_quotes(text) + " has no unit",
                  "write " + shortest(q->number) + "mm or another of " + std::string(kUnitNames));
   }
   const auto mm = unit_mm(q->unit);
   if (!mm)
-    return usage("unknown unit " + quoted(q->unit) + " in " + quoted(text),
+    return usage("unknown unit " + in_quotes(q->unit) + " in " + in_quotes(text),
                  "write " + std::string(kUnitNames));
   const double length = q->number * *mm;
-  if (!std::isfinite(length)) return usage("too long: " + quoted(text), "write a smaller length");
+  if (!std::isfinite(length))
+    return usage("too long: " + in_quotes(text), "write a smaller length");
   return length;
 }
 
 Result<double> parse_angle_deg(std::string_view text) {
   const auto q = parse_quantity(text);
-  if (!q) return usage("no angle: " + quoted(text), "write degrees, as 20deg");
+  if (!q) return usage("no angle: " + in_quotes(text), "write degrees, as 20deg");
   if (q->unit.empty() || q->unit == "deg" || q->unit == "°") return q->number;
   if (q->unit == "rad") return q->number * kDegPerRad;
-  return usage("unknown unit " + quoted(q->unit) + " in " + quoted(text), "write 20deg or 0.35rad");
+  return usage("unknown unit " + in_quotes(q->unit) + " in " + in_quotes(text),
+               "write 20deg or 0.35rad");
 }
 
 Result<double> parse_scale(std::string_view text) {
@@ -101,11 +102,11 @@ Result<double> parse_scale(std::string_view text) {
     if (paper && real && *paper > 0 && *real > 0) {
       const double scale = *real / *paper;
       if (scale >= kLargestBlowUp && scale <= kLargestReduction) return scale;
-      return usage("no scale for a sheet of paper: " + quoted(text),
+      return usage("no scale for a sheet of paper: " + in_quotes(text),
                    "write 1:50, say; 1000000:1 to 1:1000000000 can be drawn");
     }
   }
-  return usage("no scale: " + quoted(text), "write paper to model, as 1:50");
+  return usage("no scale: " + in_quotes(text), "write paper to model, as 1:50");
 }
 
 }  // namespace strake

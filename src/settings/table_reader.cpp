@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "strake/core/text.hpp"
 #include "strake/core/units.hpp"
 
 namespace strake::settings {
@@ -25,8 +26,6 @@ std::string_view type_name(const Value& value) {
   };
   return std::visit(Name{}, value.held);
 }
-
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 std::string listed(const std::vector<std::string>& words) {
   std::string list;
@@ -58,7 +57,7 @@ TableReader::TableReader(Reading& reading, const Value& table, std::string what)
 void TableReader::refuse_other_keys() {
   for (std::size_t k = 0; k < asked_.size(); ++k)
     if (!asked_[k])
-      reading_.fault((*table_)[k].at, what_ + " has no key " + quoted((*table_)[k].key),
+      reading_.fault((*table_)[k].at, what_ + " has no key " + in_quotes((*table_)[k].key),
                      "its keys are " + listed(known_));
 }
 
@@ -83,8 +82,8 @@ std::vector<const Entry*> TableReader::others() {
 
 void TableReader::wrong_type(const Value& value, std::string_view key, std::string_view wanted) {
   reading_.fault(value.at,
-                 quoted(key) + " of " + what_ + " is " + std::string(type_name(value)) + ", not " +
-                     std::string(wanted),
+                 in_quotes(key) + " of " + what_ + " is " + std::string(type_name(value)) +
+                     ", not " + std::string(wanted),
                  "write " + std::string(key) + " = " + std::string(wanted));
 }
 
@@ -122,7 +121,7 @@ std::optional<double> TableReader::length_mm(const Value& value, std::string_vie
   }
   const Result<double> length = parse_length_mm(*text);
   if (length) return *length;
-  reading_.fault(value.at, quoted(key) + " of " + what_ + ": " + length.error().message,
+  reading_.fault(value.at, in_quotes(key) + " of " + what_ + ": " + length.error().message,
                  length.error().mend);
   return std::nullopt;
 }
@@ -139,7 +138,7 @@ std::optional<double> TableReader::quantity(std::string_view key,
   }
   const Result<double> quantity = parse(*text);
   if (quantity) return *quantity;
-  reading_.fault(found->at, quoted(key) + " of " + what_ + ": " + quantity.error().message,
+  reading_.fault(found->at, in_quotes(key) + " of " + what_ + ": " + quantity.error().message,
                  quantity.error().mend);
   return std::nullopt;
 }
@@ -151,7 +150,7 @@ std::optional<std::vector<double>> TableReader::lengths_mm(std::string_view key,
   const auto* const list = std::get_if<Array>(&found->held);
   if (list == nullptr || list->size() != count) {
     reading_.fault(found->at,
-                   quoted(key) + " of " + what_ + " is no list of " + std::to_string(count),
+                   in_quotes(key) + " of " + what_ + " is no list of " + std::to_string(count),
                    "write " + std::string(key) + " = " + std::string(wanted));
     return std::nullopt;
   }
@@ -169,10 +168,10 @@ std::optional<double> TableReader::tolerance_mm(std::string_view key) {
   const auto length = found != nullptr ? length_mm(*found, key) : std::nullopt;
   if (!length) return std::nullopt;
   if (*length >= 0 && *length <= kLongestMm) return length;
-  reading_.fault(
-      found->at,
-      quoted(key) + " of " + what_ + (*length < 0 ? " is negative" : " is longer than a kilometre"),
-      "write a length from 0 to 1km");
+  reading_.fault(found->at,
+                 in_quotes(key) + " of " + what_ +
+                     (*length < 0 ? " is negative" : " is longer than a kilometre"),
+                 "write a length from 0 to 1km");
   return std::nullopt;
 }
 
@@ -185,8 +184,8 @@ std::optional<std::string> TableReader::word(std::string_view key,
   std::vector<std::string> choices;
   for (const std::string_view word : words) choices.push_back("\"" + std::string(word) + "\"");
   reading_.fault(found->at,
-                 quoted(key) + " of " + what_ + " is " +
-                     (text != nullptr ? quoted(*text) : std::string(type_name(*found))),
+                 in_quotes(key) + " of " + what_ + " is " +
+                     (text != nullptr ? in_quotes(*text) : std::string(type_name(*found))),
                  "write one of " + listed(choices));
   return std::nullopt;
 }
@@ -213,7 +212,7 @@ const Array* TableReader::three(std::string_view key) {
   if (found == nullptr) return nullptr;
   const auto* const list = std::get_if<Array>(&found->held);
   if (list != nullptr && list->size() == 3) return list;
-  reading_.fault(found->at, quoted(key) + " of " + what_ + " is no list of three",
+  reading_.fault(found->at, in_quotes(key) + " of " + what_ + " is no list of three",
                  "write " + std::string(key) + " = [x, y, z]");
   return nullptr;
 }
@@ -243,7 +242,7 @@ std::optional<geometry::Vec3d> TableReader::direction(std::string_view key) {
       return std::nullopt;
     }
     if (number != nullptr && !std::isfinite(*number)) {
-      reading_.fault(value.at, quoted(key) + " of " + what_ + " has a number that is not finite",
+      reading_.fault(value.at, in_quotes(key) + " of " + what_ + " has a number that is not finite",
                      "write a list of three numbers, as [0, 0, 1]");
       return std::nullopt;
     }
@@ -252,7 +251,7 @@ std::optional<geometry::Vec3d> TableReader::direction(std::string_view key) {
   const double longest = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
   // Of a subnormal number too few digits are left to scale it.
   if (std::isnormal(longest)) return way * (1 / longest);
-  reading_.fault(value(key)->at, quoted(key) + " of " + what_ + " has no direction",
+  reading_.fault(value(key)->at, in_quotes(key) + " of " + what_ + " has no direction",
                  "write a list with a number that is not 0, as [0, 0, 1]");
   return std::nullopt;
 }
@@ -277,7 +276,7 @@ std::vector<const Value*> TableReader::tables(std::string_view key) {
     return std::holds_alternative<Table>(v->held);
   });
   if (list != nullptr && tables) return all;
-  reading_.fault(found->at, quoted(key) + " is not a list of tables",
+  reading_.fault(found->at, in_quotes(key) + " is not a list of tables",
                  "write [[" + within(what_) + std::string(key) +
                      "]] with double brackets, and its keys below");
   return {};
@@ -287,7 +286,7 @@ std::string TableReader::required_text(std::string_view key) {
   const auto found = text(key);
   if (found && !found->empty()) return *found;
   const bool there = found.has_value();
-  reading_.fault(at_, what_ + (there ? " has an empty " : " has no ") + quoted(key),
+  reading_.fault(at_, what_ + (there ? " has an empty " : " has no ") + in_quotes(key),
                  "write " + std::string(key) + " = \"...\"");
   return {};
 }

@@ -52,6 +52,9 @@ void append_utf8(std::string& out, std::uint32_t code);
 /// The text with '?' for everything that is not printable.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// The text in single quotes, as messages show what somebody wrote.
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
 /// The text with U+FFFD for bytes that are no UTF-8, and otherwise as it is.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
 
