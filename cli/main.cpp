@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/console.hpp"
-#include "cli/interrupts.hpp"
-#include "cli/memory.hpp"
-#include "cli/verb.hpp"
+#include "cli/output/console.hpp"
+#include "cli/run/interrupts.hpp"
+#include "cli/run/memory.hpp"
+#include "cli/verbs/verb.hpp"
 #include "strake/core/version.hpp"
 
 namespace strake::cli {

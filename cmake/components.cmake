@@ -35,7 +35,7 @@ strake_component(geometry
     core/hash.hpp
     core/shared_array.hpp
     core/version.hpp
-    geometry/analytic_pair.hpp
+    geometry/primitive_separation.hpp
     geometry/closest.hpp
     geometry/depth.hpp
     geometry/ellipse.hpp
@@ -46,17 +46,17 @@ strake_component(geometry
     geometry/mesh.hpp
     geometry/part.hpp
     geometry/part_pair.hpp
-    geometry/part_tree.hpp
+    geometry/triangle_bvh.hpp
     geometry/predicates.hpp
     geometry/primitive.hpp
     geometry/rational.hpp
     geometry/separating_axis.hpp
-    geometry/thin_body.hpp
-    geometry/thin_pair.hpp
+    geometry/lower_dimensional_body.hpp
+    geometry/lower_dimensional_separation.hpp
     geometry/triangle_contact.hpp
     geometry/triangulate.hpp
     geometry/vec.hpp
-    geometry/vertex_tree.hpp
+    geometry/support_tree.hpp
     geometry/wide_int.hpp
   PAGES docs/geometry.md examples/basic_tests.cpp)
 
@@ -92,6 +92,7 @@ strake_component(clash
     clash/clash.hpp
     clash/group.hpp
     clash/options.hpp
+    clash/overlaps.hpp
     clash/policy.hpp
     rules/rules.hpp)
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 
-# strake_module(NAME SOURCES... DEPENDS modules... [LIBS private libraries...])
+# strake_module(NAME [COLD] SOURCES... DEPENDS modules... [LIBS private libraries...])
 # One layer of the library: library strake_NAME, alias strake::NAME; static, unless
-# BUILD_SHARED_LIBS. Position-independent when static, too: it may end up in a plug-in.
+# BUILD_SHARED_LIBS. Position-independent when static, too: it may end up in a plug-in. What is COLD
+# reads what a person wrote, and is compiled quickly rather than to run quickly.
 function(strake_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "COLD" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
   add_library(strake_${name} ${arg_SOURCES})
   add_library(strake::${name} ALIAS strake_${name})
   target_include_directories(strake_${name}
@@ -23,7 +24,13 @@ function(strake_module name)
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     POSITION_INDEPENDENT_CODE ON
     INSTALL_RPATH $ORIGIN)
-  strake_precompile(strake_${name} modules)
+  strake_unite(strake_${name})
+  if(arg_COLD)
+    target_compile_options(strake_${name} PRIVATE -O1)
+    strake_precompile(strake_${name} cold_modules)
+  else()
+    strake_precompile(strake_${name} modules)
+  endif()
 endfunction()
 
 # strake_test(NAME SOURCES... MODULES modules... [LIBS ...] [LABELS fast|slow|parallel ...] [TIMEOUT s])

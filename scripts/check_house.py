@@ -76,15 +76,13 @@ TOKENS = re.compile(r'(?P<kept>#\s*include\s*(<[^>\n]*>|"[^"\n]*")|\b\d[\w.\']*)
                     r'|//[^\n]*|/\*(?s:.*?)\*/')
 # What has threads, locks, atomics or signals of its own, though it is not of the patterns, and why.
 OWN_CONCURRENCY = {
-    'cli/console.cpp': 'lines of several threads on one terminal',
-    'cli/console.hpp': 'lines of several threads on one terminal',
-    'cli/interrupts.cpp': 'waits for signals',
-    'cli/interrupts.hpp': 'waits for signals',
+    'cli/output/console.cpp': 'lines of several threads on one terminal, one of them the progress of a run',
+    'cli/output/console.hpp': 'lines of several threads on one terminal, one of them the progress of a run',
+    'cli/run/interrupts.cpp': 'waits for signals',
+    'cli/run/interrupts.hpp': 'waits for signals',
     'cli/main.cpp': 'a file beyond the limit is an error of writing, no signal',
-    'cli/progress_line.cpp': 'shows how far a run is while it runs',
-    'cli/progress_line.hpp': 'shows how far a run is while it runs',
-    'cli/session.cpp': 'the step that the progress line names',
-    'cli/session.hpp': 'the step that the progress line names',
+    'cli/run/session.cpp': 'the step that the progress line names',
+    'cli/run/session.hpp': 'the step that the progress line names',
 }
 
 

@@ -11,6 +11,7 @@ python3 scripts/check_house.py
 all=
 [ "${1:-}" = --all ] && { all=yes; shift; }
 build=${1:-build/dev}
+# Not of a unity build, which knows no single sources; configuring is enough.
 [ -f "$build/compile_commands.json" ] || configure "$(basename "$build")"
 
 # The sources that changed, those that changed most first.

@@ -3,7 +3,7 @@
 # test.sh [--all]: build, format, lint, tests; ends with CTest's summary.
 set -euo pipefail
 . scripts/common.sh
-preset=dev
+preset=test
 case "${1:-}" in
   "") ;;
   --all) preset=nightly ;;
@@ -14,8 +14,8 @@ need build test
 configure_and_build "$preset"
 scripts/format.sh --check
 if [ "$preset" = nightly ]; then
-  scripts/lint.sh --all "build/$preset"
+  scripts/lint.sh --all
 else
-  scripts/lint.sh "build/$preset"
+  scripts/lint.sh
 fi
 ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "clocks.hpp"
-#include "drawing/duplicates.hpp"
-#include "drawing/paper.hpp"
+#include "drawing/layout/duplicates.hpp"
+#include "drawing/layout/view_plane.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -70,31 +70,32 @@ double peak_mib() {
   return static_cast<double>(u.ru_maxrss) / 1024;
 }
 
-bool same(const drawing::Stretch& a, const drawing::Stretch& b) {
+bool same(const drawing::LineInterval& a, const drawing::LineInterval& b) {
   return a.line == b.line && a.covered == b.covered && a.from == b.from && a.to == b.to;
 }
 
 /// How many of a sample of lines are cut otherwise when every other line is asked.
-std::size_t wrong(std::span<const drawing::Flat> lines, const drawing::OverlapRule& rule,
-                  const drawing::Overlaps& found, std::size_t sample) {
+std::size_t wrong(std::span<const drawing::PlaneSegment> lines, const drawing::OverlapRule& rule,
+                  const drawing::LineOverlaps& found, std::size_t sample) {
   std::size_t wrong = 0;
   for (std::size_t n = 0; n < sample && !lines.empty(); ++n) {
     const auto i = static_cast<std::uint32_t>(lines.size() * n / sample);
-    if (!drawing::may_go(lines[i], rule)) continue;
-    std::vector<drawing::Interval> covers;
+    if (!drawing::can_be_covered(lines[i], rule)) continue;
+    std::vector<drawing::ParamInterval> covers;
     for (std::uint32_t j = 0; j < lines.size(); ++j)
-      if (j != i && lines[j].rank != drawing::Rank::none && drawing::stays(lines, j, i))
+      if (j != i && lines[j].rank != drawing::Rank::none && drawing::has_precedence(lines, j, i))
         if (const auto interval = drawing::covered(lines[i], lines[j], rule))
           covers.push_back(*interval);
-    drawing::Stretches expected;
+    drawing::LineIntervals expected;
     if (!covers.empty())
-      drawing::append_stretches(expected, i, covers, rule.shortest / lines[i].length());
-    const drawing::Stretches& stretches = found.stretches;
-    const auto first = std::partition_point(stretches.begin(), stretches.end(),
-                                            [&](const drawing::Stretch& s) { return s.line < i; });
-    const auto last = std::partition_point(first, stretches.end(),
-                                           [&](const drawing::Stretch& s) { return s.line == i; });
-    drawing::Stretches got(first, last);
+      drawing::append_intervals(expected, i, covers, rule.shortest / lines[i].length());
+    const drawing::LineIntervals& stretches = found.stretches;
+    const auto first =
+        std::partition_point(stretches.begin(), stretches.end(),
+                             [&](const drawing::LineInterval& s) { return s.line < i; });
+    const auto last = std::partition_point(
+        first, stretches.end(), [&](const drawing::LineInterval& s) { return s.line == i; });
+    drawing::LineIntervals got(first, last);
     if (found.wholly.is_set(i)) got.push_back({i, true, 0, 1});
     if (!std::equal(got.begin(), got.end(), expected.begin(), expected.end(), same)) ++wrong;
   }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "strake/geometry/analytic_pair.hpp"
+#include "strake/geometry/primitive_separation.hpp"
 
 namespace {
 
@@ -46,7 +46,7 @@ void bench_pair(const Kind& a, const Kind& b) {
       std::string(kind_name(a.primitive)) + " and " + std::string(kind_name(b.primitive));
   const auto run = [&](double gap, double enough) {
     const Placement there = at(gap);
-    return solved_separation({&a.primitive, &here}, {&b.primitive, &there}, enough);
+    return iterative_separation({&a.primitive, &here}, {&b.primitive, &there}, enough);
   };
   const double far = 1e300;
   const auto beside = run(10, far), meeting = run(-5, far), away = run(200, 1000);

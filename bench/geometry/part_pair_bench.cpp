@@ -31,7 +31,7 @@ double nanoseconds(const std::function<void()>& call) {
   }
 }
 
-void report(const std::string& name, bool right, double ns, const PairWork& work) {
+void report(const std::string& name, bool right, double ns, const QueryContext& work) {
   if (right)
     fmt::print("{:<44}{:>14.1f} ns  {:>8} node pairs {:>8} triangle pairs {:>6} exact\n", name, ns,
                work.node_pairs, work.triangle_pairs, work.exact_fallbacks);
@@ -40,20 +40,20 @@ void report(const std::string& name, bool right, double ns, const PairWork& work
 }
 
 void bench_meet(const std::string& name, const Subject& a, const Subject& b, Meeting expected) {
-  PairWork work;
+  QueryContext work;
   const bool right = meet(a.treed(), b.treed(), work).meeting == expected;
-  PairWork sink;
+  QueryContext sink;
   report("meet " + name, right, nanoseconds([&] { (void)meet(a.treed(), b.treed(), sink); }), work);
 }
 
 void bench_closest(const std::string& name, const Subject& a, const Subject& b, double limit,
                    double low, double high) {
-  PairWork work;
-  const auto r = closest(a.treed(), b.treed(), limit, work);
+  QueryContext work;
+  const auto r = find_closest_pair(a.treed(), b.treed(), limit, work);
   const bool right = low > limit ? !r : r && r->distance >= low && r->distance <= high;
-  PairWork sink;
+  QueryContext sink;
   report("closest " + name, right,
-         nanoseconds([&] { (void)closest(a.treed(), b.treed(), limit, sink); }), work);
+         nanoseconds([&] { (void)find_closest_pair(a.treed(), b.treed(), limit, sink); }), work);
 }
 
 /// Turned by the Pythagorean triples 3-4-5 and 5-12-13: coordinates that are multiples of 65 stay
@@ -141,12 +141,12 @@ void fine_pair(const std::string& name, const IndexedMesh& inner, const IndexedM
   const Subject a(inner), b(outer);
   const double triangles = static_cast<double>(a.part.triangles.size() + b.part.triangles.size());
   double start = cpu_seconds();
-  const PartTree tree_a(a.part), tree_b(b.part);
+  const TriangleBvh tree_a(a.part), tree_b(b.part);
   const double build = cpu_seconds() - start;
-  const TreedPart x{{&a.part, {}}, &tree_a}, y{{&b.part, {}}, &tree_b};
-  PairWork work, meet_work;
+  const PartWithBvh x{{&a.part, {}}, &tree_a}, y{{&b.part, {}}, &tree_b};
+  QueryContext work, meet_work;
   start = cpu_seconds();
-  const auto near = closest(x, y, 1000, work);
+  const auto near = find_closest_pair(x, y, 1000, work);
   const double query = cpu_seconds() - start;
   start = cpu_seconds();
   const Meeting meeting = meet(x, y, meet_work).meeting;

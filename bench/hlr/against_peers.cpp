@@ -29,7 +29,7 @@
 #include "hlr/made_scenes.hpp"
 #include "hlr/peers/peer.hpp"
 #include "hlr/same_lines.hpp"
-#include "hlr/view_axes.hpp"
+#include "hlr/view/projection.hpp"
 #include "strake/generate/ship.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/io/reader.hpp"
@@ -185,7 +185,7 @@ std::string_view common_kind(hlr::EdgeKind kind) {
 
 struct PaperLine {
   std::string_view kind;
-  drawing::Flat at;  ///< mm
+  drawing::PlaneSegment at;  ///< mm
 };
 
 /// The paper of a view.
@@ -196,7 +196,7 @@ class Paper {
 
   [[nodiscard]] std::vector<PaperLine> visible(const hlr::Drawing& drawing) const {
     std::vector<PaperLine> lines;
-    for (const hlr::Piece& p : drawing.pieces)
+    for (const hlr::EdgePiece& p : drawing.pieces)
       if (p.state == hlr::State::visible)
         lines.push_back({common_kind(p.kind), flat(geometry::to_mm(p.a), geometry::to_mm(p.b))});
     return lines;
@@ -209,7 +209,7 @@ class Paper {
   }
 
  private:
-  [[nodiscard]] drawing::Flat flat(const Vec3d& a, const Vec3d& b) const {
+  [[nodiscard]] drawing::PlaneSegment flat(const Vec3d& a, const Vec3d& b) const {
     return {.ax = dot(a, axes_.right),
             .ay = dot(a, axes_.up),
             .bx = dot(b, axes_.right),
@@ -218,9 +218,9 @@ class Paper {
   hlr::ViewAxes axes_;
 };
 
-std::vector<drawing::Flat> of_kinds(const std::vector<PaperLine>& lines,
-                                    const std::vector<std::string_view>& kinds) {
-  std::vector<drawing::Flat> some;
+std::vector<drawing::PlaneSegment> of_kinds(const std::vector<PaperLine>& lines,
+                                            const std::vector<std::string_view>& kinds) {
+  std::vector<drawing::PlaneSegment> some;
   for (const PaperLine& l : lines)
     if (std::ranges::find(kinds, l.kind) != kinds.end()) some.push_back(l.at);
   return some;

@@ -63,8 +63,8 @@ void run(const Series& series) {
     strake::bench::CpuLap lap;
     const auto drawing = strake::hlr::draw(scene.scene(), {}, view, {}, {}).value();
     const double seconds = lap();
-    const auto visible =
-        std::ranges::count(drawing.pieces, strake::hlr::State::visible, &strake::hlr::Piece::state);
+    const auto visible = std::ranges::count(drawing.pieces, strake::hlr::State::visible,
+                                            &strake::hlr::EdgePiece::state);
     fmt::print("{:<36}{:>7} {:>9.3f} s{} {}{} visible | {} face tests\n", series.name, size,
                seconds,
                last == 0 ? std::string(15, ' ')

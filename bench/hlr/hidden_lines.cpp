@@ -71,7 +71,7 @@ Arguments parse(int argc, char** argv) {
   return a;
 }
 
-double paper_length(const hlr::Piece& p, const geometry::Vec3l& direction) {
+double paper_length(const hlr::EdgePiece& p, const geometry::Vec3l& direction) {
   const auto v = (p.b - p.a).as<double>(), d = direction.as<double>();
   const double along = dot(v, d);
   return std::sqrt(std::max(0.0, dot(v, v) - along * along / dot(d, d))) / 1000;
@@ -79,7 +79,7 @@ double paper_length(const hlr::Piece& p, const geometry::Vec3l& direction) {
 
 void report(const hlr::Drawing& drawing) {
   std::map<std::pair<hlr::EdgeKind, hlr::State>, std::pair<std::uint64_t, double>> sums;
-  for (const hlr::Piece& p : drawing.pieces) {
+  for (const hlr::EdgePiece& p : drawing.pieces) {
     auto& [count, length] = sums[{p.kind, p.state}];
     ++count;
     length += paper_length(p, drawing.view.direction);
@@ -93,7 +93,7 @@ void report(const hlr::Drawing& drawing) {
              drawing.contact_distance_mm);
 }
 
-bool same(const hlr::Piece& p, const hlr::Piece& q) {
+bool same(const hlr::EdgePiece& p, const hlr::EdgePiece& q) {
   return p.object == q.object && p.edge == q.edge && p.kind == q.kind && p.state == q.state &&
          p.other == q.other && p.a == q.a && p.b == q.b;
 }

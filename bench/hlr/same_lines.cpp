@@ -3,12 +3,12 @@
 
 #include <span>
 
-#include "drawing/overlaps.hpp"
+#include "drawing/collinear/collinear_overlaps.hpp"
 
 namespace strake::bench {
 namespace {
 
-using drawing::Flat;
+using drawing::PlaneSegment;
 
 constexpr double kApart_mm = 0.5;
 
@@ -18,7 +18,7 @@ struct Cut {
 };
 
 /// `lines` are the `count` of the first set and then those of the second.
-Cut cut(std::vector<Flat> lines, std::size_t count, const parallel::Context& context) {
+Cut cut(std::vector<PlaneSegment> lines, std::size_t count, const parallel::Context& context) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     lines[i].reach = kApart_mm / 2;
     lines[i].depth = 0;
@@ -28,7 +28,7 @@ Cut cut(std::vector<Flat> lines, std::size_t count, const parallel::Context& con
   std::vector<double> open(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
     open[i] = overlaps.wholly.is_set(i) ? 0 : lines[i].length();
-  for (const drawing::Stretch& s : overlaps.stretches)
+  for (const drawing::LineInterval& s : overlaps.stretches)
     if (s.covered) open[s.line] -= (s.to - s.from) * lines[s.line].length();
   Cut result;
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -36,15 +36,16 @@ Cut cut(std::vector<Flat> lines, std::size_t count, const parallel::Context& con
   return result;
 }
 
-std::vector<Flat> joined(const std::vector<Flat>& a, const std::vector<Flat>& b) {
-  std::vector<Flat> all = a;
+std::vector<PlaneSegment> joined(const std::vector<PlaneSegment>& a,
+                                 const std::vector<PlaneSegment>& b) {
+  std::vector<PlaneSegment> all = a;
   all.insert(all.end(), b.begin(), b.end());
   return all;
 }
 
 }  // namespace
 
-Common compare(const std::vector<Flat>& ours, const std::vector<Flat>& theirs,
+Common compare(const std::vector<PlaneSegment>& ours, const std::vector<PlaneSegment>& theirs,
                const parallel::Context& context) {
   const Cut by_ours = cut(joined(ours, theirs), ours.size(), context);
   const Cut by_theirs = cut(joined(theirs, ours), theirs.size(), context);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "drawing/flat.hpp"
+#include "drawing/collinear/collinear_overlaps.hpp"
 #include "strake/parallel/context.hpp"
 
 namespace strake::bench {
@@ -18,8 +18,8 @@ struct Common {
 
 /// Lines lie on each other where they are no more than half a millimetre apart. Rank, depth and
 /// reach are set here.
-[[nodiscard]] Common compare(const std::vector<drawing::Flat>& ours,
-                             const std::vector<drawing::Flat>& theirs,
+[[nodiscard]] Common compare(const std::vector<drawing::PlaneSegment>& ours,
+                             const std::vector<drawing::PlaneSegment>& theirs,
                              const parallel::Context& context);
 
 }  // namespace strake::bench

@@ -7,7 +7,7 @@
 #include <streambuf>
 #include <string>
 
-#include "cli/verb.hpp"
+#include "cli/verbs/verb.hpp"
 #include "strake/generate/ship.hpp"
 #include "strake/io/writer.hpp"
 

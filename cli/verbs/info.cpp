@@ -12,11 +12,11 @@
 #include <variant>
 #include <vector>
 
-#include "cli/load.hpp"
-#include "cli/object_list.hpp"
-#include "cli/verb.hpp"
-#include "strake/core/number.hpp"
-#include "strake/core/severity.hpp"
+#include "cli/output/object_list.hpp"
+#include "cli/run/load.hpp"
+#include "cli/verbs/verb.hpp"
+#include "core/number.hpp"
+#include "strake/core/diagnostics.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::cli {
@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kSagMm = 0.5;
+constexpr double kInfoSagMm = 0.5;
 constexpr int kSchemaVersion = 1;
 
 /// What one file, or all of them, hold.
@@ -183,7 +183,7 @@ struct InfoOptions {
 };
 
 Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
-  const Result<model::SceneOptions> scene_settings = scene_options(options.scene, kSagMm);
+  const Result<model::SceneOptions> scene_settings = scene_options(options.scene, kInfoSagMm);
   if (!scene_settings) return scene_settings.error();
   std::optional<std::uint64_t> objects;
   if (!options.objects.empty())
@@ -198,7 +198,7 @@ Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
                                           : info_text(model, scene) +
                                                 (objects ? object_list_text(model, *objects) : ""));
   if (!written) return written.error();
-  return outcome(options.input, *loaded);
+  return strict_exit_code(options.input, *loaded);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/command_tree.hpp"
-#include "cli/verb.hpp"
+#include "cli/options/command_tree.hpp"
+#include "cli/verbs/verb.hpp"
 
 namespace strake::cli {
 namespace {

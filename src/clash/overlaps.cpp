@@ -8,31 +8,31 @@
 #include <string_view>
 #include <utility>
 
-#include "clash/case_work.hpp"
-#include "clash/object_pairs.hpp"
-#include "clash/options.hpp"
-#include "clash/part_aids.hpp"
-#include "strake/geometry/flush_contact.hpp"
+#include "clash/broad_phase/broad_phase.hpp"
+#include "clash/narrow_phase/acceleration_cache.hpp"
+#include "clash/pairs/pair_tasks.hpp"
+#include "clash/rules/options.hpp"
+#include "geometry/intersect/coplanar_faces.hpp"
 #include "strake/parallel/collect.hpp"
 
 namespace strake::clash {
 namespace {
 
-enum class State : std::uint8_t { apart, common, open };
+enum class OverlapState : std::uint8_t { apart, common, open };
 
 /// What becomes of the near pairs of parts: what needs no tree first, and of the others only what
 /// their own boxes leave open.
-class Overlaps {
+class OverlapSearch {
  public:
-  Overlaps(const PartList& list, const std::vector<geometry::IndexPair>& pairs,
-           const model::Model& model, const parallel::Context& context)
-      : cases_(each_alone(pairs.size())),
-        work_(list, pairs, cases_, context),
-        aids_(list, model),
-        states_(pairs.size(), State::open) {}
+  OverlapSearch(const ScenePartList& list, const std::vector<geometry::IndexPair>& pairs,
+                const model::Model& model, const parallel::Context& context)
+      : unique_pairs_(all_unique(pairs.size())),
+        work_(list, pairs, unique_pairs_, context),
+        cache_(list, model),
+        states_(pairs.size(), OverlapState::open) {}
 
   /// By pair, none of them open. Errors: cancelled.
-  Result<std::vector<State>> run() {
+  Result<std::vector<OverlapState>> run() {
     if (const Status s = decide_flush(); !s) return s.error();
     if (const Status s = decide_framed(); !s) return s.error();
     if (const Status s = decide_exactly(); !s) return s.error();
@@ -42,68 +42,71 @@ class Overlaps {
  private:
   Status decide_flush() {
     return parallel::for_each(
-        work_.context(), {.name = "flush pairs", .n = work_.size(), .grain = CaseWork::kGrain},
+        work_.context(), {.name = "flush pairs", .n = work_.size(), .grain = PairTasks::kGrain},
         [&](std::size_t i) {
           const geometry::PlacedPart &x = work_.a(i).placed, &y = work_.b(i).placed;
           if (!geometry::fits_pair(x, y))
-            states_[i] = State::apart;
-          else if (geometry::flush_contact(x, y).touching)
-            states_[i] = State::common;
+            states_[i] = OverlapState::apart;
+          else if (geometry::find_coplanar_contact(x, y).touching)
+            states_[i] = OverlapState::common;
         });
   }
 
   Status decide_framed() {
     const auto open = find_open();
     if (!open) return open.error();
-    if (const Status s = aids_.want_frames(work_.parts_of(*open), work_.context()); !s) return s;
-    return decide(*open, "parting planes", [&](const PartRef& x, const PartRef& y) {
-      const NarrowPart p = aids_.framed(x), q = aids_.framed(y);
+    if (const Status s = cache_.ensure_frames(work_.parts_of(*open), work_.context()); !s) return s;
+    return decide(*open, "parting planes", [&](const ScenePart& x, const ScenePart& y) {
+      const PairOperand p = cache_.framed(x), q = cache_.framed(y);
       constexpr double kApart = 1;  // as the broad phase's boxes leave it: whole units
-      const double gap =
-          geometry::frame_gap({p.treed.placed, p.frame}, {q.treed.placed, q.frame}, kApart).lower;
-      return gap >= kApart ? State::apart : State::open;
+      const double gap = geometry::oriented_box_separation({p.treed.placed, p.frame},
+                                                           {q.treed.placed, q.frame}, kApart)
+                             .lower;
+      return gap >= kApart ? OverlapState::apart : OverlapState::open;
     });
   }
 
   Status decide_exactly() {
     const auto open = find_open();
     if (!open) return open.error();
-    if (const Status s = aids_.want_trees(work_.parts_of(*open), work_.context()); !s) return s;
-    return decide(*open, "overlaps", [&](const PartRef& x, const PartRef& y) {
-      geometry::PairWork work;
-      const auto met = geometry::meet(aids_.treed(x).treed, aids_.treed(y).treed, work);
-      return met.meeting == geometry::Meeting::apart ? State::apart : State::common;
+    if (const Status s = cache_.ensure_trees(work_.parts_of(*open), work_.context()); !s) return s;
+    return decide(*open, "overlaps", [&](const ScenePart& x, const ScenePart& y) {
+      geometry::QueryContext work;
+      const auto met = geometry::meet(cache_.treed(x).treed, cache_.treed(y).treed, work);
+      return met.meeting == geometry::Meeting::apart ? OverlapState::apart : OverlapState::common;
     });
   }
 
   [[nodiscard]] Result<std::vector<std::size_t>> find_open() const {
-    return work_.that("open pairs", [&](std::size_t i) { return states_[i] == State::open; });
+    return work_.filter("open pairs",
+                        [&](std::size_t i) { return states_[i] == OverlapState::open; });
   }
 
   template <class Judge>
   Status decide(std::span<const std::size_t> some, std::string_view name, const Judge& judge) {
-    return work_.over(
-        some, name, CaseWork::kGrain,
-        [&](std::size_t i, const PartRef& x, const PartRef& y) { states_[i] = judge(x, y); });
+    return work_.for_each_of(
+        some, name, PairTasks::kGrain,
+        [&](std::size_t i, const ScenePart& x, const ScenePart& y) { states_[i] = judge(x, y); });
   }
 
-  Cases cases_;
-  CaseWork work_;
-  PartAids aids_;
-  std::vector<State> states_;  ///< by pair
+  UniquePairs unique_pairs_;
+  PairTasks work_;
+  AccelerationCache cache_;
+  std::vector<OverlapState> states_;  ///< by pair
 };
 
-Result<std::vector<ObjectPair>> by_objects(const std::vector<State>& states, const PartList& list,
+Result<std::vector<ObjectPair>> by_objects(const std::vector<OverlapState>& states,
+                                           const ScenePartList& list,
                                            const std::vector<geometry::IndexPair>& pairs,
                                            const parallel::Context& context) {
   const auto objects = ObjectPairs::find(pairs, list, context);
   if (!objects) return objects.error();
   return parallel::collect<ObjectPair>(
-      context, {.name = "overlapping objects", .n = objects->size(), .grain = CaseWork::kBlock},
+      context, {.name = "overlapping objects", .n = objects->size(), .grain = PairTasks::kBlock},
       [&](std::size_t k, std::vector<ObjectPair>& out) {
         const auto first = states.begin() + static_cast<std::ptrdiff_t>(objects->begin(k));
         const auto last = states.begin() + static_cast<std::ptrdiff_t>(objects->end(k));
-        if (std::find(first, last, State::common) == last) return;
+        if (std::find(first, last, OverlapState::common) == last) return;
         const geometry::IndexPair& pair = pairs[objects->begin(k)];
         out.push_back({model::ObjectId{list.parts[pair.first].object},
                        model::ObjectId{list.parts[pair.second].object}});
@@ -116,11 +119,11 @@ Result<std::vector<ObjectPair>> overlapping_pairs(const model::Scene& scene, con
                                                   const Options& options,
                                                   const parallel::Context& context) {
   if (const Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
-  const auto list = list_parts(scene, sets, Curves::off, context);
+  const auto list = collect_scene_parts(scene, sets, Curves::off, context);
   if (!list) return list.error();
-  const auto pairs = near_pairs(*list, sets, 0, options, context);
+  const auto pairs = find_candidate_pairs(*list, sets, 0, options, context);
   if (!pairs) return pairs.error();
-  const auto states = Overlaps(*list, *pairs, *scene.model, context).run();
+  const auto states = OverlapSearch(*list, *pairs, *scene.model, context).run();
   if (!states) return states.error();
   return by_objects(*states, *list, *pairs, context);
 }

@@ -52,7 +52,7 @@ std::size_t longest_name(const fs::path& file) {
 }
 
 /// Named by process, so that programs writing the same target do not meet, and so that
-/// remove_partials knows its own. A name that is as long as the disk takes leaves no room for
+/// remove_partial_files knows its own. A name that is as long as the disk takes leaves no room for
 /// that: its end is told by a hash of all of it, which keeps targets that begin alike apart.
 fs::path partial_name(const fs::path& target, int attempt) {
   std::string name = target.filename().string();
@@ -85,7 +85,7 @@ void take_over(int descriptor, const struct stat& replaced) {
 
 }  // namespace
 
-fs::path link_end(const fs::path& target) {
+fs::path resolve_links(const fs::path& target) {
   std::error_code error;
   fs::path path = target;
   for (int i = 0; i < 40 && fs::is_symlink(path, error); ++i) {
@@ -98,7 +98,7 @@ fs::path link_end(const fs::path& target) {
 
 Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   AtomicFile file;
-  file.target_ = link_end(target);
+  file.target_ = resolve_links(target);
   struct stat status{};
   const bool exists = ::stat(file.target_.c_str(), &status) == 0;
   if (!exists && errno == ELOOP) return failure(target, ELOOP);
@@ -201,9 +201,9 @@ Status AtomicFile::commit() {
   return {};
 }
 
-void remove_partials(const fs::path& target) noexcept {
+void remove_partial_files(const fs::path& target) noexcept {
   try {
-    const fs::path real = link_end(target);
+    const fs::path real = resolve_links(target);
     for (int attempt = 0; attempt < kAttempts; ++attempt)
       ::unlink(partial_name(real, attempt).c_str());
   } catch (...) {  // no memory for a name: there is nothing more to be done

@@ -49,4 +49,16 @@ std::uint64_t Diagnostics::skipped() const {
   return sum;
 }
 
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::skipped:
+      break;
+  }
+  return "skipped";
+}
+
 }  // namespace strake

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/core/glob.hpp"
+#include "core/glob.hpp"
 
 #include <cstddef>
 
@@ -7,7 +7,7 @@ namespace strake {
 
 namespace {
 
-constexpr std::size_t kNone = std::string_view::npos;
+constexpr std::size_t kNoRange = std::string_view::npos;
 
 /// Length of the UTF-8 sequence at the front; 1 where the bytes are none.
 std::size_t character(std::string_view text) {
@@ -20,7 +20,7 @@ std::size_t character(std::string_view text) {
 }
 
 /// Whether `c` is in the set that starts after '[' at pattern[at]; `end` is set past the ']'.
-/// An unclosed set leaves `end` at kNone.
+/// An unclosed set leaves `end` at kNoRange.
 bool in_set(std::string_view pattern, std::size_t at, char c, std::size_t& end) {
   bool inverted = false;
   if (at < pattern.size() && (pattern[at] == '!' || pattern[at] == '^')) {
@@ -28,8 +28,8 @@ bool in_set(std::string_view pattern, std::size_t at, char c, std::size_t& end) 
     ++at;
   }
   const std::size_t close = pattern.find(']', at + 1);  // "[]a]" holds the bracket itself
-  end = close == kNone ? kNone : close + 1;
-  if (close == kNone) return false;
+  end = close == kNoRange ? kNoRange : close + 1;
+  if (close == kNoRange) return false;
   bool found = false;
   for (std::size_t i = at; i < close; ++i) {
     if (i + 2 < close && pattern[i + 1] == '-') {
@@ -53,9 +53,9 @@ bool match_one(std::string_view pattern, std::string_view text, std::size_t& use
     return true;
   }
   if (pattern[0] == '[') {
-    std::size_t end = kNone;
+    std::size_t end = kNoRange;
     const bool found = in_set(pattern, 1, text[0], end);
-    if (end != kNone) {
+    if (end != kNoRange) {
       used_pattern = end;
       used_text = character(text);
       return found;
@@ -73,7 +73,7 @@ bool match_one(std::string_view pattern, std::string_view text, std::size_t& use
 std::size_t next_start(std::string_view after_star, std::string_view text, std::size_t from) {
   const char c = after_star[0];
   const bool plain =
-      static_cast<unsigned char>(c) < 0x80U && std::string_view("*?[\\").find(c) == kNone;
+      static_cast<unsigned char>(c) < 0x80U && std::string_view("*?[\\").find(c) == kNoRange;
   return plain ? text.find(c, from) : from;
 }
 
@@ -83,23 +83,23 @@ bool glob_match(std::string_view pattern, std::string_view text) {
   std::size_t p = 0, t = 0;
   // On a mismatch only the last star need be tried again: an earlier one gains nothing that the
   // last one cannot.
-  std::size_t star = kNone, star_text = 0;
+  std::size_t star = kNoRange, star_text = 0;
   while (t < text.size()) {
     std::size_t used_pattern = 0, used_text = 0;
     if (p < pattern.size() && pattern[p] == '*') {
       star = p++;
       if (p == pattern.size()) return true;
       t = star_text = next_start(pattern.substr(p), text, t);
-      if (t == kNone) return false;
+      if (t == kNoRange) return false;
     } else if (p < pattern.size() &&
                match_one(pattern.substr(p), text.substr(t), used_pattern, used_text)) {
       p += used_pattern;
       t += used_text;
-    } else if (star != kNone) {
+    } else if (star != kNoRange) {
       p = star + 1;
       star_text += character(text.substr(star_text));
       t = star_text = next_start(pattern.substr(p), text, star_text);
-      if (t == kNone) return false;
+      if (t == kNoRange) return false;
     } else {
       return false;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/core/number.hpp"
+#include "core/number.hpp"
 
 #include <algorithm>
 #include <array>

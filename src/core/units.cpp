@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/core/units.hpp"
+#include "core/units.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "strake/core/number.hpp"
-#include "strake/core/text.hpp"
+#include "core/number.hpp"
+#include "core/text_encoding.hpp"
 
 namespace strake {
 
@@ -26,13 +26,6 @@ constexpr std::string_view kUnitNames = "um, mm, cm, dm, m, km, in or ft";
 /// Scales beyond these are slips of the pen, and their sheets no paper.
 constexpr double kLargestBlowUp = 1e-6, kLargestReduction = 1e9;
 constexpr double kDegPerRad = 57.29577951308232;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 Error usage(std::string message, std::string mend) {
   return {ErrorCode::usage, std::move(message), {}, std::move(mend)};

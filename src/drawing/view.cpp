@@ -11,8 +11,9 @@
 #include <numeric>
 #include <string>
 
-#include "strake/core/number.hpp"
-#include "strake/core/units.hpp"
+#include "core/number.hpp"
+#include "core/text_encoding.hpp"
+#include "core/units.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::drawing {
@@ -87,12 +88,6 @@ Direction rounded_direction(const Vec3d& wanted) {
   direction.rounded = true;
   direction.rounding_error = sine_between(wanted, direction.vector.as<double>());
   return direction;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 }  // namespace

@@ -4,13 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <ostream>
+#include <string>
 #include <utility>
 
-#include "generate/plan.hpp"
+#include "generate/ship_plan.hpp"
 
 namespace strake::generate {
 namespace {
@@ -30,16 +35,16 @@ constexpr geometry::Mat3d general_rotation() {
 
 /// Lanes and levels that suit a number of objects, about 75 objects to a room, the length growing
 /// fastest. Small ships have several candidates: the one that needs the least thinning out wins.
-std::vector<Plan> candidate_plans(const ShipOptions& options) {
+std::vector<ShipPlan> candidate_plans(const ShipOptions& options) {
   constexpr std::uint64_t kSmall = 6000;
   const double rooms = static_cast<double>(options.objects) / 75;
   int size = 1;
   while ((size + 1.0) * (size + 1.0) * (size + 1.0) * 3 <= rooms) ++size;
   const int more = options.objects < kSmall ? 1 : 0;
-  std::vector<Plan> plans;
+  std::vector<ShipPlan> plans;
   for (int levels = size; levels <= size + more; ++levels)
     for (int lanes = std::max(2, size); lanes <= std::max(2, size) + more; ++lanes) {
-      Plan plan;
+      ShipPlan plan;
       plan.seed = options.seed;
       plan.imported = options.imported_detail;
       plan.imported_triangles = options.imported_triangles;
@@ -50,23 +55,23 @@ std::vector<Plan> candidate_plans(const ShipOptions& options) {
   return plans;
 }
 
-Yard build(const Plan& plan) {
-  Yard yard;
-  const Steel steel = build_steel(plan, yard);
-  build_runs(plan, steel, yard);
-  build_ballast(plan, yard);
-  build_rooms(plan, steel, yard);
-  build_weather_deck(plan, steel, yard);
-  return yard;
+ShipBuilder build(const ShipPlan& plan) {
+  ShipBuilder builder;
+  const Steel steel = build_steel(plan, builder);
+  build_runs(plan, steel, builder);
+  build_ballast(plan, builder);
+  build_rooms(plan, steel, builder);
+  build_weather_deck(plan, steel, builder);
+  return builder;
 }
 
 /// The shortest ship of a plan's lanes and levels that has enough objects.
-Yard build_enough(Plan plan, std::uint64_t objects, const std::stop_token& stop) {
+ShipBuilder build_enough(ShipPlan plan, std::uint64_t objects, const std::stop_token& stop) {
   plan.bays = 1;
   while (true) {
-    Yard yard = build(plan);
-    const std::uint64_t count = yard.objects().size();
-    if (count >= objects || stop.stop_requested()) return yard;
+    ShipBuilder builder = build(plan);
+    const std::uint64_t count = builder.objects().size();
+    if (count >= objects || stop.stop_requested()) return builder;
     // Aims a little short, so that it arrives from below.
     const std::uint64_t missing =
         (objects - count) * static_cast<std::uint64_t>(plan.bays) * 20 / (count * 21 + 1);
@@ -74,26 +79,26 @@ Yard build_enough(Plan plan, std::uint64_t objects, const std::stop_token& stop)
   }
 }
 
-Result<Yard> build_best(const ShipOptions& options, const std::stop_token& stop) {
-  Yard best;
-  for (const Plan& plan : candidate_plans(options)) {
-    Yard yard = build_enough(plan, options.objects, stop);
+Result<ShipBuilder> build_best(const ShipOptions& options, const std::stop_token& stop) {
+  ShipBuilder best;
+  for (const ShipPlan& plan : candidate_plans(options)) {
+    ShipBuilder builder = build_enough(plan, options.objects, stop);
     if (stop.stop_requested())
       return Error{ErrorCode::cancelled, "cancelled while generating", "", ""};
-    if (best.objects().empty() || yard.objects().size() < best.objects().size())
-      best = std::move(yard);
+    if (best.objects().empty() || builder.objects().size() < best.objects().size())
+      best = std::move(builder);
   }
   return best;
 }
 
 /// Which objects stay: spare ones go first, evenly spread over the ship; if they are too few, the
 /// last built go too, but for what stays.
-std::vector<bool> choose_kept(const Yard& yard, std::uint64_t wanted) {
-  const std::vector<Built>& objects = yard.objects();
+std::vector<bool> choose_kept(const ShipBuilder& builder, std::uint64_t wanted) {
+  const std::vector<ShipObject>& objects = builder.objects();
   std::vector<bool> kept(objects.size(), true);
   std::uint64_t excess = objects.size() - wanted;
   const auto spare = static_cast<std::uint64_t>(std::count_if(
-      objects.begin(), objects.end(), [](const Built& b) { return info(b.kind).optional; }));
+      objects.begin(), objects.end(), [](const ShipObject& b) { return info(b.kind).optional; }));
   const std::uint64_t drop = std::min(excess, spare);
   std::uint64_t seen = 0;
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -109,7 +114,7 @@ std::vector<bool> choose_kept(const Yard& yard, std::uint64_t wanted) {
 }
 
 /// Sorts as the ids do: code, bay, lane, level, number, all of fixed width.
-std::uint64_t id_key(const Built& built, const std::vector<std::uint8_t>& rank) {
+std::uint64_t id_key(const ShipObject& built, const std::vector<std::uint8_t>& rank) {
   return (static_cast<std::uint64_t>(rank[static_cast<std::size_t>(built.kind)]) << 56U) |
          (static_cast<std::uint64_t>(built.cell.bay) << 40U) |
          (static_cast<std::uint64_t>(built.cell.lane) << 32U) |
@@ -126,11 +131,11 @@ std::vector<std::uint8_t> code_ranks() {
 }
 
 /// The kept objects in the order of their ids.
-std::vector<Handle> id_order(const Yard& yard, const std::vector<bool>& kept) {
+std::vector<Handle> id_order(const ShipBuilder& builder, const std::vector<bool>& kept) {
   const std::vector<std::uint8_t> rank = code_ranks();
   std::vector<std::pair<std::uint64_t, Handle>> keyed;
-  for (Handle h = 0; h < yard.objects().size(); ++h)
-    if (kept[h]) keyed.emplace_back(id_key(yard.objects()[h], rank), h);
+  for (Handle h = 0; h < builder.objects().size(); ++h)
+    if (kept[h]) keyed.emplace_back(id_key(builder.objects()[h], rank), h);
   std::sort(keyed.begin(), keyed.end());
   std::vector<Handle> order;
   order.reserve(keyed.size());
@@ -138,7 +143,7 @@ std::vector<Handle> id_order(const Yard& yard, const std::vector<bool>& kept) {
   return order;
 }
 
-std::string id_of(const Built& built) {
+std::string id_of(const ShipObject& built) {
   return fmt::format("{}-B{:04}-L{:02}-D{:02}-{:04}", info(built.kind).code, built.cell.bay,
                      built.cell.lane, built.cell.level, built.number);
 }
@@ -149,7 +154,7 @@ class GroupTree {
   explicit GroupTree(model::Model& model) : model_(model) {
     model_.groups.push_back({"SHIP-SECTION", model::GroupId::none});
   }
-  model::GroupId of(const Built& built) {
+  model::GroupId of(const ShipObject& built) {
     const std::uint32_t zone = built.cell.bay / 4U;
     const auto z = group({zone, kAny, kAny}, model::GroupId{0}, [&] {
       return fmt::format("ZONE-{:02} FR {}-{}", zone + 1, zone * 16, zone * 16 + 15);
@@ -176,7 +181,7 @@ class GroupTree {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> known_;
 };
 
-Placement placement_of(const Frame& frame, bool turned) {
+Placement placement_of(const AxisFrame& frame, bool turned) {
   Placement placement;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
@@ -187,14 +192,15 @@ Placement placement_of(const Frame& frame, bool turned) {
   return turned ? Placement{general_rotation(), {}} * placement : placement;
 }
 
-model::Model assemble(Yard& yard, const std::vector<Handle>& order, const ShipOptions& options) {
+model::Model assemble(ShipBuilder& builder, const std::vector<Handle>& order,
+                      const ShipOptions& options) {
   model::Model model;
   model.files.push_back({"ship", "generated", "mm", "z", 0, 0});
   GroupTree groups(model);
   model.objects.reserve(order.size());
   model.bodies.reserve(order.size());
   for (const Handle handle : order) {
-    const Built& built = yard.objects()[handle];
+    const ShipObject& built = builder.objects()[handle];
     const KindInfo& kind = info(built.kind);
     const DisciplineInfo& discipline = kDisciplines[static_cast<std::size_t>(kind.discipline)];
     model::Object object;
@@ -205,23 +211,23 @@ model::Model assemble(Yard& yard, const std::vector<Handle>& order, const ShipOp
     object.body_count = 1;
     object.attributes = {{"discipline", std::string(discipline.name)},
                          {"system", std::string(kind.system)},
-                         {"weight_kg", fmt::format("{:.2f}", yard.volumes_mm3()[built.shape] *
+                         {"weight_kg", fmt::format("{:.2f}", builder.volumes_mm3()[built.shape] *
                                                                  discipline.kg_per_mm3)}};
     model.objects.push_back(std::move(object));
     model.bodies.push_back({model::ShapeId{built.shape}, 0,
                             placement_of(built.frame, options.turned), kind.color,
                             model::Category::physical});
   }
-  model.shapes = yard.take_shapes();
+  model.shapes = builder.take_shapes();
   return model;
 }
 
-Truth assemble_truth(const Yard& yard, const std::vector<Handle>& order) {
-  std::vector<std::uint32_t> place(yard.objects().size(), kNothing);
+Truth assemble_truth(const ShipBuilder& builder, const std::vector<Handle>& order) {
+  std::vector<std::uint32_t> place(builder.objects().size(), kNothing);
   for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
   Truth truth;
   truth.reasons.assign(why_texts().begin(), why_texts().end());
-  for (const Declared& pair : yard.pairs()) {
+  for (const DeclaredPair& pair : builder.pairs()) {
     const auto [a, b] = std::minmax(place[pair.a], place[pair.b]);
     if (b == kNothing) continue;
     truth.pairs.push_back({model::ObjectId{a}, model::ObjectId{b}, pair.cls,
@@ -231,7 +237,7 @@ Truth assemble_truth(const Yard& yard, const std::vector<Handle>& order) {
     return std::pair(p.a, p.b) < std::pair(q.a, q.b);
   });
   for (std::uint32_t i = 0; i < order.size(); ++i)
-    if (yard.objects()[order[i]].inside_out) truth.inside_out.push_back(model::ObjectId{i});
+    if (builder.objects()[order[i]].inside_out) truth.inside_out.push_back(model::ObjectId{i});
   return truth;
 }
 
@@ -271,24 +277,93 @@ Status check(const ShipOptions& options) {
 
 Result<Ship> generate_ship(const ShipOptions& options, const parallel::Context& context) {
   if (const Status status = check(options); !status) return status.error();
-  Result<Yard> yard = build_best(options, context.stop);
-  if (!yard) return yard.error();
-  const auto room =
-      static_cast<std::uint64_t>(std::ranges::count(yard->objects(), Kind::imported, &Built::kind));
+  Result<ShipBuilder> builder = build_best(options, context.stop);
+  if (!builder) return builder.error();
+  const auto room = static_cast<std::uint64_t>(
+      std::ranges::count(builder->objects(), ObjectKind::imported, &ShipObject::kind));
   if (room < options.imported_detail)
     return Error{ErrorCode::usage,
                  fmt::format("the deck of a ship of {} objects has no room for {} imported ones",
                              options.objects, options.imported_detail),
                  "--imported-detail", fmt::format("give {} at most, or more objects", room)};
-  if (const Status status = yard->make_late_shapes(context.stop); !status) return status.error();
-  const std::vector<bool> kept = choose_kept(*yard, options.objects);
-  const std::vector<Handle> order = id_order(*yard, kept);
+  if (const Status status = builder->make_late_shapes(context.stop); !status) return status.error();
+  const std::vector<bool> kept = choose_kept(*builder, options.objects);
+  const std::vector<Handle> order = id_order(*builder, kept);
   Ship ship;
   ship.options = options;
-  ship.model = assemble(*yard, order, options);
-  ship.truth = assemble_truth(*yard, order);
+  ship.model = assemble(*builder, order, options);
+  ship.truth = assemble_truth(*builder, order);
   drop_unused_shapes(ship.model);
   return ship;
+}
+
+namespace {
+
+std::string_view class_text(clash::Class cls) {
+  switch (cls) {
+    case clash::Class::hit:
+      return "HIT";
+    case clash::Class::contact:
+      return "CONTACT";
+    case clash::Class::clearance_violation:
+      return "CLEARANCE_VIOLATION";
+    default:
+      return "NO_HIT";
+  }
+}
+
+std::string imported_text(const ShipOptions& options) {
+  if (options.imported_detail == 0) return {};
+  return fmt::format(", \"imported_detail\": {}, \"imported_triangles\": {}",
+                     options.imported_detail, options.imported_triangles);
+}
+
+void write_head(const Ship& ship, fmt::memory_buffer& text) {
+  std::array<std::uint64_t, 4> counts{};
+  for (const TruthPair& pair : ship.truth.pairs) ++counts[static_cast<std::size_t>(pair.cls)];
+  fmt::format_to(std::back_inserter(text),
+                 "{{\n  \"schema_version\": 1,\n"
+                 "  \"generator\": {{\"kind\": \"ship\", \"objects\": {}, \"seed\": {}, "
+                 "\"turned\": {}{}}},\n"
+                 "  \"settings\": {{\"clearance_mm\": {}, \"touch_gap_mm\": 1, "
+                 "\"touch_overlap_mm\": 1, \"thickness_cap\": true}},\n"
+                 "  \"counts\": {{\"HIT\": {}, \"CONTACT\": {}, \"CLEARANCE_VIOLATION\": {}}},\n",
+                 ship.options.objects, ship.options.seed, ship.options.turned,
+                 imported_text(ship.options), Truth::kClearanceMm, counts[3], counts[2], counts[1]);
+}
+
+}  // namespace
+
+void write_truth(const Ship& ship, std::ostream& out) {
+  constexpr std::size_t kFlush = 1U << 20U;
+  fmt::memory_buffer text;
+  const auto flush = [&] {
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    text.clear();
+  };
+  const auto id = [&](model::ObjectId object) -> const std::string& {
+    return ship.model.object(object).id;  // letters, digits and dashes: nothing to escape
+  };
+  write_head(ship, text);
+  fmt::format_to(std::back_inserter(text), "  \"inside_out\": [");
+  const char* separator = "\n";
+  for (const model::ObjectId object : ship.truth.inside_out) {
+    fmt::format_to(std::back_inserter(text), "{}    \"{}\"", separator, id(object));
+    separator = ",\n";
+  }
+  fmt::format_to(std::back_inserter(text), "\n  ],\n  \"pairs\": [");
+  separator = "\n";
+  for (const TruthPair& pair : ship.truth.pairs) {
+    fmt::format_to(std::back_inserter(text),
+                   "{}    {{\"a\": \"{}\", \"b\": \"{}\", \"class\": \"{}\", \"d_mm\": {}, "
+                   "\"why\": \"{}\"}}",
+                   separator, id(pair.a), id(pair.b), class_text(pair.cls), pair.d_mm,
+                   ship.truth.reasons[pair.why]);
+    separator = ",\n";
+    if (text.size() > kFlush) flush();
+  }
+  fmt::format_to(std::back_inserter(text), "\n  ]\n}}\n");
+  flush();
 }
 
 }  // namespace strake::generate

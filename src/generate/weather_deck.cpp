@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "generate/plan.hpp"
+#include "generate/ship_plan.hpp"
 
 namespace strake::generate {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 using geometry::Vec3d;
 
 /// Long side, end and roof lines of a corrugated box, extruded upwards.
-Outline corrugated(double length, double width) {
-  Outline result;
+OutlinePolygon corrugated(double length, double width) {
+  OutlinePolygon result;
   const auto side = [&](double u0, double v0, double du, double dv, int waves, double span) {
     const double step = span / (4 * waves);
     for (int i = 0; i < waves; ++i) {
@@ -33,38 +33,39 @@ Outline corrugated(double length, double width) {
   corner(0, width);
   side(0, width - 40, 0, -1, 7, width - 80);
   // Marks on the outer line stand in line with the corners: drop what is straight.
-  Outline clean;
+  OutlinePolygon clean;
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const Flat& a = result[(i + result.size() - 1) % result.size()];
-    const Flat &b = result[i], &c = result[(i + 1) % result.size()];
+    const ProfilePoint& a = result[(i + result.size() - 1) % result.size()];
+    const ProfilePoint &b = result[i], &c = result[(i + 1) % result.size()];
     if ((b.u - a.u) * (c.v - b.v) != (b.v - a.v) * (c.u - b.u)) clean.push_back(b);
   }
   return clean;
 }
 
-void build_containers(Room& room) {
+void build_containers(ShipRoom& room) {
   const Site& site = room.site;
-  Yard& yard = *site.yard;
+  ShipBuilder& builder = *site.builder;
   const std::uint32_t shape =
-      yard.shape({4001}, [] { return extrude(corrugated(2600, 1400), {}, um(1500)); });
+      builder.shape({4001}, [] { return extrude(corrugated(2600, 1400), {}, um(1500)); });
   for (int row = 0; row < 2; ++row) {
     Handle below = room.deck;
     const int tiers = room.random.between(1, 3);
     for (int tier = 0; tier < tiers; ++tier) {
-      const Kind kind = room.random.chance(50) ? Kind::container : Kind::container_red;
-      const Handle box = yard.add(kind, site.cell, shape,
-                                  site.frame * at({100, 100 + 1650.0 * row, 1500.0 * tier}));
-      yard.rest(box, below);
+      const ObjectKind kind =
+          room.random.chance(50) ? ObjectKind::container : ObjectKind::container_red;
+      const Handle box = builder.add(kind, site.cell, shape,
+                                     site.frame * at({100, 100 + 1650.0 * row, 1500.0 * tier}));
+      builder.rest(box, below);
       below = box;
     }
   }
 }
 
-void build_mooring(Room& room) {
+void build_mooring(ShipRoom& room) {
   const Site& site = room.site;
-  Yard& yard = *site.yard;
-  const Handle bed = site.box(Kind::foundation, {300, 400, 0}, {1900, 2500, 120});
-  yard.weld(bed, room.deck);
+  ShipBuilder& builder = *site.builder;
+  const Handle bed = site.box(ObjectKind::foundation, {300, 400, 0}, {1900, 2500, 120});
+  builder.weld(bed, room.deck);
   const std::array<Vec3d, 12> drum{{{300, 0, 0},
                                     {420, 20, 0},
                                     {420, 60, 0},
@@ -77,24 +78,25 @@ void build_mooring(Room& room) {
                                     {420, 1330, 0},
                                     {420, 1370, 0},
                                     {300, 1390, 0}}};
-  const Handle winch = site.turned(Kind::winch, drum, facing(Axis::beside, {1100, 700, 540}));
-  yard.rest(winch, bed);
-  const Handle gear = site.box(Kind::machine_part, {800, 2090, 120}, {1400, 2450, 900});
-  yard.bolt(gear, winch);
-  yard.bolt(gear, bed);
+  const Handle winch =
+      site.turned(ObjectKind::winch, drum, facing(FacingAxis::beside, {1100, 700, 540}));
+  builder.rest(winch, bed);
+  const Handle gear = site.box(ObjectKind::machine_part, {800, 2090, 120}, {1400, 2450, 900});
+  builder.bolt(gear, winch);
+  builder.bolt(gear, bed);
   const std::array<Vec3d, 6> post{
       {{150, 0, 0}, {150, 450, 0}, {190, 490, 0}, {190, 560, 0}, {150, 600, 0}, {60, 610, 0}}};
   for (const double b : {600.0, 1300.0}) {
-    const Handle sole = site.box(Kind::foundation, {2250, b - 220, 0}, {2750, b + 220, 30});
-    yard.weld(sole, room.deck);
-    const Handle bollard = site.turned(Kind::bollard, post, at({2500, b, 30}));
-    yard.weld(bollard, sole);
+    const Handle sole = site.box(ObjectKind::foundation, {2250, b - 220, 0}, {2750, b + 220, 30});
+    builder.weld(sole, room.deck);
+    const Handle bollard = site.turned(ObjectKind::bollard, post, at({2500, b, 30}));
+    builder.weld(bollard, sole);
   }
 }
 
-void build_vents(Room& room) {
+void build_vents(ShipRoom& room) {
   const Site& site = room.site;
-  Yard& yard = *site.yard;
+  ShipBuilder& builder = *site.builder;
   const std::array<Vec3d, 8> mushroom{{{160, 0, 0},
                                        {160, 700, 0},
                                        {330, 620, 0},
@@ -107,18 +109,20 @@ void build_vents(Room& room) {
       {{60, 0, 0}, {60, 500, 0}, {110, 520, 0}, {110, 720, 0}, {80, 760, 0}, {0, 780, 0}}};
   for (int i = 0; i < 4; ++i) {
     const int column = i % 2, row = i / 2;
-    yard.weld(
-        site.turned(Kind::vent_head, mushroom, at({500 + 1200.0 * column, 600 + 1100.0 * row, 0})),
-        room.deck);
+    builder.weld(site.turned(ObjectKind::vent_head, mushroom,
+                             at({500 + 1200.0 * column, 600 + 1100.0 * row, 0})),
+                 room.deck);
   }
   for (int i = 0; i < 5; ++i)
-    yard.weld(site.turned(Kind::vent_head, goose, at({250 + 350.0 * i, 2800, 0})), room.deck);
-  yard.weld(site.tube(Kind::foundation, {700, 700, 350}, 12, at({2000, 2300, 0})), room.deck);
+    builder.weld(site.turned(ObjectKind::vent_head, goose, at({250 + 350.0 * i, 2800, 0})),
+                 room.deck);
+  builder.weld(site.tube(ObjectKind::foundation, {700, 700, 350}, 12, at({2000, 2300, 0})),
+               room.deck);
 }
 
-void build_boat(Room& room) {
+void build_boat(ShipRoom& room) {
   const Site& site = room.site;
-  Yard& yard = *site.yard;
+  ShipBuilder& builder = *site.builder;
   std::vector<Vec3d> hull;
   for (int step = 1; step <= 6; ++step) {
     const Vec3d c = unit_15deg(step);
@@ -128,7 +132,8 @@ void build_boat(Room& room) {
     const Vec3d c = unit_15deg(step);
     hull.push_back({560 * c.y, 1900 + 700 * c.x, 0});
   }
-  const Handle boat = site.turned(Kind::boat, hull, facing(Axis::along, {100, 1200, 1500}));
+  const Handle boat =
+      site.turned(ObjectKind::boat, hull, facing(FacingAxis::along, {100, 1200, 1500}));
   for (const double a : {950.0, 1750.0}) {
     const std::array<Vec3d, 6> davit{{{1000, 0, 0},
                                       {2300, 0, 0},
@@ -136,15 +141,16 @@ void build_boat(Room& room) {
                                       {2100, 2500, 0},
                                       {1950, 940, 0},
                                       {1000, 940, 0}}};
-    const Handle arm = site.extruded(Kind::davit, davit, 120, facing(Axis::along, {a, 0, 0}));
-    yard.weld(arm, room.deck);
-    yard.rest(boat, arm);
+    const Handle arm =
+        site.extruded(ObjectKind::davit, davit, 120, facing(FacingAxis::along, {a, 0, 0}));
+    builder.weld(arm, room.deck);
+    builder.rest(boat, arm);
   }
 }
 
-void build_funnel(Room& room) {
+void build_funnel(ShipRoom& room) {
   const Site& site = room.site;
-  Yard& yard = *site.yard;
+  ShipBuilder& builder = *site.builder;
   const std::array<Vec3d, 8> casing{{{500, 600, 0},
                                      {2300, 600, 0},
                                      {2700, 1000, 0},
@@ -155,74 +161,74 @@ void build_funnel(Room& room) {
                                      {100, 1000, 0}}};
   Handle below = room.deck;
   for (int tier = 0; tier < 3; ++tier) {
-    const Kind kind = tier == 1 ? Kind::mast : Kind::funnel;
+    const ObjectKind kind = tier == 1 ? ObjectKind::mast : ObjectKind::funnel;
     const Handle ring = site.extruded(kind, casing, tier == 1 ? 500 : 1500,
                                       at({0, 0,
                                           tier == 0   ? 0.0
                                           : tier == 1 ? 1500.0
                                                       : 2000.0}));
-    yard.weld(ring, below);
+    builder.weld(ring, below);
     below = ring;
   }
   const std::array<Vec3d, 4> uptake{{{180, 0, 0}, {180, 900, 0}, {210, 910, 0}, {210, 1000, 0}}};
   for (int i = 0; i < 3; ++i)
-    yard.weld(
-        site.turned(Kind::mast, uptake, at({800 + 600.0 * i, i == 1 ? 2000.0 : 1350.0, 3500})),
-        below);
+    builder.weld(site.turned(ObjectKind::mast, uptake,
+                             at({800 + 600.0 * i, i == 1 ? 2000.0 : 1350.0, 3500})),
+                 below);
 }
 
-void build_mast(Room& room) {
+void build_mast(ShipRoom& room) {
   const Site& site = room.site;
-  Yard& yard = *site.yard;
-  const Handle house = site.box(Kind::wall, {300, 500, 0}, {2500, 2800, 1700});
-  yard.weld(house, room.deck);
+  ShipBuilder& builder = *site.builder;
+  const Handle house = site.box(ObjectKind::wall, {300, 500, 0}, {2500, 2800, 1700});
+  builder.weld(house, room.deck);
   const std::array<Vec3d, 5> pole{
       {{260, 0, 0}, {240, 60, 0}, {160, 3200, 0}, {160, 3500, 0}, {90, 5200, 0}}};
-  const Handle mast = site.turned(Kind::mast, pole, at({1400, 1650, 1700}));
-  yard.weld(mast, house);
+  const Handle mast = site.turned(ObjectKind::mast, pole, at({1400, 1650, 1700}));
+  builder.weld(mast, house);
   for (const double side : {-1.0, 1.0}) {
     const double b = side < 0 ? 1650 - 160 - 1400 : 1650 + 160;
-    const Handle yardarm = site.box(Kind::mast, {1380, b, 5000}, {1420, b + 1400, 5060});
-    yard.weld(yardarm, mast);
+    const Handle yardarm = site.box(ObjectKind::mast, {1380, b, 5000}, {1420, b + 1400, 5060});
+    builder.weld(yardarm, mast);
     for (int i = 0; i < 3; ++i) {
       const double at_b = b + 200 + 450.0 * i;
-      yard.weld(site.bar(Kind::lamp, 40, 260, at({1400, at_b, 5060})), yardarm);
+      builder.weld(site.bar(ObjectKind::lamp, 40, 260, at({1400, at_b, 5060})), yardarm);
     }
   }
-  const Handle radar = site.box(Kind::mast, {1330, 650, 6900}, {1470, 2650, 7080});
-  yard.weld(radar, mast);
+  const Handle radar = site.box(ObjectKind::mast, {1330, 650, 6900}, {1470, 2650, 7080});
+  builder.weld(radar, mast);
   for (int i = 0; i < 4; ++i) {
     const double b = 620 + 540.0 * i;
-    yard.fit(site.box(Kind::window, {2500, b, 900}, {2512, b + 440, 1500}), house);
+    builder.fit(site.box(ObjectKind::window, {2500, b, 900}, {2512, b + 440, 1500}), house);
   }
 }
 
 /// Posts, rails and knee rails along a line of `length` in the site's x; y points outward.
 Handle build_railing(const Site& site, Handle deck, double length, Handle before) {
-  Yard& yard = *site.yard;
-  const Handle rail = site.box(Kind::railing, {0, 0, 1000}, {length, 12, 1050});
-  yard.weld(rail, before);
+  ShipBuilder& builder = *site.builder;
+  const Handle rail = site.box(ObjectKind::railing, {0, 0, 1000}, {length, 12, 1050});
+  builder.weld(rail, before);
   std::array<Handle, 2> knees{};
   for (std::size_t k = 0; k < 2; ++k) {
     const double h = 350 + 320.0 * static_cast<double>(k);
-    knees[k] = site.box(Kind::railing, {100, 12, h}, {length - 100, 22, h + 40});
+    knees[k] = site.box(ObjectKind::railing, {100, 12, h}, {length - 100, 22, h + 40});
   }
   for (double u = 400; u < length; u += 800) {
-    const Handle post = site.box(Kind::railing, {u - 30, 0, 0}, {u + 30, 12, 1000});
-    yard.weld(post, deck);
-    yard.weld(post, rail);
-    for (const Handle knee : knees) yard.weld(post, knee);
+    const Handle post = site.box(ObjectKind::railing, {u - 30, 0, 0}, {u + 30, 12, 1000});
+    builder.weld(post, deck);
+    builder.weld(post, rail);
+    for (const Handle knee : knees) builder.weld(post, knee);
   }
   return rail;
 }
 
 /// Rails where a deck ends, and along the open side of the weather deck.
-void build_railings(const Plan& plan, const Steel& steel, Yard& yard) {
+void build_railings(const ShipPlan& plan, const Steel& steel, ShipBuilder& builder) {
   for (int k = 0; k <= plan.levels; ++k) {
     const int bay = plan.deck_bays(k) - 1;
     for (int lane = 0; lane < plan.lanes; ++lane) {
-      const Site site = plan.site(yard, bay, lane, k);
-      Frame across = at({kBay - 12, lane == 0 ? 230.0 : 30.0, 0});
+      const Site site = plan.site(builder, bay, lane, k);
+      AxisFrame across = at({kBay - 12, lane == 0 ? 230.0 : 30.0, 0});
       across.m = {0, 1, 0, 1, 0, 0, 0, 0, 1};  // x runs across the ship, y forward: mirrored
       build_railing(site.in(across), steel.deck(k, bay, lane),
                     lane == 0                ? 3740
@@ -234,17 +240,17 @@ void build_railings(const Plan& plan, const Steel& steel, Yard& yard) {
   Handle before = kNothing;
   for (int bay = 0; bay < plan.deck_bays(plan.levels); ++bay) {
     const bool last = bay + 1 == plan.deck_bays(plan.levels);
-    const Site site = plan.site(yard, bay, 0, plan.levels).moved({0, 150, 0});
+    const Site site = plan.site(builder, bay, 0, plan.levels).moved({0, 150, 0});
     before = build_railing(site, steel.deck(plan.levels, bay, 0), last ? kBay - 100 : kBay, before);
   }
 }
 
 }  // namespace
 
-void build_weather_deck(const Plan& plan, const Steel& steel, Yard& yard) {
-  using Builder = void (*)(Room&);
-  constexpr std::array<Builder, 5> kGear{build_containers, build_mooring, build_vents,
-                                         build_containers, build_boat};
+void build_weather_deck(const ShipPlan& plan, const Steel& steel, ShipBuilder& builder) {
+  using GearBuilder = void (*)(ShipRoom&);
+  constexpr std::array<GearBuilder, 5> kGear{build_containers, build_mooring, build_vents,
+                                             build_containers, build_boat};
   const int level = plan.levels, bays = plan.deck_bays(level), middle = plan.lanes / 2;
   const auto is_funnel = [&](int bay, int lane) { return bay % 24 == 0 && lane == middle; };
   const auto is_mast = [&](int bay, int lane) {
@@ -258,8 +264,8 @@ void build_weather_deck(const Plan& plan, const Steel& steel, Yard& yard) {
   for (int bay = 0; bay < bays; ++bay)
     for (int lane = 0; lane < plan.lanes; ++lane) {
       Random random = plan.random(41, bay, lane, level);
-      Room room{plan.site(yard, bay, lane, level).moved({260, 350, 0}),
-                steel.deck(level, bay, lane), random.at(1)};
+      ShipRoom room{plan.site(builder, bay, lane, level).moved({260, 350, 0}),
+                    steel.deck(level, bay, lane), random.at(1)};
       if (is_funnel(bay, lane)) {
         build_funnel(room);
         continue;
@@ -276,7 +282,7 @@ void build_weather_deck(const Plan& plan, const Steel& steel, Yard& yard) {
       else
         kGear[random.below(kGear.size())](room);
     }
-  build_railings(plan, steel, yard);
+  build_railings(plan, steel, builder);
 }
 
 }  // namespace strake::generate

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
-#include "hlr/account.hpp"
-#include "hlr/curves.hpp"
-#include "hlr/job.hpp"
-#include "hlr/specks.hpp"
+#include "hlr/prepare/view_job.hpp"
+#include "hlr/results/edge_curves.hpp"
+#include "hlr/results/object_fates.hpp"
+#include "hlr/visibility/specks.hpp"
 #include "strake/hlr/hlr.hpp"
 
 namespace strake::hlr {
 namespace {
 
-Status solve(const Job& job, const parallel::Context& context, Drawing& drawing) {
+Status solve(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
   switch (job.options.solver) {
     case Solver::brute_force:
       return solve_brute_force(job, context, drawing);
@@ -29,7 +29,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   Options asked = options;
   // The baseline knows no culling.
   if (options.solver == Solver::push) asked.culling = false;
-  const Result<Job> job = prepare(scene, drawn, view, asked, context);
+  const Result<ViewJob> job = prepare_view(scene, drawn, view, asked, context);
   if (!job) return job.error();
   Drawing drawing;
   drawing.view = view;

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "io/file_content.hpp"
-#include "strake/io/file_to_read.hpp"
+#include "io/source/input_file.hpp"
+#include "strake/io/reader.hpp"
 
 namespace strake::io {
 namespace {
@@ -85,6 +85,15 @@ Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
   files.reserve(paths.size());
   for (const std::filesystem::path& path : paths) files.push_back({path, options});
   return read_models(files, context);
+}
+
+std::vector<std::unique_ptr<Reader>> all_readers() {
+  std::vector<std::unique_ptr<Reader>> readers;
+  readers.push_back(make_rvm_reader());
+  readers.push_back(make_gltf_reader());
+  readers.push_back(make_obj_reader());
+  readers.push_back(make_stl_reader());
+  return readers;
 }
 
 }  // namespace strake::io

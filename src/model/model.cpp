@@ -12,24 +12,24 @@
 #include <utility>
 #include <vector>
 
-#include "model/file_order.hpp"
-#include "model/text_order.hpp"
-#include "strake/core/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
+#include "model/file_labels.hpp"
+#include "model/string_sort.hpp"
 
 namespace strake::model {
 namespace {
 
-using Order = std::vector<std::uint32_t>;
+using BodyOrder = std::vector<std::uint32_t>;
 
-Order identity(std::size_t count) {
-  Order order(count);
+BodyOrder identity(std::size_t count) {
+  BodyOrder order(count);
   std::iota(order.begin(), order.end(), 0U);
   return order;
 }
 
 /// Puts the indices of all objects in the order of (file, id), equal ones as the source has them.
 /// True when no two objects of a file have one id.
-bool sort_objects(const Model& model, Order& order) {
+bool sort_objects(const Model& model, BodyOrder& order) {
   const auto file_of = [&](std::uint32_t i) { return model.objects[i].file; };
   const auto by_file = [&](std::uint32_t a, std::uint32_t b) {
     return file_of(a) != file_of(b) ? file_of(a) < file_of(b) : a < b;
@@ -42,7 +42,7 @@ bool sort_objects(const Model& model, Order& order) {
   bool distinct = true;
   for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
     for (end = i + 1; end < order.size() && file_of(order[end]) == file_of(order[i]);) ++end;
-    distinct = sort_by_text(ids, std::span(order).subspan(i, end - i)) && distinct;
+    distinct = sort_strings(ids, std::span(order).subspan(i, end - i)) && distinct;
   }
   return distinct;
 }
@@ -64,7 +64,7 @@ void note_positional_ids(Model& model) {
 
 /// Gives every repetition of an id within a file a suffix, in the order of `order`, which is
 /// sorted by (file, id) with the source's order among equals.
-void separate_ids(Model& model, const Order& order) {
+void separate_ids(Model& model, const BodyOrder& order) {
   std::unordered_set<std::string, SeededHash> taken;
   std::uint32_t taken_of = 0;
   for (std::size_t i = 0; i < order.size();) {
@@ -99,7 +99,7 @@ void separate_ids(Model& model, const Order& order) {
 }
 
 /// Puts the objects in the given order and their bodies behind each other in the same order.
-void reorder(Model& model, const Order& order) {
+void reorder(Model& model, const BodyOrder& order) {
   std::vector<Object> objects;
   std::vector<Body> bodies;
   objects.reserve(model.objects.size());
@@ -190,11 +190,11 @@ void Model::set_attributes(GroupId group, Attributes attributes) {
 
 void finish(Model& model) {
   for (std::uint32_t place = 0; Object & o : model.objects) o.place = place++;
-  const Order renumbered = order_files(model);
+  const BodyOrder renumbered = label_and_sort_files(model);
   for (Object& o : model.objects)
     if (o.file < renumbered.size()) o.file = renumbered[o.file];
   note_positional_ids(model);
-  Order order = identity(model.objects.size());
+  BodyOrder order = identity(model.objects.size());
   // These have a diagnostic of their own.
   if (!sort_objects(model, order)) {
     separate_ids(model, order);

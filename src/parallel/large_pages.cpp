@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/parallel/large_pages.hpp"
+#include "strake/parallel/detail/large_pages.hpp"
 
 #include <algorithm>
 #include <cstdint>

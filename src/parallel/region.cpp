@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "strake/parallel/caught.hpp"
+#include "strake/parallel/detail/current_exception.hpp"
 #include "strake/parallel/progress.hpp"
 #include "strake/parallel/report.hpp"
 
@@ -41,12 +41,13 @@ bool is_permutation(std::span<const std::uint32_t> order) {
 }
 
 /// What one run of a region adds to the report. `alone`: by one worker of several.
-RegionReport summary(const Region& region, std::span<const Cursor> seats, double wall, bool alone) {
+RegionReport summary(const Region& region, std::span<const RegionCursor> seats, double wall,
+                     bool alone) {
   RegionReport run;
   run.name = region.name;
   run.runs = alone ? 0 : 1;
   run.nested_runs = alone ? 1 : 0;
-  for (const Cursor& seat : seats) {
+  for (const RegionCursor& seat : seats) {
     run.items += seat.items;
     if (alone) {
       run.nested_cpu_s += seat.busy_s;
@@ -70,7 +71,7 @@ Error order_given(const Region& region) noexcept try {
   return out_of_memory();
 }
 
-Error caught(std::string_view region, std::size_t item) noexcept {
+Error error_of_current_exception(std::string_view region, std::size_t item) noexcept {
   try {
     throw;
   } catch (const std::bad_alloc&) {
@@ -108,15 +109,15 @@ void RegionRun::fail(std::size_t item, Error error) noexcept {
 }
 
 void RegionRun::fail_with_current_exception(std::size_t item) noexcept {
-  fail(item, caught(region_.name, item));
+  fail(item, error_of_current_exception(region_.name, item));
 }
 
-void RegionRun::open(Cursor& cursor, const Range& range) const {
+void RegionRun::open(RegionCursor& cursor, const Range& range) const {
   cursor.range_items = range.last - range.first;
   if (context_.report != nullptr) cursor.range_start_s = wall_s();
 }
 
-void RegionRun::note(Cursor& cursor) const {
+void RegionRun::note(RegionCursor& cursor) const {
   if (cursor.range_items == 0) return;
   cursor.items += cursor.range_items;
   if (counting_) context_.progress->add(cursor.range_items);
@@ -125,10 +126,11 @@ void RegionRun::note(Cursor& cursor) const {
   cursor.range_items = 0;
 }
 
-void RegionRun::work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Cursor> seats) {
-  Cursor cursor;
+void RegionRun::work(Seat seat, FunctionRef<void(RegionCursor&)> loop,
+                     std::span<RegionCursor> seats) {
+  RegionCursor cursor;
   cursor.seat = seat;
-  cursor.hand = shares_.hand_of(seat);
+  cursor.hand = shares_.share_of(seat);
   if (seats.empty()) {
     loop(cursor);
     return;
@@ -142,7 +144,7 @@ void RegionRun::work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Curso
   seats[seat.index] = cursor;
 }
 
-Status RegionRun::run(FunctionRef<void(Cursor&)> loop) {
+Status RegionRun::run(FunctionRef<void(RegionCursor&)> loop) {
   try {
     if (Status status = start(); !status || blocks_ == 0) return status;
     call(loop);
@@ -170,19 +172,21 @@ Status RegionRun::start() {
 void RegionRun::deal(const Executor* team) {
   const std::size_t workers = team != nullptr ? team->size() : 1;
   if (team == nullptr || region_.schedule == Schedule::static_blocks)
-    return shares_.deal(blocks_, workers, blocks_, Shares::Rest::kept);
+    return shares_.deal(blocks_, workers, blocks_, WorkStealingShares::Rest::kept);
   // A counter may pass the last block by a chunk for each worker, and must not come round again.
   const std::size_t room = (std::numeric_limits<std::size_t>::max() - blocks_) / (workers + 1);
   const std::size_t chunk = std::max<std::size_t>(std::min({region_.chunk, blocks_, room}), 1);
   const bool ascending = ordered_ || visit_ == Visit::ascending || blocks_ / workers < kFewBlocks;
-  shares_.deal(blocks_, ascending ? 1 : workers, chunk, Shares::Rest::free);
+  shares_.deal(blocks_, ascending ? 1 : workers, chunk, WorkStealingShares::Rest::free);
 }
 
-void RegionRun::call(FunctionRef<void(Cursor&)> loop) {
+void RegionRun::call(FunctionRef<void(RegionCursor&)> loop) {
   // One block needs no team; leaving it free lets the regions nested inside have it.
   Executor* const team = blocks_ > 1 ? context_.team : nullptr;
   deal(team);
-  std::vector<Cursor> seats(context_.report == nullptr ? 0 : team != nullptr ? team->size() : 1);
+  std::vector<RegionCursor> seats(context_.report == nullptr ? 0
+                                  : team != nullptr          ? team->size()
+                                                             : 1);
   const ProgressPhase phase(context_.progress, region_.name, region_.n);
   counting_ = phase.is_ours();
   observed_ = counting_ || context_.report != nullptr;

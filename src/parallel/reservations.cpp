@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "strake/parallel/caught.hpp"
+#include "strake/parallel/detail/current_exception.hpp"
 #include "strake/parallel/progress.hpp"
 
 namespace strake::parallel::detail {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "rules/asking.hpp"
+#include "rules/rule_context.hpp"
 #include "strake/rules/rules.hpp"
 
 namespace strake::rules {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kExempted = "exempted", kAllowed = "allowed";
 
 /// What became of a rule in all tests that follow it.
-struct Fate {
+struct RuleEffect {
   bool busy = false;
   std::string_view doing;    ///< what it is there for
   std::string_view done_by;  ///< the rule that did it before, if so
@@ -29,37 +29,37 @@ struct Fate {
   }
 };
 
-std::map<std::string_view, Fate> fates_of(std::span<const clash::Report> tests) {
-  std::map<std::string_view, Fate> fates;
+std::map<std::string_view, RuleEffect> effects_of(std::span<const clash::Report> tests) {
+  std::map<std::string_view, RuleEffect> effects;
   for (const clash::Report& test : tests) {
     for (const clash::Exempted& e : test.exempted)
-      fates[e.rule].add(e.pairs > 0, e.shadowed_by, test.exempted, kExempted);
+      effects[e.rule].add(e.pairs > 0, e.shadowed_by, test.exempted, kExempted);
     // One that was asked about a pair and did not allow what became of it has done its work.
     for (const clash::AllowedCount& a : test.allowed)
-      fates[a.rule].add(a.pairs + a.places > 0 || (a.candidates > 0 && a.shadowed_by < 0),
-                        a.shadowed_by, test.allowed, kAllowed);
+      effects[a.rule].add(a.pairs + a.places > 0 || (a.candidates > 0 && a.shadowed_by < 0),
+                          a.shadowed_by, test.allowed, kAllowed);
   }
-  return fates;
+  return effects;
 }
 
 }  // namespace
 
 Diagnostics idle_rules(const Plan& plan, std::span<const clash::Report> tests) {
   Diagnostics diagnostics;
-  const std::map<std::string_view, Fate> fates = fates_of(tests);
+  const std::map<std::string_view, RuleEffect> effects = effects_of(tests);
   for (const WatchedRule& rule : plan.watched) {
-    const auto at = fates.find(rule.name);
-    if (at == fates.end() || at->second.busy) continue;
-    const Fate& fate = at->second;
-    if (fate.done_by.empty())
-      diagnostics.add(Severity::warning, kNothing,
+    const auto at = effects.find(rule.name);
+    if (at == effects.end() || at->second.busy) continue;
+    const RuleEffect& effect = at->second;
+    if (effect.done_by.empty())
+      diagnostics.add(Severity::warning, kMatchesNothing,
                       "it concerns no two objects that are within reach of each other" +
-                          std::string(fate.doing == kAllowed ? " and not exempted" : ""),
+                          std::string(effect.doing == kAllowed ? " and not exempted" : ""),
                       rule.where);
     else
       diagnostics.add(Severity::warning, kShadowed,
-                      "it does nothing: what it concerns is " + std::string(fate.doing) +
-                          " by earlier rules, as '" + std::string(fate.done_by) + "'",
+                      "it does nothing: what it concerns is " + std::string(effect.doing) +
+                          " by earlier rules, as '" + std::string(effect.done_by) + "'",
                       rule.where);
   }
   return diagnostics;

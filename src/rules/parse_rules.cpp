@@ -18,10 +18,10 @@ namespace {
 
 using clash::Level;
 using clash::Tolerances;
-using settings::Entry;
+using settings::KeyValue;
 using settings::NamedSets;
-using settings::Place;
-using settings::Reading;
+using settings::ParseContext;
+using settings::SourcePosition;
 using settings::Table;
 using settings::TableReader;
 using settings::Value;
@@ -33,9 +33,9 @@ constexpr std::size_t kMostDisciplines = 300, kLongestName = 200;
 
 /// Reads the tables of a file one by one. A fault is kept by the reading, and what is read after it
 /// is thrown away with the rest.
-class Parser {
+class RulesParser {
  public:
-  Parser(Reading& reading, const Value& document)
+  RulesParser(ParseContext& reading, const Value& document)
       : reading_(reading), top_(reading, document, "the file"), sets_(reading, top_.table("sets")) {
     rules_.file = reading.file();
   }
@@ -62,7 +62,7 @@ class Parser {
   }
 
  private:
-  [[nodiscard]] std::string place(Place at) const {
+  [[nodiscard]] std::string place(SourcePosition at) const {
     return reading_.file() + ", line " + std::to_string(at.line);
   }
 
@@ -74,7 +74,7 @@ class Parser {
     return name;
   }
 
-  void claim(const std::string& name, Place at, std::vector<std::string>& taken) {
+  void claim(const std::string& name, SourcePosition at, std::vector<std::string>& taken) {
     if (name.size() > kLongestName)
       reading_.fault(at,
                      "the name '" + name.substr(0, 20) + "...' has " + std::to_string(name.size()) +
@@ -139,7 +139,7 @@ class Parser {
     }
   }
 
-  [[nodiscard]] std::optional<std::uint32_t> discipline(const Entry& entry) {
+  [[nodiscard]] std::optional<std::uint32_t> discipline(const KeyValue& entry) {
     std::string known;
     for (std::uint32_t d = 0; d < rules_.disciplines.size(); ++d) {
       if (rules_.disciplines[d].name == entry.key) return d;
@@ -173,17 +173,17 @@ class Parser {
     const Value* const rows = table.table("cells");
     if (rows != nullptr) {
       TableReader reader(reading_, *rows, "[matrix.cells]");
-      for (const Entry* row : reader.others()) matrix_row(*row, test.tolerances);
+      for (const KeyValue* row : reader.others()) matrix_row(*row, test.tolerances);
     }
     rules_.tests.push_back(std::move(test));
     rule_names_.emplace_back(kMatrixRule);
   }
 
-  void matrix_row(const Entry& row, const Tolerances& base) {
+  void matrix_row(const KeyValue& row, const Tolerances& base) {
     const auto a = discipline(row);
     if (!a) return;
     TableReader reader(reading_, row.value, "[matrix.cells." + row.key + "]");
-    for (const Entry* column : reader.others()) {
+    for (const KeyValue* column : reader.others()) {
       const auto b = discipline(*column);
       if (!b) return;
       if (!cells_.emplace(std::minmax(*a, *b)).second)
@@ -194,7 +194,7 @@ class Parser {
     }
   }
 
-  CellRule cell(std::uint32_t a, std::uint32_t b, const Entry& entry, const Tolerances& base) {
+  CellRule cell(std::uint32_t a, std::uint32_t b, const KeyValue& entry, const Tolerances& base) {
     CellRule rule{a, b, true, {}};
     const std::string what = "the cell '" + entry.key + "'";
     const auto* const word = std::get_if<std::string>(&entry.value.held);
@@ -231,8 +231,8 @@ class Parser {
   }
 
   /// The name and the `among` of a rule that exempts; `rule` is filled in by the caller.
-  Exempting& exempting(TableReader& table) {
-    Exempting& rule = rules_.exempting.emplace_back();
+  ExemptingRule& exempting(TableReader& table) {
+    ExemptingRule& rule = rules_.exempting.emplace_back();
     rule.name = new_name(table, rule_names_);
     rule.where = place(table.at()) + ": " + table.what();
     rule.among = sets_.chooser(table, "among");
@@ -243,7 +243,7 @@ class Parser {
     const Value* const value = top_.table("unit_groups");
     if (value == nullptr) return;
     TableReader table(reading_, *value, "[unit_groups]");
-    Exempting& rule = rules_.exempting.emplace_back();
+    ExemptingRule& rule = rules_.exempting.emplace_back();
     rule.name = table.text("name").value_or("unit groups");
     claim(rule.name, value->at, rule_names_);
     rule.where = place(value->at) + ": [unit_groups]";
@@ -267,7 +267,7 @@ class Parser {
 
   void assembly(const Value& value) {
     TableReader table(reading_, value, "[[same_assembly]]");
-    Exempting& rule = exempting(table);
+    ExemptingRule& rule = exempting(table);
     AssemblyRule assembly;
     const auto group = table.text("group");
     assembly.group = group.value_or("");
@@ -292,17 +292,18 @@ class Parser {
 
   void connected(const Value& value) {
     TableReader table(reading_, value, "[[connected]]");
-    Exempting& rule = exempting(table);
+    ExemptingRule& rule = exempting(table);
     ConnectedRule connected;
-    struct Key {
+    struct ReferenceKey {
       std::string_view name;
-      End end;
+      ReferenceEnd end;
     };
     bool of_an_end = false;
-    for (const Key& key :
-         {Key{"attributes", End::either}, Key{"head", End::head}, Key{"tail", End::tail}})
+    for (const ReferenceKey& key :
+         {ReferenceKey{"attributes", ReferenceEnd::either},
+          ReferenceKey{"head", ReferenceEnd::head}, ReferenceKey{"tail", ReferenceEnd::tail}})
       for (std::string& attribute : table.texts(key.name)) {
-        of_an_end = of_an_end || key.end != End::either;
+        of_an_end = of_an_end || key.end != ReferenceEnd::either;
         connected.references.push_back({std::move(attribute), key.end});
       }
     if (connected.references.empty())
@@ -323,7 +324,7 @@ class Parser {
 
   void same_attribute(const Value& value) {
     TableReader table(reading_, value, "[[same_attribute]]");
-    Exempting& rule = exempting(table);
+    ExemptingRule& rule = exempting(table);
     rule.rule = AttributeRule{table.required_text("attribute")};
   }
 
@@ -430,7 +431,7 @@ class Parser {
   }
 
  private:
-  Reading& reading_;
+  ParseContext& reading_;
   TableReader top_;
   NamedSets sets_;
   RuleFile rules_;
@@ -438,18 +439,18 @@ class Parser {
   double contact_distance_mm_ = -1;
   std::vector<std::string> rule_names_, test_names_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> cells_;  ///< of the matrix, that are given
-  std::vector<std::pair<std::vector<std::string>, Place>> without_at_;
+  std::vector<std::pair<std::vector<std::string>, SourcePosition>> without_at_;
 };
 
 }  // namespace
 
 Result<RuleFile> parse_rules(std::string_view text, std::string_view file) {
-  const Result<Value> document = settings::read_document(text, file);
+  const Result<Value> document = settings::parse_toml(text, file);
   if (!document) return document.error();
-  Reading reading{std::string(file)};
+  ParseContext reading{std::string(file)};
   RuleFile rules;
   {
-    Parser parser(reading, *document);
+    RulesParser parser(reading, *document);
     rules = parser.run();
     parser.check_without();
   }  // the parser refuses what nobody asked for as it ends

@@ -9,9 +9,9 @@
 #include <utility>
 #include <variant>
 
-#include "model/attribute_values.hpp"
-#include "rules/asking.hpp"
-#include "rules/labels.hpp"
+#include "model/attributes.hpp"
+#include "rules/exemptions.hpp"
+#include "rules/rule_context.hpp"
 #include "rules/rule_file.hpp"
 #include "settings/text_file.hpp"
 #include "strake/rules/rules.hpp"
@@ -21,8 +21,8 @@ namespace {
 
 using clash::kNoLabel;
 using clash::Level;
-using model::bare;
-using model::says_none;
+using model::is_null_value;
+using model::unquoted;
 
 /// The level that an attribute's value says; none where it says something else.
 std::optional<Level> level_of(std::string_view value) {
@@ -41,27 +41,27 @@ std::optional<Level> level_of(std::string_view value) {
 }
 
 /// Works the rules out once; each test takes those that it follows.
-class Planner {
+class PlanMaker {
  public:
-  Planner(const RuleFile& rules, const model::Scene& scene, const parallel::Context& context)
-      : rules_(rules), asking_(scene, choosers_of(rules), context) {}
+  PlanMaker(const RuleFile& rules, const model::Scene& scene, const parallel::Context& context)
+      : rules_(rules), rule_context_(scene, choosers_of(rules), context) {}
 
   Result<Plan> run() {
-    for (const NamedSet& set : rules_.sets) asking_.pick(set.chooser);
+    for (const NamedSet& set : rules_.sets) rule_context_.pick(set.chooser);
     Plan plan;
-    for (const Exempting& rule : rules_.exempting)
-      watch(plan, rule, [&] { exemptions_.push_back(exemption_of(rule, asking_)); });
+    for (const ExemptingRule& rule : rules_.exempting)
+      watch(plan, rule, [&] { exemptions_.push_back(exemption_of(rule, rule_context_)); });
     make_levels();
     for (const AllowedRule& rule : rules_.allowed)
       watch(plan, rule, [&] {
-        allowed_.push_back({rule.name, asking_.pick(rule.a), asking_.pick(rule.b), rule.region_mm,
-                            rule.cavity, rule.max_depth_mm});
+        allowed_.push_back({rule.name, rule_context_.pick(rule.a), rule_context_.pick(rule.b),
+                            rule.region_mm, rule.cavity, rule.max_depth_mm});
       });
     make_disciplines();
     for (const TestRule& test : rules_.tests)
       if (test.enabled) plan.tests.push_back(planned(test));
-    if (asking_.error()) return *asking_.error();
-    plan.diagnostics = std::move(asking_.diagnostics());
+    if (rule_context_.error()) return *rule_context_.error();
+    plan.diagnostics = std::move(rule_context_.diagnostics());
     return plan;
   }
 
@@ -70,17 +70,17 @@ class Planner {
   /// the exemption of pairs within a file is a setting rather than a rule.
   template <class Rule, class Work>
   void watch(Plan& plan, const Rule& rule, Work&& work) {
-    const std::uint64_t idle = asking_.idle();
+    const std::uint64_t idle = rule_context_.idle();
     work();
-    if constexpr (std::is_same_v<Rule, Exempting>)
+    if constexpr (std::is_same_v<Rule, ExemptingRule>)
       if (std::holds_alternative<FileRule>(rule.rule)) return;
-    if (asking_.idle() == idle) plan.watched.push_back({rule.name, rule.where});
+    if (rule_context_.idle() == idle) plan.watched.push_back({rule.name, rule.where});
   }
 
   void make_levels() {
     if (!rules_.obstruction && !rules_.insulation) return;
     clash::Levels& levels = levels_.emplace();
-    levels.object.assign(asking_.objects(), Level::hard);
+    levels.object.assign(rule_context_.objects(), Level::hard);
     levels.no_obstruction_rule = std::string(kNoObstructionRule);
     const auto leave_out = [&](Level a, Level b, std::string_view rule) {
       const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
@@ -94,10 +94,10 @@ class Planner {
       levels.obstruction_bodies = Level::hard;
     }
     if (!rules_.insulation) return;
-    if (std::ranges::none_of(asking_.model().bodies, [](const model::Body& body) {
+    if (std::ranges::none_of(rule_context_.model().bodies, [](const model::Body& body) {
           return body.category == model::Category::insulation;
         }))
-      asking_.nothing(rules_.file + ": [insulation]", "no object has insulation");
+      rule_context_.warn_no_match(rules_.file + ": [insulation]", "no object has insulation");
     if (!rules_.insulation->against_insulation)
       leave_out(Level::insulation, Level::insulation, kInsulationRule);
     if (!rules_.insulation->against_soft)
@@ -107,55 +107,56 @@ class Planner {
   void read_levels(const ObstructionRule& rule, std::vector<Level>& levels) {
     bool some = rule.soft.has_value() || rule.none.has_value();
     for (std::size_t o = 0; o < levels.size(); ++o) {
-      const model::Object& object = asking_.model().objects[o];
+      const model::Object& object = rule_context_.model().objects[o];
       for (const model::Body& body :
-           std::span(asking_.model().bodies).subspan(object.first_body, object.body_count))
+           std::span(rule_context_.model().bodies).subspan(object.first_body, object.body_count))
         some = some || body.category == model::Category::obstruction;
       const model::Attributes* const stated =
-          asking_.model().stated(object, rule.attribute).attributes;
+          rule_context_.model().stated(object, rule.attribute).attributes;
       if (stated == nullptr) continue;
       for (const auto& [name, text] : *stated) {
         if (name != rule.attribute) continue;
         // "none" is a level here, where other attributes have no value.
-        const auto level = level_of(bare(text));
-        if (!level && says_none(bare(text))) continue;
+        const auto level = level_of(unquoted(text));
+        if (!level && is_null_value(unquoted(text))) continue;
         some = true;
         if (level)
           levels[o] = *level;
         else
-          asking_.diagnostics().add(Severity::warning, "obstruction-not-known",
-                                    "the attribute '" + name + "' is '" + text +
-                                        "', not 0, 1 or 2; the object counts as hard",
-                                    object.id);
+          rule_context_.diagnostics().add(Severity::warning, "obstruction-not-known",
+                                          "the attribute '" + name + "' is '" + text +
+                                              "', not 0, 1 or 2; the object counts as hard",
+                                          object.id);
         break;
       }
     }
     if (!some)
-      asking_.nothing(rules_.file + ": [obstruction]",
-                      "no object has the attribute '" + rule.attribute +
-                          "' and there are no obstruction volumes");
+      rule_context_.warn_no_match(rules_.file + ": [obstruction]",
+                                  "no object has the attribute '" + rule.attribute +
+                                      "' and there are no obstruction volumes");
     apply(rule.soft, Level::soft, levels);
     apply(rule.none, Level::none, levels);
     if (!rule.soft || !rule.none) return;
-    const std::vector<bool> soft = asking_.peek(*rule.soft), none = asking_.peek(*rule.none);
-    asking_.check_shadow(
+    const std::vector<bool> soft = rule_context_.peek(*rule.soft),
+                            none = rule_context_.peek(*rule.none);
+    rule_context_.check_shadow(
         soft, [&](std::size_t o) { return !none[o]; }, rule.soft->where,
         "every object that it picks is one of 'none'");
   }
 
   void apply(const std::optional<Chooser>& chooser, Level level, std::vector<Level>& levels) {
     if (!chooser) return;
-    const std::vector<bool> picked = asking_.pick(*chooser);
+    const std::vector<bool> picked = rule_context_.pick(*chooser);
     for (std::size_t o = 0; o < levels.size(); ++o)
       if (picked[o]) levels[o] = level;
   }
 
   /// An object counts for the first discipline that picks it; how often others pick it too is told.
   void make_disciplines() {
-    discipline_.assign(asking_.objects(), kNoLabel);
+    discipline_.assign(rule_context_.objects(), kNoLabel);
     for (std::uint32_t d = 0; d < rules_.disciplines.size(); ++d) {
-      const std::vector<bool> picked = asking_.pick(rules_.disciplines[d].chooser);
-      asking_.check_shadow(
+      const std::vector<bool> picked = rule_context_.pick(rules_.disciplines[d].chooser);
+      rule_context_.check_shadow(
           picked, [&](std::size_t o) { return discipline_[o] == kNoLabel; },
           rules_.disciplines[d].chooser.where,
           "every object that it picks counts for an earlier discipline");
@@ -168,7 +169,7 @@ class Planner {
           ++taken[discipline_[o]];
       }
       for (const auto& [earlier, count] : taken)
-        asking_.diagnostics().add(
+        rule_context_.diagnostics().add(
             Severity::note, "in-several-disciplines",
             std::to_string(count) + (count == 1 ? " object counts" : " objects count") + " for '" +
                 rules_.disciplines[earlier].name + "', which comes first",
@@ -176,10 +177,11 @@ class Planner {
     }
     const auto none = std::count(discipline_.begin(), discipline_.end(), kNoLabel);
     if (rules_.matrix && none > 0)
-      asking_.diagnostics().add(Severity::warning, "in-no-discipline",
-                                std::to_string(none) + (none == 1 ? " object is" : " objects are") +
-                                    " of no discipline and not checked by the matrix",
-                                rules_.file + ": [[discipline]]");
+      rule_context_.diagnostics().add(Severity::warning, "in-no-discipline",
+                                      std::to_string(none) +
+                                          (none == 1 ? " object is" : " objects are") +
+                                          " of no discipline and not checked by the matrix",
+                                      rules_.file + ": [[discipline]]");
   }
 
   PlannedTest planned(const TestRule& test) {
@@ -195,8 +197,8 @@ class Planner {
       add_matrix(planned);
       return planned;
     }
-    planned.sets.in_a = asking_.pick(test.a);
-    planned.sets.in_b = asking_.pick(test.b);
+    planned.sets.in_a = rule_context_.pick(test.a);
+    planned.sets.in_b = rule_context_.pick(test.b);
     if (test.a) planned.sets.name_a = test.a->selection.text();
     if (test.b) planned.sets.name_b = test.b->selection.text();
     return planned;
@@ -248,7 +250,7 @@ class Planner {
   }
 
   const RuleFile& rules_;
-  Asking asking_;
+  RuleContext rule_context_;
   std::vector<clash::Exemption> exemptions_;
   std::vector<clash::Allowed> allowed_;
   std::optional<clash::Levels> levels_;
@@ -297,7 +299,7 @@ model::SceneOptions Rules::scene_options() const {
 }
 
 Result<Plan> Rules::plan(const model::Scene& scene, const parallel::Context& context) const {
-  return Planner(*file_, scene, context).run();
+  return PlanMaker(*file_, scene, context).run();
 }
 
 }  // namespace strake::rules

@@ -41,11 +41,11 @@ struct MatrixRule {
 /// Objects of one unit are no pair.
 struct UnitRule {
   std::string attribute;  ///< empty: by selection only
-  struct Group {
+  struct UnitGroup {
     std::int64_t number = 0;
     Chooser chooser;
   };
-  std::vector<Group> groups;  ///< the first that picks an object decides
+  std::vector<UnitGroup> groups;  ///< the first that picks an object decides
 };
 
 /// Objects of one assembly are no pair; which of its groups that is, is said in one of three ways.
@@ -60,15 +60,15 @@ struct AssemblyRule {
 enum class Heirs : std::uint8_t { none, ends, all };
 
 /// Which of the ends of a group a reference of it is about, where its ends inherit it.
-enum class End : std::uint8_t { either, head, tail };
+enum class ReferenceEnd : std::uint8_t { either, head, tail };
 
 /// Objects whose attributes name each other, or a common node, are no pair.
 struct ConnectedRule {
-  struct Reference {
+  struct AttributeReference {
     std::string attribute;
-    End end = End::either;
+    ReferenceEnd end = ReferenceEnd::either;
   };
-  std::vector<Reference> references;
+  std::vector<AttributeReference> references;
   Heirs heirs = Heirs::ends;  ///< ends: the first and the last in the order of the source
   bool node = false;    ///< equal values connect; otherwise a value is the partner's name or id
   bool groups = false;  ///< the names of a partner's groups count as its own
@@ -85,7 +85,7 @@ struct ExemptRule {
   Chooser a, b;
 };
 
-struct Exempting {
+struct ExemptingRule {
   std::string name, where;
   std::optional<Chooser> among;  ///< only objects that this picks
   std::variant<UnitRule, AssemblyRule, ConnectedRule, AttributeRule, FileRule, ExemptRule> rule;
@@ -117,7 +117,7 @@ struct RuleFile {
   std::vector<NamedSet> sets, disciplines;
   std::optional<MatrixRule> matrix;
   std::vector<TestRule> tests;
-  std::vector<Exempting> exempting;
+  std::vector<ExemptingRule> exempting;
   std::optional<ObstructionRule> obstruction;
   std::optional<InsulationRule> insulation;
   std::vector<AllowedRule> allowed;

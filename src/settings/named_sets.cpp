@@ -11,10 +11,10 @@ constexpr int kDeepest = 50;
 
 }  // namespace
 
-NamedSets::NamedSets(Reading& reading, const Value* table) : reading_(reading) {
+NamedSets::NamedSets(ParseContext& reading, const Value* table) : reading_(reading) {
   if (table == nullptr) return;
   TableReader reader(reading, *table, "[sets]");
-  for (const Entry* entry : reader.others()) sets_.push_back({entry, std::nullopt, false});
+  for (const KeyValue* entry : reader.others()) sets_.push_back({entry, std::nullopt, false});
 }
 
 Result<model::Selection> NamedSets::find(std::string_view name) {

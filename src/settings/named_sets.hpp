@@ -27,7 +27,7 @@ struct NamedSet {
 class NamedSets {
  public:
   /// `table` may be null: no sets.
-  NamedSets(Reading& reading, const Value* table);
+  NamedSets(ParseContext& reading, const Value* table);
 
   /// A selection of the file, which may name sets; a fault of the reading where it makes no sense.
   std::optional<Chooser> chooser(const Value& value, const std::string& what);
@@ -41,14 +41,14 @@ class NamedSets {
 
  private:
   struct Set {
-    const Entry* entry = nullptr;
+    const KeyValue* entry = nullptr;
     std::optional<model::Selection> selection;
     bool open = false;  ///< being worked out
   };
   Result<model::Selection> find(std::string_view name);
   Result<model::Selection> parse(const Value& value, const std::string& what);
 
-  Reading& reading_;
+  ParseContext& reading_;
   std::vector<Set> sets_;
   int depth_ = 0;
 };

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "strake/core/text.hpp"
-#include "strake/core/units.hpp"
+#include "core/text_encoding.hpp"
+#include "core/units.hpp"
 
 namespace strake::settings {
 namespace {
@@ -20,7 +20,7 @@ std::string_view type_name(const Value& value) {
     std::string_view operator()(std::int64_t) const { return "a whole number"; }
     std::string_view operator()(double) const { return "a number"; }
     std::string_view operator()(bool) const { return "true or false"; }
-    std::string_view operator()(const Moment&) const { return "a date or time"; }
+    std::string_view operator()(const DateTime&) const { return "a date or time"; }
     std::string_view operator()(const Array&) const { return "a list"; }
     std::string_view operator()(const Table&) const { return "a table"; }
   };
@@ -42,7 +42,7 @@ std::string within(std::string_view table) {
 
 }  // namespace
 
-TableReader::TableReader(Reading& reading, const Value& table, std::string what)
+TableReader::TableReader(ParseContext& reading, const Value& table, std::string what)
     : reading_(reading),
       table_(std::get_if<Table>(&table.held)),
       at_(table.at),
@@ -71,8 +71,8 @@ const Value* TableReader::value(std::string_view key) {
   return nullptr;
 }
 
-std::vector<const Entry*> TableReader::others() {
-  std::vector<const Entry*> entries;
+std::vector<const KeyValue*> TableReader::others() {
+  std::vector<const KeyValue*> entries;
   for (std::size_t k = 0; k < asked_.size(); ++k) {
     if (!asked_[k]) entries.push_back(&(*table_)[k]);
     asked_[k] = true;

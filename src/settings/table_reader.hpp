@@ -10,20 +10,20 @@
 #include <utility>
 #include <vector>
 
-#include "settings/document.hpp"
+#include "settings/toml_document.hpp"
 #include "strake/geometry/vec.hpp"
 
 namespace strake::settings {
 
 /// A file on its way through the reader, and the first thing found wrong with it.
-class Reading {
+class ParseContext {
  public:
-  explicit Reading(std::string file) : file_(std::move(file)) {}
+  explicit ParseContext(std::string file) : file_(std::move(file)) {}
 
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] bool good() const { return !error_.has_value(); }
   [[nodiscard]] const Error& error() const { return *error_; }
-  void fault(Place at, std::string message, std::string mend) {
+  void fault(SourcePosition at, std::string message, std::string mend) {
     if (good()) error_ = fault_at(file_, at, std::move(message), std::move(mend));
   }
   void fault(Error error) {
@@ -40,14 +40,14 @@ class Reading {
 class TableReader {
  public:
   /// `what` names the table in messages, as "[[test]]". A value that is no table is a fault.
-  TableReader(Reading& reading, const Value& table, std::string what);
+  TableReader(ParseContext& reading, const Value& table, std::string what);
   ~TableReader() { refuse_other_keys(); }
   TableReader(const TableReader&) = delete;
   TableReader& operator=(const TableReader&) = delete;
   TableReader(TableReader&&) = delete;
   TableReader& operator=(TableReader&&) = delete;
 
-  [[nodiscard]] Place at() const { return at_; }
+  [[nodiscard]] SourcePosition at() const { return at_; }
   [[nodiscard]] const std::string& what() const { return what_; }
   /// Puts a name to it in messages that follow.
   void call(const std::string& name) { what_ += " '" + name + "'"; }
@@ -55,7 +55,7 @@ class TableReader {
   /// The value, whatever its type.
   const Value* value(std::string_view key);
   /// The keys not asked for yet, which are names that the user chose; asks for all of them.
-  std::vector<const Entry*> others();
+  std::vector<const KeyValue*> others();
 
   std::optional<std::string> text(std::string_view key);
   std::optional<bool> flag(std::string_view key);
@@ -92,9 +92,9 @@ class TableReader {
   const T* held(std::string_view key, std::string_view wanted);
   const Array* three(std::string_view key);
 
-  Reading& reading_;
+  ParseContext& reading_;
   const Table* table_ = nullptr;
-  Place at_;
+  SourcePosition at_;
   std::string what_;
   std::vector<bool> asked_;
   std::vector<std::string> known_;  ///< keys asked for, there or not

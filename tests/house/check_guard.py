@@ -250,8 +250,8 @@ def wrong():
     # The patterns have them; an exception that is none any more is told of.
     if faults_of('src/parallel/x.cpp', 'std::mutex m;'):
         yield 'src/parallel: caught'
-    if faults_of('cli/console.cpp', 'std::mutex m;') or not faults_of('cli/console.cpp', 'int m;'):
-        yield 'cli/console.cpp: the exception is not kept'
+    if faults_of('cli/output/console.cpp', 'std::mutex m;') or not faults_of('cli/output/console.cpp', 'int m;'):
+        yield 'cli/output/console.cpp: the exception is not kept'
     # What spans lines is told of where it begins, and what follows where it is.
     if [number for number, _ in faults_of('src/hlr/x.cpp', 'auto r = R"(\n"\n)";\nstatic const Table\n    a = b();')] != [5]:
         yield 'a declaration of two lines after a text of three: not line 5'

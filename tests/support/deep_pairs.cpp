@@ -441,21 +441,21 @@ testing::IndexedMesh snapped(const DeepBody& body) {
 AskedPair::AskedPair(const DeepPair& pair)
     : a_(snapped(pair.a)),
       b_(snapped(pair.b)),
-      of_a_(make_support_planes(a_.part)),
-      of_b_(make_support_planes(b_.part)) {
-  geometry::PairWork work;
+      of_a_(make_face_kdop(a_.part)),
+      of_b_(make_face_kdop(b_.part)) {
+  geometry::QueryContext work;
   const geometry::MeetingResult meeting = meet(a_.treed(), b_.treed(), work);
   meets_ =
       meeting.meeting != geometry::Meeting::apart && meeting.meeting != geometry::Meeting::touching;
   goal_.threshold = 1000;
-  goal_.known_upper = -geometry::gap_bound({a_.treed(), &of_a_}, {b_.treed(), &of_b_});
+  goal_.known_upper = -geometry::kdop_separation({a_.treed(), &of_a_}, {b_.treed(), &of_b_});
   goal_.triangle_a = meeting.triangle_a;
   goal_.triangle_b = meeting.triangle_b;
   goal_.meeting_point = meeting.point;
 }
 
 geometry::Depth AskedPair::depth() const {
-  geometry::PairWork work;
+  geometry::QueryContext work;
   return solid_depth({a_.treed(), &of_a_}, {b_.treed(), &of_b_}, goal_, work);
 }
 

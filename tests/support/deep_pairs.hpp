@@ -60,8 +60,8 @@ class AskedPair {
 
  private:
   testing::Subject a_, b_;
-  geometry::SupportPlanes of_a_, of_b_;
-  geometry::DepthGoal goal_;
+  geometry::FaceKdop of_a_, of_b_;
+  geometry::DepthOptions goal_;
   bool meets_ = false;
 };
 

@@ -20,23 +20,23 @@ namespace strake::testing {
 using geometry::Vec3i;
 
 inline geometry::Depth depth_of(const Subject& a, const Subject& b,
-                                const geometry::DepthGoal& goal = {}) {
-  const geometry::SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
-  geometry::PairWork work;
+                                const geometry::DepthOptions& goal = {}) {
+  const geometry::FaceKdop pa = make_face_kdop(a.part), pb = make_face_kdop(b.part);
+  geometry::QueryContext work;
   return solid_depth({a.treed(), &pa}, {b.treed(), &pb}, goal, work);
 }
 
 /// Whether they have interior in common.
 inline bool interiors_meet(const Subject& a, const Subject& b) {
-  geometry::PairWork work;
+  geometry::QueryContext work;
   const geometry::Meeting meeting = meet(a.treed(), b.treed(), work).meeting;
   return meeting != geometry::Meeting::apart && meeting != geometry::Meeting::touching;
 }
 
 /// With the touch that meet() finds, as the narrow phase asks.
 inline geometry::Depth depth_from_touch(const Subject& a, const Subject& b,
-                                        geometry::DepthGoal goal) {
-  geometry::PairWork work;
+                                        geometry::DepthOptions goal) {
+  geometry::QueryContext work;
   const geometry::MeetingResult meeting = meet(a.treed(), b.treed(), work);
   goal.triangle_a = meeting.triangle_a;
   goal.triangle_b = meeting.triangle_b;
@@ -47,12 +47,12 @@ inline geometry::Depth depth_from_touch(const Subject& a, const Subject& b,
 /// The depth at a point of the grid by definition, of two that are not turned against it; 0 where
 /// it lies outside either.
 inline double depth_at(const Subject& a, const Subject& b, const geometry::Vec3l& p) {
-  geometry::PairWork work;
+  geometry::QueryContext work;
   double deep = 0;
   for (const Subject* s : {&a, &b}) {
     const geometry::Vec3l own = p - s->origin;
     if (side_of(s->treed(), own, 1, work) == geometry::PointSide::outside) return 0;
-    deep = std::max(deep, nearest_on_skin(s->treed(), own.as<double>()).distance);
+    deep = std::max(deep, nearest_on_surface(s->treed(), own.as<double>()).distance);
   }
   return deep;
 }

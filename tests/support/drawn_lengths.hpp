@@ -29,7 +29,7 @@ inline DrawnLengths drawn_lengths(const geometry::TriangleMesh& mesh, double wel
   EXPECT_TRUE(drawing.has_value());
   DrawnLengths found;
   if (!drawing) return found;
-  for (const hlr::Piece& p : drawing->pieces) {
+  for (const hlr::EdgePiece& p : drawing->pieces) {
     const auto way = (p.b - p.a).as<double>();
     const double length = std::sqrt(dot(way, way));
     found.lengths[{p.kind, p.state}] += length;

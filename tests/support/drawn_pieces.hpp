@@ -10,12 +10,12 @@
 
 namespace strake::test {
 
-inline std::vector<hlr::Piece> pieces(const model::Scene& scene, const hlr::View& view,
-                                      const hlr::Options& options = {},
-                                      const parallel::Context& context = {}) {
+inline std::vector<hlr::EdgePiece> pieces(const model::Scene& scene, const hlr::View& view,
+                                          const hlr::Options& options = {},
+                                          const parallel::Context& context = {}) {
   const auto drawing = hlr::draw(scene, {}, view, options, context);
   EXPECT_TRUE(drawing.has_value()) << drawing.error().text();
-  return drawing ? drawing->pieces : std::vector<hlr::Piece>{};
+  return drawing ? drawing->pieces : std::vector<hlr::EdgePiece>{};
 }
 
 }  // namespace strake::test

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "strake/geometry/analyse.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
 #include "support/voxels.hpp"
 
 namespace strake::test {

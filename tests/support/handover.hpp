@@ -30,14 +30,14 @@ class Handover {
   }
 
  private:
-  static constexpr std::int8_t kNobody = -1;
+  static constexpr std::int8_t kSequentialContext = -1;
   static constexpr unsigned kThreads = 3, kProducer = 0;
 
   enum class Step : std::uint8_t { begin, locked, sleeping, woken, flag_raised, done };
 
   struct State {
     std::array<Step, kThreads> at{};
-    std::int8_t owner = kNobody;  ///< of the mutex
+    std::int8_t owner = kSequentialContext;  ///< of the mutex
     std::uint8_t made = 0, queued = 0, taken = 0, finished = 0;
     bool about_to_sleep = false;  ///< the owner found nothing to do and has not let go yet
     auto operator<=>(const State&) const = default;
@@ -79,12 +79,12 @@ class Handover {
       return {s};
     }
     if (at == Step::begin) {
-      if (s.owner != kNobody) return {};
+      if (s.owner != kSequentialContext) return {};
       s.owner = kProducer;
       at = Step::locked;
       return {s};
     }
-    s.owner = kNobody;
+    s.owner = kSequentialContext;
     at = all_made ? Step::flag_raised : Step::begin;
     if (all_made) {
       s.finished = 1;
@@ -108,14 +108,14 @@ class Handover {
         at = Step::done;
         return {s};
       }
-      if (s.owner != kNobody) return {};
+      if (s.owner != kSequentialContext) return {};
       s.owner = static_cast<std::int8_t>(thread);
       at = Step::locked;
       return {s};
     }
     if (s.about_to_sleep) {
       s.about_to_sleep = false;
-      s.owner = kNobody;
+      s.owner = kSequentialContext;
       at = Step::sleeping;
       return {s};
     }
@@ -123,7 +123,7 @@ class Handover {
       s.about_to_sleep = true;
       return {s};
     }
-    s.owner = kNobody;
+    s.owner = kSequentialContext;
     at = s.queued == 0 ? Step::done : Step::begin;
     if (s.queued > 0) {
       --s.queued;

@@ -16,7 +16,7 @@ namespace strake::test {
 namespace {
 
 using hlr::EdgeKind;
-using hlr::Piece;
+using hlr::EdgePiece;
 using hlr::State;
 
 using Vec = std::array<mpq_class, 3>;
@@ -192,7 +192,7 @@ struct Moved {
 class Oracle {
  public:
   Oracle(const model::Scene& scene, const hlr::View& view, const hlr::Options& options,
-         const std::vector<Piece>& lines)
+         const std::vector<EdgePiece>& lines)
       : scene_(scene),
         view_(view),
         options_(options),
@@ -210,7 +210,7 @@ class Oracle {
     collect_tiles();
   }
 
-  std::vector<Piece> pieces() {
+  std::vector<EdgePiece> pieces() {
     for (std::uint32_t o = 0; o < scene_.model->objects.size(); ++o) {
       edge_number_ = 0;
       for (std::uint32_t b = scene_.first_body[o]; b < scene_.first_body[o + 1]; ++b) {
@@ -221,7 +221,7 @@ class Oracle {
                PartLines(parts[p], body.origin, sight_, options_.sharp_angle_deg).lines())
             draw_line(line, o, b, p);
       }
-      for (const Piece& p : given_)
+      for (const EdgePiece& p : given_)
         if (model::index(p.object) == o)
           draw_line({vec(p.a), vec(p.b), p.kind, false, 0, model::index(p.other)}, o, 0, 0);
     }
@@ -426,17 +426,17 @@ class Oracle {
   const model::Scene& scene_;
   const hlr::View& view_;
   const hlr::Options& options_;
-  const std::vector<Piece>& given_;
+  const std::vector<EdgePiece>& given_;
   Sight sight_;
   std::vector<hlr::HalfSpace> window_;
   Vec low_, high_;
   mpq_class contact_;
   std::vector<Tile> tiles_;
-  std::vector<Piece> out_;
+  std::vector<EdgePiece> out_;
   std::uint32_t edge_number_ = 0;
 };
 
-std::string text_of(const Piece& p) {
+std::string text_of(const EdgePiece& p) {
   std::ostringstream s;
   s << "object " << model::index(p.object) << " edge " << p.edge << " kind "
     << static_cast<int>(p.kind) << " state " << static_cast<int>(p.state) << " (" << p.a.x << ' '
@@ -446,23 +446,24 @@ std::string text_of(const Piece& p) {
 
 }  // namespace
 
-std::vector<Piece> oracle_pieces(const model::Scene& scene, const hlr::View& view,
-                                 const hlr::Options& options, const std::vector<Piece>& lines) {
+std::vector<EdgePiece> oracle_pieces(const model::Scene& scene, const hlr::View& view,
+                                     const hlr::Options& options,
+                                     const std::vector<EdgePiece>& lines) {
   return Oracle(scene, view, options, lines).pieces();
 }
 
-std::string text(const std::vector<Piece>& pieces) {
+std::string text(const std::vector<EdgePiece>& pieces) {
   std::string all;
-  for (const Piece& p : pieces) all += text_of(p) + '\n';
+  for (const EdgePiece& p : pieces) all += text_of(p) + '\n';
   return all;
 }
 
-bool same_piece(const Piece& x, const Piece& y) {
+bool same_piece(const EdgePiece& x, const EdgePiece& y) {
   return x.object == y.object && x.edge == y.edge && x.kind == y.kind && x.state == y.state &&
          x.a == y.a && x.b == y.b;
 }
 
-std::string difference(const std::vector<Piece>& expected, const std::vector<Piece>& got) {
+std::string difference(const std::vector<EdgePiece>& expected, const std::vector<EdgePiece>& got) {
   for (std::size_t i = 0; i < std::max(expected.size(), got.size()); ++i) {
     if (i < expected.size() && i < got.size() && same_piece(expected[i], got[i])) continue;
     return "piece " + std::to_string(i) + "\n expected " +

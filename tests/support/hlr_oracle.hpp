@@ -15,18 +15,17 @@ namespace strake::test {
 /// What hlr::draw must give. The contact distance is options.contact_distance_mm, or 3 grid units
 /// where negative; every file's precision must be 0. `lines`: intersections from end to end, by
 /// object, as drawn with Stage::none; which these are is for another oracle to say.
-[[nodiscard]] std::vector<hlr::Piece> oracle_pieces(const model::Scene& scene,
-                                                    const hlr::View& view,
-                                                    const hlr::Options& options,
-                                                    const std::vector<hlr::Piece>& lines = {});
+[[nodiscard]] std::vector<hlr::EdgePiece> oracle_pieces(
+    const model::Scene& scene, const hlr::View& view, const hlr::Options& options,
+    const std::vector<hlr::EdgePiece>& lines = {});
 
 /// One line per piece, for messages.
-[[nodiscard]] std::string text(const std::vector<hlr::Piece>& pieces);
+[[nodiscard]] std::string text(const std::vector<hlr::EdgePiece>& pieces);
 
-[[nodiscard]] bool same_piece(const hlr::Piece& x, const hlr::Piece& y);
+[[nodiscard]] bool same_piece(const hlr::EdgePiece& x, const hlr::EdgePiece& y);
 
 /// Where two lists first differ, or an empty string.
-[[nodiscard]] std::string difference(const std::vector<hlr::Piece>& expected,
-                                     const std::vector<hlr::Piece>& got);
+[[nodiscard]] std::string difference(const std::vector<hlr::EdgePiece>& expected,
+                                     const std::vector<hlr::EdgePiece>& got);
 
 }  // namespace strake::test

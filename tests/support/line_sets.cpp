@@ -9,15 +9,15 @@ namespace strake::test {
 
 namespace {
 
-using drawing::Flat;
+using drawing::PlaneSegment;
 using drawing::Rank;
 
 class Maker {
  public:
   Maker(std::uint64_t seed, const LineSetOptions& options) : engine_(seed), options_(options) {}
 
-  std::vector<Flat> run() {
-    std::vector<Flat> lines;
+  std::vector<PlaneSegment> run() {
+    std::vector<PlaneSegment> lines;
     while (lines.size() < options_.count) switch (options_.set) {
         case LineSet::any:
           lines.push_back(any());
@@ -42,7 +42,7 @@ class Maker {
   }
   std::uint64_t below(std::uint64_t n) { return engine_() % n; }
 
-  Flat line(double ax, double ay, double bx, double by) {
+  PlaneSegment line(double ax, double ay, double bx, double by) {
     const double o = options_.offset;
     return {.ax = ax + o,
             .ay = ay - o,
@@ -53,18 +53,18 @@ class Maker {
             .rank = std::array{Rank::visible, Rank::hidden, Rank::hidden,
                                Rank::none}[below(below(8) == 0 ? 4 : 3)]};
   }
-  Flat any() {
+  PlaneSegment any() {
     const double length = std::pow(10.0, real(-2, 4)), x = real(0, 1000), y = real(0, 1000);
     const double dx = real(-1, 1), dy = real(-1, 1);
     return line(x, y, x + dx * length, y + dy * length);
   }
-  Flat lattice() {
+  PlaneSegment lattice() {
     const auto at = [&] { return static_cast<double>(below(5)) * 10; };
     const double jitter = options_.reach * static_cast<double>(below(3)) / 2;
     return line(at() + jitter, at(), at(), at() + jitter);
   }
   /// An axis through all, whose direction is that of the first number drawn.
-  Flat parallel() {
+  PlaneSegment parallel() {
     if (axis_ < 0) axis_ = real(0, 2);
     const double x = std::fabs(axis_ - 1), y = axis_ < 1 ? 1 - x : x - 1;
     const double size = std::sqrt(x * x + y * y), ux = x / size, uy = y / size;
@@ -75,8 +75,8 @@ class Maker {
     return line(ux * from - uy * a, uy * from + ux * a, ux * (from + length) - uy * (b + turn),
                 uy * (from + length) + ux * (b + turn));
   }
-  void add_chain(std::vector<Flat>& lines) {
-    const Flat whole = any();
+  void add_chain(std::vector<PlaneSegment>& lines) {
+    const PlaneSegment whole = any();
     lines.push_back(whole);
     const std::uint64_t parts = 2 + below(6), split = 1 + below(6);
     const auto at = [&](std::uint64_t k, std::uint64_t n) {
@@ -99,23 +99,25 @@ class Maker {
 
 }  // namespace
 
-std::vector<Flat> make_lines(std::uint64_t seed, const LineSetOptions& options) {
+std::vector<PlaneSegment> make_lines(std::uint64_t seed, const LineSetOptions& options) {
   return Maker(seed, options).run();
 }
 
-drawing::Stretches cut_by_all_pairs(std::span<const Flat> lines, const drawing::OverlapRule& rule) {
-  drawing::Stretches out;
+drawing::LineIntervals cut_by_all_pairs(std::span<const PlaneSegment> lines,
+                                        const drawing::OverlapRule& rule) {
+  drawing::LineIntervals out;
   for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    if (!drawing::may_go(lines[i], rule) || !(lines[i].length() > 0)) continue;
-    std::vector<drawing::Interval> covers;
+    if (!drawing::can_be_covered(lines[i], rule) || !(lines[i].length() > 0)) continue;
+    std::vector<drawing::ParamInterval> covers;
     for (std::uint32_t j = 0; j < lines.size(); ++j) {
-      if (j == i || !drawing::stays(lines, j, i) || !drawing::may_cover(lines[j], rule)) continue;
+      if (j == i || !drawing::has_precedence(lines, j, i) || !drawing::can_cover(lines[j], rule))
+        continue;
       if (!(lines[j].length() > 0)) continue;
       if (const auto interval = drawing::covered(lines[i], lines[j], rule))
         covers.push_back(*interval);
     }
     if (!covers.empty())
-      drawing::append_stretches(out, i, covers, rule.shortest / lines[i].length());
+      drawing::append_intervals(out, i, covers, rule.shortest / lines[i].length());
   }
   return out;
 }

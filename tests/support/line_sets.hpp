@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "drawing/overlaps.hpp"
+#include "drawing/collinear/collinear_overlaps.hpp"
 
 namespace strake::test {
 
@@ -25,11 +25,11 @@ struct LineSetOptions {
   double offset = 0;  ///< of the whole, from the origin
 };
 
-[[nodiscard]] std::vector<drawing::Flat> make_lines(std::uint64_t seed,
-                                                    const LineSetOptions& options);
+[[nodiscard]] std::vector<drawing::PlaneSegment> make_lines(std::uint64_t seed,
+                                                            const LineSetOptions& options);
 
 /// Every line against every other: the definition of cut_overlaps.
-[[nodiscard]] drawing::Stretches cut_by_all_pairs(std::span<const drawing::Flat> lines,
-                                                  const drawing::OverlapRule& rule);
+[[nodiscard]] drawing::LineIntervals cut_by_all_pairs(std::span<const drawing::PlaneSegment> lines,
+                                                      const drawing::OverlapRule& rule);
 
 }  // namespace strake::test

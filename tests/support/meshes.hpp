@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "strake/geometry/analyse.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
 #include "strake/geometry/mesh.hpp"
 
 namespace strake::test {

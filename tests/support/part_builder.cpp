@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "strake/core/disjoint_sets.hpp"
+#include "core/union_find.hpp"
 #include "strake/geometry/predicates.hpp"
 
 namespace strake::testing {
@@ -57,7 +57,7 @@ std::map<EdgeKey, std::vector<std::uint32_t>> edge_map(const Part& part, bool& b
 }
 
 void number_shells(Part& part, const std::map<EdgeKey, std::vector<std::uint32_t>>& edges) {
-  DisjointSets sets(part.triangles.size());
+  UnionFind sets(part.triangles.size());
   for (const auto& [key, triangles] : edges)
     for (const std::uint32_t t : triangles) sets.join(t, triangles.front());
   std::map<std::uint32_t, std::uint32_t> number;

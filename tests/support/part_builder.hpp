@@ -7,7 +7,7 @@
 
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/part_pair.hpp"
-#include "strake/geometry/part_tree.hpp"
+#include "strake/geometry/triangle_bvh.hpp"
 
 namespace strake::testing {
 
@@ -39,12 +39,12 @@ struct IndexedMesh {
 /// A part with its tree; not copied, since the tree is referred to.
 struct Subject {
   geometry::Part part;
-  geometry::PartTree tree;
+  geometry::TriangleBvh tree;
   geometry::Vec3l origin;
 
   explicit Subject(const IndexedMesh& mesh, const geometry::Vec3l& at = {})
       : part(build_part(mesh)), tree(part), origin(at) {}
-  [[nodiscard]] geometry::TreedPart treed() const { return {{&part, origin}, &tree}; }
+  [[nodiscard]] geometry::PartWithBvh treed() const { return {{&part, origin}, &tree}; }
 };
 
 }  // namespace strake::testing

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "strake/model/view_scene.hpp"
+#include "model/scene/view_tessellation.hpp"
 
 namespace strake::test {
 namespace {
@@ -254,7 +254,7 @@ Seen seen(const PixelView& view, const Corner& p) {
 
 void check_lines(const PixelView& view, const hlr::Drawing& drawing, std::vector<bool>& inked,
                  PixelCheck& check) {
-  for (const hlr::Piece& piece : drawing.pieces) {
+  for (const hlr::EdgePiece& piece : drawing.pieces) {
     if (piece.state != hlr::State::visible) continue;
     const Corner a = view.corner(piece.a), b = view.corner(piece.b);
     int last_x = -1, last_y = -1;
@@ -319,7 +319,7 @@ PixelCheck check_by_pixels(const model::Scene& scene, const hlr::Drawing& drawin
   PixelCheck check;
   // The meshes that the view is made of, with contours of round primitives.
   const auto seen =
-      model::seen_from(scene, {}, {drawing.view.direction, drawing.options.sag_mm}, {});
+      model::tessellate_for_view(scene, {}, {drawing.view.direction, drawing.options.sag_mm}, {});
   if (!seen) return check;
   const PixelView view(*seen ? **seen : scene, drawing.view, width);
   std::vector<bool> inked(static_cast<std::size_t>(view.width()) *

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "model/scene/view_tessellation.hpp"
 #include "strake/geometry/wide_int.hpp"
-#include "strake/model/view_scene.hpp"
 #include "support/lattice_scene.hpp"
 
 namespace strake::test {
@@ -264,7 +264,7 @@ class Checker {
 
   /// Nothing when the piece is too short to hold a point that is surely within it, and for
   /// intersections, which are no edges of the model.
-  [[nodiscard]] std::optional<bool> is_right(const hlr::Piece& piece, Random& random) {
+  [[nodiscard]] std::optional<bool> is_right(const hlr::EdgePiece& piece, Random& random) {
     const Vec3l a = piece.a - origin_, b = piece.b - origin_;
     const int axis = longest_axis(b - a);
     const std::int64_t least = std::min(a[axis], b[axis]) + 1,
@@ -363,7 +363,7 @@ struct Candidates {
   explicit Candidates(const hlr::Drawing& drawing) {
     double total = 0;
     for (std::uint32_t i = 0; i < drawing.pieces.size(); ++i) {
-      const hlr::Piece& p = drawing.pieces[i];
+      const hlr::EdgePiece& p = drawing.pieces[i];
       if (p.state == hlr::State::projecting || p.state == hlr::State::clipped) continue;
       const Vec3d v = (p.b - p.a).as<double>();
       piece.push_back(i);
@@ -387,7 +387,7 @@ RayCheck check_by_rays(const model::Scene& scene, const hlr::Drawing& drawing, s
   const Candidates candidates(drawing);
   if (candidates.piece.empty()) return result;
   const auto seen =
-      model::seen_from(scene, {}, {drawing.view.direction, drawing.options.sag_mm}, {});
+      model::tessellate_for_view(scene, {}, {drawing.view.direction, drawing.options.sag_mm}, {});
   if (!seen) return result;
   Checker checker(*seen ? **seen : scene, drawing);
   if (!checker.within_reach()) {
@@ -397,7 +397,7 @@ RayCheck check_by_rays(const model::Scene& scene, const hlr::Drawing& drawing, s
   }
   Random random(seed);
   while (result.rays < rays && result.too_short < 4 * rays) {
-    const hlr::Piece& piece = drawing.pieces[candidates.choose(random, result.rays % 2 == 1)];
+    const hlr::EdgePiece& piece = drawing.pieces[candidates.choose(random, result.rays % 2 == 1)];
     const std::optional<bool> right = checker.is_right(piece, random);
     if (!right) {
       ++result.too_short;

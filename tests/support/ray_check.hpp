@@ -25,8 +25,9 @@ struct RayCheck {
 /// hidden_by_self and hidden_by_other told apart.
 ///
 /// Every second point is of a random piece, every other of a random length of the drawing.
-/// Round primitives are those of the view (model::seen_from), its direction in lowest terms.
-/// For whole drawings: no limits, no selection, stage global, within 2^29 grid units (537 m).
+/// Round primitives are those of the view (model::tessellate_for_view), its direction in lowest
+/// terms. For whole drawings: no limits, no selection, stage global, within 2^29 grid units (537
+/// m).
 [[nodiscard]] RayCheck check_by_rays(const model::Scene& scene, const hlr::Drawing& drawing,
                                      std::uint64_t rays, std::uint64_t seed);
 

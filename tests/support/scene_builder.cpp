@@ -41,9 +41,9 @@ void add_edges(Part& part) {
 }
 
 void add_shells(Part& part) {
-  std::vector<std::uint32_t> shells(part.triangles.size(), geometry::kNoFace);
+  std::vector<std::uint32_t> shells(part.triangles.size(), geometry::kNoIndex);
   for (std::uint32_t seed = 0; seed < part.triangles.size(); ++seed) {
-    if (shells[seed] != geometry::kNoFace) continue;
+    if (shells[seed] != geometry::kNoIndex) continue;
     shells[seed] = part.shell_count;
     for (bool grown = true; grown;) {
       grown = false;
@@ -54,7 +54,7 @@ void add_shells(Part& part) {
         for (std::uint32_t i = first; i < last; ++i)
           in = in || shells[part.edge_triangles[i]] == part.shell_count;
         for (std::uint32_t i = first; in && i < last; ++i)
-          if (shells[part.edge_triangles[i]] == geometry::kNoFace) {
+          if (shells[part.edge_triangles[i]] == geometry::kNoIndex) {
             shells[part.edge_triangles[i]] = part.shell_count;
             grown = true;
           }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "strake/geometry/analyse.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
 #include "support/meshes.hpp"
 
 namespace strake::test {

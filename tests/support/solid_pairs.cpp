@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/primitives/tessellate.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/geometry/predicates.hpp"
-#include "strake/geometry/tessellate.hpp"
 #include "support/clash_model.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/random_primitives.hpp"
@@ -221,13 +221,13 @@ std::optional<StrakeAnswer> strake_answer(const SolidPair& pair) {
 
   const auto& part_a = scene.shapes[scene.bodies[0].grid_shape].parts[0];
   const auto& part_b = scene.shapes[scene.bodies[1].grid_shape].parts[0];
-  const geometry::PartTree tree_a(part_a), tree_b(part_b);
-  const geometry::TreedPart a{{&part_a, scene.bodies[0].origin}, &tree_a},
+  const geometry::TriangleBvh tree_a(part_a), tree_b(part_b);
+  const geometry::PartWithBvh a{{&part_a, scene.bodies[0].origin}, &tree_a},
       b{{&part_b, scene.bodies[1].origin}, &tree_b};
-  geometry::PairWork work;
+  geometry::QueryContext work;
   answer.surfaces_meet = geometry::meet(a, b, work).boundaries_meet;
   answer.squared_distance =
-      geometry::closest(a, b, std::numeric_limits<double>::infinity(), work)->squared;
+      geometry::find_closest_pair(a, b, std::numeric_limits<double>::infinity(), work)->squared;
   return answer;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "strake/geometry/bvh.hpp"
+#include "geometry/bvh/scene_bvh.hpp"
 #include "strake/geometry/mesh.hpp"
 #include "strake/parallel/context.hpp"
 

@@ -41,7 +41,7 @@
 #include <vector>
 
 #include "clocks.hpp"
-#include "strake/core/disjoint_sets.hpp"
+#include "core/union_find.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/io/reader.hpp"
 #include "strake/model/scene.hpp"
@@ -199,7 +199,7 @@ class ShellOf {
   const Part& part_;
   double smooth_cosine_;
   BRep_Builder builder_;
-  DisjointSets regions_;  ///< of triangles that are one face
+  UnionFind regions_;  ///< of triangles that are one face
   std::vector<Vec3d> points_, normals_;
   std::vector<TopoDS_Vertex> vertices_;
   std::vector<Face> faces_;  ///< by the root of their triangles

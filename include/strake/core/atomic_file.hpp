@@ -51,13 +51,13 @@ class AtomicFile {
 };
 
 /// Where a chain of links ends, which need not be there yet: what writing to `target` replaces.
-[[nodiscard]] std::filesystem::path link_end(const std::filesystem::path& target);
+[[nodiscard]] std::filesystem::path resolve_links(const std::filesystem::path& target);
 
 /// Writes a whole file as above.
 [[nodiscard]] Status write_file(const std::filesystem::path& target, std::string_view text);
 
 /// Removes what this process has begun to write for a target and not committed: for a program that
 /// must end at once and cannot unwind.
-void remove_partials(const std::filesystem::path& target) noexcept;
+void remove_partial_files(const std::filesystem::path& target) noexcept;
 
 }  // namespace strake

@@ -50,4 +50,7 @@ class Diagnostics {
   std::vector<Count> counts_;
 };
 
+/// How every output spells a severity: "note", "warning", "skipped".
+[[nodiscard]] std::string_view severity_name(Severity severity);
+
 }  // namespace strake

@@ -8,7 +8,7 @@
 #include "strake/drawing/ink.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
-#include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
 
 namespace strake::drawing {
 

@@ -13,7 +13,7 @@ namespace strake::geometry {
 struct ClosestPoints {
   SquaredDistance squared;  ///< zero when the shapes share a point
   RationalPoint on_a, on_b;
-  PlaceMask place_a = 1, place_b = 1;  ///< the feature that the point lies in the inside of
+  FeatureMask place_a = 1, place_b = 1;  ///< the feature that the point lies in the inside of
 };
 
 /// Closest points on the integer grid, for the pairs of shapes below.
@@ -46,7 +46,7 @@ struct ClosestPoints {
 struct ClosestOnBox {
   SquaredDistance squared;
   Vec3l on_box;
-  BoxMask place = 0;  ///< the faces that the point lies on
+  BoxFeatureMask place = 0;  ///< the faces that the point lies on
 };
 [[nodiscard]] ClosestOnBox closest_points(const Vec3l& p, const Box3l& box);
 

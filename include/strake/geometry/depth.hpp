@@ -9,60 +9,59 @@
 #include <vector>
 
 #include "strake/geometry/part_pair.hpp"
-#include "strake/geometry/vertex_tree.hpp"
+#include "strake/geometry/support_tree.hpp"
 
 namespace strake::geometry {
 
 /// Half-spaces that hold a part: for each of its distinct face normals n, the greatest n·v over
 /// all its vertices. What bounds depth from above, and what convexity means here: a part is as
 /// convex as its vertices say, whatever its tags claim.
-struct SupportPlanes {
+struct FaceKdop {
   struct Plane {
     Vec3d normal;        ///< unit, outward
     double support = 0;  ///< grid units, in the part's own coordinates, rounded outward
   };
   std::vector<Plane> planes;            ///< by normal; the largest faces when there are many
   std::array<double, 4> tetrahedral{};  ///< supports in four fixed directions
-  VertexTree vertices;                  ///< for supports in any other direction
-  std::array<Vec3d, 3> axes{};          ///< square_axes() of the part
+  SupportTree vertices;                 ///< for supports in any other direction
+  std::array<Vec3d, 3> axes{};          ///< orthonormal_axes() of the part
   /// Every edge is convex to within a few grid units: the part very nearly is its half-spaces.
   bool nearly_convex = false;
 };
 
-/// The four fixed unit directions of SupportPlanes::tetrahedral; they sum to zero.
+/// The four fixed unit directions of FaceKdop::tetrahedral; they sum to zero.
 [[nodiscard]] const std::array<Vec3d, 4>& tetrahedral_directions();
 
 /// The same with any team or none; of no use where the context's stop token ended it.
-[[nodiscard]] SupportPlanes make_support_planes(const Part& part,
-                                                const parallel::Context& context = {});
+[[nodiscard]] FaceKdop make_face_kdop(const Part& part, const parallel::Context& context = {});
 
 /// A part of an interpenetrating pair.
-struct DepthPart {
-  TreedPart treed;
-  const SupportPlanes* planes = nullptr;
+struct DepthOperand {
+  PartWithBvh treed;
+  const FaceKdop* planes = nullptr;
 };
 
 /// A certain lower bound on the distance of two parts: the widest gap between their supports along
 /// the face normals of either. Negative when no such direction keeps them apart: then moving one by
 /// that much parts them, so that they are no deeper in each other.
-[[nodiscard]] double gap_bound(const DepthPart& a, const DepthPart& b);
+[[nodiscard]] double kdop_separation(const DepthOperand& a, const DepthOperand& b);
 
 /// A depth in which nobody needs the deepest point, grid units: a known upper bound no greater is
 /// the whole answer.
 inline constexpr double kTieDepth = 2;
 
 /// When to stop. All lengths are grid units.
-struct DepthGoal {
+struct DepthOptions {
   double threshold = 0;                  ///< the depth that decides the class
   double tolerance = 8;                  ///< a bracket this narrow is narrow enough,
   double relative = 0.02;                ///< and so is one this narrow relative to the depth
   std::uint32_t cells_undecided = 3000;  ///< work limit while the threshold lies in the bracket
   std::uint32_t cells_decided = 1000;    ///< work limit once it does not
   /// Depths of no more than this are all the same to who asks; the bracket may reach up to it.
-  double of_no_interest = 0;
-  /// A certain upper bound, if known: minus the result of gap_bound().
+  double negligible_depth = 0;
+  /// A certain upper bound, if known: minus the result of kdop_separation().
   double known_upper = std::numeric_limits<double>::infinity();
-  std::uint32_t triangle_a = kNoFace, triangle_b = kNoFace;  ///< where the two meet, if known,
+  std::uint32_t triangle_a = kNoIndex, triangle_b = kNoIndex;  ///< where the two meet, if known,
   Vec3d meeting_point{};  ///< and a point there, relative to a's origin
   /// What moves of corners that are no longer than this undo is no crossing of two sheets, and of
   /// two solids a touch as good as any (up to the tolerance).
@@ -89,15 +88,15 @@ struct Depth {
 
 /// The point of a part's skin nearest to a point; lengths and coordinates are grid units relative
 /// to the part's origin.
-struct SkinPoint {
+struct SurfacePoint {
   Vec3d point;
   double distance = 0;
   Vec3d normal;  ///< unit, outward where the part is a solid
-  std::uint32_t triangle = kNoFace;
+  std::uint32_t triangle = kNoIndex;
 };
 
 /// Relative error about 1e-12; of triangles equally near, the lowest.
-[[nodiscard]] SkinPoint nearest_on_skin(const TreedPart& part, const Vec3d& p);
+[[nodiscard]] SurfacePoint nearest_on_surface(const PartWithBvh& part, const Vec3d& p);
 
 /// Two solids: D = max over x in both of max(distance to a's surface, distance to b's).
 ///
@@ -109,18 +108,18 @@ struct SkinPoint {
 /// the surfaces parallel to either skin, a little deeper than the deepest point known, are searched
 /// for points of both.
 /// Work is limited by the goal; the bracket is certain wherever it stops.
-[[nodiscard]] Depth solid_depth(const DepthPart& a, const DepthPart& b, const DepthGoal& goal,
-                                PairWork& work);
+[[nodiscard]] Depth solid_depth(const DepthOperand& a, const DepthOperand& b,
+                                const DepthOptions& goal, QueryContext& work);
 
 /// A sheet and a solid: D = max over x of the sheet in the solid of the distance to the solid's
 /// surface. `point` is relative to the sheet's origin.
-[[nodiscard]] Depth sheet_in_solid_depth(const DepthPart& sheet, const DepthPart& solid,
-                                         const DepthGoal& goal, PairWork& work);
+[[nodiscard]] Depth sheet_in_solid_depth(const DepthOperand& sheet, const DepthOperand& solid,
+                                         const DepthOptions& goal, QueryContext& work);
 
 /// Two sheets that cross: D = max over the curve that they share of the smaller distance to their
 /// boundary curves. A sheet without a boundary curve counts as far away as it is large. All zero
-/// where DepthGoal::apart_within undoes all of it.
-[[nodiscard]] Depth sheet_crossing_depth(const TreedPart& a, const TreedPart& b,
-                                         const DepthGoal& goal, PairWork& work);
+/// where DepthOptions::apart_within undoes all of it.
+[[nodiscard]] Depth sheet_crossing_depth(const PartWithBvh& a, const PartWithBvh& b,
+                                         const DepthOptions& goal, QueryContext& work);
 
 }  // namespace strake::geometry

@@ -23,7 +23,7 @@ using Segment = std::array<Vec3l, 2>;
 using TriangleCorners = std::array<Vec3l, 3>;
 
 /// How far a straight line through two grid points reaches.
-enum class Reach : std::uint8_t {
+enum class LineKind : std::uint8_t {
   segment,  ///< from the first point to the second
   ray,      ///< from the first point through the second and on
   line,     ///< both ways
@@ -32,17 +32,17 @@ enum class Reach : std::uint8_t {
 /// A segment, ray or line; where the two points are one, it is that point.
 struct GridLine {
   Vec3l from, to;
-  Reach reach = Reach::segment;
+  LineKind reach = LineKind::segment;
 };
 
 /// The place of a point on a segment or triangle: bit i is set when corner i is needed to span it.
 /// 1, 2, 4 are corners; 3 is a segment's inside or a triangle's edge 0, 6 edge 1, 5 edge 2; 7 a
 /// triangle's inside; 0 none.
-using PlaceMask = std::uint8_t;
+using FeatureMask = std::uint8_t;
 
 /// The place of a point on a box: bit 2k is set on the face of lo[k], bit 2k + 1 on that of hi[k].
 /// No bit: inside (or not on the box at all); one a face, two an edge, three a corner; more where
 /// the box is flat.
-using BoxMask = std::uint8_t;
+using BoxFeatureMask = std::uint8_t;
 
 }  // namespace strake::geometry

@@ -25,7 +25,7 @@ enum class PointSide : std::uint8_t { outside, on_boundary, inside };
 
 /// The place of a point on a triangle that has an area: its corner, edge or inside, or 0 when the
 /// point is off the plane or beyond the edges.
-[[nodiscard]] PlaceMask place_on(const TriangleCorners& triangle, const ScaledPoint& p);
+[[nodiscard]] FeatureMask feature_of(const TriangleCorners& triangle, const ScaledPoint& p);
 
 /// A point against a polygon with holes, both seen along `axis` (0, 1, 2; the coordinate along it
 /// counts for nothing).

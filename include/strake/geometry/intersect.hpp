@@ -46,14 +46,14 @@ struct LineInTriangle {
   LineStretch at;
   bool coplanar = false;           ///< the line lies in the triangle's plane
   int side_from = 0, side_to = 0;  ///< of the line's two points, against the triangle's plane
-  PlaceMask place_first = 0, place_last = 0;  ///< where on the triangle the stretch's ends are
+  FeatureMask place_first = 0, place_last = 0;  ///< where on the triangle the stretch's ends are
 };
 [[nodiscard]] LineInTriangle intersect(const GridLine& line, const TriangleCorners& triangle);
 
 struct LineInBox {
   LineStretch at;
-  bool through_inside = false;              ///< part of it lies in the open box: more than a touch
-  BoxMask place_first = 0, place_last = 0;  ///< where on the box the stretch's ends are
+  bool through_inside = false;  ///< part of it lies in the open box: more than a touch
+  BoxFeatureMask place_first = 0, place_last = 0;  ///< where on the box the stretch's ends are
 };
 /// A closed solid box that is not empty; it may be flat.
 [[nodiscard]] LineInBox intersect(const GridLine& line, const Box3l& box);

@@ -11,7 +11,7 @@ namespace strake::geometry {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-inline constexpr std::uint32_t kNoFace = 0xffffffffU;
+inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 
 /// Triangles as a file gives them: double coordinates in millimetres, outward side
 /// counter-clockwise where the source says so.
@@ -19,7 +19,7 @@ struct TriangleMesh {
   std::vector<Vec3d> vertices;
   std::vector<Triangle> triangles;
   /// The source face (planar polygon) that each triangle is a piece of: edges between two pieces
-  /// of one face are never drawn. Empty, or one entry per triangle (kNoFace: its own).
+  /// of one face are never drawn. Empty, or one entry per triangle (kNoIndex: its own).
   std::vector<std::uint32_t> faces;
   /// Largest distance of the mesh from the surface that it stands for, in mm; negative: unknown.
   double sag_mm = -1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -82,6 +83,13 @@ struct Placement {
     return {a.linear * b.linear, a * b.translation};
   }
 };
+
+/// Whether each of its twelve numbers is finite.
+[[nodiscard]] inline bool is_finite(const Placement& p) {
+  for (const Vec3d& row : {p.linear.row[0], p.linear.row[1], p.linear.row[2], p.translation})
+    if (!std::isfinite(row.x) || !std::isfinite(row.y) || !std::isfinite(row.z)) return false;
+  return true;
+}
 
 /// A closed axis-aligned box; empty when lo > hi on any axis.
 template <class T>

@@ -137,7 +137,7 @@ struct Options {
 };
 
 /// A piece of an edge in one state. Coordinates are grid units, rounded once from exact values.
-struct Piece {
+struct EdgePiece {
   model::ObjectId object{};
   std::uint32_t edge = 0;  ///< number of the feature edge among those of its object
   EdgeKind kind = EdgeKind::sharp;
@@ -218,7 +218,7 @@ struct Drawing {
   double contact_distance_mm = 0;  ///< the largest that was applied
   double weld_mm = -1;             ///< of the scene: model::SceneOptions::weld_mm
   double sag_mm = 0;               ///< asked for, of curved primitives; 0: unknown
-  std::vector<Piece> pieces;       ///< by (object, edge, parameter)
+  std::vector<EdgePiece> pieces;   ///< by (object, edge, parameter)
   Curves curves;
   /// By object: edges of which hidden pieces were left out, see Options::hidden. Empty: none were.
   std::vector<std::uint32_t> left_out;

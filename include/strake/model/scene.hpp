@@ -57,11 +57,11 @@ struct GridBody {
 inline constexpr std::string_view kVanished = "shape-vanished";
 
 /// An object of which a scene has not all geometry, and so finds less than there is.
-struct Lacking {
+struct IncompleteObject {
   ObjectId object{};
   /// Of the diagnostic that tells why, or "object-incomplete", "object-skipped"; a literal.
   std::string_view code;
-  friend auto operator<=>(const Lacking&, const Lacking&) = default;
+  friend auto operator<=>(const IncompleteObject&, const IncompleteObject&) = default;
 };
 
 /// A model on the grid: what clash detection and hidden-line removal work on.
@@ -74,10 +74,10 @@ struct Scene {
   std::vector<GridShape> shapes;
   std::vector<GridBody> bodies;  ///< by object, then in the model's order
   std::vector<std::uint32_t>
-      first_body;                     ///< per object, one more at the end; objects may have none
-  std::uint64_t left_out = 0;         ///< bodies of categories that were not asked for
-  Diagnostics diagnostics;            ///< inverted, open, degenerate, unplaceable …
-  std::vector<Lacking> lacking = {};  ///< ascending; of what was asked for
+      first_body;              ///< per object, one more at the end; objects may have none
+  std::uint64_t left_out = 0;  ///< bodies of categories that were not asked for
+  Diagnostics diagnostics;     ///< inverted, open, degenerate, unplaceable …
+  std::vector<IncompleteObject> lacking = {};  ///< ascending; of what was asked for
   double sag_mm = 0;    ///< that primitives were tessellated with; 0: not by make_scene
   double weld_mm = -1;  ///< SceneOptions::weld_mm
 

@@ -10,12 +10,12 @@
 #include "strake/core/result.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
-#include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
 
 namespace strake::model {
 
 namespace selection {
-struct Query;
+struct SelectionQuery;
 }
 
 /// A question that picks objects, as a user writes it:
@@ -45,8 +45,9 @@ class Selection {
   friend Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selections,
                                                      const Scene& scene,
                                                      const parallel::Context& context);
-  explicit Selection(std::shared_ptr<const selection::Query> query) : query_(std::move(query)) {}
-  std::shared_ptr<const selection::Query> query_;
+  explicit Selection(std::shared_ptr<const selection::SelectionQuery> query)
+      : query_(std::move(query)) {}
+  std::shared_ptr<const selection::SelectionQuery> query_;
 };
 
 /// One entry per object of the scene: whether it is picked. What hlr::draw() draws and the sets

@@ -92,7 +92,7 @@ template <class T, class Make, class Body>
   if (!of_worker) return std::move(of_worker).error();
   const std::size_t size = region.block_size();
   detail::RegionRun run(context, region);
-  Status status = run.run([&](detail::Cursor& cursor) {
+  Status status = run.run([&](detail::RegionCursor& cursor) {
     std::optional<Local> local;
     // On the worker's own stack while it grows: neighbours in of_worker share cache lines.
     std::vector<detail::Chunk<T>> done;

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
 
 namespace strake::parallel {
 

@@ -29,12 +29,12 @@ Result<std::size_t> run_until(const Context& context, const Region& region, Make
         if (body(*local, i)) break;
       }
     } catch (...) {
-      return caught(region.name, i);
+      return error_of_current_exception(region.name, i);
     }
     return i;
   }
   RegionRun run(context, region, Visit::ascending);
-  Status status = run.run([&](Cursor& cursor) {
+  Status status = run.run([&](RegionCursor& cursor) {
     std::optional<Local> local;
     Range range;
     while (run.next(cursor, range)) {

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "strake/parallel/caught.hpp"
+#include "strake/parallel/detail/current_exception.hpp"
 #include "strake/parallel/region.hpp"
 
 namespace strake::parallel {
@@ -68,7 +68,7 @@ Status status_of(std::string_view region, std::size_t item, Body&& body) {
       return body();
     }
   } catch (...) {
-    return caught(region, item);
+    return error_of_current_exception(region, item);
   }
 }
 
@@ -85,7 +85,7 @@ Status run_alone(const Region& region, Body&& body) {
       }
     }
   } catch (...) {
-    return caught(region.name, i);
+    return error_of_current_exception(region.name, i);
   }
   return {};
 }
@@ -129,7 +129,7 @@ template <class Make, class Body>
           return body(*local, i);
         });
   detail::RegionRun run(context, region);
-  return run.run([&](detail::Cursor& cursor) {
+  return run.run([&](detail::RegionCursor& cursor) {
     std::optional<Local> local;
     detail::Range range;
     while (run.next(cursor, range)) {

@@ -24,7 +24,7 @@ namespace strake::parallel {
 namespace detail {
 
 /// The items of a region as for_each_by_weight runs them.
-struct Apart {
+struct HeavySplit {
   std::vector<std::uint32_t> heavy, rest;  ///< ascending
 
   /// Leaves out what is light and not below an item.
@@ -34,8 +34,8 @@ struct Apart {
                                                                  const Region& others) const;
 };
 
-[[nodiscard]] Result<Apart> set_apart(std::span<const double> costs, double least, unsigned workers,
-                                      const Region& region);
+[[nodiscard]] Result<HeavySplit> split_off_heavy(std::span<const double> costs, double least,
+                                                 unsigned workers, const Region& region);
 
 }  // namespace detail
 
@@ -72,7 +72,7 @@ template <class Cost, class Body>
     if (!status) return status;
   }
   const unsigned workers = context.team == nullptr ? 1 : context.team->size();
-  auto apart = detail::set_apart(*costs, least, workers, region);
+  auto apart = detail::split_off_heavy(*costs, least, workers, region);
   if (!apart) return std::move(apart).error();
   // One phase for all: what is inside a heavy item has none to show.
   const ProgressPhase phase(context.progress, region.name, region.n);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "strake/core/result.hpp"
-#include "strake/parallel/caught.hpp"
+#include "strake/parallel/detail/current_exception.hpp"
 
 namespace strake::parallel {
 
@@ -62,7 +62,7 @@ template <class Count>
                  });
     return all;
   } catch (...) {
-    return detail::caught("pieces", i);
+    return detail::error_of_current_exception("pieces", i);
   }
 }
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "strake/parallel/caught.hpp"
+#include "strake/parallel/detail/current_exception.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 

@@ -42,7 +42,7 @@ template <class T, class Body, class Combine>
       for (; block < partials.size(); ++block) combine(total, std::as_const(partials[block]));
       return total;
     } catch (...) {
-      return detail::caught(region.name, block * size);
+      return detail::error_of_current_exception(region.name, block * size);
     }
   };
   if (region.is_short()) {
@@ -53,13 +53,13 @@ template <class T, class Body, class Combine>
       if (!status) return std::move(status).error();
       return fold(std::span(&value, region.blocks()));
     } catch (...) {
-      return detail::caught(region.name, 0);
+      return detail::error_of_current_exception(region.name, 0);
     }
   }
   Result<std::vector<T>> partials = slots<T>(region.blocks());
   if (!partials) return std::move(partials).error();
   detail::RegionRun run(context, region);
-  Status status = run.run([&](detail::Cursor& cursor) {
+  Status status = run.run([&](detail::RegionCursor& cursor) {
     detail::Range range;
     while (run.next(cursor, range)) {
       std::size_t i = range.first;

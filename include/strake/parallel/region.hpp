@@ -15,10 +15,10 @@
 
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
+#include "strake/parallel/detail/load_relaxed.hpp"
+#include "strake/parallel/detail/work_stealing.hpp"
 #include "strake/parallel/executor.hpp"
-#include "strake/parallel/function_ref.hpp"
-#include "strake/parallel/relaxed.hpp"
-#include "strake/parallel/shares.hpp"
 
 namespace strake::parallel {
 
@@ -68,9 +68,9 @@ enum class Visit : std::uint8_t {
 };
 
 /// Where one worker stands in a region; lives on that worker's stack.
-struct Cursor {
+struct RegionCursor {
   Seat seat;
-  Hand hand;                                ///< blocks, as positions in the visiting order
+  WorkerShare hand;                         ///< blocks, as positions in the visiting order
   std::size_t range_items = 0;              ///< items of the range in hand, when observed
   double range_start_s = 0, longest_s = 0;  ///< wall clock
   double busy_s = 0;                        ///< CPU time, once the worker is done
@@ -105,12 +105,12 @@ class RegionRun {
 
   /// Calls loop once on each worker that takes part and returns the lowest item's error, if any.
   /// Other errors: cancelled, out of memory, a visiting order that is none.
-  [[nodiscard]] Status run(FunctionRef<void(Cursor&)> loop);
+  [[nodiscard]] Status run(FunctionRef<void(RegionCursor&)> loop);
 
   /// The next range of items of this worker; false when there is none left.
-  bool next(Cursor& cursor, Range& range) {
+  bool next(RegionCursor& cursor, Range& range) {
     if (observed_) note(cursor);
-    Hand& hand = cursor.hand;
+    WorkerShare& hand = cursor.hand;
     for (;;) {
       if (hand.position == hand.end && !shares_.take(hand, cursor.seat)) return false;
       const std::size_t size = region_.block_size();
@@ -146,7 +146,7 @@ class RegionRun {
   }
 
   /// Items at or above this index are not to be run any more.
-  [[nodiscard]] std::size_t limit() const { return relaxed(limit_); }
+  [[nodiscard]] std::size_t limit() const { return load_relaxed(limit_); }
 
   /// Items at or above this one need not be run any more: a limit never rises. Errors of such items
   /// count for nothing.
@@ -158,13 +158,13 @@ class RegionRun {
   void fail_with_current_exception(std::size_t item) noexcept;
 
  private:
-  void open(Cursor& cursor, const Range& range) const;
-  void note(Cursor& cursor) const;
+  void open(RegionCursor& cursor, const Range& range) const;
+  void note(RegionCursor& cursor) const;
   [[nodiscard]] Status start();
   void deal(const Executor* team);
-  void call(FunctionRef<void(Cursor&)> loop);
+  void call(FunctionRef<void(RegionCursor&)> loop);
   [[nodiscard]] Status outcome(bool cancelled);
-  void work(Seat seat, FunctionRef<void(Cursor&)> loop, std::span<Cursor> seats);
+  void work(Seat seat, FunctionRef<void(RegionCursor&)> loop, std::span<RegionCursor> seats);
 
   // Read by every worker at every range: kept apart from what they write.
   const Context& context_;
@@ -175,7 +175,7 @@ class RegionRun {
   bool observed_ = false;  ///< somebody wants progress or times: ranges are single blocks then
   bool counting_ = false;  ///< this region is the one whose progress is shown
   alignas(64) std::atomic<std::size_t> limit_{std::numeric_limits<std::size_t>::max()};
-  alignas(64) Shares shares_;
+  alignas(64) WorkStealingShares shares_;
   std::mutex error_mutex_;
   std::optional<Error> error_;
   std::size_t error_item_ = std::numeric_limits<std::size_t>::max();

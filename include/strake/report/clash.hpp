@@ -12,7 +12,7 @@
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
-#include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
 
 /// Clash reports as text: JSON for programs, CSV for spreadsheets, a table for a terminal.
 ///

@@ -24,11 +24,11 @@
 namespace strake::report {
 
 /// What a line is: of which object, of which kind, in which state.
-struct LineClass {
+struct DiffLineClass {
   std::uint32_t object = 0, other = 0;  ///< of ViewDiff::objects; other: of an intersection
   hlr::EdgeKind kind = hlr::EdgeKind::sharp;
   drawing::LineState state = drawing::LineState::visible;
-  friend auto operator<=>(const LineClass&, const LineClass&) = default;
+  friend auto operator<=>(const DiffLineClass&, const DiffLineClass&) = default;
 };
 
 enum class LineChange : std::uint8_t { same, added, gone, changed };
@@ -36,11 +36,11 @@ inline constexpr std::size_t kLineChanges = 4;
 [[nodiscard]] std::string_view change_name(LineChange change);  ///< "same", "new" …
 
 /// A stretch of a piece: of the older document where it is gone, else of the newer.
-struct LineStretch {
+struct DiffInterval {
   std::uint32_t piece = 0;
   float from = 0, to = 1;  ///< parameters, 0 at a to 1 at b
   LineChange change = LineChange::same;
-  LineClass was;  ///< where it changed
+  DiffLineClass was;  ///< where it changed
 };
 
 struct LineCount {
@@ -62,15 +62,15 @@ struct ViewDiff {
   std::vector<std::uint32_t> of_before, of_after;  ///< by object of the document: its number there
   std::vector<ViewSettingChange> settings;
   /// By piece and along it: first all of the older document that is gone, then all of the newer.
-  std::vector<LineStretch> stretches;
+  std::vector<DiffInterval> intervals;
   LineCounts total;
   std::map<std::pair<hlr::EdgeKind, drawing::LineState>, LineCounts> by_class;
   std::map<std::uint32_t, LineCounts> by_object;  ///< those of which not all is the same
 
-  [[nodiscard]] const ViewPiece& piece(const LineStretch& s) const {
+  [[nodiscard]] const ViewPiece& piece(const DiffInterval& s) const {
     return (s.change == LineChange::gone ? before : after)->pieces[s.piece];
   }
-  [[nodiscard]] LineClass line_class(const LineStretch& s) const;
+  [[nodiscard]] DiffLineClass line_class(const DiffInterval& s) const;
   /// Whether any line is new, gone or changed; with `visible_only` one that is visible now or was.
   [[nodiscard]] bool differs(bool visible_only) const;
 };

@@ -10,12 +10,12 @@
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
-#include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
 #include "strake/sheets/sheet.hpp"
 
 namespace strake::sheets {
 
-struct Description;
+struct SheetSpec;
 
 /// The text of the template of that name.
 using ReadTemplate = parallel::FunctionRef<Result<std::string>(std::string_view name)>;
@@ -54,8 +54,8 @@ class SheetFile {
                                       const parallel::Context& context) const;
 
  private:
-  explicit SheetFile(std::shared_ptr<const Description> what) : what_(std::move(what)) {}
-  std::shared_ptr<const Description> what_;
+  explicit SheetFile(std::shared_ptr<const SheetSpec> what) : what_(std::move(what)) {}
+  std::shared_ptr<const SheetSpec> what_;
 };
 
 }  // namespace strake::sheets

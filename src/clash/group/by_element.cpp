@@ -14,11 +14,11 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 /// The items of each object.
 class Uses {
  public:
-  explicit Uses(std::span<const Item> items) {
+  explicit Uses(std::span<const GroupingItem> items) {
     std::uint32_t objects = 0;
-    for (const Item& item : items) objects = std::max(objects, index(item.pair->b) + 1);
+    for (const GroupingItem& item : items) objects = std::max(objects, index(item.pair->b) + 1);
     first_.assign(objects + 1, 0);
-    for (const Item& item : items)
+    for (const GroupingItem& item : items)
       for (const model::ObjectId id : {item.pair->a, item.pair->b}) ++first_[index(id) + 1];
     for (std::size_t o = 1; o < first_.size(); ++o) first_[o] += first_[o - 1];
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
@@ -39,28 +39,28 @@ class Uses {
   std::vector<std::uint32_t> uses_;
 };
 
-struct Entry {
+struct CoverCandidate {
   std::size_t count = 0;
   std::uint32_t object = 0;
-  friend bool operator<(const Entry& x, const Entry& y) {
+  friend bool operator<(const CoverCandidate& x, const CoverCandidate& y) {
     return x.count != y.count ? x.count < y.count : x.object > y.object;
   }
 };
 
 }  // namespace
 
-Partition by_element(std::span<const Item> items) {
+Partition by_element(std::span<const GroupingItem> items) {
   Partition partition;
   partition.group.assign(items.size(), kNone);
   const Uses uses(items);
   std::vector<std::size_t> left(uses.objects());
-  std::priority_queue<Entry> queue;
+  std::priority_queue<CoverCandidate> queue;
   for (std::uint32_t o = 0; o < uses.objects(); ++o) {
     left[o] = uses.of(o).size();
     if (left[o] > 0) queue.push({left[o], o});
   }
   while (!queue.empty()) {
-    const Entry top = queue.top();
+    const CoverCandidate top = queue.top();
     queue.pop();
     if (left[top.object] == 0) continue;
     if (left[top.object] != top.count) {  // some went to others since it was queued

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "clash/group/partition.hpp"
-#include "strake/core/disjoint_sets.hpp"
+#include "core/union_find.hpp"
 
 namespace strake::clash {
 namespace {
@@ -28,7 +28,7 @@ double squared_distance(const Vec3d& p, const Box3d& box) {
 
 /// Points that lie so near each other that all are one group: the diagonal of a cell is below the
 /// distance.
-struct Cell {
+struct ProximityCell {
   Vec3l at;
   std::size_t first = 0, last = 0;  ///< in the sorted order of the points
   Box3d box = geometry::empty_box<double>();
@@ -36,18 +36,18 @@ struct Cell {
 
 class Linkage {
  public:
-  Linkage(std::span<const Item> items, double distance)
+  Linkage(std::span<const GroupingItem> items, double distance)
       : items_(items), squared_(distance * distance), side_(distance / 2), sets_(items.size()) {
     order_.resize(items.size());
     std::iota(order_.begin(), order_.end(), std::uint32_t{0});
     places_.reserve(items.size());
-    for (const Item& item : items) places_.push_back(place(item.pair->point_mm));
+    for (const GroupingItem& item : items) places_.push_back(place(item.pair->point_mm));
     std::ranges::sort(order_, [&](std::uint32_t i, std::uint32_t j) {
       return places_[i] != places_[j] ? places_[i] < places_[j] : i < j;
     });
   }
 
-  DisjointSets& run() {
+  UnionFind& run() {
     make_cells();
     for (std::size_t c = 0; c < cells_.size(); ++c)
       for (std::int64_t dx = 0; dx <= kReach; ++dx)
@@ -83,11 +83,11 @@ class Linkage {
     const bool own = dx == 0 && dy == 0;
     const Vec3l from{at.x + dx, at.y + dy, own ? at.z + 1 : at.z - kReach};
     const Vec3l to{at.x + dx, at.y + dy, at.z + kReach};
-    auto it = std::ranges::lower_bound(cells_, from, {}, &Cell::at);
+    auto it = std::ranges::lower_bound(cells_, from, {}, &ProximityCell::at);
     for (; it != cells_.end() && it->at <= to; ++it) link(cells_[c], *it);
   }
 
-  void link(const Cell& x, const Cell& y) {
+  void link(const ProximityCell& x, const ProximityCell& y) {
     if (sets_.joined(order_[x.first], order_[y.first])) return;
     for (std::size_t i = x.first; i < x.last; ++i) {
       if (squared_distance(point(i), y.box) > squared_) continue;
@@ -97,19 +97,19 @@ class Linkage {
     }
   }
 
-  std::span<const Item> items_;
+  std::span<const GroupingItem> items_;
   double squared_, side_;
-  DisjointSets sets_;
+  UnionFind sets_;
   std::vector<std::uint32_t> order_;
   std::vector<Vec3l> places_;
-  std::vector<Cell> cells_;
+  std::vector<ProximityCell> cells_;
 };
 
 }  // namespace
 
-Partition by_proximity(std::span<const Item> items, double distance_mm) {
+Partition by_proximity(std::span<const GroupingItem> items, double distance_mm) {
   Linkage linkage(items, distance_mm);
-  DisjointSets& sets = linkage.run();
+  UnionFind& sets = linkage.run();
   Partition partition;
   partition.group.resize(items.size());
   for (std::uint32_t i = 0; i < items.size(); ++i) {

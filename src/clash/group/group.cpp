@@ -8,17 +8,17 @@
 #include <utility>
 
 #include "clash/group/partition.hpp"
-#include "strake/clash/identity.hpp"
+#include "clash/results/clash_key.hpp"
+#include "core/number.hpp"
 #include "strake/core/hash.hpp"
-#include "strake/core/number.hpp"
 
 namespace strake::clash {
 namespace {
 
 constexpr double kLeastDistanceMm = 1;
 
-std::vector<Item> items_of(const Findings& findings, bool contacts) {
-  std::vector<Item> items;
+std::vector<GroupingItem> items_of(const Findings& findings, bool contacts) {
+  std::vector<GroupingItem> items;
   for (std::uint32_t t = 0; t < findings.tests.size(); ++t) {
     const std::vector<Pair>& pairs = findings.tests[t].pairs;
     for (std::uint32_t p = 0; p < pairs.size(); ++p)
@@ -37,16 +37,16 @@ Labels files_of(const model::Model& model, const Pair& pair) {
 
 /// Groups by a value of each item, numbered in the order of the values.
 template <class Value>
-Partition by_value(std::span<const Item> items, Value&& value) {
+Partition by_value(std::span<const GroupingItem> items, Value&& value) {
   std::map<std::decay_t<decltype(value(items.front()))>, std::uint32_t> numbers;
-  for (const Item& item : items) numbers.try_emplace(value(item), 0);
+  for (const GroupingItem& item : items) numbers.try_emplace(value(item), 0);
   Partition partition;
   for (auto& entry : numbers) entry.second = partition.count++;
-  for (const Item& item : items) partition.group.push_back(numbers.at(value(item)));
+  for (const GroupingItem& item : items) partition.group.push_back(numbers.at(value(item)));
   return partition;
 }
 
-Partition partition_of(std::span<const Item> items, const model::Model& model,
+Partition partition_of(std::span<const GroupingItem> items, const model::Model& model,
                        const GroupRules& rules) {
   switch (rules.by) {
     case GroupBy::element:
@@ -54,14 +54,14 @@ Partition partition_of(std::span<const Item> items, const model::Model& model,
     case GroupBy::proximity:
       return by_proximity(items, rules.distance_mm);
     case GroupBy::test:
-      return by_value(items, [](const Item& item) { return item.test; });
+      return by_value(items, [](const GroupingItem& item) { return item.test; });
     case GroupBy::files:
-      return by_value(items, [&](const Item& item) { return files_of(model, *item.pair); });
+      return by_value(items, [&](const GroupingItem& item) { return files_of(model, *item.pair); });
   }
   return {};
 }
 
-void add(Group& group, const Item& item) {
+void add(Group& group, const GroupingItem& item) {
   const Pair& pair = *item.pair;
   if (group.results.empty()) group.box_mm = geometry::empty_box<double>();
   if (group.results.empty() || pair.cls > group.worst ||
@@ -147,7 +147,7 @@ Result<Grouping> group_results(const Findings& findings, const model::Model& mod
   if (!(rules.distance_mm >= kLeastDistanceMm))
     return Error{ErrorCode::usage, "the distance of groups is less than a millimetre",
                  "group distance", "give a length such as 3m"};
-  const std::vector<Item> items = items_of(findings, rules.contacts);
+  const std::vector<GroupingItem> items = items_of(findings, rules.contacts);
   const Partition partition = partition_of(items, model, rules);
   std::vector<Group> groups(partition.count);
   for (std::size_t i = 0; i < items.size(); ++i) add(groups[partition.group[i]], items[i]);

@@ -10,7 +10,7 @@
 namespace strake::clash {
 
 /// What grouping asks of a result.
-struct Item {
+struct GroupingItem {
   const Pair* pair = nullptr;
   std::uint32_t test = 0, number = 0;  ///< as in ResultRef
 };
@@ -23,9 +23,9 @@ struct Partition {
 };
 
 /// Greedy cover by objects, most items first.
-[[nodiscard]] Partition by_element(std::span<const Item> items);
+[[nodiscard]] Partition by_element(std::span<const GroupingItem> items);
 
 /// Single linkage of the items' points.
-[[nodiscard]] Partition by_proximity(std::span<const Item> items, double distance_mm);
+[[nodiscard]] Partition by_proximity(std::span<const GroupingItem> items, double distance_mm);
 
 }  // namespace strake::clash

@@ -4,12 +4,175 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <optional>
 #include <utility>
 
+#include "io/source/input_file.hpp"
+
 namespace strake::io::gltf {
+namespace {
+
+constexpr int base64_value(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  if (c == '+' || c == '-') return 62;
+  if (c == '/' || c == '_') return 63;
+  return -1;
+}
+
+constexpr int hex_value(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
+  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  if (text.size() % 4 == 1) return std::nullopt;
+  std::vector<std::byte> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
+  unsigned bits = 0, held = 0;
+  for (const char c : text) {
+    const int value = base64_value(c);
+    if (value < 0) return std::nullopt;
+    bits = bits << 6U | static_cast<unsigned>(value);
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes.push_back(static_cast<std::byte>(bits >> held & 0xFFU));
+  }
+  return bytes;
+}
+
+std::string decode_uri(std::string_view uri) {
+  std::string out;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const int high = uri[i] == '%' && i + 2 < uri.size() ? hex_value(uri[i + 1]) : -1;
+    const int low = high >= 0 ? hex_value(uri[i + 2]) : -1;
+    if (low < 0) {
+      out.push_back(uri[i]);
+      continue;
+    }
+    out.push_back(static_cast<char>(high * 16 + low));
+    i += 2;
+  }
+  return out;
+}
+
+void Buffers::load_uri(Buffer& buffer, const std::string& pointer, const JsonValue& uri,
+                       const std::filesystem::path& file) {
+  // Some writers escape the slashes of base64; decoding a long string for nothing takes time.
+  const bool escaped = uri.raw().find('\\') != std::string_view::npos;
+  const std::string plain = escaped ? uri.text_value() : std::string();
+  const std::string_view text = escaped ? std::string_view(plain) : uri.raw();
+  if (text.substr(0, 5) == "data:") {
+    const std::size_t comma = text.find(',');
+    const bool base64 = comma != std::string_view::npos &&
+                        text.substr(0, comma).find(";base64") != std::string_view::npos;
+    std::optional<std::vector<std::byte>> bytes;
+    if (base64) bytes = decode_base64(text.substr(comma + 1));
+    if (!bytes) {
+      buffer.fault = GltfFault{pointer, "its data: URI is not valid base64"};
+      return;
+    }
+    buffer.decoded = std::move(*bytes);
+    buffer.bytes = buffer.decoded;
+    return;
+  }
+  const std::string name = decode_uri(uri.text_value());
+  const std::optional<std::filesystem::path> path = safe_relative_path(file, name);
+  if (!path) {
+    buffer.fault =
+        GltfFault{pointer, fmt::format("'{}' lies outside the file's folder and is not read; "
+                                       "put it beside the file",
+                                       name)};
+    return;
+  }
+  Result<FileContent> content = FileContent::read(*path);
+  if (!content) {
+    buffer.fault = GltfFault{
+        pointer, fmt::format("'{}' {}; put it beside the file", name, content.error().message)};
+    return;
+  }
+  buffer.file = std::move(*content);
+  buffer.bytes = buffer.file->bytes();
+}
+
+void Buffers::load(Buffer& buffer, std::size_t index, const JsonValue& json,
+                   const Container& container, const std::filesystem::path& file) {
+  const std::string pointer = fmt::format("/buffers/{}", index);
+  const std::optional<std::uint64_t> length = json["byteLength"].index();
+  if (!length) {
+    buffer.fault = GltfFault{pointer, "has no byteLength"};
+    return;
+  }
+  const JsonValue uri = json["uri"];
+  if (uri.is_string()) {
+    load_uri(buffer, pointer + "/uri", uri, file);
+  } else if (index == 0 && container.chunk) {
+    buffer.bytes = *container.chunk;
+  } else {
+    buffer.fault = GltfFault{pointer, "has no data"};
+  }
+  if (buffer.fault) return;
+  if (*length > buffer.bytes.size()) {
+    buffer.fault =
+        GltfFault{pointer, fmt::format("should have {} bytes but has {}: the file is cut off",
+                                       *length, buffer.bytes.size())};
+    return;
+  }
+  buffer.bytes = buffer.bytes.first(*length);
+  total_bytes_ += *length;
+}
+
+Buffers::Buffers(const JsonValue& root, const Container& container,
+                 const std::filesystem::path& file) {
+  const std::vector<JsonValue> buffers = root["buffers"].items();
+  buffers_.resize(buffers.size());
+  for (std::size_t i = 0; i < buffers.size(); ++i)
+    load(buffers_[i], i, buffers[i], container, file);
+  root["bufferViews"].elements([&](const JsonValue& json) {
+    const auto [buffer, offset, length, stride, extensions] =
+        json.pick<5>({"buffer", "byteOffset", "byteLength", "byteStride", "extensions"});
+    const auto optional = [](const JsonValue& value) {
+      return value.exists() ? value.index() : std::optional<std::uint64_t>(0);
+    };
+    Stated stated{buffer.index(), optional(offset), length.index(), optional(stride), nullptr};
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+      if (!buffer.exists() && stated.packed == nullptr && extensions[name].is_object())
+        stated.packed = name;
+    views_.push_back(stated);
+  });
+}
+
+Checked<Buffers::BufferView> Buffers::view(std::size_t index) const {
+  const std::string pointer = fmt::format("/bufferViews/{}", index);
+  if (index >= views_.size())
+    return GltfFault{pointer, fmt::format("does not exist; there are {}", views_.size())};
+  const Stated& stated = views_[index];
+  if (stated.packed != nullptr)
+    return GltfFault{pointer, fmt::format("is packed by {}, which is not read", stated.packed)};
+  if (!stated.buffer || *stated.buffer >= buffers_.size())
+    return GltfFault{pointer + "/buffer", "does not exist"};
+  const Buffer& owner = buffers_[*stated.buffer];
+  if (owner.fault) return *owner.fault;
+  if (!stated.offset || !stated.length || !stated.stride)
+    return GltfFault{pointer, "has an offset, length or stride that is no whole number"};
+  if (*stated.offset > owner.bytes.size() || *stated.length > owner.bytes.size() - *stated.offset)
+    return GltfFault{pointer,
+                     fmt::format("bytes {} to {} lie outside its buffer of {}", *stated.offset,
+                                 *stated.offset + *stated.length, owner.bytes.size())};
+  return BufferView{owner.bytes.subspan(*stated.offset, *stated.length),
+                    static_cast<std::size_t>(*stated.stride)};
+}
+
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are read as they lie");
@@ -80,19 +243,20 @@ double component_value(Component component, const std::byte* at) {
 }
 
 /// The widest stride of the specification is 252; a wider one is taken as written.
-std::optional<Fault> check_extent(const Accessor& accessor, std::size_t offset,
-                                  std::size_t view_bytes) {
+std::optional<GltfFault> check_extent(const Accessor& accessor, std::size_t offset,
+                                      std::size_t view_bytes) {
   const std::size_t size = component_bytes(accessor.component) * accessor.width;
   if (accessor.stride < size)
-    return Fault{accessor.pointer,
-                 fmt::format("has a stride of {} bytes for elements of {}", accessor.stride, size)};
+    return GltfFault{accessor.pointer, fmt::format("has a stride of {} bytes for elements of {}",
+                                                   accessor.stride, size)};
   if (accessor.count == 0) return std::nullopt;
   const bool fits = offset <= view_bytes && size <= view_bytes - offset &&
                     (accessor.count - 1) <= (view_bytes - offset - size) / accessor.stride;
   if (fits) return std::nullopt;
-  return Fault{accessor.pointer,
-               fmt::format("its {} elements of {} bytes do not fit into the {} bytes of its view",
-                           accessor.count, size, view_bytes)};
+  return GltfFault{
+      accessor.pointer,
+      fmt::format("its {} elements of {} bytes do not fit into the {} bytes of its view",
+                  accessor.count, size, view_bytes)};
 }
 
 }  // namespace
@@ -122,8 +286,8 @@ std::uint32_t Accessor::integer(std::size_t index) const {
   return load<std::uint32_t, std::uint32_t>(at);
 }
 
-Accessors::Accessors(const Json& root, const Buffers& buffers) : buffers_(&buffers) {
-  root["accessors"].elements([&](const Json& json) {
+Accessors::Accessors(const JsonValue& root, const Buffers& buffers) : buffers_(&buffers) {
+  root["accessors"].elements([&](const JsonValue& json) {
     const auto [count, component, type, normalized, view, offset, sparse] = json.pick<7>(
         {"count", "componentType", "type", "normalized", "bufferView", "byteOffset", "sparse"});
     Stated stated;
@@ -162,7 +326,7 @@ Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
   const bool known =
       (component >= 5120 && component <= 5123) || component == 5125 || component == 5126;
   if (!stated.count || !known || accessor.width == 0)
-    return Fault{accessor.pointer, "has no valid count, componentType or type"};
+    return GltfFault{accessor.pointer, "has no valid count, componentType or type"};
   accessor.count = *stated.count;
   accessor.component = static_cast<Component>(component);
   accessor.normalized = stated.normalized;
@@ -172,25 +336,26 @@ Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
     // Zeros, of which a file may ask for any number: no more than its data could hold.
     const std::size_t most = std::max<std::size_t>(buffers_->total_bytes(), 4096);
     if (accessor.count > most / size)
-      return Fault{accessor.pointer,
-                   fmt::format("asks for {} elements without any data", accessor.count)};
+      return GltfFault{accessor.pointer,
+                       fmt::format("asks for {} elements without any data", accessor.count)};
     accessor.stride = size;
     accessor.dense.resize(size * accessor.count);
     accessor.bytes = accessor.dense;
     return {std::move(accessor)};
   }
-  const Checked<Buffers::View> view = buffers_->view(*stated.view);
-  if (const Fault* fault = fault_of(view)) return *fault;
-  const auto& found = std::get<Buffers::View>(view);
-  if (!stated.offset) return Fault{accessor.pointer, "has a byteOffset that is no whole number"};
+  const Checked<Buffers::BufferView> view = buffers_->view(*stated.view);
+  if (const GltfFault* fault = fault_of(view)) return *fault;
+  const auto& found = std::get<Buffers::BufferView>(view);
+  if (!stated.offset)
+    return GltfFault{accessor.pointer, "has a byteOffset that is no whole number"};
   accessor.stride = found.stride == 0 ? size : found.stride;
-  if (std::optional<Fault> fault = check_extent(accessor, *stated.offset, found.bytes.size()))
+  if (std::optional<GltfFault> fault = check_extent(accessor, *stated.offset, found.bytes.size()))
     return std::move(*fault);
   accessor.bytes = accessor.count == 0 ? found.bytes.first(0) : found.bytes.subspan(*stated.offset);
   return {std::move(accessor)};
 }
 
-bool Accessors::apply_sparse(Accessor& accessor, const Json& sparse, Fault& fault) const {
+bool Accessors::apply_sparse(Accessor& accessor, const JsonValue& sparse, GltfFault& fault) const {
   const auto fail = [&](std::string message) {
     fault = {accessor.pointer + "/sparse", std::move(message)};
     return false;
@@ -208,18 +373,18 @@ bool Accessors::apply_sparse(Accessor& accessor, const Json& sparse, Fault& faul
   values.component = accessor.component;
   values.width = accessor.width;
   for (Accessor* part : {&indices, &values}) {
-    const Json json = sparse[part == &indices ? "indices" : "values"];
-    const Checked<Buffers::View> view =
+    const JsonValue json = sparse[part == &indices ? "indices" : "values"];
+    const Checked<Buffers::BufferView> view =
         buffers_->view(json["bufferView"].index().value_or(UINT64_MAX));
-    if (const Fault* broken = fault_of(view)) {
+    if (const GltfFault* broken = fault_of(view)) {
       fault = *broken;
       return false;
     }
-    const auto& found = std::get<Buffers::View>(view);
+    const auto& found = std::get<Buffers::BufferView>(view);
     const std::uint64_t offset = json["byteOffset"].index().value_or(0);
     part->count = *count;
     part->stride = component_bytes(part->component) * part->width;
-    if (std::optional<Fault> broken = check_extent(*part, offset, found.bytes.size())) {
+    if (std::optional<GltfFault> broken = check_extent(*part, offset, found.bytes.size())) {
       fault = std::move(*broken);
       return false;
     }
@@ -243,12 +408,12 @@ bool Accessors::apply_sparse(Accessor& accessor, const Json& sparse, Fault& faul
 
 Checked<Accessor> Accessors::open(std::uint64_t index) const {
   if (index >= accessors_.size())
-    return Fault{fmt::format("/accessors/{}", index),
-                 fmt::format("does not exist; there are {}", accessors_.size())};
+    return GltfFault{fmt::format("/accessors/{}", index),
+                     fmt::format("does not exist; there are {}", accessors_.size())};
   Checked<Accessor> opened = open_dense(index);
-  const Json& sparse = accessors_[index].sparse;
+  const JsonValue& sparse = accessors_[index].sparse;
   if (fault_of(opened) != nullptr || !sparse.is_object()) return opened;
-  Fault fault;
+  GltfFault fault;
   if (!apply_sparse(std::get<Accessor>(opened), sparse, fault)) return fault;
   return opened;
 }

@@ -4,15 +4,81 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include "io/gltf/buffers.hpp"
-#include "io/gltf/fault.hpp"
-#include "io/gltf/json.hpp"
+#include "io/gltf/container.hpp"
+#include "io/gltf/json/json.hpp"
+#include "io/source/input_file.hpp"
 
 namespace strake::io::gltf {
+
+/// Why a part of a document cannot be used: the JSON pointer of the culprit and what is wrong.
+struct GltfFault {
+  std::string pointer;
+  std::string message;
+};
+
+/// A value or the fault that prevented it; unlike an Error it costs one object, not the file.
+template <class T>
+using Checked = std::variant<T, GltfFault>;
+
+template <class T>
+[[nodiscard]] const GltfFault* fault_of(const Checked<T>& checked) {
+  return std::get_if<GltfFault>(&checked);
+}
+
+/// The bytes of a data: URI's base64, nothing when it is not valid.
+[[nodiscard]] std::optional<std::vector<std::byte>> decode_base64(std::string_view text);
+
+/// A relative URI with its percent escapes decoded.
+[[nodiscard]] std::string decode_uri(std::string_view uri);
+
+/// The buffers and buffer views of a document. All is checked here: a view that was given out lies
+/// within its buffer.
+class Buffers {
+ public:
+  struct BufferView {
+    std::span<const std::byte> bytes;
+    std::size_t stride = 0;  ///< 0: tightly packed
+  };
+
+  /// Loads what the document names: the GLB's own chunk, data: URIs, and files in the model's
+  /// folder or below it. What cannot be had is a fault of its views.
+  Buffers(const JsonValue& root, const Container& container, const std::filesystem::path& file);
+
+  [[nodiscard]] Checked<BufferView> view(std::size_t index) const;
+  [[nodiscard]] std::size_t total_bytes() const { return total_bytes_; }
+
+ private:
+  struct Buffer {
+    std::span<const std::byte> bytes;
+    std::optional<FileContent> file;
+    std::vector<std::byte> decoded;
+    std::optional<GltfFault> fault;
+  };
+
+  /// What the document states of a view, read once for all accessors that share it.
+  struct Stated {
+    std::optional<std::uint64_t> buffer, offset, length, stride;
+    const char* packed = nullptr;  ///< the extension without which it holds nothing
+  };
+
+  void load(Buffer& buffer, std::size_t index, const JsonValue& json, const Container& container,
+            const std::filesystem::path& file);
+  void load_uri(Buffer& buffer, const std::string& pointer, const JsonValue& uri,
+                const std::filesystem::path& file);
+
+  std::vector<Buffer> buffers_;
+  std::vector<Stated> views_;
+  std::size_t total_bytes_ = 0;
+};
 
 /// The component types of the specification, by its numbers.
 enum class Component : std::uint32_t {
@@ -53,7 +119,7 @@ struct Accessor {
 /// Reads accessors of a document; safe to share between threads.
 class Accessors {
  public:
-  Accessors(const Json& root, const Buffers& buffers);
+  Accessors(const JsonValue& root, const Buffers& buffers);
 
   /// Any accessor that is well-formed; without data it is zeros. Sparse ones are made dense.
   [[nodiscard]] Checked<Accessor> open(std::uint64_t index) const;
@@ -72,11 +138,12 @@ class Accessors {
     std::optional<std::uint64_t> view;  ///< UINT64_MAX where it is no index
     std::size_t width = 0;
     bool normalized = false;
-    Json sparse;
+    JsonValue sparse;
   };
 
   [[nodiscard]] Checked<Accessor> open_dense(std::uint64_t index) const;
-  [[nodiscard]] bool apply_sparse(Accessor& accessor, const Json& sparse, Fault& fault) const;
+  [[nodiscard]] bool apply_sparse(Accessor& accessor, const JsonValue& sparse,
+                                  GltfFault& fault) const;
 
   std::vector<Stated> accessors_;
   const Buffers* buffers_;

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "io/file_content.hpp"
+#include "io/source/input_file.hpp"
 
 namespace strake::io::gltf {
 namespace {

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "io/placed_shape.hpp"
+#include "io/mesh/tessellated_shapes.hpp"
 
 namespace strake::io::gltf {
 namespace {
@@ -30,12 +30,6 @@ PlacementKey key_of(const Placement& p) {
     for (const double number : {row.x, row.y, row.z})
       key[at++] = std::bit_cast<std::uint64_t>(number + 0.0);
   return key;
-}
-
-bool is_finite(const Placement& p) {
-  for (const Vec3d& row : {p.linear.row[0], p.linear.row[1], p.linear.row[2], p.translation})
-    if (!std::isfinite(row.x) || !std::isfinite(row.y) || !std::isfinite(row.z)) return false;
-  return true;
 }
 
 /// The placement that undoes p; nothing when p flattens space.
@@ -61,9 +55,9 @@ std::uint64_t index_count(const geometry::Polylines& lines) {
   return count;
 }
 
-class Planner {
+class GlbPlanner {
  public:
-  Planner(const model::Model& model, const WriteOptions& options)
+  GlbPlanner(const model::Model& model, const WriteOptions& options)
       : model_(model), shapes_(model, options.sag_mm) {
     plan_.frame =
         options.millimetres_z_up ? SourceFrame{1.0, UpAxis::z} : SourceFrame{1000.0, UpAxis::y};
@@ -74,19 +68,19 @@ class Planner {
   Status object(const model::Object& object);
   Status body(const model::Object& object, const model::Body& body,
               const std::optional<Placement>& to_mesh, std::vector<MeshPrimitive>& mesh);
-  Result<std::uint32_t> piece(const PlacedShape& shape, const Placement& relative);
-  Status measure(Piece& piece) const;
+  Result<std::uint32_t> piece(const TessellatedShape& shape, const Placement& relative);
+  Status measure(StoredGeometry& piece) const;
   std::uint32_t material(const model::Color& color);
 
   const model::Model& model_;
-  ShapeTable shapes_;
+  TessellationCache shapes_;
   GlbPlan plan_;
   std::map<std::pair<const void*, PlacementKey>, std::uint32_t> pieces_;
   std::map<std::vector<MeshPrimitive>, std::uint32_t> meshes_;
   std::map<std::array<std::uint8_t, 4>, std::uint32_t> materials_;
 };
 
-std::uint32_t Planner::material(const model::Color& color) {
+std::uint32_t GlbPlanner::material(const model::Color& color) {
   const auto [place, is_new] =
       materials_.try_emplace({color.red, color.green, color.blue, color.alpha},
                              static_cast<std::uint32_t>(plan_.materials.size()));
@@ -94,7 +88,7 @@ std::uint32_t Planner::material(const model::Color& color) {
   return place->second;
 }
 
-Status Planner::measure(Piece& piece) const {
+Status GlbPlanner::measure(StoredGeometry& piece) const {
   const auto& vertices = piece.vertices();
   bool first = true;
   for (const Vec3d& vertex : vertices) {
@@ -111,13 +105,13 @@ Status Planner::measure(Piece& piece) const {
   return {};
 }
 
-Result<std::uint32_t> Planner::piece(const PlacedShape& shape, const Placement& relative) {
+Result<std::uint32_t> GlbPlanner::piece(const TessellatedShape& shape, const Placement& relative) {
   const void* const source = shape.mesh != nullptr ? static_cast<const void*>(shape.mesh)
                                                    : static_cast<const void*>(shape.lines);
   const auto next = static_cast<std::uint32_t>(plan_.pieces.size());
   const auto [place, is_new] = pieces_.try_emplace({source, key_of(relative)}, next);
   if (!is_new) return place->second;
-  Piece piece;
+  StoredGeometry piece;
   piece.mesh = shape.mesh;
   piece.lines = shape.lines;
   piece.relative = relative;
@@ -136,9 +130,9 @@ Result<std::uint32_t> Planner::piece(const PlacedShape& shape, const Placement& 
   return next;
 }
 
-Status Planner::body(const model::Object& object, const model::Body& body,
-                     const std::optional<Placement>& to_mesh, std::vector<MeshPrimitive>& mesh) {
-  const PlacedShape shape = shapes_.place(body);
+Status GlbPlanner::body(const model::Object& object, const model::Body& body,
+                        const std::optional<Placement>& to_mesh, std::vector<MeshPrimitive>& mesh) {
+  const TessellatedShape shape = shapes_.place(body);
   if (!is_finite(shape.placement))
     return Error{ErrorCode::output, "a placement is not finite", object.id, "mend the model"};
   const bool has_content = (shape.mesh != nullptr && !shape.mesh->triangles.empty()) ||
@@ -155,8 +149,8 @@ Status Planner::body(const model::Object& object, const model::Body& body,
   return {};
 }
 
-Status Planner::object(const model::Object& object) {
-  GlbPlan::Node node;
+Status GlbPlanner::object(const model::Object& object) {
+  GlbPlan::ObjectNode node;
   std::vector<MeshPrimitive> mesh;
   std::optional<Placement> first;
   for (std::uint32_t i = 0; i < object.body_count; ++i) {
@@ -188,7 +182,7 @@ Status Planner::object(const model::Object& object) {
   return {};
 }
 
-Result<GlbPlan> Planner::plan() {
+Result<GlbPlan> GlbPlanner::plan() {
   for (const model::Object& one : model_.objects)
     if (const Status planned = object(one); !planned) return planned.error();
   shapes_.release(plan_.made, plan_.made_lines);
@@ -197,7 +191,7 @@ Result<GlbPlan> Planner::plan() {
 
 }  // namespace
 
-std::array<float, 3> GlbPlan::written(const Piece& piece, const Vec3d& v) const {
+std::array<float, 3> GlbPlan::written(const StoredGeometry& piece, const Vec3d& v) const {
   const Vec3d turned = frame.turn_back(piece.relative * v);
   return {static_cast<float>(turned.x / frame.unit_mm),
           static_cast<float>(turned.y / frame.unit_mm),
@@ -205,7 +199,7 @@ std::array<float, 3> GlbPlan::written(const Piece& piece, const Vec3d& v) const 
 }
 
 Result<GlbPlan> plan_glb(const model::Model& model, const WriteOptions& options) {
-  return Planner(model, options).plan();
+  return GlbPlanner(model, options).plan();
 }
 
 }  // namespace strake::io::gltf

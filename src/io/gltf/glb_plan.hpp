@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-#include "io/source_frame.hpp"
+#include "io/source/units_and_axes.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/mesh.hpp"
 #include "strake/io/writer.hpp"
@@ -15,7 +15,7 @@
 namespace strake::io::gltf {
 
 /// Geometry that stands in the binary chunk once: a shape, in the frame of the mesh that has it.
-struct Piece {
+struct StoredGeometry {
   const geometry::TriangleMesh* mesh = nullptr;  ///< one of these two
   const geometry::Polylines* lines = nullptr;
   geometry::Placement relative;  ///< shape frame to mesh frame; identity for most
@@ -42,20 +42,21 @@ inline constexpr std::uint32_t kNoMesh = 0xffffffffU;
 /// What a model becomes as glTF, before a byte is written.
 struct GlbPlan {
   SourceFrame frame;  ///< of the file
-  std::vector<Piece> pieces;
+  std::vector<StoredGeometry> pieces;
   std::vector<std::vector<MeshPrimitive>> meshes;
   std::vector<model::Color> materials;
-  struct Node {
+  struct ObjectNode {
     std::uint32_t mesh = kNoMesh;
     geometry::Placement placement;  ///< model frame
   };
-  std::vector<Node> objects;  ///< per object of the model
+  std::vector<ObjectNode> objects;  ///< per object of the model
   std::uint64_t vertex_count = 0, wide_count = 0, narrow_count = 0;
   std::deque<geometry::TriangleMesh> made;  ///< triangles of analytic primitives
   std::deque<geometry::Polylines> made_lines;
 
   /// A vertex of a piece as it is written.
-  [[nodiscard]] std::array<float, 3> written(const Piece& piece, const geometry::Vec3d& v) const;
+  [[nodiscard]] std::array<float, 3> written(const StoredGeometry& piece,
+                                             const geometry::Vec3d& v) const;
 };
 
 [[nodiscard]] Result<GlbPlan> plan_glb(const model::Model& model, const WriteOptions& options);

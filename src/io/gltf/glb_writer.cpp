@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/text_encoding.hpp"
 #include "io/gltf/glb_plan.hpp"
 #include "io/gltf/srgb.hpp"
 #include "strake/core/atomic_file.hpp"
-#include "strake/core/text.hpp"
 #include "strake/io/writer.hpp"
 
 namespace strake::io::gltf {
@@ -113,7 +113,7 @@ void JsonChunk::child_list(const char* name, const std::vector<std::uint32_t>& c
 void JsonChunk::object_node(std::size_t object) {
   out_ += R"({"name":)";
   append_json_string(out_, model_.objects[object].name);
-  const GlbPlan::Node& node = plan_.objects[object];
+  const GlbPlan::ObjectNode& node = plan_.objects[object];
   if (node.mesh != kNoMesh) add(R"(,"mesh":{})", node.mesh);
   matrix(node.placement);
   extras(model_.objects[object]);
@@ -193,7 +193,7 @@ void JsonChunk::accessors() {
   const std::uint32_t narrow_view = plan_.wide_count != 0 ? 2 : 1;
   out_ += R"(,"accessors":[)";
   bool first = true;
-  for (const Piece& p : plan_.pieces) {
+  for (const StoredGeometry& p : plan_.pieces) {
     separator(first);
     add(R"({{"bufferView":0,"byteOffset":{},"componentType":{},"count":{},"type":"VEC3",)"
         R"("min":[{},{},{}],"max":[{},{},{}]}},)",
@@ -238,7 +238,7 @@ void put(AtomicFile& file, const T* numbers, std::size_t count) {
 }
 
 template <class Index>
-void put_indices(AtomicFile& file, const Piece& piece) {
+void put_indices(AtomicFile& file, const StoredGeometry& piece) {
   if (piece.mesh != nullptr) {
     const bool mirrored = piece.relative.linear.determinant() < 0;
     for (const geometry::Triangle& t : piece.mesh->triangles) {
@@ -258,7 +258,7 @@ void put_indices(AtomicFile& file, const Piece& piece) {
 }
 
 bool put_binary(AtomicFile& file, const GlbPlan& plan, const std::stop_token& stop) {
-  for (const Piece& piece : plan.pieces) {
+  for (const StoredGeometry& piece : plan.pieces) {
     if (stop.stop_requested()) return false;
     for (const geometry::Vec3d& vertex : piece.vertices()) {
       const std::array<float, 3> row = plan.written(piece, vertex);
@@ -266,7 +266,7 @@ bool put_binary(AtomicFile& file, const GlbPlan& plan, const std::stop_token& st
     }
   }
   for (const bool wide : {true, false})
-    for (const Piece& piece : plan.pieces) {
+    for (const StoredGeometry& piece : plan.pieces) {
       if (piece.wide != wide) continue;
       if (stop.stop_requested()) return false;
       if (wide)

@@ -12,14 +12,12 @@
 #include <vector>
 
 #include "io/gltf/accessor.hpp"
-#include "io/gltf/buffers.hpp"
 #include "io/gltf/mesh.hpp"
-#include "io/gltf/node.hpp"
-#include "io/gltf/scene.hpp"
-#include "io/precision.hpp"
-#include "io/reading.hpp"
-#include "io/source_frame.hpp"
-#include "io/whole_solids.hpp"
+#include "io/gltf/nodes.hpp"
+#include "io/mesh/transparent_shells.hpp"
+#include "io/source/precision.hpp"
+#include "io/source/reader_support.hpp"
+#include "io/source/units_and_axes.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/parallel/for_each.hpp"
 
@@ -30,9 +28,9 @@ using geometry::Placement;
 using geometry::Vec3d;
 
 /// The standard's metres with y up, unless the file says otherwise as our own writer does.
-FrameDefault stated_frame(const Json& root) {
+FrameDefault stated_frame(const JsonValue& root) {
   FrameDefault frame{1000.0, UpAxis::y, true};
-  const Json extras = root["asset"]["extras"];
+  const JsonValue extras = root["asset"]["extras"];
   if (const auto unit = extras["unit_mm"].number(); unit && *unit > 0 && *unit < 1e12)
     frame.unit_mm = *unit;
   const std::string up = extras["up_axis"].text_value();
@@ -43,18 +41,18 @@ FrameDefault stated_frame(const Json& root) {
 
 /// What placing a mesh needs to know of it once its shapes belong to the model.
 struct MeshShapes {
-  struct Part {
+  struct ColoredShape {
     model::ShapeId shape{};
     model::Color color;
   };
-  std::vector<Part> parts;
+  std::vector<ColoredShape> parts;
   geometry::Box3d box = geometry::empty_box<double>();
   double half_spacing_mm = 0;  ///< of its vertices' numbers
   LeftOut left_out;
 };
 
 /// Where a mesh goes.
-struct Place {
+struct MeshPlacement {
   Placement world;             ///< file frame
   double half_spacing_mm = 0;  ///< of the numbers that say where; 0: doubles
 };
@@ -71,7 +69,7 @@ double largest_coordinate_of(const geometry::Box3d& box) {
 }
 
 /// What naming each instance of a node copies for it.
-std::uint64_t attribute_bytes(const Node& node) {
+std::uint64_t attribute_bytes(const GltfNode& node) {
   std::uint64_t bytes = 0;
   for (const auto& [key, value] : node.attributes)
     bytes += sizeof(node.attributes[0]) + key.size() + value.size();
@@ -79,9 +77,9 @@ std::uint64_t attribute_bytes(const Node& node) {
 }
 
 /// Whether the weights of morph targets move a mesh away from its own positions.
-bool any_weight(const Json& weights) {
+bool any_weight(const JsonValue& weights) {
   bool any = false;
-  weights.elements([&](const Json& weight) { any = any || weight.number().value_or(0) != 0; });
+  weights.elements([&](const JsonValue& weight) { any = any || weight.number().value_or(0) != 0; });
   return any;
 }
 
@@ -99,7 +97,7 @@ constexpr std::size_t kLeastNodeBytes = 24, kFreeNodes = std::size_t{1} << 20U;
 
 class Importer {
  public:
-  Importer(const ImportInput& input, const Container& container, const Json& root)
+  Importer(const ImportInput& input, const Container& container, const JsonValue& root)
       : input_(input),
         root_(root),
         default_(stated_frame(root)),
@@ -120,19 +118,20 @@ class Importer {
   void note_nodes();
   void adopt_meshes();
   void place_all();
-  void place(const Visit& visit, std::size_t self);
-  void place_instances(const Node& node, model::GroupId parent, const Place& here, bool counted);
-  struct Element {
+  void place(const VisitedNode& visit, std::size_t self);
+  void place_instances(const GltfNode& node, model::GroupId parent, const MeshPlacement& here,
+                       bool counted);
+  struct ObjectIdentity {
     std::string name, id;
     model::Attributes attributes;
     bool counted = false;  ///< its name, or one above it, is only a number
   };
-  void add_object(const Node& node, Element element, model::GroupId parent,
-                  std::span<const Place> places);
-  model::Object& new_object(Element element, model::GroupId parent);
-  bool add_bodies(const MeshShapes& mesh, const Place& place);
+  void add_object(const GltfNode& node, ObjectIdentity element, model::GroupId parent,
+                  std::span<const MeshPlacement> places);
+  model::Object& new_object(ObjectIdentity element, model::GroupId parent);
+  bool add_bodies(const MeshShapes& mesh, const MeshPlacement& place);
   [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name);
-  void skip(Element element, model::GroupId parent, const Fault& fault);
+  void skip(ObjectIdentity element, model::GroupId parent, const GltfFault& fault);
   [[nodiscard]] Error refusal(std::string message) const {
     return {ErrorCode::input, std::move(message), input_.file.path.string(),
             "export the model again"};
@@ -141,47 +140,48 @@ class Importer {
     return fmt::format("{}, {}", input_.file.path.string(), pointer);
   }
 
-  struct Placed {
+  struct PlacedNode {
     Placement world;                              ///< file frame
     double half_spacing_mm = 0;                   ///< as of a Place
     model::GroupId group = model::GroupId::none;  ///< that its children stand in
-    const Fault* fault = nullptr;                 ///< its own or an ancestor's
+    const GltfFault* fault = nullptr;             ///< its own or an ancestor's
     bool counted = false;                         ///< its name or an ancestor's is only a number
   };
-  [[nodiscard]] std::optional<Fault> damage_of(const Node& node, const Placed& here) const;
+  [[nodiscard]] std::optional<GltfFault> damage_of(const GltfNode& node,
+                                                   const PlacedNode& here) const;
 
   ImportInput input_;
-  const Json& root_;
+  const JsonValue& root_;
   FrameDefault default_;
   SourceFrame frame_;
   Buffers buffers_;
   Accessors accessors_;
-  std::vector<Json> meshes_;
+  std::vector<JsonValue> meshes_;
   std::vector<model::Color> materials_;
-  std::vector<Node> nodes_;
-  std::vector<Visit> visits_;
+  std::vector<GltfNode> nodes_;
+  std::vector<VisitedNode> visits_;
   std::vector<std::uint32_t> used_;  ///< meshes that a visited node has, ascending
   std::vector<LoadedMesh> loaded_;   ///< one per used mesh
   std::vector<MeshShapes> shapes_;   ///< per mesh of the document
-  std::vector<std::optional<Fault>> mesh_faults_;
-  std::vector<Placed> placed_;      ///< per visit
+  std::vector<std::optional<GltfFault>> mesh_faults_;
+  std::vector<PlacedNode> placed_;  ///< per visit
   std::vector<std::string> paths_;  ///< per group, '/' at the end; empty: nobody asked yet
   model::Model model_;
 };
 
 Status Importer::parse_nodes() {
-  const std::vector<Json> items = root_["nodes"].items();
+  const std::vector<JsonValue> items = root_["nodes"].items();
   if (items.size() > input_.file.bytes.size() / kLeastNodeBytes + kFreeNodes)
     return refusal("has more nodes than it has anything to say about them");
-  std::vector<Json> mesh_names;
+  std::vector<JsonValue> mesh_names;
   mesh_names.reserve(meshes_.size());
-  for (const Json& mesh : meshes_) mesh_names.push_back(mesh["name"]);
+  for (const JsonValue& mesh : meshes_) mesh_names.push_back(mesh["name"]);
   nodes_.resize(items.size());
   const Status parsed = parallel::for_each(
       input_.context, {.name = "read glTF nodes", .n = items.size(), .grain = 256},
       [&](std::size_t i) { nodes_[i] = parse_node(items[i], i, mesh_names); });
   if (!parsed) return parsed;
-  Result<std::vector<Visit>> order = visit_order(root_, nodes_);
+  Result<std::vector<VisitedNode>> order = visit_order(root_, nodes_);
   if (!order) {
     Error error = order.error();
     error.where = place_text(error.where);
@@ -189,8 +189,8 @@ Status Importer::parse_nodes() {
   }
   visits_ = std::move(*order);
   std::vector<bool> used(meshes_.size());
-  for (const Visit& visit : visits_) {
-    const Node& node = nodes_[visit.node];
+  for (const VisitedNode& visit : visits_) {
+    const GltfNode& node = nodes_[visit.node];
     if (node.mesh && *node.mesh < meshes_.size()) used[*node.mesh] = true;
   }
   for (std::size_t i = 0; i < used.size(); ++i)
@@ -213,8 +213,8 @@ Status Importer::check_amount() const {
     corners += stated_corners(accessors_, meshes_[mesh]);
     if (corners > 64 * bytes + (1U << 20U)) return refuse("vertices");
   }
-  for (const Visit& visit : visits_) {
-    const Node& node = nodes_[visit.node];
+  for (const VisitedNode& visit : visits_) {
+    const GltfNode& node = nodes_[visit.node];
     if (!node.mesh || !node.instancing.exists()) continue;
     const std::uint64_t more = stated_instances(node, accessors_);
     instances += more;
@@ -239,7 +239,7 @@ void Importer::note_meshes() {
     if (loaded_[i].points != 0)
       model_.diagnostics.add(Severity::skipped, "gltf-points", "points are not read",
                              place_text(pointer));
-    if (loaded_[i].part_transparent) note_whole_solid(model_, place_text(pointer));
+    if (loaded_[i].part_transparent) note_merged_shell(model_, place_text(pointer));
     if (loaded_[i].odd != 0)
       model_.diagnostics.add(Severity::warning, "gltf-odd-indices",
                              "indices are left over behind the last triangle or line",
@@ -252,8 +252,8 @@ void Importer::note_nodes() {
   std::vector<bool> visited(nodes_.size()), displaced(meshes_.size());
   for (const std::uint32_t mesh : used_) displaced[mesh] = any_weight(meshes_[mesh]["weights"]);
   bool skinned = false, morphed = false;
-  for (const Visit& visit : visits_) {
-    const Node& node = nodes_[visit.node];
+  for (const VisitedNode& visit : visits_) {
+    const GltfNode& node = nodes_[visit.node];
     visited[visit.node] = true;
     skinned = skinned || node.skinned;
     if (node.mesh && *node.mesh < meshes_.size())
@@ -329,7 +329,7 @@ std::string Importer::path_id(model::GroupId parent, const std::string& name) {
 }
 
 /// One without bodies, at the end of the model.
-model::Object& Importer::new_object(Element element, model::GroupId parent) {
+model::Object& Importer::new_object(ObjectIdentity element, model::GroupId parent) {
   model::Object object;
   object.positional_id = element.id.empty() && element.counted;
   object.id = element.id.empty() ? path_id(parent, element.name) : std::move(element.id);
@@ -341,14 +341,14 @@ model::Object& Importer::new_object(Element element, model::GroupId parent) {
 }
 
 /// The object stays in the model, so that it is told what lacks it.
-void Importer::skip(Element element, model::GroupId parent, const Fault& fault) {
+void Importer::skip(ObjectIdentity element, model::GroupId parent, const GltfFault& fault) {
   model_.diagnostics.add(Severity::skipped, "gltf-damaged-object",
                          fmt::format("object '{}' is skipped: {}", element.name, fault.message),
                          place_text(fault.pointer));
   new_object(std::move(element), parent).incomplete = true;
 }
 
-bool Importer::add_bodies(const MeshShapes& mesh, const Place& place) {
+bool Importer::add_bodies(const MeshShapes& mesh, const MeshPlacement& place) {
   const Placement placement = frame_.placement(place.world);
   for (unsigned corner = 0; corner < 8; ++corner) {
     const Vec3d p = placement * Vec3d{(corner & 1U) != 0 ? mesh.box.hi.x : mesh.box.lo.x,
@@ -358,17 +358,17 @@ bool Importer::add_bodies(const MeshShapes& mesh, const Place& place) {
   }
   const float precision = precision_um(
       std::max(mesh.half_spacing_mm * scale_of(placement.linear), place.half_spacing_mm));
-  for (const MeshShapes::Part& part : mesh.parts)
+  for (const MeshShapes::ColoredShape& part : mesh.parts)
     model_.bodies.push_back(
         {part.shape, precision, placement, part.color, model::Category::physical});
   return true;
 }
 
-void Importer::add_object(const Node& node, Element element, model::GroupId parent,
-                          std::span<const Place> places) {
+void Importer::add_object(const GltfNode& node, ObjectIdentity element, model::GroupId parent,
+                          std::span<const MeshPlacement> places) {
   const MeshShapes& mesh = shapes_[*node.mesh];
   const std::size_t first = model_.bodies.size();
-  for (const Place& place : places)
+  for (const MeshPlacement& place : places)
     if (!add_bodies(mesh, place)) {
       model_.bodies.resize(first);
       return skip(std::move(element), parent,
@@ -380,13 +380,13 @@ void Importer::add_object(const Node& node, Element element, model::GroupId pare
   note_left_out(model_, object, mesh.left_out);
 }
 
-void Importer::place_instances(const Node& node, model::GroupId parent, const Place& here,
-                               bool counted) {
+void Importer::place_instances(const GltfNode& node, model::GroupId parent,
+                               const MeshPlacement& here, bool counted) {
   Instances instances = read_instances(node, accessors_);
-  const auto whole = [&] { return Element{node.name, node.id, node.attributes, counted}; };
+  const auto whole = [&] { return ObjectIdentity{node.name, node.id, node.attributes, counted}; };
   if (instances.fault) return skip(whole(), parent, *instances.fault);
   const double scale_mm = frame_.unit_mm * scale_of(here.world.linear);
-  std::vector<Place> places;
+  std::vector<MeshPlacement> places;
   places.reserve(instances.placements.size());
   for (std::size_t i = 0; i < instances.placements.size(); ++i)
     places.push_back({here.world * instances.placements[i],
@@ -405,19 +405,19 @@ void Importer::place_instances(const Node& node, model::GroupId parent, const Pl
 }
 
 /// Why a node with a mesh is no usable object, if so.
-std::optional<Fault> Importer::damage_of(const Node& node, const Placed& here) const {
+std::optional<GltfFault> Importer::damage_of(const GltfNode& node, const PlacedNode& here) const {
   if (here.fault != nullptr) return *here.fault;
   if (const auto& fault = mesh_faults_[*node.mesh]) return fault;
   if (shapes_[*node.mesh].parts.empty())
-    return Fault{fmt::format("/meshes/{}", *node.mesh), "it has no triangles and no lines"};
+    return GltfFault{fmt::format("/meshes/{}", *node.mesh), "it has no triangles and no lines"};
   return std::nullopt;
 }
 
-void Importer::place(const Visit& visit, std::size_t self) {
-  Node& node = nodes_[visit.node];
-  const Placed above = visit.parent == kNoVisit ? Placed{} : placed_[visit.parent];
-  Placed& here = placed_[self];
-  here.world = visit.parent == kNoVisit ? node.local : above.world * node.local;
+void Importer::place(const VisitedNode& visit, std::size_t self) {
+  GltfNode& node = nodes_[visit.node];
+  const PlacedNode above = visit.parent == kNoParent ? PlacedNode{} : placed_[visit.parent];
+  PlacedNode& here = placed_[self];
+  here.world = visit.parent == kNoParent ? node.local : above.world * node.local;
   here.half_spacing_mm =
       std::max(above.half_spacing_mm,
                frame_.unit_mm * scale_of(above.world.linear) * half_spacing_of(node.local));
@@ -430,12 +430,12 @@ void Importer::place(const Visit& visit, std::size_t self) {
     model_.set_attributes(here.group, node.mesh ? node.attributes : std::move(node.attributes));
   }
   if (!node.mesh) return;
-  const Place at{here.world, here.half_spacing_mm};
-  const std::optional<Fault> fault = damage_of(node, here);
+  const MeshPlacement at{here.world, here.half_spacing_mm};
+  const std::optional<GltfFault> fault = damage_of(node, here);
   if (!fault && node.instancing.exists())
     return place_instances(node, above.group, at, here.counted);
   // Nobody asks for these again: a node is visited once.
-  Element element{node.name, std::move(node.id), std::move(node.attributes), here.counted};
+  ObjectIdentity element{node.name, std::move(node.id), std::move(node.attributes), here.counted};
   if (fault) return skip(std::move(element), above.group, *fault);
   add_object(node, std::move(element), above.group, std::span(&at, 1));
 }
@@ -461,7 +461,7 @@ Result<model::Model> Importer::run() {
 }  // namespace
 
 Result<model::Model> import_document(const ImportInput& input, const Container& container,
-                                     const Json& root) {
+                                     const JsonValue& root) {
   return Importer(input, container, root).run();
 }
 

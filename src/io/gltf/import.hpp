@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/gltf/container.hpp"
-#include "io/gltf/json.hpp"
+#include "io/gltf/json/json.hpp"
 #include "strake/io/reader.hpp"
 
 namespace strake::io::gltf {
@@ -15,6 +15,7 @@ struct ImportInput {
 
 /// Turns a document whose version and extensions were checked into a model.
 [[nodiscard]] Result<model::Model> import_document(const ImportInput& input,
-                                                   const Container& container, const Json& root);
+                                                   const Container& container,
+                                                   const JsonValue& root);
 
 }  // namespace strake::io::gltf

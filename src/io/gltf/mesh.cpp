@@ -13,9 +13,9 @@
 #include <string>
 #include <utility>
 
-#include "io/compact.hpp"
 #include "io/gltf/srgb.hpp"
-#include "io/whole_solids.hpp"
+#include "io/mesh/mesh_building.hpp"
+#include "io/mesh/transparent_shells.hpp"
 
 namespace strake::io::gltf {
 namespace {
@@ -48,9 +48,9 @@ std::vector<std::uint32_t> spelled_out(Mode mode, const std::vector<std::uint32_
 }
 
 /// How many triangles or segments of which colour went into a shape.
-using Tally = std::map<std::array<std::uint8_t, 4>, std::size_t>;
+using ColorTally = std::map<std::array<std::uint8_t, 4>, std::size_t>;
 
-model::Color main_color(const Tally& tally) {
+model::Color main_color(const ColorTally& tally) {
   model::Color color;
   std::size_t most = 0;
   for (const auto& [key, count] : tally)
@@ -65,11 +65,11 @@ class MeshLoader {
  public:
   MeshLoader(const MeshInput& input, std::string pointer)
       : input_(input), pointer_(std::move(pointer)) {}
-  LoadedMesh load(const Json& mesh);
+  LoadedMesh load(const JsonValue& mesh);
 
  private:
-  bool primitive(const Json& json, const std::string& pointer);
-  bool corners(const Json& json, std::uint64_t vertices, std::vector<std::uint32_t>& out);
+  bool primitive(const JsonValue& json, const std::string& pointer);
+  bool corners(const JsonValue& json, std::uint64_t vertices, std::vector<std::uint32_t>& out);
   std::vector<Vec3d> vertices(const Accessor& positions, const std::string& pointer,
                               std::size_t corners_each, std::vector<std::uint32_t>& indices);
   std::vector<bool> without_place(const Accessor& positions, const std::string& pointer,
@@ -77,8 +77,8 @@ class MeshLoader {
   void triangles(const std::vector<std::uint32_t>& indices, const std::vector<Vec3d>& points,
                  const model::Color& color);
   void chains(const std::vector<std::uint32_t>& indices, const std::vector<Vec3d>& points);
-  [[nodiscard]] model::Color color_of(const Json& json) const;
-  bool fail(Fault fault) {
+  [[nodiscard]] model::Color color_of(const JsonValue& json) const;
+  bool fail(GltfFault fault) {
     result_.fault = std::move(fault);
     return false;
   }
@@ -86,19 +86,19 @@ class MeshLoader {
   const MeshInput& input_;
   std::string pointer_;
   LoadedMesh result_;
-  Tally opaque_, transparent_, lines_;
+  ColorTally opaque_, transparent_, lines_;
 };
 
-model::Color MeshLoader::color_of(const Json& json) const {
+model::Color MeshLoader::color_of(const JsonValue& json) const {
   const std::optional<std::uint64_t> material = json["material"].index();
   if (!material || *material >= input_.materials->size()) return {};
   return (*input_.materials)[*material];
 }
 
 /// The vertices of the primitive's corners in their order.
-bool MeshLoader::corners(const Json& json, std::uint64_t vertices,
+bool MeshLoader::corners(const JsonValue& json, std::uint64_t vertices,
                          std::vector<std::uint32_t>& out) {
-  const Json indices_json = json["indices"];
+  const JsonValue indices_json = json["indices"];
   if (!indices_json.exists()) {
     out.resize(vertices);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<std::uint32_t>(i);
@@ -106,7 +106,7 @@ bool MeshLoader::corners(const Json& json, std::uint64_t vertices,
   }
   const Checked<Accessor> opened =
       input_.accessors->open(indices_json.index().value_or(UINT64_MAX));
-  if (const Fault* fault = fault_of(opened)) return fail(*fault);
+  if (const GltfFault* fault = fault_of(opened)) return fail(*fault);
   const auto& indices = std::get<Accessor>(opened);
   const bool whole = indices.component == Component::uint8 ||
                      indices.component == Component::uint16 ||
@@ -129,9 +129,10 @@ std::vector<bool> MeshLoader::without_place(const Accessor& positions, const std
     bad[i] = !exists || !std::ranges::all_of(xyz, [](double x) { return std::isfinite(x); });
     if (!bad[i] || result_.first_left_out) continue;
     result_.first_left_out =
-        exists ? Fault{positions.pointer, fmt::format("vertex {} is not finite", used[i])}
-               : Fault{pointer + "/indices", fmt::format("there is no vertex {}, only {} of them",
-                                                         used[i], positions.count)};
+        exists
+            ? GltfFault{positions.pointer, fmt::format("vertex {} is not finite", used[i])}
+            : GltfFault{pointer + "/indices", fmt::format("there is no vertex {}, only {} of them",
+                                                          used[i], positions.count)};
   }
   return bad;
 }
@@ -141,7 +142,7 @@ std::vector<bool> MeshLoader::without_place(const Accessor& positions, const std
 std::vector<Vec3d> MeshLoader::vertices(const Accessor& positions, const std::string& pointer,
                                         std::size_t corners_each,
                                         std::vector<std::uint32_t>& indices) {
-  std::vector<std::uint32_t> used = compact_indices(indices);
+  std::vector<std::uint32_t> used = renumber_indices(indices);
   const std::vector<bool> bad = without_place(positions, pointer, used);
   if (std::ranges::find(bad, true) != bad.end()) {
     std::size_t kept = 0;
@@ -153,7 +154,7 @@ std::vector<Vec3d> MeshLoader::vertices(const Accessor& positions, const std::st
     (corners_each == 3 ? result_.faces_left_out : result_.lines_left_out) +=
         (indices.size() - kept) / corners_each;
     indices.resize(kept);
-    used = compact_indices(indices);
+    used = renumber_indices(indices);
   }
   std::vector<Vec3d> points;
   points.reserve(used.size());
@@ -172,7 +173,7 @@ void MeshLoader::triangles(const std::vector<std::uint32_t>& indices,
   mesh.vertices.insert(mesh.vertices.end(), points.begin(), points.end());
   for (std::size_t i = 0; i < indices.size(); i += 3)
     mesh.triangles.push_back({base + indices[i], base + indices[i + 1], base + indices[i + 2]});
-  Tally& tally = color.alpha == 255 ? opaque_ : transparent_;
+  ColorTally& tally = color.alpha == 255 ? opaque_ : transparent_;
   tally[{color.red, color.green, color.blue, color.alpha}] += indices.size() / 3;
 }
 
@@ -194,8 +195,8 @@ void MeshLoader::chains(const std::vector<std::uint32_t>& indices,
   end_chain();
 }
 
-bool MeshLoader::primitive(const Json& json, const std::string& pointer) {
-  const Json mode_json = json["mode"];
+bool MeshLoader::primitive(const JsonValue& json, const std::string& pointer) {
+  const JsonValue mode_json = json["mode"];
   const std::optional<std::uint64_t> mode_index =
       mode_json.exists() ? mode_json.index() : std::optional<std::uint64_t>(4);
   if (!mode_index || *mode_index > 6) return fail({pointer + "/mode", "is none of 0 to 6"});
@@ -204,14 +205,14 @@ bool MeshLoader::primitive(const Json& json, const std::string& pointer) {
     ++result_.points;
     return true;
   }
-  const Json position = json["attributes"]["POSITION"];
+  const JsonValue position = json["attributes"]["POSITION"];
   if (!position.exists()) return fail({pointer, "has no POSITION"});
   // A packed primitive may come with plain data as well; without, its accessor would read as zeros.
   if (json["extensions"]["KHR_draco_mesh_compression"].exists() &&
       !input_.accessors->has_data(position.index().value_or(UINT64_MAX)))
     return fail({pointer, "is packed by KHR_draco_mesh_compression, which is not read"});
   const Checked<Accessor> opened = input_.accessors->open(position.index().value_or(UINT64_MAX));
-  if (const Fault* fault = fault_of(opened)) return fail(*fault);
+  if (const GltfFault* fault = fault_of(opened)) return fail(*fault);
   const auto& positions = std::get<Accessor>(opened);
   if (positions.width != 3) return fail({positions.pointer, "positions must be VEC3"});
   if (positions.count > std::numeric_limits<std::uint32_t>::max())
@@ -236,10 +237,10 @@ bool MeshLoader::primitive(const Json& json, const std::string& pointer) {
   return true;
 }
 
-LoadedMesh MeshLoader::load(const Json& mesh) {
+LoadedMesh MeshLoader::load(const JsonValue& mesh) {
   std::size_t index = 0;
   bool good = true;
-  mesh["primitives"].elements([&](const Json& json) {
+  mesh["primitives"].elements([&](const JsonValue& json) {
     if (good) good = primitive(json, fmt::format("{}/primitives/{}", pointer_, index++));
   });
   const bool empty = result_.opaque.triangles.empty() && result_.transparent.triangles.empty() &&
@@ -250,7 +251,7 @@ LoadedMesh MeshLoader::load(const Json& mesh) {
     broken.fault = std::move(result_.fault);
     return broken;
   }
-  result_.part_transparent = keep_solids_whole(result_.opaque, result_.transparent);
+  result_.part_transparent = merge_transparent_shells(result_.opaque, result_.transparent);
   result_.opaque_color = main_color(opaque_);
   result_.transparent_color = main_color(transparent_);
   result_.line_color = main_color(lines_);
@@ -261,9 +262,9 @@ std::uint8_t to_byte(double share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255));
 }
 
-model::Color color_of_material(const Json& material) {
+model::Color color_of_material(const JsonValue& material) {
   std::array<double, 4> factor{1, 1, 1, 1};
-  const Json glossiness =
+  const JsonValue glossiness =
       material["extensions"]["KHR_materials_pbrSpecularGlossiness"]["diffuseFactor"];
   if (!material["pbrMetallicRoughness"]["baseColorFactor"].numbers(factor.data(), 4) &&
       !glossiness.numbers(factor.data(), 4))
@@ -277,15 +278,15 @@ model::Color color_of_material(const Json& material) {
 
 }  // namespace
 
-LoadedMesh load_mesh(const MeshInput& input, const Json& mesh, std::size_t index) {
+LoadedMesh load_mesh(const MeshInput& input, const JsonValue& mesh, std::size_t index) {
   return MeshLoader(input, fmt::format("/meshes/{}", index)).load(mesh);
 }
 
-std::uint64_t stated_corners(const Accessors& accessors, const Json& mesh) {
+std::uint64_t stated_corners(const Accessors& accessors, const JsonValue& mesh) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;  // sums of these must not wrap
   std::uint64_t sum = 0;
-  mesh["primitives"].elements([&](const Json& json) {
-    const Json indices = json["indices"], position = json["attributes"]["POSITION"];
+  mesh["primitives"].elements([&](const JsonValue& json) {
+    const JsonValue indices = json["indices"], position = json["attributes"]["POSITION"];
     const std::uint64_t vertices = position.index().value_or(UINT64_MAX);
     const std::uint64_t counted =
         indices.exists() ? indices.index().value_or(UINT64_MAX) : vertices;
@@ -295,10 +296,10 @@ std::uint64_t stated_corners(const Accessors& accessors, const Json& mesh) {
   return sum;
 }
 
-std::vector<model::Color> material_colors(const Json& root) {
+std::vector<model::Color> material_colors(const JsonValue& root) {
   std::vector<model::Color> colors;
   root["materials"].elements(
-      [&](const Json& material) { colors.push_back(color_of_material(material)); });
+      [&](const JsonValue& material) { colors.push_back(color_of_material(material)); });
   return colors;
 }
 

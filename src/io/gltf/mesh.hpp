@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "io/gltf/accessor.hpp"
-#include "io/gltf/fault.hpp"
-#include "io/gltf/json.hpp"
-#include "io/source_frame.hpp"
+#include "io/gltf/json/json.hpp"
+#include "io/source/units_and_axes.hpp"
 #include "strake/geometry/mesh.hpp"
 #include "strake/model/model.hpp"
 
@@ -16,7 +15,7 @@ namespace strake::io::gltf {
 
 /// A mesh of the document as shapes: its opaque primitives are one, whatever their materials,
 /// because a solid cut along its colours would be no solid; so are its transparent ones, but for
-/// those that a solid does not close without (keep_solids_whole).
+/// those that a solid does not close without (merge_transparent_shells).
 struct LoadedMesh {
   geometry::TriangleMesh opaque, transparent;  ///< mm, z up
   geometry::Polylines lines;
@@ -27,8 +26,8 @@ struct LoadedMesh {
   bool part_transparent = false;  ///< some transparent faces are among the opaque
   /// Triangles and segments with a vertex that has no place or does not exist; they are not in it.
   std::uint64_t faces_left_out = 0, lines_left_out = 0;
-  std::optional<Fault> first_left_out;  ///< why, of the first such vertex
-  std::optional<Fault> fault;           ///< set: not to be used
+  std::optional<GltfFault> first_left_out;  ///< why, of the first such vertex
+  std::optional<GltfFault> fault;           ///< set: not to be used
 };
 
 struct MeshInput {
@@ -37,12 +36,13 @@ struct MeshInput {
   SourceFrame frame;
 };
 
-[[nodiscard]] LoadedMesh load_mesh(const MeshInput& input, const Json& mesh, std::size_t index);
+[[nodiscard]] LoadedMesh load_mesh(const MeshInput& input, const JsonValue& mesh,
+                                   std::size_t index);
 
 /// Corners that loading the mesh would put into memory, as the file states them.
-[[nodiscard]] std::uint64_t stated_corners(const Accessors& accessors, const Json& mesh);
+[[nodiscard]] std::uint64_t stated_corners(const Accessors& accessors, const JsonValue& mesh);
 
 /// The colours of all materials of a document.
-[[nodiscard]] std::vector<model::Color> material_colors(const Json& root);
+[[nodiscard]] std::vector<model::Color> material_colors(const JsonValue& root);
 
 }  // namespace strake::io::gltf

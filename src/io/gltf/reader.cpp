@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
-#include "io/file_content.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/import.hpp"
-#include "io/gltf/json.hpp"
-#include "io/reading.hpp"
+#include "io/gltf/json/json.hpp"
+#include "io/source/input_file.hpp"
+#include "io/source/reader_support.hpp"
 
 namespace strake::io {
 namespace {
@@ -32,8 +32,8 @@ bool is_understood(std::string_view extension) {
   });
 }
 
-Status check_extensions(const FileBytes& file, const gltf::Json& root) {
-  for (const gltf::Json& item : root["extensionsRequired"].items()) {
+Status check_extensions(const FileBytes& file, const gltf::JsonValue& root) {
+  for (const gltf::JsonValue& item : root["extensionsRequired"].items()) {
     const std::string name = item.text_value();
     if (is_understood(name)) continue;
     const bool packed = name.find("compression") != std::string::npos;
@@ -46,7 +46,7 @@ Status check_extensions(const FileBytes& file, const gltf::Json& root) {
   return {};
 }
 
-Status check_version(const FileBytes& file, const gltf::Json& root) {
+Status check_version(const FileBytes& file, const gltf::JsonValue& root) {
   const std::string place = fmt::format("{}, /asset/version", file.path.string());
   if (!root.is_object() || !root["asset"].is_object())
     return Error{ErrorCode::input, "is JSON but no glTF: it has no asset", file.path.string(),
@@ -85,7 +85,7 @@ class GltfReader final : public Reader {
       error.where = fmt::format("{}, {} of its JSON", file.path.string(), error.where);
       return error;
     }
-    const gltf::Json root = document->root();
+    const gltf::JsonValue root = document->root();
     if (const Status version = check_version(file, root); !version) return version.error();
     if (const Status known = check_extensions(file, root); !known) return known.error();
     return gltf::import_document({file, options, context}, *container, root);

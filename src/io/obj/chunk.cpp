@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/text_encoding.hpp"
+
 namespace strake::io::obj {
 namespace {
 
@@ -41,18 +43,18 @@ bool read_index(const char*& at, const char* end, std::int64_t& value) {
 
 class ChunkParser {
  public:
-  Chunk parse(std::string_view text);
+  ObjChunk parse(std::string_view text);
 
  private:
   void line(const char* at, const char* end);
   void vertex(const char* at, const char* end);
   void row(const char* at, const char* end, bool face);
   void statement(StatementKind kind, const char* at, const char* end);
-  void problem(Fault fault) { chunk_.problems.push_back({fault, chunk_.lines}); }
+  void problem(LineFault fault) { chunk_.problems.push_back({fault, chunk_.lines}); }
   std::pair<const char*, const char*> joined(const char* at, const char*& end, const char* text_end,
                                              std::uint64_t& extra);
 
-  Chunk chunk_;
+  ObjChunk chunk_;
   std::string joined_;  ///< a line put together from its continuations
 };
 
@@ -75,7 +77,7 @@ void ChunkParser::line(const char* at, const char* end) {
   if (word == "usemtl") return statement(StatementKind::material, at, end);
   if (word == "mtllib") return statement(StatementKind::library, at, end);
   if (word == "surf" || word == "curv") {
-    problem(Fault::curve_or_surface);
+    problem(LineFault::curve_or_surface);
     return statement(StatementKind::unread, end, end);
   }
   // Normals, texture coordinates, smoothing groups and display attributes say nothing about
@@ -94,7 +96,7 @@ void ChunkParser::vertex(const char* at, const char* end) {
   if (!good) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     point = {kNan, kNan, kNan};
-    problem(Fault::bad_vertex);
+    problem(LineFault::bad_vertex);
   }
   chunk_.vertices.push_back(point);
   chunk_.digits.push_back(digits);
@@ -102,7 +104,7 @@ void ChunkParser::vertex(const char* at, const char* end) {
 
 /// Face corners "7", "7/1", "7//3", "-1/-1/-1": the vertex index alone matters.
 void ChunkParser::row(const char* at, const char* end, bool face) {
-  Rows& rows = face ? chunk_.faces : chunk_.polylines;
+  CornerRows& rows = face ? chunk_.faces : chunk_.polylines;
   const std::size_t begin = rows.corners.size();
   bool good = true;
   for (skip_blanks(at, end); at != end && *at != '#'; skip_blanks(at, end)) {
@@ -118,20 +120,21 @@ void ChunkParser::row(const char* at, const char* end, bool face) {
   const std::size_t least = face ? 3 : 2;
   if (good && rows.corners.size() - begin < least) {
     rows.corners.resize(begin);
-    problem(face ? Fault::short_face : Fault::short_polyline);
+    problem(face ? LineFault::short_face : LineFault::short_polyline);
     return;
   }
   if (!good) {
     // An empty row marks the object that the line belongs to as damaged.
     rows.corners.resize(begin);
-    problem(face ? Fault::bad_face : Fault::bad_polyline);
+    problem(face ? LineFault::bad_face : LineFault::bad_polyline);
   }
   rows.end.push_back(static_cast<std::uint32_t>(rows.corners.size()));
   rows.line.push_back(static_cast<std::uint32_t>(chunk_.lines));
 }
 
 void ChunkParser::statement(StatementKind kind, const char* at, const char* end) {
-  const std::string_view text = trimmed(std::string_view(at, static_cast<std::size_t>(end - at)));
+  const std::string_view text =
+      trimmed(std::string_view(at, static_cast<std::size_t>(end - at)), kBlanks);
   chunk_.statements.push_back(
       {kind, std::string(text), chunk_.faces.size(), chunk_.polylines.size()});
 }
@@ -157,7 +160,7 @@ std::pair<const char*, const char*> ChunkParser::joined(const char* at, const ch
   return {joined_.data(), joined_.data() + joined_.size()};
 }
 
-Chunk ChunkParser::parse(std::string_view text) {
+ObjChunk ChunkParser::parse(std::string_view text) {
   // Typical lines are longer: this avoids most growth without asking for more than the text's size.
   chunk_.vertices.reserve(text.size() / 64);
   chunk_.digits.reserve(text.size() / 64);
@@ -199,6 +202,6 @@ std::vector<std::string_view> cut_chunks(std::string_view text, std::size_t size
   return chunks;
 }
 
-Chunk parse_chunk(std::string_view text) { return ChunkParser().parse(text); }
+ObjChunk parse_chunk(std::string_view text) { return ChunkParser().parse(text); }
 
 }  // namespace strake::io::obj

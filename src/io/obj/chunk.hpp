@@ -6,14 +6,14 @@
 #include <string_view>
 #include <vector>
 
-#include "io/text_number.hpp"
+#include "io/source/text_number.hpp"
 #include "strake/geometry/vec.hpp"
 
 namespace strake::io::obj {
 
 /// A vertex reference as written: absolute, or counted back from the last vertex so far, which a
 /// chunk knows only relative to its own first vertex.
-struct Corner {
+struct VertexReference {
   std::int64_t vertex = 0;
   bool chunk_relative = false;
 };
@@ -30,7 +30,7 @@ struct Statement {
 };
 
 /// What is wrong with a line of the file.
-enum class Fault : std::uint8_t {
+enum class LineFault : std::uint8_t {
   bad_vertex,        ///< `v` without three finite numbers
   bad_face,          ///< a corner that is not an index
   short_face,        ///< fewer than three corners
@@ -40,13 +40,13 @@ enum class Fault : std::uint8_t {
 };
 
 struct Problem {
-  Fault fault = Fault::bad_vertex;
+  LineFault fault = LineFault::bad_vertex;
   std::uint64_t line = 0;  ///< 0-based within the chunk
 };
 
 /// Rows of varying length: row i is values[end[i - 1] .. end[i]).
-struct Rows {
-  std::vector<Corner> corners;
+struct CornerRows {
+  std::vector<VertexReference> corners;
   std::vector<std::uint32_t> end;
   std::vector<std::uint32_t> line;  ///< where in the chunk each row stands, 0-based
 
@@ -57,11 +57,11 @@ struct Rows {
 };
 
 /// What one piece of the text says, read without knowing the pieces before it.
-struct Chunk {
+struct ObjChunk {
   std::vector<geometry::Vec3d> vertices;  ///< as written; a bad one is NaN, to keep the numbering
   std::vector<DigitStatistics> digits;    ///< per vertex
-  Rows faces;
-  Rows polylines;
+  CornerRows faces;
+  CornerRows polylines;
   std::vector<Statement> statements;
   std::vector<Problem> problems;
   std::uint64_t lines = 0;
@@ -72,6 +72,6 @@ struct Chunk {
 /// The cuts depend on the text and the size alone.
 [[nodiscard]] std::vector<std::string_view> cut_chunks(std::string_view text, std::size_t size);
 
-[[nodiscard]] Chunk parse_chunk(std::string_view text);
+[[nodiscard]] ObjChunk parse_chunk(std::string_view text);
 
 }  // namespace strake::io::obj

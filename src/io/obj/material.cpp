@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "io/file_content.hpp"
-#include "io/nearby_file.hpp"
-#include "io/text_number.hpp"
+#include "core/text_encoding.hpp"
+#include "io/source/input_file.hpp"
+#include "io/source/text_number.hpp"
 
 namespace strake::io::obj {
 namespace {
@@ -46,7 +46,7 @@ void apply(std::string_view word, std::string_view rest, model::Color& color) {
 
 void load_library(std::string_view name, const std::filesystem::path& obj_path,
                   Materials& materials, Diagnostics& diagnostics) {
-  const std::optional<std::filesystem::path> path = nearby_path(obj_path, name);
+  const std::optional<std::filesystem::path> path = safe_relative_path(obj_path, name);
   if (!path) {
     diagnostics.add(Severity::warning, "obj-material-library-refused",
                     "material library '" + std::string(name) +
@@ -71,10 +71,11 @@ void parse_materials(std::string_view text, Materials& materials) {
   Materials::iterator current = materials.end();
   while (!text.empty()) {
     const std::size_t length = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, length));
+    const std::string_view line = trimmed(text.substr(0, length), kBlanks);
     text.remove_prefix(std::min(length + 1, text.size()));
     const std::size_t space = std::min(line.find_first_of(" \t"), line.size());
-    const std::string_view word = line.substr(0, space), rest = trimmed(line.substr(space));
+    const std::string_view word = line.substr(0, space),
+                           rest = trimmed(line.substr(space), kBlanks);
     if (word == "newmtl") {
       const auto [place, is_new] = materials.try_emplace(std::string(rest));
       current = is_new ? place : materials.end();
@@ -88,7 +89,7 @@ void load_materials(std::string_view names, const std::filesystem::path& obj_pat
                     Materials& materials, Diagnostics& diagnostics) {
   // Names with blanks are common, lists of names as well: the whole line is a name if such a file
   // exists.
-  const std::optional<std::filesystem::path> whole = nearby_path(obj_path, names);
+  const std::optional<std::filesystem::path> whole = safe_relative_path(obj_path, names);
   std::error_code failed;
   const bool single = names.find_first_of(" \t") == std::string_view::npos ||
                       (whole && std::filesystem::is_regular_file(*whole, failed));
@@ -96,7 +97,7 @@ void load_materials(std::string_view names, const std::filesystem::path& obj_pat
   while (!names.empty()) {
     const std::size_t length = std::min(names.find_first_of(" \t"), names.size());
     load_library(names.substr(0, length), obj_path, materials, diagnostics);
-    names = trimmed(names.substr(length));
+    names = trimmed(names.substr(length), kBlanks);
   }
 }
 

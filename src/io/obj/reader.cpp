@@ -9,14 +9,14 @@
 #include <limits>
 #include <utility>
 
-#include "io/file_content.hpp"
-#include "io/obj/assembly.hpp"
-#include "io/obj/builder.hpp"
+#include "core/text_encoding.hpp"
+#include "io/mesh/transparent_shells.hpp"
 #include "io/obj/chunk.hpp"
 #include "io/obj/material.hpp"
-#include "io/reading.hpp"
-#include "io/source_frame.hpp"
-#include "io/whole_solids.hpp"
+#include "io/obj/object_builder.hpp"
+#include "io/source/input_file.hpp"
+#include "io/source/reader_support.hpp"
+#include "io/source/units_and_axes.hpp"
 #include "strake/parallel/for_each.hpp"
 
 namespace strake::io {
@@ -33,20 +33,20 @@ struct FaultText {
   const char* message;
 };
 
-FaultText fault_text(obj::Fault fault) {
+FaultText fault_text(obj::LineFault fault) {
   switch (fault) {
-    case obj::Fault::bad_vertex:
+    case obj::LineFault::bad_vertex:
       return {"obj-bad-vertex",
               "a vertex needs three finite numbers; faces and lines that use it are left out"};
-    case obj::Fault::bad_face:
+    case obj::LineFault::bad_face:
       return {"obj-bad-face", "a face corner is no vertex index; the face is left out"};
-    case obj::Fault::short_face:
+    case obj::LineFault::short_face:
       return {"obj-short-face", "a face with fewer than three corners has no area and is left out"};
-    case obj::Fault::bad_polyline:
+    case obj::LineFault::bad_polyline:
       return {"obj-bad-line", "a line point is no vertex index; the line is left out"};
-    case obj::Fault::short_polyline:
+    case obj::LineFault::short_polyline:
       return {"obj-short-line", "a line with fewer than two points is left out"};
-    case obj::Fault::curve_or_surface:
+    case obj::LineFault::curve_or_surface:
       return {"obj-free-form", "a free-form curve or surface is not read: export polygons"};
   }
   return {"obj-fault", "the line is not understood"};
@@ -69,14 +69,14 @@ class ObjReading {
   Status gather_vertices();
   [[nodiscard]] std::vector<model::Color> material_colors();
   Status build(std::vector<obj::BuiltObject>& built, std::span<const model::Color> colors);
-  void add(const obj::Entry& entry, obj::BuiltObject&& built);
-  model::GroupId group(const obj::Entry& entry);
+  void add(const obj::ObjElement& entry, obj::BuiltObject&& built);
+  model::GroupId group(const obj::ObjElement& entry);
 
   const FileBytes& file_;
   const parallel::Context& context_;
   SourceFrame frame_;
-  std::vector<obj::Chunk> chunks_;
-  obj::Assembly assembly_;
+  std::vector<obj::ObjChunk> chunks_;
+  obj::ObjAssembly assembly_;
   std::vector<Vec3d> vertices_;
   std::vector<DigitStatistics> digits_;  ///< per vertex
   model::Model model_;
@@ -106,7 +106,7 @@ void ObjReading::report_problems() {
   for (std::size_t i = 0; i < chunks_.size(); ++i)
     for (const obj::Problem& problem : chunks_[i].problems) {
       const FaultText text = fault_text(problem.fault);
-      const bool skipped = problem.fault == obj::Fault::curve_or_surface;
+      const bool skipped = problem.fault == obj::LineFault::curve_or_surface;
       model_.diagnostics.add(
           skipped ? Severity::skipped : Severity::warning, text.code, text.message,
           fmt::format("{}:{}", file_.path.string(), assembly_.line_base[i] + problem.line + 1));
@@ -158,7 +158,7 @@ Status ObjReading::build(std::vector<obj::BuiltObject>& built,
       [&](std::size_t i) { built[i] = obj::build_object(input, assembly_.entries[i]); });
 }
 
-model::GroupId ObjReading::group(const obj::Entry& entry) {
+model::GroupId ObjReading::group(const obj::ObjElement& entry) {
   if (entry.object == 0 || entry.object_name.empty() || entry.group_name.empty())
     return model::GroupId::none;
   if (last_object_ != entry.object) {
@@ -168,7 +168,7 @@ model::GroupId ObjReading::group(const obj::Entry& entry) {
   return static_cast<model::GroupId>(model_.groups.size() - 1);
 }
 
-void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
+void ObjReading::add(const obj::ObjElement& entry, obj::BuiltObject&& built) {
   model::Object object;
   object.name = !entry.group_name.empty()    ? entry.group_name
                 : !entry.object_name.empty() ? entry.object_name
@@ -199,7 +199,7 @@ void ObjReading::add(const obj::Entry& entry, obj::BuiltObject&& built) {
             built.crossing_faces, object.name),
         file_.path.string());
   if (built.part_transparent)
-    note_whole_solid(model_, fmt::format("{}: {}", file_.path.string(), object.name));
+    note_merged_shell(model_, fmt::format("{}: {}", file_.path.string(), object.name));
   const double half_spacing_mm =
       frame_.unit_mm * text_half_spacing(built.digits, built.largest_mm / frame_.unit_mm);
   if (!built.opaque.triangles.empty())
@@ -233,7 +233,7 @@ int obj_likeness(std::string_view text) {
   text = text.substr(0, 4096);
   while (!text.empty()) {
     const std::size_t length = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, length));
+    const std::string_view line = trimmed(text.substr(0, length), kBlanks);
     text.remove_prefix(std::min(length + 1, text.size()));
     if (line.empty() || line.front() == '#') continue;
     const std::string_view word = line.substr(0, std::min(line.find_first_of(" \t"), line.size()));

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "io/placed_shape.hpp"
+#include "io/mesh/tessellated_shapes.hpp"
 #include "strake/core/atomic_file.hpp"
 
 namespace strake::io {
@@ -36,7 +36,7 @@ class ObjText {
   void chains(const geometry::Polylines& lines, std::string& out) const;
 
   const model::Model& model_;
-  ShapeTable shapes_;
+  TessellationCache shapes_;
   std::uint64_t written_ = 0;  ///< vertices of the whole file before those of the current body
 };
 
@@ -70,7 +70,7 @@ void ObjText::chains(const geometry::Polylines& lines, std::string& out) const {
 bool ObjText::object(const model::Object& object, std::string& out) {
   fmt::format_to(std::back_inserter(out), "o {}\n", one_line(object.id));
   for (std::uint32_t i = 0; i < object.body_count; ++i) {
-    const PlacedShape shape = shapes_.place(model_.bodies[object.first_body + i]);
+    const TessellatedShape shape = shapes_.place(model_.bodies[object.first_body + i]);
     if (shape.mesh != nullptr) {
       if (!vertices(shape.mesh->vertices, shape.placement, out)) return false;
       faces(*shape.mesh, shape.placement.linear.determinant() < 0, out);

@@ -9,19 +9,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "io/file_content.hpp"
-#include "strake/core/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
+#include "core/text_encoding.hpp"
+#include "io/source/input_file.hpp"
 
 namespace strake::io::rvm {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\f\v";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 std::string lower(std::string text) {
   for (char& c : text)
@@ -33,7 +27,7 @@ std::string_view next_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   const std::string_view line = text.substr(0, end);
   text.remove_prefix(std::min(end + 1, text.size()));
-  return trimmed(line);
+  return trimmed(line, kLineBlanks);
 }
 
 /// The words that structure the file, as its first line declares them.
@@ -50,8 +44,8 @@ std::optional<Tokens> parse_first_line(std::string_view line) {
     line.remove_prefix(std::min(comma + 1, line.size()));
     const std::size_t colon = field.find(':');
     if (colon == std::string_view::npos) continue;
-    const std::string_view key = trimmed(field.substr(0, colon));
-    const std::string_view value = trimmed(field.substr(colon + 1));
+    const std::string_view key = trimmed(field.substr(0, colon), kLineBlanks);
+    const std::string_view value = trimmed(field.substr(colon + 1), kLineBlanks);
     if (value.empty()) continue;
     if (key == "start") tokens.start = value;
     if (key == "end") tokens.end = value;
@@ -101,7 +95,7 @@ class AttributeParser {
     line.remove_prefix(tokens_.start.size());
     if (!line.empty() && line.front() != ' ' && line.front() != '\t') return std::nullopt;
     if (line.find(tokens_.name_end) != std::string_view::npos) return std::nullopt;
-    return trimmed(line);
+    return trimmed(line, kLineBlanks);
   }
 
   void values(std::string_view line) {
@@ -116,8 +110,8 @@ class AttributeParser {
       // Outside any element, or inside the header block: nobody's attributes.
       if (open_.empty() || open_.back() == kNoGroup) continue;
       file_.nodes[open_.back()].values.emplace_back(
-          trimmed(entry.substr(0, split)),
-          unquoted(trimmed(entry.substr(split + tokens_.name_end.size()))));
+          trimmed(entry.substr(0, split), kLineBlanks),
+          unquoted(trimmed(entry.substr(split + tokens_.name_end.size()), kLineBlanks)));
     }
     if (!any) ++file_.unreadable_lines;
   }
@@ -152,7 +146,7 @@ std::string keyed(std::uint32_t parent, std::string_view name) {
 }
 
 /// Which attribute node each group is, kNoGroup for none.
-std::vector<std::uint32_t> match(const Built& built, const std::vector<std::string>& names,
+std::vector<std::uint32_t> match(const RvmModel& built, const std::vector<std::string>& names,
                                  const AttributeFile& file) {
   NameIndex by_path, by_name, groups;
   for (std::uint32_t n = 0; n < file.nodes.size(); ++n) {
@@ -212,7 +206,7 @@ std::optional<std::filesystem::path> find_attribute_file(const std::filesystem::
   return std::min_element(found.begin(), found.end())->second;
 }
 
-void attach_attributes(Built& built, const AttributeFile& file, const TextDecoder& decode,
+void attach_attributes(RvmModel& built, const AttributeFile& file, const TextDecoder& decode,
                        std::string_view where, Diagnostics& diagnostics) {
   std::vector<std::string> names;
   names.reserve(file.nodes.size());

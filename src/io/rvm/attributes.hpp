@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/encoding.hpp"
 #include "io/rvm/builder.hpp"
+#include "io/source/text_decoder.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
@@ -44,7 +44,7 @@ struct AttributeFile {
 /// Gives the objects, and the groups that hold others, the attributes of the elements they are, by
 /// path from the root where that matches, otherwise by a name that occurs once on both sides; an
 /// ambiguous name matches nothing. What stays without a partner is counted in a note.
-void attach_attributes(Built& built, const AttributeFile& file, const TextDecoder& decode,
+void attach_attributes(RvmModel& built, const AttributeFile& file, const TextDecoder& decode,
                        std::string_view where, Diagnostics& diagnostics);
 
 /// The reference number of an element ("=16821/2"), which survives renaming; empty when absent or

@@ -17,9 +17,9 @@ using Bytes = std::span<const std::byte>;
 
 /// Reads big-endian values from a span and never past its end: a read that does not fit gives
 /// zero and leaves the cursor failed, so that a body is read first and judged once.
-class Cursor {
+class BigEndianCursor {
  public:
-  explicit Cursor(Bytes bytes, std::size_t at = 0) : bytes_(bytes), at_(at) {
+  explicit BigEndianCursor(Bytes bytes, std::size_t at = 0) : bytes_(bytes), at_(at) {
     if (at_ > bytes_.size()) fail();
   }
 

@@ -11,7 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "io/rvm/facets.hpp"
+#include "io/rvm/facet_group.hpp"
 
 namespace strake::io::rvm {
 
@@ -22,7 +22,7 @@ constexpr std::size_t kFrameBytes = 24;  // id, next, an unused word
 constexpr std::size_t kHeadSearch = 65536;
 constexpr std::size_t kDeepest = 10000;
 
-enum class Chunk { head, modl, cntb, cnte, prim, obst, insu, colr, end, unknown };
+enum class ChunkId { head, modl, cntb, cnte, prim, obst, insu, colr, end, unknown };
 
 constexpr std::uint32_t pack(std::string_view id) {
   std::uint32_t packed = 0;
@@ -48,40 +48,40 @@ std::string letters(std::uint32_t id) {
           static_cast<char>(id >> 8 & 0xFFU), static_cast<char>(id & 0xFFU)};
 }
 
-Chunk chunk_at(Bytes bytes, std::size_t at) {
+ChunkId chunk_at(Bytes bytes, std::size_t at) {
   switch (id_at(bytes, at)) {
     case pack("HEAD"):
-      return Chunk::head;
+      return ChunkId::head;
     case pack("MODL"):
-      return Chunk::modl;
+      return ChunkId::modl;
     case pack("CNTB"):
-      return Chunk::cntb;
+      return ChunkId::cntb;
     case pack("CNTE"):
-      return Chunk::cnte;
+      return ChunkId::cnte;
     case pack("PRIM"):
-      return Chunk::prim;
+      return ChunkId::prim;
     case pack("OBST"):
-      return Chunk::obst;
+      return ChunkId::obst;
     case pack("INSU"):
-      return Chunk::insu;
+      return ChunkId::insu;
     case pack("COLR"):
-      return Chunk::colr;
+      return ChunkId::colr;
     case pack("END:"):
-      return Chunk::end;
+      return ChunkId::end;
     default:
-      return Chunk::unknown;
+      return ChunkId::unknown;
   }
 }
 
 /// Whether a model lacks geometry, or the group that it belongs to, without the chunk.
-bool holds_geometry(Chunk chunk) {
-  return chunk != Chunk::head && chunk != Chunk::modl && chunk != Chunk::colr;
+bool holds_geometry(ChunkId chunk) {
+  return chunk != ChunkId::head && chunk != ChunkId::modl && chunk != ChunkId::colr;
 }
 
 class BinaryReader {
  public:
-  BinaryReader(Bytes bytes, const std::optional<TextDecoder>& stated, Builder& builder, Log& log,
-               FileHead& head)
+  BinaryReader(Bytes bytes, const std::optional<TextDecoder>& stated, RvmBuilder& builder,
+               DiagnosticLog& log, FileHead& head)
       : bytes_(bytes), builder_(&builder), log_(&log), head_(&head) {
     // A stated encoding aside, the field of HEAD adds nothing: names are taken as UTF-8 where
     // they are, as Windows-1252 otherwise, which also covers files that state one and hold the
@@ -94,13 +94,13 @@ class BinaryReader {
  private:
   void note_truncation();
   void read_chunk();
-  [[nodiscard]] bool read_body(Chunk chunk, Cursor& in);
-  [[nodiscard]] bool read_head(Cursor& in);
-  [[nodiscard]] bool read_model(Cursor& in);
-  [[nodiscard]] bool read_group(Cursor& in);
-  [[nodiscard]] bool read_color(Cursor& in);
-  [[nodiscard]] bool read_primitive(Chunk chunk, Cursor& in);
-  void read_category(PrimitiveChunk& primitive, Cursor& in);
+  [[nodiscard]] bool read_body(ChunkId chunk, BigEndianCursor& in);
+  [[nodiscard]] bool read_head(BigEndianCursor& in);
+  [[nodiscard]] bool read_model(BigEndianCursor& in);
+  [[nodiscard]] bool read_group(BigEndianCursor& in);
+  [[nodiscard]] bool read_color(BigEndianCursor& in);
+  [[nodiscard]] bool read_primitive(ChunkId chunk, BigEndianCursor& in);
+  void read_category(PrimitiveChunk& primitive, BigEndianCursor& in);
   [[nodiscard]] std::optional<std::size_t> next_of(std::size_t at) const;
   void skip_unknown(std::optional<std::size_t> next);
   void leave_chunk(std::size_t body_end, std::optional<std::size_t> next);
@@ -109,8 +109,8 @@ class BinaryReader {
 
   Bytes bytes_;
   TextDecoder decode_;
-  Builder* builder_;
-  Log* log_;
+  RvmBuilder* builder_;
+  DiagnosticLog* log_;
   FileHead* head_;
   std::size_t at_ = 0;
   bool ended_ = false;
@@ -156,21 +156,21 @@ void BinaryReader::note_truncation() {
 }
 
 void BinaryReader::read_chunk() {
-  const Chunk chunk = chunk_at(bytes_, at_);
+  const ChunkId chunk = chunk_at(bytes_, at_);
   const auto next = next_of(at_);
-  if (chunk == Chunk::unknown) {
+  if (chunk == ChunkId::unknown) {
     skip_unknown(next);
     return;
   }
-  if (chunk == Chunk::end) {
+  if (chunk == ChunkId::end) {
     ended_ = true;
     return;
   }
   // A chunk must not be read beyond the next one, whatever its counts say: not in a file that
   // states where that is, nor in one that does not, where each chunk might claim all that follows.
-  bounded_ = next && chunk_at(bytes_, *next) != Chunk::unknown;
+  bounded_ = next && chunk_at(bytes_, *next) != ChunkId::unknown;
   const std::size_t end = bounded_ ? *next : next_chunk(at_ + kIdBytes);
-  Cursor in(bytes_.first(end), at_ + kFrameBytes);
+  BigEndianCursor in(bytes_.first(end), at_ + kFrameBytes);
   if (read_body(chunk, in)) {
     leave_chunk(in.at(), next);
     return;
@@ -192,10 +192,10 @@ void BinaryReader::leave_chunk(std::size_t body_end, std::optional<std::size_t> 
     at_ = body_end;
     return;
   }
-  if (chunk_at(bytes_, body_end) != Chunk::unknown) {
+  if (chunk_at(bytes_, body_end) != ChunkId::unknown) {
     log_->warn("rvm-stale-address", "the stated address of the next chunk is wrong", at_);
     at_ = body_end;
-  } else if (next && *next > body_end && chunk_at(bytes_, *next) != Chunk::unknown) {
+  } else if (next && *next > body_end && chunk_at(bytes_, *next) != ChunkId::unknown) {
     log_->warn("rvm-extra-bytes",
                fmt::format("{} bytes more than expected in a chunk", *next - body_end), at_);
     at_ = *next;
@@ -206,7 +206,7 @@ void BinaryReader::leave_chunk(std::size_t body_end, std::optional<std::size_t> 
 
 void BinaryReader::skip_unknown(std::optional<std::size_t> next) {
   const std::uint32_t id = id_at(bytes_, at_);
-  if (id == 0 || !next || chunk_at(bytes_, *next) == Chunk::unknown) {
+  if (id == 0 || !next || chunk_at(bytes_, *next) == ChunkId::unknown) {
     resynchronise(at_);
     return;
   }
@@ -222,7 +222,7 @@ std::size_t BinaryReader::next_chunk(std::size_t from) const {
   for (std::size_t at = from; at + kFrameBytes <= bytes_.size(); ++at) {
     // The first word of an id: three zero bytes and a capital letter.
     if (bytes_[at] != std::byte{0} || bytes_[at + 3] < std::byte{'A'}) continue;
-    if (chunk_at(bytes_, at) != Chunk::unknown) return at;
+    if (chunk_at(bytes_, at) != ChunkId::unknown) return at;
   }
   return bytes_.size();
 }
@@ -235,15 +235,15 @@ void BinaryReader::resynchronise(std::size_t from) {
   at_ = found;
 }
 
-bool BinaryReader::read_body(Chunk chunk, Cursor& in) {
+bool BinaryReader::read_body(ChunkId chunk, BigEndianCursor& in) {
   switch (chunk) {
-    case Chunk::head:
+    case ChunkId::head:
       return read_head(in);
-    case Chunk::modl:
+    case ChunkId::modl:
       return read_model(in);
-    case Chunk::cntb:
+    case ChunkId::cntb:
       return read_group(in);
-    case Chunk::cnte:
+    case ChunkId::cnte:
       in.skip(4);
       if (in.failed()) return false;
       if (flattened_ > 0)
@@ -251,20 +251,20 @@ bool BinaryReader::read_body(Chunk chunk, Cursor& in) {
       else if (!builder_->end_group())
         log_->warn("rvm-stray-end", "a CNTE chunk closes no group", at_);
       return true;
-    case Chunk::colr:
+    case ChunkId::colr:
       return read_color(in);
-    case Chunk::prim:
-    case Chunk::obst:
-    case Chunk::insu:
+    case ChunkId::prim:
+    case ChunkId::obst:
+    case ChunkId::insu:
       return read_primitive(chunk, in);
-    case Chunk::end:
-    case Chunk::unknown:
+    case ChunkId::end:
+    case ChunkId::unknown:
       break;
   }
   return false;
 }
 
-bool BinaryReader::read_head(Cursor& in) {
+bool BinaryReader::read_head(BigEndianCursor& in) {
   FileHead head;
   head.version = in.u32();
   std::array<Bytes, 4> fields;
@@ -283,7 +283,7 @@ bool BinaryReader::read_head(Cursor& in) {
   return true;
 }
 
-bool BinaryReader::read_model(Cursor& in) {
+bool BinaryReader::read_model(BigEndianCursor& in) {
   in.skip(4);
   const Bytes project = in.string(), name = in.string();
   if (in.failed()) return false;
@@ -293,7 +293,7 @@ bool BinaryReader::read_model(Cursor& in) {
   return true;
 }
 
-bool BinaryReader::read_group(Cursor& in) {
+bool BinaryReader::read_group(BigEndianCursor& in) {
   const std::uint32_t version = in.u32();
   const Bytes name = in.string();
   in.skip(12);  // a reference point, informative only
@@ -317,7 +317,7 @@ bool BinaryReader::read_group(Cursor& in) {
   return true;
 }
 
-bool BinaryReader::read_color(Cursor& in) {
+bool BinaryReader::read_color(BigEndianCursor& in) {
   in.skip(4);
   const std::uint32_t index = in.u32();
   const std::uint8_t red = in.u8(), green = in.u8(), blue = in.u8();
@@ -329,11 +329,11 @@ bool BinaryReader::read_color(Cursor& in) {
 
 /// Obstruction and insulation volumes carry one more word, whose place the known readers do not
 /// agree about: it is taken after the box unless only the other place makes the matrix a frame.
-void BinaryReader::read_category(PrimitiveChunk& primitive, Cursor& in) {
-  const auto read_floats = [](Cursor& cursor, auto& values) {
+void BinaryReader::read_category(PrimitiveChunk& primitive, BigEndianCursor& in) {
+  const auto read_floats = [](BigEndianCursor& cursor, auto& values) {
     for (float& value : values) value = cursor.f32();
   };
-  Cursor shifted = in;
+  BigEndianCursor shifted = in;
   read_floats(in, primitive.matrix);
   read_floats(in, primitive.box);
   if (primitive.category == model::Category::physical) return;
@@ -351,17 +351,17 @@ void BinaryReader::read_category(PrimitiveChunk& primitive, Cursor& in) {
   in = shifted;
 }
 
-bool BinaryReader::read_primitive(Chunk chunk, Cursor& in) {
+bool BinaryReader::read_primitive(ChunkId chunk, BigEndianCursor& in) {
   PrimitiveChunk primitive;
   primitive.offset = at_;
-  if (chunk == Chunk::obst) primitive.category = model::Category::obstruction;
-  if (chunk == Chunk::insu) primitive.category = model::Category::insulation;
+  if (chunk == ChunkId::obst) primitive.category = model::Category::obstruction;
+  if (chunk == ChunkId::insu) primitive.category = model::Category::insulation;
   in.skip(4);
   primitive.kind = in.u32();
   read_category(primitive, in);
   if (in.failed()) return false;
   if (primitive.kind == kFacetKind) {
-    const auto facets = take_facets(in, bytes_);
+    const auto facets = take_facet_bytes(in, bytes_);
     if (!facets) return false;
     primitive.parameters = *facets;
   } else {
@@ -384,7 +384,7 @@ bool BinaryReader::read_primitive(Chunk chunk, Cursor& in) {
 
 std::optional<std::size_t> find_head(Bytes bytes) {
   for (std::size_t at = 0; at + kFrameBytes <= bytes.size() && at < kHeadSearch; ++at)
-    if (bytes[at] == std::byte{0} && chunk_at(bytes, at) == Chunk::head) return at;
+    if (bytes[at] == std::byte{0} && chunk_at(bytes, at) == ChunkId::head) return at;
   return std::nullopt;
 }
 
@@ -395,7 +395,8 @@ bool is_byte_swapped(Bytes bytes) {
 }
 
 FileRead read_binary(Bytes bytes, const std::optional<TextDecoder>& stated_encoding,
-                     Builder& builder, Log& log, FileHead& head, const parallel::Context& context) {
+                     RvmBuilder& builder, DiagnosticLog& log, FileHead& head,
+                     const parallel::Context& context) {
   return BinaryReader(bytes, stated_encoding, builder, log, head).read(context);
 }
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "io/encoding.hpp"
 #include "io/rvm/big_endian.hpp"
 #include "io/rvm/builder.hpp"
-#include "io/rvm/log.hpp"
+#include "io/rvm/diagnostic_log.hpp"
+#include "io/source/text_decoder.hpp"
 #include "strake/parallel/context.hpp"
 
 namespace strake::io::rvm {
@@ -38,7 +38,7 @@ struct FileRead {
 /// A damaged chunk is skipped with a diagnostic and reading goes on at the next place where a
 /// chunk id stands; nesting is kept on a stack of our own.
 [[nodiscard]] FileRead read_binary(Bytes bytes, const std::optional<TextDecoder>& stated_encoding,
-                                   Builder& builder, Log& log, FileHead& head,
+                                   RvmBuilder& builder, DiagnosticLog& log, FileHead& head,
                                    const parallel::Context& context);
 
 }  // namespace strake::io::rvm

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "io/precision.hpp"
-#include "io/rvm/facets.hpp"
+#include "io/rvm/facet_group.hpp"
+#include "io/source/precision.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::io::rvm {
@@ -20,7 +20,7 @@ std::string_view as_key(Bytes bytes) {
 }
 
 /// Told of what is missing, and of what has no area and therefore is not.
-void tell_facets(Log& log, const FacetMesh& facets, std::uint64_t offset) {
+void tell_facets(DiagnosticLog& log, const FacetMesh& facets, std::uint64_t offset) {
   std::string lost, empty;
   const auto add = [](std::string& text, std::uint32_t count, std::string_view what) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
@@ -41,7 +41,7 @@ void tell_facets(Log& log, const FacetMesh& facets, std::uint64_t offset) {
 
 float largest_parameter(const PrimitiveChunk& chunk) {
   float largest = 0;
-  Cursor in(chunk.parameters);
+  BigEndianCursor in(chunk.parameters);
   for (std::size_t k = 0; k < parameter_count(chunk.kind); ++k)
     largest = std::max(largest, std::fabs(in.f32()));
   return largest;
@@ -49,8 +49,8 @@ float largest_parameter(const PrimitiveChunk& chunk) {
 
 }  // namespace
 
-void Builder::begin_group(std::string name, std::uint32_t material, std::uint8_t transparency,
-                          std::uint64_t offset) {
+void RvmBuilder::begin_group(std::string name, std::uint32_t material, std::uint8_t transparency,
+                             std::uint64_t offset) {
   const std::uint32_t parent = open_.empty() ? kNoGroup : open_.back();
   if (transparency == 0 && parent != kNoGroup) transparency = groups_[parent].transparency;
   open_.push_back(static_cast<std::uint32_t>(groups_.size()));
@@ -58,13 +58,13 @@ void Builder::begin_group(std::string name, std::uint32_t material, std::uint8_t
   names_.push_back({std::move(name), static_cast<model::GroupId>(parent)});
 }
 
-bool Builder::end_group() {
+bool RvmBuilder::end_group() {
   if (open_.empty()) return false;
   open_.pop_back();
   return true;
 }
 
-void Builder::add(const PrimitiveChunk& chunk) {
+void RvmBuilder::add(const PrimitiveChunk& chunk) {
   // Nothing is built from it but the length of some lines, which then is missing and told.
   if (!std::ranges::all_of(chunk.box, [](float v) { return std::isfinite(v); }))
     log_->warn("rvm-nonfinite-box",
@@ -90,7 +90,7 @@ void Builder::add(const PrimitiveChunk& chunk) {
   record.body.precision_um = io::precision_um(origin_half_spacing_mm(chunk));
 }
 
-void Builder::note_loss(std::uint64_t offset) {
+void RvmBuilder::note_loss(std::uint64_t offset) {
   bool& told = open_.empty() ? lost_outside_ : groups_[open_.back()].lost;
   if (told) return;
   told = true;
@@ -100,20 +100,20 @@ void Builder::note_loss(std::uint64_t offset) {
   record.dropped = record.incomplete = true;
 }
 
-double Builder::origin_half_spacing_mm(const PrimitiveChunk& chunk) const {
+double RvmBuilder::origin_half_spacing_mm(const PrimitiveChunk& chunk) const {
   float largest = 0;
   for (std::size_t k = 9; k < 12; ++k) largest = std::max(largest, std::fabs(chunk.matrix[k]));
   return float32_half_spacing(static_cast<double>(largest)) * frame_.unit_mm;
 }
 
 /// The worse of what its origin says, which it has already, and what its shape's numbers say.
-float Builder::precision_um(const model::Body& body) const {
+float RvmBuilder::precision_um(const model::Body& body) const {
   const auto largest = static_cast<double>(largest_[model::index(body.shape)]);
   return std::max(body.precision_um, io::precision_um(float32_half_spacing(largest) *
                                                       scale_of(body.placement.linear)));
 }
 
-std::optional<model::ShapeId> Builder::shape_of(const PrimitiveChunk& chunk) {
+std::optional<model::ShapeId> RvmBuilder::shape_of(const PrimitiveChunk& chunk) {
   if (chunk.kind == kFacetKind) return facet_shape(chunk);
   auto& known = known_[chunk.kind];
   // The length of a line may stand in its box, which is no part of the key: lines are not shared.
@@ -136,7 +136,8 @@ std::optional<model::ShapeId> Builder::shape_of(const PrimitiveChunk& chunk) {
   return id;
 }
 
-void Builder::check_stored_box(const PrimitiveChunk& chunk, const geometry::Primitive& primitive) {
+void RvmBuilder::check_stored_box(const PrimitiveChunk& chunk,
+                                  const geometry::Primitive& primitive) {
   const auto* dish = std::get_if<geometry::SphericalDishPrimitive>(&primitive);
   if (dish == nullptr || dish->height > dish->radius) return;
   const double stored = static_cast<double>(chunk.box[3]);
@@ -148,7 +149,7 @@ void Builder::check_stored_box(const PrimitiveChunk& chunk, const geometry::Prim
              chunk.offset);
 }
 
-model::ShapeId Builder::facet_shape(const PrimitiveChunk& chunk) {
+model::ShapeId RvmBuilder::facet_shape(const PrimitiveChunk& chunk) {
   const auto id = static_cast<model::ShapeId>(shapes_.size());
   const auto [at, added] = known_[kFacetKind].emplace(as_key(chunk.parameters), id);
   if (added) {
@@ -159,11 +160,11 @@ model::ShapeId Builder::facet_shape(const PrimitiveChunk& chunk) {
   return at->second;
 }
 
-Result<std::vector<Builder::Facets>> Builder::triangulate(const parallel::Context& context) {
+Result<std::vector<RvmBuilder::Facets>> RvmBuilder::triangulate(const parallel::Context& context) {
   std::vector<Facets> facets(shapes_.size(), Facets::complete);
   auto meshes = parallel::transform(
       context, {.name = "triangulate RVM facet groups", .n = facets_.size(), .grain = 8},
-      [&](std::size_t i) { return build_facets(facets_[i].payload); });
+      [&](std::size_t i) { return triangulate_facets(facets_[i].payload); });
   if (!meshes) return meshes.error();
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     FacetMesh& built = (*meshes)[i];
@@ -177,7 +178,7 @@ Result<std::vector<Builder::Facets>> Builder::triangulate(const parallel::Contex
   return facets;
 }
 
-void Builder::note_facets(const std::vector<Facets>& facets) {
+void RvmBuilder::note_facets(const std::vector<Facets>& facets) {
   for (BodyRecord& record : bodies_) {
     if (record.dropped) continue;
     const Facets there = facets[model::index(record.body.shape)];
@@ -188,7 +189,7 @@ void Builder::note_facets(const std::vector<Facets>& facets) {
   }
 }
 
-model::Color Builder::color_of(const BodyRecord& record) {
+model::Color RvmBuilder::color_of(const BodyRecord& record) {
   const bool grouped = record.group != kNoGroup;
   const std::uint32_t material = grouped ? groups_[record.group].material : 0;
   auto color = palette_.find(material);
@@ -207,7 +208,7 @@ model::Color Builder::color_of(const BodyRecord& record) {
   return *color;
 }
 
-void Builder::emit_objects(Built& built) {
+void RvmBuilder::emit_objects(RvmModel& built) {
   // The bodies of a group keep the order of the file, before and after child groups alike; those
   // outside any group come first.
   std::sort(bodies_.begin(), bodies_.end(), [](const BodyRecord& a, const BodyRecord& b) {
@@ -233,11 +234,11 @@ void Builder::emit_objects(Built& built) {
   }
 }
 
-Result<Built> Builder::build(const parallel::Context& context) {
+Result<RvmModel> RvmBuilder::build(const parallel::Context& context) {
   const auto facets = triangulate(context);
   if (!facets) return facets.error();
   note_facets(*facets);
-  Built built;
+  RvmModel built;
   emit_objects(built);
   built.model.groups = std::move(names_);
   built.model.shapes = std::move(shapes_);

@@ -9,11 +9,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/rvm/log.hpp"
+#include "core/seeded_hash.hpp"
+#include "io/rvm/diagnostic_log.hpp"
 #include "io/rvm/palette.hpp"
-#include "io/rvm/primitive.hpp"
+#include "io/rvm/primitive_chunk.hpp"
 #include "strake/core/result.hpp"
-#include "strake/core/seeded_hash.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
 
@@ -31,16 +31,16 @@ struct GroupRecord {
 };
 
 /// A model under construction with what only this format's later steps need.
-struct Built {
+struct RvmModel {
   model::Model model;  ///< model.groups[i] is group i of the file
   std::vector<GroupRecord> groups;
   std::vector<std::uint32_t> group_of;  ///< per object; kNoGroup: primitives outside any group
 };
 
 /// Collects groups and primitives in file order and makes a model of them.
-class Builder {
+class RvmBuilder {
  public:
-  Builder(Log& log, SourceFrame frame) : log_(&log), frame_(frame) {}
+  RvmBuilder(DiagnosticLog& log, SourceFrame frame) : log_(&log), frame_(frame) {}
 
   void begin_group(std::string name, std::uint32_t material, std::uint8_t transparency,
                    std::uint64_t offset);
@@ -56,7 +56,7 @@ class Builder {
   [[nodiscard]] std::size_t depth() const { return open_.size(); }
 
   /// Triangulates the facet groups and orders bodies by group. Ids are not yet given.
-  [[nodiscard]] Result<Built> build(const parallel::Context& context);
+  [[nodiscard]] Result<RvmModel> build(const parallel::Context& context);
 
  private:
   struct BodyRecord {
@@ -80,12 +80,12 @@ class Builder {
   [[nodiscard]] Result<std::vector<Facets>> triangulate(const parallel::Context& context);
   void note_facets(const std::vector<Facets>& facets);
   void check_stored_box(const PrimitiveChunk& chunk, const geometry::Primitive& primitive);
-  void emit_objects(Built& built);
+  void emit_objects(RvmModel& built);
   [[nodiscard]] model::Color color_of(const BodyRecord& record);
   [[nodiscard]] double origin_half_spacing_mm(const PrimitiveChunk& chunk) const;
   [[nodiscard]] float precision_um(const model::Body& body) const;
 
-  Log* log_;
+  DiagnosticLog* log_;
   SourceFrame frame_;
   Palette palette_;
   std::string root_name_;

@@ -8,13 +8,13 @@
 #include <string>
 #include <utility>
 
-#include "io/encoding.hpp"
-#include "io/reading.hpp"
 #include "io/rvm/attributes.hpp"
 #include "io/rvm/binary.hpp"
 #include "io/rvm/builder.hpp"
-#include "io/rvm/log.hpp"
-#include "io/rvm/text.hpp"
+#include "io/rvm/diagnostic_log.hpp"
+#include "io/rvm/text_variant.hpp"
+#include "io/source/reader_support.hpp"
+#include "io/source/text_decoder.hpp"
 
 namespace strake::io {
 
@@ -32,7 +32,7 @@ std::string file_name(const FileBytes& file) {
 
 /// Names from the root down, each begun by a '/'; nothing when that is too long to be an id or
 /// the element itself has no name.
-std::optional<std::string> path_id(const Built& built, std::uint32_t group) {
+std::optional<std::string> path_id(const RvmModel& built, std::uint32_t group) {
   constexpr std::size_t kLongest = 4096;
   if (built.model.groups[group].name.empty()) return std::nullopt;
   std::vector<const std::string*> names;
@@ -62,7 +62,7 @@ bool is_counted(std::string_view name) {
 }
 
 /// Whether a group or one above it is called by a number only.
-bool is_counted(const Built& built, std::uint32_t group) {
+bool is_counted(const RvmModel& built, std::uint32_t group) {
   for (std::uint32_t g = group; g != kNoGroup; g = built.groups[g].parent)
     if (is_counted(built.model.groups[g].name)) return true;
   return false;
@@ -70,7 +70,7 @@ bool is_counted(const Built& built, std::uint32_t group) {
 
 /// The reference number where attributes give one, else the full name path, else the place in
 /// the file.
-void assign_ids(Built& built) {
+void assign_ids(RvmModel& built) {
   for (std::size_t o = 0; o < built.model.objects.size(); ++o) {
     model::Object& object = built.model.objects[o];
     const std::uint32_t group = built.group_of[o];
@@ -95,7 +95,8 @@ std::optional<std::string> read_whole(const std::filesystem::path& path) {
 }
 
 /// Attributes are a help, never a condition: whatever is wrong with their file is a diagnostic.
-void add_attributes(Built& built, const FileBytes& file, const std::optional<TextDecoder>& stated) {
+void add_attributes(RvmModel& built, const FileBytes& file,
+                    const std::optional<TextDecoder>& stated) {
   const auto path = find_attribute_file(file.path);
   if (!path) return;
   const std::string where = path->filename().string();
@@ -161,14 +162,14 @@ Result<model::Model> RvmReader::read(const FileBytes& file, const ReadOptions& o
   }
   const std::string name = file_name(file);
   Diagnostics diagnostics;
-  Log log(diagnostics, name);
+  DiagnosticLog log(diagnostics, name);
   const bool text = !find_head(file.bytes);
   Transcoded transcoded;
   if (text) {
     transcoded = transcode_text(as_text(file.bytes), log);
     log.use_lines(transcoded.marks);
   }
-  Builder builder(log, choose_frame(options, kFrame));
+  RvmBuilder builder(log, choose_frame(options, kFrame));
   FileHead head;
   const FileRead done = read_binary(text ? Bytes(transcoded.bytes) : file.bytes, decoder, builder,
                                     log, head, context);

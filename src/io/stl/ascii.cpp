@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/encoding.hpp"
+#include "core/text_encoding.hpp"
+#include "io/source/text_decoder.hpp"
 
 namespace strake::io::stl {
 namespace {
@@ -18,10 +19,10 @@ bool is_word(std::string_view text, std::string_view word) {
 }
 
 std::string_view take_word(std::string_view& line) {
-  line = trimmed(line);
+  line = trimmed(line, kBlanks);
   const std::size_t length = std::min(line.find_first_of(" \t"), line.size());
   const std::string_view word = line.substr(0, length);
-  line = trimmed(line.substr(length));
+  line = trimmed(line.substr(length), kBlanks);
   return word;
 }
 
@@ -44,7 +45,7 @@ class AsciiParser {
   void cut_off();
   void end_solid();
   void damaged(const char* message) {
-    if (!solid().damage) solid().damage = Damage{message, line_};
+    if (!solid().damage) solid().damage = StlDamage{message, line_};
     bad_facet_ = true;
   }
   [[nodiscard]] bool in_facet() const { return loop_corners_ != 0 || bad_facet_; }

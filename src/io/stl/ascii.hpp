@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "io/text_number.hpp"
+#include "io/source/text_number.hpp"
 #include "strake/geometry/vec.hpp"
 
 namespace strake::io::stl {
 
-struct Damage {
+struct StlDamage {
   std::string message;
   std::uint64_t line = 0;  ///< 1-based
 };
@@ -22,9 +22,9 @@ struct Damage {
 struct Solid {
   std::string name;
   std::vector<geometry::Vec3d> corners;
-  DigitStatistics digits;        ///< of its corners
-  std::optional<Damage> damage;  ///< the first; the facet that it is in is left out
-  std::uint64_t bad_facets = 0;  ///< that are left out
+  DigitStatistics digits;           ///< of its corners
+  std::optional<StlDamage> damage;  ///< the first; the facet that it is in is left out
+  std::uint64_t bad_facets = 0;     ///< that are left out
   /// The line on which it stops without its endsolid: what else it held nobody can tell.
   std::optional<std::uint64_t> cut_off;
 };

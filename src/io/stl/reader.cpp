@@ -12,9 +12,9 @@
 #include <span>
 #include <utility>
 
-#include "io/file_content.hpp"
-#include "io/precision.hpp"
-#include "io/reading.hpp"
+#include "io/source/input_file.hpp"
+#include "io/source/precision.hpp"
+#include "io/source/reader_support.hpp"
 #include "io/stl/ascii.hpp"
 #include "strake/parallel/for_each.hpp"
 
@@ -34,17 +34,17 @@ std::uint64_t stated_facets(std::span<const std::byte> bytes) {
   return count;
 }
 
-enum class Kind { none, binary, binary_longer, binary_truncated, ascii };
+enum class StlKind { none, binary, binary_longer, binary_truncated, ascii };
 
 /// Binary files are known by their size, because many begin with "solid" like the text variant.
-Kind kind_of(std::span<const std::byte> bytes) {
+StlKind kind_of(std::span<const std::byte> bytes) {
   const bool text = stl::looks_like_ascii(without_byte_order_mark(as_text(bytes)));
-  if (bytes.size() < kHeaderBytes) return text ? Kind::ascii : Kind::none;
+  if (bytes.size() < kHeaderBytes) return text ? StlKind::ascii : StlKind::none;
   const std::uint64_t facets = stated_facets(bytes);
   const std::uint64_t expected = kHeaderBytes + kFacetBytes * facets;
-  if (bytes.size() == expected) return Kind::binary;
-  if (text) return Kind::ascii;
-  return bytes.size() > expected ? Kind::binary_longer : Kind::binary_truncated;
+  if (bytes.size() == expected) return StlKind::binary;
+  if (text) return StlKind::ascii;
+  return bytes.size() > expected ? StlKind::binary_longer : StlKind::binary_truncated;
 }
 
 /// An object without bodies.
@@ -211,14 +211,14 @@ class StlReader final : public Reader {
   [[nodiscard]] int recognise(const FileBytes& file) const override {
     const bool named = lower_extension(file.path) == ".stl";
     switch (kind_of(file.bytes)) {
-      case Kind::binary:
+      case StlKind::binary:
         return named ? 100 : 70;
-      case Kind::ascii:
+      case StlKind::ascii:
         return named ? 95 : 90;
-      case Kind::binary_longer:
-      case Kind::binary_truncated:
+      case StlKind::binary_longer:
+      case StlKind::binary_truncated:
         return named ? 40 : 0;
-      case Kind::none:
+      case StlKind::none:
         return named ? 10 : 0;
     }
     return 0;
@@ -227,19 +227,19 @@ class StlReader final : public Reader {
   [[nodiscard]] Result<model::Model> read(const FileBytes& file, const ReadOptions& options,
                                           const parallel::Context& context) const override {
     switch (kind_of(file.bytes)) {
-      case Kind::ascii:
+      case StlKind::ascii:
         return read_ascii(file, options, context);
-      case Kind::binary_truncated:
+      case StlKind::binary_truncated:
         return truncated(file);
-      case Kind::none:
+      case StlKind::none:
         return Error{ErrorCode::input, "is shorter than the 84 bytes that every binary STL has",
                      file.path.string(), "copy or export the file again"};
-      case Kind::binary:
-      case Kind::binary_longer:
+      case StlKind::binary:
+      case StlKind::binary_longer:
         break;
     }
     Result<model::Model> model = read_binary(file, options, context);
-    if (model && kind_of(file.bytes) == Kind::binary_longer) note_trailing_bytes(file, *model);
+    if (model && kind_of(file.bytes) == StlKind::binary_longer) note_trailing_bytes(file, *model);
     return model;
   }
 };

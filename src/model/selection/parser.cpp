@@ -9,11 +9,102 @@
 #include <utility>
 #include <vector>
 
-#include "model/selection/token.hpp"
-#include "strake/core/number.hpp"
+#include "core/number.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::model::selection {
+namespace {
+
+constexpr std::string_view kTokenBlanks = " \t\r\n";
+/// Longer ones first, so that "<=" is not read as "<" and "=".
+constexpr std::array<std::string_view, 11> kSymbols{"!=", "!~", "<=", ">=", "=", "~",
+                                                    "<",  ">",  "(",  ")",  ","};
+
+class SelectionTokenizer {
+ public:
+  explicit SelectionTokenizer(std::string_view text) : text_(text) {}
+
+  Result<std::vector<Token>> run() {
+    std::vector<Token> tokens;
+    while (true) {
+      const std::size_t next = text_.find_first_not_of(kTokenBlanks, at_);
+      at_ = next == std::string_view::npos ? text_.size() : next;
+      Result<Token> token = one();
+      if (!token) return token.error();
+      tokens.push_back(std::move(*token));
+      if (tokens.back().kind == TokenKind::end) return tokens;
+    }
+  }
+
+ private:
+  Result<Token> one() {
+    const std::size_t column = at_ + 1;
+    if (at_ == text_.size()) return Token{TokenKind::end, {}, column};
+    if (const auto symbol = symbol_at(at_)) {
+      at_ += symbol->size();
+      return Token{TokenKind::symbol, std::string(*symbol), column};
+    }
+    const bool attribute = text_[at_] == '@';
+    if (attribute) ++at_;
+    const bool quotes = at_ < text_.size() && (text_[at_] == '"' || text_[at_] == '\'');
+    Result<std::string> text = quotes ? quoted() : word();
+    if (!text) return text.error();
+    if (attribute && text->empty())
+      return fault_at(column, "'@' without the name of an attribute",
+                      "write @NAME or @\"a name with blanks\"");
+    const TokenKind plain = quotes ? TokenKind::quoted : TokenKind::word;
+    return Token{attribute ? TokenKind::attribute : plain, std::move(*text), column};
+  }
+
+  /// The symbol that stands at a place. '!' alone is none: it belongs to patterns.
+  [[nodiscard]] std::optional<std::string_view> symbol_at(std::size_t at) const {
+    for (const std::string_view symbol : kSymbols)
+      if (text_.substr(at).starts_with(symbol)) return symbol;
+    return std::nullopt;
+  }
+
+  /// Up to the quote of the same kind; a doubled one stands for itself.
+  Result<std::string> quoted() {
+    const std::size_t column = at_ + 1;
+    const char quote = text_[at_++];
+    std::string out;
+    while (at_ < text_.size()) {
+      const char c = text_[at_++];
+      if (c != quote) {
+        out += c;
+      } else if (at_ < text_.size() && text_[at_] == quote) {
+        out += text_[at_++];
+      } else {
+        return out;
+      }
+    }
+    return fault_at(column, "a quote that is never closed",
+                    std::string("end the text with ") + quote);
+  }
+
+  Result<std::string> word() {
+    const std::size_t first = at_;
+    while (at_ < text_.size() && kTokenBlanks.find(text_[at_]) == std::string_view::npos &&
+           text_[at_] != '"' && text_[at_] != '\'' && !symbol_at(at_))
+      ++at_;
+    return std::string(text_.substr(first, at_ - first));
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+Error fault_at(std::size_t column, std::string message, std::string mend) {
+  return {ErrorCode::usage, std::move(message), "selection, column " + std::to_string(column),
+          std::move(mend)};
+}
+
+Result<std::vector<Token>> tokens_of(std::string_view text) {
+  return SelectionTokenizer(text).run();
+}
+
 namespace {
 
 /// Deeper nesting than any person writes; a hostile text must not exhaust the stack.
@@ -21,14 +112,14 @@ constexpr int kDeepest = 200;
 /// Sets that name each other twice over and over grow beyond any model.
 constexpr std::uint64_t kHeaviest = 100'000;
 
-constexpr std::array<std::pair<std::string_view, Field>, 7> kFields{{
-    {"name", Field::name},
-    {"id", Field::id},
-    {"path", Field::path},
-    {"file", Field::file},
-    {"type", Field::type},
-    {"category", Field::category},
-    {"color", Field::color},
+constexpr std::array<std::pair<std::string_view, PropertyField>, 7> kFields{{
+    {"name", PropertyField::name},
+    {"id", PropertyField::id},
+    {"path", PropertyField::path},
+    {"file", PropertyField::file},
+    {"type", PropertyField::type},
+    {"category", PropertyField::category},
+    {"color", PropertyField::color},
 }};
 
 struct OperatorName {
@@ -47,8 +138,8 @@ constexpr std::array<OperatorName, 8> kOperators{{
     {">=", Operator::more_equal, false},
 }};
 
-std::optional<Field> field_of(const Token& token) {
-  if (token.kind == TokenKind::attribute) return Field::attribute;
+std::optional<PropertyField> field_of(const Token& token) {
+  if (token.kind == TokenKind::attribute) return PropertyField::attribute;
   if (token.kind != TokenKind::word) return std::nullopt;
   for (const auto& [name, field] : kFields)
     if (token.text == name) return field;
@@ -64,14 +155,14 @@ std::string shown(const Token& token) {
   return token.kind == TokenKind::end ? "the end" : "'" + token.text + "'";
 }
 
-class Parser {
+class SelectionParser {
  public:
-  Parser(std::string_view text, std::vector<Token> tokens, SetLookup lookup)
+  SelectionParser(std::string_view text, std::vector<Token> tokens, SetLookup lookup)
       : tokens_(std::move(tokens)), lookup_(lookup) {
     query_.text = text;
   }
 
-  Result<Query> run() {
+  Result<SelectionQuery> run() {
     if (now().kind == TokenKind::end)
       return fault("an empty selection", "write a pattern, as 'PIPE*', or a test, as type = box");
     const Result<std::uint32_t> root = either();
@@ -87,10 +178,11 @@ class Parser {
  private:
   using NodeResult = Result<std::uint32_t>;
 
-  NodeResult either() { return chain("or", NodeKind::disjunction, &Parser::both); }
-  NodeResult both() { return chain("and", NodeKind::conjunction, &Parser::one); }
+  NodeResult either() { return chain("or", QueryNodeKind::disjunction, &SelectionParser::both); }
+  NodeResult both() { return chain("and", QueryNodeKind::conjunction, &SelectionParser::one); }
 
-  NodeResult chain(std::string_view keyword, NodeKind kind, NodeResult (Parser::*operand)()) {
+  NodeResult chain(std::string_view keyword, QueryNodeKind kind,
+                   NodeResult (SelectionParser::*operand)()) {
     std::vector<std::uint32_t> operands;
     while (true) {
       const NodeResult next = (this->*operand)();
@@ -114,7 +206,7 @@ class Parser {
     ++at_;
     const NodeResult inner = one();
     if (!inner) return inner;
-    return add_inner(NodeKind::negation, std::array{*inner});
+    return add_inner(QueryNodeKind::negation, std::array{*inner});
   }
 
   NodeResult plain() {
@@ -123,7 +215,7 @@ class Parser {
     if (token.is("(")) return bracketed();
     if ((token.is_keyword("inside") || token.is_keyword("touches")) && next.is("(")) return box();
     if (token.is_keyword("set") && next.is("(")) return named_set();
-    if (token.kind == TokenKind::attribute) return comparison(Field::attribute);
+    if (token.kind == TokenKind::attribute) return comparison(PropertyField::attribute);
     if (operator_of(next) != nullptr) {
       if (const auto field = field_of(token)) return comparison(*field);
       return fault("no property is called " + shown(token),
@@ -133,7 +225,7 @@ class Parser {
       return fault("a test or a pattern is missing before " + shown(token),
                    "write a pattern, as 'PIPE*', or a test, as type = box");
     ++at_;
-    Test test;
+    PropertyTest test;
     test.text = token.text;
     return add_test(std::move(test));
   }
@@ -148,10 +240,10 @@ class Parser {
     return inner;
   }
 
-  NodeResult comparison(Field field) {
-    Test test;
+  NodeResult comparison(PropertyField field) {
+    PropertyTest test;
     test.field = field;
-    if (field == Field::attribute) test.attribute = now().text;
+    if (field == PropertyField::attribute) test.attribute = now().text;
     ++at_;
     const OperatorName* const found = operator_of(now());
     if (found == nullptr) {
@@ -163,17 +255,17 @@ class Parser {
     const Status read = read_value(test);
     if (!read) return read.error();
     const std::uint32_t leaf = add_test(std::move(test));
-    return found->negated ? add_inner(NodeKind::negation, std::array{leaf}) : leaf;
+    return found->negated ? add_inner(QueryNodeKind::negation, std::array{leaf}) : leaf;
   }
 
-  Status read_value(Test& test) {
+  Status read_value(PropertyTest& test) {
     const Token& value = now();
     if (!value.is_value())
       return fault("a value is missing before " + shown(value),
                    "quote a value that has signs in it");
     test.text = value.text;
     test.quantity = parse_quantity(value.text);
-    if (orders(test.op) && test.field != Field::attribute)
+    if (orders(test.op) && test.field != PropertyField::attribute)
       return fault("only attributes can be more or less than a number", "write @NAME >= 150mm");
     if (orders(test.op) && !test.quantity)
       return fault("no number: " + shown(value),
@@ -199,7 +291,7 @@ class Parser {
     if (!now().is(")"))
       return fault("')' is missing before " + shown(now()), "write set(NAME), with one name");
     ++at_;
-    Result<std::shared_ptr<const Query>> found = lookup_(name.text);
+    Result<std::shared_ptr<const SelectionQuery>> found = lookup_(name.text);
     if (!found) {
       Error error = fault_at(name.column, found.error().message, found.error().mend);
       if (!found.error().where.empty()) error.where = found.error().where;
@@ -210,7 +302,7 @@ class Parser {
       return fault_at(name.column, "the sets named here hold too many tests, one within another",
                       "name fewer of them");
     query_.sets.push_back(std::move(*found));
-    return add({NodeKind::set, static_cast<std::uint32_t>(query_.sets.size() - 1), 0});
+    return add({QueryNodeKind::set, static_cast<std::uint32_t>(query_.sets.size() - 1), 0});
   }
 
   NodeResult box() {
@@ -235,7 +327,7 @@ class Parser {
         return fault_at(tokens_[first].column, "the box ends before it begins",
                         "a box is (xmin, ymin, zmin, xmax, ymax, zmax)");
     query_.boxes.push_back(test);
-    return add({NodeKind::box, static_cast<std::uint32_t>(query_.boxes.size() - 1), 0});
+    return add({QueryNodeKind::box, static_cast<std::uint32_t>(query_.boxes.size() - 1), 0});
   }
 
   /// A length of a box, in grid units; without a unit it is in millimetres.
@@ -258,18 +350,18 @@ class Parser {
     return nullptr;
   }
 
-  std::uint32_t add_test(Test test) {
+  std::uint32_t add_test(PropertyTest test) {
     query_.tests.push_back(std::move(test));
-    return add({NodeKind::test, static_cast<std::uint32_t>(query_.tests.size() - 1), 0});
+    return add({QueryNodeKind::test, static_cast<std::uint32_t>(query_.tests.size() - 1), 0});
   }
 
-  std::uint32_t add_inner(NodeKind kind, std::span<const std::uint32_t> operands) {
+  std::uint32_t add_inner(QueryNodeKind kind, std::span<const std::uint32_t> operands) {
     const auto first = static_cast<std::uint32_t>(query_.operands.size());
     query_.operands.insert(query_.operands.end(), operands.begin(), operands.end());
     return add({kind, first, static_cast<std::uint32_t>(operands.size())});
   }
 
-  std::uint32_t add(Node node) {
+  std::uint32_t add(QueryNode node) {
     query_.nodes.push_back(node);
     return static_cast<std::uint32_t>(query_.nodes.size() - 1);
   }
@@ -283,15 +375,15 @@ class Parser {
   std::size_t at_ = 0;
   SetLookup lookup_;
   int depth_ = 0;
-  Query query_;
+  SelectionQuery query_;
 };
 
 }  // namespace
 
-Result<Query> parse_query(std::string_view text, SetLookup lookup) {
+Result<SelectionQuery> parse_query(std::string_view text, SetLookup lookup) {
   Result<std::vector<Token>> tokens = tokens_of(text);
   if (!tokens) return tokens.error();
-  return Parser(text, std::move(*tokens), lookup).run();
+  return SelectionParser(text, std::move(*tokens), lookup).run();
 }
 
 }  // namespace strake::model::selection

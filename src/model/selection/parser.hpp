@@ -1,18 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "model/selection/query.hpp"
 #include "strake/core/result.hpp"
-#include "strake/parallel/function_ref.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
 
 namespace strake::model::selection {
 
+enum class TokenKind : std::uint8_t { word, quoted, attribute, symbol, end };
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  std::string text;        ///< a symbol, or the text without its quotes or '@'
+  std::size_t column = 1;  ///< in bytes, from 1
+
+  [[nodiscard]] bool is(std::string_view symbol) const {
+    return kind == TokenKind::symbol && text == symbol;
+  }
+  [[nodiscard]] bool is_keyword(std::string_view word) const {
+    return kind == TokenKind::word && text == word;
+  }
+  /// Whether it can stand where a value is wanted.
+  [[nodiscard]] bool is_value() const {
+    return kind == TokenKind::word || kind == TokenKind::quoted;
+  }
+};
+
+/// An error at a column of a selection.
+[[nodiscard]] Error fault_at(std::size_t column, std::string message, std::string mend);
+
+/// The tokens of a selection, the last one `end`.
+[[nodiscard]] Result<std::vector<Token>> tokens_of(std::string_view text);
+
 /// What set(NAME) stands for; an error's place is for the caller to say.
 using SetLookup =
-    parallel::FunctionRef<Result<std::shared_ptr<const Query>>(std::string_view name)>;
+    parallel::FunctionRef<Result<std::shared_ptr<const SelectionQuery>>(std::string_view name)>;
 
 /// Recursive descent over
 ///
@@ -21,6 +50,6 @@ using SetLookup =
 ///     one    := "not" one | "(" either ")" | "inside" box | "touches" box
 ///             | "set" "(" name ")" | property [operator value] | pattern
 ///     box    := "(" xmin "," ymin "," zmin "," xmax "," ymax "," zmax ")"
-[[nodiscard]] Result<Query> parse_query(std::string_view text, SetLookup lookup);
+[[nodiscard]] Result<SelectionQuery> parse_query(std::string_view text, SetLookup lookup);
 
 }  // namespace strake::model::selection

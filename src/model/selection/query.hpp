@@ -7,14 +7,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "strake/core/units.hpp"
+#include "core/units.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/model/scene.hpp"
 
 namespace strake::model::selection {
 
-enum class Field : std::uint8_t {
+enum class PropertyField : std::uint8_t {
   any,  ///< a bare pattern: name, id or path
   name,
   id,
@@ -29,8 +31,8 @@ enum class Field : std::uint8_t {
 enum class Operator : std::uint8_t { exists, equal, match, less, less_equal, more, more_equal };
 
 /// One question about one property of an object.
-struct Test {
-  Field field = Field::any;
+struct PropertyTest {
+  PropertyField field = PropertyField::any;
   Operator op = Operator::equal;
   std::string attribute;             ///< its name, for Field::attribute
   std::string text;                  ///< the value as written: a glob for `equal`
@@ -44,25 +46,50 @@ struct BoxTest {
   bool whole = false;  ///< the object lies inside, rather than touching
 };
 
-enum class NodeKind : std::uint8_t { test, box, set, negation, conjunction, disjunction };
+enum class QueryNodeKind : std::uint8_t { test, box, set, negation, conjunction, disjunction };
 
 /// A leaf's `first` is the index of its test, box or set; an inner node's operands are
 /// Query::operands[first, first + count).
-struct Node {
-  NodeKind kind = NodeKind::test;
+struct QueryNode {
+  QueryNodeKind kind = QueryNodeKind::test;
   std::uint32_t first = 0, count = 0;
 };
 
-struct Query {
+struct SelectionQuery {
   std::string text;
-  std::vector<Test> tests;
+  std::vector<PropertyTest> tests;
   std::vector<BoxTest> boxes;
-  std::vector<std::shared_ptr<const Query>> sets;  ///< that set(NAME) stands for
-  std::vector<Node> nodes;
+  std::vector<std::shared_ptr<const SelectionQuery>> sets;  ///< that set(NAME) stands for
+  std::vector<QueryNode> nodes;
   std::vector<std::uint32_t> operands;
   std::uint32_t root = 0;
   /// Nodes that asking may visit, those of its sets included.
   std::uint64_t weight = 0;
+};
+
+/// An object that several queries are asked about: what took work to find out is kept.
+class SelectionContext {
+ public:
+  SelectionContext(const Scene& scene, ObjectId id) : scene_(scene), id_(id) {}
+
+  /// Whether the query picks the object.
+  [[nodiscard]] bool picks(const SelectionQuery& query);
+
+ private:
+  friend class QueryEvaluator;
+  /// The same, remembered: for sets, which many queries name.
+  [[nodiscard]] bool picks_set(const SelectionQuery& query);
+  /// The path of its groups and its own name. `slashed` has a '/' of the level's besides the one
+  /// that a name begins with, where there are such; empty else.
+  struct Path {
+    std::string joined, slashed;
+  };
+  [[nodiscard]] const Path& whole_path();
+
+  const Scene& scene_;
+  ObjectId id_;
+  std::optional<Path> path_;
+  std::vector<std::pair<const SelectionQuery*, bool>> known_;
 };
 
 }  // namespace strake::model::selection

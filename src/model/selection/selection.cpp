@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "model/selection/evaluate.hpp"
 #include "model/selection/parser.hpp"
+#include "model/selection/query.hpp"
 #include "strake/parallel/for_each.hpp"
 
 namespace strake::model {
@@ -21,21 +21,21 @@ Result<Selection> Selection::parse(std::string_view text) {
 }
 
 Result<Selection> Selection::parse(std::string_view text, SetLookup set) {
-  using QueryPointer = std::shared_ptr<const selection::Query>;
+  using QueryPointer = std::shared_ptr<const selection::SelectionQuery>;
   const auto lookup = [&](std::string_view name) -> Result<QueryPointer> {
     const Result<Selection> found = set(name);
     if (!found) return found.error();
     return found->query_;
   };
-  Result<selection::Query> query = selection::parse_query(text, lookup);
+  Result<selection::SelectionQuery> query = selection::parse_query(text, lookup);
   if (!query) return query.error();
-  return Selection(std::make_shared<const selection::Query>(std::move(*query)));
+  return Selection(std::make_shared<const selection::SelectionQuery>(std::move(*query)));
 }
 
 const std::string& Selection::text() const { return query_->text; }
 
 bool Selection::picks(const Scene& scene, ObjectId object) const {
-  return selection::Asked(scene, object).by(*query_);
+  return selection::SelectionContext(scene, object).picks(*query_);
 }
 
 Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selections,
@@ -47,9 +47,9 @@ Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selection
                                                  std::vector<std::uint8_t>(objects));
   const Status status = parallel::for_each(
       context, {.name = "selection", .n = objects, .grain = kGrain}, [&](std::size_t o) {
-        selection::Asked asked(scene, static_cast<ObjectId>(o));
+        selection::SelectionContext asked(scene, static_cast<ObjectId>(o));
         for (std::size_t s = 0; s < selections.size(); ++s)
-          answers[s][o] = asked.by(*selections[s].query_) ? 1 : 0;
+          answers[s][o] = asked.picks(*selections[s].query_) ? 1 : 0;
       });
   if (!status) return status.error();
   std::vector<std::vector<bool>> picked;

@@ -21,9 +21,9 @@ struct Case {
 };
 
 /// The intersections from end to end, where the window cuts them too.
-std::vector<hlr::Piece> whole_lines(const std::vector<hlr::Piece>& pieces) {
-  std::vector<hlr::Piece> lines;
-  for (const hlr::Piece& p : pieces) {
+std::vector<hlr::EdgePiece> whole_lines(const std::vector<hlr::EdgePiece>& pieces) {
+  std::vector<hlr::EdgePiece> lines;
+  for (const hlr::EdgePiece& p : pieces) {
     if (p.kind != hlr::EdgeKind::intersection) continue;
     if (!lines.empty() && lines.back().object == p.object && lines.back().edge == p.edge)
       lines.back().b = p.b;
@@ -56,7 +56,7 @@ std::string run(const Case& c, std::size_t& crossings) {
   options.stage = hlr::Stage::none;
   const auto plain = hlr::draw(scene.scene(), {}, plain_view, options, {});
   options.stage = drawing->options.stage;
-  const std::vector<hlr::Piece> lines = whole_lines(plain->pieces);
+  const std::vector<hlr::EdgePiece> lines = whole_lines(plain->pieces);
   crossings += lines.size();
   return test::difference(test::oracle_pieces(scene.scene(), view, options, lines),
                           drawing->pieces);

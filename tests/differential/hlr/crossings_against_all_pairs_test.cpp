@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "hlr/crossings.hpp"
+#include "geometry/intersect/intersection_lines.hpp"
+#include "hlr/edges/intersection_lines.hpp"
 #include "strake/generate/ship.hpp"
-#include "strake/geometry/crossing_lines.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/lattice_scene.hpp"
@@ -25,8 +25,9 @@ struct Skin {
   std::uint32_t body = 0, object = 0;
 };
 
-std::vector<Crossing> of_all_pairs(const model::Scene& scene,
-                                   const std::vector<std::int64_t>& contact, bool of_parts) {
+std::vector<IntersectionLine> of_all_pairs(const model::Scene& scene,
+                                           const std::vector<std::int64_t>& contact,
+                                           bool of_parts) {
   std::vector<Skin> skins;
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     const model::GridBody& body = scene.bodies[b];
@@ -34,20 +35,20 @@ std::vector<Crossing> of_all_pairs(const model::Scene& scene,
       if (!part.triangles.empty())
         skins.push_back({{&part, body.origin}, b, model::index(body.object)});
   }
-  std::vector<Crossing> all;
+  std::vector<IntersectionLine> all;
   for (std::size_t i = 0; i < skins.size(); ++i)
     for (std::size_t j = i + 1; j < skins.size(); ++j) {
       const Skin &x = skins[i], &y = skins[j];
       if (x.object == y.object && !of_parts) continue;
-      geometry::PairWork work;
-      for (const geometry::Segment& line : geometry::crossing_lines_all(
+      geometry::QueryContext work;
+      for (const geometry::Segment& line : geometry::part_intersection_lines_brute_force(
                x.placed, y.placed, std::max(contact[x.body], contact[y.body]), work))
         all.push_back({line[0] + x.placed.origin, line[1] + x.placed.origin, x.body, y.body});
     }
   return all;
 }
 
-bool same(const Crossing& x, const Crossing& y) {
+bool same(const IntersectionLine& x, const IntersectionLine& y) {
   return x.a == y.a && x.b == y.b && x.body_a == y.body_a && x.body_b == y.body_b;
 }
 
@@ -61,12 +62,12 @@ Seen judge(const model::Scene& scene, Intersections which, const parallel::Conte
   const std::vector<bool> drawn(scene.model->objects.size(), true);
   std::vector<std::int64_t> contact(scene.bodies.size());
   for (std::size_t b = 0; b < contact.size(); ++b) contact[b] = static_cast<std::int64_t>(b % 4);
-  const auto found = find_crossings(scene, drawn, contact, {which}, context);
+  const auto found = find_intersection_lines(scene, drawn, contact, {which}, context);
   if (!found) {
     ADD_FAILURE() << found.error().text();
     return {};
   }
-  const std::vector<Crossing> expected =
+  const std::vector<IntersectionLine> expected =
       of_all_pairs(scene, contact, which == Intersections::parts);
   EXPECT_TRUE(std::ranges::equal(found->all, expected, same))
       << found->all.size() << " lines for " << expected.size();
@@ -138,7 +139,8 @@ TEST(CrossingsAgainstAllPairs, EqualObjectsAtOnePlaceAreNoPairs) {
     scene.object({{.parts = {test::hand_box({-500, 100, 100}, {5000, 350, 300})}, .origin = {}}});
     const std::vector<std::int64_t> contact(scene.scene().bodies.size(), 3);
     const std::vector<bool> drawn(scene.scene().model->objects.size(), true);
-    return find_crossings(scene.scene(), drawn, contact, {Intersections::primitives}, {})->met;
+    return find_intersection_lines(scene.scene(), drawn, contact, {Intersections::primitives}, {})
+        ->met;
   };
   EXPECT_GT(met(100), 0U);
   EXPECT_LE(met(10'000), 101 * met(100));

@@ -114,14 +114,14 @@ TEST(PixelOracle, FindsWhatIsWrong) {
   const hlr::Drawing sound = drawn(*scene, kSights[0]);
   hlr::Drawing without = sound, through = sound;
   std::uint32_t object = 0;
-  std::erase_if(without.pieces, [&](const hlr::Piece& p) {
+  std::erase_if(without.pieces, [&](const hlr::EdgePiece& p) {
     const bool visible = p.state == hlr::State::visible && p.kind == hlr::EdgeKind::contour;
     if (visible && object == 0) object = model::index(p.object) + 1;
     return visible && model::index(p.object) + 1 == object;
   });
   EXPECT_GT(test::check_by_pixels(*scene, without, kWidth).without_line, 0U);
   std::size_t turned = 0;
-  for (hlr::Piece& p : through.pieces)
+  for (hlr::EdgePiece& p : through.pieces)
     if (p.state == hlr::State::hidden_by_other) {
       p.state = hlr::State::visible;
       ++turned;

@@ -81,14 +81,14 @@ TEST(RayCheck, FindsEveryTurnedState) {
         drawn(scene.scene(), test::direction_of(static_cast<std::uint32_t>(seed)));
     // Parts of one object that share an edge may differ along it, and a piece does not tell its
     // part: objects of one part only are turned.
-    const auto is_single = [&](const hlr::Piece& p) {
+    const auto is_single = [&](const hlr::EdgePiece& p) {
       const auto bodies = scene.scene().bodies_of(p.object);
       return bodies.size() == 1 && scene.scene().shapes[bodies[0].grid_shape].parts.size() == 1;
     };
-    std::erase_if(drawing.pieces, [&](const hlr::Piece& p) {
+    std::erase_if(drawing.pieces, [&](const hlr::EdgePiece& p) {
       return p.state == State::projecting || !is_single(p);
     });
-    for (hlr::Piece& p : drawing.pieces)
+    for (hlr::EdgePiece& p : drawing.pieces)
       p.state = p.state == State::visible          ? State::hidden_by_other
                 : p.state == State::hidden_by_self ? State::hidden_by_other
                                                    : State::visible;
@@ -157,7 +157,7 @@ TEST(RealDrawings, CutsEqualTheBruteForceSolver) {
       objects += got->account.objects();
       hidden += static_cast<std::uint64_t>(
           std::count_if(got->pieces.begin(), got->pieces.end(),
-                        [](const hlr::Piece& p) { return p.state == State::hidden_by_other; }));
+                        [](const hlr::EdgePiece& p) { return p.state == State::hidden_by_other; }));
     }
   }
   EXPECT_GT(objects, 40U);

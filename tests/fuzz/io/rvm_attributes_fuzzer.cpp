@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "io/encoding.hpp"
+#include "core/text_encoding.hpp"
 #include "io/rvm/attributes.hpp"
-#include "strake/core/text.hpp"
+#include "io/source/text_decoder.hpp"
 
 /// Any bytes as an attribute file: nodes whose parents come before them, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!strake::is_utf8(decode(text))) std::abort();
   const auto file = rvm::parse_attributes(text);
   if (!file) return 0;
-  rvm::Built built;
+  rvm::RvmModel built;
   for (std::size_t n = 0; n < file->nodes.size(); ++n) {
     const rvm::AttributeNode& node = file->nodes[n];
     if (node.parent != rvm::kNoGroup && node.parent >= n) std::abort();

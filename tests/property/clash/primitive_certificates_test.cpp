@@ -14,8 +14,8 @@
 #include <variant>
 
 #include "strake/clash/clash.hpp"
-#include "strake/geometry/analytic_pair.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/geometry/primitive_separation.hpp"
 #include "support/body_depth.hpp"
 #include "support/clash_model.hpp"
 #include "support/convex_oracle.hpp"
@@ -78,7 +78,7 @@ Primitive whole(Primitive p) {
 
 /// Moves b along the nearest way to a until about `gap` is left between them.
 void bring_near(Bodies& of, double gap) {
-  const auto s = geometry::analytic_separation(of.a.placed(), of.b.placed());
+  const auto s = geometry::primitive_separation(of.a.placed(), of.b.placed());
   if (!s || !(s->lower > 0)) return;
   const double far = s->d * geometry::kMmPerGrid - gap;
   of.b.at.translation = on_grid(of.b.at.translation + s->away * far);

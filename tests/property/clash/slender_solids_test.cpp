@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/primitives/tessellate.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/geometry/tessellate.hpp"
 #include "support/body_depth.hpp"
 #include "support/clash_model.hpp"
 #include "support/rounds.hpp"
@@ -196,10 +196,10 @@ TEST(SlenderSolids, MeshesWithTrianglesOfNoArea) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     const geometry::GridMesh plain = lattice_body(seed);
-    const geometry::MeshAnalysis want = analyse(plain);
+    const geometry::RepairedMesh want = repair_mesh(plain);
     if (want.parts.size() != 1 || want.parts[0].kind != PartKind::solid) continue;
     const geometry::GridMesh slivers = with_slivers(plain, random);
-    const geometry::MeshAnalysis got = analyse(slivers);
+    const geometry::RepairedMesh got = repair_mesh(slivers);
     ASSERT_EQ(got.parts.size(), 1U);
     EXPECT_EQ(got.parts[0].kind, PartKind::solid);
     EXPECT_EQ(got.parts[0].volume, want.parts[0].volume);

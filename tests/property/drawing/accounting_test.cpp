@@ -120,10 +120,10 @@ hlr::View view_of(test::Draw& draw) {
 void expect_true(const model::Scene& scene, const std::vector<bool>& drawn,
                  const hlr::Drawing& drawing) {
   std::map<std::uint32_t, std::set<hlr::State>> states;
-  for (const hlr::Piece& piece : drawing.pieces)
+  for (const hlr::EdgePiece& piece : drawing.pieces)
     states[model::index(piece.object)].insert(piece.state);
   std::set<std::uint32_t> lacking, named;
-  for (const model::Lacking& l : scene.lacking) lacking.insert(model::index(l.object));
+  for (const model::IncompleteObject& l : scene.lacking) lacking.insert(model::index(l.object));
   for (const hlr::Defect& d : drawing.account.defects) named.insert(model::index(d.object));
   ASSERT_EQ(drawing.account.fates.size(), drawn.size());
   for (std::uint32_t o = 0; o < drawn.size(); ++o) {

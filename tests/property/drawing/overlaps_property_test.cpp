@@ -8,27 +8,27 @@
 #include <utility>
 #include <vector>
 
-#include "drawing/overlaps.hpp"
+#include "drawing/collinear/collinear_overlaps.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/line_sets.hpp"
 
 namespace strake {
 namespace {
 
-using drawing::Flat;
+using drawing::LineInterval;
+using drawing::LineIntervals;
 using drawing::OverlapRule;
-using drawing::Stretch;
-using drawing::Stretches;
+using drawing::PlaneSegment;
 
 using Row = std::tuple<std::uint32_t, bool, double, double>;
 
-std::vector<Row> rows(const Stretches& stretches) {
+std::vector<Row> rows(const LineIntervals& stretches) {
   std::vector<Row> out;
-  for (const Stretch& s : stretches) out.emplace_back(s.line, s.covered, s.from, s.to);
+  for (const LineInterval& s : stretches) out.emplace_back(s.line, s.covered, s.from, s.to);
   return out;
 }
 
-std::vector<Row> found(const std::vector<Flat>& lines, const OverlapRule& rule,
+std::vector<Row> found(const std::vector<PlaneSegment>& lines, const OverlapRule& rule,
                        const parallel::Context& context = {}) {
   const auto overlaps = drawing::cut_overlaps(lines, rule, context);
   EXPECT_TRUE(overlaps);
@@ -55,7 +55,7 @@ std::vector<OverlapRule> rules(double reach) {
 std::size_t compare(const test::LineSetOptions& options, std::uint64_t seeds) {
   std::size_t covered = 0;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const std::vector<Flat> lines = test::make_lines(seed, options);
+    const std::vector<PlaneSegment> lines = test::make_lines(seed, options);
     for (const OverlapRule& rule : rules(options.reach)) {
       const std::vector<Row> expected = rows(test::cut_by_all_pairs(lines, rule));
       EXPECT_EQ(found(lines, rule), expected) << "seed " << seed;
@@ -65,7 +65,7 @@ std::size_t compare(const test::LineSetOptions& options, std::uint64_t seeds) {
   return covered;
 }
 
-TEST(Overlaps, AreThoseOfAllPairs) {
+TEST(LineOverlaps, AreThoseOfAllPairs) {
   for (unsigned set = 0; set < test::kLineSets; ++set)
     for (const double reach : {0.0, 0.002, 0.25, 5.0}) {
       const std::size_t covered =
@@ -74,15 +74,15 @@ TEST(Overlaps, AreThoseOfAllPairs) {
     }
 }
 
-TEST(Overlaps, AreThoseOfAllPairsFarFromTheOrigin) {
+TEST(LineOverlaps, AreThoseOfAllPairsFarFromTheOrigin) {
   for (unsigned set = 0; set < test::kLineSets; ++set)
     for (const double offset : {1e6, 1e9})
       compare({.set = static_cast<test::LineSet>(set), .reach = 0.01, .offset = offset}, 8);
 }
 
-TEST(Overlaps, AreThoseOfAllPairsWithOneLineFarAway) {
+TEST(LineOverlaps, AreThoseOfAllPairsWithOneLineFarAway) {
   for (unsigned set = 0; set < test::kLineSets; ++set) {
-    std::vector<Flat> lines =
+    std::vector<PlaneSegment> lines =
         test::make_lines(set, {.set = static_cast<test::LineSet>(set), .reach = 0.01});
     lines.front() = {
         .ax = 1e9, .ay = -1e9, .bx = 1e9 + 1, .by = -1e9, .rank = drawing::Rank::hidden};
@@ -91,9 +91,9 @@ TEST(Overlaps, AreThoseOfAllPairsWithOneLineFarAway) {
   }
 }
 
-TEST(Overlaps, AreTheSameForAnyTeam) {
+TEST(LineOverlaps, AreTheSameForAnyTeam) {
   for (unsigned set = 0; set < test::kLineSets; ++set) {
-    const std::vector<Flat> lines =
+    const std::vector<PlaneSegment> lines =
         test::make_lines(7, {.set = static_cast<test::LineSet>(set), .count = 1500, .reach = 0.05});
     for (const OverlapRule& rule : rules(0.05)) {
       const std::vector<Row> expected = found(lines, rule);
@@ -105,44 +105,45 @@ TEST(Overlaps, AreTheSameForAnyTeam) {
   }
 }
 
-TEST(Overlaps, NeedLinesThatAreParallelForTheirLengths) {
+TEST(LineOverlaps, NeedLinesThatAreParallelForTheirLengths) {
   // A second line begins 0.02 before the first ends, at an angle: side by side there, and not one.
-  const Flat first{
+  const PlaneSegment first{
       .ax = 0, .ay = 0, .bx = 10, .by = 0, .reach = 0.005, .rank = drawing::Rank::visible};
-  Flat second{.ax = 9.98,
-              .ay = 0,
-              .bx = 19.98,
-              .by = 3,
-              .depth = -1,
-              .reach = 0.005,
-              .rank = drawing::Rank::visible};
+  PlaneSegment second{.ax = 9.98,
+                      .ay = 0,
+                      .bx = 19.98,
+                      .by = 3,
+                      .depth = -1,
+                      .reach = 0.005,
+                      .rank = drawing::Rank::visible};
   const OverlapRule rule{.least = 0.01};
   EXPECT_TRUE(found({first, second}, rule).empty());
   second.by = 0.015;  // both ends of a line of its length would be within the distance
   EXPECT_EQ(found({first, second}, rule).size(), 2U);
 }
 
-TEST(Overlaps, OfLinesWithTheSameEndsOneStays) {
+TEST(LineOverlaps, OfLinesWithTheSameEndsOneStays) {
   // Twins lie on each other whatever rounding makes of them, whichever way they run; the one with
   // the greater reach covers a neighbour that the others do not.
-  const Flat twin{.ax = 0.1, .ay = 0.2, .bx = 7.3, .by = 3.7, .rank = drawing::Rank::hidden};
-  const Flat back{
+  const PlaneSegment twin{
+      .ax = 0.1, .ay = 0.2, .bx = 7.3, .by = 3.7, .rank = drawing::Rank::hidden};
+  const PlaneSegment back{
       .ax = 7.3, .ay = 3.7, .bx = 0.1, .by = 0.2, .depth = 1, .rank = drawing::Rank::hidden};
-  Flat wide = twin;
+  PlaneSegment wide = twin;
   wide.depth = -1;
   wide.reach = 0.5;
-  const Flat beside{
+  const PlaneSegment beside{
       .ax = 1.1, .ay = 0.9, .bx = 6.3, .by = 3.4, .depth = -2, .rank = drawing::Rank::hidden};
-  const std::vector<Flat> lines{twin, back, wide, beside, twin};
+  const std::vector<PlaneSegment> lines{twin, back, wide, beside, twin};
   const std::vector<Row> all = found(lines, {});
   EXPECT_EQ(all, rows(test::cut_by_all_pairs(lines, {})));
   EXPECT_EQ(all,
             (std::vector<Row>{{0, true, 0, 1}, {2, true, 0, 1}, {3, true, 0, 1}, {4, true, 0, 1}}));
 }
 
-TEST(Overlaps, OfNothingAreNone) {
+TEST(LineOverlaps, OfNothingAreNone) {
   EXPECT_TRUE(found({}, {}).empty());
-  EXPECT_TRUE(found({Flat{}, Flat{}}, {}).empty());
+  EXPECT_TRUE(found({PlaneSegment{}, PlaneSegment{}}, {}).empty());
 }
 
 }  // namespace

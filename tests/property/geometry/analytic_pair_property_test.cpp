@@ -13,12 +13,12 @@
 #include <string>
 #include <utility>
 
-#include "strake/geometry/analyse.hpp"
-#include "strake/geometry/analytic_pair.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
+#include "geometry/mesh_repair/snap_to_grid.hpp"
+#include "geometry/primitives/tessellate.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/geometry/place.hpp"
-#include "strake/geometry/tessellate.hpp"
+#include "strake/geometry/primitive_separation.hpp"
 #include "support/random_primitives.hpp"
 #include "support/slender_primitives.hpp"
 
@@ -49,8 +49,8 @@ struct Pair {
 
 Vec3d on_grid(const Vec3d& p) { return to_mm(snap(p).value_or(Vec3l{})); }
 
-std::optional<AnalyticSeparation> solved(const Body& a, const Body& b) {
-  return solved_separation(a.placed(), b.placed());
+std::optional<PrimitiveSeparation> solved(const Body& a, const Body& b) {
+  return iterative_separation(a.placed(), b.placed());
 }
 
 enum class Kinds : std::uint8_t { convex, with_torus, slender };
@@ -90,7 +90,7 @@ Pair draw_pair(std::uint64_t seed, Kinds kinds = Kinds::convex) {
   return p;
 }
 
-bool overlap(const AnalyticSeparation& x, const AnalyticSeparation& y, double slack = 0) {
+bool overlap(const PrimitiveSeparation& x, const PrimitiveSeparation& y, double slack = 0) {
   return std::fabs(x.d - y.d) <= x.error() + y.error() + slack;
 }
 
@@ -104,7 +104,7 @@ TEST(AnalyticPairLaws, BracketsAreNarrowAndAgreeWithClosedForms) {
     ASSERT_GE(s->error(), 0) << p.what;
     EXPECT_LE(s->error(), 1 + 1e-5 * std::fabs(s->d)) << p.what << " d " << s->d;
     if (s->error() > 0.25) ++wide;
-    const auto closed = analytic_separation(p.a.placed(), p.b.placed());
+    const auto closed = primitive_separation(p.a.placed(), p.b.placed());
     ASSERT_TRUE(closed);
     EXPECT_TRUE(overlap(*s, *closed)) << p.what << ' ' << s->d << " and " << closed->d;
   }
@@ -215,7 +215,7 @@ TEST(AnalyticPairLaws, AnEarlyEndIsACertainLowerBound) {
     const auto s = solved(p.a, p.b);
     if (!s || s->d < 0) continue;
     const double enough = s->d * 0.7;
-    const auto early = analytic_separation(p.a.placed(), p.b.placed(), enough);
+    const auto early = primitive_separation(p.a.placed(), p.b.placed(), enough);
     ASSERT_TRUE(early);
     EXPECT_LE(early->lower, s->upper) << p.what;
     // Two that touch may meet by less than a bracket's width.
@@ -226,28 +226,28 @@ TEST(AnalyticPairLaws, AnEarlyEndIsACertainLowerBound) {
 /// A primitive as the engine tessellates it.
 struct Meshed {
   Part part;
-  PartTree tree;
-  SupportPlanes planes;
+  TriangleBvh tree;
+  FaceKdop planes;
   Vec3l origin;
   double off = 0;  ///< the true surface lies within this of the triangles
 
-  [[nodiscard]] DepthPart deep() const { return {treed(), &planes}; }
-  [[nodiscard]] TreedPart treed() const { return {{&part, origin}, &tree}; }
+  [[nodiscard]] DepthOperand deep() const { return {treed(), &planes}; }
+  [[nodiscard]] PartWithBvh treed() const { return {{&part, origin}, &tree}; }
 };
 
 std::optional<Meshed> meshed(const Body& body, double sag_mm) {
   const Tessellation t = tessellate(body.primitive, body.at.linear, sag_mm);
   if (!t.fault.empty()) return std::nullopt;
-  auto placed = place(t.mesh, {});
+  auto placed = snap_to_grid(t.mesh, {});
   if (!placed) return std::nullopt;
   const Vec3l base = placed->base;
-  MeshAnalysis analysis = analyse(std::move(placed->mesh));
+  RepairedMesh analysis = repair_mesh(std::move(placed->mesh));
   if (analysis.parts.size() != 1 || analysis.parts[0].kind != PartKind::solid) return std::nullopt;
   Meshed m;
   m.part = std::move(analysis.parts[0]);
   m.origin = snap(body.at.translation).value_or(Vec3l{}) + base;
-  m.planes = make_support_planes(m.part);
-  m.tree = PartTree(m.part);
+  m.planes = make_face_kdop(m.part);
+  m.tree = TriangleBvh(m.part);
   m.off = t.mesh.sag_mm * kGridPerMm + 0.87;
   return m;
 }
@@ -257,15 +257,15 @@ struct Range {
   double lower = 0, upper = 0;
 };
 Range mesh_range(const Meshed& a, const Meshed& b) {
-  PairWork work;
+  QueryContext work;
   const double off = a.off + b.off;
   const MeetingResult meeting = meet(a.treed(), b.treed(), work);
   if (meeting.meeting == Meeting::apart) {
-    const auto near = closest(a.treed(), b.treed(), 1e12, work);
+    const auto near = find_closest_pair(a.treed(), b.treed(), 1e12, work);
     return {near->distance - off, near->distance + off};
   }
   if (meeting.meeting == Meeting::touching) return {-off, off};
-  DepthGoal goal;
+  DepthOptions goal;
   goal.triangle_a = meeting.triangle_a;
   goal.triangle_b = meeting.triangle_b;
   goal.meeting_point = meeting.point;
@@ -306,7 +306,7 @@ TEST(AnalyticPairLaws, BesideAMeshAsBesideTheBodyThatItIs) {
     const auto s = solved(p.a, p.b);
     if (!mesh || !s || !(s->d > 4) || std::fabs(p.a.at.translation.x) > 1e6) continue;
     ++compared;
-    const auto gap = analytic_gap(p.a.placed(), mesh->treed());
+    const auto gap = primitive_mesh_distance(p.a.placed(), mesh->treed());
     ASSERT_TRUE(gap) << p.what;
     EXPECT_LE(gap->lower, gap->upper) << p.what;
     EXPECT_LE(gap->lower, s->upper + mesh->off) << p.what;
@@ -316,7 +316,7 @@ TEST(AnalyticPairLaws, BesideAMeshAsBesideTheBodyThatItIs) {
     EXPECT_LE(gap->upper - gap->lower, slack) << p.what << ' ' << s->d;
     const Vec3d way = gap->on_primitive - gap->on_mesh;
     EXPECT_NEAR(std::sqrt(dot(way, way)), gap->upper, slack) << p.what;
-    const auto early = analytic_gap(p.a.placed(), mesh->treed(), gap->lower / 2);
+    const auto early = primitive_mesh_distance(p.a.placed(), mesh->treed(), gap->lower / 2);
     EXPECT_GE(early->lower, gap->lower / 2) << p.what;
   }
   EXPECT_GT(compared, kTorusPairs / 4);

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "strake/geometry/analytic_pair.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/geometry/primitive_separation.hpp"
 #include "support/body_depth.hpp"
 #include "support/random_primitives.hpp"
 #include "support/rounds.hpp"
@@ -135,7 +135,7 @@ Sampled sample(const Body& a, const Body& b, std::mt19937_64& random) {
   return s;
 }
 
-void check_apart(const Body& a, const Body& b, const AnalyticSeparation& s, const Sampled& found) {
+void check_apart(const Body& a, const Body& b, const PrimitiveSeparation& s, const Sampled& found) {
   EXPECT_GE(found.nearest, s.lower * kMmPerGrid - kSlack);
   EXPECT_EQ(found.deepest, 0) << "a point lies in both";
   // The witnesses lie on the two skins, so that the bracket's upper end is reached.
@@ -146,7 +146,7 @@ void check_apart(const Body& a, const Body& b, const AnalyticSeparation& s, cons
   EXPECT_NEAR(b.depth(middle - half), 0, off);
 }
 
-void check_meeting(const Body& a, const Body& b, const AnalyticSeparation& s,
+void check_meeting(const Body& a, const Body& b, const PrimitiveSeparation& s,
                    const Sampled& found) {
   const double least = -s.upper * kMmPerGrid, most = -s.lower * kMmPerGrid;
   EXPECT_LE(found.deepest, most + kSlack);
@@ -162,7 +162,7 @@ void check_meeting(const Body& a, const Body& b, const AnalyticSeparation& s,
 }
 
 /// Whoever is said to lie in the other does so with all of its skin.
-void check_inside(const AnalyticSeparation& s, const Sampled& found) {
+void check_inside(const PrimitiveSeparation& s, const Sampled& found) {
   if (s.a_inside_b > 0) {
     const double depth = s.a_inside_b * kMmPerGrid;
     EXPECT_GE(found.a_in_b, depth - inside_slack(depth));
@@ -189,7 +189,7 @@ Seen check_pairs(const Seeds& seeds, const Draw& draw, const More& more) {
     const auto [a, b] = draw(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(a.primitive)) +
                  " and " + std::string(kind_name(b.primitive)));
-    const auto s = analytic_separation(a.placed(), b.placed());
+    const auto s = primitive_separation(a.placed(), b.placed());
     if (!s) continue;
     ++seen.answered;
     std::mt19937_64 random(seed);
@@ -213,7 +213,7 @@ TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
   std::array<std::uint64_t, kKinds * kKinds> of_kinds{};
   const Seen seen =
       check_pairs(first(kPairs), draw_bodies,
-                  [&](std::uint64_t seed, const AnalyticSeparation& s, const Sampled& found) {
+                  [&](std::uint64_t seed, const PrimitiveSeparation& s, const Sampled& found) {
                     ++of_kinds[seed % (kKinds * kKinds)];
                     if (s.lower > 0) {
                       EXPECT_LE(found.nearest - s.upper * kMmPerGrid, 0.5 * kSize)
@@ -231,7 +231,7 @@ TEST(AnalyticSampling, NoPointOfTheBodiesContradictsABracket) {
 
 TEST(AnalyticSampling, NoPointOfSlenderBodiesContradictsABracket) {
   const Seen seen = check_pairs(first(kSlenderPairs), draw_slender,
-                                [](std::uint64_t, const AnalyticSeparation&, const Sampled&) {});
+                                [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
   EXPECT_GT(seen.answered, kSlenderPairs * 8 / 10);
   EXPECT_GT(seen.apart, kSlenderPairs / 8);
   EXPECT_GT(seen.meeting, kSlenderPairs / 8);
@@ -244,7 +244,7 @@ TEST(AnalyticSampling, BodiesLieNoDeeperInRingsThanTheirNearestPlace) {
   constexpr std::array<std::uint64_t, 9> kSeeds{11338, 12058, 22097, 39274, 79208,
                                                 87649, 93701, 97514, 99620};
   const Seen seen = check_pairs(kSeeds, draw_slender,
-                                [](std::uint64_t, const AnalyticSeparation&, const Sampled&) {});
+                                [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
   EXPECT_EQ(seen.held, kSeeds.size());
 }
 
@@ -271,7 +271,7 @@ TEST(AnalyticSampling, TheWayOutOfASweepIsItsNearestEnds) {
     const Vec3d local{out * std::cos(at), out * std::sin(at), 0};
     of.b.at.translation = to_mm(snap(of.a.world(local)).value_or(Vec3l{}));
     SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(of.a.primitive)));
-    const auto s = analytic_separation(of.a.placed(), of.b.placed());
+    const auto s = primitive_separation(of.a.placed(), of.b.placed());
     ASSERT_TRUE(s);
     if (!(s->upper < 0)) continue;
     ASSERT_TRUE(s->deep_in_a);
@@ -296,7 +296,7 @@ TEST(AnalyticSampling, TheWayOutFromNextToAnAxisIsTheShortest) {
     // A box with a face through the axis, but for the grid's rounding.
     of.b.at.linear = of.a.at.linear;
     of.b.at.translation = to_mm(snap(of.a.world({30, 0, draw.between(-9, 9)})).value_or(Vec3l{}));
-    const auto s = analytic_separation(of.a.placed(), of.b.placed());
+    const auto s = primitive_separation(of.a.placed(), of.b.placed());
     ASSERT_TRUE(s);
     ASSERT_LT(s->upper, 0);
     const Vec3d point = of.a.at.translation + s->point * kMmPerGrid;
@@ -309,7 +309,7 @@ TEST(AnalyticSampling, TheWayOutFromNextToAnAxisIsTheShortest) {
 TEST(AnalyticSampling, ARodAcrossANotchSticksOut) {
   constexpr std::uint64_t kSeed = 68'795;
   const auto [a, b] = draw_bodies(kSeed);
-  const auto s = analytic_separation(a.placed(), b.placed());
+  const auto s = primitive_separation(a.placed(), b.placed());
   ASSERT_TRUE(s);
   std::mt19937_64 random(kSeed);
   EXPECT_LT(sample(a, b, random).b_in_a, -0.1);

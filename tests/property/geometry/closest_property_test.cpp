@@ -34,7 +34,7 @@ ClosestPoints ask(const A& a, const B& b) {
 
 /// The corners that a place names.
 template <class Shape>
-std::vector<testing::RationalPoint> feature(const Shape& shape, PlaceMask place) {
+std::vector<testing::RationalPoint> feature(const Shape& shape, FeatureMask place) {
   std::vector<testing::RationalPoint> r;
   for (std::size_t i = 0; i < shape.size(); ++i)
     if ((place >> i & 1U) != 0) r.push_back(exact(shape[i]));
@@ -42,7 +42,7 @@ std::vector<testing::RationalPoint> feature(const Shape& shape, PlaceMask place)
 }
 
 template <class Shape>
-bool strictly_on(const Shape& shape, PlaceMask place, const RationalPoint& p) {
+bool strictly_on(const Shape& shape, FeatureMask place, const RationalPoint& p) {
   const auto corners = feature(shape, place);
   if (corners.empty()) return false;
   const auto w = testing::weights(corners, exact(p));

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "strake/geometry/common_volume.hpp"
+#include "geometry/intersection_volume/intersection_volume.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/rational_oracle.hpp"
 #include "support/rounds.hpp"
@@ -29,8 +29,8 @@ constexpr int kRounds = test::rounds(60, 4000);
 
 constexpr std::uint64_t kPlenty = 1'000'000;
 
-CommonVolume volume_of(const Subject& a, const Subject& b) {
-  return common_volume(a.treed(), b.treed(), kPlenty).value();
+IntersectionVolume volume_of(const Subject& a, const Subject& b) {
+  return intersection_volume(a.treed(), b.treed(), kPlenty).value();
 }
 
 LatticeMap scaling(std::int32_t factor) {
@@ -40,7 +40,7 @@ LatticeMap scaling(std::int32_t factor) {
 }
 
 /// The truth lies in the bracket, and the bracket is narrow.
-void expect_volume(const mpq_class& truth, const CommonVolume& got, double size) {
+void expect_volume(const mpq_class& truth, const IntersectionVolume& got, double size) {
   EXPECT_LE(mpq_class(got.lower), truth);
   EXPECT_GE(mpq_class(got.upper), truth);
   EXPECT_LE(got.lower, got.volume);
@@ -93,7 +93,7 @@ TEST_P(CommonVolumeProperty, PlaceShowsInNoBit) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CommonVolumeProperty, strake::test::seeds<std::uint64_t>(4));
 
-TEST(CommonVolume, WallsNestsAndCopies) {
+TEST(IntersectionVolume, WallsNestsAndCopies) {
   const Subject wall(box_mesh({0, 0, 0}, {200'000, 5'000'000, 3'000'000}));
   const Subject other(box_mesh({150'000, 0, 0}, {350'000, 5'000'000, 3'000'000}));
   const Subject inner(box_mesh({50'000, 1000, 1000}, {60'000, 2000, 2000}));
@@ -106,7 +106,7 @@ TEST(CommonVolume, WallsNestsAndCopies) {
   EXPECT_EQ(volume_of(wall, beside).upper, 0);
 }
 
-TEST(CommonVolume, ThinAndFarReachingBodies) {
+TEST(IntersectionVolume, ThinAndFarReachingBodies) {
   // A rod of 2 mm that crosses a block at a slant, 100 m long: the common part is a millionth of
   // it.
   IndexedMesh rod;
@@ -124,24 +124,24 @@ TEST(CommonVolume, ThinAndFarReachingBodies) {
     rod.triangles.push_back(t);
   const Subject a(rod),
       block(box_mesh({-1'000'000, -1'000'000, -50'000}, {1'000'000, 1'000'000, 50'000}));
-  const CommonVolume common = volume_of(a, block);
+  const IntersectionVolume common = volume_of(a, block);
   EXPECT_NEAR(common.volume, 2000.0 * 2000.0 * 100'000.0, 400.0);
   EXPECT_LT(common.upper - common.lower, 2e-3 * common.volume);
 }
 
-TEST(CommonVolume, GivesUpRatherThanGuesses) {
+TEST(IntersectionVolume, GivesUpRatherThanGuesses) {
   const Subject a(box_mesh({0, 0, 0}, {10, 10, 10})), b(box_mesh({5, 5, 5}, {20, 20, 20}));
-  EXPECT_FALSE(common_volume(a.treed(), b.treed(), 10).has_value());
-  EXPECT_TRUE(common_volume(a.treed(), b.treed(), 200).has_value());
+  EXPECT_FALSE(intersection_volume(a.treed(), b.treed(), 10).has_value());
+  EXPECT_TRUE(intersection_volume(a.treed(), b.treed(), 200).has_value());
 }
 
-TEST(CommonVolume, SheetsHaveNone) {
+TEST(IntersectionVolume, SheetsHaveNone) {
   const Subject sheet(strake::testing::quad_mesh({0, 0, 5}, {10, 0, 0}, {0, 10, 0}));
   const Subject box(box_mesh({0, 0, 0}, {10, 10, 10}));
-  EXPECT_FALSE(common_volume(sheet.treed(), box.treed(), kPlenty).has_value());
+  EXPECT_FALSE(intersection_volume(sheet.treed(), box.treed(), kPlenty).has_value());
 }
 
-TEST(CommonVolume, WorkFollowsTheSkins) {
+TEST(IntersectionVolume, WorkFollowsTheSkins) {
   const auto fine = [](std::int32_t half) {
     IndexedMesh mesh = box_mesh({-half, -half, -half}, {half, half, half});
     for (int i = 0; i < 4; ++i) mesh = strake::testing::subdivided(mesh);
@@ -149,7 +149,7 @@ TEST(CommonVolume, WorkFollowsTheSkins) {
   };
   const Subject outer(fine(160'000)), inner(fine(96'000));
   ASSERT_EQ(outer.part.triangles.size(), 3072U);
-  const CommonVolume common = volume_of(outer, inner);
+  const IntersectionVolume common = volume_of(outer, inner);
   EXPECT_DOUBLE_EQ(common.volume, std::pow(192'000.0, 3));
   EXPECT_LT(common.triangle_pairs, 10 * 3072U);
 }

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/intersect/intersection_lines.hpp"
+#include "geometry/obb/oriented_box.hpp"
 #include "strake/geometry/closest.hpp"
-#include "strake/geometry/crossing_lines.hpp"
 #include "strake/geometry/intersect.hpp"
-#include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/rounds.hpp"
@@ -86,10 +86,10 @@ std::optional<Vec3d> middle_of_crossing(const TriangleCorners& x, const Triangle
 }
 
 Lines lines_of(const Subject& a, const Subject& b, std::int64_t flush = 0) {
-  PairWork work;
-  const PartFrame frame_a = make_frame(a.part), frame_b = make_frame(b.part);
-  return crossing_lines({a.treed().placed, &frame_a, &a.tree},
-                        {b.treed().placed, &frame_b, &b.tree}, flush, work);
+  QueryContext work;
+  const OrientedBox frame_a = make_oriented_box(a.part), frame_b = make_oriented_box(b.part);
+  return part_intersection_lines({a.treed().placed, &frame_a, &a.tree},
+                                 {b.treed().placed, &frame_b, &b.tree}, flush, work);
 }
 
 TEST(CrossingLines, AreThoseOfTheTriangles) {
@@ -116,7 +116,7 @@ TEST(CrossingLines, AreThoseOfTheTriangles) {
         ASSERT_TRUE(std::ranges::any_of(
             lines, [&](const Segment& line) { return distance(*middle, line) <= kRounding; }));
       }
-    PairWork work;
+    QueryContext work;
     const Meeting meeting = meet(a.treed(), b.treed(), work).meeting;
     if (meeting == Meeting::apart || meeting == Meeting::touching) {
       ++apart;

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/one_side.hpp"
-#include "geometry/pair_view.hpp"
-#include "strake/geometry/crossing_lines.hpp"
+#include "geometry/bvh/pair_local_part.hpp"
+#include "geometry/intersect/intersection_lines.hpp"
+#include "geometry/intersect/separating_plane.hpp"
+#include "geometry/obb/oriented_box.hpp"
 #include "strake/geometry/intersect.hpp"
-#include "strake/geometry/part_frame.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 #include "support/draw.hpp"
 #include "support/lattice_solids.hpp"
@@ -103,27 +103,29 @@ Bodies bodies(std::uint64_t seed) {
 struct Asked {
   const Subject& a;
   const Subject& b;
-  PartFrame frame_a, frame_b;
+  OrientedBox frame_a, frame_b;
 
   Asked(const Subject& x, const Subject& y)
-      : a(x), b(y), frame_a(make_frame(x.part)), frame_b(make_frame(y.part)) {}
+      : a(x), b(y), frame_a(make_oriented_box(x.part)), frame_b(make_oriented_box(y.part)) {}
 
-  [[nodiscard]] Lines quick(std::int64_t flush, PairWork& work) const {
-    return crossing_lines({a.treed().placed, &frame_a, &a.tree},
-                          {b.treed().placed, &frame_b, &b.tree}, flush, work);
+  [[nodiscard]] Lines quick(std::int64_t flush, QueryContext& work) const {
+    return part_intersection_lines({a.treed().placed, &frame_a, &a.tree},
+                                   {b.treed().placed, &frame_b, &b.tree}, flush, work);
   }
-  [[nodiscard]] Lines of_all(std::int64_t flush, PairWork& work) const {
-    return crossing_lines_all(a.treed().placed, b.treed().placed, flush, work);
+  [[nodiscard]] Lines of_all(std::int64_t flush, QueryContext& work) const {
+    return part_intersection_lines_brute_force(a.treed().placed, b.treed().placed, flush, work);
   }
   [[nodiscard]] bool parted() const {
-    return frame_gap({a.treed().placed, &frame_a}, {b.treed().placed, &frame_b}, 1e-300).lower > 0;
+    return oriented_box_separation({a.treed().placed, &frame_a}, {b.treed().placed, &frame_b},
+                                   1e-300)
+               .lower > 0;
   }
   [[nodiscard]] bool on_one_side() const {
-    const PartView x(a.treed(), {}), y(b.treed(), b.origin - a.origin);
+    const PairLocalPart x(a.treed(), {}), y(b.treed(), b.origin - a.origin);
     return lies_on_one_side(x, y) || lies_on_one_side(y, x);
   }
   [[nodiscard]] bool meet_at_all() const {
-    PairWork work;
+    QueryContext work;
     return meet(a.treed(), b.treed(), work).boundaries_meet;
   }
 };
@@ -138,7 +140,7 @@ TEST(CrossingSearch, LeavesOutNothingThatCrosses) {
     const Subject a(made.a), b(moved(made.b, {-3, 5, -7}), {3, -5, 7});
     const Asked asked(a, b);
     for (const std::int64_t flush : {0, 3}) {
-      PairWork quick, slow;
+      QueryContext quick, slow;
       const Lines expected = asked.of_all(flush, slow);
       ASSERT_EQ(asked.quick(flush, quick), expected) << "faces that touch within " << flush;
       lines += expected.size();
@@ -172,7 +174,7 @@ TEST(CrossingSearch, LargePartsAreWalked) {
     const Subject a(meshes[0]), b(meshes[1]);
     ASSERT_TRUE(want_trees(a.part, b.part));
     const Asked asked(a, b);
-    PairWork quick, slow;
+    QueryContext quick, slow;
     const Lines expected = asked.of_all(3, slow);
     EXPECT_FALSE(expected.empty());
     EXPECT_EQ(asked.quick(3, quick), expected);
@@ -190,7 +192,7 @@ TEST(CrossingSearch, TubesThatFitCostNoPairOfTriangles) {
                                    });
   };
   const Subject pipe(tube(57'000, 50'000)), insulation(tube(107'000, 57'000));
-  PairWork work;
+  QueryContext work;
   EXPECT_TRUE(Asked(pipe, insulation).quick(3, work).empty());
   EXPECT_TRUE(Asked(insulation, pipe).quick(3, work).empty());
   EXPECT_EQ(work.triangle_pairs, 0U);

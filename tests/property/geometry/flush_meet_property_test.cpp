@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/flush_planes.hpp"
+#include "geometry/intersect/coplanar_faces.hpp"
 #include "strake/geometry/part_pair.hpp"
 #include "support/draw.hpp"
 #include "support/part_builder.hpp"
@@ -169,9 +169,11 @@ TEST(FlushMeet, TurnedBodiesMeetAsTheirProfilesDo) {
     const Subject x(TurnedBody(a, sides, axis).mesh(), at),
         y(TurnedBody(b, sides, axis).mesh(), at);
     ASSERT_EQ(x.part.kind, PartKind::solid);
-    flush += flush_planes(PartView(x.treed(), {}), PartView(y.treed(), {})).empty() ? 0U : 1U;
+    flush += find_coplanar_faces(PairLocalPart(x.treed(), {}), PairLocalPart(y.treed(), {})).empty()
+                 ? 0U
+                 : 1U;
     const MeetingResult truth = truth_of(a, b);
-    PairWork work;
+    QueryContext work;
     const MeetingResult found = meet(x.treed(), y.treed(), work);
     ++seen[found.meeting];
     ASSERT_TRUE(says_the_same(found, truth));
@@ -259,8 +261,9 @@ TEST(FlushMeet, ATouchInOnePointIsATouch) {
                               Triangle{v, v + 3, v + 1}, Triangle{v + 1, v + 3, v + 2}})
       post.triangles.push_back(t);
     const Subject x(tube), y(post);
-    ASSERT_FALSE(flush_planes(PartView(x.treed(), {}), PartView(y.treed(), {})).empty());
-    PairWork work;
+    ASSERT_FALSE(
+        find_coplanar_faces(PairLocalPart(x.treed(), {}), PairLocalPart(y.treed(), {})).empty());
+    QueryContext work;
     const MeetingResult found = meet(x.treed(), y.treed(), work);
     EXPECT_EQ(found.meeting, below == 0 ? Meeting::touching : Meeting::apart);
     EXPECT_EQ(found.boundaries_meet, below == 0);
@@ -282,8 +285,11 @@ TEST(FlushMeet, FinerFansSayTheSameAsCoarseOnes) {
     const auto meeting = [&](int cuts) {
       const Subject x(prism(p, cuts, {}, 5000)), y(prism(q, cuts, at, tall));
       if (cuts > 1)
-        flush += flush_planes(PartView(x.treed(), {}), PartView(y.treed(), {})).empty() ? 0U : 1U;
-      PairWork work;
+        flush +=
+            find_coplanar_faces(PairLocalPart(x.treed(), {}), PairLocalPart(y.treed(), {})).empty()
+                ? 0U
+                : 1U;
+      QueryContext work;
       return meet(x.treed(), y.treed(), work);
     };
     const MeetingResult coarse = meeting(1), fine = meeting(kCuts);

@@ -74,14 +74,14 @@ TEST_P(InsideProperty, PointsOfTriangles) {
       const std::int64_t u = lattice.below(7) - 2, v = lattice.below(7) - 2;
       p = {t[0] * 4 + (t[1] - t[0]) * u + (t[2] - t[0]) * v, 4};
     }
-    const PlaceMask place = place_on(t, p);
+    const FeatureMask place = feature_of(t, p);
     ASSERT_EQ(place, testing::true_place(t, exact(p))) << round;
     ++seen[place];
     const testing::GridMotion m = testing::random_motion(lattice, 9);
     if (m.scale > 1 && p.denominator > 4) continue;
     const Vec3l image = testing::turned(p.numerator, m.symmetry) * m.scale;
     const TriangleCorners near = testing::GridMotion{m.symmetry, m.scale, {}}(t);
-    ASSERT_EQ(place_on(near, {image, p.denominator}), place);
+    ASSERT_EQ(feature_of(near, {image, p.denominator}), place);
   }
   for (const int n : seen) EXPECT_GT(n, kRounds / 50);
 }
@@ -143,7 +143,7 @@ TEST_P(InsideProperty, PointsOfPolyhedraWithAndWithoutATree) {
         for (const std::uint32_t v : {t[0], t[0], t[1], t[2]})
           p.numerator = p.numerator + body.mesh.vertices[v].as<std::int64_t>();
       }
-      PairWork work;
+      QueryContext work;
       const PointSide side = side_of_polyhedron(subject.part, p);
       ++seen[static_cast<int>(side)];
       ASSERT_EQ(side, side_of(subject.treed(), p.numerator, p.denominator, work));

@@ -26,8 +26,8 @@ const mpq_class kNear(1, 1'000'000'000'000);
 
 bool in_reach(const GridLine& line, const mpq_class& t) {
   if (line.from == line.to) return t == 0;
-  if (line.reach != Reach::line && t < 0) return false;
-  return line.reach != Reach::segment || t <= 1;
+  if (line.reach != LineKind::line && t < 0) return false;
+  return line.reach != LineKind::segment || t <= 1;
 }
 
 RationalPoint at(const GridLine& line, const mpq_class& t) {
@@ -63,14 +63,14 @@ void check_stretch(const GridLine& line, const LineStretch& s, const Member& ins
 /// The line as a segment so long that what it misses on the lattice, the line misses.
 std::array<Vec3l, 2> long_segment(const GridLine& line) {
   const Vec3l way = (line.to - line.from) * 10'000;
-  return {line.reach == Reach::line ? line.from - way : line.from,
-          line.reach == Reach::segment ? line.to : line.from + way};
+  return {line.reach == LineKind::line ? line.from - way : line.from,
+          line.reach == LineKind::segment ? line.to : line.from + way};
 }
 
 GridLine random_line(Lattice& lattice) {
   const Vec3l from = lattice.point();
   return {from, lattice.below(12) == 0 ? from : lattice.point(),
-          static_cast<Reach>(lattice.below(3))};
+          static_cast<LineKind>(lattice.below(3))};
 }
 
 GridLine moved(const GridLine& line, const testing::GridMotion& m) {

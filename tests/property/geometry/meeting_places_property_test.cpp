@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
-#include "strake/core/disjoint_sets.hpp"
-#include "strake/geometry/meeting_places.hpp"
+#include "core/union_find.hpp"
+#include "geometry/contact_regions/contact_regions.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/part_builder.hpp"
 #include "support/rounds.hpp"
@@ -140,7 +140,7 @@ std::size_t common_components(const Cells& a, const Cells& b) {
   std::map<Vec3i, std::uint32_t> number;
   for (const Vec3i& p : in_a)
     if (in_b.contains(p)) number.emplace(p, static_cast<std::uint32_t>(number.size()));
-  DisjointSets sets(number.size());
+  UnionFind sets(number.size());
   for (const auto& [p, n] : number)
     for (int axis = 0; axis < 3; ++axis) {
       if (p[axis] % 2 == 0) continue;  // a piece is wide along its odd axes
@@ -157,15 +157,15 @@ std::size_t common_components(const Cells& a, const Cells& b) {
 
 std::size_t count(const IndexedMesh& a, const IndexedMesh& b, const Vec3l& at) {
   const Subject x(a, at), y(b, at);
-  PairWork work;
+  QueryContext work;
   const MeetingResult m = meet(x.treed(), y.treed(), work);
   if (m.meeting == Meeting::apart) return 0;
   const bool interiors = m.meeting != Meeting::touching;
   const auto places =
-      meeting_places(x.treed(), y.treed(), {.reach = 0, .interiors_meet = interiors}, work);
+      contact_regions(x.treed(), y.treed(), {.reach = 0, .interiors_meet = interiors}, work);
   EXPECT_TRUE(places.has_value());
   if (!places) return 0;
-  for (const MeetingPlace& p : *places) EXPECT_EQ(p.nearest.distance, 0);
+  for (const ContactRegion& p : *places) EXPECT_EQ(p.nearest.distance, 0);
   return std::max<std::size_t>(places->size(), 1);
 }
 
@@ -203,10 +203,10 @@ TEST_P(MeetingPlacesProperty, AsTheCellsOfALatticeHaveIt) {
 }
 
 /// Places by joining every two near triangles, which asking for all about a single place does.
-std::optional<std::vector<MeetingPlace>> asked(const Subject& x, const Subject& y, double reach,
-                                               OnePlace one) {
-  PairWork work;
-  return meeting_places(x.treed(), y.treed(), {.reach = reach, .one = one}, work);
+std::optional<std::vector<ContactRegion>> asked(const Subject& x, const Subject& y, double reach,
+                                                SingleRegionDetail one) {
+  QueryContext work;
+  return contact_regions(x.treed(), y.treed(), {.reach = reach, .one = one}, work);
 }
 
 TEST_P(MeetingPlacesProperty, TheShortWayToASinglePlaceCountsAsTheLongOneDoes) {
@@ -228,9 +228,9 @@ TEST_P(MeetingPlacesProperty, TheShortWayToASinglePlaceCountsAsTheLongOneDoes) {
     // From a touch to more than all that is there.
     const int widest = rng() % 4 == 0 ? 12 : 2;
     const auto reach = static_cast<double>(rng() % static_cast<unsigned>(kCell * widest));
-    const auto full = asked(x, y, reach, OnePlace::described);
-    const auto counted = asked(x, y, reach, OnePlace::counted);
-    const auto boxed = asked(x, y, reach, OnePlace::boxed);
+    const auto full = asked(x, y, reach, SingleRegionDetail::described);
+    const auto counted = asked(x, y, reach, SingleRegionDetail::counted);
+    const auto boxed = asked(x, y, reach, SingleRegionDetail::boxed);
     ASSERT_TRUE(full && counted && boxed);
     ASSERT_EQ(counted->size(), full->size()) << "round " << round;
     ASSERT_EQ(boxed->size(), full->size()) << "round " << round;
@@ -304,7 +304,7 @@ std::size_t near_components(const Blocks& a, const Blocks& b, double reach) {
     for (const Vec3i& y : b.cells)
       if (near(a.block(x), b.block(y)))
         number.emplace(std::pair(x, y), static_cast<std::uint32_t>(number.size()));
-  DisjointSets sets(number.size());
+  UnionFind sets(number.size());
   for (const auto& [cells, n] : number)
     for (std::int32_t i = 0; i < 27; ++i) {
       const Vec3i step{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
@@ -341,11 +341,11 @@ Cells with_hole(std::mt19937_64& rng) {
 }
 
 std::size_t count_within(const Subject& x, const Subject& y, double reach) {
-  PairWork work;
+  QueryContext work;
   const MeetingResult m = meet(x.treed(), y.treed(), work);
   const bool interiors = m.meeting != Meeting::apart && m.meeting != Meeting::touching;
   const auto places =
-      meeting_places(x.treed(), y.treed(), {.reach = reach, .interiors_meet = interiors}, work);
+      contact_regions(x.treed(), y.treed(), {.reach = reach, .interiors_meet = interiors}, work);
   EXPECT_TRUE(places.has_value());
   if (!places) return 0;
   // Of a body that lies deep in the other no skins are near each other.

@@ -76,9 +76,9 @@ struct Answer {
 };
 
 Answer answer(const Subject& a, const Subject& b) {
-  PairWork work;
+  QueryContext work;
   const MeetingResult m = meet(a.treed(), b.treed(), work);
-  const auto near = closest(a.treed(), b.treed(), INFINITY, work);
+  const auto near = find_closest_pair(a.treed(), b.treed(), INFINITY, work);
   return {m.meeting, m.boundaries_meet, m.a_within_b, m.b_within_a, near->squared, near->distance};
 }
 
@@ -238,7 +238,7 @@ TEST_P(PartPairProperty, PointsLieWhereThePiecesSay) {
       Vec3l n;
       for (int k = 0; k < 3; ++k)
         n[k] = static_cast<std::int64_t>(rng() % static_cast<std::uint64_t>(8 * d + 1)) - 3 * d;
-      PairWork work;
+      QueryContext work;
       const PointSide side = side_of(subject.treed(), n, d, work);
       std::array<mpq_class, 3> p;
       for (std::size_t k = 0; k < 3; ++k)
@@ -272,8 +272,8 @@ TEST_P(PartPairProperty, TheNearestTrianglesAreTheFirstAmongEquals) {
     const Subject a(pair.a.mesh), b(pair.b.mesh);
     if (a.part.triangles.size() * b.part.triangles.size() > 150) continue;
     SCOPED_TRACE(label(pair.recipe, round));
-    PairWork work;
-    const auto near = closest(a.treed(), b.treed(), INFINITY, work);
+    QueryContext work;
+    const auto near = find_closest_pair(a.treed(), b.treed(), INFINITY, work);
     ASSERT_TRUE(near.has_value());
     const auto alone = [](const Part& part, std::uint32_t t) {
       return IndexedMesh{part.vertices, {part.triangles[t]}};

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/sheet_curve.hpp"
+#include "geometry/sheet_separation/robust_crossings.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/rounds.hpp"
 
@@ -138,10 +138,11 @@ TEST_P(SheetCrossing, IsThatOfTheWalks) {
     for (const bool fine : {false, true}) {
       const IndexedMesh fa = fine ? testing::subdivided(ma) : ma;
       const Subject a(testing::shuffled(mapped(fa, turn), rng)), b(mapped(mb, turn));
-      PairWork work;
+      QueryContext work;
       ASSERT_EQ(meet(a.treed(), b.treed(), work).meeting == Meeting::crossing, truth);
       ASSERT_EQ(meet(b.treed(), a.treed(), work).meeting == Meeting::crossing, truth);
-      ASSERT_EQ(crossing_curve(a.treed(), b.treed(), 0, 1000, work).segments.empty(), !truth);
+      ASSERT_EQ(find_sheet_intersection(a.treed(), b.treed(), 0, 1000, work).segments.empty(),
+                !truth);
     }
     bool along = false;
     for (std::size_t i = 0; i + 1 < p.size(); ++i) along |= has_step(q, p[i], p[i + 1]);

@@ -12,13 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "geometry/depth/boundary_curve.hpp"
-#include "geometry/depth/curve_tree.hpp"
-#include "geometry/depth/nearest.hpp"
-#include "geometry/pair_view.hpp"
-#include "geometry/sheet_curve.hpp"
-#include "strake/geometry/meeting_places.hpp"
-#include "strake/geometry/sheet_crossing.hpp"
+#include "geometry/bvh/pair_local_part.hpp"
+#include "geometry/contact_regions/contact_regions.hpp"
+#include "geometry/interior_depth/sheets/sheet_boundary.hpp"
+#include "geometry/interior_depth/sheets/sheet_crossing.hpp"
+#include "geometry/interior_depth/surface_distance/nearest_triangle.hpp"
+#include "geometry/sheet_separation/robust_crossings.hpp"
 #include "support/draw.hpp"
 #include "support/part_builder.hpp"
 #include "support/rounds.hpp"
@@ -30,7 +29,7 @@ using test::Draw;
 using testing::IndexedMesh;
 using testing::Subject;
 
-double brute_distance(const Vec3d& p, const std::vector<CurveTree::Segment>& segments) {
+double brute_distance(const Vec3d& p, const std::vector<SegmentBvh::Segment>& segments) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [from, to] : segments)
     least = std::min(least, length(p - nearest_on_segment(p, from, to)));
@@ -38,11 +37,11 @@ double brute_distance(const Vec3d& p, const std::vector<CurveTree::Segment>& seg
 }
 
 /// Short ones, long ones, points, and several at one place.
-std::vector<CurveTree::Segment> random_curve(Draw& draw) {
+std::vector<SegmentBvh::Segment> random_curve(Draw& draw) {
   const auto point = [&](double size) {
     return Vec3d{draw.between(-size, size), draw.between(-size, size), draw.between(-size, size)};
   };
-  std::vector<CurveTree::Segment> curve;
+  std::vector<SegmentBvh::Segment> curve;
   const auto count = draw.below(80);
   const double most = draw.one_in(2) ? 50 : 5000;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -59,7 +58,7 @@ TEST_P(SheetPlaces, TheNearestOfACurveIsThatOfALookAtAll) {
   for (int round = 0; round < test::rounds(200, 5000); ++round) {
     SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", round " + std::to_string(round));
     const auto curve = random_curve(draw);
-    const CurveTree tree(curve);
+    const SegmentBvh tree(curve);
     for (int i = 0; i < 20; ++i) {
       const Vec3d p{draw.between(-15'000, 15'000), draw.between(-15'000, 15'000),
                     draw.between(-15'000, 15'000)};
@@ -107,7 +106,7 @@ struct Sampled {
 
 Sampled sampled(const DoubleSegment& at, const Subject& a, const Subject& b) {
   constexpr int kPoints = 64;
-  const auto rim_a = boundary_curve(a.part), rim_b = boundary_curve(b.part);
+  const auto rim_a = boundary_edges(a.part), rim_b = boundary_edges(b.part);
   Sampled s{.most = 0, .missed = length(at[1] - at[0]) / (2 * kPoints)};
   for (int i = 0; i <= kPoints; ++i) {
     const Vec3d p = at[0] + (at[1] - at[0]) * (static_cast<double>(i) / kPoints);
@@ -123,12 +122,12 @@ TEST_P(SheetPlaces, AreAsDeepAsTheirStretches) {
     SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", round " + std::to_string(round));
     const bool grid = draw.one_in(2);
     const Subject a(random_sheet(draw, grid)), b(random_sheet(draw, grid));
-    PairWork work;
-    const CrossingCurve curve = crossing_curve(a.treed(), b.treed(), 0, 100'000, work);
+    QueryContext work;
+    const SheetIntersection curve = find_sheet_intersection(a.treed(), b.treed(), 0, 100'000, work);
     const SheetCrossing crossing(a.treed(), b.treed(), 0, work);
     ASSERT_EQ(crossing.stretches().size(), curve.segments.size());
     const auto places =
-        find_meeting_places(a.treed(), b.treed(), {.reach = 10, .interiors_meet = true}, work);
+        find_contact_regions(a.treed(), b.treed(), {.reach = 10, .interiors_meet = true}, work);
     ASSERT_TRUE(places);
     several += places->all.size() > 1 ? 1 : 0;
     double deepest = 0;
@@ -141,11 +140,11 @@ TEST_P(SheetPlaces, AreAsDeepAsTheirStretches) {
       ASSERT_LE(d.upper - d.lower, std::max(8.1, 0.0002 * d.upper));
       deepest = std::max(deepest, d.value);
       const auto [ta, tb] = crossing.stretches()[i];
-      const auto place = places->place_of_pair(ta, tb);
+      const auto place = places->region_of_pair(ta, tb);
       ASSERT_TRUE(place);
       by_place[*place] = std::max(by_place[*place], d.value);
       const Vec3d middle = (curve.segments[i][0] + curve.segments[i][1]) * 0.5;
-      ASSERT_EQ(places->place_of({.of_a = true, .triangle = ta, .point = middle}), place);
+      ASSERT_EQ(places->region_of({.of_a = true, .triangle = ta, .point = middle}), place);
     }
     const Depth whole = crossing.depth({}, work);
     ASSERT_NEAR(whole.value, deepest, std::max(8.1, 0.0002 * deepest));

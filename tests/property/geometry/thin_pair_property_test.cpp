@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "strake/geometry/grid.hpp"
-#include "strake/geometry/thin_pair.hpp"
+#include "strake/geometry/lower_dimensional_separation.hpp"
 #include "support/exact_place.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/random_primitives.hpp"
@@ -28,8 +28,8 @@ constexpr int kRounds = test::rounds(300, 20'000);
 /// What a bracket may be off by beside the oracle's own arithmetic, grid units.
 constexpr double kRounding = 1e-3;
 
-DepthGoal narrow_goal() {
-  DepthGoal goal;
+DepthOptions narrow_goal() {
+  DepthOptions goal;
   goal.tolerance = 1;
   goal.relative = 0;
   goal.threshold = -1;
@@ -39,7 +39,8 @@ DepthGoal narrow_goal() {
 
 Vec3d on_grid(const Vec3d& p) { return to_mm(snap(p).value_or(Vec3l{})); }
 
-void expect_within(const ThinSeparation& s, double low, double high, double margin = kRounding) {
+void expect_within(const LowerDimensionalSeparation& s, double low, double high,
+                   double margin = kRounding) {
   ASSERT_LE(s.lower, s.upper);
   ASSERT_LE(s.lower, s.d);
   ASSERT_LE(s.d, s.upper);
@@ -59,13 +60,13 @@ double to_arc(const Vec3d& p, double radius, double angle) {
   return std::min(end(0), end(angle));
 }
 
-Vec3d point_of(const ThinArc& arc, double t) {
+Vec3d point_of(const CircularArc& arc, double t) {
   return arc.placement * Vec3d{arc.radius_mm * std::cos(t), arc.radius_mm * std::sin(t), 0};
 }
 
 /// A body by drawing, and points of it no farther than `spacing` (mm) from any other.
 struct Drawn {
-  ThinBody body;
+  LowerDimensionalBody body;
   std::vector<Vec3d> samples;
   double spacing = 0;
   std::string what;
@@ -83,7 +84,7 @@ Drawn draw_thin(PrimitiveDraw& draw, double size, std::uint64_t kind, int count)
   const auto corner = [&] { return on_grid(draw.point(size)); };
   if (kind == 0) {
     const Vec3d p = corner();
-    r.body = *thin_point(p);
+    r.body = *make_point_body(p);
     r.samples = {p};
     r.what = "point";
   } else if (kind == 1 || kind == 2) {
@@ -91,14 +92,14 @@ Drawn draw_thin(PrimitiveDraw& draw, double size, std::uint64_t kind, int count)
     const std::size_t n = kind == 1 ? 2 : 3 + draw.below(4);
     while (points.size() < n) points.push_back(corner());
     const bool closed = kind == 2 && draw.one_in(2);
-    r.body = *thin_polyline(points, closed);
+    r.body = *make_polyline_body(points, closed);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) r.sample(points[i], points[i + 1], count);
     if (closed) r.sample(points.back(), points.front(), count);
     r.what = kind == 1 ? "line" : "polyline";
   } else if (kind == 3) {
     const Vec3d o = corner(), u = draw.point(size), v = draw.point(size);
     const std::array<Vec3d, 3> corners{o, on_grid(o + u), on_grid(o + v)};
-    const ThinPolygon polygon = thin_polygon(corners, std::array<std::uint32_t, 2>{0, 3});
+    const PolygonBody polygon = make_polygon_body(corners, std::array<std::uint32_t, 2>{0, 3});
     EXPECT_EQ(polygon.fault, FaceFault::none);
     r.body = polygon.body;
     for (int i = 0; i <= count; ++i)
@@ -111,11 +112,11 @@ Drawn draw_thin(PrimitiveDraw& draw, double size, std::uint64_t kind, int count)
     }
     r.what = "polygon";
   } else {
-    ThinArc arc{
+    CircularArc arc{
         draw.between(0.2, 1) * size, draw.one_in(4) ? 2 * M_PI : draw.between(0.2, 6.2), {}};
     arc.placement.linear = draw.turn();
     arc.placement.translation = corner();
-    r.body = *thin_arc(arc);
+    r.body = *make_arc_body(arc);
     const int n = 4 * count;
     for (int i = 0; i <= n; ++i) r.samples.push_back(point_of(arc, arc.angle * i / n));
     r.spacing = arc.radius_mm * arc.angle / n / 2;
@@ -139,7 +140,7 @@ TEST_P(ThinPair, AgainstSpheresByTheClosedForm) {
     const Primitive primitive = sphere;
     const Vec3d c = at.translation;
     // An arc: its plane's frame sees the centre.
-    ThinArc arc{draw.between(0.2, 1) * size, draw.between(0.2, 2 * M_PI), {}};
+    CircularArc arc{draw.between(0.2, 1) * size, draw.between(0.2, 2 * M_PI), {}};
     arc.placement = {draw.turn(), on_grid(draw.point(size))};
     const Mat3d& m = arc.placement.linear;
     const Vec3d off = c - arc.placement.translation;
@@ -148,7 +149,7 @@ TEST_P(ThinPair, AgainstSpheresByTheClosedForm) {
       local[k] = off.x * m.row[0][k] + off.y * m.row[1][k] + off.z * m.row[2][k];
     const double arc_d =
         (to_arc(local, arc.radius_mm, arc.angle) - sphere.diameter / 2) * kGridPerMm;
-    const auto of_arc = thin_separation(*thin_arc(arc), {&primitive, &at});
+    const auto of_arc = lower_dimensional_separation(*make_arc_body(arc), {&primitive, &at});
     ASSERT_TRUE(of_arc);
     expect_within(*of_arc, arc_d, arc_d, 1e-9 * size * kGridPerMm + kRounding);
     ASSERT_LE(of_arc->upper - of_arc->lower, 1);
@@ -158,7 +159,8 @@ TEST_P(ThinPair, AgainstSpheresByTheClosedForm) {
     const double t = std::clamp(dot(c - p, e) / dot(e, e), 0.0, 1.0);
     const Vec3d gap = p + e * t - c;
     const double d = (std::sqrt(dot(gap, gap)) - sphere.diameter / 2) * kGridPerMm;
-    const auto of_line = thin_separation(*thin_polyline(std::array{p, q}), {&primitive, &at});
+    const auto of_line =
+        lower_dimensional_separation(*make_polyline_body(std::array{p, q}), {&primitive, &at});
     ASSERT_TRUE(of_line);
     expect_within(*of_line, d, d, 1e-9 * size * kGridPerMm + kRounding);
     ASSERT_LE(of_line->upper - of_line->lower, 0.25);
@@ -175,13 +177,13 @@ TEST_P(ThinPair, AgainstPrimitivesBySamples) {
     const Placement at{draw.linear(torus), on_grid(draw.point(0.5 * size))};
     const Drawn thin = draw_thin(draw, 1.5 * size, draw.below(5), 12);
     SCOPED_TRACE(std::to_string(round) + ' ' + thin.what + ' ' + std::string(kind_name(primitive)));
-    const auto s = thin_separation(thin.body, {&primitive, &at});
+    const auto s = lower_dimensional_separation(thin.body, {&primitive, &at});
     if (!s) continue;
     inside += s->inside ? 1 : 0;
     wide += s->upper - s->lower > 1 ? 1 : 0;
     double least_low = INFINITY, least_high = INFINITY;
     for (const Vec3d& p : thin.samples) {
-      const auto point = thin_separation(*thin_point(p), {&primitive, &at});
+      const auto point = lower_dimensional_separation(*make_point_body(p), {&primitive, &at});
       ASSERT_TRUE(point);
       least_low = std::min(least_low, point->lower);
       least_high = std::min(least_high, point->upper);
@@ -190,7 +192,7 @@ TEST_P(ThinPair, AgainstPrimitivesBySamples) {
     expect_within(*s, least_low - thin.spacing * kGridPerMm - 2, least_high + 2);
     if (HasFatalFailure()) return;
     // The witness stands where it says.
-    const Vec3d way = s->on_other - s->on_thin;
+    const Vec3d way = s->on_other - s->on_body;
     const double apart = std::sqrt(dot(way, way));
     ASSERT_NEAR(apart, std::fabs(s->d), (s->upper - s->lower) + 1 + 1e-6 * size * kGridPerMm);
   }
@@ -210,15 +212,15 @@ TEST_P(ThinPair, LinesAndRectanglesAsSheetsThatTheSolverKnows) {
     const Placement place{{}, on_grid(draw.point(size))};
     const Primitive sheet = BoxPrimitive{x, y, 0};
     const Vec3d u{x / 2, 0, 0}, v{0, y / 2, 0}, c = place.translation;
-    ThinBody thin;
+    LowerDimensionalBody thin;
     if (x == 0) {
-      thin = *thin_polyline(std::array{c - v, c + v});
+      thin = *make_polyline_body(std::array{c - v, c + v});
     } else {
       const std::array corners{c - u - v, c + u - v, c + u + v, c - u + v};
-      thin = thin_polygon(corners, std::array<std::uint32_t, 2>{0, 4}).body;
+      thin = make_polygon_body(corners, std::array<std::uint32_t, 2>{0, 4}).body;
     }
-    const auto s = thin_separation(thin, {&primitive, &at});
-    const auto truth = solved_separation({&sheet, &place}, {&primitive, &at});
+    const auto s = lower_dimensional_separation(thin, {&primitive, &at});
+    const auto truth = iterative_separation({&sheet, &place}, {&primitive, &at});
     ASSERT_EQ(s.has_value(), truth.has_value());
     if (!s) continue;
     // Halves of lengths may fall between grid points.
@@ -233,13 +235,14 @@ TEST_P(ThinPair, AHoopRoundARodIsAsDeepAsItsPointsShow) {
     const double radius = 1500;
     const Placement at{draw.turn(), on_grid(draw.point(500))};
     const Primitive rod = CylinderPrimitive{radius + press, 4 * radius};
-    const auto s = thin_separation(*thin_arc({radius, 2 * M_PI, at}), {&rod, &at});
+    const auto s =
+        lower_dimensional_separation(*make_arc_body({radius, 2 * M_PI, at}), {&rod, &at});
     ASSERT_TRUE(s);
     // A work limit ends the search, and points that hardly lie inside may be all that it found.
     EXPECT_LE(s->lower, -press * kGridPerMm + 5);
     EXPECT_GE(s->upper, -press * kGridPerMm - 5);
     EXPECT_NEAR(s->d, -press * kGridPerMm, 30) << s->lower << ' ' << s->upper;
-    const Vec3d way = s->on_thin - s->on_other;
+    const Vec3d way = s->on_body - s->on_other;
     EXPECT_NEAR(std::sqrt(dot(way, way)), std::fabs(s->d), 30);
   }
 }
@@ -250,7 +253,8 @@ TEST_P(ThinPair, ThinBodiesAgainstEachOtherBySamples) {
     const Drawn a = draw_thin(draw, size, draw.below(5), 8);
     const Drawn b = draw_thin(draw, size, draw.below(5), 8);
     SCOPED_TRACE(std::to_string(round) + ' ' + a.what + ' ' + b.what);
-    const ThinSeparation s = thin_separation(a.body, b.body), t = thin_separation(b.body, a.body);
+    const LowerDimensionalSeparation s = lower_dimensional_separation(a.body, b.body),
+                                     t = lower_dimensional_separation(b.body, a.body);
     double least = INFINITY;
     for (const Vec3d& p : a.samples)
       for (const Vec3d& q : b.samples)
@@ -269,8 +273,8 @@ TEST_P(ThinPair, CirclesOnOneAxis) {
     const Mat3d turn = draw.turn();
     const Vec3d axis{turn.row[0].z, turn.row[1].z, turn.row[2].z};
     const Vec3d base = on_grid(draw.point(1000)), top = on_grid(base + axis * draw.between(0, 500));
-    const ThinSeparation d = thin_separation(*thin_arc({r, 2 * M_PI, {turn, base}}),
-                                             *thin_arc({s, 2 * M_PI, {turn, top}}));
+    const LowerDimensionalSeparation d = lower_dimensional_separation(
+        *make_arc_body({r, 2 * M_PI, {turn, base}}), *make_arc_body({s, 2 * M_PI, {turn, top}}));
     const Vec3d up = top - base;
     const double truth = std::hypot(r - s, std::sqrt(dot(up, up))) * kGridPerMm;
     expect_within(d, truth, truth, 2);
@@ -298,7 +302,7 @@ TEST_P(ThinPair, LatticeBodiesByRationals) {
     const std::array<Vec3l, 3> c{corner(), corner(), corner()};
     const auto count = static_cast<std::size_t>(1 + lattice.below(3));
     if (count == 3 && !testing::spans(c)) continue;
-    ThinBody thin;
+    LowerDimensionalBody thin;
     thin.origin = subject.origin;
     for (std::size_t i = 0; i < count; ++i) thin.vertices.push_back(c[i].as<std::int32_t>());
     if (count == 1) thin.points = {0};
@@ -306,8 +310,9 @@ TEST_P(ThinPair, LatticeBodiesByRationals) {
     if (count == 3) thin.triangles = {{0, 1, 2}};
     const std::vector<Vec3l> corners(c.begin(), c.begin() + static_cast<std::ptrdiff_t>(count));
     const mpq_class apart = testing::squared_distance(testing::as_mesh(corners), body.mesh);
-    PairWork work;
-    const ThinSeparation s = thin_separation(thin, subject.treed(), narrow_goal(), work);
+    QueryContext work;
+    const LowerDimensionalSeparation s =
+        lower_dimensional_separation(thin, subject.treed(), narrow_goal(), work);
     // The deepest of the points at sixteenths.
     double deepest = -1;
     const auto visit = [&](const Vec3l& p) {
@@ -347,7 +352,7 @@ TEST_P(ThinPair, LatticeBodiesByRationals) {
       ASSERT_LE(mpq_class(s.lower) * mpq_class(s.lower), apart);
       ASSERT_GE(mpq_class(s.upper) * mpq_class(s.upper), apart);
       ASSERT_LE(s.upper - s.lower, 1e-12 * s.upper);
-      const Vec3d way = s.on_thin - s.on_other;
+      const Vec3d way = s.on_body - s.on_other;
       ASSERT_NEAR(std::sqrt(dot(way, way)), s.d, 1e-9);
     }
     if (HasFatalFailure()) return;
@@ -363,15 +368,17 @@ TEST_P(ThinPair, ArcsAndMeshes) {
     grow.row = {Vec3i{50'000, 0, 0}, {0, 50'000, 0}, {0, 0, 50'000}};
     const testing::LatticeSolid body = mapped(testing::random_pair(lattice.rng()).a, grow);
     const testing::Subject subject(body.mesh);
-    ThinArc arc{draw.between(20, 300), draw.one_in(4) ? 2 * M_PI : draw.between(0.2, 6.2), {}};
+    CircularArc arc{draw.between(20, 300), draw.one_in(4) ? 2 * M_PI : draw.between(0.2, 6.2), {}};
     arc.placement = {draw.turn(), on_grid(draw.point(300))};
-    PairWork work;
-    const ThinSeparation s = thin_separation(*thin_arc(arc), subject.treed(), narrow_goal(), work);
+    QueryContext work;
+    const LowerDimensionalSeparation s =
+        lower_dimensional_separation(*make_arc_body(arc), subject.treed(), narrow_goal(), work);
     double low = INFINITY, high = INFINITY;
     const int count = 60;
     for (int i = 0; i <= count; ++i) {
-      const ThinSeparation p = thin_separation(*thin_point(point_of(arc, arc.angle * i / count)),
-                                               subject.treed(), narrow_goal(), work);
+      const LowerDimensionalSeparation p =
+          lower_dimensional_separation(*make_point_body(point_of(arc, arc.angle * i / count)),
+                                       subject.treed(), narrow_goal(), work);
       low = std::min(low, p.lower);
       high = std::min(high, p.upper);
     }
@@ -385,13 +392,13 @@ TEST_P(ThinPair, PolylinesOnTheLatticeAreExact) {
   for (int round = 0; round < 2 * kRounds; ++round) {
     const auto body = [&](std::vector<Vec3l>& points) {
       for (int i = 0; i < 3; ++i) points.push_back(lattice.point());
-      ThinBody b;
+      LowerDimensionalBody b;
       for (const Vec3l& p : points) b.vertices.push_back(p.as<std::int32_t>());
       b.segments = {{0, 1}, {1, 2}};
       return b;
     };
     std::vector<Vec3l> p, q;
-    const ThinBody a = body(p), b = body(q);
+    const LowerDimensionalBody a = body(p), b = body(q);
     mpq_class least(1'000'000);
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
@@ -401,7 +408,7 @@ TEST_P(ThinPair, PolylinesOnTheLatticeAreExact) {
         least = std::min(least, testing::squared_distance(testing::as_mesh(at(p, i)),
                                                           testing::as_mesh(at(q, j))));
       }
-    const ThinSeparation s = thin_separation(a, b);
+    const LowerDimensionalSeparation s = lower_dimensional_separation(a, b);
     ASSERT_LE(mpq_class(s.lower) * mpq_class(s.lower), least);
     ASSERT_GE(mpq_class(s.upper) * mpq_class(s.upper), least);
     ASSERT_LE(s.upper - s.lower, 1e-14);
@@ -414,30 +421,30 @@ TEST_P(ThinPair, PolylinesOnTheLatticeAreExact) {
 INSTANTIATE_TEST_SUITE_P(Seeds, ThinPair, strake::test::seeds(2));
 
 TEST(ThinBodies, WhatHasNoPlaceOrNoSizeIsRefused) {
-  EXPECT_FALSE(thin_point({NAN, 0, 0}));
-  EXPECT_FALSE(thin_polyline({}));
-  EXPECT_FALSE(thin_polyline(std::array{Vec3d{0, 0, 0}, Vec3d{0, 0, 3e6}}));
-  EXPECT_FALSE(thin_arc({0, 1, {}}));
-  EXPECT_FALSE(thin_arc({1, INFINITY, {}}));
-  ThinArc ellipse{10, 1, {}};
+  EXPECT_FALSE(make_point_body({NAN, 0, 0}));
+  EXPECT_FALSE(make_polyline_body({}));
+  EXPECT_FALSE(make_polyline_body(std::array{Vec3d{0, 0, 0}, Vec3d{0, 0, 3e6}}));
+  EXPECT_FALSE(make_arc_body({0, 1, {}}));
+  EXPECT_FALSE(make_arc_body({1, INFINITY, {}}));
+  CircularArc ellipse{10, 1, {}};
   ellipse.placement.linear.row[0].x = 2;
-  EXPECT_FALSE(thin_arc(ellipse));
-  EXPECT_EQ(thin_polyline(std::array{Vec3d{1, 1, 1}, Vec3d{1, 1, 1}})->points.size(), 1U);
+  EXPECT_FALSE(make_arc_body(ellipse));
+  EXPECT_EQ(make_polyline_body(std::array{Vec3d{1, 1, 1}, Vec3d{1, 1, 1}})->points.size(), 1U);
   const std::array bow{Vec3d{0, 0, 0}, Vec3d{2, 2, 0}, Vec3d{2, 0, 0}, Vec3d{0, 3, 0}};
-  EXPECT_EQ(thin_polygon(bow, std::array<std::uint32_t, 2>{0, 4}).fault, FaceFault::crossing);
+  EXPECT_EQ(make_polygon_body(bow, std::array<std::uint32_t, 2>{0, 4}).fault, FaceFault::crossing);
 }
 
 /// The centre line of a pipe is as deep in it as the pipe's radius, all along.
 TEST(ThinBodies, ACentreLineIsAsDeepAsTheRadius) {
   const Primitive pipe = CylinderPrimitive{100, 10'000};
   const Placement at;
-  const auto line = thin_polyline(std::array{Vec3d{0, 0, -5000}, Vec3d{0, 0, 5000}});
-  const auto s = thin_separation(*line, {&pipe, &at});
+  const auto line = make_polyline_body(std::array{Vec3d{0, 0, -5000}, Vec3d{0, 0, 5000}});
+  const auto s = lower_dimensional_separation(*line, {&pipe, &at});
   ASSERT_TRUE(s);
   EXPECT_TRUE(s->inside);
   EXPECT_NEAR(s->d, -100'000, 0.1);
   const Primitive elbow = CircularTorusPrimitive{300, 100, 1.5};
-  const auto arc = thin_separation(*thin_arc({300, 1.5, {}}), {&elbow, &at});
+  const auto arc = lower_dimensional_separation(*make_arc_body({300, 1.5, {}}), {&elbow, &at});
   ASSERT_TRUE(arc);
   EXPECT_NEAR(arc->d, -100'000, 1);
   EXPECT_LE(arc->upper - arc->lower, 1);

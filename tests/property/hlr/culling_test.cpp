@@ -149,7 +149,7 @@ TEST(Culling, LeavingHiddenPiecesOutChangesNoOther) {
     options.solver = seed % 8 == 0 ? hlr::Solver::brute_force : hlr::Solver::gather;
     const auto other = hlr::draw(scene.scene(), {}, view, options, {});
     ASSERT_TRUE(full.has_value() && culled.has_value() && other.has_value()) << "seed " << seed;
-    std::erase_if(full->pieces, [](const hlr::Piece& piece) {
+    std::erase_if(full->pieces, [](const hlr::EdgePiece& piece) {
       return piece.state == hlr::State::hidden_by_self ||
              piece.state == hlr::State::hidden_by_other;
     });

@@ -11,7 +11,7 @@
 #include <ostream>
 #include <tuple>
 
-#include "hlr/edge_on.hpp"
+#include "hlr/edges/edge_on.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
 #include "support/clash_model.hpp"
@@ -131,7 +131,7 @@ TEST(EdgeOnFacets, HideNoRim) {
     const auto drawing = hlr::draw(scene, {}, view_of(tube), {}, {});
     ASSERT_TRUE(drawing) << drawing.error().text();
     std::size_t rim = 0;
-    for (const hlr::Piece& p : drawing->pieces) {
+    for (const hlr::EdgePiece& p : drawing->pieces) {
       const Vec3d a = p.a.as<double>() * 1e-3 - tube.at, b = p.b.as<double>() * 1e-3 - tube.at;
       if (std::max(std::abs(dot(a, unit(tube.axis))), std::abs(dot(b, unit(tube.axis)))) > 0.1)
         continue;
@@ -143,7 +143,7 @@ TEST(EdgeOnFacets, HideNoRim) {
   });
 }
 
-bool same(const hlr::Piece& x, const hlr::Piece& y) {
+bool same(const hlr::EdgePiece& x, const hlr::EdgePiece& y) {
   return std::tie(x.edge, x.kind, x.state, x.a, x.b) == std::tie(y.edge, y.kind, y.state, y.a, y.b);
 }
 

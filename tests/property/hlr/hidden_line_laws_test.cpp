@@ -20,7 +20,7 @@ namespace strake {
 namespace {
 
 using geometry::Vec3l;
-using hlr::Piece;
+using hlr::EdgePiece;
 using hlr::State;
 using test::pieces;
 
@@ -42,7 +42,7 @@ TEST(HiddenLineLaws, SameForAnyNumberOfThreads) {
   const test::LatticeOptions crowd{.objects = 60, .unit = 1000, .steps = 6};
   const test::SceneBuilder scene = test::lattice_scene(5, crowd);
   const hlr::View view{.direction = {1, 2, 3}, .limits = {}};
-  const std::vector<Piece> one = pieces(scene.scene(), view);
+  const std::vector<EdgePiece> one = pieces(scene.scene(), view);
   EXPECT_GT(one.size(), 1000U);
   for (const unsigned threads : {1U, 2U, 3U, 8U, 64U}) {
     parallel::Team team(threads);
@@ -55,12 +55,12 @@ TEST(HiddenLineLaws, PiecesOfAnEdgeFollowEachOtherFromEndToEnd) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const auto options = lattice(seed);
     const test::SceneBuilder scene = test::lattice_scene(seed, options);
-    const std::vector<Piece> drawn = pieces(scene.scene(), view_of(seed, options));
-    const std::vector<Piece> whole =
+    const std::vector<EdgePiece> drawn = pieces(scene.scene(), view_of(seed, options));
+    const std::vector<EdgePiece> whole =
         pieces(scene.scene(), {.direction = view_of(seed, options).direction, .limits = {}},
                {.stage = hlr::Stage::none});
     std::size_t next = 0;
-    for (const Piece& edge : whole) {
+    for (const EdgePiece& edge : whole) {
       ASSERT_LT(next, drawn.size()) << "seed " << seed;
       ASSERT_EQ(drawn[next].a, edge.a) << "seed " << seed;
       while (next + 1 < drawn.size() && drawn[next + 1].object == edge.object &&
@@ -169,20 +169,21 @@ test::SceneBuilder copy(const model::Scene& scene, const std::vector<std::uint32
 }
 
 /// Edges of objects, and intersections.
-std::pair<std::vector<Piece>, std::vector<Piece>> parted(const std::vector<Piece>& all) {
-  std::pair<std::vector<Piece>, std::vector<Piece>> result;
-  for (const Piece& p : all)
+std::pair<std::vector<EdgePiece>, std::vector<EdgePiece>> parted(
+    const std::vector<EdgePiece>& all) {
+  std::pair<std::vector<EdgePiece>, std::vector<EdgePiece>> result;
+  for (const EdgePiece& p : all)
     (p.kind == hlr::EdgeKind::intersection ? result.second : result.first).push_back(p);
   return result;
 }
 
 /// Intersections by what does not depend on which object comes first.
-auto places(const std::vector<Piece>& crossings, const std::vector<std::uint32_t>& order) {
+auto places(const std::vector<EdgePiece>& crossings, const std::vector<std::uint32_t>& order) {
   std::vector<std::tuple<std::uint32_t, std::uint32_t, Vec3l, Vec3l, State>> all;
   const auto number = [&](model::ObjectId id) {
     return order.empty() ? model::index(id) : order[model::index(id)];
   };
-  for (const Piece& p : crossings) {
+  for (const EdgePiece& p : crossings) {
     const auto [least, most] = std::minmax({number(p.object), number(p.other)});
     all.emplace_back(least, most, p.a, p.b, p.state);
   }
@@ -201,9 +202,9 @@ TEST(HiddenLineLaws, OrderOfObjectsDoesNotMatter) {
     const hlr::View view = view_of(seed, options);
     const auto [drawn, drawn_crossings] = parted(pieces(reversed.scene(), view));
     const auto [edges, crossings] = parted(pieces(plain.scene(), view));
-    std::vector<Piece> back;
+    std::vector<EdgePiece> back;
     for (std::uint32_t object = 0; object < options.objects; ++object)
-      for (Piece p : drawn) {
+      for (EdgePiece p : drawn) {
         if (order[model::index(p.object)] != object) continue;
         p.object = p.other = model::ObjectId{object};
         back.push_back(p);
@@ -224,8 +225,8 @@ TEST(HiddenLineLaws, TranslationMovesThePiecesAndNothingElse) {
     for (std::uint32_t i = 0; i < options.objects; ++i) order[i] = i;
     const test::SceneBuilder moved = copy(plain.scene(), order, offset);
     hlr::View view = view_of(seed, options);
-    std::vector<Piece> expected = pieces(plain.scene(), view);
-    for (Piece& p : expected) {
+    std::vector<EdgePiece> expected = pieces(plain.scene(), view);
+    for (EdgePiece& p : expected) {
       p.a = p.a + offset;
       p.b = p.b + offset;
     }
@@ -260,9 +261,9 @@ TEST(HiddenLineLaws, ScalingByAPowerOfTwoKeepsEveryState) {
   }
 }
 
-double visible_length(const std::vector<Piece>& list, std::uint32_t objects) {
+double visible_length(const std::vector<EdgePiece>& list, std::uint32_t objects) {
   double sum = 0;
-  for (const Piece& p : list) {
+  for (const EdgePiece& p : list) {
     if (p.state != State::visible || model::index(p.object) >= objects) continue;
     const auto v = (p.b - p.a).as<double>();
     sum += std::sqrt(dot(v, v));
@@ -277,7 +278,7 @@ TEST(HiddenLineLaws, ObjectsBehindChangeNothingAndObjectsInFrontRevealNothing) {
     const hlr::View view{.direction = view_of(seed, options).direction, .limits = {}};
     // What stands in front may cross something.
     const hlr::Options options_of_edges{.intersections = kOff};
-    const std::vector<Piece> before = pieces(scene.scene(), view, options_of_edges);
+    const std::vector<EdgePiece> before = pieces(scene.scene(), view, options_of_edges);
     const auto size = view.direction.as<double>();
     const double most = std::max({std::fabs(size.x), std::fabs(size.y), std::fabs(size.z)});
     const auto along = [&](double steps) {
@@ -287,7 +288,7 @@ TEST(HiddenLineLaws, ObjectsBehindChangeNothingAndObjectsInFrontRevealNothing) {
     };
     const test::HandPart box = test::hand_box({0, 0, 0}, {3000, 3000, 3000});
     scene.object({{.parts = {box}, .origin = along(-20)}});
-    std::vector<Piece> behind = pieces(scene.scene(), view, options_of_edges);
+    std::vector<EdgePiece> behind = pieces(scene.scene(), view, options_of_edges);
     behind.resize(std::min(behind.size(), before.size()));
     ASSERT_EQ(test::difference(before, behind), "") << "seed " << seed;
 
@@ -300,7 +301,7 @@ TEST(HiddenLineLaws, ObjectsBehindChangeNothingAndObjectsInFrontRevealNothing) {
 
     scene.object({{.parts = {test::hand_box({-9000, -9000, -9000}, {12000, 12000, 12000})},
                    .origin = along(100)}});
-    for (const Piece& p : pieces(scene.scene(), view))
+    for (const EdgePiece& p : pieces(scene.scene(), view))
       if (model::index(p.object) < options.objects) {
         ASSERT_NE(p.state, State::visible) << "seed " << seed;
       }

@@ -26,7 +26,7 @@ namespace {
 
 using geometry::Vec3i;
 using geometry::Vec3l;
-using hlr::Piece;
+using hlr::EdgePiece;
 using hlr::State;
 using test::pieces;
 
@@ -48,7 +48,7 @@ hlr::View from(const Vec3l& eye, const Vec3l& target) {
           .perspective = hlr::Perspective{.eye = eye, .target = target, .near_mm = 0.001}};
 }
 
-double length(const Piece& p) {
+double length(const EdgePiece& p) {
   const auto v = (p.b - p.a).as<double>();
   return std::sqrt(dot(v, v));
 }
@@ -58,7 +58,7 @@ TEST(PerspectiveLaws, SameForAnyNumberOfThreads) {
       test::lattice_scene(5, {.objects = 60, .unit = kUnit, .steps = 6});
   for (const Vec3l& eye : {Vec3l{-7000, -9000, 8500}, Vec3l{2500, 3000, 2750}}) {
     const hlr::View view = from(eye, {4000, 4500, 3000});
-    const std::vector<Piece> one = pieces(scene.scene(), view);
+    const std::vector<EdgePiece> one = pieces(scene.scene(), view);
     EXPECT_GT(one.size(), 1000U);
     for (const unsigned threads : {1U, 2U, 3U, 8U, 64U}) {
       parallel::Team team(threads);
@@ -72,9 +72,9 @@ TEST(PerspectiveLaws, PiecesOfAnEdgeFollowEachOtherFromEndToEnd) {
   std::array<std::size_t, 5> count{};
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const test::SceneBuilder scene = test::lattice_scene(seed, lattice(seed));
-    const Piece* last = nullptr;
-    const std::vector<Piece> drawn = pieces(scene.scene(), view_of(seed));
-    for (const Piece& p : drawn) {
+    const EdgePiece* last = nullptr;
+    const std::vector<EdgePiece> drawn = pieces(scene.scene(), view_of(seed));
+    for (const EdgePiece& p : drawn) {
       ++count[static_cast<std::size_t>(p.state)];
       const bool same = last != nullptr && last->object == p.object && last->edge == p.edge;
       if (same) {
@@ -95,7 +95,7 @@ TEST(PerspectiveLaws, WhatIsDrawnLiesInTheWindow) {
     const hlr::View view = view_of(seed);
     const auto window = hlr::window(view);
     ASSERT_EQ(window.size(), 5U);
-    for (const Piece& p : pieces(scene.scene(), view)) {
+    for (const EdgePiece& p : pieces(scene.scene(), view)) {
       if (p.state == State::projecting) continue;
       bool within = true;
       for (const hlr::HalfSpace& h : window) {
@@ -115,9 +115,9 @@ TEST(PerspectiveLaws, WhatIsDrawnLiesInTheWindow) {
 }
 
 /// Lengths by object, kind and state.
-std::map<std::array<std::uint32_t, 3>, double> lengths(const std::vector<Piece>& list) {
+std::map<std::array<std::uint32_t, 3>, double> lengths(const std::vector<EdgePiece>& list) {
   std::map<std::array<std::uint32_t, 3>, double> result;
-  for (const Piece& p : list)
+  for (const EdgePiece& p : list)
     result[{model::index(p.object), static_cast<std::uint32_t>(p.kind),
             static_cast<std::uint32_t>(p.state)}] += length(p);
   return result;
@@ -130,12 +130,12 @@ TEST(PerspectiveLaws, QuarterTurnsOfModelAndViewKeepEveryLength) {
     const test::SceneBuilder other = test::mapped(plain.scene(), turned);
     hlr::View view = view_of(seed);
     const hlr::Options options{.intersections = hlr::Intersections::off};
-    const std::vector<Piece> before = pieces(plain.scene(), view, options);
+    const std::vector<EdgePiece> before = pieces(plain.scene(), view, options);
     view.direction = turned(view.direction);
     view.up = turned(view.up);
     view.perspective->eye = turned(view.perspective->eye);
     view.perspective->target = turned(view.perspective->target);
-    const std::vector<Piece> after = pieces(other.scene(), view, options);
+    const std::vector<EdgePiece> after = pieces(other.scene(), view, options);
     const double slack = 2 * static_cast<double>(before.size());
     auto expected = lengths(before), got = lengths(after);
     for (const auto& [key, value] : expected)
@@ -154,8 +154,8 @@ TEST(PerspectiveLaws, TranslationMovesThePiecesAndNothingElse) {
     hlr::View view = view_of(seed);
     // Ends of intersections are rounded in the coordinates of their shapes.
     const hlr::Options options{.intersections = hlr::Intersections::off};
-    std::vector<Piece> expected = pieces(plain.scene(), view, options);
-    for (Piece& p : expected) {
+    std::vector<EdgePiece> expected = pieces(plain.scene(), view, options);
+    for (EdgePiece& p : expected) {
       p.a = p.a + offset;
       p.b = p.b + offset;
     }
@@ -176,13 +176,13 @@ TEST(PerspectiveLaws, ScalingByAPowerOfTwoKeepsEveryState) {
     hlr::Options options{.contact_distance_mm = 0.003,
                          .intersections = hlr::Intersections::off,
                          .keep_specks = true};
-    const std::vector<Piece> small = pieces(plain.scene(), view, options);
+    const std::vector<EdgePiece> small = pieces(plain.scene(), view, options);
     view.perspective->eye = view.perspective->eye * 16;
     view.perspective->target = view.perspective->target * 16;
     // The near plane is rounded to whole products with the direction: that of a unit is one.
     view.perspective->near_mm *= 16;
     options.contact_distance_mm *= 16;
-    const std::vector<Piece> large = pieces(scaled.scene(), view, options);
+    const std::vector<EdgePiece> large = pieces(scaled.scene(), view, options);
     ASSERT_EQ(small.size(), large.size()) << "seed " << seed;
     for (std::size_t i = 0; i < small.size(); ++i) {
       ASSERT_EQ(small[i].state, large[i].state) << "seed " << seed;
@@ -194,9 +194,9 @@ TEST(PerspectiveLaws, ScalingByAPowerOfTwoKeepsEveryState) {
   }
 }
 
-double visible_length(const std::vector<Piece>& list, std::uint32_t objects) {
+double visible_length(const std::vector<EdgePiece>& list, std::uint32_t objects) {
   double sum = 0;
-  for (const Piece& p : list)
+  for (const EdgePiece& p : list)
     if (p.state == State::visible && model::index(p.object) < objects) sum += length(p);
   return sum;
 }
@@ -207,11 +207,11 @@ TEST(PerspectiveLaws, ObjectsBehindChangeNothingAndObjectsInFrontRevealNothing) 
     const std::uint32_t objects = lattice(seed).objects;
     test::SceneBuilder scene = test::lattice_scene(seed, lattice(seed));
     const hlr::View view = view_of(seed);
-    const std::vector<Piece> before = pieces(scene.scene(), view, options);
+    const std::vector<EdgePiece> before = pieces(scene.scene(), view, options);
     // Beyond all segments between the eye and what is drawn.
     scene.object({{.parts = {test::hand_box({0, 0, 0}, {90000, 90000, 90000})},
                    .origin = {300000, 300000, 300000}}});
-    std::vector<Piece> behind = pieces(scene.scene(), view, options);
+    std::vector<EdgePiece> behind = pieces(scene.scene(), view, options);
     behind.resize(std::min(behind.size(), before.size()));
     ASSERT_EQ(test::difference(before, behind), "") << "seed " << seed;
 
@@ -245,9 +245,9 @@ TEST(PerspectiveLaws, AnEyeFarAwaySeesWhatADirectionSees) {
     const Vec3l middle{1500, 1500, 1500};
     hlr::View far = from(middle + direction * 1000000, middle);
     far.direction = direction;
-    const std::vector<Piece> expected =
+    const std::vector<EdgePiece> expected =
         pieces(scene.scene(), {.direction = direction, .limits = {}});
-    const std::vector<Piece> got = pieces(scene.scene(), far);
+    const std::vector<EdgePiece> got = pieces(scene.scene(), far);
     ASSERT_EQ(expected.size(), got.size()) << "seed " << seed;
     for (std::size_t i = 0; i < got.size(); ++i) {
       ASSERT_EQ(expected[i].state, got[i].state) << "seed " << seed;
@@ -298,7 +298,7 @@ TEST(PerspectiveInput, AllBehindTheEyeIsClippedAndCounted) {
   const auto drawing =
       hlr::draw(scene.scene(), {}, from({90000, 90000, 90000}, {99000, 99000, 99999}), {}, {});
   ASSERT_TRUE(drawing.has_value());
-  for (const Piece& p : drawing->pieces) ASSERT_EQ(p.state, State::clipped);
+  for (const EdgePiece& p : drawing->pieces) ASSERT_EQ(p.state, State::clipped);
   EXPECT_GT(drawing->pieces.size(), 0U);
 }
 
@@ -312,7 +312,7 @@ TEST(PerspectiveInput, AnEyeOnAVertexSeesTheOtherFaces) {
   ASSERT_TRUE(drawing.has_value());
   EXPECT_EQ(drawing->diagnostics.count("eye-on-surface"), 1U);
   double far_box = 0;
-  for (const Piece& p : drawing->pieces)
+  for (const EdgePiece& p : drawing->pieces)
     if (model::index(p.object) == 1 && p.state == State::visible) far_box += length(p);
   // All but the three edges at the far corner.
   EXPECT_NEAR(far_box, 9000, 10);

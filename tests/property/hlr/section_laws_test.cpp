@@ -23,7 +23,7 @@ namespace {
 
 using geometry::Vec3l;
 using hlr::EdgeKind;
-using hlr::Piece;
+using hlr::EdgePiece;
 using hlr::Section;
 using hlr::State;
 using test::pieces;
@@ -48,14 +48,15 @@ std::vector<Section> sections_of(std::uint64_t seed, const test::LatticeOptions&
   return sections;
 }
 
-double length(const Piece& p) {
+double length(const EdgePiece& p) {
   const auto v = (p.b - p.a).as<double>();
   return std::sqrt(dot(v, v));
 }
 
-double length_of(const std::vector<Piece>& list, const std::function<bool(const Piece&)>& is) {
+double length_of(const std::vector<EdgePiece>& list,
+                 const std::function<bool(const EdgePiece&)>& is) {
   double sum = 0;
-  for (const Piece& p : list) sum += is(p) ? length(p) : 0;
+  for (const EdgePiece& p : list) sum += is(p) ? length(p) : 0;
   return sum;
 }
 
@@ -63,8 +64,8 @@ TEST(SectionLaws, SameForAnyNumberOfThreads) {
   const test::LatticeOptions crowd{.objects = 60, .unit = 1000, .steps = 6};
   const test::SceneBuilder scene = test::lattice_scene(5, crowd);
   const hlr::View view = view_of(10, {{{0, 0, 1}, {0, 0, 4000}}, {{1, 2, 1}, {6000, 4500, 4000}}});
-  const std::vector<Piece> one = pieces(scene.scene(), view);
-  EXPECT_GT(std::ranges::count(one, EdgeKind::section, &Piece::kind), 100);
+  const std::vector<EdgePiece> one = pieces(scene.scene(), view);
+  EXPECT_GT(std::ranges::count(one, EdgeKind::section, &EdgePiece::kind), 100);
   for (const unsigned threads : {1U, 2U, 3U, 8U, 64U}) {
     parallel::Team team(threads);
     EXPECT_EQ(test::difference(one, pieces(scene.scene(), view, {}, {.team = &team})), "")
@@ -125,8 +126,8 @@ TEST(SectionLaws, WhatIsCutAwayDoesNotHideAndIsClipped) {
     const auto all = pieces(scene.scene(), view, kUnhatched);
     const auto some = hlr::draw(scene.scene(), left, view, kUnhatched, {});
     ASSERT_TRUE(some);
-    std::vector<Piece> kept;
-    for (const Piece& p : all) {
+    std::vector<EdgePiece> kept;
+    for (const EdgePiece& p : all) {
       if (left[model::index(p.object)] && left[model::index(p.other)]) {
         kept.push_back(p);
         continue;
@@ -134,16 +135,16 @@ TEST(SectionLaws, WhatIsCutAwayDoesNotHideAndIsClipped) {
       ++away;
       ASSERT_EQ(p.state, State::clipped) << "seed " << seed;
     }
-    std::vector<Piece> expected = some->pieces;
+    std::vector<EdgePiece> expected = some->pieces;
     for (auto* list : {&kept, &expected})
-      for (Piece& p : *list) p.edge = 0;
+      for (EdgePiece& p : *list) p.edge = 0;
     ASSERT_EQ(test::difference(expected, kept), "") << "seed " << seed;
   }
   EXPECT_GT(away, 5 * kSeeds);
 }
 
 TEST(SectionLaws, EdgesAreDrawnFromEndToEndWhateverCutsThem) {
-  const auto of_edges = [](const Piece& p) {
+  const auto of_edges = [](const EdgePiece& p) {
     return p.kind != EdgeKind::section && p.kind != EdgeKind::hatch;
   };
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
@@ -162,7 +163,7 @@ TEST(SectionLaws, NothingThatIsDrawnLiesBeyondAPlane) {
     const auto options = lattice(seed);
     const test::SceneBuilder scene = test::lattice_scene(seed, options);
     const std::vector<Section> sections = sections_of(seed, options);
-    for (const Piece& p : pieces(scene.scene(), view_of(seed, sections))) {
+    for (const EdgePiece& p : pieces(scene.scene(), view_of(seed, sections))) {
       if (p.state == State::clipped) continue;
       for (const Section& s : sections)
         for (const Vec3l& end : {p.a, p.b}) {
@@ -198,9 +199,9 @@ TEST(SectionLaws, OrderOfTrianglesAndVerticesDoesNotMatter) {
 }
 
 /// Length by object, kind and state.
-std::map<std::array<std::uint32_t, 3>, double> lengths(const std::vector<Piece>& list) {
+std::map<std::array<std::uint32_t, 3>, double> lengths(const std::vector<EdgePiece>& list) {
   std::map<std::array<std::uint32_t, 3>, double> sums;
-  for (const Piece& p : list)
+  for (const EdgePiece& p : list)
     sums[{model::index(p.object), static_cast<std::uint32_t>(p.kind),
           static_cast<std::uint32_t>(p.state)}] += length(p);
   return sums;

@@ -25,7 +25,7 @@ namespace {
 
 using geometry::Vec3l;
 using hlr::EdgeKind;
-using hlr::Piece;
+using hlr::EdgePiece;
 using hlr::State;
 using test::pieces;
 
@@ -74,9 +74,9 @@ TEST(Symmetry, ThereAreFortyEightAndHalfOfThemMirror) {
 using Line = std::tuple<std::uint32_t, EdgeKind, State, Vec3l, Vec3l>;
 
 template <class Map>
-std::vector<Line> lines(const std::vector<Piece>& list, const Map& map) {
+std::vector<Line> lines(const std::vector<EdgePiece>& list, const Map& map) {
   std::vector<Line> all;
-  for (const Piece& p : list) {
+  for (const EdgePiece& p : list) {
     const Vec3l a = map(p.a), b = map(p.b);
     all.emplace_back(model::index(p.object), p.kind, p.state, std::min(a, b), std::max(a, b));
   }
@@ -161,16 +161,16 @@ TEST(HiddenLineSymmetry, AnObjectSplitInTwoShowsTheSame) {
 }
 
 /// Lengths by state, in millimetres.
-std::map<State, double> lengths(const std::vector<Piece>& list) {
+std::map<State, double> lengths(const std::vector<EdgePiece>& list) {
   std::map<State, double> sum;
-  for (const Piece& p : list) {
+  for (const EdgePiece& p : list) {
     const auto v = (p.b - p.a).as<double>();
     sum[p.state] += std::sqrt(dot(v, v)) / 1000;
   }
   return sum;
 }
 
-std::vector<Piece> seen(const test::SceneBuilder& scene, const Vec3l& direction) {
+std::vector<EdgePiece> seen(const test::SceneBuilder& scene, const Vec3l& direction) {
   return pieces(scene.scene(), {.direction = direction, .limits = {}}, {});
 }
 
@@ -214,7 +214,7 @@ TEST(ClosedForm, ALargerBoxInFrontHidesAll) {
     scene.object({box_at({0, 0, 0}, {100 * kMm, 100 * kMm, 100 * kMm})});
     scene.object({box_at(direction * (2000 * kMm) - Vec3l{150 * kMm, 150 * kMm, 150 * kMm},
                          {400 * kMm, 400 * kMm, 400 * kMm})});
-    for (const Piece& p : seen(scene, direction))
+    for (const EdgePiece& p : seen(scene, direction))
       if (model::index(p.object) == 0) {
         EXPECT_TRUE(p.state == State::hidden_by_self || p.state == State::hidden_by_other ||
                     p.state == State::projecting);

@@ -30,7 +30,7 @@ constexpr double kStepMm = 20;
 struct Solid {
   std::uint32_t object = 0;
   geometry::PlacedPart placed;
-  geometry::PartTree tree;
+  geometry::TriangleBvh tree;
 };
 
 class CurvesOfAShip : public testing::TestWithParam<bool> {
@@ -50,7 +50,7 @@ class CurvesOfAShip : public testing::TestWithParam<bool> {
   void add(std::uint32_t object, const geometry::PlacedPart& placed) {
     if (placed.part->kind == PartKind::wire) wires_.emplace_back(object, placed);
     if (placed.part->kind == PartKind::solid)
-      solids_.push_back({object, placed, geometry::PartTree(*placed.part)});
+      solids_.push_back({object, placed, geometry::TriangleBvh(*placed.part)});
   }
 
   /// Raises the depths of the pairs that a point of a line is inside of.
@@ -59,8 +59,8 @@ class CurvesOfAShip : public testing::TestWithParam<bool> {
       const Vec3l at = p - solid.placed.origin;
       const auto box = solid.placed.part->box.as<std::int64_t>();
       if (solid.object == object || !box.contains({at, at})) continue;
-      geometry::PairWork work;
-      const geometry::TreedPart treed{solid.placed, &solid.tree};
+      geometry::QueryContext work;
+      const geometry::PartWithBvh treed{solid.placed, &solid.tree};
       if (side_of(treed, at, 1, work) != geometry::PointSide::inside) continue;
       const double depth = distance_to_surface(treed, at.as<double>()) * geometry::kMmPerGrid;
       double& deepest = depths_[std::minmax(object, solid.object)];

@@ -22,7 +22,7 @@ namespace {
 struct Body {
   std::uint32_t object = 0;
   geometry::PlacedPart placed;
-  geometry::PartTree tree;
+  geometry::TriangleBvh tree;
   geometry::Box3l box;
 };
 
@@ -46,7 +46,7 @@ class OverlapsOfAShip : public testing::TestWithParam<bool> {
           if (part.triangles.empty()) continue;
           const geometry::Box3l box{part.box.lo.as<std::int64_t>() + body.origin,
                                     part.box.hi.as<std::int64_t>() + body.origin};
-          bodies.push_back({o, {&part, body.origin}, geometry::PartTree(part), box});
+          bodies.push_back({o, {&part, body.origin}, geometry::TriangleBvh(part), box});
         }
     std::vector<ObjectPair> pairs;
     for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -54,7 +54,7 @@ class OverlapsOfAShip : public testing::TestWithParam<bool> {
         const Body &x = bodies[i], &y = bodies[j];
         if (x.object == y.object || !x.box.meets(y.box)) continue;
         const ObjectPair pair{model::ObjectId{x.object}, model::ObjectId{y.object}};
-        geometry::PairWork work;
+        geometry::QueryContext work;
         const auto met = geometry::meet({x.placed, &x.tree}, {y.placed, &y.tree}, work);
         if (met.meeting != geometry::Meeting::apart) pairs.push_back(pair);
       }

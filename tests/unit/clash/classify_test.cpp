@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "clash/classify.hpp"
+#include "clash/pairs/classify.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@ namespace {
 
 constexpr Thresholds kDefault{.overlap = 1000, .gap = 1000, .clearance = 25000};
 
-Judgement at(double lower, double d, double upper, double sag = 0, bool meet = false) {
-  return judge({.d = d, .lower = lower, .upper = upper, .sag = sag, .interiors_meet = meet},
-               kDefault);
+Classification at(double lower, double d, double upper, double sag = 0, bool meet = false) {
+  return classify({.d = d, .lower = lower, .upper = upper, .sag = sag, .interiors_meet = meet},
+                  kDefault);
 }
 
 TEST(Classify, Thresholds) {
@@ -24,24 +24,24 @@ TEST(Classify, Thresholds) {
 }
 
 TEST(Classify, NarrowBracketAboutAThresholdIsBorderlineAndSevere) {
-  const Judgement j = at(-1000.4, -1000, -999.9);
+  const Classification j = at(-1000.4, -1000, -999.9);
   EXPECT_EQ(j.cls, Class::hit);
   EXPECT_EQ(j.flags, kBorderline);
 }
 
 TEST(Classify, WhatTheSnapMovedCountsAtAThresholdButNotAtZero) {
-  const Separation near{.d = 1001, .lower = 1001, .upper = 1001, .moved = 1.7};
-  EXPECT_EQ(judge(near, kDefault).cls, Class::contact);
-  EXPECT_EQ(judge(near, kDefault).flags, kBorderline);
-  const Separation touch{.d = 0.5, .lower = 0.5, .upper = 0.5, .moved = 1.7};
-  EXPECT_EQ(judge(touch, {}).cls, Class::no_hit);
-  EXPECT_EQ(judge(touch, {}).flags, 0);
+  const SignedSeparation near{.d = 1001, .lower = 1001, .upper = 1001, .moved = 1.7};
+  EXPECT_EQ(classify(near, kDefault).cls, Class::contact);
+  EXPECT_EQ(classify(near, kDefault).flags, kBorderline);
+  const SignedSeparation touch{.d = 0.5, .lower = 0.5, .upper = 0.5, .moved = 1.7};
+  EXPECT_EQ(classify(touch, {}).cls, Class::no_hit);
+  EXPECT_EQ(classify(touch, {}).flags, 0);
 }
 
 /// A separation of two of which one was welded.
-Judgement welded(double d, double weld, Thresholds t = kDefault) {
+Classification welded(double d, double weld, Thresholds t = kDefault) {
   t.weld = weld;
-  return judge({.d = d, .lower = d, .upper = d, .sag = weld, .interiors_meet = d < 0}, t);
+  return classify({.d = d, .lower = d, .upper = d, .sag = weld, .interiors_meet = d < 0}, t);
 }
 
 TEST(Classify, WhatAWeldMovedIsNotLost) {
@@ -68,18 +68,19 @@ TEST(Classify, AWeldBeyondTheSnapCountsAtZero) {
 
 // A lid that lay on a block before it was drawn down to its walls: rounding apart, its whole way.
 TEST(Classify, WhatTheSnapMovedCountsAtZeroBesideAWeld) {
-  const Separation lid{.d = 501, .lower = 501, .upper = 501, .sag = 500, .moved = 1.7};
-  EXPECT_EQ(judge(lid, {.weld = 500}).cls, Class::contact);
-  EXPECT_EQ(judge(lid, {.weld = 500}).severest, Class::hit);
-  const Separation apart{.d = 502, .lower = 502, .upper = 502, .sag = 500, .moved = 1.7};
-  EXPECT_EQ(judge(apart, {.weld = 500}).cls, Class::no_hit);
+  const SignedSeparation lid{.d = 501, .lower = 501, .upper = 501, .sag = 500, .moved = 1.7};
+  EXPECT_EQ(classify(lid, {.weld = 500}).cls, Class::contact);
+  EXPECT_EQ(classify(lid, {.weld = 500}).severest, Class::hit);
+  const SignedSeparation apart{.d = 502, .lower = 502, .upper = 502, .sag = 500, .moved = 1.7};
+  EXPECT_EQ(classify(apart, {.weld = 500}).cls, Class::no_hit);
 }
 
 TEST(Classify, CoarseStepsLeaveATouchOpen) {
   Thresholds coarse = kDefault;
   coarse.step = 4000;
   const auto at_step = [&](double d) {
-    return judge({.d = d, .lower = d, .upper = d, .moved = 4000, .interiors_meet = d < 0}, coarse);
+    return classify({.d = d, .lower = d, .upper = d, .moved = 4000, .interiors_meet = d < 0},
+                    coarse);
   };
   for (const double d : {-4000.0, -2000.0, 4000.0}) {
     EXPECT_EQ(at_step(d).cls, Class::contact) << d;
@@ -91,7 +92,7 @@ TEST(Classify, CoarseStepsLeaveATouchOpen) {
 }
 
 TEST(Classify, WideBracketKeepsTheClassOfD) {
-  const Judgement j = at(-5000, -400, -400);
+  const Classification j = at(-5000, -400, -400);
   EXPECT_EQ(j.cls, Class::contact);
   EXPECT_EQ(j.flags, kUncertain);
   EXPECT_EQ(j.severest, Class::hit);
@@ -106,10 +107,10 @@ TEST(Classify, SagMakesUncertain) {
 
 TEST(Classify, AnyDepthIsAHitWhenNoOverlapIsAllowed) {
   const Thresholds strict{.overlap = 0, .gap = 0, .clearance = 0};
-  const Separation s{.d = -1e-6, .lower = -2, .upper = 0, .sag = 0, .interiors_meet = true};
-  EXPECT_EQ(judge(s, strict).cls, Class::hit);
-  EXPECT_EQ(judge(s, strict).flags, 0);
-  EXPECT_EQ(judge({}, strict).cls, Class::contact);
+  const SignedSeparation s{.d = -1e-6, .lower = -2, .upper = 0, .sag = 0, .interiors_meet = true};
+  EXPECT_EQ(classify(s, strict).cls, Class::hit);
+  EXPECT_EQ(classify(s, strict).flags, 0);
+  EXPECT_EQ(classify({}, strict).cls, Class::contact);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "strake/clash/identity.hpp"
+#include "clash/results/clash_key.hpp"
 #include "support/clash_model.hpp"
 
 namespace strake::clash {

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "strake/geometry/winding_number.hpp"
+#include "geometry/distance/winding_number.hpp"
 #include "support/clash_model.hpp"
 #include "support/near_closed.hpp"
 #include "support/rounds.hpp"

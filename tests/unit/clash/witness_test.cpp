@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "strake/geometry/analyse.hpp"
-#include "strake/geometry/place.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
+#include "geometry/mesh_repair/snap_to_grid.hpp"
 #include "support/clash_model.hpp"
 #include "support/rotations.hpp"
 

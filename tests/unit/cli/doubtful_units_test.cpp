@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/doubtful_units.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "cli/run/load.hpp"
 #include "support/meshes.hpp"
 
 namespace strake::cli {

@@ -118,7 +118,7 @@ TEST_F(AtomicFileTest, takes_names_of_any_legal_length) {
       const Result<AtomicFile> left = AtomicFile::create(path(name));
       ASSERT_TRUE(left) << length;
       EXPECT_EQ(files(), 1U);
-      remove_partials(path(name));
+      remove_partial_files(path(name));
       EXPECT_EQ(files(), 0U);
       ASSERT_TRUE(write_file(path(name), "x")) << length;
       EXPECT_EQ(content(path(name)), "x");
@@ -138,7 +138,7 @@ TEST_F(AtomicFileTest, long_names_stay_apart) {
   ASSERT_TRUE(first && second);
   first->write("1");
   second->write("2");
-  remove_partials(path(one));
+  remove_partial_files(path(one));
   EXPECT_FALSE(first->commit());
   ASSERT_TRUE(second->commit());
   EXPECT_EQ(content(path(two)), "2");
@@ -149,7 +149,7 @@ TEST_F(AtomicFileTest, links_to_nowhere_are_followed_and_circles_are_errors) {
   fs::create_directory(path("sub"));
   fs::create_symlink("sub/b", path("a"));
   fs::create_symlink("../real", path("sub/b"));
-  EXPECT_EQ(fs::weakly_canonical(link_end(path("a"))), fs::weakly_canonical(path("real")));
+  EXPECT_EQ(fs::weakly_canonical(resolve_links(path("a"))), fs::weakly_canonical(path("real")));
   ASSERT_TRUE(write_file(path("a"), "x"));
   EXPECT_EQ(content(path("real")), "x");
   EXPECT_TRUE(fs::is_symlink(path("a")) && fs::is_symlink(path("sub/b")));
@@ -165,7 +165,7 @@ TEST_F(AtomicFileTest, partial_files_can_be_removed_from_outside) {
   const Result<AtomicFile> second = AtomicFile::create(path("a"));
   ASSERT_TRUE(first && second);
   EXPECT_EQ(files(), 3U);
-  remove_partials(path("a"));
+  remove_partial_files(path("a"));
   EXPECT_EQ(files(), 1U);
   EXPECT_EQ(content(path("a")), "before");
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/core/base64.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
+
+#include "core/text_encoding.hpp"
 
 namespace strake {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/core/glob.hpp"
+#include "core/glob.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "strake/core/checksum.hpp"
-#include "strake/core/seeded_hash.hpp"
+#include "core/checksum.hpp"
+#include "core/seeded_hash.hpp"
 
 namespace strake {
 namespace {

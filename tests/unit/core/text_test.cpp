@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/core/text.hpp"
-
 #include <gtest/gtest.h>
+
+#include "core/text_encoding.hpp"
 
 namespace strake {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/core/units.hpp"
+#include "core/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "drawing/chains.hpp"
-#include "drawing/svg_path.hpp"
+#include "drawing/svg/svg_path.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
 
@@ -41,13 +40,13 @@ model::Model two_objects() {
   return model;
 }
 
-hlr::Piece piece(std::uint32_t object, Vec3l a, Vec3l b, State state = State::visible,
-                 EdgeKind kind = EdgeKind::sharp, std::uint32_t edge = 0) {
+hlr::EdgePiece piece(std::uint32_t object, Vec3l a, Vec3l b, State state = State::visible,
+                     EdgeKind kind = EdgeKind::sharp, std::uint32_t edge = 0) {
   const model::ObjectId own{object};
   return {own, edge, kind, state, own, a, b};
 }
 
-hlr::Drawing from_top(std::vector<hlr::Piece> pieces) {
+hlr::Drawing from_top(std::vector<hlr::EdgePiece> pieces) {
   hlr::Drawing drawing;
   drawing.view.direction = {0, 0, 1};
   drawing.view.up = {0, 1, 0};
@@ -137,7 +136,7 @@ TEST(Layout, ScalesAndSheets) {
   EXPECT_EQ(small.lines[1].b_paper, (PaperPoint{310, 94.5}));
   EXPECT_EQ(small.lines[0].b_mm, Vec3d(100, 0, 0));
   hlr::Drawing ship = rectangle();
-  for (hlr::Piece& p : ship.pieces) {
+  for (hlr::EdgePiece& p : ship.pieces) {
     p.a = p.a * 300;
     p.b = p.b * 300;
   }
@@ -237,7 +236,7 @@ TEST(SagForPaper, IsToldInTheDrawing) {
 TEST(Layout, AMoveOfTheModelDoesNotMoveTheDrawing) {
   hlr::Drawing moved = rectangle();
   const Vec3l far{90'000'000'123, -290'000'000'456, 7};
-  for (hlr::Piece& p : moved.pieces) {
+  for (hlr::EdgePiece& p : moved.pieces) {
     p.a = p.a + far;
     p.b = p.b + far;
   }

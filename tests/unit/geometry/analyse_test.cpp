@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/analyse.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "strake/geometry/place.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
+#include "geometry/mesh_repair/snap_to_grid.hpp"
 #include "strake/geometry/triangulate.hpp"
 #include "support/meshes.hpp"
 
@@ -19,14 +18,14 @@ namespace {
 using test::add_box;
 using test::box_mesh;
 
-MeshAnalysis analysed(const TriangleMesh& mesh, const Mat3d& linear = {}) {
-  auto placed = place(mesh, linear);
+RepairedMesh analysed(const TriangleMesh& mesh, const Mat3d& linear = {}) {
+  auto placed = snap_to_grid(mesh, linear);
   EXPECT_TRUE(placed.has_value());
-  return analyse(std::move(placed->mesh));
+  return repair_mesh(std::move(placed->mesh));
 }
 
 /// Of all its parts, cubic grid units.
-double volume_of(const MeshAnalysis& analysis) {
+double volume_of(const RepairedMesh& analysis) {
   double volume = 0;
   for (const Part& part : analysis.parts) volume += part.volume;
   return volume;
@@ -39,7 +38,7 @@ bool same(const Part& a, const Part& b) {
 }
 
 TEST(Analyse, BoxIsOneSolid) {
-  const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {1, 2, 3}));
+  const RepairedMesh a = analysed(box_mesh({0, 0, 0}, {1, 2, 3}));
   ASSERT_EQ(a.parts.size(), 1U);
   const Part& p = a.parts[0];
   EXPECT_EQ(p.kind, PartKind::solid);
@@ -68,7 +67,7 @@ TEST(Analyse, UnweldedSoupOfABoxIsTheSameSolid) {
 }
 
 TEST(Analyse, InsideOutBoxIsTurned) {
-  const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {1, 1, 1}, true));
+  const RepairedMesh a = analysed(box_mesh({0, 0, 0}, {1, 1, 1}, true));
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_TRUE(a.parts[0].flags.inverted);
   EXPECT_GT(a.parts[0].volume, 0);
@@ -78,7 +77,7 @@ TEST(Analyse, InsideOutBoxIsTurned) {
 TEST(Analyse, MirroredPlacementIsNotInverted) {
   Mat3d mirror;
   mirror.row[0].x = -1;
-  const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {1, 1, 1}), mirror);
+  const RepairedMesh a = analysed(box_mesh({0, 0, 0}, {1, 1, 1}), mirror);
   EXPECT_FALSE(a.parts.at(0).flags.inverted);
   EXPECT_GT(a.parts.at(0).volume, 0);
 }
@@ -86,7 +85,7 @@ TEST(Analyse, MirroredPlacementIsNotInverted) {
 TEST(Analyse, DisjointBoxesAreSeparateParts) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   add_box(mesh, {3, 0, 0}, {4, 1, 1}, true);
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 2U);
   EXPECT_FALSE(a.parts[0].flags.inverted);
   EXPECT_TRUE(a.parts[1].flags.inverted);
@@ -96,7 +95,7 @@ TEST(Analyse, BoxesThatShareAnEdgeOrACornerComeApart) {
   for (const Vec3d& shift : {Vec3d{1, 1, 0}, Vec3d{1, 1, 1}}) {
     TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
     add_box(mesh, shift, Vec3d{1, 1, 1} + shift, true);
-    const MeshAnalysis a = analysed(mesh);
+    const RepairedMesh a = analysed(mesh);
     ASSERT_EQ(a.parts.size(), 2U) << shift.x << shift.y << shift.z;
     for (const Part& p : a.parts) {
       EXPECT_EQ(p.kind, PartKind::solid);
@@ -115,7 +114,7 @@ TEST(Analyse, BoxesThatShareAFaceComeApart) {
       lo[i < 3 ? axis : (axis + 1) % 3] = i < 3 ? i : 1;
       add_box(mesh, lo, lo + Vec3d{1, 1, 1});
     }
-    const MeshAnalysis a = analysed(mesh);
+    const RepairedMesh a = analysed(mesh);
     ASSERT_EQ(a.parts.size(), 4U);
     for (const Part& p : a.parts) {
       EXPECT_EQ(p.kind, PartKind::solid);
@@ -132,7 +131,7 @@ TEST(Analyse, BlockOfCubesComesApartIntoCubes) {
                    static_cast<double>(i / 9 % 3)};
     add_box(mesh, lo, lo + Vec3d{1, 1, 1});
   }
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   EXPECT_EQ(a.parts.size(), 27U);
   for (const Part& p : a.parts) EXPECT_DOUBLE_EQ(p.volume, 1e9);
 }
@@ -140,7 +139,7 @@ TEST(Analyse, BlockOfCubesComesApartIntoCubes) {
 TEST(Analyse, FinOfNoThicknessIsASheetBesideItsSolid) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   add_box(mesh, {1, 0, 1}, {2, 1, 1});
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 2U);
   EXPECT_EQ(a.parts[0].kind, PartKind::solid);
   EXPECT_EQ(a.parts[1].kind, PartKind::sheet);
@@ -150,7 +149,7 @@ TEST(Analyse, FinOfNoThicknessIsASheetBesideItsSolid) {
 TEST(Analyse, CavityBelongsToItsSolid) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
   add_box(mesh, {1, 1, 1}, {2, 2, 2}, true);
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].shell_count, 2U);
   EXPECT_EQ(a.parts[0].triangles.size(), 24U);
@@ -161,7 +160,7 @@ TEST(Analyse, CavityBelongsToItsSolid) {
 TEST(Analyse, HollowBodyInsideOutIsTurnedAsAWhole) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4}, true);
   add_box(mesh, {1, 1, 1}, {2, 2, 2}, false);
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_TRUE(a.parts[0].flags.inverted);
   EXPECT_DOUBLE_EQ(a.parts[0].volume, 63e9);
@@ -170,7 +169,7 @@ TEST(Analyse, HollowBodyInsideOutIsTurnedAsAWhole) {
 TEST(Analyse, SolidInsideASolidIsLeftOut) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
   add_box(mesh, {1, 1, 1}, {2, 2, 2});
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].triangles.size(), 12U);
   EXPECT_DOUBLE_EQ(a.parts[0].volume, 64e9);
@@ -182,7 +181,7 @@ TEST(Analyse, IslandInACavityBelongsToTheNest) {
   add_box(mesh, {1, 1, 1}, {7, 7, 7}, true);
   add_box(mesh, {2, 2, 2}, {6, 6, 6});
   add_box(mesh, {3, 3, 3}, {5, 5, 5});  // solid in the island: bounds nothing
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].shell_count, 3U);
   EXPECT_DOUBLE_EQ(a.parts[0].volume, (512 - 216 + 64) * 1e9);
@@ -216,7 +215,7 @@ TEST(Analyse, SolidThatPiercesADentIsNotNested) {
   }
   EXPECT_EQ(analysed(mesh).parts.size(), 1U);
   add_box(mesh, {1, 5, 2}, {8, 7, 5});
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   EXPECT_EQ(a.parts.size(), 2U);
   EXPECT_EQ(a.findings.nested_shells, 0U);
 }
@@ -229,7 +228,7 @@ TEST(Analyse, ManyShellsInOneHullNestQuickly) {
         const Vec3d lo{3.0 * x, 3.0 * y, 3.0 * z};
         add_box(mesh, lo, lo + Vec3d{2, 2, 2}, true);
       }
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].shell_count, 8001U);
   EXPECT_DOUBLE_EQ(a.parts[0].volume, (62.0 * 62 * 62 - 8000 * 8) * 1e9);
@@ -238,7 +237,7 @@ TEST(Analyse, ManyShellsInOneHullNestQuickly) {
 TEST(Analyse, CavityThatTouchesTheSkinIsStillInside) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4});
   add_box(mesh, {1, 1, 0}, {2, 2, 2}, true);  // a blind hole drawn as a cavity flush with the skin
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_DOUBLE_EQ(a.parts[0].volume, 62e9);
 }
@@ -285,7 +284,7 @@ void add_two_sided_box(TriangleMesh& mesh, const Vec3d& lo, const Vec3d& hi) {
   add_box(mesh, lo, hi, true);
 }
 
-void expect_solids(const MeshAnalysis& a, const std::vector<double>& cubic_millimetres) {
+void expect_solids(const RepairedMesh& a, const std::vector<double>& cubic_millimetres) {
   ASSERT_EQ(a.parts.size(), cubic_millimetres.size());
   for (std::size_t i = 0; i < a.parts.size(); ++i) {
     EXPECT_EQ(a.parts[i].kind, PartKind::solid);
@@ -297,7 +296,7 @@ void expect_solids(const MeshAnalysis& a, const std::vector<double>& cubic_milli
 TEST(Analyse, SkinDrawnFromBothSidesIsTheSolidInIt) {
   TriangleMesh mesh;
   add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   expect_solids(a, {64});
   EXPECT_TRUE(same(a.parts.at(0), analysed(box_mesh({0, 0, 0}, {4, 4, 4})).parts.at(0)));
   EXPECT_EQ(a.findings.two_sided_shells, 1U);
@@ -308,7 +307,7 @@ TEST(Analyse, SidesMayBeCutDifferently) {
   for (const bool front_first : {true, false}) {
     TriangleMesh mesh = box_mesh({0, 0, 0}, {4, 4, 4}, !front_first);
     add_recut_box(mesh, {0, 0, 0}, {4, 4, 4}, front_first);
-    const MeshAnalysis a = analysed(mesh);
+    const RepairedMesh a = analysed(mesh);
     expect_solids(a, {64});
     EXPECT_EQ(a.parts.at(0).triangles.size(), 12U);
     EXPECT_EQ(a.findings.two_sided_shells, 1U);
@@ -327,7 +326,7 @@ TEST(Analyse, SidesCutDifferentlyAskewDoNotFallIntoSlivers) {
                        {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}}};
     TriangleMesh mesh = box_mesh({0, 0, 0}, {40, 50, 60});
     add_recut_box(mesh, {0, 0, 0}, {40, 50, 60}, true);
-    const MeshAnalysis a = analysed(mesh, turn);
+    const RepairedMesh a = analysed(mesh, turn);
     ASSERT_FALSE(a.parts.empty()) << round;
     for (const Part& p : a.parts) {
       EXPECT_EQ(p.kind, PartKind::solid) << round;
@@ -340,7 +339,7 @@ TEST(Analyse, CavityInASkinDrawnFromBothSidesStays) {
   TriangleMesh mesh;
   add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
   add_box(mesh, {1, 1, 1}, {2, 2, 2}, true);
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   expect_solids(a, {63});
   EXPECT_EQ(a.findings.two_sided_shells, 1U);
 }
@@ -350,7 +349,7 @@ TEST(Analyse, IslandDrawnFromBothSidesIsSolid) {
     TriangleMesh mesh = box_mesh({0, 0, 0}, {8, 8, 8}, inverted);
     add_box(mesh, {1, 1, 1}, {7, 7, 7}, !inverted);
     add_two_sided_box(mesh, {2, 2, 2}, {6, 6, 6});
-    const MeshAnalysis a = analysed(mesh);
+    const RepairedMesh a = analysed(mesh);
     ASSERT_EQ(a.parts.size(), 1U);
     EXPECT_DOUBLE_EQ(a.parts[0].volume, (512 - 216 + 64) * 1e9);
     EXPECT_EQ(a.parts[0].flags.inverted, inverted);
@@ -362,7 +361,7 @@ TEST(Analyse, CavityThatAHollowBodyFillsStaysACavity) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {8, 8, 8});
   add_two_sided_box(mesh, {1, 1, 1}, {7, 7, 7});
   add_box(mesh, {2, 2, 2}, {6, 6, 6}, true);
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   expect_solids(a, {512 - 64});
   EXPECT_EQ(a.findings.two_sided_shells, 0U);
 }
@@ -372,7 +371,7 @@ TEST(Analyse, BoxesDrawnFromBothSidesMayShareAnEdgeOrAFace) {
     TriangleMesh mesh;
     add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
     add_two_sided_box(mesh, shift, Vec3d{4, 4, 4} + shift);
-    const MeshAnalysis a = analysed(mesh);
+    const RepairedMesh a = analysed(mesh);
     expect_solids(a, {64, 64});
     EXPECT_GE(a.findings.two_sided_shells, 1U);
   }
@@ -385,7 +384,7 @@ TEST(Analyse, ShellsThatCancelLeaveTheirSkin) {
     add_box(mesh, shift, Vec3d{4, 4, 4} + shift);
     add_recut_box(mesh, shift, Vec3d{4, 4, 4} + shift, true);
   }
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   EXPECT_DOUBLE_EQ(volume_of(a), 128e9);
   EXPECT_GE(a.findings.two_sided_shells, 1U);
 }
@@ -394,7 +393,7 @@ TEST(Analyse, FlapOnASkinDrawnFromBothSidesStays) {
   TriangleMesh mesh;
   add_two_sided_box(mesh, {0, 0, 0}, {4, 4, 4});
   add_quad(mesh, {{{4, 0, 4}, {6, 0, 4}, {6, 4, 4}, {4, 4, 4}}}, true);
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 2U);
   EXPECT_DOUBLE_EQ(a.parts[0].volume, 64e9);
   EXPECT_EQ(a.parts[1].kind, PartKind::sheet);
@@ -404,7 +403,7 @@ TEST(Analyse, FlapOnASkinDrawnFromBothSidesStays) {
 TEST(Analyse, SheetCutDifferentlyOnItsTwoSidesIsASheet) {
   TriangleMesh mesh;
   add_quad(mesh, {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}}, true, true);
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].kind, PartKind::sheet);
 }
@@ -418,7 +417,7 @@ TEST(Analyse, CubesInsideOutStandSideBySide) {
                      static_cast<double>(i / 9 % 3)};
       add_box(mesh, lo, lo + Vec3d{1, 1, 1}, inside_out);
     }
-    const MeshAnalysis a = analysed(mesh);
+    const RepairedMesh a = analysed(mesh);
     EXPECT_DOUBLE_EQ(volume_of(a), 27e9);
     EXPECT_EQ(a.findings.two_sided_shells, 0U);
   }
@@ -427,7 +426,7 @@ TEST(Analyse, CubesInsideOutStandSideBySide) {
 TEST(Analyse, OpenBoxIsASheet) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   mesh.triangles.pop_back();
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].kind, PartKind::sheet);
   EXPECT_TRUE(a.parts[0].flags.open);
@@ -438,13 +437,13 @@ TEST(Analyse, OpenBoxIsASheet) {
 TEST(Analyse, FlippedTriangleIsTurnedBack) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   EXPECT_EQ(a.parts.at(0).kind, PartKind::solid);
   EXPECT_EQ(a.findings.turned_triangles, 1U);
 }
 
 TEST(Analyse, FlatBoxIsASheetOfOneLayer) {
-  const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {3, 2, 0}));
+  const RepairedMesh a = analysed(box_mesh({0, 0, 0}, {3, 2, 0}));
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].kind, PartKind::sheet);
   EXPECT_DOUBLE_EQ(a.parts[0].area, 6e6 * static_cast<double>(a.parts[0].triangles.size()) / 2);
@@ -454,7 +453,7 @@ TEST(Analyse, FlatBoxIsASheetOfOneLayer) {
 TEST(Analyse, RepeatedMeshIsOneSolid) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   add_box(mesh, {0, 0, 0}, {1, 1, 1});
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].triangles.size(), 12U);
   EXPECT_EQ(a.findings.duplicate_triangles, 12U);
@@ -465,7 +464,7 @@ TEST(Analyse, DegenerateTrianglesAreDroppedExactly) {
   mesh.vertices.push_back({0.5, 0, 0});
   mesh.triangles.push_back({0, 8, 1});  // collinear
   mesh.triangles.push_back({0, 0, 5});
-  const MeshAnalysis a = analysed(mesh);
+  const RepairedMesh a = analysed(mesh);
   EXPECT_EQ(a.findings.degenerate_triangles, 2U);
   EXPECT_EQ(a.parts.at(0).kind, PartKind::solid);
   EXPECT_EQ(a.parts.at(0).vertices.size(), 8U);
@@ -478,7 +477,7 @@ TEST(Analyse, BadIndicesAndPlacesAreLeftOutAndCounted) {
   mesh.triangles.push_back({0, 1, 8});
   mesh.triangles.push_back({0, 1, 9});
   mesh.triangles.push_back({0, 1, 77});
-  const auto placed = place(mesh, {});
+  const auto placed = snap_to_grid(mesh, {});
   ASSERT_TRUE(placed.has_value());
   EXPECT_EQ(placed->bad_triangles, 3U);
   EXPECT_EQ(placed->mesh.triangles.size(), 12U);
@@ -487,7 +486,7 @@ TEST(Analyse, BadIndicesAndPlacesAreLeftOutAndCounted) {
 TEST(Place, FarShapesGetABaseThatKeepsEveryVertex) {
   const Vec3d far{4.5e8, 7.25e9, -3e6};
   const TriangleMesh mesh = box_mesh(far, far + Vec3d{1000, 2000.5, 3000});
-  const auto placed = place(mesh, {});
+  const auto placed = snap_to_grid(mesh, {});
   ASSERT_TRUE(placed.has_value());
   Box3l box = empty_box<std::int64_t>();
   for (const Vec3i& v : placed->mesh.vertices) box.include(v.as<std::int64_t>() + placed->base);
@@ -496,8 +495,8 @@ TEST(Place, FarShapesGetABaseThatKeepsEveryVertex) {
 }
 
 TEST(Place, TheLocalOriginDoesNotShow) {
-  const auto placed = place(box_mesh({0, 0, 0}, {10000, 1, 3}), {});
-  const auto other = place(box_mesh({-700, 20, 0.5}, {9300, 21, 3.5}), {});
+  const auto placed = snap_to_grid(box_mesh({0, 0, 0}, {10000, 1, 3}), {});
+  const auto other = snap_to_grid(box_mesh({-700, 20, 0.5}, {9300, 21, 3.5}), {});
   ASSERT_TRUE(placed.has_value() && other.has_value());
   EXPECT_EQ(placed->base, (Vec3l{5000000, 500, 1500}));
   EXPECT_EQ(other->base, (Vec3l{4300000, 20500, 2000}));
@@ -505,14 +504,14 @@ TEST(Place, TheLocalOriginDoesNotShow) {
 }
 
 TEST(Place, TooWideIsRefused) {
-  EXPECT_FALSE(place(box_mesh({0, 0, 0}, {2200000, 1, 1}), {}).has_value());
-  EXPECT_TRUE(place(box_mesh({0, 0, 0}, {2100000, 1, 1}), {}).has_value());
+  EXPECT_FALSE(snap_to_grid(box_mesh({0, 0, 0}, {2200000, 1, 1}), {}).has_value());
+  EXPECT_TRUE(snap_to_grid(box_mesh({0, 0, 0}, {2100000, 1, 1}), {}).has_value());
 }
 
 TEST(Place, StretchIsExactForSimilarities) {
   Mat3d turned;
   turned.row = {Vec3d{0.6 * 7, -0.8 * 7, 0}, Vec3d{0.8 * 7, 0.6 * 7, 0}, Vec3d{0, 0, 7}};
-  EXPECT_NEAR(stretch(turned), 7, 1e-10);
+  EXPECT_NEAR(largest_scale(turned), 7, 1e-10);
 }
 
 // Any permutation of vertices and triangles, any starting vertex: the same bytes.
@@ -537,7 +536,7 @@ TEST(Analyse, OrderOfTheSourceDoesNotMatter) {
       shuffled.triangles.push_back({order[t[k]], order[t[(k + 1) % 3]], order[t[(k + 2) % 3]]});
     }
     std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), random);
-    const MeshAnalysis a = analysed(mesh), b = analysed(shuffled);
+    const RepairedMesh a = analysed(mesh), b = analysed(shuffled);
     ASSERT_EQ(a.parts.size(), b.parts.size());
     for (std::size_t i = 0; i < a.parts.size(); ++i) EXPECT_TRUE(same(a.parts[i], b.parts[i]));
   }
@@ -559,13 +558,13 @@ TEST(Analyse, MemoryOfEarlierMeshesLeavesNoTrace) {
   open.triangles.pop_back();
   open.vertices.push_back({5e9, 0, 0});  // used by no triangle
   meshes.push_back(open);
-  MeshPlacer placer;
-  MeshAnalyser analyser;
+  GridSnapper placer;
+  MeshRepairer analyser;
   for (int round = 0; round < 2; ++round)
     for (const TriangleMesh& mesh : meshes) {
-      const PlacedMesh* placed = placer.place(mesh, {});
+      const SnappedMesh* placed = placer.snap_to_grid(mesh, {});
       ASSERT_NE(placed, nullptr);
-      const MeshAnalysis reused = analyser.analyse(placed->mesh), fresh = analysed(mesh);
+      const RepairedMesh reused = analyser.repair_mesh(placed->mesh), fresh = analysed(mesh);
       ASSERT_EQ(reused.parts.size(), fresh.parts.size());
       for (std::size_t p = 0; p < fresh.parts.size(); ++p) {
         EXPECT_TRUE(same(reused.parts[p], fresh.parts[p]));
@@ -577,7 +576,7 @@ TEST(Analyse, MemoryOfEarlierMeshesLeavesNoTrace) {
 TEST(Analyse, VerticesAreInOrderHoweverWideTheMesh) {
   // A word holds the first box's vertices as keys, not the second's.
   for (const double size : {1.0, 2.1e6}) {
-    const MeshAnalysis a = analysed(box_mesh({0, 0, 0}, {size, size, size}));
+    const RepairedMesh a = analysed(box_mesh({0, 0, 0}, {size, size, size}));
     ASSERT_EQ(a.parts.size(), 1U);
     EXPECT_TRUE(std::is_sorted(a.parts[0].vertices.begin(), a.parts[0].vertices.end()));
     const double side = size * 1000;

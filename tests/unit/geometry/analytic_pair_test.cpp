@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/analytic_pair.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include "strake/geometry/primitive_separation.hpp"
 #include "support/rotations.hpp"
 
 namespace strake::geometry {
@@ -20,12 +19,12 @@ using test::kTurn;
 
 constexpr double kPerMm = 1000;
 
-AnalyticSeparation of(const Primitive& a, const Vec3d& at_a, const Primitive& b, const Vec3d& at_b,
-                      const Mat3d& turn = {}) {
+PrimitiveSeparation of(const Primitive& a, const Vec3d& at_a, const Primitive& b, const Vec3d& at_b,
+                       const Mat3d& turn = {}) {
   const Placement pa{turn, at_a}, pb{turn, at_b};
-  const auto s = analytic_separation({&a, &pa}, {&b, &pb});
+  const auto s = primitive_separation({&a, &pa}, {&b, &pb});
   EXPECT_TRUE(s);
-  return s.value_or(AnalyticSeparation{});
+  return s.value_or(PrimitiveSeparation{});
 }
 
 TEST(AnalyticPair, Spheres) {
@@ -34,7 +33,7 @@ TEST(AnalyticPair, Spheres) {
   EXPECT_NEAR(of(large, {}, small, {125, 0, 0}).d, -5'000, 1e-3);
   // Wholly inside: as deep as the large sphere's centre, when the small one holds it.
   EXPECT_NEAR(of(large, {}, small, {10, 0, 0}).d, -100'000, 1e-3);
-  const AnalyticSeparation nested = of(large, {}, small, {50, 0, 0});
+  const PrimitiveSeparation nested = of(large, {}, small, {50, 0, 0});
   EXPECT_NEAR(nested.d, -80'000, 1e-3);
   EXPECT_NEAR(nested.b_inside_a, 20'000, 1e-3);
   EXPECT_LT(nested.a_inside_b, 0);
@@ -64,13 +63,13 @@ TEST(AnalyticPair, SphereAndBox) {
   EXPECT_NEAR(of(box, {}, ball, {200 + 60, 300 + 120, 500 + 120}).d, 80'000, 1e-3);
   EXPECT_NEAR(of(ball, {}, box, {-292, 0, 0}).d, -8'000, 1e-3);
   // Inside: as deep as the box's middle plane, when the ball reaches it.
-  const AnalyticSeparation in = of(box, {}, ball, {50, 0, 0});
+  const PrimitiveSeparation in = of(box, {}, ball, {50, 0, 0});
   EXPECT_NEAR(in.d, -200'000, 1e-3);
   EXPECT_NEAR(in.b_inside_a, 50'000, 1e-3);
   EXPECT_LT(in.a_inside_b, 0);
   EXPECT_NEAR(of(box, {}, SpherePrimitive{40}, {150, 0, 0}).d, -70'000, 1e-3);
   // The ball holds the box: as deep as the ball's centre.
-  const AnalyticSeparation held = of(SpherePrimitive{3000}, {}, box, {500, 0, 0});
+  const PrimitiveSeparation held = of(SpherePrimitive{3000}, {}, box, {500, 0, 0});
   EXPECT_NEAR(held.d, -1'200'000, 1e-3);
   EXPECT_NEAR(held.b_inside_a, 1'500'000 - 1'000 * std::sqrt(700 * 700 + 300 * 300 + 500 * 500),
               1e-3);
@@ -103,7 +102,7 @@ TEST(AnalyticPair, SpheresInBodiesAreAsDeepAsTheDeepestSample) {
     const CylinderPrimitive cylinder{draw(5, 45), draw(10, 90)};
     const Primitive body = pipe ? Primitive{cylinder} : Primitive{box};
     const Vec3d at{draw(-80, 80), draw(-80, 80), draw(-80, 80)};
-    const AnalyticSeparation s = of(body, {}, SpherePrimitive{2 * r}, at);
+    const PrimitiveSeparation s = of(body, {}, SpherePrimitive{2 * r}, at);
     EXPECT_EQ(of(SpherePrimitive{2 * r}, at, body, {}).d, s.d) << "seed " << seed;
     EXPECT_NEAR(of(body, {}, SpherePrimitive{2 * r}, kTurn * at, kTurn).d, s.d, 2) << seed;
     const auto depth = [&](const Vec3d& p) {
@@ -139,12 +138,12 @@ TEST(AnalyticPair, RoundingOfMatricesIsPartOfTheError) {
     for (int k = 0; k < 3; ++k) row[k] = static_cast<double>(static_cast<float>(row[k]));
   const Primitive pipe = CylinderPrimitive{100, 6000}, ball = SpherePrimitive{200};
   const Placement p{rough, {}}, q{kTurn, kTurn * Vec3d{215, 0, 4000}}, r{rough, {350, 0, 0}};
-  const auto pipes = analytic_separation({&pipe, &p}, {&pipe, &q});
+  const auto pipes = primitive_separation({&pipe, &p}, {&pipe, &q});
   ASSERT_TRUE(pipes);
   EXPECT_NEAR(pipes->d, 15'000, pipes->error() + 2);
   EXPECT_GT(pipes->error(), 0);
   EXPECT_LT(pipes->error(), 4);
-  const auto balls = analytic_separation({&ball, &p}, {&ball, &r});
+  const auto balls = primitive_separation({&ball, &p}, {&ball, &r});
   ASSERT_TRUE(balls);
   EXPECT_NEAR(balls->d, 150'000, balls->error());
   EXPECT_LT(balls->error(), 0.1);
@@ -155,18 +154,18 @@ TEST(AnalyticPair, ScalesThatLeaveTheKindAsItIs) {
                   ball = SpherePrimitive{20};
   const Placement tall{{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 3}}}, {}};
   const Placement above{{}, {0, 0, 170}};
-  EXPECT_NEAR(analytic_separation({&box, &tall}, {&ball, &above})->d, 10'000, 1e-3);
-  EXPECT_NEAR(analytic_separation({&pipe, &tall}, {&ball, &above})->d, 10'000, 1e-3);
-  EXPECT_NEAR(analytic_separation({&ball, &tall}, {&ball, &above})->d, 130'000, 0.1)
+  EXPECT_NEAR(primitive_separation({&box, &tall}, {&ball, &above})->d, 10'000, 1e-3);
+  EXPECT_NEAR(primitive_separation({&pipe, &tall}, {&ball, &above})->d, 10'000, 1e-3);
+  EXPECT_NEAR(primitive_separation({&ball, &tall}, {&ball, &above})->d, 130'000, 0.1)
       << "an ellipsoid";
   const Placement oval{{{Vec3d{2, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, {}};
   const Placement beside{{}, {113, 0, 0}};
-  EXPECT_NEAR(analytic_separation({&pipe, &oval}, {&ball, &beside})->d, 3'000, 0.1);
+  EXPECT_NEAR(primitive_separation({&pipe, &oval}, {&ball, &beside})->d, 3'000, 0.1);
   const Placement sheared{{{Vec3d{1, 0.1, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, {}};
-  EXPECT_NEAR(analytic_separation({&box, &sheared}, {&ball, &beside})->d,
+  EXPECT_NEAR(primitive_separation({&box, &sheared}, {&ball, &beside})->d,
               63'000 / std::sqrt(1.01) - 10'000, 0.1);
   const Placement flat{{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 0}}}, {}};
-  EXPECT_FALSE(analytic_separation({&box, &flat}, {&ball, &above}));
+  EXPECT_FALSE(primitive_separation({&box, &flat}, {&ball, &above}));
 }
 
 TEST(AnalyticPair, LinesAndWedgedSnoutsHaveNone) {
@@ -177,11 +176,11 @@ TEST(AnalyticPair, LinesAndWedgedSnoutsHaveNone) {
   cut.top_shear_x = 0.7;
   const Primitive wedge = cut;
   const Placement here;
-  EXPECT_FALSE(analytic_separation({&pipe, &here}, {&line, &here}));
-  EXPECT_FALSE(analytic_separation({&wedge, &here}, {&pipe, &here})) << "end planes meet in it";
+  EXPECT_FALSE(primitive_separation({&pipe, &here}, {&line, &here}));
+  EXPECT_FALSE(primitive_separation({&wedge, &here}, {&pipe, &here})) << "end planes meet in it";
   cut.top_shear_x = 0.5;
   const Primitive mitre = cut;
-  EXPECT_TRUE(analytic_separation({&mitre, &here}, {&pipe, &here}));
+  EXPECT_TRUE(primitive_separation({&mitre, &here}, {&pipe, &here}));
 }
 
 /// Distance of a point to the skin of a body about the origin, millimetres.
@@ -221,7 +220,7 @@ TEST(AnalyticPair, WitnessesLieWhereTheySay) {
     const bool centred = seed % 7 == 0;
     const Vec3d at =
         centred ? Vec3d{0, 0, draw(-80, 80)} : Vec3d{draw(-80, 80), draw(-80, 80), draw(-80, 80)};
-    const AnalyticSeparation s = of(*a, {}, *b, at);
+    const PrimitiveSeparation s = of(*a, {}, *b, at);
     const double d = s.d / kPerMm;
     const Vec3d point = s.point * (1 / kPerMm);
     EXPECT_NEAR(dot(s.away, s.away), 1, 1e-12);
@@ -247,7 +246,7 @@ TEST(AnalyticPair, DepthIsThatOfTheDeepestSample) {
     const CylinderPrimitive a{draw(10, 60), draw(20, 200)}, b{draw(10, 60), draw(20, 200)};
     const double x = draw(0, 100), z = draw(-150, 150);
     const double found = of(a, {}, b, {x, 0, z}).d / kPerMm;
-    const AnalyticSeparation turned = of(a, {}, b, kTurn * Vec3d{x, 0, z}, kTurn);
+    const PrimitiveSeparation turned = of(a, {}, b, kTurn * Vec3d{x, 0, z}, kTurn);
     // The turned centre snaps to the grid.
     EXPECT_NEAR(turned.d / kPerMm, found, 0.002) << "seed " << seed;
     EXPECT_NEAR(of(b, {x, 0, z}, a, {}).d / kPerMm, found, 1e-6) << "seed " << seed;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "strake/geometry/analytic_pair.hpp"
+#include "strake/geometry/primitive_separation.hpp"
 #include "support/random_primitives.hpp"
 
 namespace strake::geometry {
@@ -18,20 +18,21 @@ using test::PrimitiveDraw;
 constexpr double kPerMm = 1000;
 
 /// b placed in a's frame, both in a turned and shifted one; what the snap moves is at most 2 units.
-AnalyticSeparation of(const Primitive& a, const Primitive& b, const Placement& b_in_a,
-                      std::uint64_t seed) {
+PrimitiveSeparation of(const Primitive& a, const Primitive& b, const Placement& b_in_a,
+                       std::uint64_t seed) {
   PrimitiveDraw draw(seed);
   const Placement frame{draw.turn(), draw.point(1000)};
   const Placement placed = frame * b_in_a;
-  const auto s = solved_separation({&a, &frame}, {&b, &placed});
-  const auto swapped = solved_separation({&b, &placed}, {&a, &frame});
+  const auto s = iterative_separation({&a, &frame}, {&b, &placed});
+  const auto swapped = iterative_separation({&b, &placed}, {&a, &frame});
   EXPECT_TRUE(s && swapped);
   if (!s || !swapped) return {};
   EXPECT_NEAR(s->d, swapped->d, s->error() + swapped->error());
   return *s;
 }
 
-void expect_d(const AnalyticSeparation& s, double mm, const std::string& what, double width = 0.5) {
+void expect_d(const PrimitiveSeparation& s, double mm, const std::string& what,
+              double width = 0.5) {
   EXPECT_NEAR(s.d, mm * kPerMm, s.error() + 2) << what;
   EXPECT_LE((s.upper - s.lower) / 2, width) << what;
 }
@@ -118,12 +119,12 @@ TEST(AnalyticSolver, NestedAndEqual) {
                   dish = EllipticalDishPrimitive{100, 50};
   // A rod askew in a drum: inside by what is left to the nearer end.
   const Mat3d askew{{Vec3d{0.8, 0, 0.6}, Vec3d{0, 1, 0}, Vec3d{-0.6, 0, 0.8}}};
-  const AnalyticSeparation in = of(drum, rod, {askew, {0, 0, 300}}, 5);
+  const PrimitiveSeparation in = of(drum, rod, {askew, {0, 0, 300}}, 5);
   EXPECT_NEAR(in.b_inside_a, (200 - (150 * 0.8 + 20 * 0.6)) * kPerMm, 3);
   EXPECT_LT(in.a_inside_b, 0);
-  const AnalyticSeparation under = of(drum, dish, {{}, {0, 0, 450}}, 5);
+  const PrimitiveSeparation under = of(drum, dish, {{}, {0, 0, 450}}, 5);
   EXPECT_NEAR(under.b_inside_a, 0, 3);
-  const AnalyticSeparation same = of(dish, dish, {}, 5);
+  const PrimitiveSeparation same = of(dish, dish, {}, 5);
   EXPECT_LE(same.difference, 1);
   // The dish's deepest point: the centre of the largest ball between base and dome.
   EXPECT_NEAR(same.d, -25 * kPerMm, 1);
@@ -131,13 +132,13 @@ TEST(AnalyticSolver, NestedAndEqual) {
 
 TEST(AnalyticSolver, SheetsAreMeasuredInTheOther) {
   const Primitive disc = CylinderPrimitive{100, 0}, wall = BoxPrimitive{400, 400, 50};
-  const AnalyticSeparation across = of(wall, disc, {kOnItsSide, {0, 0, 0}}, 2);
+  const PrimitiveSeparation across = of(wall, disc, {kOnItsSide, {0, 0, 0}}, 2);
   expect_d(across, -25, "across");
   EXPECT_TRUE(across.sheet_b);
   expect_d(of(wall, disc, {{}, {10, 20, 15}}, 2), -10, "within");
   expect_d(of(wall, disc, {{}, {10, 20, 32}}, 2), 7, "above");
   const Placement here;
-  EXPECT_FALSE(solved_separation({&disc, &here}, {&disc, &here})) << "two sheets that meet";
+  EXPECT_FALSE(iterative_separation({&disc, &here}, {&disc, &here})) << "two sheets that meet";
 }
 
 const CircularTorusPrimitive kElbow{600, 100, 1.2};
@@ -210,7 +211,7 @@ TEST(AnalyticSolver, LinkedRingsAndElbowsEndToEnd) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed)
       expect_d(of(kElbow, pipe, {along_y, {600, -400 - d, 0}}, seed), d,
                std::to_string(seed) + " d " + std::to_string(d));
-  const AnalyticSeparation in = of(kElbow, CircularTorusPrimitive{600, 70, 1.0}, {}, 3);
+  const PrimitiveSeparation in = of(kElbow, CircularTorusPrimitive{600, 70, 1.0}, {}, 3);
   expect_d(in, -100, "one bend in another");
   EXPECT_LT(in.a_inside_b, 0);
   EXPECT_NEAR(in.b_inside_a, 0, 3) << "flush at the start";

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/bvh.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <random>
 #include <vector>
 
+#include "geometry/bvh/scene_bvh.hpp"
 #include "strake/parallel/team.hpp"
 
 namespace strake::geometry {
@@ -43,9 +42,9 @@ std::vector<BoxItem> random_items(const Recipe& recipe) {
 
 std::vector<IndexPair> by_tree(const std::vector<BoxItem>& items,
                                const parallel::Context& context) {
-  const auto tree = BoxTree::build(items, context);
+  const auto tree = SceneBvh::build(items, context);
   EXPECT_TRUE(tree);
-  const auto pairs = meeting_pairs(*tree, context);
+  const auto pairs = overlapping_box_pairs(*tree, context);
   EXPECT_TRUE(pairs);
   return *pairs;
 }
@@ -64,13 +63,13 @@ std::vector<IndexPair> by_definition(const std::vector<BoxItem>& items) {
   return pairs;
 }
 
-TEST(BoxTree, NothingHasNoPairs) {
+TEST(SceneBvh, NothingHasNoPairs) {
   EXPECT_TRUE(by_tree({}, {}).empty());
   EXPECT_TRUE(by_tree({BoxItem{{{0, 0, 0}, {1, 1, 1}}, 0}}, {}).empty());
-  EXPECT_TRUE(meeting_pairs_all({}, {})->empty());
+  EXPECT_TRUE(overlapping_box_pairs_brute_force({}, {})->empty());
 }
 
-TEST(BoxTree, TooManyPairsAreAnErrorForAnyTeam) {
+TEST(SceneBvh, TooManyPairsAreAnErrorForAnyTeam) {
   const std::vector<BoxItem> items = [] {
     std::vector<BoxItem> same;
     for (std::uint32_t i = 0; i < 1000; ++i) same.push_back({{{0, 0, 0}, {10, 10, 10}}, i});
@@ -79,37 +78,37 @@ TEST(BoxTree, TooManyPairsAreAnErrorForAnyTeam) {
   constexpr std::uint64_t kAll = 1000 * 999 / 2;
   parallel::Team team(3);
   for (const parallel::Context& context : {parallel::Context{}, parallel::Context{.team = &team}}) {
-    const auto tree = BoxTree::build(items, context);
+    const auto tree = SceneBvh::build(items, context);
     ASSERT_TRUE(tree);
-    EXPECT_EQ(meeting_pairs(*tree, context, kAll)->size(), kAll);
-    EXPECT_EQ(meeting_pairs_all(items, context, kAll)->size(), kAll);
-    for (const auto& pairs :
-         {meeting_pairs(*tree, context, kAll - 1), meeting_pairs_all(items, context, kAll - 1)}) {
+    EXPECT_EQ(overlapping_box_pairs(*tree, context, kAll)->size(), kAll);
+    EXPECT_EQ(overlapping_box_pairs_brute_force(items, context, kAll)->size(), kAll);
+    for (const auto& pairs : {overlapping_box_pairs(*tree, context, kAll - 1),
+                              overlapping_box_pairs_brute_force(items, context, kAll - 1)}) {
       ASSERT_FALSE(pairs);
       EXPECT_EQ(pairs.error().code, ErrorCode::input);
     }
   }
 }
 
-TEST(BoxTree, TouchingBoxesMeet) {
+TEST(SceneBvh, TouchingBoxesMeet) {
   const std::vector<BoxItem> items{{{{0, 0, 0}, {10, 10, 10}}, 0},
                                    {{{10, 10, 10}, {20, 20, 20}}, 1},
                                    {{{11, 0, 0}, {20, 9, 9}}, 2}};
   EXPECT_EQ(by_tree(items, {}), (std::vector<IndexPair>{{0, 1}}));
 }
 
-TEST(BoxTree, PairsAreThoseOfTheNestedLoop) {
+TEST(SceneBvh, PairsAreThoseOfTheNestedLoop) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     const auto items = random_items({.seed = seed, .count = 20 + seed * 20});
     const auto expected = by_definition(items);
     EXPECT_GT(expected.size(), 2U);
     EXPECT_EQ(by_tree(items, {}), expected);
-    EXPECT_EQ(*meeting_pairs_all(items, {}), expected);
+    EXPECT_EQ(*overlapping_box_pairs_brute_force(items, {}), expected);
   }
 }
 
-TEST(BoxTree, FarFromTheOriginAndFarApart) {
+TEST(SceneBvh, FarFromTheOriginAndFarApart) {
   const std::int64_t far = std::int64_t{1} << 49;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     auto items = random_items({.seed = seed, .count = 300, .origin = {far, -far, far}});
@@ -119,35 +118,35 @@ TEST(BoxTree, FarFromTheOriginAndFarApart) {
   }
 }
 
-TEST(BoxTree, ManyEqualBoxesEnd) {
+TEST(SceneBvh, ManyEqualBoxesEnd) {
   std::vector<BoxItem> items;
   for (std::uint32_t i = 0; i < 300; ++i) items.push_back({{{0, 0, 0}, {5, 5, 5}}, i});
   EXPECT_EQ(by_tree(items, {}).size(), 300U * 299U / 2);
 }
 
-TEST(BoxTree, SameTreeAndPairsForAnyTeam) {
+TEST(SceneBvh, SameTreeAndPairsForAnyTeam) {
   const auto items =
       random_items({.seed = 7, .count = 30'000, .spread = 2'000'000, .size = 60'000});
   const auto expected = by_tree(items, {});
-  const auto nodes = BoxTree::build(items, {})->nodes();
+  const auto nodes = SceneBvh::build(items, {})->nodes();
   EXPECT_GT(expected.size(), 1000U);
   for (const unsigned threads : {1U, 2U, 3U, 8U, 64U}) {
     parallel::Team team(threads);
     const parallel::Context context{.team = &team};
     EXPECT_EQ(by_tree(items, context), expected) << threads << " threads";
-    const auto other = BoxTree::build(items, context)->nodes();
+    const auto other = SceneBvh::build(items, context)->nodes();
     ASSERT_EQ(other.size(), nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) ASSERT_EQ(other[i].box, nodes[i].box);
   }
-  EXPECT_EQ(*meeting_pairs_all(std::span(items).first(3000), {}),
+  EXPECT_EQ(*overlapping_box_pairs_brute_force(std::span(items).first(3000), {}),
             by_definition({items.begin(), items.begin() + 3000}));
 }
 
-TEST(BoxTree, StopsWhenAskedTo) {
+TEST(SceneBvh, StopsWhenAskedTo) {
   const std::stop_source source;
   source.request_stop();
   const auto items = random_items({});
-  const auto tree = BoxTree::build(items, {.team = nullptr, .stop = source.get_token()});
+  const auto tree = SceneBvh::build(items, {.team = nullptr, .stop = source.get_token()});
   ASSERT_FALSE(tree);
   EXPECT_EQ(tree.error().code, ErrorCode::cancelled);
 }

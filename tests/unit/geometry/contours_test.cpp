@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "strake/geometry/analyse.hpp"
-#include "strake/geometry/place.hpp"
-#include "strake/geometry/tessellate.hpp"
-#include "strake/geometry/trig.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
+#include "geometry/mesh_repair/snap_to_grid.hpp"
+#include "geometry/numeric/trig.hpp"
+#include "geometry/primitives/tessellate.hpp"
 #include "support/random_primitives.hpp"
 #include "support/rounds.hpp"
 #include "support/true_surface.hpp"
@@ -323,9 +323,9 @@ TEST(Contours, MeshesKeepWhatTheySay) {
     const Vec3d towards = draw.direction();
     const Tessellation t = tessellate(primitive, linear, 0.5, towards);
     if (!t.fault.empty()) continue;
-    auto placed = place(t.mesh, {});
+    auto placed = snap_to_grid(t.mesh, {});
     ASSERT_TRUE(placed.has_value());
-    const MeshAnalysis analysis = analyse(std::move(placed->mesh));
+    const RepairedMesh analysis = repair_mesh(std::move(placed->mesh));
     ASSERT_EQ(analysis.parts.size(), 1U);
     EXPECT_EQ(analysis.parts[0].kind, PartKind::solid);
     EXPECT_FALSE(analysis.parts[0].flags.inverted);

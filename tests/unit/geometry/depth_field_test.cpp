@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A field that is prepared for many questions gives the answers that it gave before, also where its
 // triangles are needles that lie askew and are found by boxes along them.
-#include "geometry/depth/depth_field.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +12,8 @@
 
 #include "../../support/depth_subjects.hpp"
 #include "../../support/draw.hpp"
-#include "geometry/depth/level_search.hpp"
+#include "geometry/interior_depth/level_search/level_search.hpp"
+#include "geometry/interior_depth/surface_distance/distance_field.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -27,10 +26,10 @@ using testing::turned_by;
 /// An insulation, at some place, and a field with another origin.
 struct Insulation {
   Subject subject;
-  TreedPart treed = subject.treed();
-  SupportPlanes planes = make_support_planes(subject.part);
-  DepthField field{treed, {700, -300, 90}, &planes};
-  DepthField prepared = field;
+  PartWithBvh treed = subject.treed();
+  FaceKdop planes = make_face_kdop(subject.part);
+  DistanceField field{treed, {700, -300, 90}, &planes};
+  DistanceField prepared = field;
 
   explicit Insulation(std::uint64_t seed)
       : subject(turned_by(seed == 0 ? Mat3d{} : Draw(seed).rotation(),
@@ -41,7 +40,7 @@ struct Insulation {
 };
 
 /// Near the skin, on it, and anywhere.
-Vec3d draw_point(const DepthField& field, Draw& draws) {
+Vec3d draw_point(const DistanceField& field, Draw& draws) {
   const Triangle& t = field.part().triangles[draws.below(field.part().triangles.size())];
   std::array<double, 3> weights{draws.between(0, 1), draws.between(0, 1), draws.between(0, 1)};
   const double sum = weights[0] + weights[1] + weights[2];
@@ -54,12 +53,12 @@ Vec3d draw_point(const DepthField& field, Draw& draws) {
   return on_field_grid(p);
 }
 
-TEST(DepthField, APreparedOneGivesTheSameAnswers) {
+TEST(DistanceField, APreparedOneGivesTheSameAnswers) {
   int inside = 0;
   for (std::uint64_t seed = 0; seed <= 20; ++seed) {
     const Insulation of(seed);
     Draw draws(100 + seed);
-    PairWork work;
+    QueryContext work;
     for (int i = 0; i < 400; ++i) {
       SCOPED_TRACE(::testing::Message() << "seed " << seed << ", point " << i);
       const Vec3d p = draw_point(of.field, draws);
@@ -69,16 +68,16 @@ TEST(DepthField, APreparedOneGivesTheSameAnswers) {
       const NearestTriangle near = of.field.nearest(p), again = of.prepared.nearest(p);
       EXPECT_NEAR(again.distance, near.distance, 1e-6);
       if (near.distance > 1) {
-        EXPECT_EQ(of.prepared.nearest(p, kNoFace, near.distance / 2).triangle, kNoFace);
+        EXPECT_EQ(of.prepared.nearest(p, kNoIndex, near.distance / 2).triangle, kNoIndex);
       }
-      EXPECT_GE(of.prepared.some_distance(p), near.distance - 1e-6);
+      EXPECT_GE(of.prepared.distance_upper_bound(p), near.distance - 1e-6);
     }
   }
   EXPECT_GT(inside, 500);
 }
 
 /// But for those that are too far off, of which some may come too.
-TEST(DepthField, AllThatIsNearIsFound) {
+TEST(DistanceField, AllThatIsNearIsFound) {
   for (std::uint64_t seed = 0; seed <= 20; ++seed) {
     const Insulation of(seed);
     Draw draws(200 + seed);
@@ -88,9 +87,10 @@ TEST(DepthField, AllThatIsNearIsFound) {
                                         draw_point(of.field, draws)};
       const double reach = draws.between(0, 20'000);
       std::vector<bool> round_first(of.field.part().triangles.size()), round_all = round_first;
-      of.prepared.for_near(points[0], reach,
-                           [&](std::uint32_t t) { return round_first[t] = true; });
-      of.prepared.for_near(points, reach, [&](std::uint32_t t) { return round_all[t] = true; });
+      of.prepared.for_each_near(points[0], reach,
+                                [&](std::uint32_t t) { return round_first[t] = true; });
+      of.prepared.for_each_near(points, reach,
+                                [&](std::uint32_t t) { return round_all[t] = true; });
       for (std::uint32_t t = 0; t < round_all.size(); ++t) {
         const Corners c = of.field.placed(t);
         const auto is_near = [&](const Vec3d& p) {
@@ -104,7 +104,7 @@ TEST(DepthField, AllThatIsNearIsFound) {
 }
 
 /// Of a pipe of 32 sides few boxes hold a point, however it is turned.
-TEST(DepthField, NeedlesThatLieAskewAreFoundByBoxesAlongThem) {
+TEST(DistanceField, NeedlesThatLieAskewAreFoundByBoxesAlongThem) {
   std::array<std::uint64_t, 2> visited{};
   for (const std::uint64_t seed : {0U, 1U}) {
     const Insulation of(seed);

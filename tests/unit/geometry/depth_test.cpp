@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "../../support/depth_subjects.hpp"
-#include "geometry/depth/depth_search.hpp"
+#include "geometry/interior_depth/solid_depth_search.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -96,7 +96,7 @@ TEST(Depth, BodyInTheHollowOfAChannel) {
   // the channel, so only the search can tell.
   const Subject a(channel(1'000'000, 100'000, 80'000, 10'000));
   const Subject bar(box_mesh({0, 0, 0}, {200'000, 40'000, 40'000}), {400'000, 30'000, 7'000});
-  DepthGoal goal;
+  DepthOptions goal;
   goal.threshold = 1000;
   const Depth d = depth_of(a, bar, goal);
   EXPECT_LE(d.lower, 3000);
@@ -174,7 +174,7 @@ TEST(Depth, NoSampleIsDeeperThanTheBracket) {
                         : turned(box_mesh({0, 0, 0}, {draw(20, 90) * 1000, 30'000, 20'000})));
     const Subject b(turned(cylinder(draw(3, 12), draw(5'000, 20'000), -20'000, 20'000)),
                     {draw(0, 40'000), draw(0, 40'000), draw(0, 20'000)});
-    PairWork work;
+    QueryContext work;
     if (meet(a.treed(), b.treed(), work).meeting == Meeting::apart) continue;
     const Depth d = depth_of(a, b);
     EXPECT_LE(d.lower, d.value);
@@ -217,23 +217,23 @@ TEST(Depth, WhatNoLevelTellsEnds) {
   EXPECT_GT(d.upper, 40'000);
 }
 
-TEST(SupportPlanes, AreWhatAWalkOverTheVerticesFinds) {
+TEST(FaceKdop, AreWhatAWalkOverTheVerticesFinds) {
   for (const int sides : {5, 40, 300}) {
     const Part part = testing::build_part(turned(cylinder(sides, 100'000, -50'000, 90'000)));
-    const SupportPlanes planes = make_support_planes(part);
+    const FaceKdop planes = make_face_kdop(part);
     EXPECT_TRUE(planes.nearly_convex);
     EXPECT_GE(planes.planes.size(), static_cast<std::size_t>(sides));
-    for (const SupportPlanes::Plane& plane : planes.planes) {
+    for (const FaceKdop::Plane& plane : planes.planes) {
       double most = -1e300;
       for (const Vec3i& v : part.vertices) most = std::max(most, dot(plane.normal, v.as<double>()));
       EXPECT_GE(plane.support, most);
       EXPECT_LE(plane.support, most + 1e-6);
-      EXPECT_EQ(planes.vertices.greatest_along(plane.normal).value, most);
+      EXPECT_EQ(planes.vertices.support_along(plane.normal).value, most);
     }
   }
 }
 
-TEST(VertexTree, FindsTheFarthestOfAnyPoints) {
+TEST(SupportTree, FindsTheFarthestOfAnyPoints) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     std::mt19937_64 random(seed);
     // Many equal coordinates: a lattice of a few steps.
@@ -243,13 +243,13 @@ TEST(VertexTree, FindsTheFarthestOfAnyPoints) {
     };
     std::vector<Vec3i> points(random() % 400);
     for (Vec3i& p : points) p = {draw(7), draw(900), draw(2)};
-    const VertexTree tree(points);
+    const SupportTree tree(points);
     EXPECT_EQ(tree.empty(), points.empty());
     for (int i = 0; i < 50; ++i) {
       const Vec3d n{draw(1000) * 1e-9, draw(1000) * 1e-9, i % 5 == 0 ? 0 : draw(1000) * 1e-9};
       double most = -std::numeric_limits<double>::infinity();
       for (const Vec3i& p : points) most = std::max(most, dot(n, p.as<double>()));
-      const VertexTree::Extreme found = tree.greatest_along(n);
+      const SupportTree::SupportPoint found = tree.support_along(n);
       EXPECT_EQ(found.value, most);
       if (!points.empty()) {
         EXPECT_EQ(dot(n, found.vertex.as<double>()), most);
@@ -258,7 +258,7 @@ TEST(VertexTree, FindsTheFarthestOfAnyPoints) {
   }
 }
 
-TEST(SupportPlanes, FlatFacesCountOnceHoweverFinelyCut) {
+TEST(FaceKdop, FlatFacesCountOnceHoweverFinelyCut) {
   // 2 x 40 x 40 squares on two sides of a slab, by hashing; the same slab uncut, by sorting.
   IndexedMesh fine;
   constexpr std::int32_t kCut = 40, kStep = 1000;
@@ -267,21 +267,21 @@ TEST(SupportPlanes, FlatFacesCountOnceHoweverFinelyCut) {
       fine.append(testing::quad_mesh({x * kStep, y * kStep, kStep}, {kStep, 0, 0}, {0, kStep, 0}));
       fine.append(testing::quad_mesh({x * kStep, y * kStep, 0}, {0, kStep, 0}, {kStep, 0, 0}));
     }
-  const SupportPlanes planes = make_support_planes(Subject(fine).part);
+  const FaceKdop planes = make_face_kdop(Subject(fine).part);
   ASSERT_EQ(planes.planes.size(), 2U);
   EXPECT_EQ(planes.planes[0].normal, (Vec3d{0, 0, -1}));
   EXPECT_EQ(planes.planes[1].normal, (Vec3d{0, 0, 1}));
   EXPECT_NEAR(planes.planes[1].support, kStep, 1e-6);
 }
 
-TEST(SupportPlanes, NeedlesOfOneFaceMakeOnePlane) {
+TEST(FaceKdop, NeedlesOfOneFaceMakeOnePlane) {
   // The needles of either end look many ways once they are snapped, none quite along the axis.
   const Part part = testing::build_part(turned(cylinder(3000, 100'000, -5'000, 5'000)));
-  const SupportPlanes planes = make_support_planes(part);
+  const FaceKdop planes = make_face_kdop(part);
   EXPECT_LE(planes.planes.size(), 1024U);
   const Vec3d axis{22.0 / 30, 20.0 / 30, 4.0 / 30};
   int ends = 0;
-  for (const SupportPlanes::Plane& plane : planes.planes) {
+  for (const FaceKdop::Plane& plane : planes.planes) {
     EXPECT_NEAR(dot(plane.normal, plane.normal), 1, 1e-14);
     double most = -1e300;
     for (const Vec3i& v : part.vertices) most = std::max(most, dot(plane.normal, v.as<double>()));
@@ -302,11 +302,11 @@ TEST(GapBound, IsNoMoreThanTheDistanceAndNoLessThanTheWidestGap) {
     const Subject a(turned(cylinder(draw(3, 90), draw(5'000, 40'000), -20'000, 20'000)));
     const Subject b(cylinder(draw(3, 90), draw(5'000, 40'000), -20'000, 20'000),
                     {draw(-90'000, 90'000), draw(-90'000, 90'000), draw(-50'000, 50'000)});
-    const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
-    const double bound = gap_bound({a.treed(), &pa}, {b.treed(), &pb});
+    const FaceKdop pa = make_face_kdop(a.part), pb = make_face_kdop(b.part);
+    const double bound = kdop_separation({a.treed(), &pa}, {b.treed(), &pb});
     double widest = -1e300;
-    const auto along = [&](const SupportPlanes& planes, const Subject& to, const Vec3l& shift) {
-      for (const SupportPlanes::Plane& p : planes.planes) {
+    const auto along = [&](const FaceKdop& planes, const Subject& to, const Vec3l& shift) {
+      for (const FaceKdop::Plane& p : planes.planes) {
         double least = 1e300;
         for (const Vec3i& v : to.part.vertices)
           least = std::min(least, dot(p.normal, (v.as<std::int64_t>() + shift).as<double>()));
@@ -316,11 +316,11 @@ TEST(GapBound, IsNoMoreThanTheDistanceAndNoLessThanTheWidestGap) {
     along(pa, b, b.origin - a.origin);
     along(pb, a, a.origin - b.origin);
     EXPECT_NEAR(bound, widest, 1e-3) << "seed " << seed;
-    PairWork work;
+    QueryContext work;
     const bool apart = meet(a.treed(), b.treed(), work).meeting == Meeting::apart;
     if (bound > 0) {
       EXPECT_TRUE(apart);
-      EXPECT_GE(closest(a.treed(), b.treed(), 1e9, work)->distance, bound);
+      EXPECT_GE(find_closest_pair(a.treed(), b.treed(), 1e9, work)->distance, bound);
     } else if (!apart) {
       EXPECT_LE(depth_of(a, b).lower, -bound + 1e-3) << "moving it out by that much parts them";
     }
@@ -330,8 +330,8 @@ TEST(GapBound, IsNoMoreThanTheDistanceAndNoLessThanTheWidestGap) {
 TEST(Depth, ATieNeedsNoSearch) {
   const Subject a(turned(box_mesh({0, 0, -12'000}, {6'000'000, 4'000'000, 0})));
   const Subject b(turned(box_mesh({1'000'000, 500'000, 0}, {2'000'000, 900'000, 700'000})));
-  const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
-  const double gap = gap_bound({a.treed(), &pa}, {b.treed(), &pb});
+  const FaceKdop pa = make_face_kdop(a.part), pb = make_face_kdop(b.part);
+  const double gap = kdop_separation({a.treed(), &pa}, {b.treed(), &pb});
   EXPECT_LE(std::fabs(gap), 2);
   const Depth d = depth_of(a, b, {.threshold = 1000, .known_upper = std::max(0.0, -gap)});
   EXPECT_LE(d.upper, 2);
@@ -341,8 +341,8 @@ TEST(Depth, ATieNeedsNoSearch) {
 TEST(SheetDepth, PlateSheetIntoABox) {
   const Subject sheet(testing::quad_mesh({-100'000, 0, 0}, {200'000, 0, 0}, {0, 300'000, 0}));
   const Subject box(box_mesh({-50'000, 250'000, -40'000}, {50'000, 900'000, 60'000}));
-  const SupportPlanes ps = make_support_planes(sheet.part), pb = make_support_planes(box.part);
-  PairWork work;
+  const FaceKdop ps = make_face_kdop(sheet.part), pb = make_face_kdop(box.part);
+  QueryContext work;
   const Depth d = sheet_in_solid_depth({sheet.treed(), &ps}, {box.treed(), &pb}, {}, work);
   // The sheet's edge lies 50 mm in, midway between walls 100 mm apart, 40 mm above the bottom.
   EXPECT_LE(d.lower, 40'000);
@@ -365,10 +365,10 @@ TEST(SheetDepth, TheWorkLimitGoesByTheWholeOfALargeSheet) {
       grid.triangles.push_back({p, q + 1, p + 1});
     }
   const Subject sheet(grid), box(box_mesh({801'000, 803'000, -30'000}, {915'000, 907'000, 28'000}));
-  const SupportPlanes ps = make_support_planes(sheet.part), pb = make_support_planes(box.part);
+  const FaceKdop ps = make_face_kdop(sheet.part), pb = make_face_kdop(box.part);
   ASSERT_GE(sheet.part.vertices.size(), kManyVertices);
-  PairWork work;
-  const DepthPart s{sheet.treed(), &ps}, b{box.treed(), &pb};
+  QueryContext work;
+  const DepthOperand s{sheet.treed(), &ps}, b{box.treed(), &pb};
   const Depth fine = sheet_in_solid_depth(s, b, {.tolerance = 0.5, .relative = 0}, work);
   ASSERT_LE(fine.upper - fine.lower, 0.5);
   const Depth told = sheet_in_solid_depth(
@@ -379,12 +379,12 @@ TEST(SheetDepth, TheWorkLimitGoesByTheWholeOfALargeSheet) {
 TEST(SheetDepth, FromWhereTheWorkLimitEndsTheSearchAPointClimbs) {
   const Subject sheet(testing::quad_mesh({-90'000, -80'000, 0}, {200'000, 0, 0}, {0, 170'000, 0}));
   const Subject rod(cylinder(24, 50'000, -500'000, 500'000));
-  const SupportPlanes ps = make_support_planes(sheet.part), pr = make_support_planes(rod.part);
-  PairWork work;
-  const DepthPart s{sheet.treed(), &ps}, r{rod.treed(), &pr};
-  const DepthGoal none{.cells_undecided = 0, .cells_decided = 0};
+  const FaceKdop ps = make_face_kdop(sheet.part), pr = make_face_kdop(rod.part);
+  QueryContext work;
+  const DepthOperand s{sheet.treed(), &ps}, r{rod.treed(), &pr};
+  const DepthOptions none{.cells_undecided = 0, .cells_decided = 0};
   const double known = 50'000 * std::cos(std::numbers::pi / 24);
-  for (const DepthGoal& goal : {DepthGoal(), none}) {
+  for (const DepthOptions& goal : {DepthOptions(), none}) {
     const Depth d = sheet_in_solid_depth(s, r, goal, work);
     // The hull of the rod says how deep it may be at most.
     EXPECT_TRUE(d.complete);
@@ -397,9 +397,9 @@ TEST(SheetDepth, SaysWhetherAWorkLimitEndedTheSearch) {
   const Subject sheet(
       testing::quad_mesh({300'000, -40'000, -30'000}, {0, 190'000, 0}, {70'000, 0, 150'000}));
   const Subject u(channel(1'000'000, 100'000, 80'000, 10'000));
-  const SupportPlanes ps = make_support_planes(sheet.part), pu = make_support_planes(u.part);
-  PairWork work;
-  const DepthPart s{sheet.treed(), &ps}, c{u.treed(), &pu};
+  const FaceKdop ps = make_face_kdop(sheet.part), pu = make_face_kdop(u.part);
+  QueryContext work;
+  const DepthOperand s{sheet.treed(), &ps}, c{u.treed(), &pu};
   const Depth whole = sheet_in_solid_depth(s, c, {}, work);
   EXPECT_TRUE(whole.complete);
   EXPECT_LE(whole.upper - whole.lower, 0.01 * whole.upper);
@@ -413,7 +413,7 @@ TEST(SheetDepth, SaysWhetherAWorkLimitEndedTheSearch) {
 TEST(SheetDepth, SheetsThatCross) {
   const Subject a(testing::quad_mesh({0, 0, 0}, {100'000, 0, 0}, {0, 100'000, 0}));
   const Subject b(testing::quad_mesh({50'000, 20'000, -30'000}, {0, 500'000, 0}, {0, 0, 60'000}));
-  PairWork work;
+  QueryContext work;
   const Depth d = sheet_crossing_depth(a.treed(), b.treed(), {}, work);
   // Along x = 50 mm: 30 mm from b's edges above and below, up to 40 mm from a's far edge.
   EXPECT_LE(d.lower, 30'000);
@@ -431,8 +431,8 @@ IndexedMesh profile(const std::vector<Vec3i>& points) {
 
 Depth crossing_depth(const IndexedMesh& a, const IndexedMesh& b) {
   const Subject x(a), y(b);
-  PairWork work;
-  DepthGoal goal;
+  QueryContext work;
+  DepthOptions goal;
   goal.relative = 0;
   return sheet_crossing_depth(x.treed(), y.treed(), goal, work);
 }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "strake/geometry/analyse.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
 #include "support/draw.hpp"
 #include "support/grid_bodies.hpp"
 #include "support/rounds.hpp"
@@ -37,7 +37,7 @@ bool same(const Part& a, const Part& b) {
 TEST(FacingOneWay, FewerThanHalfOfThemAreTurnedBack) {
   for (const GridMesh& whole :
        {grid_box({0, 0, 0}, {1000, 2000, 3000}), test::grid_stair(5040), hollow()}) {
-    const MeshAnalysis right = analyse(whole);
+    const RepairedMesh right = repair_mesh(whole);
     ASSERT_EQ(right.parts.size(), 1U);
     EXPECT_EQ(right.findings.turned_triangles, 0U);
     for (std::uint64_t seed = 1; seed <= test::rounds(100U, 10'000U); ++seed) {
@@ -48,14 +48,14 @@ TEST(FacingOneWay, FewerThanHalfOfThemAreTurnedBack) {
       const std::size_t most = 1 + draw.below(5);
       for (std::size_t first = 0, n = 0; first + 12 <= mesh.triangles.size(); first += 12, n = 0)
         for (; n < most; ++n) turn(mesh.triangles[first + n * 12 / most]);
-      const MeshAnalysis found = analyse(mesh);
+      const RepairedMesh found = repair_mesh(mesh);
       ASSERT_EQ(found.parts.size(), 1U);
       EXPECT_TRUE(same(found.parts[0], right.parts[0]));
       EXPECT_FALSE(found.parts[0].flags.open || found.parts[0].flags.inverted);
       EXPECT_EQ(found.findings.turned_triangles, whole.triangles.size() / 12 * most);
       // And all of it inside out.
       for (Triangle& t : mesh.triangles) turn(t);
-      const MeshAnalysis inside_out = analyse(mesh);
+      const RepairedMesh inside_out = repair_mesh(mesh);
       ASSERT_EQ(inside_out.parts.size(), 1U);
       EXPECT_TRUE(same(inside_out.parts[0], right.parts[0]));
       EXPECT_TRUE(inside_out.parts[0].flags.inverted);
@@ -68,9 +68,9 @@ TEST(FacingOneWay, FewerThanHalfOfThemAreTurnedBack) {
 TEST(FacingOneWay, IsToldOfEachMeshOfManyAlike) {
   GridMesh mesh = grid_box({0, 0, 0}, {1000, 1000, 1000});
   turn(mesh.triangles[5]);
-  MeshAnalyser analyser;
+  MeshRepairer analyser;
   for (int i = 0; i < 4; ++i) {
-    const MeshAnalysis found = analyser.analyse(mesh);
+    const RepairedMesh found = analyser.repair_mesh(mesh);
     EXPECT_EQ(found.findings.turned_triangles, 1U);
     EXPECT_EQ(found.parts.at(0).kind, PartKind::solid);
   }
@@ -81,7 +81,7 @@ TEST(FacingOneWay, OpenAndOneSidedSurfacesStayAsTheyAre) {
   open.triangles.pop_back();
   turn(open.triangles[2]);
   for (const GridMesh& mesh : {open, test::one_sided_mesh()}) {
-    const MeshAnalysis found = analyse(mesh);
+    const RepairedMesh found = repair_mesh(mesh);
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::sheet);
     EXPECT_EQ(found.parts[0].triangles.size(), mesh.triangles.size());

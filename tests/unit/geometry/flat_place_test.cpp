@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "strake/geometry/meeting_places.hpp"
+#include "geometry/contact_regions/contact_regions.hpp"
 #include "support/draw.hpp"
 #include "support/part_builder.hpp"
 #include "support/rounds.hpp"
@@ -47,10 +47,10 @@ std::set<Vec3i> drawn(const std::vector<std::string_view>& rows) {
 
 bool in_one(const IndexedMesh& a, const IndexedMesh& b, double reach) {
   const Subject x(a), y(b);
-  const PartFrame f = make_frame(x.part), g = make_frame(y.part);
-  const FramedPart framed_x{x.treed().placed, &f}, framed_y{y.treed().placed, &g};
-  const bool found = in_one_flat_place(framed_x, framed_y, reach);
-  EXPECT_EQ(found, in_one_flat_place(framed_y, framed_x, reach));
+  const OrientedBox f = make_oriented_box(x.part), g = make_oriented_box(y.part);
+  const PartWithObb framed_x{x.treed().placed, &f}, framed_y{y.treed().placed, &g};
+  const bool found = meet_in_one_planar_region(framed_x, framed_y, reach);
+  EXPECT_EQ(found, meet_in_one_planar_region(framed_y, framed_x, reach));
   return found;
 }
 
@@ -121,8 +121,8 @@ TEST(FlatPlaceTest, AgreesWithPlacesToldByTriangles) {
     for (Vec3i& v : above.vertices) v.x += aside;
     const IndexedMesh below = columns(cells, -kTall);
     const Subject x(below), y(above);
-    PairWork work;
-    const auto places = meeting_places(x.treed(), y.treed(), {.reach = reach}, work);
+    QueryContext work;
+    const auto places = contact_regions(x.treed(), y.treed(), {.reach = reach}, work);
     ASSERT_TRUE(places);
     several += places->size() > 1 ? 1U : 0U;
     if (places->empty() || !in_one(below, above, reach)) continue;

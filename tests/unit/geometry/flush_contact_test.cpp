@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/flush_contact.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,6 +8,7 @@
 #include <random>
 
 #include "../../support/part_builder.hpp"
+#include "geometry/intersect/coplanar_faces.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
@@ -21,28 +20,28 @@ using testing::prism_mesh;
 using testing::quad_mesh;
 using testing::Subject;
 
-TEST(FlushContact, PostOnADeck) {
+TEST(CoplanarContact, PostOnADeck) {
   const Subject deck(box_mesh({0, 0, 0}, {100, 100, 10}));
   const Subject post(box_mesh({0, 0, 0}, {4, 4, 50}), {40, 60, 10});
-  const FlushContact c = flush_contact(deck.treed().placed, post.treed().placed);
+  const CoplanarContact c = find_coplanar_contact(deck.treed().placed, post.treed().placed);
   EXPECT_TRUE(c.separated);
   EXPECT_TRUE(c.touching);
   EXPECT_EQ(c.point.z, 10);
 }
 
-TEST(FlushContact, BoxesThatTouchWithoutTheirBodies) {
+TEST(CoplanarContact, BoxesThatTouchWithoutTheirBodies) {
   // Two wedges whose boxes share a face, and nothing else.
   const std::array<Vec3i, 3> low{Vec3i{0, 0, 0}, Vec3i{100, 0, 0}, Vec3i{0, 100, 0}};
   const std::array<Vec3i, 3> high{Vec3i{100, 60, 0}, Vec3i{160, 60, 0}, Vec3i{160, 90, 0}};
   const Subject a(prism_mesh(low, 0, 50)), b(prism_mesh(high, 0, 50));
-  const FlushContact c = flush_contact(a.treed().placed, b.treed().placed);
+  const CoplanarContact c = find_coplanar_contact(a.treed().placed, b.treed().placed);
   EXPECT_TRUE(c.separated);
   EXPECT_FALSE(c.touching);
 }
 
-TEST(FlushContact, BoxesThatOverlapSayNothing) {
+TEST(CoplanarContact, BoxesThatOverlapSayNothing) {
   const Subject a(box_mesh({0, 0, 0}, {100, 100, 10})), b(box_mesh({0, 0, 9}, {10, 10, 20}));
-  EXPECT_FALSE(flush_contact(a.treed().placed, b.treed().placed).separated);
+  EXPECT_FALSE(find_coplanar_contact(a.treed().placed, b.treed().placed).separated);
 }
 
 IndexedMesh random_mesh(std::mt19937_64& random) {
@@ -64,7 +63,7 @@ IndexedMesh random_mesh(std::mt19937_64& random) {
 
 /// Tiny lattices, where everything touches everything: never another answer than meet() and
 /// closest() give.
-TEST(FlushContact, AgreesWithTheGeneralTests) {
+TEST(CoplanarContact, AgreesWithTheGeneralTests) {
   int separated = 0, touching = 0;
   for (std::uint64_t seed = 1; seed <= 4000; ++seed) {
     std::mt19937_64 random(seed);
@@ -73,8 +72,8 @@ TEST(FlushContact, AgreesWithTheGeneralTests) {
       return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n)) - n / 2;
     };
     const Subject b(random_mesh(random), {draw(11), draw(11), draw(9)});
-    const FlushContact c = flush_contact(a.treed().placed, b.treed().placed);
-    PairWork work;
+    const CoplanarContact c = find_coplanar_contact(a.treed().placed, b.treed().placed);
+    QueryContext work;
     const Meeting meeting = meet(a.treed(), b.treed(), work).meeting;
     if (c.separated) {
       ++separated;
@@ -86,12 +85,12 @@ TEST(FlushContact, AgreesWithTheGeneralTests) {
       EXPECT_NEAR(distance_to_surface(b.treed(), c.point - b.origin.as<double>()), 0, 1e-9)
           << "seed " << seed;
     }
-    const SupportPlanes pa = make_support_planes(a.part), pb = make_support_planes(b.part);
-    const double gap = gap_bound({a.treed(), &pa}, {b.treed(), &pb});
+    const FaceKdop pa = make_face_kdop(a.part), pb = make_face_kdop(b.part);
+    const double gap = kdop_separation({a.treed(), &pa}, {b.treed(), &pb});
     if (gap > 0) {
       EXPECT_EQ(meeting, Meeting::apart) << "seed " << seed;
     }
-    const auto near = closest(a.treed(), b.treed(), 1e9, work);
+    const auto near = find_closest_pair(a.treed(), b.treed(), 1e9, work);
     ASSERT_TRUE(near);
     if (meeting == Meeting::apart) {
       EXPECT_LE(gap, near->distance) << "seed " << seed;

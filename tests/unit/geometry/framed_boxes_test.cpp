@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/framed_boxes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/bvh/scene_bvh.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/draw.hpp"
 
@@ -20,7 +19,7 @@ using test::Draw;
 
 /// Boxes in frames, with boxes along the coordinate axes round them.
 struct Scene {
-  FramedBoxes framed;
+  BoxesInFrames framed;
   std::vector<BoxItem> items;
 };
 
@@ -73,7 +72,7 @@ Scene random_scene(Draw& draw, std::size_t count) {
   return scene;
 }
 
-TEST(FramedBoxes, TheTreesGiveWhatTheLoopGives) {
+TEST(BoxesInFrames, TheTreesGiveWhatTheLoopGives) {
   std::size_t found = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -83,24 +82,25 @@ TEST(FramedBoxes, TheTreesGiveWhatTheLoopGives) {
       item.sets = static_cast<std::uint8_t>(draw.below(4));
       item.owner /= 2;
     }
-    const auto all = meeting_pairs_all(scene.items, scene.framed, {});
+    const auto all = overlapping_box_pairs_brute_force(scene.items, scene.framed, {});
     ASSERT_TRUE(all);
     found += all->size();
     for (const unsigned threads : {1U, 2U, 5U}) {
       parallel::Team team(threads);
-      const auto pairs = meeting_pairs(scene.items, scene.framed, {.team = &team, .stop = {}});
+      const auto pairs =
+          overlapping_box_pairs(scene.items, scene.framed, {.team = &team, .stop = {}});
       ASSERT_TRUE(pairs);
       ASSERT_EQ(*pairs, *all);
     }
     if (!all->empty()) {
-      EXPECT_FALSE(meeting_pairs(scene.items, scene.framed, {}, all->size() - 1));
+      EXPECT_FALSE(overlapping_box_pairs(scene.items, scene.framed, {}, all->size() - 1));
     }
-    EXPECT_TRUE(meeting_pairs(scene.items, scene.framed, {}, all->size()));
+    EXPECT_TRUE(overlapping_box_pairs(scene.items, scene.framed, {}, all->size()));
   }
   EXPECT_GT(found, 200U);
 }
 
-TEST(FramedBoxes, NoneThatShareAPointAreParted) {
+TEST(BoxesInFrames, NoneThatShareAPointAreParted) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Draw draw(seed);
@@ -117,13 +117,13 @@ TEST(FramedBoxes, NoneThatShareAPointAreParted) {
       touching.push_back({i, static_cast<std::uint32_t>(scene.items.size())});
       add(scene, frame, p + from_frame(scene.framed.frames[frame], off), half);
     }
-    const auto pairs = meeting_pairs(scene.items, scene.framed, {});
+    const auto pairs = overlapping_box_pairs(scene.items, scene.framed, {});
     ASSERT_TRUE(pairs);
     for (const IndexPair& pair : touching) ASSERT_TRUE(std::ranges::binary_search(*pairs, pair));
   }
 }
 
-TEST(FramedBoxes, PartAcrossFacesAndAcrossEdges) {
+TEST(BoxesInFrames, PartAcrossFacesAndAcrossEdges) {
   constexpr double kLong = 50'000, kThin = 100;
   Scene scene;
   scene.framed.frames.resize(3);
@@ -134,9 +134,9 @@ TEST(FramedBoxes, PartAcrossFacesAndAcrossEdges) {
   add(scene, 1, {-300, 300, 0}, {kLong, kThin, kThin});  // beside the first
   add(scene, 2, {0, 0, 0}, {kLong, kThin, kThin});       // across the first
   add(scene, 2, {0, 400, 400}, {kLong, kThin, kThin});   // past it, edge by edge
-  const auto pairs = meeting_pairs(scene.items, scene.framed, {});
+  const auto pairs = overlapping_box_pairs(scene.items, scene.framed, {});
   ASSERT_TRUE(pairs);
-  EXPECT_EQ(*pairs, *meeting_pairs_all(scene.items, scene.framed, {}));
+  EXPECT_EQ(*pairs, *overlapping_box_pairs_brute_force(scene.items, scene.framed, {}));
   EXPECT_TRUE(std::ranges::binary_search(*pairs, IndexPair{0, 2}));
   EXPECT_FALSE(std::ranges::binary_search(*pairs, IndexPair{0, 1}));
   EXPECT_FALSE(std::ranges::binary_search(*pairs, IndexPair{2, 3}));

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/hull_gap.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -8,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/distance/hull_distance.hpp"
 #include "strake/geometry/part_pair.hpp"
 #include "support/depth_subjects.hpp"
 #include "support/draw.hpp"
@@ -27,9 +26,9 @@ IndexedMesh moved(IndexedMesh mesh, const Vec3i& by) {
   return mesh;
 }
 
-PartingGap gap_of(const Subject& a, const Subject& b, double enough = kFar) {
-  const PartFrame x = make_frame(a.part), y = make_frame(b.part);
-  return hull_gap({a.treed().placed, &x}, {b.treed().placed, &y}, enough);
+SeparationBound gap_of(const Subject& a, const Subject& b, double enough = kFar) {
+  const OrientedBox x = make_oriented_box(a.part), y = make_oriented_box(b.part);
+  return convex_hull_separation({a.treed().placed, &x}, {b.treed().placed, &y}, enough);
 }
 
 /// Pipes that cross: no face of either stands across the gap.
@@ -44,26 +43,27 @@ std::pair<Subject, Subject> crossing_pipes(int sides) {
 TEST(HullGap, PipesThatCrossComeApartAtOnce) {
   auto [a, b] = crossing_pipes(26);
   b.origin = {};
-  PairWork plain, hinted;
-  const auto near = closest(a.treed(), b.treed(), kFar, plain);
+  QueryContext plain, hinted;
+  const auto near = find_closest_pair(a.treed(), b.treed(), kFar, plain);
   ASSERT_TRUE(near);
-  const PartingGap gap = gap_of(a, b);
+  const SeparationBound gap = gap_of(a, b);
   EXPECT_LE(gap.lower, near->distance);
   EXPECT_GE(gap.lower, near->distance - 2);
   EXPECT_GE(gap_of(a, b, 5000).lower, 5000);
-  EXPECT_EQ(closest(a.treed(), b.treed(), kFar, hinted, 0, gap.normal)->squared, near->squared);
+  EXPECT_EQ(find_closest_pair(a.treed(), b.treed(), kFar, hinted, 0, gap.normal)->squared,
+            near->squared);
   EXPECT_GT(plain.node_pairs, 200U);
   EXPECT_EQ(hinted.node_pairs, 0U);
   EXPECT_LT(hinted.triangle_pairs, 100U);
-  EXPECT_FALSE(closest(a.treed(), b.treed(), near->distance, hinted, 0, gap.normal));
+  EXPECT_FALSE(find_closest_pair(a.treed(), b.treed(), near->distance, hinted, 0, gap.normal));
 }
 
 TEST(HullGap, ManyVerticesAndFarOrigins) {
   auto [a, b] = crossing_pipes(2100);
   a.origin = b.origin - Vec3l{0, 0, 1000};
-  const PartingGap gap = gap_of(a, b);
-  PairWork work;
-  const auto near = closest(a.treed(), b.treed(), kFar, work, 0, gap.normal);
+  const SeparationBound gap = gap_of(a, b);
+  QueryContext work;
+  const auto near = find_closest_pair(a.treed(), b.treed(), kFar, work, 0, gap.normal);
   ASSERT_TRUE(near);
   EXPECT_EQ(work.node_pairs, 0U);
   EXPECT_LE(gap.lower, near->distance);
@@ -114,14 +114,14 @@ TEST(HullGap, TheHintChangesNoAnswer) {
       y = testing::turned(std::move(y));
     }
     const Subject a(x), b(y);
-    const PartingGap gap = gap_of(a, b);
+    const SeparationBound gap = gap_of(a, b);
     const double limit = draw.below(2) == 0 ? kFar : 2500;
-    PairWork plain, hinted;
-    const auto near = closest(a.treed(), b.treed(), limit, plain);
+    QueryContext plain, hinted;
+    const auto near = find_closest_pair(a.treed(), b.treed(), limit, plain);
     EXPECT_LE(gap.lower, near ? near->distance : kFar);
     if (!(gap.lower > 0)) continue;
     ++apart;
-    const auto same = closest(a.treed(), b.treed(), limit, hinted, 0, gap.normal);
+    const auto same = find_closest_pair(a.treed(), b.treed(), limit, hinted, 0, gap.normal);
     ASSERT_EQ(same.has_value(), near.has_value());
     if (!near) continue;
     EXPECT_EQ(same->distance, near->distance);
@@ -139,8 +139,8 @@ TEST(HullGap, TheHintChangesNoAnswer) {
 TEST(ClosestTest, EqualDistancesAtParallelEdgesAreNotMeasuredAnew) {
   const Subject a(testing::box_mesh({0, 0, 0}, {1000, 1000, 9000}));
   const Subject b(testing::box_mesh({1300, 1400, 1000}, {3000, 3000, 7000}));
-  PairWork work;
-  EXPECT_EQ(closest(a.treed(), b.treed(), kFar, work)->distance, 500);
+  QueryContext work;
+  EXPECT_EQ(find_closest_pair(a.treed(), b.treed(), kFar, work)->distance, 500);
   EXPECT_LE(work.exact_fallbacks, 2U);
 }
 

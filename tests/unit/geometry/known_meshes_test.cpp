@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "strake/geometry/analyse.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
 #include "support/voxels.hpp"
 
 namespace strake::geometry {
@@ -34,7 +34,7 @@ GridMesh prism(std::uint32_t sides, double radius, std::int32_t height) {
   return mesh;
 }
 
-void expect_same(const MeshAnalysis& a, const MeshAnalysis& b) {
+void expect_same(const RepairedMesh& a, const RepairedMesh& b) {
   EXPECT_EQ(a.findings.degenerate_triangles, b.findings.degenerate_triangles);
   EXPECT_EQ(a.findings.duplicate_triangles, b.findings.duplicate_triangles);
   EXPECT_EQ(a.findings.nested_shells, b.findings.nested_shells);
@@ -63,13 +63,13 @@ void expect_same(const MeshAnalysis& a, const MeshAnalysis& b) {
   }
 }
 
-TEST(KnownMeshes, AlikeMeshesShareFromTheSecondOn) {
-  MeshAnalyser analyser;
+TEST(ConnectivityCache, AlikeMeshesShareFromTheSecondOn) {
+  MeshRepairer analyser;
   std::vector<Part> parts;
   for (int i = 0; i < 4; ++i) {
     const GridMesh mesh = prism(24, 1000 + 50 * i, 700 + 333 * i);
-    MeshAnalysis analysis = analyser.analyse(mesh);
-    expect_same(analysis, analyse(mesh));
+    RepairedMesh analysis = analyser.repair_mesh(mesh);
+    expect_same(analysis, repair_mesh(mesh));
     parts.push_back(std::move(analysis.parts.at(0)));
   }
   EXPECT_NE(parts[0].triangles.data(), parts[1].triangles.data());
@@ -81,22 +81,22 @@ TEST(KnownMeshes, AlikeMeshesShareFromTheSecondOn) {
   }
 }
 
-TEST(KnownMeshes, FacesAreToldApart) {
-  MeshAnalyser analyser;
+TEST(ConnectivityCache, FacesAreToldApart) {
+  MeshRepairer analyser;
   GridMesh mesh = prism(12, 1000, 500);
   for (int round = 0; round < 3; ++round)
     for (const std::uint32_t per_face : {0U, 1U, 2U}) {
       mesh.faces.clear();
       for (std::uint32_t t = 0; per_face > 0 && t < mesh.triangles.size(); ++t)
         mesh.faces.push_back(t / per_face);
-      expect_same(analyser.analyse(mesh), analyse(mesh));
+      expect_same(analyser.repair_mesh(mesh), repair_mesh(mesh));
     }
 }
 
 // What coordinates can do to a mesh of the same triangles in the same order of vertices: turn it
 // inside out, take its volume, take the area of some triangles, pinch it to a crowded edge.
-TEST(KnownMeshes, CoordinatesAreAskedEachTime) {
-  MeshAnalyser analyser;
+TEST(ConnectivityCache, CoordinatesAreAskedEachTime) {
+  MeshRepairer analyser;
   // Two tetrahedra back to back over a triangle whose corners lie apart in x.
   const std::vector<Triangle> triangles{{0, 1, 3}, {1, 2, 3}, {2, 0, 3},
                                         {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
@@ -111,25 +111,25 @@ TEST(KnownMeshes, CoordinatesAreAskedEachTime) {
   meshes.push_back(plain.front());
   meshes.back().vertices[3] = {30, 0, 0};  // in line with the first two corners
   for (int round = 0; round < 3; ++round)
-    for (const GridMesh& mesh : meshes) expect_same(analyser.analyse(mesh), analyse(mesh));
+    for (const GridMesh& mesh : meshes) expect_same(analyser.repair_mesh(mesh), repair_mesh(mesh));
 }
 
 // Five cubes round a corner: the first and the last touch along an edge.
-TEST(KnownMeshes, PinchedSolidsStayFlagged) {
+TEST(ConnectivityCache, PinchedSolidsStayFlagged) {
   test::VoxelSkin skin = test::voxel_skin({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}});
   const GridMesh mesh{std::move(skin.vertices), std::move(skin.triangles), {}};
-  MeshAnalyser analyser;
+  MeshRepairer analyser;
   for (int round = 0; round < 3; ++round) {
-    const MeshAnalysis analysis = analyser.analyse(mesh);
+    const RepairedMesh analysis = analyser.repair_mesh(mesh);
     ASSERT_EQ(analysis.parts.size(), 1U);
     EXPECT_TRUE(analysis.parts[0].flags.non_manifold);
     EXPECT_DOUBLE_EQ(analysis.parts[0].volume, 5);
-    expect_same(analysis, analyse(mesh));
+    expect_same(analysis, repair_mesh(mesh));
   }
 }
 
-TEST(KnownMeshes, RandomMeshesOfFewShapesAreAsAnalysedAlone) {
-  MeshAnalyser analyser;
+TEST(ConnectivityCache, RandomMeshesOfFewShapesAreAsAnalysedAlone) {
+  MeshRepairer analyser;
   std::mt19937 random(11);
   std::vector<std::vector<Triangle>> shapes;
   for (int s = 0; s < 6; ++s) {
@@ -140,7 +140,7 @@ TEST(KnownMeshes, RandomMeshesOfFewShapesAreAsAnalysedAlone) {
     shapes.push_back(std::move(triangles));
   }
   int shared = 0;
-  std::vector<MeshAnalysis> all;
+  std::vector<RepairedMesh> all;
   for (int i = 0; i < 3000; ++i) {
     GridMesh mesh;
     mesh.triangles = shapes[random() % shapes.size()];
@@ -151,8 +151,8 @@ TEST(KnownMeshes, RandomMeshesOfFewShapesAreAsAnalysedAlone) {
       if (random() % 32 == 0) v = mesh.vertices[random() % mesh.vertices.size()];
       if (random() % 32 == 0) v = v + Vec3i{0, 0, static_cast<std::int32_t>(random() % 300) - 150};
     }
-    all.push_back(analyser.analyse(mesh));
-    expect_same(all.back(), analyse(mesh));
+    all.push_back(analyser.repair_mesh(mesh));
+    expect_same(all.back(), repair_mesh(mesh));
     for (std::size_t k = 0; k + 1 < all.size() && all.back().parts.size() == 1; ++k)
       if (all[k].parts.size() == 1 && all[k].parts[0].triangles.data() != nullptr &&
           all[k].parts[0].triangles.data() == all.back().parts[0].triangles.data()) {

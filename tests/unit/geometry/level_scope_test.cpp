@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is told of a cell and of those that it is cut into holds for points of it.
-#include "geometry/depth/level_scope.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,6 +10,7 @@
 
 #include "../../support/depth_subjects.hpp"
 #include "../../support/draw.hpp"
+#include "geometry/interior_depth/level_search/offset_cell.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -32,7 +31,7 @@ class LevelScope : public ::testing::Test {
   double in(double lo, double hi) { return draw_.between(lo, hi); }
   Vec3d point() { return {in(-12'000, 20'000), in(-12'000, 20'000), in(-12'000, 20'000)}; }
 
-  Vec3d point_of(const LevelCell& cell) {
+  Vec3d point_of(const OffsetCell& cell) {
     Vec3d sum;
     double all = 0;
     for (const Vec3d& p : cell.corners) {
@@ -44,35 +43,35 @@ class LevelScope : public ::testing::Test {
   }
 
   /// Asks about a cell, then about its halves by what is known of it.
-  void follow(PartScope& scope, const DepthField& field, const LevelCell& cell,
-              const PartScope::About& from, int times) {
+  void follow(CellCuller& scope, const DistanceField& field, const OffsetCell& cell,
+              const CellCuller::CellStatus& from, int times) {
     constexpr double kSlack = 1;
     const CellHull hull(cell, kSlack);
     std::vector<Corners> crossing;
-    const PartScope::About about =
-        scope.look(hull, from, on_field_grid(middle_of(cell)), crossing, work_);
-    EXPECT_EQ(crossing.empty(), about.side != PartScope::Side::both);
+    const CellCuller::CellStatus about =
+        scope.classify(hull, from, on_field_grid(middle_of(cell)), crossing, work_);
+    EXPECT_EQ(crossing.empty(), about.side != CellCuller::CellSide::both);
     ++seen_[static_cast<std::size_t>(about.side)];
-    for (int i = 0; i < 20 && about.side != PartScope::Side::both; ++i)
-      EXPECT_EQ(field.contains(point_of(cell), work_), about.side == PartScope::Side::inside);
+    for (int i = 0; i < 20 && about.side != CellCuller::CellSide::both; ++i)
+      EXPECT_EQ(field.contains(point_of(cell), work_), about.side == CellCuller::CellSide::inside);
     if (times == 0) return;
-    for (const LevelCell& half : halves_of(cell))
+    for (const OffsetCell& half : halves_of(cell))
       if (half.corners.size() >= 3) follow(scope, field, half, about, times - 1);
   }
 
   test::Draw draw_{5};
   std::unique_ptr<Subject> subject_;
-  PairWork work_;
+  QueryContext work_;
   std::array<int, 3> seen_{};
 };
 
 TEST_F(LevelScope, PointsOfCellsAreOnTheSideThatIsTold) {
-  const TreedPart treed = subject_->treed();
-  const DepthField field(treed, {});
-  DepthField ready = field;
+  const PartWithBvh treed = subject_->treed();
+  const DistanceField field(treed, {});
+  DistanceField ready = field;
   ready.prepare();
-  for (const DepthField* of : {&field, &std::as_const(ready)}) {
-    PartScope scope(*of);
+  for (const DistanceField* of : {&field, &std::as_const(ready)}) {
+    CellCuller scope(*of);
     for (int i = 0; i < 100; ++i)
       follow(scope, *of, flat_cell({point(), point(), point()}, {}), {}, 6);
   }
@@ -81,15 +80,15 @@ TEST_F(LevelScope, PointsOfCellsAreOnTheSideThatIsTold) {
 
 /// As cutting makes them: no plane is to be had from the first three.
 TEST_F(LevelScope, CornersInLineAtFirst) {
-  const TreedPart treed = subject_->treed();
-  const DepthField field(treed, {});
-  PartScope scope(field);
+  const PartWithBvh treed = subject_->treed();
+  const DistanceField field(treed, {});
+  CellCuller scope(field);
   const auto beside = [&](const Vec3d& p) {
     return p + Vec3d{in(-4'000, 4'000), in(-4'000, 4'000), in(-4'000, 4'000)};
   };
   for (int i = 0; i < 5000; ++i) {
     const Vec3d p = point(), q = beside(p);
-    const LevelCell cell{.corners = {p, (p + q) * 0.5, q, beside(p)}, .about = {}};
+    const OffsetCell cell{.corners = {p, (p + q) * 0.5, q, beside(p)}, .about = {}};
     follow(scope, field, cell, {}, 0);
   }
   for (const int times : seen_) EXPECT_GT(times, 10);

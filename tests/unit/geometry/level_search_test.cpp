@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nothing clears a level while a sample is deeper: also where meshes overlap themselves, so that
 // their faces have the part on both sides.
-#include "geometry/depth/level_search.hpp"
+#include "geometry/interior_depth/level_search/level_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "../../support/depth_subjects.hpp"
-#include "geometry/depth/uphill.hpp"
-#include "geometry/directions.hpp"
+#include "geometry/interior_depth/local_depth_maximum.hpp"
+#include "geometry/numeric/vector_math.hpp"
 
 namespace strake::geometry {
 namespace {
@@ -58,7 +58,7 @@ IndexedMesh boxes(Draw& draw) {
 /// A pyramid whose apex is the origin; its axis leans off x.
 IndexedMesh pyramid(double lean, double azimuth, double half, double height) {
   const double c = std::cos(lean), n = std::sin(lean);
-  const Vec3d axis{c, n * std::cos(azimuth), n * std::sin(azimuth)}, u = square_to(axis),
+  const Vec3d axis{c, n * std::cos(azimuth), n * std::sin(azimuth)}, u = perpendicular_to(axis),
                                                                      v = cross(axis, u);
   IndexedMesh mesh;
   mesh.vertices.push_back({0, 0, 0});
@@ -102,34 +102,34 @@ void expect_no_level_clear_below_a_point(const Make& make) {
     Draw draw(seed);
     const IndexedMesh two = make(draw);
     const Subject a(seed % 2 == 0 ? turned(two) : two);
-    const TreedPart part = a.treed();
-    const SupportPlanes planes_of = make_support_planes(a.part);
-    DepthField of(part, {}, &planes_of);
+    const PartWithBvh part = a.treed();
+    const FaceKdop planes_of = make_face_kdop(a.part);
+    DistanceField of(part, {}, &planes_of);
     of.prepare();
-    PairWork work;
+    QueryContext work;
     Vec3d start = draw.point(of.box());
     for (int i = 0; i < 50 && !of.contains(start, work); ++i) start = draw.point(of.box());
     if (!of.contains(start, work)) continue;
-    const Vec3d top = on_field_grid(uphill(of, of, start, std::nullopt));
+    const Vec3d top = on_field_grid(local_depth_maximum(of, of, start, std::nullopt));
     const double depth = of.nearest(top).distance;
     if (!(depth > 1000)) continue;
     const Subject b(about(top, 0.05 * depth, 0.9 * depth, draw));
-    const TreedPart box = b.treed();
-    const SupportPlanes planes_in = make_support_planes(b.part);
-    DepthField in(box, {}, &planes_in);
+    const PartWithBvh box = b.treed();
+    const FaceKdop planes_in = make_face_kdop(b.part);
+    DistanceField in(box, {}, &planes_in);
     in.prepare();
     const std::vector<HalfSpace> hull_of = half_spaces_of(of), hull_in = half_spaces_of(in);
     ++asked;
     for (const double share : {0.5, 0.9, 0.99}) {
-      LevelQuestion question{.level = share * depth,
-                             .known = share * depth * 0.99,
-                             .ceiling = 2 * depth,
-                             .slack = 1.0 / 1024,
-                             .most_cells = 100'000};
-      EXPECT_FALSE(look_above_level(of, in, question, {}, work).none) << share;
+      LevelQuery question{.level = share * depth,
+                          .known = share * depth * 0.99,
+                          .ceiling = 2 * depth,
+                          .slack = 1.0 / 1024,
+                          .most_cells = 100'000};
+      EXPECT_FALSE(search_above_level(of, in, question, {}, work).none) << share;
       question.hull_of = hull_of;
       question.hull_in = hull_in;
-      EXPECT_FALSE(look_above_level(of, in, question, {}, work).none) << share << ", with hulls";
+      EXPECT_FALSE(search_above_level(of, in, question, {}, work).none) << share << ", with hulls";
     }
   }
   EXPECT_GT(asked, 500);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/meeting_places.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/contact_regions/contact_regions.hpp"
 #include "support/part_builder.hpp"
 
 namespace strake::geometry {
@@ -83,13 +82,13 @@ struct Asked {
   bool interiors_meet = false;
 };
 
-std::vector<MeetingPlace> places(const IndexedMesh& a, const IndexedMesh& b, const Asked& asked) {
+std::vector<ContactRegion> places(const IndexedMesh& a, const IndexedMesh& b, const Asked& asked) {
   const Subject x(a), y(b, {});
-  PairWork work;
-  const PlacesQuestion question{.reach = asked.reach_mm * kMm,
-                                .interiors_meet = asked.interiors_meet};
-  const auto found = meeting_places(x.treed(), y.treed(), question, work);
-  const auto turned = meeting_places(y.treed(), x.treed(), question, work);
+  QueryContext work;
+  const ContactRegionOptions question{.reach = asked.reach_mm * kMm,
+                                      .interiors_meet = asked.interiors_meet};
+  const auto found = contact_regions(x.treed(), y.treed(), question, work);
+  const auto turned = contact_regions(y.treed(), x.treed(), question, work);
   EXPECT_TRUE(found && turned);
   if (!found || !turned) return {};
   EXPECT_EQ(found->size(), turned->size());
@@ -110,7 +109,7 @@ TEST(MeetingPlacesTest, FourFeetOnADeck) {
       box_mesh({-2000 * kMm, -2000 * kMm, -10 * kMm}, {2000 * kMm, 2000 * kMm, 0});
   const auto found = places(table(0), deck, {});
   ASSERT_EQ(found.size(), 4U);
-  for (const MeetingPlace& p : found) {
+  for (const ContactRegion& p : found) {
     EXPECT_EQ(p.nearest.distance, 0);
     EXPECT_LT(p.extent.hi.x - p.extent.lo.x, 66 * kMm);
     EXPECT_LT(p.extent.hi.z - p.extent.lo.z, 6 * kMm);
@@ -144,7 +143,7 @@ TEST(MeetingPlacesTest, APipeThatComesBackMeetsTwice) {
       places(bridge_pipe(40 * kMm, 800 * kMm, 600 * kMm), wall, {.interiors_meet = true});
   ASSERT_EQ(found.size(), 2U);
   std::vector<double> from;
-  for (const MeetingPlace& p : found) from.push_back(p.extent.lo.x);
+  for (const ContactRegion& p : found) from.push_back(p.extent.lo.x);
   std::ranges::sort(from);
   EXPECT_NEAR(from[0], -40 * kMm, 4 * kMm);
   EXPECT_NEAR(from[1], 760 * kMm, 4 * kMm);
@@ -167,9 +166,9 @@ TEST(MeetingPlacesTest, NothingNearForOneFarInsideTheOther) {
 
 TEST(MeetingPlacesTest, GivesUpWhereThereAreMorePairsThanAskedFor) {
   const Subject a(pipe(50 * kMm, 0, 0, 0, 500 * kMm)), b(pipe(50 * kMm, 0, 0, 0, 500 * kMm));
-  PairWork work;
-  EXPECT_FALSE(
-      meeting_places(a.treed(), b.treed(), {.reach = 1 * kMm, .most_pairs = 10}, work).has_value());
+  QueryContext work;
+  EXPECT_FALSE(contact_regions(a.treed(), b.treed(), {.reach = 1 * kMm, .most_pairs = 10}, work)
+                   .has_value());
 }
 
 /// A point stood askew on the grid.
@@ -220,13 +219,13 @@ TEST(MeetingPlacesTest, FansOfNeedlesAreToldAsTriangleByTriangle) {
   for (const FansCase& fans : fans_cases()) {
     SCOPED_TRACE(fans.name);
     const Subject a(fan_disc(500000, 20000, 400, {})), b(fan_disc(400000, 20000, 400, fans.at));
-    PairWork work;
-    const PlacesQuestion question{.reach = 1.0 * kMm};
-    const auto found = meeting_places(a.treed(), b.treed(), question, work);
+    QueryContext work;
+    const ContactRegionOptions question{.reach = 1.0 * kMm};
+    const auto found = contact_regions(a.treed(), b.treed(), question, work);
     // Parts without trees are walked triangle by triangle.
-    const PartTree none;
+    const TriangleBvh none;
     const auto listed =
-        meeting_places({a.treed().placed, &none}, {b.treed().placed, &none}, question, work);
+        contact_regions({a.treed().placed, &none}, {b.treed().placed, &none}, question, work);
     ASSERT_TRUE(found && listed);
     ASSERT_EQ(found->size(), fans.places);
     ASSERT_EQ(listed->size(), fans.places);
@@ -244,9 +243,9 @@ TEST(MeetingPlacesTest, FansOfTooManyNeedlesAreGivenUpSoon) {
     SCOPED_TRACE(fans.name);
     const Subject a(fan_disc(500000, 20000, 6000, {})), b(fan_disc(400000, 20000, 6000, fans.at));
     const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
-    PairWork work;
-    const auto found = meeting_places(a.treed(), b.treed(),
-                                      {.reach = 1.0 * kMm, .most_pairs = 2 * triangles}, work);
+    QueryContext work;
+    const auto found = contact_regions(a.treed(), b.treed(),
+                                       {.reach = 1.0 * kMm, .most_pairs = 2 * triangles}, work);
     EXPECT_EQ(found.has_value(), fans.places == 0);
     EXPECT_LE(work.triangle_pairs, 12 * triangles);
     EXPECT_LE(work.node_pairs, 12 * triangles);
@@ -257,19 +256,19 @@ TEST(MeetingPlacesTest, AWideReachIsToldWithoutAListOfNearTriangles) {
   // Two tubes side by side are far from convex, and nearly all their triangles are near each other.
   const auto one = tube(50 * kMm, 45 * kMm, 0, 0, 0, 400 * kMm);
   const Subject a(one), b(one, {130 * kMm, 0, 0});
-  const auto ask = [&](OnePlace what, std::uint64_t most) {
-    PairWork work;
-    const auto found = meeting_places(
+  const auto ask = [&](SingleRegionDetail what, std::uint64_t most) {
+    QueryContext work;
+    const auto found = contact_regions(
         a.treed(), b.treed(), {.reach = 300.0 * kMm, .one = what, .most_pairs = most}, work);
     EXPECT_LE(work.triangle_pairs, 5 * (a.part.triangles.size() + b.part.triangles.size()));
     return found;
   };
-  for (const OnePlace what : {OnePlace::counted, OnePlace::boxed}) {
+  for (const SingleRegionDetail what : {SingleRegionDetail::counted, SingleRegionDetail::boxed}) {
     const auto found = ask(what, 100);
     ASSERT_TRUE(found.has_value());
     EXPECT_EQ(found->size(), 1U);
   }
-  EXPECT_FALSE(ask(OnePlace::described, 100).has_value());
+  EXPECT_FALSE(ask(SingleRegionDetail::described, 100).has_value());
 }
 
 /// A container with corrugated sides, stood askew on the grid: high needles all round.
@@ -302,12 +301,12 @@ TEST(MeetingPlacesTest, CorrugatedContainersOnEachOtherAreOnePlace) {
     SCOPED_TRACE(waves);
     const Subject a(corrugated(waves, 0)), b(corrugated(waves, 1500 * kMm));
     ASSERT_EQ(a.part.kind, PartKind::solid);
-    const auto ask = [&](OnePlace what, PairWork& work) {
-      return meeting_places(a.treed(), b.treed(), {.reach = 1.0 * kMm, .one = what}, work);
+    const auto ask = [&](SingleRegionDetail what, QueryContext& work) {
+      return contact_regions(a.treed(), b.treed(), {.reach = 1.0 * kMm, .one = what}, work);
     };
-    PairWork work, all;
-    const auto boxed = ask(OnePlace::boxed, work);
-    const auto described = ask(OnePlace::described, all);
+    QueryContext work, all;
+    const auto boxed = ask(SingleRegionDetail::boxed, work);
+    const auto described = ask(SingleRegionDetail::described, all);
     ASSERT_TRUE(boxed && described);
     ASSERT_EQ(boxed->size(), 1U);
     ASSERT_EQ(described->size(), 1U);
@@ -324,11 +323,11 @@ TEST(MeetingPlacesTest, CorrugatedContainersOnEachOtherAreOnePlace) {
 TEST(MeetingPlacesTest, AreTheSameWithoutTrees) {
   const Subject plate(box_mesh({0, 0, 0}, {1000 * kMm, 1000 * kMm, kMm / 2}));
   const Subject block(box_mesh({400 * kMm, 400 * kMm, kMm / 2}, {500 * kMm, 500 * kMm, 90 * kMm}));
-  const PartTree none;
-  const auto bare = [&](const Subject& s) { return TreedPart{s.treed().placed, &none}; };
-  const auto count = [](const TreedPart& a, const TreedPart& b) {
-    PairWork work;
-    const auto found = meeting_places(a, b, {.reach = 1.0 * kMm}, work);
+  const TriangleBvh none;
+  const auto bare = [&](const Subject& s) { return PartWithBvh{s.treed().placed, &none}; };
+  const auto count = [](const PartWithBvh& a, const PartWithBvh& b) {
+    QueryContext work;
+    const auto found = contact_regions(a, b, {.reach = 1.0 * kMm}, work);
     return found ? found->size() : 0;
   };
   EXPECT_EQ(count(plate.treed(), block.treed()), 1U);
@@ -360,11 +359,11 @@ TEST(MeetingPlacesTest, NearlyConvexAllowsForTheSlackAlone) {
 TEST(MeetingPlacesTest, OneFlatPlaceNeedsOneConvexFaceOfEach) {
   const auto one = [](const IndexedMesh& a, const IndexedMesh& b, double reach_mm) {
     const Subject x(a), y(b);
-    const PartFrame f = make_frame(x.part), g = make_frame(y.part);
+    const OrientedBox f = make_oriented_box(x.part), g = make_oriented_box(y.part);
     const bool found =
-        in_one_flat_place({x.treed().placed, &f}, {y.treed().placed, &g}, reach_mm * kMm);
-    EXPECT_EQ(found,
-              in_one_flat_place({y.treed().placed, &g}, {x.treed().placed, &f}, reach_mm * kMm));
+        meet_in_one_planar_region({x.treed().placed, &f}, {y.treed().placed, &g}, reach_mm * kMm);
+    EXPECT_EQ(found, meet_in_one_planar_region({y.treed().placed, &g}, {x.treed().placed, &f},
+                                               reach_mm * kMm));
     return found;
   };
   const IndexedMesh deck =

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/analyse/near_points.hpp"
-#include "strake/geometry/analyse.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
+#include "geometry/mesh_repair/near_vertices.hpp"
 #include "support/draw.hpp"
 #include "support/grid_bodies.hpp"
 #include "support/rounds.hpp"
@@ -24,12 +24,12 @@ using test::grid_box;
 
 constexpr std::int64_t kWeld = 3;
 
-std::size_t count(const MeshAnalysis& found, PartKind kind) {
+std::size_t count(const RepairedMesh& found, PartKind kind) {
   return static_cast<std::size_t>(
       std::ranges::count_if(found.parts, [&](const Part& part) { return part.kind == kind; }));
 }
 
-void expect_same(const MeshAnalysis& a, const MeshAnalysis& b, const Vec3i& moved = {}) {
+void expect_same(const RepairedMesh& a, const RepairedMesh& b, const Vec3i& moved = {}) {
   ASSERT_EQ(a.parts.size(), b.parts.size());
   for (std::size_t i = 0; i < a.parts.size(); ++i) {
     const Part &p = a.parts[i], &q = b.parts[i];
@@ -47,7 +47,7 @@ void expect_same(const MeshAnalysis& a, const MeshAnalysis& b, const Vec3i& move
 
 /// What lies as it came, whether seams may close or not.
 void expect_left_alone(const GridMesh& mesh, std::int64_t weld = kWeld) {
-  const MeshAnalysis exact = analyse(mesh), found = analyse(mesh, {weld});
+  const RepairedMesh exact = repair_mesh(mesh), found = repair_mesh(mesh, {weld});
   expect_same(exact, found);
   EXPECT_EQ(found.findings.welded_corners, 0U);
 }
@@ -78,12 +78,12 @@ GridMesh lid_off(const Vec3i& size, const Vec3i& by) {
   return mesh;
 }
 
-TEST(NearWeld, ALidThatStandsOff) {
+TEST(ToleranceWeld, ALidThatStandsOff) {
   for (const Vec3i& by :
        {Vec3i{0, 0, 1}, Vec3i{0, 0, 3}, Vec3i{0, 0, -2}, Vec3i{1, 1, 1}, Vec3i{2, 0, 2}}) {
     const GridMesh mesh = lid_off({500'000, 300'000, 200'000}, by);
-    EXPECT_EQ(count(analyse(mesh), PartKind::sheet), 1U);
-    const MeshAnalysis found = analyse(mesh, {kWeld});
+    EXPECT_EQ(count(repair_mesh(mesh), PartKind::sheet), 1U);
+    const RepairedMesh found = repair_mesh(mesh, {kWeld});
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::solid);
     EXPECT_EQ(found.parts[0].vertices.size(), 8U);
@@ -94,12 +94,12 @@ TEST(NearWeld, ALidThatStandsOff) {
   }
 }
 
-TEST(NearWeld, AWiderGapStaysOpen) {
+TEST(ToleranceWeld, AWiderGapStaysOpen) {
   for (const Vec3i& by : {Vec3i{0, 0, 4}, Vec3i{0, 0, 9}, Vec3i{3, 3, 3}, Vec3i{-4, 0, 4}})
     expect_left_alone(lid_off({500'000, 300'000, 200'000}, by));
 }
 
-TEST(NearWeld, NoLidNoSolid) {
+TEST(ToleranceWeld, NoLidNoSolid) {
   const GridMesh box = grid_box({0, 0, 0}, {500'000, 300'000, 200'000});
   for (std::size_t t = 0; t < box.triangles.size(); ++t) {
     expect_left_alone(without(box, {t}));
@@ -107,7 +107,7 @@ TEST(NearWeld, NoLidNoSolid) {
   }
 }
 
-TEST(NearWeld, APlateKeepsItsRim) {
+TEST(ToleranceWeld, APlateKeepsItsRim) {
   GridMesh plate;
   plate.vertices = {{0, 0, 0}, {1000, 0, 0}, {1000, 1000, 0}, {0, 1000, 0}, {2, 500, 0}};
   plate.triangles = {{0, 1, 2}, {0, 2, 4}, {4, 2, 3}};
@@ -115,7 +115,7 @@ TEST(NearWeld, APlateKeepsItsRim) {
 }
 
 // A hole that is as small as its corners may lie apart has nothing that would meet.
-TEST(NearWeld, ASmallHoleStays) {
+TEST(ToleranceWeld, ASmallHoleStays) {
   GridMesh mesh = grid_box({0, 0, 0}, {500'000, 300'000, 200'000});
   const Triangle t = mesh.triangles[0];
   const auto inner = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -143,7 +143,7 @@ TEST(NearWeld, ASmallHoleStays) {
 
 // Two skins back to back, nearer than corners that count as one: closed, they would be a solid of
 // nothing.
-TEST(NearWeld, TwoSkinsBackToBackStay) {
+TEST(ToleranceWeld, TwoSkinsBackToBackStay) {
   for (const std::int32_t apart : {1, 2, 3}) {
     GridMesh skins;
     for (const std::int32_t z : {0, apart})
@@ -162,7 +162,7 @@ TEST(NearWeld, TwoSkinsBackToBackStay) {
 }
 
 // The corners of a finer rim than that are a chain, of which none is the middle.
-TEST(NearWeld, AFineRimIsAChain) {
+TEST(ToleranceWeld, AFineRimIsAChain) {
   GridMesh strip;
   for (std::int32_t i = 0; i <= 200; ++i)
     for (const std::int32_t y : {0, 50'000}) strip.vertices.push_back({2 * i, y, 0});
@@ -186,14 +186,14 @@ GridMesh jittered(const GridMesh& mesh, Draw& draw) {
   return soup;
 }
 
-TEST(NearWeld, SoupIsTheSolidWhateverItsOrderAndPlace) {
+TEST(ToleranceWeld, SoupIsTheSolidWhateverItsOrderAndPlace) {
   constexpr std::int64_t kWide = 4;  // more than the diagonal of two steps
   for (std::uint64_t seed = 1; seed <= test::rounds(50U, 5'000U); ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
     const GridMesh stair = test::grid_stair(90'000);
     GridMesh soup = jittered(stair, draw);
-    const MeshAnalysis found = analyse(soup, {kWide}), clean = analyse(stair);
+    const RepairedMesh found = repair_mesh(soup, {kWide}), clean = repair_mesh(stair);
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::solid);
     EXPECT_EQ(found.parts[0].triangles.size(), clean.parts[0].triangles.size());
@@ -202,17 +202,17 @@ TEST(NearWeld, SoupIsTheSolidWhateverItsOrderAndPlace) {
     const Vec3i by{draw.whole(-1000, 1000), draw.whole(-1000, 1000), draw.whole(-1000, 1000)};
     GridMesh moved = soup;
     for (Vec3i& v : moved.vertices) v = v + by;
-    expect_same(found, analyse(moved, {kWide}), by);
+    expect_same(found, repair_mesh(moved, {kWide}), by);
     for (std::size_t i = soup.triangles.size(); i > 1; --i)
       std::swap(soup.triangles[i - 1], soup.triangles[draw.below(i)]);
     for (Triangle& t : soup.triangles)
       std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(draw.below(3)), t.end());
-    expect_same(found, analyse(soup, {kWide}));
+    expect_same(found, repair_mesh(soup, {kWide}));
   }
 }
 
 // A corner that the snap has taken off the edge that it stood on.
-TEST(NearWeld, ACornerBesideAnEdge) {
+TEST(ToleranceWeld, ACornerBesideAnEdge) {
   for (std::uint64_t seed = 1; seed <= test::rounds(200U, 20'000U); ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
@@ -235,7 +235,7 @@ TEST(NearWeld, ACornerBesideAnEdge) {
       const Vec3d at = turn * v.as<double>();
       v = Vec3d{std::round(at.x), std::round(at.y), std::round(at.z)}.as<std::int32_t>();
     }
-    const MeshAnalysis found = analyse(mesh, {kWeld});
+    const RepairedMesh found = repair_mesh(mesh, {kWeld});
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::solid);
     EXPECT_EQ(found.parts[0].shell_count, 1U);
@@ -244,14 +244,14 @@ TEST(NearWeld, ACornerBesideAnEdge) {
 }
 
 // What hangs together like a mesh that is open may lie so that it closes.
-TEST(NearWeld, MeshesThatHangTogetherAlike) {
-  MeshAnalyser analyser;
+TEST(ToleranceWeld, MeshesThatHangTogetherAlike) {
+  MeshRepairer analyser;
   const GridMesh apart = lid_off({500'000, 300'000, 200'000}, {0, 0, 40});
   const GridMesh near = lid_off({500'000, 300'000, 200'000}, {0, 0, 2});
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(count(analyser.analyse(apart, {kWeld}), PartKind::sheet), 1U);
-    EXPECT_EQ(count(analyser.analyse(near, {kWeld}), PartKind::solid), 1U);
-    EXPECT_EQ(count(analyser.analyse(near, {0}), PartKind::sheet), 1U);
+    EXPECT_EQ(count(analyser.repair_mesh(apart, {kWeld}), PartKind::sheet), 1U);
+    EXPECT_EQ(count(analyser.repair_mesh(near, {kWeld}), PartKind::solid), 1U);
+    EXPECT_EQ(count(analyser.repair_mesh(near, {0}), PartKind::sheet), 1U);
   }
 }
 

@@ -13,21 +13,21 @@ using testing::box_mesh;
 using testing::Subject;
 
 TEST(ClosestTest, BoxesAtAGap) {
-  PairWork work;
+  QueryContext work;
   const Subject a(box_mesh({0, 0, 0}, {10, 10, 10}));
   const Subject face(box_mesh({17, 2, 2}, {20, 8, 8}));
-  const auto r = closest(a.treed(), face.treed(), 100, work);
+  const auto r = find_closest_pair(a.treed(), face.treed(), 100, work);
   ASSERT_TRUE(r);
   EXPECT_EQ(r->squared, 49);
   EXPECT_EQ(r->distance, 7);
   EXPECT_EQ(r->on_a.x, 10);
   EXPECT_EQ(r->on_b.x, 17);
   EXPECT_EQ(r->on_a.y, r->on_b.y);
-  EXPECT_FALSE(closest(a.treed(), face.treed(), 7, work));
-  EXPECT_TRUE(closest(a.treed(), face.treed(), std::nextafter(7.0, 8.0), work));
+  EXPECT_FALSE(find_closest_pair(a.treed(), face.treed(), 7, work));
+  EXPECT_TRUE(find_closest_pair(a.treed(), face.treed(), std::nextafter(7.0, 8.0), work));
 
   const Subject corner(box_mesh({12, 13, 16}, {20, 20, 20}));
-  const auto c = closest(a.treed(), corner.treed(), INFINITY, work);
+  const auto c = find_closest_pair(a.treed(), corner.treed(), INFINITY, work);
   ASSERT_TRUE(c);
   EXPECT_EQ(c->squared, 4 + 9 + 36);
   EXPECT_EQ(c->on_a, (Vec3d{10, 10, 10}));
@@ -35,10 +35,10 @@ TEST(ClosestTest, BoxesAtAGap) {
 }
 
 TEST(ClosestTest, ZeroWhenTheSurfacesMeet) {
-  PairWork work;
+  QueryContext work;
   const Subject a(box_mesh({0, 0, 0}, {10, 10, 10}));
   const Subject touching(box_mesh({10, 10, 5}, {20, 20, 8}));
-  const auto r = closest(a.treed(), touching.treed(), 1, work);
+  const auto r = find_closest_pair(a.treed(), touching.treed(), 1, work);
   ASSERT_TRUE(r);
   EXPECT_EQ(r->squared, 0);
   EXPECT_EQ(r->on_a, r->on_b);
@@ -46,11 +46,11 @@ TEST(ClosestTest, ZeroWhenTheSurfacesMeet) {
   EXPECT_EQ(r->on_a.y, 10);
   // Nested without contact: the distance of the surfaces.
   const Subject inside(box_mesh({3, 4, 4}, {6, 6, 6}));
-  EXPECT_EQ(closest(a.treed(), inside.treed(), INFINITY, work)->squared, 9);
+  EXPECT_EQ(find_closest_pair(a.treed(), inside.treed(), INFINITY, work)->squared, 9);
 }
 
 TEST(ClosestTest, EdgesAcrossAndFarOrigins) {
-  PairWork work;
+  QueryContext work;
   // Two skew edges: (-10..10, 0, 0) and (0, -10..10, 5), as the ridges of two roofs.
   const std::array<Vec3i, 3> section{Vec3i{0, 0, 0}, {-4, -8, 0}, {4, -8, 0}};
   testing::IndexedMesh low = testing::prism_mesh(section, -10, 10);
@@ -58,7 +58,7 @@ TEST(ClosestTest, EdgesAcrossAndFarOrigins) {
   testing::IndexedMesh high = low;
   for (Vec3i& v : high.vertices) v = {v.y, v.x, -v.z};
   const Subject a(low, {1LL << 49, -5, 7}), b(high, {1LL << 49, -5, 12});
-  const auto r = closest(a.treed(), b.treed(), INFINITY, work);
+  const auto r = find_closest_pair(a.treed(), b.treed(), INFINITY, work);
   ASSERT_TRUE(r);
   EXPECT_EQ(r->squared, 25);
   EXPECT_EQ(r->on_a, (Vec3d{0, 0, 0}));

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/part_frame.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "strake/geometry/near_across.hpp"
+#include "geometry/distance/slab_proximity.hpp"
+#include "geometry/obb/oriented_box.hpp"
 #include "support/part_builder.hpp"
 
 namespace strake::geometry {
@@ -23,9 +22,9 @@ using testing::Subject;
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-PartingGap parting(const Subject& a, const Subject& b, double enough = kAny) {
-  const PartFrame f = make_frame(a.part), g = make_frame(b.part);
-  return frame_gap({a.treed().placed, &f}, {b.treed().placed, &g}, enough);
+SeparationBound parting(const Subject& a, const Subject& b, double enough = kAny) {
+  const OrientedBox f = make_oriented_box(a.part), g = make_oriented_box(b.part);
+  return oriented_box_separation({a.treed().placed, &f}, {b.treed().placed, &g}, enough);
 }
 
 double gap(const Subject& a, const Subject& b, double enough = kAny) {
@@ -51,7 +50,7 @@ double lowest(const Subject& subject, const Vec3d& n, const Vec3l& shift) {
   return least;
 }
 
-TEST(PartFrame, BoxesAskewShowTheirTrueGap) {
+TEST(OrientedBox, BoxesAskewShowTheirTrueGap) {
   const IndexedMesh plate = askew(box_mesh({0, 0, 0}, {900'000, 600'000, 3'000}));
   const Subject a(plate);
   for (const std::int32_t apart : {-9, 0, 9, 1'001, 30'000}) {
@@ -77,7 +76,7 @@ IndexedMesh disc(double radius, std::int32_t low, std::int32_t high, std::uint32
   return testing::prism_mesh(ring, low, high);
 }
 
-TEST(PartFrame, FacesOfNeedlesShowTheirTrueGap) {
+TEST(OrientedBox, FacesOfNeedlesShowTheirTrueGap) {
   // The largest needle of an end looks along it no better than to a thousandth.
   const Subject a(askew(disc(500'000, 0, 10'000, 2500)));
   for (const std::int32_t apart : {-9, 0, 9, 1'001, 30'000}) {
@@ -87,7 +86,7 @@ TEST(PartFrame, FacesOfNeedlesShowTheirTrueGap) {
   }
 }
 
-TEST(PartFrame, NoGapIsWiderThanTheDistance) {
+TEST(OrientedBox, NoGapIsWiderThanTheDistance) {
   int apart = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     std::mt19937_64 random(seed);
@@ -109,7 +108,7 @@ TEST(PartFrame, NoGapIsWiderThanTheDistance) {
     const Subject b(body(seed % 2 == 0),
                     far + Vec3l{draw(-500, 500), draw(-200, 200), draw(-90, 90)});
     if (a.part.triangles.empty() || b.part.triangles.empty()) continue;
-    PairWork work;
+    QueryContext work;
     const MeetingResult meeting = meet(a.treed(), b.treed(), work);
     const double g = gap(a, b);
     EXPECT_NEAR(g, gap(b, a), 1e-6) << "seed " << seed;
@@ -118,7 +117,7 @@ TEST(PartFrame, NoGapIsWiderThanTheDistance) {
       continue;
     }
     ++apart;
-    EXPECT_LE(g, closest(a.treed(), b.treed(), kAny, work)->distance) << "seed " << seed;
+    EXPECT_LE(g, find_closest_pair(a.treed(), b.treed(), kAny, work)->distance) << "seed " << seed;
     // Across its normal all of a is above all of b by so much.
     const Vec3d n = parting(a, b).normal;
     EXPECT_GE(lowest(a, n, {}) + lowest(b, -n, b.origin - a.origin), g) << "seed " << seed;
@@ -130,12 +129,12 @@ TEST(PartFrame, NoGapIsWiderThanTheDistance) {
   EXPECT_GT(apart, 100);
 }
 
-TEST(PartFrame, ANegativeGapIsAWayOut) {
+TEST(OrientedBox, ANegativeGapIsAWayOut) {
   const Subject a(askew(box_mesh({0, 0, 0}, {900, 600, 300})));
   const Subject b(askew(box_mesh({100, 100, 290}, {300, 300, 900})));
   const double g = gap(a, b);
   EXPECT_NEAR(g, -10, 3);
-  PairWork work;
+  QueryContext work;
   const Subject moved(askew(box_mesh({100, 100, 290 + 14}, {300, 300, 900 + 14})));
   EXPECT_EQ(meet(a.treed(), moved.treed(), work).meeting, Meeting::apart);
 }
@@ -143,27 +142,27 @@ TEST(PartFrame, ANegativeGapIsAWayOut) {
 TEST(AnyWithin, FindsSomethingAsNearIfThereIsAnything) {
   const Subject a(askew(box_mesh({0, 0, 0}, {900'000, 600'000, 3'000})));
   const Subject b(askew(box_mesh({90'000, 30'000, 3'009}, {300'000, 90'000, 90'000})));
-  PairWork work;
-  const auto closest_pair = closest(a.treed(), b.treed(), kAny, work);
+  QueryContext work;
+  const auto closest_pair = find_closest_pair(a.treed(), b.treed(), kAny, work);
   ASSERT_TRUE(closest_pair);
-  const auto near = any_within(a.treed(), b.treed(), 20, work);
+  const auto near = find_pair_within(a.treed(), b.treed(), 20, work);
   ASSERT_TRUE(near);
   EXPECT_LE(near->distance, 20);
   EXPECT_GE(near->distance, closest_pair->distance);
   const Vec3d off = near->on_b - near->on_a;
   EXPECT_NEAR(std::sqrt(dot(off, off)), near->distance, 1e-6);
-  EXPECT_FALSE(any_within(a.treed(), b.treed(), closest_pair->distance - 1e-3, work));
+  EXPECT_FALSE(find_pair_within(a.treed(), b.treed(), closest_pair->distance - 1e-3, work));
 }
 
-NearAcross across(const Subject& a, const Subject& b, double distance, PairWork& work) {
-  return near_across(a.treed().placed, b.treed().placed, parting(a, b).normal, distance, work);
+SlabProximity across(const Subject& a, const Subject& b, double distance, QueryContext& work) {
+  return slab_proximity(a.treed().placed, b.treed().placed, parting(a, b).normal, distance, work);
 }
 
-TEST(NearAcross, LooksAtNothingButTheFacesThatMeet) {
+TEST(SlabProximity, LooksAtNothingButTheFacesThatMeet) {
   const Subject deck(askew(box_mesh({0, 0, 0}, {900'000, 600'000, 3'000})));
   const Subject pipe(askew(disc(50'000, 3'002, 900'000, 24, {300'000, 200'000, 0})));
-  PairWork work;
-  const NearAcross found = across(deck, pipe, 8, work);
+  QueryContext work;
+  const SlabProximity found = across(deck, pipe, 8, work);
   ASSERT_TRUE(found.asked && found.near);
   EXPECT_LE(found.near->distance, 8);
   EXPECT_LE(work.triangle_pairs, 2U * 22U);
@@ -171,22 +170,22 @@ TEST(NearAcross, LooksAtNothingButTheFacesThatMeet) {
   EXPECT_NEAR(std::sqrt(dot(off, off)), found.near->distance, 1e-6);
 }
 
-TEST(NearAcross, SaysThatThereIsNothing) {
+TEST(SlabProximity, SaysThatThereIsNothing) {
   const Subject deck(askew(box_mesh({0, 0, 0}, {900'000, 600'000, 3'000})));
   // Beside each other in the plane: no triangles are near, although the slab is narrow.
   const Subject beside(askew(box_mesh({900'100, 0, 3'000}, {990'000, 600'000, 9'000})));
-  PairWork work;
-  const NearAcross none = across(deck, beside, 8, work);
+  QueryContext work;
+  const SlabProximity none = across(deck, beside, 8, work);
   EXPECT_TRUE(none.asked);
   EXPECT_FALSE(none.near);
   // Of many needles nothing is known: trees tell.
   const Subject plate(askew(disc(500'000, 3'001, 10'000, 600)));
-  const NearAcross unknown = across(deck, plate, 8, work);
+  const SlabProximity unknown = across(deck, plate, 8, work);
   EXPECT_FALSE(unknown.asked);
   EXPECT_FALSE(unknown.near);
 }
 
-TEST(NearAcross, FindsWhatAWalkFinds) {
+TEST(SlabProximity, FindsWhatAWalkFinds) {
   int found = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= 600; ++seed) {
     std::mt19937_64 random(seed);
@@ -200,16 +199,17 @@ TEST(NearAcross, FindsWhatAWalkFinds) {
                                                                   at.y + draw(20, 400), low + 90}));
     };
     const Subject a(body(0)), b(body(90 + draw(-3, 9)));
-    PairWork work;
-    const PartingGap slab = parting(a, b);
-    const NearAcross quick = near_across(a.treed().placed, b.treed().placed, slab.normal, 8, work);
+    QueryContext work;
+    const SeparationBound slab = parting(a, b);
+    const SlabProximity quick =
+        slab_proximity(a.treed().placed, b.treed().placed, slab.normal, 8, work);
     ASSERT_TRUE(quick.asked) << "seed " << seed;
-    const auto walked = any_within(a.treed(), b.treed(), 8, work);
+    const auto walked = find_pair_within(a.treed(), b.treed(), 8, work);
     EXPECT_EQ(quick.near.has_value(), walked.has_value()) << "seed " << seed;
     ++(quick.near ? found : none);
     if (!quick.near) continue;
     EXPECT_LE(quick.near->distance, 8) << "seed " << seed;
-    EXPECT_GE(quick.near->distance, closest(a.treed(), b.treed(), 9, work)->distance)
+    EXPECT_GE(quick.near->distance, find_closest_pair(a.treed(), b.treed(), 9, work)->distance)
         << "seed " << seed;
   }
   EXPECT_GT(found, 100);

@@ -25,7 +25,7 @@ Meeting swapped(Meeting m) {
 }
 
 void check(const Subject& a, const Subject& b, const Expected& expected) {
-  PairWork work;
+  QueryContext work;
   const MeetingResult ab = meet(a.treed(), b.treed(), work);
   EXPECT_EQ(ab.meeting, expected.meeting);
   EXPECT_EQ(ab.boundaries_meet, expected.boundaries_meet);
@@ -170,7 +170,7 @@ TEST(MeetTest, InsideABodyThatRunsThroughItself) {
   const Subject other(wedge);
   ASSERT_EQ(ring.treed().placed.part->kind, PartKind::solid);
   ASSERT_EQ(other.treed().placed.part->kind, PartKind::solid);
-  PairWork work;
+  QueryContext work;
   EXPECT_EQ(meet(ring.treed(), other.treed(), work).meeting, Meeting::crossing);
   EXPECT_EQ(meet(other.treed(), ring.treed(), work).meeting, Meeting::crossing);
 }
@@ -203,7 +203,7 @@ TEST(MeetTest, SheetAgainstSheet) {
 
 TEST(SideOfTest, PointsOnAndOffABox) {
   const Subject box(box_mesh({0, 0, 0}, {10, 10, 10}));
-  PairWork work;
+  QueryContext work;
   const auto side = [&](const Vec3l& n, std::int64_t d) {
     return side_of(box.treed(), n, d, work);
   };

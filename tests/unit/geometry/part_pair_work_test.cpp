@@ -62,8 +62,8 @@ TEST(PairWorkTest, RotatedPlatesCostTheSameAtEveryGap) {
     const Subject low(turned(box_mesh({0, 0, -13000}, {10000000, 10000000, 0}), 0.1, 0.2));
     const IndexedMesh mesh = box_mesh({0, 0, gap}, {10000000, 10000000, gap + 13000});
     const Subject high(turned(turned(mesh, 0.5, 0), 0.1, 0.2));
-    PairWork work;
-    const auto r = closest(low.treed(), high.treed(), 200000, work);
+    QueryContext work;
+    const auto r = find_closest_pair(low.treed(), high.treed(), 200000, work);
     ASSERT_TRUE(r);
     EXPECT_NEAR(r->distance, gap, 5);
     EXPECT_LE(work.triangle_pairs, 144U);
@@ -83,8 +83,8 @@ TEST(PairWorkTest, ParallelFacesSettleEqualDistancesCheaply) {
                                      {0, 1000, 0}));
     }
   const Subject a(floor), b(roof);
-  PairWork work;
-  const auto r = closest(a.treed(), b.treed(), 100000, work);
+  QueryContext work;
+  const auto r = find_closest_pair(a.treed(), b.treed(), 100000, work);
   ASSERT_TRUE(r);
   EXPECT_NEAR(r->distance, 4999, 1);
   EXPECT_LE(work.exact_fallbacks, 16U);
@@ -95,8 +95,8 @@ TEST(PairWorkTest, ConcentricCylindersCostAFewPairsATriangle) {
   const Subject outer(cylinder(500000, 2000000, 80, 64), {0, 0, -500});
   const std::size_t triangles = inner.part.triangles.size() + outer.part.triangles.size();
   ASSERT_GT(triangles, 20000U);
-  PairWork work;
-  const auto r = closest(inner.treed(), outer.treed(), 1000, work);
+  QueryContext work;
+  const auto r = find_closest_pair(inner.treed(), outer.treed(), 1000, work);
   ASSERT_TRUE(r);
   EXPECT_GT(r->distance, 490);
   EXPECT_LE(r->distance, 500);
@@ -104,7 +104,7 @@ TEST(PairWorkTest, ConcentricCylindersCostAFewPairsATriangle) {
   EXPECT_LE(work.node_pairs, 12 * triangles);
   // Equal distances all along the rings, in the eight directions of the symmetry.
   EXPECT_LE(work.exact_fallbacks, triangles / 4);
-  PairWork meeting;
+  QueryContext meeting;
   EXPECT_EQ(meet(inner.treed(), outer.treed(), meeting).meeting, Meeting::a_inside_b);
   EXPECT_LE(meeting.triangle_pairs, 6 * triangles);
 }
@@ -112,7 +112,7 @@ TEST(PairWorkTest, ConcentricCylindersCostAFewPairsATriangle) {
 TEST(PairWorkTest, FlushContactNeedsFewTriangles) {
   const Subject plate(box_mesh({0, 0, -8000}, {6000000, 4000000, 0}));
   const Subject box(box_mesh({500000, 500000, 0}, {700000, 900000, 1200000}));
-  PairWork work;
+  QueryContext work;
   EXPECT_EQ(meet(plate.treed(), box.treed(), work).meeting, Meeting::touching);
   EXPECT_LE(work.triangle_pairs, 4U);
   EXPECT_LE(work.node_pairs, 20U);
@@ -180,8 +180,8 @@ TEST(PairWorkTest, FansOfNeedlesCostAFewPairsATriangle) {
         const auto stand = [&](const IndexedMesh& m) { return askew ? turned(m, 0.4, 0.7) : m; };
         const Subject a(stand(pair.a)), b(stand(moved(pair.b, pair.shift)));
         const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
-        PairWork work;
-        const auto r = closest(a.treed(), b.treed(), 5000, work, askew ? 4 : 0);
+        QueryContext work;
+        const auto r = find_closest_pair(a.treed(), b.treed(), 5000, work, askew ? 4 : 0);
         ASSERT_TRUE(r);
         EXPECT_NEAR(r->distance, pair.distance, askew ? 4 : 0.001);
         EXPECT_LE(r->lower, r->distance);
@@ -189,7 +189,7 @@ TEST(PairWorkTest, FansOfNeedlesCostAFewPairsATriangle) {
         EXPECT_LE(work.triangle_pairs, 30 * triangles);
         EXPECT_LE(work.node_pairs, 20 * triangles);
         EXPECT_LE(work.exact_fallbacks, triangles / 4);
-        PairWork meeting;
+        QueryContext meeting;
         EXPECT_EQ(meet(a.treed(), b.treed(), meeting).meeting, pair.meeting);
         EXPECT_LE(meeting.triangle_pairs, 30 * triangles);
         EXPECT_LE(meeting.node_pairs, 20 * triangles);
@@ -200,9 +200,9 @@ TEST(PairWorkTest, TurnedFansAreAsFarApartAsAllTheirTriangles) {
   for (const FanPair& pair : fan_pairs(300)) {
     SCOPED_TRACE(pair.name);
     const Subject a(turned(pair.a, 0.4, 0.7)), b(turned(moved(pair.b, pair.shift), 0.4, 0.7));
-    PairWork work;
-    const auto exact = closest(a.treed(), b.treed(), 5000, work);
-    const auto quick = closest(a.treed(), b.treed(), 5000, work, 4);
+    QueryContext work;
+    const auto exact = find_closest_pair(a.treed(), b.treed(), 5000, work);
+    const auto quick = find_closest_pair(a.treed(), b.treed(), 5000, work, 4);
     ASSERT_TRUE(exact && quick);
     EXPECT_EQ(exact->lower, exact->distance);
     EXPECT_LE(quick->lower, exact->distance);
@@ -217,8 +217,8 @@ TEST(PairWorkTest, NeedlesThatTheSnapHasTurnedMakeAFlatFace) {
   for (const Vec3i& at : {Vec3i{0, 0, 3200}, Vec3i{5000, 9000, 3200}}) {
     const Subject a(turned(plate, 0.4, 0.7)), b(turned(moved(plate, at), 0.4, 0.7));
     const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
-    PairWork work;
-    const auto r = closest(a.treed(), b.treed(), 5000, work, 4);
+    QueryContext work;
+    const auto r = find_closest_pair(a.treed(), b.treed(), 5000, work, 4);
     ASSERT_TRUE(r);
     EXPECT_LE(r->lower, 200 + 2);
     EXPECT_GE(r->distance, 200 - 2);
@@ -233,16 +233,16 @@ TEST(PairWorkTest, AnyNeedlesWithinReachAreFoundSoon) {
     const IndexedMesh plate = cylinder(500000, 10000, 4096, 1);
     const Subject a(turned(plate, 0.4, 0.7)), b(turned(moved(plate, at), 0.4, 0.7));
     const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
-    PairWork work;
-    const auto near = any_within(a.treed(), b.treed(), 4, work);
+    QueryContext work;
+    const auto near = find_pair_within(a.treed(), b.treed(), 4, work);
     ASSERT_TRUE(near);
     EXPECT_LE(near->distance, 4);
-    const auto exact = closest(a.treed(), b.treed(), 5, work, 4);
+    const auto exact = find_closest_pair(a.treed(), b.treed(), 5, work, 4);
     ASSERT_TRUE(exact);
     EXPECT_GE(near->distance, exact->lower);
     // Nothing is found where nothing is.
     const Subject far(turned(moved(plate, at + Vec3i{0, 0, 200}), 0.4, 0.7));
-    EXPECT_FALSE(any_within(a.treed(), far.treed(), 4, work));
+    EXPECT_FALSE(find_pair_within(a.treed(), far.treed(), 4, work));
     EXPECT_LE(work.triangle_pairs, 90 * triangles);
     EXPECT_LE(work.node_pairs, 60 * triangles);
   }

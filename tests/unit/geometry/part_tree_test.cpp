@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/part_tree.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +7,11 @@
 #include <stop_token>
 #include <vector>
 
+#include "geometry/contact_regions/contact_regions.hpp"
+#include "geometry/obb/oriented_box.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/geometry/meeting_places.hpp"
-#include "strake/geometry/part_frame.hpp"
-#include "strake/geometry/vertex_tree.hpp"
+#include "strake/geometry/support_tree.hpp"
+#include "strake/geometry/triangle_bvh.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/part_builder.hpp"
 #include "support/revolved.hpp"
@@ -30,13 +29,13 @@ Part part_of(const TriangleMesh& mesh) {
 }
 
 /// Every triangle in one leaf, every box round what is below it.
-void expect_sound(const PartTree& tree, const Part& part) {
+void expect_sound(const TriangleBvh& tree, const Part& part) {
   ASSERT_FALSE(tree.nodes().empty());
   std::vector<int> seen(part.triangles.size(), 0);
   std::vector<std::uint32_t> todo{0};
   std::size_t visited = 0;
   while (!todo.empty()) {
-    const PartTree::Node& node = tree.nodes()[todo.back()];
+    const TriangleBvh::Node& node = tree.nodes()[todo.back()];
     todo.pop_back();
     ++visited;
     if (node.count == 0) {
@@ -48,7 +47,7 @@ void expect_sound(const PartTree& tree, const Part& part) {
       }
       continue;
     }
-    ASSERT_LE(node.count, PartTree::kLeafSize);
+    ASSERT_LE(node.count, TriangleBvh::kLeafSize);
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       ++seen[tree.order()[i]];
       for (const std::uint32_t v : part.triangles[tree.order()[i]])
@@ -59,53 +58,53 @@ void expect_sound(const PartTree& tree, const Part& part) {
   EXPECT_EQ(seen, std::vector<int>(part.triangles.size(), 1));
 }
 
-bool same(const PartTree& x, const PartTree& y) {
+bool same(const TriangleBvh& x, const TriangleBvh& y) {
   if (x.order() != y.order() || x.nodes().size() != y.nodes().size()) return false;
   for (std::size_t i = 0; i < x.nodes().size(); ++i) {
-    const PartTree::Node &p = x.nodes()[i], &q = y.nodes()[i];
+    const TriangleBvh::Node &p = x.nodes()[i], &q = y.nodes()[i];
     if (p.first != q.first || p.count != q.count || p.box.lo != q.box.lo || p.box.hi != q.box.hi)
       return false;
   }
   return true;
 }
 
-TEST(PartTree, IsSoundAndTheSameForAnyTeam) {
+TEST(TriangleBvh, IsSoundAndTheSameForAnyTeam) {
   // Few triangles, some, and so many that a team shares the work.
   for (const std::uint32_t rings : {2U, 5U, 40U, 150U}) {
     const Part part = part_of(test::bumpy_mesh(1000, 60, 12, rings));
-    const PartTree alone(part);
+    const TriangleBvh alone(part);
     expect_sound(alone, part);
     for (const unsigned threads : {1U, 2U, 3U, 8U}) {
       parallel::Team team(threads);
-      EXPECT_TRUE(same(PartTree(part, {.team = &team}), alone)) << rings << ", " << threads;
+      EXPECT_TRUE(same(TriangleBvh(part, {.team = &team}), alone)) << rings << ", " << threads;
     }
   }
 }
 
-TEST(PartTree, IsEmptyWhenItWasStopped) {
+TEST(TriangleBvh, IsEmptyWhenItWasStopped) {
   const Part part = part_of(test::sphere_mesh(1000, 150));
   const std::stop_source stop;
   stop.request_stop();
-  EXPECT_TRUE(PartTree(part, {.stop = stop.get_token()}).nodes().empty());
+  EXPECT_TRUE(TriangleBvh(part, {.stop = stop.get_token()}).nodes().empty());
 }
 
-TEST(VertexTree, OfManyPointsGivesTheirGreatest) {
+TEST(SupportTree, OfManyPointsGivesTheirGreatest) {
   const Part part = part_of(test::bumpy_mesh(1000, 60, 12, 190));
   parallel::Team team(3);
-  const VertexTree tree(part.vertices, {.team = &team});
+  const SupportTree tree(part.vertices, {.team = &team});
   for (const Vec3d& n : {Vec3d{1, 0, 0}, Vec3d{-0.3, 0.5, 0.8}, Vec3d{0, 0, -1}}) {
     double most = -1e300;
     for (const Vec3i& v : part.vertices) {
       const Vec3d p = v.as<double>();
       most = std::max(most, n.x * p.x + n.y * p.y + n.z * p.z);
     }
-    EXPECT_EQ(tree.greatest_along(n).value, most);
+    EXPECT_EQ(tree.support_along(n).value, most);
   }
 }
 
-TEST(VertexTree, FindsThePointsInABox) {
+TEST(SupportTree, FindsThePointsInABox) {
   const Part part = part_of(test::bumpy_mesh(1000, 60, 12, 60));
-  const VertexTree tree(part.vertices);
+  const SupportTree tree(part.vertices);
   const auto less = [](const Vec3i& x, const Vec3i& y) {
     return x.x != y.x ? x.x < y.x : x.y != y.y ? x.y < y.y : x.z < y.z;
   };
@@ -114,18 +113,18 @@ TEST(VertexTree, FindsThePointsInABox) {
     std::vector<Vec3i> expected;
     for (const Vec3i& v : part.vertices)
       if (box.contains({v.as<double>(), v.as<double>()})) expected.push_back(v);
-    std::vector<Vec3i> found = tree.some_within(box, part.vertices.size());
+    std::vector<Vec3i> found = tree.points_within(box, part.vertices.size());
     std::ranges::sort(expected, less);
     std::ranges::sort(found, less);
     EXPECT_EQ(found, expected);
-    EXPECT_EQ(tree.some_within(box, 5).size(), std::min<std::size_t>(5, expected.size()));
+    EXPECT_EQ(tree.points_within(box, 5).size(), std::min<std::size_t>(5, expected.size()));
   }
 }
 
-TEST(PartFrame, OfManyVerticesHoldsThemAllTightly) {
+TEST(OrientedBox, OfManyVerticesHoldsThemAllTightly) {
   const Part part = part_of(test::bumpy_mesh(1000, 60, 12, 60));
   ASSERT_GE(part.vertices.size(), kManyVertices);
-  const PartFrame frame = make_frame(part);
+  const OrientedBox frame = make_oriented_box(part);
   for (std::size_t i = 0; i < 3; ++i) {
     double lo = 1e300, hi = -1e300;
     for (const Vec3i& v : part.vertices) {
@@ -137,15 +136,15 @@ TEST(PartFrame, OfManyVerticesHoldsThemAllTightly) {
   }
 }
 
-TEST(PartFrame, CommonExtentIsTheSameByATree) {
+TEST(OrientedBox, CommonExtentIsTheSameByATree) {
   const Part large = part_of(test::bumpy_mesh(1000, 60, 12, 60));
   const Part small = part_of(test::bumpy_mesh(300, 10, 5, 8));
-  const PartTree tree(large);
-  const PartFrame f = make_frame(large), g = make_frame(small);
+  const TriangleBvh tree(large);
+  const OrientedBox f = make_oriented_box(large), g = make_oriented_box(small);
   for (const std::int64_t at : {0, 500'000, 900'000}) {
-    const FramedPart b{{&small, {at, at / 2, 0}}, &g};
-    const Box3d plain = common_extent({{&large, {}}, &f}, b, 1000);
-    const Box3d by_tree = common_extent({{&large, {}}, &f, &tree}, b, 1000);
+    const PartWithObb b{{&small, {at, at / 2, 0}}, &g};
+    const Box3d plain = overlap_extent({{&large, {}}, &f}, b, 1000);
+    const Box3d by_tree = overlap_extent({{&large, {}}, &f, &tree}, b, 1000);
     EXPECT_EQ(by_tree.lo, plain.lo);
     EXPECT_EQ(by_tree.hi, plain.hi);
   }

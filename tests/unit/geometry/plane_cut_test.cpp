@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What planes leave of parts: volumes, outlines and caps of bodies that are known.
-#include "strake/geometry/plane_cut.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/plane_section/plane_section.hpp"
 #include "support/lattice_scene.hpp"
 
 namespace strake::geometry {
@@ -28,11 +27,11 @@ double length(const std::vector<SectionLine>& lines) {
 }
 
 /// The area that an oriented rim surrounds, by its vector area along the normal.
-double area(const PartCut& cut, std::uint32_t plane, const Vec3l& normal) {
+double area(const PartSection& cut, std::uint32_t plane, const Vec3l& normal) {
   const Vec3d n = normal.as<double>();
   const Vec3d unit = n * (1 / std::sqrt(dot(n, n)));
   double twice = 0;
-  for (const Segment& s : rim_of_caps(cut, plane))
+  for (const Segment& s : cap_boundary(cut, plane))
     twice += dot(cross(s[0].as<double>(), s[1].as<double>()), unit);
   return twice / 2;
 }
@@ -69,7 +68,7 @@ std::vector<Vec3i> circle(std::uint32_t sides, double radius, std::int32_t z = 0
 
 TEST(PlaneCut, BoxIsABoxOfItsRestAndItsOutlineFourLines) {
   const CutPlane plane{{0, 0, 1}, 300};
-  const PartCut half = cut(box({0, 0, 0}, {1000, 2000, 500}), {&plane, 1});
+  const PartSection half = cut(box({0, 0, 0}, {1000, 2000, 500}), {&plane, 1});
   EXPECT_EQ(half.part.kind, PartKind::solid);
   EXPECT_EQ(half.part.volume, 1000.0 * 2000 * 300);
   EXPECT_EQ(half.part.box, (Box3i{{0, 0, 0}, {1000, 2000, 300}}));
@@ -81,11 +80,11 @@ TEST(PlaneCut, BoxIsABoxOfItsRestAndItsOutlineFourLines) {
 
 TEST(PlaneCut, FaceInThePlaneIsTheCutAndWhatStandsOnItGoes) {
   const CutPlane plane{{0, 0, 1}, 500};
-  const PartCut below = cut(box({0, 0, 0}, {1000, 2000, 500}), {&plane, 1});
+  const PartSection below = cut(box({0, 0, 0}, {1000, 2000, 500}), {&plane, 1});
   EXPECT_EQ(below.part.volume, 1e9);
   EXPECT_EQ(below.lines.size(), 4U);
   EXPECT_EQ(area(below, 0, plane.normal), 2e6);
-  const PartCut above = cut(box({0, 0, 500}, {1000, 2000, 900}), {&plane, 1});
+  const PartSection above = cut(box({0, 0, 500}, {1000, 2000, 900}), {&plane, 1});
   EXPECT_TRUE(above.part.triangles.empty());
   EXPECT_TRUE(above.lines.empty());
   // The other way round the same faces are the other boxes' lower ones.
@@ -97,7 +96,7 @@ TEST(PlaneCut, FaceInThePlaneIsTheCutAndWhatStandsOnItGoes) {
 TEST(PlaneCut, ThroughAnEdgeAndThroughAVertex) {
   // Diagonally through two edges of a cube.
   const CutPlane diagonal{{1, 1, 0}, 1000};
-  const PartCut half = cut(box({0, 0, 0}, {1000, 1000, 1000}), {&diagonal, 1});
+  const PartSection half = cut(box({0, 0, 0}, {1000, 1000, 1000}), {&diagonal, 1});
   EXPECT_EQ(half.part.volume, 5e8);
   EXPECT_EQ(half.lines.size(), 4U);
   EXPECT_NEAR(length(half.lines), 2000 + 2000 * std::sqrt(2.0), 1e-6);
@@ -105,7 +104,7 @@ TEST(PlaneCut, ThroughAnEdgeAndThroughAVertex) {
   // A hexagon round the middle, and a triangle through three vertices.
   const CutPlane middle{{1, 1, 1}, 1500}, corner{{1, 1, 1}, 1000};
   EXPECT_EQ(cut(box({0, 0, 0}, {1000, 1000, 1000}), {&middle, 1}).lines.size(), 6U);
-  const PartCut tip = cut(box({0, 0, 0}, {1000, 1000, 1000}), {&corner, 1});
+  const PartSection tip = cut(box({0, 0, 0}, {1000, 1000, 1000}), {&corner, 1});
   EXPECT_NEAR(tip.part.volume, 1e9 / 6, 1);
   EXPECT_EQ(tip.lines.size(), 3U);
   // Planes that only touch.
@@ -123,14 +122,14 @@ TEST(PlaneCut, PipeHasTwoOutlinesAndTheAreaOfItsWall) {
   const Part part = test::make_part(pipe);
   ASSERT_EQ(part.kind, PartKind::solid);
   const CutPlane plane{{0, 0, 1}, 123456};
-  const PartCut ring = cut(part, {&plane, 1});
+  const PartSection ring = cut(part, {&plane, 1});
   const double angle = 2 * std::acos(-1.0) / kSides;
   EXPECT_NEAR(length(ring.lines), kSides * 2 * std::sin(angle / 2) * 180000, 2 * kSides);
   EXPECT_NEAR(area(ring, 0, plane.normal), kSides * std::sin(angle) / 2 * (1e10 - 6.4e9), 1e6);
   EXPECT_EQ(ring.lines.size(), 2 * kSides);
   // Along the axis: two walls.
   const CutPlane lengthwise{{0, 1, 0}, 0};
-  const PartCut walls = cut(part, {&lengthwise, 1});
+  const PartSection walls = cut(part, {&lengthwise, 1});
   EXPECT_NEAR(area(walls, 0, lengthwise.normal), 2 * 20000.0 * 400000, 1e4);
   EXPECT_EQ(walls.open_ends, 0U);
 }
@@ -143,14 +142,14 @@ TEST(PlaneCut, WhatOverlapsItselfIsFilledOnceWhereItIsDouble) {
             false);
   const Part part = test::make_part(crossed);
   const CutPlane plane{{0, 0, 1}, 2500};
-  const PartCut both = cut(part, {&plane, 1});
+  const PartSection both = cut(part, {&plane, 1});
   EXPECT_EQ(both.not_filled, 0U);
   EXPECT_EQ(area(both, 0, plane.normal), 3e6 + 3e6 - 1e6);
 }
 
 TEST(PlaneCut, TwoPlanesCutEachOthersCaps) {
   const std::array<CutPlane, 2> planes{CutPlane{{0, 0, 1}, 600}, CutPlane{{1, 0, 0}, 400}};
-  const PartCut corner = cut(box({0, 0, 0}, {1000, 1000, 1000}), planes);
+  const PartSection corner = cut(box({0, 0, 0}, {1000, 1000, 1000}), planes);
   EXPECT_EQ(corner.part.volume, 400.0 * 1000 * 600);
   EXPECT_EQ(area(corner, 0, planes[0].normal), 400.0 * 1000);
   EXPECT_EQ(area(corner, 1, planes[1].normal), 600.0 * 1000);
@@ -161,12 +160,12 @@ TEST(PlaneCut, SheetsAreCutToLinesAndTheirLooseEndsCounted) {
   sheet.vertices = {{0, 0, 0}, {1000, 0, 0}, {1000, 0, 1000}, {0, 0, 1000}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
   const CutPlane plane{{0, 0, 1}, 400};
-  const PartCut left = cut(test::make_part(sheet), {&plane, 1});
+  const PartSection left = cut(test::make_part(sheet), {&plane, 1});
   EXPECT_EQ(left.part.kind, PartKind::sheet);
   EXPECT_EQ(left.lines.size(), 1U);
   EXPECT_EQ(length(left.lines), 1000);
   EXPECT_EQ(left.open_ends, 2U);
-  EXPECT_TRUE(rim_of_caps(left, 0).empty());
+  EXPECT_TRUE(cap_boundary(left, 0).empty());
 }
 
 TEST(PlaneCut, SolidThatDoesNotCloseIsCountedNotFilled) {
@@ -175,7 +174,7 @@ TEST(PlaneCut, SolidThatDoesNotCloseIsCountedNotFilled) {
   triangles.pop_back();
   part.triangles = triangles;
   const CutPlane plane{{0, 0, 1}, 400};
-  const PartCut left = cut(part, {&plane, 1});
+  const PartSection left = cut(part, {&plane, 1});
   EXPECT_EQ(left.not_filled, 1U);
   EXPECT_FALSE(left.lines.empty());
 }
@@ -184,7 +183,7 @@ TEST(PlaneCut, WiresAreCutWhereTheyPass) {
   HandPart wire;
   wire.chains = {{{0, 0, 0}, {0, 0, 1000}, {500, 0, 1000}, {500, 0, 0}}};
   const CutPlane plane{{0, 0, 1}, 300};
-  const PartCut left = cut(test::make_part(wire), {&plane, 1});
+  const PartSection left = cut(test::make_part(wire), {&plane, 1});
   EXPECT_EQ(left.part.chain_first, (std::vector<std::uint32_t>{0, 2, 4}));
   EXPECT_EQ(left.part.vertices[1], (Vec3i{0, 0, 300}));
 }
@@ -201,7 +200,7 @@ TEST(PlaneCut, HalvesOfLatticeBodiesAddUp) {
     for (const model::GridShape& shape : scene.scene().shapes)
       for (const Part& part : shape.parts) {
         if (part.kind != PartKind::solid || part.flags.non_manifold) continue;
-        const PartCut below = cut(part, {&plane, 1}), above = cut(part, {&turned, 1});
+        const PartSection below = cut(part, {&plane, 1}), above = cut(part, {&turned, 1});
         // Lattice parts come without their volume: a plane far away makes it.
         const CutPlane beyond{{0, 0, 1}, 1 << 20};
         const double whole = cut(part, {&beyond, 1}).part.volume;

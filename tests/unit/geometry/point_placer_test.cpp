@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points in bodies with faces of many needles: by the turned frame as without it, and at a cost
 // that does not grow with the needles.
-#include "geometry/point_placer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/distance/point_location.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/draw.hpp"
 #include "support/part_builder.hpp"
@@ -60,7 +59,7 @@ void shuffle_triangles(IndexedMesh& mesh, Draw& draw) {
     std::swap(mesh.triangles[i - 1], mesh.triangles[draw.below(i)]);
 }
 
-TEST(PointPlacer, ATurnedFrameGivesTheSamePlaces) {
+TEST(PointLocator, ATurnedFrameGivesTheSamePlaces) {
   const int rounds = test::rounds(8, 200);
   std::array<int, 3> seen{};
   for (int round = 0; round < rounds; ++round) {
@@ -84,65 +83,65 @@ TEST(PointPlacer, ATurnedFrameGivesTheSamePlaces) {
       const Vec3d p = turn * Vec3d{r * std::cos(angle), r * std::sin(angle), z};
       points.push_back({std::llround(p.x), std::llround(p.y), std::llround(p.z)});
     }
-    PointPlacer plain(drum.treed(), band, nullptr), turned(drum.treed(), band, &*frame);
-    PairWork work;
+    PointLocator plain(drum.treed(), band, nullptr), turned(drum.treed(), band, &*frame);
+    QueryContext work;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const PointPlace place = plain.place(points[i], work);
-      ++seen[static_cast<std::size_t>(place)];
-      ASSERT_EQ(turned.place(points[i], work), place) << "round " << round << ", point " << i;
+      const BandLocation location = plain.location(points[i], work);
+      ++seen[static_cast<std::size_t>(location)];
+      ASSERT_EQ(turned.location(points[i], work), location) << "round " << round << ", point " << i;
       const double apart = distance_to_surface(drum.treed(), points[i].as<double>());
-      ASSERT_EQ(place == PointPlace::near_skin, apart <= band);
+      ASSERT_EQ(location == BandLocation::near_surface, apart <= band);
     }
   }
   for (const int times : seen) EXPECT_GT(times, 100 * rounds);
 }
 
 /// The work of finding a drum, flush with another at one end, in that.
-PairWork work_of_flush_drums(std::uint32_t sides, bool shuffled) {
+QueryContext work_of_flush_drums(std::uint32_t sides, bool shuffled) {
   Draw draw(sides);
   const Mat3d turn = draw.rotation();
   IndexedMesh around = drum_mesh({sides, 500000, 0, 10000, 0}, turn);
   if (shuffled) shuffle_triangles(around, draw);
   const Subject a(drum_mesh({sides, 400000, 0, 6000, 1.0 / sides}, turn)), b(around);
-  PairWork work;
-  const PartCover cover = cover_by(a.treed(), b.treed(), 3, work);
+  QueryContext work;
+  const ToleranceContainment cover = containment_within(a.treed(), b.treed(), 3, work);
   EXPECT_TRUE(cover.within);
   EXPECT_FALSE(cover.on_surface);
   return work;
 }
 
-TEST(PointPlacer, NeedlesOfAFlushFaceCostEachVertexLittle) {
+TEST(PointLocator, NeedlesOfAFlushFaceCostEachVertexLittle) {
   for (const bool shuffled : {false, true})
     for (const std::uint32_t sides : {1000U, 8000U})
       EXPECT_LE(work_of_flush_drums(sides, shuffled).node_pairs, 400 * sides) << sides;
 }
 
-TEST(PointPlacer, AVertexOutsideIsFoundAmongInsideOnes) {
+TEST(PointLocator, AVertexOutsideIsFoundAmongInsideOnes) {
   const Mat3d turn = Draw(7).rotation();
   const Subject b(drum_mesh({2000, 500000, 0, 10000, 0}, turn));
   IndexedMesh mesh = drum_mesh({2000, 400000, 0, 6000, 0.0003}, turn);
-  PairWork work;
-  EXPECT_TRUE(cover_by(Subject(mesh).treed(), b.treed(), 3, work).within);
+  QueryContext work;
+  EXPECT_TRUE(containment_within(Subject(mesh).treed(), b.treed(), 3, work).within);
   const Vec3d p = turn * Vec3d{400000, 0, -10};
   mesh.vertices[3] = {static_cast<std::int32_t>(std::lround(p.x)),
                       static_cast<std::int32_t>(std::lround(p.y)),
                       static_cast<std::int32_t>(std::lround(p.z))};
-  EXPECT_FALSE(cover_by(Subject(mesh).treed(), b.treed(), 3, work).within);
+  EXPECT_FALSE(containment_within(Subject(mesh).treed(), b.treed(), 3, work).within);
 }
 
-TEST(PointPlacer, ATeamFindsTheSameAtTheSameCost) {
+TEST(PointLocator, ATeamFindsTheSameAtTheSameCost) {
   const Mat3d turn = Draw(9).rotation();
   const Subject b(drum_mesh({3000, 500000, 0, 10000, 0}, turn));
   const Subject a(drum_mesh({35000, 400000, 0, 6000, 0.0003}, turn));
-  PairWork alone;
-  const PartCover cover = cover_by(a.treed(), b.treed(), 3, alone);
+  QueryContext alone;
+  const ToleranceContainment cover = containment_within(a.treed(), b.treed(), 3, alone);
   EXPECT_TRUE(cover.within);
   for (const unsigned threads : {2U, 3U, 8U}) {
     parallel::Team team(threads);
     const parallel::Context context{.team = &team};
-    PairWork work;
+    QueryContext work;
     work.team = &context;
-    EXPECT_EQ(cover_by(a.treed(), b.treed(), 3, work).within, cover.within);
+    EXPECT_EQ(containment_within(a.treed(), b.treed(), 3, work).within, cover.within);
     EXPECT_EQ(work.node_pairs, alone.node_pairs) << threads;
   }
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geometry/depth/radius_lp.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,14 +11,14 @@
 
 #include "../../support/depth_subjects.hpp"
 #include "../../support/draw.hpp"
-#include "geometry/depth/radius_simplex.hpp"
+#include "geometry/interior_depth/bounds/inscribed_ball.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
 namespace {
 
 /// Half-spaces of an axis-aligned box; weight 1 bounds the ball, weight 0 its centre.
-void add_box(std::vector<RadiusConstraint>& rows, const Box3d& box, double weight) {
+void add_box(std::vector<BallConstraint>& rows, const Box3d& box, double weight) {
   for (int k = 0; k < 3; ++k) {
     Vec3d n;
     n[k] = 1;
@@ -30,8 +28,8 @@ void add_box(std::vector<RadiusConstraint>& rows, const Box3d& box, double weigh
   }
 }
 
-std::vector<RadiusConstraint> ball_in_box(const Box3d& box) {
-  std::vector<RadiusConstraint> rows;
+std::vector<BallConstraint> ball_in_box(const Box3d& box) {
+  std::vector<BallConstraint> rows;
   for (const Vec3d& n : tetrahedral_directions()) {
     double support = -1e300;
     for (unsigned i = 0; i < 8; ++i)
@@ -54,7 +52,8 @@ TEST(RadiusLp, TetrahedralDirectionsAreDualFeasible) {
 }
 
 TEST(RadiusLp, BallInABoxIsHalfItsShortestSide) {
-  const RadiusSolution s = maximise_radius({ball_in_box({{-300, -20, -7}, {100, 30, 11}}), 1000});
+  const InscribedBall s =
+      largest_inscribed_ball({ball_in_box({{-300, -20, -7}, {100, 30, 11}}), 1000});
   EXPECT_TRUE(s.optimal);
   EXPECT_NEAR(s.r, 9, 1e-9);
   EXPECT_NEAR(s.x.z, 2, 1e-9);
@@ -66,7 +65,7 @@ TEST(RadiusLp, CentreHeldInAnotherBox) {
   // Walls 200 thick that overlap by 50 at their ends: the centre may go 50 deep.
   auto rows = ball_in_box({{0, -100, 0}, {3000, 100, 2500}});
   add_box(rows, {{2950, -100, 0}, {5950, 100, 2500}}, 0);
-  const RadiusSolution s = maximise_radius({rows, 6000});
+  const InscribedBall s = largest_inscribed_ball({rows, 6000});
   EXPECT_TRUE(s.optimal);
   EXPECT_NEAR(s.r, 50, 1e-9);
   EXPECT_NEAR(s.x.x, 2950, 1e-9);
@@ -75,7 +74,7 @@ TEST(RadiusLp, CentreHeldInAnotherBox) {
 TEST(RadiusLp, BodiesApartHaveANegativeRadius) {
   auto rows = ball_in_box({{0, 0, 0}, {10, 10, 10}});
   add_box(rows, {{20, 20, 20}, {30, 30, 30}}, 0);
-  const RadiusSolution s = maximise_radius({rows, 100});
+  const InscribedBall s = largest_inscribed_ball({rows, 100});
   EXPECT_TRUE(s.optimal);
   EXPECT_LT(s.upper, -9.9);
 }
@@ -83,19 +82,19 @@ TEST(RadiusLp, BodiesApartHaveANegativeRadius) {
 TEST(RadiusLp, ContradictionEndsWithoutAnOptimum) {
   auto rows = ball_in_box({{0, 0, 0}, {10, 10, 10}});
   add_box(rows, {{6, 0, 0}, {4, 10, 10}}, 0);
-  const RadiusSolution s = maximise_radius({rows, 100});
+  const InscribedBall s = largest_inscribed_ball({rows, 100});
   EXPECT_FALSE(s.optimal);
 }
 
 TEST(RadiusLp, AContradictionIsProvedAndNothingElse) {
   const auto rows = ball_in_box({{0, 0, 0}, {10, 10, 10}});
   const auto after = [&](double least_x) {
-    const std::span<const RadiusConstraint> all = rows;
-    RadiusSimplex simplex(all.first<4>(), 100);
+    const std::span<const BallConstraint> all = rows;
+    DualSimplex simplex(all.first<4>(), 100);
     EXPECT_TRUE(simplex.load());
     EXPECT_TRUE(simplex.exchange({{1, 0, 0}, 0, 4}, 4));
     EXPECT_TRUE(simplex.load());
-    const RadiusConstraint opposite{{-1, 0, 0}, 0, -least_x};
+    const BallConstraint opposite{{-1, 0, 0}, 0, -least_x};
     return std::pair(simplex.exchange(opposite, 5), simplex.proves_empty(opposite));
   };
   EXPECT_EQ(after(6), std::pair(false, true));
@@ -119,9 +118,9 @@ TEST(RadiusLp, EqualsTheBestVertexOfSmallProblems) {
       if (n == Vec3d{}) continue;
       rows.push_back({n, i % 2 == 0 ? std::sqrt(dot(n, n)) : 0, 60 + draw(60)});
     }
-    const RadiusSolution s = maximise_radius({rows, 1000});
+    const InscribedBall s = largest_inscribed_ball({rows, 1000});
     if (!s.optimal) continue;
-    for (const RadiusConstraint& c : rows)
+    for (const BallConstraint& c : rows)
       EXPECT_LE(dot(c.normal, s.x) + c.weight * s.r, c.offset + 1e-6) << "seed " << seed;
     EXPECT_NEAR(s.upper, s.r, 1e-6) << "seed " << seed;
     EXPECT_GE(s.upper, s.r - 1e-9) << "seed " << seed;
@@ -129,7 +128,7 @@ TEST(RadiusLp, EqualsTheBestVertexOfSmallProblems) {
     for (int i = 0; i < 200; ++i) {
       const Vec3d x{draw(70), draw(70), draw(70)};
       double r = 1e300;
-      for (const RadiusConstraint& c : rows) {
+      for (const BallConstraint& c : rows) {
         const double room = c.offset - dot(c.normal, x);
         r = c.weight > 0 ? std::min(r, room / c.weight) : room < 0 ? -1e300 : r;
         if (r == -1e300) break;
@@ -141,7 +140,7 @@ TEST(RadiusLp, EqualsTheBestVertexOfSmallProblems) {
 
 /// The planes of a long box, turned and snapped: two triangles of each face, a little askew to each
 /// other, that hold the ball's centre, and the same twice over for the ball of two equal bodies.
-std::vector<RadiusConstraint> most_central_of_equals(std::uint64_t seed, double inset) {
+std::vector<BallConstraint> most_central_of_equals(std::uint64_t seed, double inset) {
   const Mat3d turn = test::Draw(seed).rotation();
   testing::IndexedMesh mesh = testing::box_mesh({}, {3'000'000, 600'000, 320'000});
   for (Vec3i& v : mesh.vertices) {
@@ -154,7 +153,7 @@ std::vector<RadiusConstraint> most_central_of_equals(std::uint64_t seed, double 
     for (const Vec3i& v : mesh.vertices) most = std::max(most, dot(n, v.as<double>()));
     return most;
   };
-  std::vector<RadiusConstraint> rows, planes;
+  std::vector<BallConstraint> rows, planes;
   for (const Vec3d& n : tetrahedral_directions()) rows.push_back({n, 1, support(n)});
   for (const auto& t : mesh.triangles) {
     const auto at = [&](std::size_t i) { return mesh.vertices[t[i]].as<double>(); };
@@ -162,7 +161,7 @@ std::vector<RadiusConstraint> most_central_of_equals(std::uint64_t seed, double 
     n = n * (1 / std::sqrt(dot(n, n)));
     planes.push_back({n, 1, support(n)});
   }
-  for (const RadiusConstraint& p : planes) rows.push_back({p.normal, 0, p.offset - inset});
+  for (const BallConstraint& p : planes) rows.push_back({p.normal, 0, p.offset - inset});
   for (int body = 0; body < 2; ++body) rows.insert(rows.end(), planes.begin(), planes.end());
   return rows;
 }
@@ -170,7 +169,8 @@ std::vector<RadiusConstraint> most_central_of_equals(std::uint64_t seed, double 
 TEST(RadiusLp, EndsWherePlanesAreNearlyTheSame) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed)
     for (const double deep : {0.0, 159'000.0, 159'998.0}) {
-      const RadiusSolution s = maximise_radius({most_central_of_equals(seed, deep), 3'000'000});
+      const InscribedBall s =
+          largest_inscribed_ball({most_central_of_equals(seed, deep), 3'000'000});
       EXPECT_LT(s.steps, 40) << "seed " << seed << ", " << deep << " deep";
       EXPECT_NEAR(s.r, 160'000, 4) << "seed " << seed;
     }

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/analyse/junctions.hpp"
-#include "strake/geometry/analyse.hpp"
-#include "strake/geometry/place.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
+#include "geometry/mesh_repair/snap_to_grid.hpp"
+#include "geometry/mesh_repair/t_junctions.hpp"
 #include "support/rounds.hpp"
 #include "support/slivers.hpp"
 
@@ -66,12 +66,12 @@ Cut cut(const std::vector<Vec3i>& vertices, const std::vector<Triangle>& triangl
   std::erase_if(mesh.triangles, [&](const Triangle& t) { return !has_area(part, t); });
   TopologyScratch scratch;
   const Topology topology = make_topology(vertices.size(), mesh.triangles, scratch);
-  return {mesh.triangles, cut_at_junctions(mesh, topology)};
+  return {mesh.triangles, split_at_t_junctions(mesh, topology)};
 }
 
 /// One solid with the skin of the cube, each edge between two triangles.
 void expect_cube(const GridMesh& mesh, double volume = kVolume, double area = 6e12) {
-  const MeshAnalysis a = analyse(mesh);
+  const RepairedMesh a = repair_mesh(mesh);
   ASSERT_EQ(a.parts.size(), 1U);
   const Part& p = a.parts[0];
   EXPECT_EQ(p.kind, PartKind::solid);
@@ -87,7 +87,7 @@ void expect_cube(const GridMesh& mesh, double volume = kVolume, double area = 6e
 TEST(Seams, CornerOnAnEdgeOfAnother) {
   GridMesh mesh = cube();
   split_at(mesh, {0, 0, kSize}, {kSize, 0, kSize}, {kSize / 2, 0, kSize});
-  const MeshAnalysis a = analyse(mesh);
+  const RepairedMesh a = repair_mesh(mesh);
   EXPECT_EQ(a.findings.degenerate_triangles, 1U);
   EXPECT_EQ(a.findings.cut_triangles, 1U);
   EXPECT_EQ(a.parts.at(0).triangles.size(), 14U);
@@ -104,7 +104,7 @@ TEST(Seams, FlatOnlyAfterTheSnap) {
   *top = {4, m, 7};
   mesh.triangles.push_back({m, 5, 7});
   mesh.triangles.push_back({4, 5, m});
-  const auto placed = place(mesh, {});
+  const auto placed = snap_to_grid(mesh, {});
   ASSERT_TRUE(placed.has_value());
   expect_cube(placed->mesh);
 }
@@ -118,11 +118,11 @@ TEST(Seams, SeveralOnOneEdgeFromBothSides) {
   split_at(mesh, on(100'000), on(500'000), on(300'000));
   split_at(mesh, c, a, on(700'000));
   split_at(mesh, on(700'000), a, on(300'000));  // where the other side has one too
-  EXPECT_EQ(analyse(mesh).findings.degenerate_triangles, 5U);
+  EXPECT_EQ(repair_mesh(mesh).findings.degenerate_triangles, 5U);
   expect_cube(mesh);
   // A needle that folds back lies in the face: a surface of its own beside the solid.
   split_at(mesh, on(300'000), a, on(300'100));
-  const MeshAnalysis found = analyse(mesh);
+  const RepairedMesh found = repair_mesh(mesh);
   EXPECT_EQ(found.parts.at(0).kind, PartKind::solid);
   EXPECT_DOUBLE_EQ(found.parts[0].volume, kVolume);
   for (std::size_t i = 1; i < found.parts.size(); ++i) EXPECT_LT(found.parts[i].area, 1e-3 * 6e12);
@@ -137,7 +137,7 @@ TEST(Seams, FanAlongOneEdge) {
     split_at(mesh, {0, 0, kSize}, far, at);
     far = at;
   }
-  EXPECT_EQ(analyse(mesh).findings.cut_triangles, 1U);
+  EXPECT_EQ(repair_mesh(mesh).findings.cut_triangles, 1U);
   expect_cube(mesh);
 }
 
@@ -150,7 +150,7 @@ TEST(Seams, AllThreeSidesOfATriangle) {
     const Vec3i quarter{a.x + (c.x - a.x) / 4, a.y + (c.y - a.y) / 4, a.z + (c.z - a.z) / 4};
     split_at(mesh, c, a, quarter);
   }
-  const MeshAnalysis found = analyse(mesh);
+  const RepairedMesh found = repair_mesh(mesh);
   EXPECT_EQ(found.findings.cut_triangles, 1U);
   EXPECT_EQ(found.parts.at(0).triangles.size(), 18U);
   expect_cube(mesh);
@@ -184,7 +184,7 @@ TEST(Seams, ClosedStripRoundABody) {
     mesh.triangles.push_back({rings[0], rings[0] + i + 1, rings[0] + i});
     mesh.triangles.push_back({rings[3], rings[3] + i, rings[3] + i + 1});
   }
-  EXPECT_GE(analyse(mesh).findings.degenerate_triangles, 16U);
+  EXPECT_GE(repair_mesh(mesh).findings.degenerate_triangles, 16U);
   expect_cube(mesh);
 }
 
@@ -199,7 +199,7 @@ TEST(Seams, NeedlesThatFoldBackLeaveASolid) {
     // Beyond the far end of the side: the thin triangle runs there and back.
     split_and_seal(folded, seal, k,
                    {a.x + (c.x - a.x) * 2, a.y + (c.y - a.y) * 2, a.z + (c.z - a.z) * 2});
-    const MeshAnalysis found = analyse(folded);
+    const RepairedMesh found = repair_mesh(folded);
     ASSERT_EQ(found.parts.size(), 1U) << k;
     EXPECT_EQ(found.parts[0].kind, PartKind::solid);
     EXPECT_DOUBLE_EQ(found.parts[0].volume, kVolume);
@@ -211,14 +211,14 @@ TEST(Seams, WhatSealsNothingIsOnlyLeftOut) {
   mesh.vertices.push_back({kSize / 2, 0, 0});
   mesh.triangles.push_back({0, 8, 1});
   mesh.triangles.push_back({0, 0, 5});
-  const MeshAnalysis a = analyse(mesh);
+  const RepairedMesh a = repair_mesh(mesh);
   EXPECT_EQ(a.findings.degenerate_triangles, 2U);
   EXPECT_EQ(a.findings.cut_triangles, 0U);
   EXPECT_EQ(a.parts.at(0).triangles.size(), 12U);
   // At the rim of a surface as well.
   mesh.triangles.erase(mesh.triangles.begin());
-  EXPECT_EQ(analyse(mesh).findings.cut_triangles, 0U);
-  EXPECT_EQ(analyse(mesh).parts.at(0).kind, PartKind::sheet);
+  EXPECT_EQ(repair_mesh(mesh).findings.cut_triangles, 0U);
+  EXPECT_EQ(repair_mesh(mesh).parts.at(0).kind, PartKind::sheet);
 }
 
 TEST(Seams, SkinsDrawnFromBothSidesAndInsideOut) {
@@ -226,13 +226,13 @@ TEST(Seams, SkinsDrawnFromBothSidesAndInsideOut) {
   split_at(mesh, {0, 0, kSize}, {kSize, 0, kSize}, {kSize / 2, 0, kSize});
   GridMesh inside_out = mesh;
   for (Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
-  const MeshAnalysis turned = analyse(inside_out);
+  const RepairedMesh turned = repair_mesh(inside_out);
   EXPECT_TRUE(turned.parts.at(0).flags.inverted);
   EXPECT_DOUBLE_EQ(turned.parts.at(0).volume, kVolume);
   GridMesh both = mesh;
   both.triangles.insert(both.triangles.end(), inside_out.triangles.begin(),
                         inside_out.triangles.end());
-  const MeshAnalysis a = analyse(both);
+  const RepairedMesh a = repair_mesh(both);
   ASSERT_EQ(a.parts.size(), 1U);
   EXPECT_EQ(a.parts[0].kind, PartKind::solid);
   EXPECT_EQ(a.findings.two_sided_shells, 1U);
@@ -245,7 +245,7 @@ TEST(Seams, FacesGoWithTheirPieces) {
   GridMesh mesh = cube();
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) mesh.faces.push_back(i / 2);
   split_at(mesh, {0, 0, kSize}, {kSize, 0, kSize}, {kSize / 2, 0, kSize});
-  const Part part = analyse(mesh).parts.at(0);
+  const Part part = repair_mesh(mesh).parts.at(0);
   ASSERT_EQ(part.faces.size(), part.triangles.size());
   std::map<std::uint32_t, int> count;
   for (const std::uint32_t f : part.faces) ++count[f];
@@ -258,11 +258,11 @@ TEST(Seams, OneThatLosesAndGainsATriangleIsNotHeldForPlain) {
   split_at(mesh, {0, 0, kSize}, {kSize, 0, kSize}, {kSize / 2, 0, kSize});
   GridMesh raised = mesh;
   raised.vertices.back().z += 1;
-  MeshAnalyser analyser;
-  for (int round = 0; round < 3; ++round) (void)analyser.analyse(mesh);
-  const MeshAnalysis a = analyser.analyse(raised);
+  MeshRepairer analyser;
+  for (int round = 0; round < 3; ++round) (void)analyser.repair_mesh(mesh);
+  const RepairedMesh a = analyser.repair_mesh(raised);
   EXPECT_EQ(a.findings.degenerate_triangles, 0U);
-  EXPECT_EQ(a.parts.at(0).triangles, analyse(raised).parts.at(0).triangles);
+  EXPECT_EQ(a.parts.at(0).triangles, repair_mesh(raised).parts.at(0).triangles);
 }
 
 using EdgeSums = std::map<std::pair<std::uint32_t, std::uint32_t>, int>;
@@ -322,7 +322,7 @@ TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
     // No solid has lost its skin to it.
     mesh.vertices = vertices;
     mesh.triangles = triangles;
-    for (const Part& p : analyse(mesh).parts) {
+    for (const Part& p : repair_mesh(mesh).parts) {
       const EdgeSums rims =
           unbalanced(std::vector<Triangle>(p.triangles.begin(), p.triangles.end()));
       EXPECT_TRUE(p.kind == PartKind::sheet || rims.empty());
@@ -333,7 +333,7 @@ TEST(Seams, WhatIsClosedStaysClosedWhateverCollapses) {
     const auto again = cut(vertices, mesh.triangles).after;
     ASSERT_TRUE(again.has_value());
     const GridMesh one{vertices, seamless->triangles, {}}, other{vertices, again->triangles, {}};
-    const MeshAnalysis a = analyse(one), b = analyse(other);
+    const RepairedMesh a = repair_mesh(one), b = repair_mesh(other);
     ASSERT_EQ(a.parts.size(), b.parts.size());
     for (std::size_t i = 0; i < a.parts.size(); ++i)
       EXPECT_EQ(a.parts[i].triangles, b.parts[i].triangles);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solids that all but touch, parted by moves of their corners.
-#include "geometry/depth/shrink.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 
 #include "../../support/depth_subjects.hpp"
 #include "../../support/draw.hpp"
+#include "geometry/interior_depth/bounds/separating_displacement.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {
@@ -38,9 +37,10 @@ IndexedMesh filling(std::int32_t from, std::int32_t to, std::int32_t over) {
   return box_mesh({from, kWall - over, kWall - over}, {to, kWidth - kWall + over, kHeight});
 }
 
-std::optional<Shrunk> shrunk(const Subject& a, const Subject& b, double most = kMost) {
-  PairWork work;
-  return shrink_apart(a.treed(), b.treed(), most, most, work);
+std::optional<SeparatingDisplacement> shrunk(const Subject& a, const Subject& b,
+                                             double most = kMost) {
+  QueryContext work;
+  return find_separating_displacement(a.treed(), b.treed(), most, most, work);
 }
 
 /// No point of the grid round the corners of either is deeper than what was proved.

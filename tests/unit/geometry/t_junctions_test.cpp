@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "geometry/analyse/junctions.hpp"
-#include "strake/geometry/analyse.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
+#include "geometry/mesh_repair/t_junctions.hpp"
 #include "support/grid_bodies.hpp"
 #include "support/rounds.hpp"
 
@@ -51,7 +51,7 @@ double length_of_rim(const Part& part) {
 
 /// The same solid as the mesh before its sides were split: nothing has moved and all edges match.
 void expect_closed(const GridMesh& mesh, const Part& whole) {
-  const MeshAnalysis found = analyse(mesh);
+  const RepairedMesh found = repair_mesh(mesh);
   ASSERT_EQ(found.parts.size(), 1U);
   const Part& part = found.parts[0];
   EXPECT_EQ(part.kind, PartKind::solid);
@@ -70,7 +70,7 @@ void expect_closed(const GridMesh& mesh, const Part& whole) {
   }
   // What was cut is whole now.
   const GridMesh again{part.vertices, part.triangles.to_vector(), {}};
-  EXPECT_EQ(analyse(again).findings.cut_triangles, 0U);
+  EXPECT_EQ(repair_mesh(again).findings.cut_triangles, 0U);
 }
 
 TEST(TJunctions, ACornerOnTheEdgeOfAnother) {
@@ -78,16 +78,16 @@ TEST(TJunctions, ACornerOnTheEdgeOfAnother) {
   split_side(mesh, 0, 0,
              *test::grid_point_between(mesh.vertices[mesh.triangles[0][0]],
                                        mesh.vertices[mesh.triangles[0][1]], 1, 3));
-  const MeshAnalysis found = analyse(mesh);
+  const RepairedMesh found = repair_mesh(mesh);
   EXPECT_EQ(found.findings.cut_triangles, 1U);
   EXPECT_EQ(found.findings.degenerate_triangles, 0U);
   EXPECT_EQ(found.parts.at(0).triangles.size(), 14U);
-  expect_closed(mesh, analyse(cube()).parts[0]);
+  expect_closed(mesh, repair_mesh(cube()).parts[0]);
 }
 
 TEST(TJunctions, ManyCornersOnBothSidesOfEveryEdge) {
   for (const GridMesh& whole : {cube(), grid_stair(5040)}) {
-    const Part part = analyse(whole).parts.at(0);
+    const Part part = repair_mesh(whole).parts.at(0);
     for (std::uint64_t seed = 1; seed <= test::rounds(200U, 20'000U); ++seed) {
       SCOPED_TRACE(seed);
       Draw draw(seed);
@@ -103,14 +103,14 @@ TEST(TJunctions, TheSameWhateverTheOrderAndTheSideThatItIsSeenFrom) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
     GridMesh mesh = split_cube(draw);
-    const Part first = analyse(mesh).parts.at(0);
+    const Part first = repair_mesh(mesh).parts.at(0);
     for (std::size_t i = mesh.triangles.size() - 1; i > 0; --i)
       std::swap(mesh.triangles[i], mesh.triangles[draw.below(i + 1)]);
     for (Triangle& t : mesh.triangles)
       std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(draw.below(3)), t.end());
-    EXPECT_EQ(analyse(mesh).parts.at(0).triangles, first.triangles);
+    EXPECT_EQ(repair_mesh(mesh).parts.at(0).triangles, first.triangles);
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-    const Part turned = analyse(mesh).parts.at(0);
+    const Part turned = repair_mesh(mesh).parts.at(0);
     EXPECT_TRUE(turned.flags.inverted);
     EXPECT_EQ(turned.triangles, first.triangles);
   }
@@ -123,7 +123,7 @@ TEST(TJunctions, AMicrometreBesideTheEdgeIsNotOnIt) {
   at.z += at.z == 0 ? 1 : -1;
   at.x += at.x == 0 ? 1 : at.x == kSize ? -1 : 0;
   split_side(mesh, 0, 0, at);
-  const MeshAnalysis found = analyse(mesh);
+  const RepairedMesh found = repair_mesh(mesh);
   EXPECT_EQ(found.findings.cut_triangles, 0U);
   EXPECT_EQ(found.parts.at(0).kind, PartKind::sheet);
 }
@@ -135,13 +135,13 @@ TEST(TJunctions, WhatIsOpenStaysOpen) {
     return std::ranges::all_of(t, [&](std::uint32_t v) { return open.vertices[v].z == kSize; });
   });
   ASSERT_EQ(open.triangles.size(), 10U);
-  const double area = analyse(open).parts.at(0).area;
+  const double area = repair_mesh(open).parts.at(0).area;
   for (std::uint64_t seed = 1; seed <= test::rounds(100U, 10'000U); ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
     GridMesh mesh = open;
     split_sides(mesh, 60, draw);
-    const MeshAnalysis found = analyse(mesh);
+    const RepairedMesh found = repair_mesh(mesh);
     ASSERT_EQ(found.parts.size(), 1U);
     EXPECT_EQ(found.parts[0].kind, PartKind::sheet);
     EXPECT_NEAR(found.parts[0].area, area, 1e-9 * area);
@@ -160,12 +160,12 @@ TEST(TJunctions, CornersAlongARimAreNone) {
     plate.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 3});
     plate.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 1});
   }
-  EXPECT_EQ(analyse(plate).findings.cut_triangles, 0U);
+  EXPECT_EQ(repair_mesh(plate).findings.cut_triangles, 0U);
   // A second one that goes on from it in one piece is cut into as many.
   const auto n = static_cast<std::uint32_t>(plate.vertices.size());
   plate.vertices.push_back({kStrips * 5, -1000, 0});
   plate.triangles.push_back({0, n, 2 * kStrips});
-  const MeshAnalysis found = analyse(plate);
+  const RepairedMesh found = repair_mesh(plate);
   EXPECT_EQ(found.findings.cut_triangles, 1U);
   EXPECT_EQ(found.parts.at(0).shell_count, 1U);
   EXPECT_EQ(found.parts[0].triangles.size(), 3 * kStrips);
@@ -186,10 +186,10 @@ TEST(TJunctions, AFinOnASolidLeavesItASolid) {
   for (const Triangle& fin : {Triangle{n, n + 1, n + 2}, Triangle{n + 1, n, n + 2}}) {
     GridMesh with = mesh;
     with.triangles.push_back(fin);
-    const MeshAnalysis found = analyse(with);
+    const RepairedMesh found = repair_mesh(with);
     ASSERT_EQ(found.parts.size(), 2U);
     EXPECT_EQ(found.parts[0].kind, PartKind::solid);
-    EXPECT_EQ(found.parts[0].volume, analyse(cube()).parts[0].volume);
+    EXPECT_EQ(found.parts[0].volume, repair_mesh(cube()).parts[0].volume);
     EXPECT_EQ(found.parts[1].kind, PartKind::sheet);
   }
 }
@@ -203,14 +203,14 @@ TEST(TJunctions, SolidsThatShareAnEdge) {
     GridMesh mesh = cube();
     append(mesh, grid_box({kSize, kSize, 0}, {2 * kSize, 2 * kSize, kSize}));
     split_sides(mesh, 60, draw);
-    const MeshAnalysis found = analyse(mesh);
+    const RepairedMesh found = repair_mesh(mesh);
     double volume = 0;
     for (const Part& part : found.parts) {
       EXPECT_EQ(part.kind, PartKind::solid);
       EXPECT_FALSE(part.flags.inverted);
       volume += part.volume;
     }
-    EXPECT_EQ(volume, 2 * analyse(cube()).parts[0].volume);
+    EXPECT_EQ(volume, 2 * repair_mesh(cube()).parts[0].volume);
   }
 }
 
@@ -224,10 +224,10 @@ TEST(TJunctions, SkinsDrawnFromBothSides) {
       GridMesh both = mesh, far = other;
       for (Triangle& t : far.triangles) std::swap(t[1], t[2]);
       append(both, far);
-      const MeshAnalysis found = analyse(both);
+      const RepairedMesh found = repair_mesh(both);
       ASSERT_EQ(found.parts.size(), 1U);
       EXPECT_EQ(found.parts[0].kind, PartKind::solid);
-      EXPECT_EQ(found.parts[0].volume, analyse(cube()).parts[0].volume);
+      EXPECT_EQ(found.parts[0].volume, repair_mesh(cube()).parts[0].volume);
     }
   }
 }
@@ -240,9 +240,9 @@ TEST(TJunctions, AreNotTakenFromMeshesThatHangTogetherAlike) {
   GridMesh beside = exact;
   beside.vertices.back().z += 1;
   for (const auto& [first, second] : {std::pair(&exact, &beside), std::pair(&beside, &exact)}) {
-    MeshAnalyser analyser;
-    for (int i = 0; i < 4; ++i) (void)analyser.analyse(*first);
-    const MeshAnalysis known = analyser.analyse(*second), own = analyse(*second);
+    MeshRepairer analyser;
+    for (int i = 0; i < 4; ++i) (void)analyser.repair_mesh(*first);
+    const RepairedMesh known = analyser.repair_mesh(*second), own = repair_mesh(*second);
     EXPECT_EQ(known.parts.at(0).kind, own.parts.at(0).kind);
     EXPECT_EQ(known.parts[0].triangles, own.parts[0].triangles);
     EXPECT_EQ(known.findings.cut_triangles, own.findings.cut_triangles);
@@ -262,7 +262,7 @@ TEST(TJunctions, ZigzagsAreLeftAlone) {
     else
       mesh.triangles.push_back({kSpan - 1 - i, i, top});
   }
-  const MeshAnalysis found = analyse(mesh);
+  const RepairedMesh found = repair_mesh(mesh);
   EXPECT_EQ(found.findings.cut_triangles, 0U);
   EXPECT_EQ(found.parts.at(0).triangles.size(), mesh.triangles.size());
   // Other lines of the mesh are none the worse for it.
@@ -270,7 +270,7 @@ TEST(TJunctions, ZigzagsAreLeftAlone) {
   Draw draw(1);
   split_sides(box, 20, draw);
   append(mesh, box);
-  EXPECT_EQ(analyse(mesh).parts.at(0).kind, PartKind::solid);
+  EXPECT_EQ(repair_mesh(mesh).parts.at(0).kind, PartKind::solid);
 }
 
 /// Directions and moments fill 63 bits.
@@ -282,7 +282,7 @@ TEST(TJunctions, AtTheEndsOfTheGrid) {
     Draw draw(seed);
     GridMesh mesh = whole;
     split_sides(mesh, 60, draw);
-    expect_closed(mesh, analyse(whole).parts[0]);
+    expect_closed(mesh, repair_mesh(whole).parts[0]);
   }
 }
 

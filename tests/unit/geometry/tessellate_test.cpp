@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/tessellate.hpp"
+#include "geometry/primitives/tessellate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <random>
 #include <string>
 
-#include "strake/geometry/analyse.hpp"
+#include "geometry/mesh_repair/mesh_repair.hpp"
+#include "geometry/mesh_repair/snap_to_grid.hpp"
+#include "geometry/numeric/trig.hpp"
 #include "strake/geometry/grid.hpp"
-#include "strake/geometry/place.hpp"
-#include "strake/geometry/trig.hpp"
 #include "support/true_surface.hpp"
 
 namespace strake::geometry {
@@ -104,9 +104,9 @@ Primitive random_primitive(std::size_t kind, Random& random) {
 
 /// The one part that a tessellation is on the grid.
 Part part_of(const Tessellation& t) {
-  auto placed = place(t.mesh, {});
+  auto placed = snap_to_grid(t.mesh, {});
   EXPECT_TRUE(placed.has_value());
-  MeshAnalysis analysis = analyse(std::move(placed->mesh));
+  RepairedMesh analysis = repair_mesh(std::move(placed->mesh));
   EXPECT_EQ(analysis.parts.size(), 1U);
   return analysis.parts.empty() ? Part{} : std::move(analysis.parts[0]);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geometry/triangle_distance.hpp"
+#include "geometry/distance/triangle_distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using test::Draw;
 constexpr double kAll = std::numeric_limits<double>::infinity();
 
 double exact(const TriangleCorners& a, const TriangleCorners& b, double upper) {
-  const SquaredDistance squared = exact_distance(a, b, upper).squared;
+  const SquaredDistance squared = exact_triangle_distance(a, b, upper).squared;
   return ratio_to_double(squared.numerator, squared.denominator);
 }
 
@@ -44,13 +44,13 @@ TEST(TriangleDistanceTest, BoundsHoldTheExactDistanceWhateverIsAsked) {
     const TriangleCorners a = drawn_triangle(draw, step, {});
     const TriangleCorners b = drawn_triangle(draw, step, {draw.whole(0, 4) * step, 0, 0});
     const DoubleTriangle x(a), y(b);
-    const DistanceBounds all = distance_bounds(x, y, kAll);
+    const DistanceBounds all = triangle_distance_bounds(x, y, kAll);
     const double squared = exact(a, b, all.upper);
     constexpr double kMore = 1 + 0x1p-40;
     ASSERT_LE(all.lower, squared * kMore);
     ASSERT_GE(all.upper * kMore, squared);
     const double reach = draw.between(0, 4) * step, limit = reach * reach;
-    const DistanceBounds some = distance_bounds(x, y, limit, limit);
+    const DistanceBounds some = triangle_distance_bounds(x, y, limit, limit);
     ASSERT_LE(some.lower, squared * kMore);
     ASSERT_GE(some.upper * kMore, squared);
     if (some.lower > limit)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/geometry/trig.hpp"
+#include "geometry/numeric/trig.hpp"
 
 #include <gtest/gtest.h>
 

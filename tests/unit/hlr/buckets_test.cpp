@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hlr/buckets.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "hlr/occluders/bucket_grid.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/lattice_scene.hpp"
 
@@ -27,9 +26,9 @@ bool meets(const ViewBox& box, const ViewPoint& p) {
   return p.u >= box.lo.u && p.u <= box.hi.u && p.v >= box.lo.v && p.v <= box.hi.v;
 }
 
-LooseSegment loose(const Steps& steps, int from, int to) {
+SegmentQuery loose(const Steps& steps, int from, int to) {
   const ViewPoint a = steps.at(0), b = steps.at(64), p = steps.at(from), q = steps.at(to);
-  LooseSegment s;
+  SegmentQuery s;
   s.au = static_cast<double>(a.u);
   s.av = static_cast<double>(a.v);
   s.du = static_cast<double>(b.u - a.u);
@@ -60,21 +59,21 @@ std::vector<ViewBox> some_boxes(Random& random, std::int64_t unit) {
   return boxes;
 }
 
-Buckets made(const std::vector<ViewBox>& boxes, std::uint32_t side,
-             const parallel::Context& context = {}) {
-  auto buckets = Buckets::of(boxes, BucketPlan(boxes).axes(side), context);
+BucketGrid made(const std::vector<ViewBox>& boxes, std::uint32_t side,
+                const parallel::Context& context = {}) {
+  auto buckets = BucketGrid::of(boxes, BucketPlan(boxes).axes(side), context);
   EXPECT_TRUE(buckets.has_value());
   return std::move(*buckets);
 }
 
-TEST(Buckets, MeetAllThatMayHideOnceEach) {
+TEST(BucketGrid, MeetAllThatMayHideOnceEach) {
   std::uint64_t met = 0, all = 0;
   BucketMarks marks;
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     Random random(seed);
     const std::int64_t unit = std::int64_t{1} << (4 * random.below(11));
     const std::vector<ViewBox> boxes = some_boxes(random, unit);
-    const Buckets buckets = made(boxes, 1U << random.below(9));
+    const BucketGrid buckets = made(boxes, 1U << random.below(9));
     for (int round = 0; round < 8; ++round) {
       // Upright, level, a point, or any way.
       const auto step = [&](std::uint32_t still) {
@@ -85,19 +84,20 @@ TEST(Buckets, MeetAllThatMayHideOnceEach) {
           {step(4), step(4), step(4)}};
       const int from = static_cast<int>(random.below(32));
       const int to = from + static_cast<int>(random.below(32));
-      LooseSegment segment = loose(steps, from, to);
+      SegmentQuery segment = loose(steps, from, to);
       if (random.one_in(8)) segment.du = segment.dv = 0;  // where it is not known but for its box
       std::vector<int> seen(boxes.size(), 0);
-      buckets.walk(segment, marks, [&](std::uint32_t i) {
+      buckets.traverse(segment, marks, [&](std::uint32_t i) {
         ++seen[i];
         return true;
       });
       for (std::size_t i = 0; i < boxes.size(); ++i) {
         ASSERT_LE(seen[i], 1);
-        bool may_hide = false;
-        for (int k = from; k <= to; ++k) may_hide = may_hide || meets(boxes[i], steps.at(k));
-        may_hide = may_hide && static_cast<double>(boxes[i].hi.w) > segment.w0;
-        ASSERT_TRUE(seen[i] == 1 || !may_hide) << "seed " << seed << " box " << i;
+        bool may_be_hidden_by = false;
+        for (int k = from; k <= to; ++k)
+          may_be_hidden_by = may_be_hidden_by || meets(boxes[i], steps.at(k));
+        may_be_hidden_by = may_be_hidden_by && static_cast<double>(boxes[i].hi.w) > segment.w0;
+        ASSERT_TRUE(seen[i] == 1 || !may_be_hidden_by) << "seed " << seed << " box " << i;
         met += static_cast<std::uint64_t>(seen[i]);
       }
       all += boxes.size();
@@ -106,19 +106,19 @@ TEST(Buckets, MeetAllThatMayHideOnceEach) {
   EXPECT_LT(4 * met, all);
 }
 
-TEST(Buckets, AWalkEndsWhenTold) {
+TEST(BucketGrid, AWalkEndsWhenTold) {
   Random random(5);
   const std::vector<ViewBox> boxes = some_boxes(random, 16);
-  const Buckets buckets = made(boxes, 16);
+  const BucketGrid buckets = made(boxes, 16);
   BucketMarks marks;
-  LooseSegment everything;
+  SegmentQuery everything;
   everything.u0 = everything.v0 = everything.w0 = -1e6;
   everything.u1 = everything.v1 = 1e6;
   std::size_t met = 0;
-  buckets.walk(everything, marks, [&](std::uint32_t) { return ++met < 5; });
+  buckets.traverse(everything, marks, [&](std::uint32_t) { return ++met < 5; });
   EXPECT_EQ(met, 5U);
   met = 0;
-  buckets.walk(everything, marks, [&](std::uint32_t) { return ++met > 0; });
+  buckets.traverse(everything, marks, [&](std::uint32_t) { return ++met > 0; });
   EXPECT_EQ(met, boxes.size());
 }
 
@@ -131,7 +131,7 @@ std::vector<ViewBox> rows(std::int64_t count, std::int64_t size) {
   return boxes;
 }
 
-TEST(Buckets, TheirNumberFollowsTheData) {
+TEST(BucketGrid, TheirNumberFollowsTheData) {
   const EdgeLengths edges{.count = 10000, .sum = 1e7};
   const std::vector<ViewBox> scattered = rows(100, 900), upon_each_other = rows(100, 99000);
   EXPECT_GE(BucketPlan(scattered).best_side(edges), 32U);
@@ -148,12 +148,12 @@ double crowding_as_chosen(const std::vector<ViewBox>& boxes) {
   return made(boxes, BucketPlan(boxes).best_side({})).crowding();
 }
 
-TEST(Buckets, AreNotCrowdedWhereBoxesAreAlike) {
+TEST(BucketGrid, AreNotCrowdedWhereBoxesAreAlike) {
   EXPECT_NEAR(made(rows(64, 1), 64).crowding(), 1, 0.2);
   EXPECT_LT(crowding_as_chosen(rows(200, 900)), 16);
 }
 
-TEST(Buckets, AreCrowdedByAClusterInAWideSpace) {
+TEST(BucketGrid, AreCrowdedByAClusterInAWideSpace) {
   std::vector<ViewBox> cluster = rows(100, 900);
   cluster.push_back({{100'000'000, 100'000'000, 0}, {100'000'001, 100'000'001, 1}});
   EXPECT_GT(crowding_as_chosen(cluster), 1000);
@@ -163,26 +163,26 @@ TEST(Buckets, AreCrowdedByAClusterInAWideSpace) {
   EXPECT_GT(crowding_as_chosen(cluster), 500);
 }
 
-TEST(Buckets, AreCrowdedByLongStrips) {
+TEST(BucketGrid, AreCrowdedByLongStrips) {
   std::vector<ViewBox> strips;
   for (std::int64_t i = 0; i < 10000; ++i)
     strips.push_back({{i * 100, 0, 0}, {i * 100 + 99, 1'000'000, 1}});
   EXPECT_GT(crowding_as_chosen(strips), 500);
 }
 
-TEST(Buckets, LeaveEmptyBoxesOut) {
+TEST(BucketGrid, LeaveEmptyBoxesOut) {
   std::vector<ViewBox> boxes = rows(64, 1);
   const std::uint32_t side = BucketPlan(boxes).best_side({});
   for (int i = 0; i < 50; ++i) boxes.insert(boxes.begin() + 80 * i, ViewBox{});
   EXPECT_EQ(BucketPlan(boxes).best_side({}), side);
-  const Buckets buckets = made(boxes, side);
+  const BucketGrid buckets = made(boxes, side);
   EXPECT_LT(buckets.crowding(), 16);
   BucketMarks marks;
-  LooseSegment everything;
+  SegmentQuery everything;
   everything.u0 = everything.v0 = everything.w0 = -1;
   everything.u1 = everything.v1 = 1e9;
   std::size_t met = 0;
-  buckets.walk(everything, marks, [&](std::uint32_t i) {
+  buckets.traverse(everything, marks, [&](std::uint32_t i) {
     EXPECT_FALSE(boxes[i].empty());
     return ++met > 0;
   });
@@ -190,14 +190,14 @@ TEST(Buckets, LeaveEmptyBoxesOut) {
   EXPECT_TRUE(made({ViewBox{}, ViewBox{}}, 8).crowding() == 0);
 }
 
-TEST(Buckets, BoxesInAPointMakeOneBucket) {
+TEST(BucketGrid, BoxesInAPointMakeOneBucket) {
   const std::vector<ViewBox> boxes(20, ViewBox{{7, 7, 0}, {7, 7, 5}});
-  const Buckets buckets = made(boxes, 64);
+  const BucketGrid buckets = made(boxes, 64);
   BucketMarks marks;
   std::size_t met = 0;
-  LooseSegment through;
+  SegmentQuery through;
   through.u0 = through.u1 = through.v0 = through.v1 = through.au = through.av = 7;
-  buckets.walk(through, marks, [&](std::uint32_t) { return ++met > 0; });
+  buckets.traverse(through, marks, [&](std::uint32_t) { return ++met > 0; });
   EXPECT_EQ(met, boxes.size());
 }
 

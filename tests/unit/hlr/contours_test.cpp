@@ -10,10 +10,10 @@
 #include <tuple>
 #include <vector>
 
-#include "strake/geometry/trig.hpp"
+#include "geometry/numeric/trig.hpp"
+#include "model/scene/view_tessellation.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
-#include "strake/model/view_scene.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/random_primitives.hpp"
 
@@ -24,7 +24,7 @@ using geometry::Mat3d;
 using geometry::Vec3d;
 using geometry::Vec3l;
 using hlr::EdgeKind;
-using hlr::Piece;
+using hlr::EdgePiece;
 using hlr::State;
 
 /// Objects "0", "1", … of one primitive each.
@@ -71,9 +71,9 @@ hlr::Drawing drawn(const model::Scene& scene, const Vec3l& direction,
 
 using Text = std::vector<std::tuple<std::uint32_t, std::uint32_t, EdgeKind, State, Vec3l, Vec3l>>;
 
-Text text(const std::vector<Piece>& pieces, const Vec3l& from = {}) {
+Text text(const std::vector<EdgePiece>& pieces, const Vec3l& from = {}) {
   Text result;
-  for (const Piece& p : pieces)
+  for (const EdgePiece& p : pieces)
     result.emplace_back(model::index(p.object), p.edge, p.kind, p.state, p.a - from, p.b - from);
   return result;
 }
@@ -91,7 +91,7 @@ TEST(ContourLines, OfAPipeAreTwoStraightGenerators) {
     const double size = std::sqrt(dot(side, side));
     if (size < 0.05 * std::sqrt(dot(d, d))) continue;
     int contours = 0;
-    for (const Piece& p : drawn(plant.scene(), direction).pieces) {
+    for (const EdgePiece& p : drawn(plant.scene(), direction).pieces) {
       if (p.kind != EdgeKind::contour) continue;
       ++contours;
       EXPECT_EQ(p.state, State::visible);
@@ -111,7 +111,7 @@ TEST(ContourLines, AreThoseOfEachView) {
   for (const Vec3l& direction : {Vec3l{1, 2, 3}, Vec3l{-5, 1, 2}, Vec3l{0, 0, 1}}) {
     const Vec3d d = direction.as<double>();
     int count = 0;
-    for (const Piece& p : drawn(scene, direction).pieces) {
+    for (const EdgePiece& p : drawn(scene, direction).pieces) {
       ++count;
       EXPECT_EQ(p.kind, EdgeKind::contour);
       EXPECT_EQ(p.state, State::visible);
@@ -136,7 +136,7 @@ TEST(ContourLines, OfAPipeAndItsElbowMeetVertexToVertex) {
     plant.object(geometry::CylinderPrimitive{150, 2000}, along_x, {-1000, 450, 0});
     const hlr::Drawing drawing = drawn(plant.scene(), direction, {.stage = hlr::Stage::none});
     std::map<Vec3l, int> elbow, pipes, contours;
-    for (const Piece& p : drawing.pieces) {
+    for (const EdgePiece& p : drawing.pieces) {
       if (p.kind == EdgeKind::contour) ++contours[p.a], ++contours[p.b];
       if (p.kind != EdgeKind::sharp) continue;
       const bool bend = model::index(p.object) == 0;
@@ -166,11 +166,12 @@ TEST(ContourLines, OfOneShapeAreTheSameWhereverItStands) {
   }
   const model::Scene& scene = plant.scene();
   EXPECT_EQ(scene.shapes.size(), 1U);
-  std::vector<std::vector<Piece>> of(places.size());
-  for (const Piece& p : drawn(scene, {2, -3, 4}).pieces) of[model::index(p.object)].push_back(p);
+  std::vector<std::vector<EdgePiece>> of(places.size());
+  for (const EdgePiece& p : drawn(scene, {2, -3, 4}).pieces)
+    of[model::index(p.object)].push_back(p);
   EXPECT_GT(of[0].size(), 100U);
   for (std::size_t i = 0; i < of.size(); ++i) {
-    for (Piece& p : of[i]) p.object = {};
+    for (EdgePiece& p : of[i]) p.object = {};
     EXPECT_EQ(text(of[i], (places[i] * 1000.0).as<std::int64_t>()), text(of[0])) << i;
   }
 }
@@ -227,7 +228,7 @@ TEST(ContourLines, KnowTheCirclesThatTheyAreChordsOf) {
   plant.object(geometry::EllipticalDishPrimitive{300, 120}, draw.rotation(), {0, 9000, 0});
   const hlr::Drawing drawing = drawn(plant.scene(), {1, 2, 3}, {.stage = hlr::Stage::none});
   std::size_t curved = 0;
-  for (const Piece& p : drawing.pieces) {
+  for (const EdgePiece& p : drawing.pieces) {
     const auto found = std::ranges::find_if(drawing.curves.edges, [&](const auto& e) {
       return e.object == p.object && e.edge == p.edge;
     });
@@ -247,14 +248,14 @@ TEST(SceneOfAView, ChangesNothingWhereNothingIsRound) {
   plant.object(geometry::BoxPrimitive{10, 20, 30});
   plant.object(geometry::SpherePrimitive{50});
   const model::Scene& scene = plant.scene();
-  const model::SeenFrom from{.towards = Vec3l{1, 2, 3}};
-  const auto without = model::seen_from(scene, {true, false}, from, {});
+  const model::ViewTessellationOptions from{.towards = Vec3l{1, 2, 3}};
+  const auto without = model::tessellate_for_view(scene, {true, false}, from, {});
   ASSERT_TRUE(without);
   EXPECT_FALSE(without->has_value());
-  const auto once = model::seen_from(scene, {}, from, {});
+  const auto once = model::tessellate_for_view(scene, {}, from, {});
   ASSERT_TRUE(once);
   ASSERT_TRUE(once->has_value());
-  const auto twice = model::seen_from(**once, {}, from, {});
+  const auto twice = model::tessellate_for_view(**once, {}, from, {});
   ASSERT_TRUE(twice);
   ASSERT_TRUE(twice->has_value());
   EXPECT_NE((*once)->shapes[1].parts[0].vertices, scene.shapes[1].parts[0].vertices);
@@ -268,8 +269,8 @@ TEST(SceneOfAView, IsFinerOnlyWhereItShows) {
   plant.object(geometry::SpherePrimitive{50});
   plant.object(geometry::SpherePrimitive{60});
   const model::Scene& scene = plant.scene();
-  const auto triangles = [&](const model::SeenFrom& sight) {
-    const auto seen = model::seen_from(scene, {}, sight, {}).value();
+  const auto triangles = [&](const model::ViewTessellationOptions& sight) {
+    const auto seen = model::tessellate_for_view(scene, {}, sight, {}).value();
     const model::Scene& made = seen ? *seen : scene;
     return std::pair(made.shapes[0].parts[0].triangles.size(),
                      made.shapes[1].parts[0].triangles.size());

@@ -23,7 +23,7 @@ const hlr::View kIso{.direction = {1, -1, 1}, .limits = {}};
 
 std::map<State, int> states(const hlr::Drawing& drawing) {
   std::map<State, int> count;
-  for (const hlr::Piece& p : drawing.pieces) ++count[p.state];
+  for (const hlr::EdgePiece& p : drawing.pieces) ++count[p.state];
   return count;
 }
 
@@ -83,7 +83,7 @@ TEST(Draw, TouchingCubesHideWhatLiesBetweenThem) {
   scene.object({{.parts = {box(0, 0, 0)}, .origin = {}}});
   scene.object({{.parts = {box(0, 0, 1000)}, .origin = {}}});
   const hlr::Drawing drawing = drawn(scene, kIso, {.contact_distance_mm = 0});
-  for (const hlr::Piece& p : drawing.pieces) {
+  for (const hlr::EdgePiece& p : drawing.pieces) {
     if (p.a.z != 1000 || p.b.z != 1000) continue;
     // The shared rectangle's two edges at the back are hidden, the two in front are seen.
     const bool back = (p.a.x == 0 && p.b.x == 0) || (p.a.y == 1000 && p.b.y == 1000);
@@ -98,7 +98,7 @@ TEST(Draw, CylinderHasTwoContoursHoweverSnappingBentItsQuads) {
     for (const geometry::Vec3l direction :
          {geometry::Vec3l{1, -1, 1}, {1, 0, 0}, {7, 3, -2}, {1000, 131, 17}}) {
       int contours = 0;
-      for (const hlr::Piece& p : drawn(scene, {.direction = direction, .limits = {}}).pieces)
+      for (const hlr::EdgePiece& p : drawn(scene, {.direction = direction, .limits = {}}).pieces)
         if (p.kind == EdgeKind::contour) ++contours;
       EXPECT_EQ(contours, 2) << radius << " " << direction.y;
     }
@@ -119,7 +119,7 @@ TEST(Draw, SmoothEdgesAreDrawnOnDemand) {
   scene.object({{.parts = {cylinder(sides, 5000, 60000)}, .origin = {}}});
   const auto smooth = [&](double sharp_deg) {
     int count = 0;
-    for (const hlr::Piece& p :
+    for (const hlr::EdgePiece& p :
          drawn(scene, kIso, {.sharp_angle_deg = sharp_deg, .smooth = hlr::Smooth::all}).pieces)
       if (p.kind == EdgeKind::smooth) ++count;
     return count;

@@ -16,7 +16,7 @@ namespace {
 
 using geometry::Vec3l;
 using hlr::EdgeKind;
-using hlr::Piece;
+using hlr::EdgePiece;
 using hlr::State;
 
 constexpr std::int32_t kMm = 1000;
@@ -26,20 +26,20 @@ test::HandPart box(std::int32_t x, std::int32_t y, std::int32_t z, std::int32_t 
                         {(x + size) * kMm, (y + size) * kMm, (z + size) * kMm});
 }
 
-std::vector<Piece> hatch(const test::SceneBuilder& scene, const hlr::View& view,
-                         const hlr::Options& options = {}) {
+std::vector<EdgePiece> hatch(const test::SceneBuilder& scene, const hlr::View& view,
+                             const hlr::Options& options = {}) {
   const auto drawing = hlr::draw(scene.scene(), {}, view, options, {});
   EXPECT_TRUE(drawing.has_value());
-  std::vector<Piece> pieces;
+  std::vector<EdgePiece> pieces;
   if (drawing)
     std::ranges::copy_if(drawing->pieces, std::back_inserter(pieces),
-                         [](const Piece& p) { return p.kind == EdgeKind::hatch; });
+                         [](const EdgePiece& p) { return p.kind == EdgeKind::hatch; });
   return pieces;
 }
 
-double length(const std::vector<Piece>& pieces) {
+double length(const std::vector<EdgePiece>& pieces) {
   double sum = 0;
-  for (const Piece& p : pieces) {
+  for (const EdgePiece& p : pieces) {
     const auto v = (p.b - p.a).as<double>();
     sum += std::sqrt(dot(v, v)) / kMm;
   }
@@ -47,7 +47,7 @@ double length(const std::vector<Piece>& pieces) {
 }
 
 /// The angle on paper from above, degrees.
-double angle(const Piece& p) {
+double angle(const EdgePiece& p) {
   const auto v = (p.b - p.a).as<double>();
   const double degrees = std::atan2(v.y, v.x) * 180 / std::acos(-1.0);
   return degrees < 0 ? degrees + 180 : degrees;
@@ -66,7 +66,7 @@ TEST(Hatch, LinesTimesSpacingAreTheArea) {
       const auto lines =
           hatch(scene, kPlan, {.hatch_spacing_mm = spacing, .hatches = {{.angle_deg = degrees}}});
       EXPECT_NEAR(length(lines) * spacing, 1e6, 2e4) << degrees;
-      for (const Piece& p : lines) {
+      for (const EdgePiece& p : lines) {
         EXPECT_EQ(p.a.z, 500 * kMm);
         const auto v = (p.b - p.a).as<double>();
         // What is no longer than twice the contact distance, as a line across a corner, is a speck.
@@ -87,7 +87,7 @@ TEST(Hatch, ObliquePlanesAreHatchedInTheirOwnPlane) {
       .direction = {1, -1, 1}, .limits = {}, .sections = {{{1, 0, 1}, {1000 * kMm, 0, 0}}}};
   const auto lines = hatch(scene, view, {.hatch_spacing_mm = 10});
   EXPECT_NEAR(length(lines) * 10, 1e6 * std::sqrt(2.0), 3e4);
-  for (const Piece& p : lines)
+  for (const EdgePiece& p : lines)
     for (const Vec3l& end : {p.a, p.b}) EXPECT_LE(std::abs(end.x + end.z - 1000 * kMm), 1);
 }
 
@@ -97,7 +97,7 @@ TEST(Hatch, NeighboursDifferAndWhatIsNearerHides) {
   scene.object({{.parts = {box(1000, 0, 0, 1000)}, .origin = {}}});
   scene.object({{.parts = {box(5000, 0, 0, 1000)}, .origin = {}}});
   std::set<long> angles[3];
-  for (const Piece& p : hatch(scene, kPlan, {.hatch_spacing_mm = 50})) {
+  for (const EdgePiece& p : hatch(scene, kPlan, {.hatch_spacing_mm = 50})) {
     const auto v = (p.b - p.a).as<double>();
     if (dot(v, v) > 1e9) angles[model::index(p.object)].insert(std::lround(angle(p)));
   }
@@ -119,7 +119,7 @@ TEST(Hatch, NeighboursDifferAndWhatIsNearerHides) {
   low.direction = {0, -1, 0};
   low.up = {0, 0, 1};
   low.sections = {{{0, -1, 0}, {0, 600 * kMm, 0}}};
-  for (const Piece& p : hatch(hidden, low, {.hatch_spacing_mm = 50}))
+  for (const EdgePiece& p : hatch(hidden, low, {.hatch_spacing_mm = 50}))
     EXPECT_EQ(model::index(p.object), 0U);
 }
 

@@ -49,10 +49,10 @@ class Component {
     return *this;
   }
   /// `sag_mm` 0: that of the scene, 0.5.
-  [[nodiscard]] std::vector<hlr::Piece> intersections(
+  [[nodiscard]] std::vector<hlr::EdgePiece> intersections(
       const Vec3l& direction, Intersections which = Intersections::primitives,
       double sag_mm = 0) const {
-    std::vector<hlr::Piece> lines;
+    std::vector<hlr::EdgePiece> lines;
     const auto scene = model::make_scene(model_, {.sag_mm = 0.5}, {});
     EXPECT_TRUE(scene);
     if (!scene) return lines;
@@ -61,7 +61,7 @@ class Component {
     EXPECT_TRUE(drawing);
     if (!drawing) return lines;
     EXPECT_EQ(drawing->sag_mm, sag_mm > 0 ? sag_mm : 0.5);
-    for (const hlr::Piece& p : drawing->pieces)
+    for (const hlr::EdgePiece& p : drawing->pieces)
       if (p.kind == EdgeKind::intersection) lines.push_back(p);
     return lines;
   }
@@ -83,9 +83,9 @@ class Component {
   model::Model model_;
 };
 
-double length_mm(const std::vector<hlr::Piece>& lines) {
+double length_mm(const std::vector<hlr::EdgePiece>& lines) {
   double sum = 0;
-  for (const hlr::Piece& p : lines) {
+  for (const hlr::EdgePiece& p : lines) {
     const Vec3d v = (p.b - p.a).as<double>();
     sum += std::sqrt(dot(v, v)) / 1000;
   }
@@ -145,7 +145,7 @@ TEST(Joints, ASaddleIsAsFineAsTheDrawingAsksFor) {
         const auto lines =
             tee(run, branch, {}).intersections(direction, Intersections::primitives, sag);
         EXPECT_GT(lines.size(), 20U);
-        for (const hlr::Piece& piece : lines)
+        for (const hlr::EdgePiece& piece : lines)
           for (const Vec3l& end : {piece.a, piece.b}) {
             const Vec3d p = end.as<double>() * 0.001;
             EXPECT_NEAR(std::hypot(p.y, p.z), run, sag + 0.002);

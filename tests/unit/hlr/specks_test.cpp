@@ -29,7 +29,7 @@ hlr::Drawing drawn(const test::SceneBuilder& scene, const Vec3l& direction,
   return drawing ? *drawing : hlr::Drawing{};
 }
 
-double on_paper(const hlr::Piece& piece, const Vec3l& direction) {
+double on_paper(const hlr::EdgePiece& piece, const Vec3l& direction) {
   const Vec3d d = direction.as<double>();
   const Vec3d off = cross((piece.b - piece.a).as<double>(), d);
   return std::sqrt(dot(off, off) / dot(d, d));
@@ -37,7 +37,7 @@ double on_paper(const hlr::Piece& piece, const Vec3l& direction) {
 
 int specks(const hlr::Drawing& drawing, const Vec3l& direction) {
   int count = 0;
-  for (const hlr::Piece& p : drawing.pieces)
+  for (const hlr::EdgePiece& p : drawing.pieces)
     if (p.state != State::projecting && p.state != State::clipped &&
         on_paper(p, direction) <= kLongest)
       ++count;
@@ -125,7 +125,7 @@ TEST(Specks, ChordsOfAFineRimStay) {
     const hlr::Drawing drawing = drawn(scene, {0, 0, 1});
     EXPECT_EQ(drawing.counters.specks, 0U);
     EXPECT_EQ(drawing.pieces.size(), kSides);
-    for (const hlr::Piece& p : drawing.pieces) EXPECT_EQ(p.state, State::visible);
+    for (const hlr::EdgePiece& p : drawing.pieces) EXPECT_EQ(p.state, State::visible);
   }
 }
 
@@ -151,7 +151,7 @@ TEST(Specks, SolversAgreeAndHiddenPiecesDecideNothing) {
     options = {.contact_distance_mm = 0.003, .hidden = false};
     const hlr::Drawing seen = drawn(scene, view.direction, options);
     std::size_t next = 0;
-    for (const hlr::Piece& p : all.pieces) {
+    for (const hlr::EdgePiece& p : all.pieces) {
       if (p.state != State::visible) continue;
       while (next < seen.pieces.size() && seen.pieces[next].state != State::visible) ++next;
       ASSERT_LT(next, seen.pieces.size()) << seed;

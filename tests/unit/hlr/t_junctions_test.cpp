@@ -36,7 +36,7 @@ Lengths drawn(const GridMesh& mesh, const Vec3l& direction) {
   const auto drawing = hlr::draw(scene, {}, view, {}, {});
   EXPECT_TRUE(drawing.has_value());
   if (!drawing) return lengths;
-  for (const hlr::Piece& p : drawing->pieces) {
+  for (const hlr::EdgePiece& p : drawing->pieces) {
     const auto way = (p.b - p.a).as<double>();
     lengths[{p.kind, p.state}] += std::sqrt(dot(way, way));
   }

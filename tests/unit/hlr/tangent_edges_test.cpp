@@ -75,7 +75,8 @@ std::size_t smooth(const test::HandPart& part, hlr::Smooth which) {
   EXPECT_TRUE(drawing);
   std::size_t count = 0;
   if (drawing)
-    for (const hlr::Piece& p : drawing->pieces) count += p.kind == hlr::EdgeKind::smooth ? 1U : 0U;
+    for (const hlr::EdgePiece& p : drawing->pieces)
+      count += p.kind == hlr::EdgeKind::smooth ? 1U : 0U;
   return count;
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/text_encoding.hpp"
 #include "io/gltf/srgb.hpp"
-#include "strake/core/text.hpp"
 #include "strake/io/writer.hpp"
 #include "support/io_files.hpp"
 #include "support/io_models.hpp"

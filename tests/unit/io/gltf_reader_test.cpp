@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "io/file_content.hpp"
-#include "io/gltf/buffers.hpp"
+#include "io/gltf/accessor.hpp"
+#include "io/source/input_file.hpp"
 #include "strake/io/writer.hpp"
 #include "support/gltf_files.hpp"
 #include "support/io_files.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/gltf/json.hpp"
+#include "io/gltf/json/json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,12 +19,12 @@ JsonDocument parse(const std::string& text) {
   return document ? std::move(*document) : JsonDocument{};
 }
 
-TEST(Json, FindsValuesByKeyAndPlace) {
+TEST(JsonValue, FindsValuesByKeyAndPlace) {
   const std::string text =
       R"( {"a": [1, -2.5e1, true, null, "x"], "b": {"c": {"d": 7}}, "e": "", "a": 9} )";
   const JsonDocument document = parse(text);
-  const Json root = document.root();
-  const std::vector<Json> items = root["a"].items();
+  const JsonValue root = document.root();
+  const std::vector<JsonValue> items = root["a"].items();
   ASSERT_EQ(items.size(), 5U);
   EXPECT_EQ(items[0].index(), 1U);
   EXPECT_EQ(items[1].number(), -25.0);
@@ -39,23 +39,23 @@ TEST(Json, FindsValuesByKeyAndPlace) {
   EXPECT_EQ(root["b"].raw(), R"({"c": {"d": 7}})");
 }
 
-TEST(Json, DecodesStrings) {
+TEST(JsonValue, DecodesStrings) {
   const std::string text = R"(["\"\\\/\b\f\n\r\t", "\u00e4\u20AC", "\ud83d\ude00", "\ud83d", "ä",)"
                            "\"\xC4\"]";
   const JsonDocument document = parse(text);
   std::vector<std::string> decoded;
-  document.root().elements([&](const Json& item) { decoded.push_back(item.text_value()); });
+  document.root().elements([&](const JsonValue& item) { decoded.push_back(item.text_value()); });
   EXPECT_EQ(decoded, (std::vector<std::string>{"\"\\/\b\f\n\r\t", "ä€", "😀", "\xEF\xBF\xBD", "ä",
                                                "\xEF\xBF\xBD"}));
 }
 
-TEST(Json, FindsKeysThatAreEscaped) {
+TEST(JsonValue, FindsKeysThatAreEscaped) {
   const std::string text = R"({"\u0061\n": 5})";
   const JsonDocument document = parse(text);
   EXPECT_EQ(document.root()["a\n"].index(), 5U);
 }
 
-TEST(Json, RefusesWhatIsNotJson) {
+TEST(JsonValue, RefusesWhatIsNotJson) {
   for (const char* text :
        {"",       "  ",        "{",       "[",        "]",          "[1",          "[1,",
         "[1,]",   "{,}",       "{\"a\"}", "{\"a\":}", "{\"a\":1,}", "{a:1}",       "[1 2]",
@@ -68,22 +68,22 @@ TEST(Json, RefusesWhatIsNotJson) {
   EXPECT_EQ(bad.error().where, "byte 10");
 }
 
-TEST(Json, BoundsTheNesting) {
+TEST(JsonValue, BoundsTheNesting) {
   EXPECT_TRUE(JsonDocument::parse(std::string(512, '[') + std::string(512, ']')));
   EXPECT_FALSE(JsonDocument::parse(std::string(513, '[') + std::string(513, ']')));
   EXPECT_FALSE(JsonDocument::parse(std::string(1'000'000, '[')));
 }
 
 /// Everything that a document says, types and places included.
-void dump(const Json& json, std::string& out) {
+void dump(const JsonValue& json, std::string& out) {
   out += std::to_string(static_cast<int>(json.type()));
   if (json.is_array()) {
     out += '[';
-    json.elements([&](const Json& item) { dump(item, out); });
+    json.elements([&](const JsonValue& item) { dump(item, out); });
     out += ']';
   } else if (json.is_object()) {
     out += '{';
-    json.members([&](const Json& key, const Json& value) {
+    json.members([&](const JsonValue& key, const JsonValue& value) {
       out += key.text_value() + ':';
       dump(value, out);
     });
@@ -121,7 +121,7 @@ void append_random(std::mt19937& random, int depth, std::string& out) {
   out += object ? '}' : ']';
 }
 
-TEST(Json, SaysTheSameInPiecesOfAnySize) {
+TEST(JsonValue, SaysTheSameInPiecesOfAnySize) {
   parallel::Team team(3);
   parallel::Context context;
   context.team = &team;
@@ -142,7 +142,7 @@ TEST(Json, SaysTheSameInPiecesOfAnySize) {
   }
 }
 
-TEST(Json, RefusesTheSameInPiecesOfAnySize) {
+TEST(JsonValue, RefusesTheSameInPiecesOfAnySize) {
   for (unsigned number = 1; number <= 3000; ++number) {
     SCOPED_TRACE(number);
     std::mt19937 random(number);
@@ -157,7 +157,7 @@ TEST(Json, RefusesTheSameInPiecesOfAnySize) {
   }
 }
 
-TEST(Json, BoundsTheNestingAcrossPieces) {
+TEST(JsonValue, BoundsTheNestingAcrossPieces) {
   const auto nested = [](std::size_t depth) {
     std::string text;
     for (std::size_t i = 0; i < depth; ++i) text += "[1, ";
@@ -171,7 +171,7 @@ TEST(Json, BoundsTheNestingAcrossPieces) {
   }
 }
 
-TEST(Json, AgreesWithAnotherParserOnMutatedText) {
+TEST(JsonValue, AgreesWithAnotherParserOnMutatedText) {
   // Whether a text is JSON at all: both must say the same of thousands of damaged documents.
   const std::string good =
       R"({"nodes":[{"name":"a\u00e4\n","matrix":[1,0.5,-2e-3,0]},{"x":true,"y":null}],"z":{}})";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "io/file_content.hpp"
+#include "io/source/input_file.hpp"
 #include "strake/io/writer.hpp"
 #include "support/io_files.hpp"
 #include "support/io_models.hpp"

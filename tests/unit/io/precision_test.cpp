@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What readers say that the numbers of each body can carry.
-#include "io/precision.hpp"
+#include "io/source/precision.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/text_number.hpp"
+#include "io/source/text_number.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/equal_shapes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -8,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/grid_shape.hpp"
+#include "model/scene/grid_shape.hpp"
+#include "model/scene/instancing.hpp"
 #include "support/meshes.hpp"
 
 namespace strake::model {
@@ -36,15 +35,15 @@ TriangleMesh box_split(const Vec3d& at, unsigned diagonals) {
 }
 
 TEST(EqualShapes, HashesAreTheSameWhereverAMeshStands) {
-  const std::uint64_t hash = hash_wherever(on_grid(box_split({0, 0, 0}, 5)));
-  EXPECT_EQ(hash_wherever(on_grid(box_split({-3e8, 0.001, 7e8}, 5))), hash);
+  const std::uint64_t hash = translation_invariant_hash(on_grid(box_split({0, 0, 0}, 5)));
+  EXPECT_EQ(translation_invariant_hash(on_grid(box_split({-3e8, 0.001, 7e8}, 5))), hash);
   // A triangle without area is left out, but moves the middle that the vertices are relative to.
   TriangleMesh mesh = box_split({10, 0, 0}, 5);
   mesh.vertices.push_back({1000, 0, 0});
   mesh.triangles.push_back({8, 8, 0});
   const GridShape moved = on_grid(mesh);
-  EXPECT_NE(moved_by(on_grid(box_split({10, 0, 0}, 5)), moved), geometry::Vec3l{});
-  EXPECT_EQ(hash_wherever(moved), hash);
+  EXPECT_NE(translation_between(on_grid(box_split({10, 0, 0}, 5)), moved), geometry::Vec3l{});
+  EXPECT_EQ(translation_invariant_hash(moved), hash);
 }
 
 // Otherwise each is compared with all before it: an exporter that splits the faces of a part anew
@@ -58,7 +57,7 @@ TEST(EqualShapes, HashesTellTrianglesAndSagsOfTheSameVerticesApart) {
       const GridShape shape = on_grid(std::move(mesh));
       ASSERT_EQ(shape.parts.size(), 1U);
       ASSERT_EQ(shape.parts[0].kind, geometry::PartKind::solid);
-      hashes.insert(hash_wherever(shape));
+      hashes.insert(translation_invariant_hash(shape));
     }
   EXPECT_EQ(hashes.size(), 3U * 64U);
 }

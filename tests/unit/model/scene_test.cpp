@@ -196,7 +196,7 @@ TEST(Scene, WhatCannotBePlacedIsSkippedByName) {
   EXPECT_EQ(s.diagnostics.kept().back().where, "t.obj: 4");
   EXPECT_EQ(s.first_body.back(), 1U);
   std::vector<std::pair<std::uint32_t, std::string_view>> lacking;
-  for (const Lacking& l : s.lacking) lacking.emplace_back(index(l.object), l.code);
+  for (const IncompleteObject& l : s.lacking) lacking.emplace_back(index(l.object), l.code);
   EXPECT_EQ(lacking, (decltype(lacking){{1, "body-unplaceable"},
                                         {2, "mesh-bad-triangle"},
                                         {2, "shape-unplaceable"},

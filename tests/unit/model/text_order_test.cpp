@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/text_order.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "model/string_sort.hpp"
+
 namespace strake::model {
 namespace {
 
 using Order = std::vector<std::uint32_t>;
 
-/// Sorts by plain comparison and checks that sort_by_text agrees.
+/// Sorts by plain comparison and checks that sort_strings agrees.
 void expect_sorted(const std::vector<std::string>& texts) {
   const std::vector<std::string_view> views(texts.begin(), texts.end());
   Order order(texts.size());
@@ -27,7 +27,7 @@ void expect_sorted(const std::vector<std::string>& texts) {
   std::vector<std::string> unique = texts;
   std::sort(unique.begin(), unique.end());
   const bool distinct = std::unique(unique.begin(), unique.end()) == unique.end();
-  EXPECT_EQ(sort_by_text(views, order), distinct);
+  EXPECT_EQ(sort_strings(views, order), distinct);
   EXPECT_EQ(order, expected);
 }
 

@@ -3,12 +3,12 @@
 // load into a store.
 #include "intel_syntax.hpp"
 
-#include "strake/parallel/relaxed.hpp"
+#include "strake/parallel/detail/load_relaxed.hpp"
 
 namespace strake::parallel::test {
 
 std::size_t relaxed_in_intel_syntax(const std::atomic<std::size_t>& word) {
-  return detail::relaxed(word);
+  return detail::load_relaxed(word);
 }
 
 }  // namespace strake::parallel::test

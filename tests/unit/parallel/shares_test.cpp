@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strake/parallel/shares.hpp"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -10,15 +8,16 @@
 #include <vector>
 
 #include "intel_syntax.hpp"
+#include "strake/parallel/detail/load_relaxed.hpp"
+#include "strake/parallel/detail/work_stealing.hpp"
 #include "strake/parallel/for_each.hpp"
-#include "strake/parallel/relaxed.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/second_first.hpp"
 
 namespace strake::parallel::detail {
 namespace {
 
-using Rest = Shares::Rest;
+using Rest = WorkStealingShares::Rest;
 
 /// The numbers [first, n) and then [0, first).
 std::vector<std::size_t> from(std::size_t first, std::size_t n) {
@@ -31,13 +30,13 @@ std::vector<std::size_t> from(std::size_t first, std::size_t n) {
 /// whatever the number of shares, as where the team is busy.
 std::vector<int> takers_of(std::size_t n, std::size_t shares, std::size_t chunk, Rest rest,
                            unsigned seats) {
-  Shares dealt;
+  WorkStealingShares dealt;
   dealt.deal(n, shares, chunk, rest);
   std::vector<int> times(n, 0);
-  std::vector<std::pair<Seat, Hand>> workers;
+  std::vector<std::pair<Seat, WorkerShare>> workers;
   for (unsigned i = 0; i < seats; ++i) {
     const Seat seat{i, seats};
-    workers.emplace_back(seat, dealt.hand_of(seat));
+    workers.emplace_back(seat, dealt.share_of(seat));
   }
   std::mt19937 random(7);
   while (!workers.empty()) {
@@ -54,7 +53,7 @@ std::vector<int> takers_of(std::size_t n, std::size_t shares, std::size_t chunk,
   return times;
 }
 
-TEST(Shares, each_position_is_taken_once) {
+TEST(WorkStealingShares, each_position_is_taken_once) {
   for (const std::size_t n : {0U, 1U, 2U, 7U, 63U, 64U, 65U, 1000U})
     for (const unsigned shares : {1U, 2U, 3U, 8U, 64U})
       for (const std::size_t chunk : {1U, 3U, 1000U})
@@ -66,46 +65,46 @@ TEST(Shares, each_position_is_taken_once) {
           }
 }
 
-TEST(Shares, one_share_is_dealt_out_to_all_in_ascending_order) {
-  Shares dealt;
+TEST(WorkStealingShares, one_share_is_dealt_out_to_all_in_ascending_order) {
+  WorkStealingShares dealt;
   dealt.deal(10, 1, 1, Rest::free);
-  std::vector<Hand> hands;
-  for (unsigned i = 0; i < 3; ++i) hands.push_back(dealt.hand_of({i, 3}));
+  std::vector<WorkerShare> hands;
+  for (unsigned i = 0; i < 3; ++i) hands.push_back(dealt.share_of({i, 3}));
   for (unsigned i = 0; i < 10; ++i) {
-    Hand& hand = hands[i % 3];
+    WorkerShare& hand = hands[i % 3];
     ASSERT_TRUE(dealt.take(hand, {i % 3, 3}));
     EXPECT_EQ(hand.position, i);
   }
 }
 
-TEST(Shares, neighbours_stay_with_a_worker_and_what_is_left_goes_to_all) {
-  Shares dealt;
+TEST(WorkStealingShares, neighbours_stay_with_a_worker_and_what_is_left_goes_to_all) {
+  WorkStealingShares dealt;
   dealt.deal(30, 3, 1, Rest::free);
   const Seat seat{1, 3};
-  Hand hand = dealt.hand_of(seat);
+  WorkerShare hand = dealt.share_of(seat);
   std::vector<std::size_t> taken;
   while (dealt.take(hand, seat)) taken.push_back(hand.position);
   EXPECT_EQ(taken, from(10, 30));
 }
 
-TEST(Shares, kept_each_gets_its_own_at_once_and_no_more) {
-  Shares dealt;
+TEST(WorkStealingShares, kept_each_gets_its_own_at_once_and_no_more) {
+  WorkStealingShares dealt;
   dealt.deal(11, 3, 1, Rest::kept);
   const std::vector<std::pair<std::size_t, std::size_t>> expected{{0, 4}, {4, 8}, {8, 11}};
   for (unsigned i = 0; i < 3; ++i) {
     const Seat seat{i, 3};
-    Hand hand = dealt.hand_of(seat);
+    WorkerShare hand = dealt.share_of(seat);
     ASSERT_TRUE(dealt.take(hand, seat));
     EXPECT_EQ(std::pair(hand.position, hand.end), expected[i]);
     EXPECT_FALSE(dealt.take(hand, seat));
   }
 }
 
-TEST(Shares, what_is_left_of_a_share_can_be_passed_over) {
-  Shares dealt;
+TEST(WorkStealingShares, what_is_left_of_a_share_can_be_passed_over) {
+  WorkStealingShares dealt;
   dealt.deal(30, 3, 4, Rest::free);
   const Seat seat{0, 3};
-  Hand hand = dealt.hand_of(seat);
+  WorkerShare hand = dealt.share_of(seat);
   std::vector<std::size_t> taken;
   while (dealt.take(hand, seat)) {
     taken.push_back(hand.position);
@@ -115,15 +114,15 @@ TEST(Shares, what_is_left_of_a_share_can_be_passed_over) {
   EXPECT_EQ(taken, (std::vector<std::size_t>{0, 10, 20}));
 }
 
-TEST(Shares, counters_do_not_come_round_again) {
+TEST(WorkStealingShares, counters_do_not_come_round_again) {
   constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
   for (const unsigned shares : {1U, 3U}) {
-    Shares dealt;
+    WorkStealingShares dealt;
     dealt.deal(kMost, shares, 1, Rest::kept);
     std::size_t sum = 0;
     for (unsigned i = 0; i < shares; ++i) {
       const Seat seat{i, shares};
-      Hand hand = dealt.hand_of(seat);
+      WorkerShare hand = dealt.share_of(seat);
       ASSERT_TRUE(dealt.take(hand, seat));
       sum += hand.end - hand.position;
       EXPECT_FALSE(dealt.take(hand, seat));
@@ -132,17 +131,17 @@ TEST(Shares, counters_do_not_come_round_again) {
   }
 }
 
-TEST(Shares, threads_take_each_position_once) {
+TEST(WorkStealingShares, threads_take_each_position_once) {
   for (const unsigned workers : {2U, 8U, 64U}) {
     constexpr std::size_t kItems = 64 * 200;
-    Shares dealt;
+    WorkStealingShares dealt;
     dealt.deal(kItems, workers, 1, Rest::free);
     std::vector<int> times(kItems, 0);  // not atomic: two that take the same are a race
     {
       std::vector<std::jthread> threads;
       for (unsigned i = 0; i < workers; ++i)
         threads.emplace_back([&, seat = Seat{i, workers}] {
-          Hand hand = dealt.hand_of(seat);
+          WorkerShare hand = dealt.share_of(seat);
           while (dealt.take(hand, seat)) ++times[hand.position++];
         });
     }
@@ -158,7 +157,7 @@ std::vector<std::size_t> visits(const Region& region) {
   return visited;
 }
 
-TEST(Shares, of_a_region_are_for_many_blocks) {
+TEST(WorkStealingShares, of_a_region_are_for_many_blocks) {
   EXPECT_EQ(visits({.n = 200}), from(100, 200));
   EXPECT_EQ(visits({.n = 200, .chunk = 7}), from(100, 200));
   EXPECT_EQ(visits({.n = 400, .grain = 2}), from(200, 400));
@@ -166,7 +165,7 @@ TEST(Shares, of_a_region_are_for_many_blocks) {
   EXPECT_EQ(visits({.n = 200, .grain = 2}), from(0, 200)) << "few blocks: low ones first";
 }
 
-TEST(Shares, of_a_static_region_are_kept) {
+TEST(WorkStealingShares, of_a_static_region_are_kept) {
   // Otherwise the second worker would go on with the first one's before that has its turn: the
   // visits would be the same, so worker contexts tell who it was.
   HostExecutor host = strake::test::second_first();
@@ -178,7 +177,7 @@ TEST(Shares, of_a_static_region_are_kept) {
   for (std::size_t i = 0; i < 200; ++i) ASSERT_EQ(visitors[i], i < 100 ? 2 : 1) << i;
 }
 
-TEST(Shares, there_is_one_where_an_order_is_given) {
+TEST(WorkStealingShares, there_is_one_where_an_order_is_given) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < 200; ++i) order.push_back(i * 3 % 200);
   const std::vector<std::size_t> expected(order.begin(), order.end());
@@ -208,13 +207,13 @@ TEST(Relaxed, looks_every_time) {
 
 TEST(Relaxed, is_a_load_in_either_syntax) {
   const std::atomic<std::size_t> word{12345};
-  EXPECT_EQ(relaxed(word), 12345U);
+  EXPECT_EQ(load_relaxed(word), 12345U);
   EXPECT_EQ(parallel::test::relaxed_in_intel_syntax(word), 12345U);
   EXPECT_EQ(word.load(), 12345U);
 }
 
 /// Hangs, and runs into the test's time-out, if what a busy worker has not begun were left to it.
-TEST(Shares, a_worker_that_is_busy_keeps_nothing_from_the_others) {
+TEST(WorkStealingShares, a_worker_that_is_busy_keeps_nothing_from_the_others) {
   for (const unsigned workers : {2U, 3U, 64U}) {
     Team team(workers);
     if (team.size() == 1) continue;

@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "report/text.hpp"
+#include "core/number.hpp"
+#include "report/text/formatting.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/core/atomic_file.hpp"
-#include "strake/core/number.hpp"
 #include "strake/parallel/team.hpp"
 #include "strake/report/clash.hpp"
 #include "support/clash_model.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/json_reader.hpp"
+#include "report/json/json_reader.hpp"
 
 #include <gtest/gtest.h>
 

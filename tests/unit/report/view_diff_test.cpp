@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "report/view_places.hpp"
+#include "report/view/line_match.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/draw.hpp"
 #include "support/view_documents.hpp"
@@ -104,7 +104,7 @@ TEST(ViewDiff, StageTurnsHiddenLinesIntoVisibleOnes) {
   const ViewDiff diff = compared(before, after);
   EXPECT_EQ(lines(diff, LineChange::added), 0U);
   EXPECT_EQ(lines(diff, LineChange::gone), 0U);
-  for (const LineStretch& s : diff.stretches) {
+  for (const DiffInterval& s : diff.intervals) {
     if (s.change != LineChange::changed) continue;
     EXPECT_NE(s.was.state, LineState::visible);
     EXPECT_EQ(diff.piece(s).state, LineState::visible);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/attribute_values.hpp"
+#include "model/attributes.hpp"
 #include "support/rules_row.hpp"
 
 namespace strake::rules {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // First and third angle: who stands where, in line with whom, at which scale.
-#include "sheets/arrangement.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
+
+#include "sheets/arrangement/view_arrangement.hpp"
 
 namespace strake::sheets {
 namespace {
@@ -13,27 +13,27 @@ namespace {
 using geometry::Vec3l;
 
 /// Views of a body of 4000 x 2000 x 1000 mm about its lower corner.
-std::vector<ToPlace> views_of(const std::vector<Slot>& slots) {
-  std::vector<ToPlace> views;
-  for (const Slot slot : slots) {
-    ToPlace view;
+std::vector<UnplacedView> views_of(const std::vector<ViewSlot>& slots) {
+  std::vector<UnplacedView> views;
+  for (const ViewSlot slot : slots) {
+    UnplacedView view;
     view.slot = slot;
     view.extent = {0, 4000, 0, 1000};
-    if (slot == Slot::top) view.extent = {0, 4000, 0, 2000};
-    if (slot == Slot::bottom) view.extent = {0, 4000, -2000, 0};
-    if (slot == Slot::left) view.extent = {-2000, 0, 0, 1000};
-    if (slot == Slot::right) view.extent = {0, 2000, 0, 1000};
-    if (slot == Slot::iso) view.extent = {-1000, 3333.333, -1500, 1234.567};
+    if (slot == ViewSlot::top) view.extent = {0, 4000, 0, 2000};
+    if (slot == ViewSlot::bottom) view.extent = {0, 4000, -2000, 0};
+    if (slot == ViewSlot::left) view.extent = {-2000, 0, 0, 1000};
+    if (slot == ViewSlot::right) view.extent = {0, 2000, 0, 1000};
+    if (slot == ViewSlot::iso) view.extent = {-1000, 3333.333, -1500, 1234.567};
     view.bottom_mm = 12;
     views.push_back(view);
   }
   return views;
 }
 
-const Room kA3{{24, 14, 406, 283}, {{230, 239, 410, 287}}};
+const SheetArea kA3{{24, 14, 406, 283}, {{230, 239, 410, 287}}};
 
-Arranged arranged(const std::vector<ToPlace>& views, Projection projection, const Room& room = kA3,
-                  double scale = 0) {
+Arranged arranged(const std::vector<UnplacedView>& views, Projection projection,
+                  const SheetArea& room = kA3, double scale = 0) {
   const auto found = arrange(views, projection, room, 15, scale);
   EXPECT_TRUE(found) << found.error().text();
   return found ? *found : Arranged{};
@@ -41,24 +41,25 @@ Arranged arranged(const std::vector<ToPlace>& views, Projection projection, cons
 
 TEST(Arrangement, DirectionsBesideAFrontView) {
   const hlr::View front{{0, -1, 0}, {0, 0, 1}, {}};
-  const auto is = [&](Slot slot, Vec3l direction, Vec3l up) {
+  const auto is = [&](ViewSlot slot, Vec3l direction, Vec3l up) {
     const hlr::View view = view_in_slot(slot, front);
     return view.direction == direction && view.up == up;
   };
-  EXPECT_TRUE(is(Slot::top, {0, 0, 1}, {0, 1, 0}));
-  EXPECT_TRUE(is(Slot::bottom, {0, 0, -1}, {0, -1, 0}));
-  EXPECT_TRUE(is(Slot::left, {-1, 0, 0}, {0, 0, 1}));
-  EXPECT_TRUE(is(Slot::right, {1, 0, 0}, {0, 0, 1}));
-  EXPECT_TRUE(is(Slot::back, {0, 1, 0}, {0, 0, 1}));
-  EXPECT_TRUE(is(Slot::iso, {1, -1, 1}, {0, 0, 1}));
+  EXPECT_TRUE(is(ViewSlot::top, {0, 0, 1}, {0, 1, 0}));
+  EXPECT_TRUE(is(ViewSlot::bottom, {0, 0, -1}, {0, -1, 0}));
+  EXPECT_TRUE(is(ViewSlot::left, {-1, 0, 0}, {0, 0, 1}));
+  EXPECT_TRUE(is(ViewSlot::right, {1, 0, 0}, {0, 0, 1}));
+  EXPECT_TRUE(is(ViewSlot::back, {0, 1, 0}, {0, 0, 1}));
+  EXPECT_TRUE(is(ViewSlot::iso, {1, -1, 1}, {0, 0, 1}));
   // Of a plan with x to the right, the view from below has x to the right as well.
   const hlr::View plan{{0, 0, 1}, {0, 1, 0}, {}};
-  EXPECT_EQ(view_in_slot(Slot::top, plan).direction, Vec3l(0, 1, 0));
-  EXPECT_EQ(view_in_slot(Slot::right, plan).direction, Vec3l(1, 0, 0));
+  EXPECT_EQ(view_in_slot(ViewSlot::top, plan).direction, Vec3l(0, 1, 0));
+  EXPECT_EQ(view_in_slot(ViewSlot::right, plan).direction, Vec3l(1, 0, 0));
 }
 
 TEST(Arrangement, FirstAngleStandsAcrossThirdAngleBeside) {
-  const auto views = views_of({Slot::front, Slot::top, Slot::bottom, Slot::left, Slot::right});
+  const auto views =
+      views_of({ViewSlot::front, ViewSlot::top, ViewSlot::bottom, ViewSlot::left, ViewSlot::right});
   for (const Projection projection : {Projection::first_angle, Projection::third_angle}) {
     const Arranged a = arranged(views, projection);
     EXPECT_TRUE(a.fits);
@@ -82,7 +83,7 @@ TEST(Arrangement, FirstAngleStandsAcrossThirdAngleBeside) {
 }
 
 TEST(Arrangement, TheLargestUsualScaleThatFits) {
-  const auto views = views_of({Slot::front, Slot::top, Slot::left, Slot::iso});
+  const auto views = views_of({ViewSlot::front, ViewSlot::top, ViewSlot::left, ViewSlot::iso});
   const Arranged a = arranged(views, Projection::first_angle);
   EXPECT_TRUE(std::find(drawing::usual_scales().begin(), drawing::usual_scales().end(), a.scale) !=
               drawing::usual_scales().end());
@@ -101,11 +102,11 @@ TEST(Arrangement, TheLargestUsualScaleThatFits) {
 
 TEST(Arrangement, ThePictorialViewTakesAFreePlace) {
   for (const Projection projection : {Projection::first_angle, Projection::third_angle})
-    for (const auto& slots :
-         std::vector<std::vector<Slot>>{{Slot::front, Slot::iso},
-                                        {Slot::front, Slot::top, Slot::iso},
-                                        {Slot::front, Slot::top, Slot::bottom, Slot::left,
-                                         Slot::right, Slot::back, Slot::iso}}) {
+    for (const auto& slots : std::vector<std::vector<ViewSlot>>{
+             {ViewSlot::front, ViewSlot::iso},
+             {ViewSlot::front, ViewSlot::top, ViewSlot::iso},
+             {ViewSlot::front, ViewSlot::top, ViewSlot::bottom, ViewSlot::left, ViewSlot::right,
+              ViewSlot::back, ViewSlot::iso}}) {
       const auto views = views_of(slots);
       const Arranged a = arranged(views, projection);
       for (std::size_t v = 0; v < views.size(); ++v)
@@ -115,17 +116,17 @@ TEST(Arrangement, ThePictorialViewTakesAFreePlace) {
 }
 
 TEST(Arrangement, NoRoomAtAnyScaleIsAnError) {
-  auto views = views_of({Slot::front, Slot::top});
-  for (ToPlace& view : views) view.left_mm = 300;
+  auto views = views_of({ViewSlot::front, ViewSlot::top});
+  for (UnplacedView& view : views) view.left_mm = 300;
   const auto found = arrange(views, Projection::first_angle, {{0, 0, 200, 200}, {}}, 10, 0);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::input);
 }
 
 TEST(Arrangement, ViewsWithoutLinesHavePlacesToo) {
-  std::vector<ToPlace> views(2);
-  views[0].slot = Slot::front;
-  views[1].slot = Slot::top;
+  std::vector<UnplacedView> views(2);
+  views[0].slot = ViewSlot::front;
+  views[1].slot = ViewSlot::top;
   EXPECT_TRUE(arranged(views, Projection::first_angle).fits);
 }
 

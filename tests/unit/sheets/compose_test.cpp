@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sheets/lettering.hpp"
+#include "sheets/spec/text_metrics.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/sheet_of.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Templates: what is kept of them, and what is refused.
-#include "sheets/template.hpp"
+#include "sheets/spec/template.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,8 @@ std::string fault_of(const std::string& text) {
 std::string kept(const std::string& inside) {
   const auto parsed = parse_template(svg(inside));
   EXPECT_TRUE(parsed) << parsed.error().text();
-  return parsed ? filled(parsed->pieces, [](const std::string& name) { return "<" + name + ">"; })
+  return parsed ? fill_placeholders(parsed->pieces,
+                                    [](const std::string& name) { return "<" + name + ">"; })
                 : std::string();
 }
 

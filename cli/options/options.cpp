@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/options.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/number.hpp"
+#include "core/units.hpp"
+#include "strake/core/atomic_file.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+/// Far beyond any tolerance that a user can mean.
+constexpr double kLongestMm = 1e6;
+
+Error usage(std::string message, std::string option, std::string mend) {
+  return {ErrorCode::usage, std::move(message), std::move(option), std::move(mend)};
+}
+
+/// Whether two names lead to one file, which need not be there yet: a link to nowhere leads to the
+/// file that writing through it makes.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error) && !error) return true;
+  const auto full = [&](const std::filesystem::path& path) {
+    const auto whole = std::filesystem::absolute(resolve_links(path), error);
+    return error ? path : std::filesystem::weakly_canonical(whole, error);
+  };
+  return full(a) == full(b);
+}
+
+Status check_place(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path folder = fs::path(file).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, error))
+    return Error{ErrorCode::output, "cannot be written: there is no such folder", file,
+                 "make the folder first"};
+  if (fs::is_directory(file, error))
+    return Error{ErrorCode::output, "cannot be written: it is a folder", file,
+                 "give the name of a file"};
+  return {};
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option("--threads", options.threads,
+                  fmt::format("Workers (default: the cores, here {})", parallel::default_workers()))
+      ->type_name("N")
+      ->group("Running");
+  command.add_flag("--quiet", options.quiet, "No narration and no progress, errors only")
+      ->group("Running");
+  command
+      .add_flag("--stats", options.stats,
+                "Seconds per phase, work, load balance and peak memory on standard error")
+      ->group("Running");
+  command.add_flag("--json", options.json, "The result on standard output as JSON")
+      ->group("Output");
+}
+
+void add_input_options(CLI::App& command, InputOptions& options) {
+  command.add_option("files", options.files, "RVM, glTF, GLB, OBJ or STL files")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option(
+          "--unit", options.units,
+          "Length unit of the files, whatever they say themselves: mm, m, in ...; of one of "
+          "them as part.stl=m; may be repeated")
+      ->type_name("[FILE=]UNIT")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Input");
+  command
+      .add_option("--up-axis", options.up_axes,
+                  "Axis that points up in the files, whatever they say themselves; of one of them "
+                  "as part.stl=y; may be repeated")
+      ->type_name("[FILE=]x|y|z")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Input");
+  command
+      .add_flag(
+          "--strict", options.strict,
+          "Exit code 4 when anything was skipped or, in clash, a set is empty or a pair was not "
+          "compared")
+      ->group("Input");
+}
+
+void add_output_option(CLI::App& command, std::vector<std::string>& files,
+                       const std::string& what) {
+  command.add_option("-o,--output", files, what)
+      ->type_name("FILE")
+      ->expected(1)
+      ->allow_extra_args(false)  // what follows the file is the next model
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Output");
+}
+
+CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
+                        const std::vector<std::string>& words, const std::string& help) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : "|") + word;
+  return command.add_option(name, value, help)
+      ->type_name(list)
+      ->check([words, list](const std::string& given) {
+        for (const std::string& word : words)
+          if (given == word) return std::string();
+        return "'" + given + "' is not one of " + list;
+      });
+}
+
+Result<unsigned> worker_count(const CommonOptions& options) {
+  if (options.threads.empty()) return parallel::default_workers();
+  const auto number = parse_integer(options.threads);
+  if (!number || *number < 1 || *number > parallel::Team::kMaxWorkers)
+    return usage(fmt::format("'{}' is no number of workers", options.threads), "--threads",
+                 fmt::format("write a whole number from 1 to {}", parallel::Team::kMaxWorkers));
+  return static_cast<unsigned>(*number);
+}
+
+namespace {
+
+/// "part.stl=m" is said of that file, "m" of all. The last '=' counts: names of files may hold
+/// some.
+struct Said {
+  std::string text, file, value;
+  bool of_all;
+
+  explicit Said(std::string all_of_it) : text(std::move(all_of_it)) {
+    const std::size_t at = text.rfind('=');
+    of_all = at == std::string::npos;
+    if (!of_all) file = text.substr(0, at);
+    value = of_all ? text : text.substr(at + 1);
+  }
+};
+
+/// Whether a path ends in the folders and the name of another.
+bool ends_in(const std::filesystem::path& path, const std::filesystem::path& end) {
+  const auto from = std::distance(end.begin(), end.end());
+  const auto length = std::distance(path.begin(), path.end());
+  return from <= length &&
+         std::equal(end.begin(), end.end(), std::next(path.begin(), length - from));
+}
+
+/// The files that a value is said of: those of its path, or else the one whose path ends in it, as
+/// the labels of results do.
+Result<std::vector<std::size_t>> files_meant(const Said& said,
+                                             const std::vector<io::FileToRead>& files,
+                                             const std::string& option) {
+  std::vector<std::size_t> same, ending;
+  const std::filesystem::path meant = std::filesystem::path(said.file).lexically_normal();
+  std::error_code ignored;
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    const std::filesystem::path path = files[f].path.lexically_normal();
+    const std::filesystem::path whole =
+        std::filesystem::absolute(files[f].path, ignored).lexically_normal();
+    if (said.of_all || path == meant || whole == meant) same.push_back(f);
+    if (!said.file.empty() && ends_in(path, meant)) ending.push_back(f);
+  }
+  if (!same.empty()) return same;
+  if (ending.empty())
+    return usage("'" + said.file + "' is none of the files", option,
+                 "write the path or the name of one, as part.stl=" + said.value);
+  for (const std::size_t f : ending)
+    if (files[f].path.lexically_normal() != files[ending.front()].path.lexically_normal())
+      return usage("'" + said.file + "' may be " + files[ending.front()].path.string() + " or " +
+                       files[f].path.string(),
+                   option, "write more of the path");
+  return ending;
+}
+
+/// Calls take(options, value) for every file that a value is said of; what is said of one goes
+/// before what is said of all.
+template <class Take>
+Status take_said(const std::vector<std::string>& values, const std::string& option,
+                 std::vector<io::FileToRead>& files, const Take& take) {
+  for (const bool of_all : {true, false}) {
+    std::vector<bool> taken(files.size());
+    for (const std::string& text : values) {
+      const Said said(text);
+      if (said.of_all != of_all) continue;
+      const auto meant = files_meant(said, files, option);
+      if (!meant) return meant.error();
+      for (const std::size_t f : *meant) {
+        if (taken[f])
+          return usage(of_all ? "is given more than once for all files"
+                              : "is given more than once for " + files[f].path.string(),
+                       option, "give it once; FILE=" + said.value + " is of one file");
+        taken[f] = true;
+        if (Status status = take(files[f].options, said.value); !status) return status;
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options) {
+  std::vector<io::FileToRead> files;
+  for (const std::string& file : options.files) files.push_back({file, {}});
+  Status status = take_said(
+      options.units, "--unit", files, [](io::ReadOptions& read, const std::string& text) -> Status {
+        const Result<double> unit = quantity_option(text, "--unit", parse_unit_mm);
+        if (!unit) return unit.error();
+        read.unit_mm = *unit;
+        return {};
+      });
+  if (!status) return status.error();
+  status = take_said(
+      options.up_axes, "--up-axis", files,
+      [](io::ReadOptions& read, const std::string& text) -> Status {
+        if (text != "x" && text != "y" && text != "z")
+          return usage("'" + text + "' is not one of x|y|z", "--up-axis", "write x, y or z");
+        read.up_axis = text == "x" ? io::UpAxis::x : text == "y" ? io::UpAxis::y : io::UpAxis::z;
+        return {};
+      });
+  if (!status) return status.error();
+  return files;
+}
+
+Result<std::vector<double>> number_list(const std::string& text, std::size_t count,
+                                        const std::string& option, const std::string& example) {
+  std::vector<double> numbers;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const auto number = parse_number(text.substr(at, comma - at));
+    if (!number) break;
+    numbers.push_back(*number);
+    at = comma + 1;
+  }
+  if (at != text.size() + 1 || numbers.size() != count)
+    return usage(fmt::format("'{}' is not {} numbers", text, count), option, "write " + example);
+  return numbers;
+}
+
+std::string suffix_of(const std::string& file) {
+  std::string suffix = std::filesystem::path(file).extension().string();
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return suffix;
+}
+
+namespace {
+
+Status check_output(const std::string& option, const std::string& file,
+                    const std::vector<std::string>& suffixes,
+                    const std::vector<std::string>& inputs) {
+  std::string list;
+  for (const std::string& suffix : suffixes) list += (list.empty() ? "" : " or ") + suffix;
+  if (std::find(suffixes.begin(), suffixes.end(), suffix_of(file)) == suffixes.end())
+    return usage("the format of '" + file + "' is not known", option, "end its name in " + list);
+  for (const std::string& input : inputs)
+    if (same_file(file, input))
+      return usage("'" + file + "' is one of the inputs and would be overwritten", option,
+                   "give another name");
+  return {};
+}
+
+}  // namespace
+
+Status check_outputs(const std::vector<std::string>& files,
+                     const std::vector<std::string>& suffixes,
+                     const std::vector<std::string>& inputs) {
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    const std::string& file = files[f];
+    if (Status status = check_output("-o", file, suffixes, inputs); !status) return status;
+    for (std::size_t g = 0; g < f; ++g)
+      if (same_file(file, files[g]))
+        return usage("'" + file + "' is given twice", "-o", "give each output its own name");
+    if (Status status = check_place(file); !status) return status;
+  }
+  return {};
+}
+
+Status check_other_output(const std::string& option, const std::string& file,
+                          const std::string& suffix, const std::vector<std::string>& inputs,
+                          const std::vector<std::string>& outputs) {
+  if (Status status = check_output(option, file, {suffix}, inputs); !status) return status;
+  for (const std::string& output : outputs)
+    if (same_file(file, output))
+      return usage("'" + file + "' is the output of -o already", option,
+                   "give each output its own name");
+  return check_place(file);
+}
+
+Status length_option(double& value, const std::string& text, const std::string& option) {
+  if (text.empty()) return {};
+  const Result<double> length = quantity_option(text, option, parse_length_mm);
+  if (!length) return length.error();
+  if (*length < 0) return usage("'" + text + "' is negative", option, "write 0 or more");
+  if (*length > kLongestMm)
+    return usage("'" + text + "' is longer than a kilometre", option, "write 1km or less");
+  value = *length;
+  return {};
+}
+
+Status whole_number(std::uint64_t& value, const std::string& text, const std::string& option) {
+  if (text.empty()) return {};
+  const auto number = parse_integer(text);
+  if (!number || *number < 0)
+    return Error{ErrorCode::usage, "'" + text + "' is no whole number", option,
+                 "write digits only, as 20000, up to 9223372036854775807"};
+  value = static_cast<std::uint64_t>(*number);
+  return {};
+}
+
+Status check_no_empty_values(const CLI::App& command) {
+  for (const CLI::Option* const option : command.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty())
+        return usage("the value is empty",
+                     option->get_positional() ? option->get_type_name() : option->get_name(),
+                     option->get_positional() ? "give a value, or leave it out"
+                                              : "give a value, or leave the option out");
+  for (const CLI::App* const inner : command.get_subcommands())
+    if (Status status = check_no_empty_values(*inner); !status) return status;
+  return {};
+}
+
+Result<double> quantity_option(const std::string& text, const std::string& option,
+                               Result<double> (*parse)(std::string_view)) {
+  const Result<double> value = parse(text);
+  if (value) return *value;
+  Error error = value.error();
+  error.where = option;
+  return error;
+}
+
+}  // namespace strake::cli

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run/load.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/units.hpp"
+#include "strake/core/diagnostics.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+using geometry::Box3d;
+using geometry::Vec3d;
+
+/// Files of these two units, read as of one, differ by the factor.
+struct Mistake {
+  double factor;
+  std::string_view small, large;
+  double alike;  ///< extents that differ by no more than this factor besides
+};
+
+/// Not 10 and 12: parts that are so much larger than others are common. 25 and 40 times as large,
+/// of a cube or a plate, are so, too: those have to be told from inches by a hundredth.
+constexpr double kAlike = 1.12, kSame = 1.01;
+constexpr std::array<Mistake, 4> kMistakes{{{1000, "m", "mm", kAlike},
+                                            {25.4, "in", "mm", kSame},
+                                            {39.3701, "m", "in", kSame},
+                                            {304.8, "ft", "mm", kAlike}}};
+
+/// Whether `large` is larger than `small`, both in grid units, by the mistake along all three axes,
+/// and along two at least by extents that the grid has not made of nothing: two parts seldom are
+/// alike along all axes, and what stands in a line often is.
+bool is_alike(const Vec3d& small, const Vec3d& large, const Mistake& mistake) {
+  constexpr double kTelling = 8;
+  const auto& [factor, small_unit, large_unit, alike] = mistake;
+  int telling = 0;
+  for (int k = 0; k < 3; ++k) {
+    // The grid moves each of two ends by half a unit.
+    if (large[k] > (small[k] + 1) * factor * alike || large[k] < (small[k] - 1) * factor / alike)
+      return false;
+    if (small[k] >= kTelling) ++telling;
+  }
+  return telling >= 2;
+}
+
+struct FileExtent {
+  std::size_t file;
+  Vec3d size;
+  std::string_view assumed;  ///< the unit; empty where it is known
+};
+
+/// The unit where a file does not say it and nobody has.
+std::string_view assumed_unit(std::string_view unit) {
+  constexpr std::string_view kAssumed = " (assumed)";
+  return unit.ends_with(kAssumed) ? unit.substr(0, unit.size() - kAssumed.size()) : "";
+}
+
+/// Of the files that anything is placed of.
+std::vector<FileExtent> extents(const model::Scene& scene) {
+  const std::vector<model::SourceFile>& files = scene.model->files;
+  std::vector<Box3d> boxes(files.size(), geometry::empty_box<double>());
+  for (const model::GridBody& body : scene.bodies)
+    boxes[scene.model->object(body.object).file].include(
+        body.box(scene.shapes[body.grid_shape]).as<double>());
+  std::vector<FileExtent> found;
+  for (std::size_t f = 0; f < files.size(); ++f)
+    if (!boxes[f].empty())
+      found.push_back({f, boxes[f].hi - boxes[f].lo, assumed_unit(files[f].unit)});
+  return found;
+}
+
+/// One file may be in another axis' hands, too: y and z change places.
+bool is_alike_in_any_frame(const FileExtent& small, const FileExtent& large,
+                           const Mistake& mistake) {
+  const Vec3d& s = small.size;
+  return is_alike(s, large.size, mistake) || is_alike({s.x, s.z, s.y}, large.size, mistake);
+}
+
+/// What to say of the two files: never another unit of one that is known.
+std::string options_to_try(const FileExtent& small, const FileExtent& large, const Mistake& mistake,
+                           const std::vector<model::SourceFile>& files) {
+  const auto option = [&](const FileExtent& of, std::string_view unit) {
+    return fmt::format("--unit '{}={}'", files[of.file].label, unit);
+  };
+  const auto& [factor, small_unit, large_unit, alike] = mistake;
+  if (!small.assumed.empty() && !large.assumed.empty())
+    return option(small, small_unit) + ' ' + option(large, large_unit);
+  if (!small.assumed.empty())
+    return option(small, small.assumed == large_unit ? small_unit : "UNIT");
+  return option(large, large.assumed == small_unit ? large_unit : "UNIT");
+}
+
+}  // namespace
+
+void note_doubtful_units(model::Scene& scene) {
+  const std::vector<model::SourceFile>& files = scene.model->files;
+  const std::vector<FileExtent> found = extents(scene);
+  for (const FileExtent& large : found)
+    for (const FileExtent& small : found) {
+      if (large.assumed.empty() && small.assumed.empty()) continue;
+      for (const Mistake& mistake : kMistakes)
+        if (is_alike_in_any_frame(small, large, mistake))
+          scene.diagnostics.add(
+              Severity::warning, "unit-doubtful",
+              fmt::format("is about {:g} times as large as {}: where that is the factor between "
+                          "their units, say {}",
+                          mistake.factor, files[small.file].label,
+                          options_to_try(small, large, mistake, files)),
+              files[large.file].label);
+    }
+}
+
+namespace {
+
+/// Corners closer than the grid's spacing cannot be told apart.
+constexpr double kFinestSagMm = 0.001;
+constexpr double kWidestWeldMm = 1000;
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneInput& options, const std::string& default_sag) {
+  command
+      .add_option(
+          "--sag", options.sag,
+          "Largest distance of a tessellated curve from the true one (default " + default_sag + ")")
+      ->type_name("LENGTH")
+      ->group("Input");
+  command
+      .add_option("--weld", options.weld,
+                  "Seams of meshes that are no wider close (default: what the numbers of each body "
+                  "cannot tell apart, 3um at least; 0: none)")
+      ->type_name("LENGTH")
+      ->group("Input");
+  command
+      .add_flag("--obstructions", options.obstructions,
+                "Take obstruction volumes (space kept free) in as well")
+      ->group("Input");
+  command.add_flag("--insulation", options.insulation, "Take insulation in as well")
+      ->group("Input");
+}
+
+Result<model::SceneOptions> scene_options(const SceneInput& input, double default_sag_mm) {
+  model::SceneOptions options;
+  options.sag_mm = default_sag_mm;
+  options.obstruction = input.obstructions;
+  options.insulation = input.insulation;
+  if (const Status status = length_option(options.weld_mm, input.weld, "--weld"); !status)
+    return status.error();
+  if (options.weld_mm > kWidestWeldMm)
+    return Error{ErrorCode::usage, "'" + input.weld + "' is longer than a metre", "--weld",
+                 "write the widest gap that is no gap, as 0.01mm"};
+  if (input.sag.empty()) return options;
+  const Result<double> sag = quantity_option(input.sag, "--sag", parse_length_mm);
+  if (!sag) return sag.error();
+  if (*sag <= 0)
+    return Error{ErrorCode::usage, "the sag must be positive", "--sag", "write a length, as 0.5mm"};
+  if (*sag < kFinestSagMm)
+    return Error{ErrorCode::usage, "'" + input.sag + "' is finer than the grid of 1um", "--sag",
+                 "write 1um or more"};
+  options.sag_mm = *sag;
+  return options;
+}
+
+void print_diagnostics(Console& console, const Diagnostics& diagnostics,
+                       std::initializer_list<std::string_view> each) {
+  const auto words = [](const Diagnostic& d) {
+    return fmt::format(": {}{}{}", d.where, d.where.empty() ? "" : ": ", d.message);
+  };
+  const auto& kept = diagnostics.kept();
+  for (const Diagnostics::Count& count : diagnostics.counts()) {
+    std::string line = fmt::format("{} {}", severity_name(count.severity), count.code);
+    if (std::find(each.begin(), each.end(), count.code) != each.end()) {
+      for (const Diagnostic& d : kept)
+        if (d.code == count.code) console.say(line + words(d));
+      if (count.count > Diagnostics::kMaxPerCode)
+        console.say(line + fmt::format(", {} in all", count.count));
+      continue;
+    }
+    if (count.count > 1) line += fmt::format(", first of {}", count.count);
+    const auto first = std::find_if(kept.begin(), kept.end(),
+                                    [&](const Diagnostic& d) { return d.code == count.code; });
+    if (first != kept.end()) line += words(*first);
+    console.say(line);
+  }
+}
+
+namespace {
+
+Result<model::Model> read_model(Session& session, const InputOptions& input) {
+  const Result<std::vector<io::FileToRead>> files = files_to_read(input);
+  if (!files) return files.error();
+  const auto timer = session.step("load");
+  Result<model::Model> model = io::read_models(*files, session.context());
+  if (!model) return model;
+  std::vector<std::uint64_t> objects(model->files.size());
+  for (const model::Object& object : model->objects) ++objects[object.file];
+  for (std::size_t f = 0; f < model->files.size(); ++f) {
+    const model::SourceFile& file = model->files[f];
+    session.console().say(fmt::format("{}: {}, {} objects, unit {}, {} up", file.label, file.format,
+                                      objects[f], file.unit, file.up_axis));
+  }
+  print_diagnostics(session.console(), model->diagnostics);
+  if (const std::string rest = unread_rest(*model); !rest.empty())
+    session.console().warn(fmt::format("nothing is known of {}", rest));
+  return model;
+}
+
+Result<model::Scene> place_model(Session& session, const model::Model& model,
+                                 const model::SceneOptions& options) {
+  const auto timer = session.step("place");
+  Result<model::Scene> scene = model::make_scene(model, options, session.context());
+  if (!scene) return scene;
+  note_doubtful_units(*scene);
+  print_diagnostics(session.console(), scene->diagnostics);
+  if (scene->left_out > 0)
+    session.console().say(fmt::format(
+        "left out {} bodies of obstructions and insulation (--obstructions, --insulation)",
+        scene->left_out));
+  return scene;
+}
+
+}  // namespace
+
+Diagnostics Loaded::diagnostics() const {
+  Diagnostics all = model->diagnostics;
+  all.append(scene.diagnostics);
+  return all;
+}
+
+Result<Loaded> load(Session& session, const InputOptions& input,
+                    const model::SceneOptions& options) {
+  Result<model::Model> model = read_model(session, input);
+  if (!model) return model.error();
+  Loaded loaded;
+  loaded.model = std::make_unique<const model::Model>(std::move(*model));
+  Result<model::Scene> scene = place_model(session, *loaded.model, options);
+  if (!scene) return scene.error();
+  loaded.scene = std::move(*scene);
+  return loaded;
+}
+
+ExitCode strict_exit_code(const InputOptions& input, const Loaded& loaded) {
+  return input.strict && loaded.diagnostics().skipped() > 0 ? ExitCode::partial : ExitCode::done;
+}
+
+}  // namespace strake::cli

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run/memory.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>  // defines __GLIBC__ where it applies
+#include <exception>
+#include <new>
+
+#include "cli/output/console.hpp"
+#include "cli/run/exit_code.hpp"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace strake::cli {
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kMapFrom = 1 << 30;  // bytes: smaller blocks come from the heap
+  constexpr int kNeverTrim = -1;
+  // Where either is refused the run is slower, nothing else.
+  mallopt(M_MMAP_THRESHOLD, kMapFrom);
+  mallopt(M_TRIM_THRESHOLD, kNeverTrim);
+#endif
+}
+
+namespace {
+
+/// Whether what ends the program is a want of memory. An exception that finds no memory for itself
+/// never comes to be: then there is none, and no more to be had.
+bool memory_ran_out() {
+  constexpr std::size_t kLittle = std::size_t{1} << 16U;
+  const std::exception_ptr thrown = std::current_exception();
+  if (!thrown) {
+    void* const block = std::malloc(kLittle);
+    std::free(block);
+    return block == nullptr;
+  }
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+[[noreturn]] void end_program() {
+  if (!memory_ran_out()) std::abort();
+  say_out_of_memory();
+  ::_exit(static_cast<int>(ExitCode::memory));
+}
+
+}  // namespace
+
+void end_well_without_memory() { std::set_terminate(end_program); }
+
+}  // namespace strake::cli

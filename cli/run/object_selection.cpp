@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run/object_selection.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace strake::cli {
+
+Result<std::vector<model::Selection>> parse_selections(const std::vector<std::string>& texts,
+                                                       const std::string& option) {
+  std::vector<model::Selection> selections;
+  for (const std::string& text : texts) {
+    auto selection = model::Selection::parse(text);
+    if (!selection) {
+      Error error = selection.error();
+      error.where = option + ", " + error.where;
+      return error;
+    }
+    selections.push_back(std::move(*selection));
+  }
+  return selections;
+}
+
+Result<Picked> pick_all(Session& session, const model::Scene& scene,
+                        const std::vector<model::Selection>& selections) {
+  Picked all;
+  all.any.resize(scene.model->objects.size());
+  for (const model::Selection& selection : selections) {
+    const auto picked = model::pick(selection, scene, session.context());
+    if (!picked) return picked.error();
+    bool some = false;
+    for (std::size_t o = 0; o < all.any.size(); ++o) {
+      some = some || (*picked)[o];
+      all.any[o] = all.any[o] || (*picked)[o];
+    }
+    if (!some) all.idle.push_back(selection.text());
+  }
+  return all;
+}
+
+Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
+                                   const std::vector<model::Selection>& selections,
+                                   const std::string& option) {
+  if (selections.empty()) return std::vector<bool>();
+  Result<Picked> picked = pick_all(session, scene, selections);
+  if (!picked) return picked.error();
+  if (!picked->idle.empty())
+    return Error{ErrorCode::usage, "'" + picked->idle.front() + "' picks no object", option,
+                 "a bare pattern is compared with names, ids and group/.../name paths; * stands "
+                 "for any text"};
+  return std::move(picked->any);
+}
+
+}  // namespace strake::cli

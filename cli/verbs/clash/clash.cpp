@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/clash/clash.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/run/load.hpp"
+#include "cli/verbs/clash/clash_result.hpp"
+#include "cli/verbs/clash/clash_sets.hpp"
+#include "cli/verbs/verb.hpp"
+#include "strake/report/clash.hpp"
+#include "strake/rules/rules.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+struct ClashOptions {
+  InputOptions input;
+  SceneInput scene;
+  SetInput sets;
+  std::string clearance, touch_gap, touch_overlap, contact_distance;
+  std::string broad_phase, narrow_phase, thickness_cap, fail_on, most_pairs, most_spheres, rules;
+  bool list_exempted = false, curves = false;
+  ClashResultInput result;
+  std::vector<std::string> outputs;
+};
+
+Result<clash::Options> engine_options(const ClashOptions& given) {
+  clash::Options options;
+  struct Length {
+    double& value;
+    const std::string& text;
+    const char* option;
+  };
+  for (const Length& length :
+       {Length{options.clearance_mm, given.clearance, "--clearance"},
+        Length{options.touch_gap_mm, given.touch_gap, "--touch-gap"},
+        Length{options.touch_overlap_mm, given.touch_overlap, "--touch-overlap"},
+        Length{options.contact_distance_mm, given.contact_distance, "--contact-distance"}})
+    if (const Status status = length_option(length.value, length.text, length.option); !status)
+      return status.error();
+  if (const Status status = whole_number(options.most_pairs, given.most_pairs, "--most-pairs");
+      !status)
+    return status.error();
+  if (const Status status =
+          whole_number(options.most_spheres, given.most_spheres, "--most-spheres");
+      !status)
+    return status.error();
+  if (const Status status = whole_number(options.most_regions, given.result.regions, "--regions");
+      !status)
+    return status.error();
+  if (given.broad_phase == "all-pairs") options.broad_phase = clash::BroadPhase::all_pairs;
+  if (given.narrow_phase == "sphere-subdivision")
+    options.narrow_phase = clash::NarrowPhase::sphere_subdivision;
+  if (given.result.wants_volumes()) options.volumes = clash::Volumes::on;
+  if (given.curves) options.curves = clash::Curves::on;
+  if (given.thickness_cap == "off") options.thickness_cap = clash::ThicknessCap::off;
+  return options;
+}
+
+void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
+  clash::Counters sum;
+  std::uint64_t allowed_places = 0;
+  for (const clash::Report& test : tests) {
+    sum.candidate_pairs += test.counters.candidate_pairs;
+    sum.allowed_pairs += test.counters.allowed_pairs;
+    sum.part_pairs += test.counters.part_pairs;
+    sum.triangle_pairs += test.counters.triangle_pairs;
+    sum.exact_fallbacks += test.counters.exact_fallbacks;
+    sum.depth_cells += test.counters.depth_cells;
+    sum.volume_triangle_pairs += test.counters.volume_triangle_pairs;
+    sum.volumes_given_up += test.counters.volumes_given_up;
+    sum.regions_given_up += test.counters.regions_given_up;
+    allowed_places += test.count_allowed_regions;
+  }
+  const clash::NotComparedCounts lacks = clash::counts_of(tests);
+  stats.count("candidate pairs", sum.candidate_pairs);
+  stats.count("pairs that may be allowed", sum.allowed_pairs);
+  stats.count("part pairs", sum.part_pairs);
+  stats.count("triangle pairs", sum.triangle_pairs);
+  stats.count("exact fall-backs", sum.exact_fallbacks);
+  stats.count("depth cells", sum.depth_cells);
+  stats.count("volume triangle pairs", sum.volume_triangle_pairs);
+  stats.count("volumes given up", sum.volumes_given_up);
+  stats.count("regions given up", sum.regions_given_up);
+  stats.count("allowed places of others", allowed_places);
+  stats.count("pairs not compared", lacks.pairs);
+  stats.count("objects not compared whole", lacks.objects);
+}
+
+Status write_report(Session& session, const ClashOptions& given,
+                    const report::ClashContents& contents) {
+  for (const std::string& file : given.outputs) {
+    const Status status = session.write(file, [&](Session::Sink sink) {
+      return suffix_of(file) == ".csv"
+                 ? report::write_clash_csv(contents, sink, session.context())
+                 : report::write_clash_json(contents, sink, session.context());
+    });
+    if (!status) return status;
+  }
+  if (!given.result.log_pairs.empty()) {
+    const Status status = session.write(given.result.log_pairs, [&](Session::Sink sink) {
+      return report::write_pair_log(contents, sink, session.context());
+    });
+    if (!status) return status;
+  }
+  if (session.json())
+    return session.write_stdout([&](Session::Sink sink) {
+      return report::write_clash_json(contents, sink, session.context());
+    });
+  return session.write_stdout(report::clash_table(
+      contents, {.width = terminal_width(), .sort = sort_by(given.result.sort)}));
+}
+
+/// What is to be done, understood before a model is read.
+struct ClashRequest {
+  clash::Options options;  ///< of the only test; with rules, what they do not say
+  SetRequest sets;
+  std::optional<rules::Rules> rules;
+  model::SceneOptions scene;
+};
+
+Result<ClashRequest> request_of(const ClashOptions& given) {
+  ClashRequest request;
+  const Result<clash::Options> options = engine_options(given);
+  if (!options) return options.error();
+  request.options = *options;
+  Result<SetRequest> sets = set_request(given.sets);
+  if (!sets) return sets.error();
+  request.sets = std::move(*sets);
+  if (!given.rules.empty()) {
+    Result<rules::Rules> read = rules::Rules::read(given.rules);
+    if (!read) return read.error();
+    request.rules = std::move(*read);
+  }
+  const model::SceneOptions wanted =
+      request.rules ? request.rules->scene_options() : clash::scene_options(*options);
+  const Result<model::SceneOptions> scene = scene_options(given.scene, wanted.sag_mm);
+  if (!scene) return scene.error();
+  request.scene = *scene;
+  request.scene.obstruction = scene->obstruction || wanted.obstruction;
+  request.scene.insulation = scene->insulation || wanted.insulation;
+  return request;
+}
+
+/// The tests of the rules file, or the one that the command line asks for.
+Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const ClashRequest& request) {
+  const auto timer = session.step("select");
+  if (request.rules) {
+    Result<rules::Plan> plan = request.rules->plan(loaded.scene, session.context());
+    if (!plan) return plan;
+    for (rules::PlannedTest& test : plan->tests) {
+      test.options.broad_phase = request.options.broad_phase;
+      test.options.narrow_phase = request.options.narrow_phase;
+      test.options.most_spheres = request.options.most_spheres;
+      test.options.most_pairs = request.options.most_pairs;
+      test.options.volumes = request.options.volumes;
+      test.options.most_regions = request.options.most_regions;
+      test.options.log_pairs = request.options.log_pairs;
+      test.options.curves = request.options.curves;
+    }
+    return plan;
+  }
+  Result<ChosenSets> chosen = choose_sets(session, loaded, request.sets);
+  if (!chosen) return chosen.error();
+  rules::PlannedTest test{{}, request.options, std::move(chosen->sets), {}};
+  return rules::Plan{{std::move(test)}, std::move(chosen->diagnostics)};
+}
+
+Result<clash::Findings> find(Session& session, const Loaded& loaded, rules::Plan plan,
+                             bool list_exempted) {
+  clash::Findings findings;
+  findings.diagnostics = std::move(plan.diagnostics);
+  for (rules::PlannedTest& test : plan.tests) {
+    const auto timer = session.step(test.name.empty() ? "clash" : "clash " + test.name);
+    test.policy.list_exempted = list_exempted;
+    Result<clash::Report> report =
+        clash::detect(loaded.scene, test.sets, test.options, test.policy, session.context());
+    if (!report) return report.error();
+    report->name = test.name;
+    findings.tests.push_back(std::move(*report));
+  }
+  findings.diagnostics.append(rules::idle_rules(plan, findings.tests));
+  return findings;
+}
+
+Result<clash::Findings> findings_of(Session& session, const Loaded& loaded,
+                                    const ClashRequest& request, bool list_exempted) {
+  Result<rules::Plan> plan = plan_of(session, loaded, request);
+  if (!plan) return plan.error();
+  return find(session, loaded, std::move(*plan), list_exempted);
+}
+
+/// Every file that the run writes, each once.
+Status check_files(const ClashOptions& given) {
+  if (given.input.files.empty())
+    return Error{
+        ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
+  std::vector<std::string> others = given.input.files;
+  if (!given.rules.empty()) others.push_back(given.rules);
+  if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, others); !status)
+    return status;
+  if (given.result.log_pairs.empty()) return {};
+  return check_other_output("--log-pairs", given.result.log_pairs, ".csv", others, given.outputs);
+}
+
+Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
+  Result<ClashRequest> request = request_of(given);
+  if (!request) return request.error();
+  request->options.log_pairs = !given.result.log_pairs.empty() || session.wants_stats();
+  if (const Status status = check(given.result); !status) return status.error();
+  if (const Status status = check_files(given); !status) return status.error();
+  const Result<Loaded> loaded = load(session, given.input, request->scene);
+  if (!loaded) return loaded.error();
+  const Result<clash::Findings> findings =
+      findings_of(session, *loaded, *request, given.list_exempted);
+  if (!findings) return findings.error();
+  const Diagnostics diagnostics = findings->all_diagnostics();
+  // A rule or a set that does nothing is misspelt more often than meant: each is named.
+  print_diagnostics(
+      session.console(), diagnostics,
+      {"rule-matches-nothing", "rule-shadowed", "selection-picks-nothing", "empty-set"});
+  count_work(session.stats(), findings->tests);
+  count_costs(session.stats(), *findings, *loaded->model);
+  const Result<std::optional<clash::Grouping>> grouping =
+      group(session, given.result, *findings, *loaded->model);
+  if (!grouping) return grouping.error();
+  std::optional<report::RulesSource> source;
+  const Diagnostics loading = loaded->diagnostics();
+  if (request->rules) source = {request->rules->file(), request->rules->hash()};
+  if (const Status status =
+          write_report(session, given,
+                       {*findings, *loaded->model, *grouping ? &**grouping : nullptr,
+                        source ? &*source : nullptr, &loading});
+      !status)
+    return status.error();
+  return clash_exit_code(*findings, given.fail_on, given.input, *loaded, session.console());
+}
+
+/// After the options that it excludes.
+void add_rules_file(CLI::App& command, ClashOptions& options) {
+  CLI::Option* const rules =
+      command
+          .add_option("--rules", options.rules,
+                      "Tests, exemptions and allowances of a rules file (TOML, docs/rules.md)")
+          ->type_name("FILE")
+          ->group("Rules");
+  for (const char* const name : {"--clearance", "--touch-gap", "--touch-overlap", "--thickness-cap",
+                                 "--contact-distance", "--a", "--b", "--self"})
+    rules->excludes(command.get_option(name));
+  command
+      .add_flag("--list-exempted", options.list_exempted,
+                "List the pairs that rules exempt, in .json and .csv")
+      ->group("Rules")
+      ->needs(rules);
+}
+
+void add_rules(CLI::App& command, ClashOptions& options) {
+  const auto length = [&](const char* name, std::string& value, const char* help) {
+    command.add_option(name, value, help)->type_name("LENGTH")->group("Rules");
+  };
+  length("--clearance", options.clearance, "Pairs nearer than this violate it (default 0)");
+  length("--touch-gap", options.touch_gap, "Up to this far apart is a contact (default 1mm)");
+  length("--touch-overlap", options.touch_overlap, "Up to this deep is a contact (default 1mm)");
+  length("--contact-distance", options.contact_distance,
+         "Nearer than this counts as touching in the relation of a pair (default: from the "
+         "precision of the files)");
+  add_choice(command, "--thickness-cap", options.thickness_cap, {"on", "off"},
+             "Allow no more overlap than a quarter of the thinner part (default on)")
+      ->group("Rules");
+  command
+      .add_flag("--curves", options.curves,
+                "Judge lines and polylines too, as bodies without thickness (default: they are "
+                "drawn, but never clash)")
+      ->group("Rules");
+  add_choice(
+      command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},
+      "Exit code 1 where a pair is of this class or worse, or may be: flag UNCERTAIN, or it "
+      "could not be compared; where a set is empty, or a file ends early. Objects that could not "
+      "be read whole only with --strict")
+      ->group("Rules");
+}
+
+}  // namespace
+
+Verb add_clash(CLI::App& program, CommonOptions& common) {
+  const auto options = std::make_shared<ClashOptions>();
+  CLI::App* const command = program.add_subcommand(
+      "clash", "Clashes, contacts and clearance violations of models, with exact distances");
+  add_input_options(*command, options->input);
+  command->get_option("files")->required(false);  // 'strake clash diff' has files of its own
+  add_scene_options(*command, options->scene, "a quarter of the touch tolerances");
+  add_rules(*command, *options);
+  add_set_options(*command, options->sets);
+  add_rules_file(*command, *options);
+  add_result_options(*command, options->result);
+  add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
+             "How near pairs are found; the result is the same (default tree)")
+      ->group("Running");
+  add_choice(*command, "--narrow-phase", options->narrow_phase, {"exact", "sphere-subdivision"},
+             "How pairs are judged: exactly, or by the baseline that benchmarks compare with "
+             "(default exact)")
+      ->group("Running");
+  command
+      ->add_option("--most-spheres", options->most_spheres,
+                   fmt::format("Spheres that sphere-subdivision tests for one pair of parts before "
+                               "it gives up and says so (default {})",
+                               clash::Options{}.most_spheres))
+      ->type_name("N")
+      ->group("Running");
+  command
+      ->add_option("--most-pairs", options->most_pairs,
+                   fmt::format("Most pairs of parts that may be within reach of each other, some "
+                               "300 bytes each (default {})",
+                               clash::Options{}.most_pairs))
+      ->type_name("N")
+      ->group("Running");
+  add_output_option(*command, options->outputs, "Result as .json or .csv; may be repeated");
+  add_common_options(*command, common);
+  command->footer(R"(
+One file is checked against itself, several each against the others. With --a and --b it is what
+they pick, of whatever file; with one of them, everything stands on the other side.
+docs/selection.md has the language.
+
+Examples:
+  strake clash ship.glb
+  strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
+  strake clash ship.glb --group-by element --sort size
+  strake clash ship.glb --log-pairs pairs.csv --stats
+  strake clash diff monday.json tuesday.json
+  strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv
+  strake clash hvac.rvm steel.rvm piping.rvm --rules project.toml --list-exempted -o all.json
+  strake clash hvac.rvm steel.rvm --touch-gap 0 --touch-overlap 0 --fail-on hit --json)");
+  return {command, [options](Session& session) { return run_clash(session, *options); }};
+}
+
+}  // namespace strake::cli

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/report/clash_diff.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/verbs/clash/clash_result.hpp"
+#include "cli/verbs/verb.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+struct ClashDiffOptions {
+  std::string before, after, fail_on;
+  std::vector<std::string> outputs;
+};
+
+/// What may be new, as a result without a lasting id may, counts as new.
+bool fails(const report::ClashDiff& diff, const std::string& fail_on) {
+  if (fail_on == "new-hit") return diff.has_new(true) || diff.maybe_new(true) > 0;
+  if (fail_on == "new") return diff.has_new(false) || diff.maybe_new(false) > 0;
+  if (fail_on == "worse") return diff.has_worse() || diff.maybe_new(false) > 0;
+  return fail_on == "cannot-tell" && !diff.cannot_tell.empty();
+}
+
+void tell_maybe_new(Session& session, const report::ClashDiff& diff, const std::string& fail_on) {
+  if (fail_on.empty() || fail_on == "cannot-tell") return;
+  const bool hits_only = fail_on == "new-hit";
+  if (const std::size_t count = diff.maybe_new(hits_only); count > 0)
+    session.console().say(
+        fmt::format("--fail-on {}: {} among 'cannot tell' that may be new, and count as such: {}",
+                    fail_on, hits_only ? "hits" : "results", count));
+}
+
+/// Both documents, at once where there is a team.
+Result<std::vector<report::ClashDocument>> read(Session& session, const ClashDiffOptions& given) {
+  const auto timer = session.step("read");
+  return parallel::transform(
+      session.context(), {.name = "read results", .n = 2}, [&](std::size_t i) {
+        return report::read_clash_document(i == 0 ? given.before : given.after);
+      });
+}
+
+Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
+  if (const Status status = check_outputs(given.outputs, {".json"}, {given.before, given.after});
+      !status)
+    return status.error();
+  const Result<std::vector<report::ClashDocument>> documents = read(session, given);
+  if (!documents) return documents.error();
+  const report::ClashDiff diff = [&] {
+    const auto timer = session.step("compare");
+    return report::compare(documents->front(), documents->back());
+  }();
+  const auto as_json = [&](Session::Sink sink) {
+    report::write_clash_diff_json(diff, sink);
+    return Status{};
+  };
+  for (const std::string& file : given.outputs) {
+    const Status status = session.write(file, as_json);
+    if (!status) return status.error();
+  }
+  const Status told =
+      session.json()
+          ? session.write_stdout(as_json)
+          : session.write_stdout(report::clash_diff_table(diff, {.width = terminal_width()}));
+  if (!told) return told.error();
+  tell_maybe_new(session, diff, given.fail_on);
+  return fails(diff, given.fail_on) ? ExitCode::clashes : ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
+  const auto options = std::make_shared<ClashDiffOptions>();
+  CLI::App* const command = clash.add_subcommand(
+      "diff", "What changed between two results: new, still there, gone, and what cannot be told");
+  command->add_option("old", options->before, "Result of the older run, .json")
+      ->type_name("OLD")
+      ->required();
+  command->add_option("new", options->after, "Result of the newer run, .json")
+      ->type_name("NEW")
+      ->required();
+  add_choice(
+      *command, "--fail-on", options->fail_on, {"new-hit", "new", "worse", "cannot-tell"},
+      "Exit code 1 where there is a new hit, any new result, a new or worse one, or one that "
+      "cannot be told; one that may be new counts as new, what a rule allows does not count");
+  add_output_option(*command, options->outputs, "Comparison as .json; may be repeated");
+  add_common_options(*command, common);
+  command->footer(R"(
+A clash is the same in both runs when its test, files and durable ids are. It is gone only where the
+new run looked at the pair again: an object that is missing, in no set, or exempted, and tolerances
+that would no longer report it, are 'cannot tell', with the reason. Where an id is only a position in
+its file (an unnamed node, a repeated name), it is the same when class, place and depth are, and else
+'cannot tell', in the new run as in the old. A result that does not have as
+many pairs as it counts, or otherwise contradicts itself, was cut short or edited and is refused.
+
+Examples:
+  strake clash diff monday.json tuesday.json
+  strake clash diff monday.json tuesday.json -o changes.json --fail-on new-hit)");
+  return {command, [options](Session& session) { return run_diff(session, *options); }};
+}
+
+}  // namespace strake::cli

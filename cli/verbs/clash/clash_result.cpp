@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/verbs/clash/clash_result.hpp"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "cli/options/options.hpp"
+#include "cli/output/console.hpp"
+#include "strake/core/diagnostics.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
+  clash::GroupRules rules;
+  for (const clash::GroupBy by : {clash::GroupBy::element, clash::GroupBy::proximity,
+                                  clash::GroupBy::test, clash::GroupBy::files})
+    if (name(by) == input.group_by) rules.by = by;
+  rules.sort = sort_by(input.sort);
+  rules.contacts = input.group_contacts;
+  if (const Status status =
+          length_option(rules.distance_mm, input.group_distance, "--group-distance");
+      !status)
+    return status.error();
+  return rules;
+}
+
+}  // namespace
+
+void add_result_options(CLI::App& command, ClashResultInput& options) {
+  constexpr const char* kGroup = "Result";
+  add_choice(command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
+             "Put results together: by the object that most of them share, by place, by test or by "
+             "the files of the two")
+      ->group(kGroup);
+  command
+      .add_option("--group-distance", options.group_distance,
+                  "With --group-by proximity: results no farther apart are one group (default 3m)")
+      ->type_name("LENGTH")
+      ->group(kGroup);
+  command.add_flag("--group-contacts", options.group_contacts, "Put contacts into groups too")
+      ->group(kGroup);
+  add_choice(command, "--sort", options.sort, {"depth", "volume", "size"},
+             "What comes first: the deepest (default), the largest common volume, or with "
+             "--group-by the largest group")
+      ->group(kGroup);
+  command
+      .add_option("--log-pairs", options.log_pairs,
+                  "Write every pair that went to the detailed stage to this .csv: class (NO_HIT "
+                  "too), whether a rule may allow it, and what it cost")
+      ->type_name("FILE")
+      ->group(kGroup);
+  command.add_flag("--volumes", options.volumes, "Measure the volume that hits have in common")
+      ->group(kGroup);
+  command
+      .add_option("--regions", options.regions,
+                  fmt::format("Places of a pair that meets in several that are listed, the worst "
+                              "first; all are counted (default {}; 0: not told apart)",
+                              clash::Options{}.most_regions))
+      ->type_name("N")
+      ->group(kGroup);
+}
+
+Status check(const ClashResultInput& input) {
+  if (input.sort == "size" && input.group_by.empty())
+    return Error{ErrorCode::usage, "only groups have a size", "--sort", "add --group-by"};
+  if (input.group_contacts && input.group_by.empty())
+    return Error{ErrorCode::usage, "there are no groups", "--group-contacts", "add --group-by"};
+  if (!input.group_distance.empty() && input.group_by != "proximity")
+    return Error{ErrorCode::usage, "is for groups by proximity", "--group-distance",
+                 "add --group-by proximity"};
+  if (const Result<clash::GroupRules> rules = rules_of(input); !rules) return rules.error();
+  return {};
+}
+
+std::size_t terminal_width() {
+  constexpr std::size_t kDefault = 100, kLeast = 60;
+  winsize size{};
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefault;
+  return std::max<std::size_t>(size.ws_col, kLeast);
+}
+
+namespace {
+
+/// Which of several tests, and of several files, a pair is of: the same names may stand in each.
+std::string where(const clash::Findings& findings, const clash::Report& test,
+                  const clash::LoggedPair& pair, const model::Model& model) {
+  std::string out;
+  if (model.files.size() > 1) {
+    const auto a = model.object(pair.a).file, b = model.object(pair.b).file;
+    out = ", of " + model.files[a].label + (a == b ? "" : " and " + model.files[b].label);
+  }
+  return findings.tests.size() > 1 ? out + ", test '" + test.name + "'" : out;
+}
+
+}  // namespace
+
+void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model) {
+  constexpr std::size_t kShown = 5;
+  struct Costly {
+    const clash::Report* test = nullptr;
+    const clash::LoggedPair* pair = nullptr;
+  };
+  std::vector<Costly> costly;
+  for (const clash::Report& test : findings.tests)
+    for (const clash::LoggedPair& pair : test.log) costly.push_back({&test, &pair});
+  const auto shown = static_cast<std::ptrdiff_t>(std::min(kShown, costly.size()));
+  std::partial_sort(costly.begin(), costly.begin() + shown, costly.end(),
+                    [](const Costly& l, const Costly& r) {
+                      const auto *x = l.pair, *y = r.pair;
+                      return std::tuple(y->cost(), x->a, x->b, l.test) <
+                             std::tuple(x->cost(), y->a, y->b, r.test);
+                    });
+  costly.resize(static_cast<std::size_t>(shown));
+  for (const auto& [test, pair] : costly)
+    stats.costly(model.object(pair->a).id, model.object(pair->b).id,
+                 where(findings, *test, *pair, model), pair->cost());
+}
+
+clash::SortBy sort_by(const std::string& word) {
+  if (word == "volume") return clash::SortBy::volume;
+  return word == "size" ? clash::SortBy::size : clash::SortBy::depth;
+}
+
+Result<std::optional<clash::Grouping>> group(Session& session, const ClashResultInput& input,
+                                             const clash::Findings& findings,
+                                             const model::Model& model) {
+  if (input.group_by.empty()) return std::optional<clash::Grouping>();
+  const Result<clash::GroupRules> rules = rules_of(input);
+  if (!rules) return rules.error();
+  const auto timer = session.step("group");
+  Result<clash::Grouping> grouping = group_results(findings, model, *rules);
+  if (!grouping) return grouping.error();
+  return std::optional(std::move(*grouping));
+}
+
+namespace {
+
+/// The least severe class that --fail-on names; NO_HIT: it is not given.
+clash::Class failing_class(const std::string& fail_on) {
+  if (fail_on == "hit") return clash::Class::hit;
+  if (fail_on == "contact") return clash::Class::contact;
+  return fail_on.empty() ? clash::Class::no_hit : clash::Class::clearance_violation;
+}
+
+/// Whether a result or a pair stops --fail-on; says how many only may be as bad. An object that
+/// could not be read whole is in many models every night: it is told, and --strict stops at it.
+bool has_failing_pair(const clash::Findings& findings, const std::string& fail_on,
+                      Console& console) {
+  const clash::Class worst = failing_class(fail_on);
+  std::uint64_t surely = 0, perhaps = 0;
+  const clash::NotComparedCounts lacks = clash::counts_of(findings.tests);
+  for (const clash::Report& test : findings.tests)
+    for (const clash::Pair& pair : test.pairs) {
+      if (pair.allowed < 0 && pair.cls >= worst)
+        ++surely;
+      else if (pair.severest >= worst)
+        ++perhaps;
+    }
+  if (perhaps > 0)
+    console.say(
+        fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "
+                    "besides {} that are",
+                    fail_on, perhaps, surely));
+  if (lacks.pairs > 0)
+    console.say(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
+                            fail_on, lacks.pairs));
+  if (lacks.objects > 0)
+    console.say(
+        fmt::format("--fail-on {}: does not go by objects that could not be compared whole "
+                    "(--strict does): {}",
+                    fail_on, lacks.objects));
+  return surely + perhaps + lacks.pairs > 0;
+}
+
+/// What of the run compared nothing at all, in words.
+std::vector<std::string> empty_tests(const clash::Findings& findings) {
+  std::vector<std::string> empty;
+  for (const clash::Report& test : findings.tests) {
+    const std::string of = test.name.empty() ? "" : fmt::format(" of test '{}'", test.name);
+    if (test.objects_a == 0)
+      empty.push_back(fmt::format("set A{} is empty ({})", of, test.set_a));
+    else if (test.objects_b == 0)
+      empty.push_back(fmt::format("set B{} is empty ({})", of, test.set_b));
+  }
+  return empty;
+}
+
+/// The disciplines without objects that a matrix checks against something, in words.
+std::vector<std::string> empty_disciplines(const clash::Findings& findings) {
+  std::vector<std::string> empty;
+  for (const clash::Report& test : findings.tests) {
+    std::vector<bool> checked(test.disciplines.size());
+    for (const clash::CellReport& cell : test.cells)
+      if (cell.checked) checked[cell.a] = checked[cell.b] = true;
+    for (std::size_t d = 0; d < checked.size(); ++d)
+      if (checked[d] && test.disciplines[d].objects == 0)
+        empty.push_back(
+            fmt::format("discipline '{}' of the matrix is empty", test.disciplines[d].name));
+  }
+  return empty;
+}
+
+/// The only one, or of several the first and how many there are.
+std::string first_of(const std::vector<std::string>& names) {
+  return names.size() == 1 ? names.front()
+                           : fmt::format("{}, first of {}", names.front(), names.size());
+}
+
+}  // namespace
+
+ExitCode clash_exit_code(const clash::Findings& findings, const std::string& fail_on,
+                         const InputOptions& input, const Loaded& loaded, Console& console) {
+  const std::vector<std::string> tests = empty_tests(findings);
+  if (!fail_on.empty()) {
+    const bool fails = has_failing_pair(findings, fail_on, console);
+    const std::string rest = unread_rest(*loaded.model);
+    if (!rest.empty())
+      console.warn(fmt::format("--fail-on {}: not everything was compared: {}", fail_on, rest));
+    if (!tests.empty())
+      console.warn(fmt::format("--fail-on {}: nothing was compared: {}", fail_on, first_of(tests)));
+    if (fails || !tests.empty() || !rest.empty()) return ExitCode::clashes;
+  }
+  if (input.strict) {
+    if (!tests.empty())
+      console.warn(fmt::format("--strict: nothing was compared: {}", first_of(tests)));
+    const std::vector<std::string> disciplines = empty_disciplines(findings);
+    if (!disciplines.empty())
+      console.warn(fmt::format("--strict: not everything was compared: {}", first_of(disciplines)));
+    if (!tests.empty() || !disciplines.empty() || findings.all_diagnostics().skipped() > 0)
+      return ExitCode::partial;
+  }
+  return strict_exit_code(input, loaded);
+}
+
+}  // namespace strake::cli

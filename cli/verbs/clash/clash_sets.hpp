@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/run/load.hpp"
+#include "cli/run/session.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/core/diagnostics.hpp"
+#include "strake/core/result.hpp"
+#include "strake/model/selection.hpp"
+
+namespace strake::cli {
+
+/// What is to be set against what, as written.
+struct SetInput {
+  std::vector<std::string> a, b;
+  bool self = false;
+};
+
+void add_set_options(CLI::App& command, SetInput& options);
+
+/// The same, understood.
+struct SetRequest {
+  std::vector<model::Selection> a, b;
+  bool self = false;
+};
+
+[[nodiscard]] Result<SetRequest> set_request(const SetInput& input);
+
+struct ChosenSets {
+  clash::Sets sets;
+  Diagnostics diagnostics;  ///< "selection-picks-nothing"
+};
+
+/// What --a picks against what --b picks, everything where one of them is not given. Without
+/// either: one file against itself, several against each other, or with --self all against all.
+[[nodiscard]] Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded,
+                                             const SetRequest& request);
+
+}  // namespace strake::cli

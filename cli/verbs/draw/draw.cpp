@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/load.hpp"
+#include "cli/run/object_selection.hpp"
+#include "cli/verbs/draw/draw_options.hpp"
+#include "cli/verbs/draw/draw_sheet.hpp"
+#include "cli/verbs/draw/draw_summary.hpp"
+#include "cli/verbs/verb.hpp"
+#include "core/units.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/drawing/view.hpp"
+#include "strake/drawing/write.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/hlr/hlr.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+/// At most; less where that would show on paper.
+constexpr double kSagMm = 0.5;
+
+struct DrawOptions {
+  InputOptions input;
+  SceneInput scene;
+  PerspectiveOptions perspective;
+  std::string sheet;
+  std::string view, direction, up, limits, scale, title;
+  std::string stage, solver, global, culling, bucketing, hidden, intersections, smooth, sharp_angle,
+      contact_distance;
+  std::vector<std::string> select, outputs, sections, hatches;
+  bool visible_only = false;
+};
+
+Result<geometry::Vec3l> direction_of(const std::string& text, const std::string& option,
+                                     Console& console) {
+  const Result<drawing::Direction> parsed = drawing::parse_direction(text);
+  if (!parsed) {
+    Error error = parsed.error();
+    if (error.where.empty()) error.where = option;
+    return error;
+  }
+  const geometry::Vec3l& v = parsed->vector;
+  if (parsed->rounded && parsed->rounding_error > 0)
+    console.say(fmt::format("{} {} is taken as {},{},{}, off by {:.1e} rad", option, text, v.x, v.y,
+                            v.z, parsed->rounding_error));
+  return v;
+}
+
+Result<geometry::Box3l> limits_of(const std::string& text) {
+  const auto n = number_list(text, 6, "--limits", "xmin,ymin,zmin,xmax,ymax,zmax in millimetres");
+  if (!n) return n.error();
+  const auto lo = geometry::snap(geometry::Vec3d{(*n)[0], (*n)[1], (*n)[2]});
+  const auto hi = geometry::snap(geometry::Vec3d{(*n)[3], (*n)[4], (*n)[5]});
+  if (!lo || !hi)
+    return Error{ErrorCode::usage, "'" + text + "' lies outside what can be placed", "--limits",
+                 "write millimetres of the model"};
+  if (geometry::Box3l{*lo, *hi}.empty())
+    return Error{ErrorCode::usage, "'" + text + "' is empty", "--limits",
+                 "write the three least coordinates before the three greatest"};
+  return geometry::Box3l{*lo, *hi};
+}
+
+Result<hlr::Section> section_of(const std::string& text, const hlr::View& view, Console& console) {
+  const auto eye = view.perspective ? std::optional(view.perspective->eye) : std::nullopt;
+  const Result<drawing::SectionText> parsed = drawing::parse_section(text, view.direction, eye);
+  if (!parsed) {
+    Error error = parsed.error();
+    error.where = "--section";
+    return error;
+  }
+  const geometry::Vec3l& n = parsed->section.normal;
+  if (parsed->rounded && parsed->rounding_error > 0)
+    console.say(fmt::format("--section {} is taken as normal {},{},{}, off by {:.1e} rad", text,
+                            n.x, n.y, n.z, parsed->rounding_error));
+  return parsed->section;
+}
+
+Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
+  hlr::View view;
+  const Result<geometry::Vec3l> direction =
+      !given.direction.empty()
+          ? direction_of(given.direction, "--direction", console)
+          : drawing::direction_by_name(given.view.empty() ? "iso" : given.view);
+  if (!direction) return direction.error();
+  view.direction = *direction;
+  if (const Status status = set_perspective(given.perspective, view, console); !status)
+    return status.error();
+  view.up = drawing::default_up(view.direction);
+  if (!given.up.empty()) {
+    const Result<geometry::Vec3l> up = direction_of(given.up, "--up", console);
+    if (!up) return up.error();
+    view.up = *up;
+  }
+  if (!drawing::can_be_up(view.up, view.direction))
+    return Error{ErrorCode::usage, "'" + given.up + "' is parallel to the view direction", "--up",
+                 "give a direction that shows on paper"};
+  if (!given.limits.empty()) {
+    const Result<geometry::Box3l> limits = limits_of(given.limits);
+    if (!limits) return limits.error();
+    view.limits = *limits;
+  }
+  for (const std::string& text : given.sections) {
+    const Result<hlr::Section> section = section_of(text, view, console);
+    if (!section) return section.error();
+    view.sections.push_back(*section);
+  }
+  return view;
+}
+
+Status read_bucketing(const std::string& text, std::int32_t& bucketing) {
+  bucketing = hlr::Options::kBucketsByData;
+  if (text.empty() || text == "auto") return {};
+  bucketing = hlr::Options::kNoBuckets;
+  if (text == "off") return {};
+  std::uint64_t side = 0;
+  if (!whole_number(side, text, "--bucketing") || side == 0 || side > hlr::Options::kMostBuckets)
+    return Error{
+        ErrorCode::usage, "'" + text + "' is no number of buckets", "--bucketing",
+        fmt::format("write off, auto, or a number from 1 to {}", hlr::Options::kMostBuckets)};
+  bucketing = static_cast<std::int32_t>(side);
+  return {};
+}
+
+Result<hlr::Options> engine_options(const DrawOptions& given) {
+  hlr::Options options;
+  if (given.stage == "none") options.stage = hlr::Stage::none;
+  if (given.stage == "local") options.stage = hlr::Stage::local;
+  if (given.solver == "brute-force") options.solver = hlr::Solver::brute_force;
+  if (given.global == "push") options.solver = hlr::Solver::push;
+  options.culling = given.culling != "off";
+  if (const Status s = read_bucketing(given.bucketing, options.bucketing); !s) return s.error();
+  options.hidden = !given.visible_only;
+  if (given.visible_only && !given.hidden.empty() && given.hidden != "off")
+    return Error{ErrorCode::usage, "hidden lines cannot be drawn and left out", "--visible-only",
+                 "leave out --hidden or --visible-only"};
+  using hlr::Intersections, hlr::Smooth;
+  for (const Intersections which : {Intersections::off, Intersections::objects,
+                                    Intersections::primitives, Intersections::parts})
+    if (given.intersections == drawing::intersections_name(which)) options.intersections = which;
+  for (const Smooth which : {Smooth::off, Smooth::tangent, Smooth::all})
+    if (given.smooth == drawing::smooth_name(which)) options.smooth = which;
+  if (!given.sharp_angle.empty()) {
+    const Result<double> angle =
+        quantity_option(given.sharp_angle, "--sharp-angle", parse_angle_deg);
+    if (!angle) return angle.error();
+    if (!(*angle >= 0 && *angle <= 180))
+      return Error{ErrorCode::usage, "'" + given.sharp_angle + "' is no angle between two faces",
+                   "--sharp-angle", "write 0deg to 180deg"};
+    options.sharp_angle_deg = *angle;
+  }
+  if (const Status status =
+          length_option(options.contact_distance_mm, given.contact_distance, "--contact-distance");
+      !status)
+    return status.error();
+  return options;
+}
+
+Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
+  drawing::LayoutOptions options;
+  options.view_name = !given.perspective.eye.empty() ? "perspective"
+                      : !given.direction.empty()     ? given.direction
+                      : given.view.empty()           ? "iso"
+                                                     : given.view;
+  options.title = given.title;
+  if (!given.scale.empty()) {
+    const Result<double> scale = quantity_option(given.scale, "--scale", parse_scale);
+    if (!scale) return scale.error();
+    options.scale = *scale;
+  }
+  return options;
+}
+
+void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
+  const hlr::Counters& work = drawing.counters;
+  count_objects(stats, drawing.account, "");
+  stats.count("feature edges", work.feature_edges);
+  stats.count("covered edges", work.covered_edges);
+  stats.count("face tests", work.face_tests);
+  stats.count("exact fall-backs", work.exact_fallbacks);
+  stats.count("intersection pairs", work.crossing_pairs);
+  stats.count("intersection tests", work.crossing_tests);
+  stats.count("specks", work.specks);
+  stats.count("edges with hidden pieces left out", work.left_out);
+  for (std::size_t s = 0; s < drawing::kLineStates; ++s)
+    stats.count(fmt::format("lines {}", drawing::state_name(static_cast<drawing::LineState>(s))),
+                drawing.count[s]);
+}
+
+void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing,
+                  const model::Model& model) {
+  const auto of = [&](drawing::LineState state) {
+    return drawing.count[static_cast<std::size_t>(state)];
+  };
+  const std::uint64_t visible = of(drawing::LineState::visible);
+  console.say(object_summary_line(drawing.account, model));
+  console.say(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
+                          drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
+                          drawing.sheet.height_mm));
+  if (visible > 0) return;
+  console.say(of(drawing::LineState::clipped) > 0
+                  ? "warning empty-sheet: nothing lies within the limits, the field of view and "
+                    "before the sections"
+                  : "warning empty-sheet: the model has nothing to draw");
+}
+
+Status write_drawing(Session& session, const DrawOptions& given,
+                     const drawing::NeutralDrawing& drawing, const model::Model& model) {
+  const drawing::InkOptions options{.hidden = given.hidden != "off" && !given.hidden.empty(),
+                                    .clean_up = given.hidden != "all"};
+  const bool svg = std::any_of(given.outputs.begin(), given.outputs.end(),
+                               [](const std::string& file) { return suffix_of(file) == ".svg"; });
+  drawing::Ink ink;
+  if (svg) {
+    const auto timer = session.step("ink");
+    Result<drawing::Ink> chosen = drawing::choose_ink(drawing, options, session.context());
+    if (!chosen) return chosen.error();
+    ink = std::move(*chosen);
+  }
+  const auto as_json = [&](Session::Sink sink) {
+    return drawing::write_view_json(drawing, model, sink, session.context());
+  };
+  const auto as_rows = [&](Session::Sink sink) {
+    return drawing::write_view_rows(drawing, model, sink, session.context());
+  };
+  const auto as_svg = [&](Session::Sink sink) {
+    drawing::write_svg(drawing, ink, model, sink);
+    return Status{};
+  };
+  for (const std::string& file : given.outputs) {
+    const std::string suffix = suffix_of(file);
+    const Status status = suffix == ".json"   ? session.write(file, as_json)
+                          : suffix == ".view" ? session.write(file, as_rows)
+                                              : session.write(file, as_svg);
+    if (!status) return status;
+  }
+  return session.json() ? session.write_stdout(as_json) : Status{};
+}
+
+/// What the options ask for, once they are understood.
+struct DrawRequest {
+  model::SceneOptions scene;
+  hlr::View view;
+  hlr::Options options;
+  drawing::LayoutOptions layout;
+  std::vector<model::Selection> selections;
+  std::vector<HatchRule> hatches;
+  bool sag_for_paper = true;
+};
+
+Result<DrawRequest> request_of(const DrawOptions& given, Console& console) {
+  const Result<model::SceneOptions> scene = scene_options(given.scene, kSagMm);
+  if (!scene) return scene.error();
+  const Result<hlr::View> view = view_of(given, console);
+  if (!view) return view.error();
+  const Result<hlr::Options> options = engine_options(given);
+  if (!options) return options.error();
+  const Result<drawing::LayoutOptions> layout = layout_options(given);
+  if (!layout) return layout.error();
+  const auto selections = parse_selections(given.select, "--select");
+  if (!selections) return selections.error();
+  const auto hatches = parse_hatches(given.hatches);
+  if (!hatches) return hatches.error();
+  return DrawRequest{
+      *scene, *view, *options, *layout, *selections, *hatches, given.scene.sag.empty()};
+}
+
+Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& request,
+                                        const model::Scene& scene) {
+  const Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
+  if (!drawn) return drawn.error();
+  auto hatches = hatches_of(session, scene, request.hatches);
+  if (!hatches) return hatches.error();
+  hlr::Options options = request.options;
+  options.hatches = std::move(*hatches);
+  if (request.sag_for_paper) {
+    const Result<double> sag =
+        drawing::sag_for_paper(scene, *drawn, request.view, request.layout, session.context());
+    if (!sag) return sag.error();
+    options.sag_mm = *sag;
+  }
+  const Result<hlr::Drawing> lines = [&] {
+    const auto timer = session.step("hidden lines");
+    return hlr::draw(scene, *drawn, request.view, options, session.context());
+  }();
+  if (!lines) return lines.error();
+  print_drawing_diagnostics(session.console(), lines->diagnostics);
+  const auto timer = session.step("layout");
+  return drawing::lay_out(*lines, *scene.model, request.layout, session.context());
+}
+
+Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
+  if (given.input.files.empty())
+    return Error{ErrorCode::usage, "no model file is given", {}, "'strake draw --help' tells more"};
+  const Result<DrawRequest> request = request_of(given, session.console());
+  if (!request) return request.error();
+  if (!given.sheet.empty())
+    return draw_sheet(
+        session,
+        {given.sheet,
+         given.outputs,
+         {.solver = request->options.solver, .sag_for_paper = request->sag_for_paper}},
+        given.input, request->scene);
+  if (given.outputs.empty() && !session.json())
+    return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
+  if (const Status status =
+          check_outputs(given.outputs, {".svg", ".json", ".view"}, given.input.files);
+      !status)
+    return status.error();
+  const Result<Loaded> loaded = load(session, given.input, request->scene);
+  if (!loaded) return loaded.error();
+  const Result<drawing::NeutralDrawing> drawing = compute(session, *request, loaded->scene);
+  if (!drawing) return drawing.error();
+  count_work(session.stats(), *drawing);
+  tell_drawing(session.console(), *drawing, *loaded->model);
+  if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
+    return status.error();
+  return strict_exit_code(given.input, *loaded);
+}
+
+void add_view(CLI::App& command, DrawOptions& options) {
+  CLI::Option* const view = add_choice(command, "--view", options.view,
+                                       {"top", "bottom", "front", "back", "left", "right", "iso"},
+                                       "A view by name (default iso)")
+                                ->group("View");
+  CLI::Option* const direction =
+      command
+          .add_option("--direction", options.direction,
+                      "A view by the direction that points to the viewer, in whole numbers")
+          ->type_name("X,Y,Z")
+          ->excludes(view)
+          ->group("View");
+  add_perspective_options(command, options.perspective, view, direction);
+  command.add_option("--up", options.up, "The direction that is up on paper (default z, plans y)")
+      ->type_name("X,Y,Z")
+      ->group("View");
+  command
+      .add_option("--limits", options.limits,
+                  "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm")
+      ->type_name("BOX")
+      ->group("View");
+  command
+      .add_option("--section", options.sections,
+                  "Cut away what lies beyond a plane: 'z>4500mm' above, 'z<4500mm' below, z=4500mm "
+                  "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'; may "
+                  "be repeated")
+      ->type_name("PLANE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("View");
+  command
+      .add_option("--hatch", options.hatches,
+                  "How sections are hatched: angle, distance of lines in the model, or both, or "
+                  "off, and of which objects: '30deg,80mm: PIPE*'; may be repeated, the first that "
+                  "picks an object counts (default: neighbours differ in angle, colours in "
+                  "distance)")
+      ->type_name("PATTERN")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("View");
+  command
+      .add_option("--select", options.select,
+                  "Draw only objects that this picks, as 'PIPE*' or 'type = box and @DN > 80mm'; "
+                  "may be repeated")
+      ->type_name("SELECTION")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("View");
+}
+
+void add_lines(CLI::App& command, DrawOptions& options) {
+  add_choice(command, "--hidden", options.hidden, {"off", "dashed", "all"},
+             "Hidden lines in the SVG: none, dashed where no line runs beside them, or all "
+             "(default off)")
+      ->group("Lines");
+  command
+      .add_flag(
+          "--visible-only", options.visible_only,
+          "Leave hidden lines out of everything, of .json and .view too: less time and memory")
+      ->group("Lines");
+  add_choice(command, "--stage", options.stage, {"none", "local", "global"},
+             "Hide nothing, within each object, or among all (default global)")
+      ->group("Lines");
+  add_choice(command, "--intersections", options.intersections,
+             {"off", "objects", "primitives", "parts"},
+             "Lines where bodies pass through each other: none, those of different objects, those "
+             "and of primitives within an object, or of all parts (default primitives)")
+      ->group("Lines");
+  add_choice(command, "--smooth", options.smooth, {"off", "tangent", "on"},
+             "Edges where faces turn by less than the sharp angle, as thin lines: none, where a "
+             "curved skin begins or ends, or all (default off)")
+      ->group("Lines");
+  command
+      .add_option("--sharp-angle", options.sharp_angle,
+                  "An edge is drawn where its faces turn by more than this (default 20deg)")
+      ->type_name("ANGLE")
+      ->group("Lines");
+  command
+      .add_option("--contact-distance", options.contact_distance,
+                  "What is nearer by no more than this hides nothing (default: from the precision "
+                  "of the files)")
+      ->type_name("LENGTH")
+      ->group("Lines");
+}
+
+/// A sheet says all of this itself.
+void add_sheet(CLI::App& command, DrawOptions& options) {
+  CLI::Option* const sheet =
+      command
+          .add_option("--sheet", options.sheet,
+                      "Several views with frame and title block, as a sheet file (TOML) says")
+          ->type_name("FILE")
+          ->group("Output");
+  for (const char* const other :
+       {"--view", "--direction", "--eye", "--up", "--limits", "--section", "--hatch", "--select",
+        "--hidden", "--visible-only", "--stage", "--intersections", "--smooth", "--sharp-angle",
+        "--contact-distance", "--scale", "--title"})
+    sheet->excludes(other);
+}
+
+}  // namespace
+
+Verb add_draw(CLI::App& program, CommonOptions& common) {
+  const auto options = std::make_shared<DrawOptions>();
+  CLI::App* const command =
+      program.add_subcommand("draw", "Line drawings of models, hidden lines removed exactly");
+  add_input_options(*command, options->input);
+  command->get_option("files")->required(false);  // 'strake draw diff' has files of its own
+  add_scene_options(*command, options->scene, "0.05mm on paper, 0.5mm at most");
+  add_view(*command, *options);
+  add_lines(*command, *options);
+  add_choice(*command, "--solver", options->solver, {"gather", "brute-force"},
+             "How lines are hidden; the result is the same (default gather)")
+      ->group("Running");
+  add_choice(
+      *command, "--global", options->global, {"gather", "push"},
+      "How objects hide each other: each edge gathers what hides it, or each object "
+      "publishes what it hides, the baseline that benchmarks compare with; the result is the "
+      "same (default gather)")
+      ->excludes("--solver")
+      ->group("Running");
+  add_choice(*command, "--culling", options->culling, {"on", "off"},
+             "Leave out the work that cannot change the result (default on)")
+      ->group("Running");
+  command
+      ->add_option(
+          "--bucketing", options->bucketing,
+          "How the faces of complex objects are found: in a grid of at most N by N buckets, "
+          "in as many as suit the faces (auto), or each is asked (off); the result is the "
+          "same (default auto)")
+      ->type_name("off|N|auto")
+      ->group("Running");
+  command
+      ->add_option("--scale", options->scale,
+                   "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits A3)")
+      ->type_name("1:N")
+      ->group("Output");
+  command->add_option("--title", options->title, "Title of the sheet")->group("Output");
+  add_output_option(
+      *command, options->outputs,
+      "Drawing as .svg, or its neutral form as .json, or .view for millions of lines; may be "
+      "repeated");
+  add_sheet(*command, *options);
+  add_common_options(*command, common);
+  command->footer(R"(
+Examples:
+  strake draw platform.rvm --view iso --hidden dashed -o platform.svg
+  strake draw ship.glb --direction 1,-2,1 --up 0,0,1 --scale 1:100 -o cut.svg \
+      --limits 0,-5000,0,20000,5000,8000
+  strake draw ship.glb --select 'PIP-*' --view top -o pipes.svg -o pipes.json
+  strake draw ship.glb --view top --section z=4500mm -o section.svg
+  strake draw ship.glb --eye 2000,-9000,6000 --target 9000,0,3000 -o seen.svg
+  strake draw ship.glb --sheet deck.toml -o deck.svg)");
+  return {command, [options](Session& session) { return run_draw(session, *options); }};
+}
+
+}  // namespace strake::cli

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/verbs/clash/clash_result.hpp"
+#include "cli/verbs/verb.hpp"
+#include "core/units.hpp"
+#include "strake/parallel/transform.hpp"
+#include "strake/report/view_diff.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+struct DrawDiffOptions {
+  std::string before, after, fail_on, tolerance;
+  std::vector<std::string> outputs;
+};
+
+bool fails(const report::ViewDiff& diff, const std::string& fail_on) {
+  return !fail_on.empty() && diff.differs(fail_on == "visible");
+}
+
+/// Both documents, at once where there is a team.
+Result<std::vector<report::ViewDocument>> read(Session& session, const DrawDiffOptions& given) {
+  const auto timer = session.step("read");
+  return parallel::transform(
+      session.context(), {.name = "read drawings", .n = 2}, [&](std::size_t i) {
+        return report::read_view_document(i == 0 ? given.before : given.after);
+      });
+}
+
+Status write(Session& session, const DrawDiffOptions& given, const report::ViewDiff& diff) {
+  const auto as_json = [&](Session::Sink sink) {
+    report::write_view_diff_json(diff, sink);
+    return Status{};
+  };
+  const auto as_svg = [&](Session::Sink sink) {
+    report::write_view_diff_svg(diff, sink);
+    return Status{};
+  };
+  for (const std::string& file : given.outputs) {
+    const Status status =
+        suffix_of(file) == ".svg" ? session.write(file, as_svg) : session.write(file, as_json);
+    if (!status) return status;
+  }
+  return session.json()
+             ? session.write_stdout(as_json)
+             : session.write_stdout(report::view_diff_table(diff, {.width = terminal_width()}));
+}
+
+Result<ExitCode> run_diff(Session& session, const DrawDiffOptions& given) {
+  if (const Status status =
+          check_outputs(given.outputs, {".json", ".svg"}, {given.before, given.after});
+      !status)
+    return status.error();
+  report::ViewDiffOptions options;
+  if (const Status status = length_option(options.tolerance_mm, given.tolerance, "--tolerance");
+      !status)
+    return status.error();
+  const auto documents = read(session, given);
+  if (!documents) return documents.error();
+  const Result<report::ViewDiff> diff = [&] {
+    const auto timer = session.step("compare");
+    return report::compare(documents->front(), documents->back(), options, session.context());
+  }();
+  if (!diff) return diff.error();
+  if (const Status status = write(session, given, *diff); !status) return status.error();
+  return fails(*diff, given.fail_on) ? ExitCode::clashes : ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_draw_diff(CLI::App& draw, CommonOptions& common) {
+  const auto options = std::make_shared<DrawDiffOptions>();
+  CLI::App* const command = draw.add_subcommand(
+      "diff",
+      "What changed between two drawings of a view: lines that are new, gone, of another "
+      "class, with a picture");
+  command->add_option("old", options->before, "Neutral form of the older drawing, .json or .view")
+      ->type_name("OLD")
+      ->required();
+  command->add_option("new", options->after, "Neutral form of the newer drawing, .json or .view")
+      ->type_name("NEW")
+      ->required();
+  add_choice(*command, "--fail-on", options->fail_on, {"visible", "any"},
+             "Exit code 1 where a line that is or was visible is new, gone or of another class, or "
+             "any line is");
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "Lines no farther apart than this lie on each other (default 2um)")
+      ->type_name("LENGTH");
+  add_output_option(*command, options->outputs,
+                    "Comparison as .json, or a picture of it as .svg; may be repeated");
+  add_common_options(*command, common);
+  command->footer(R"(
+Lines are compared in the model, place by place: a line that is cut into other pieces is the same, and so is
+a drawing at another scale. A line of another kind, state or object at the same place has changed. Drawings
+that look from different sides are refused, and so is a file that does not have as many lines as it counts.
+
+Examples:
+  strake draw diff monday.view tuesday.view
+  strake draw diff monday.json tuesday.json -o changes.svg -o changes.json --fail-on visible)");
+  return {command, [options](Session& session) { return run_diff(session, *options); }};
+}
+
+}  // namespace strake::cli

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/verbs/draw/draw_summary.hpp"
+
+#include <fmt/core.h>
+
+#include <cstddef>
+
+#include "cli/run/load.hpp"
+#include "strake/drawing/drawing.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+std::string words(hlr::Fate fate) {
+  return fate == hlr::Fate::left_out ? "left out" : std::string(drawing::fate_name(fate));
+}
+
+}  // namespace
+
+void print_drawing_diagnostics(Console& console, const Diagnostics& diagnostics) {
+  print_diagnostics(console, diagnostics, {"object-degenerate", "object-failed", "object-in-part"});
+}
+
+std::string object_summary_line(const hlr::Account& account, const model::Model& model) {
+  std::string line =
+      fmt::format("{} objects: {} drawn", account.objects(), account.of(hlr::Fate::drawn));
+  for (std::size_t f = static_cast<std::size_t>(hlr::Fate::drawn) + 1; f < hlr::kFates; ++f) {
+    const auto fate = static_cast<hlr::Fate>(f);
+    if (account.of(fate) > 0) line += fmt::format(", {} {}", account.of(fate), words(fate));
+  }
+  if (account.in_part > 0)
+    line += fmt::format("; {} without some of their geometry", account.in_part);
+  if (const std::string rest = unread_rest(model); !rest.empty())
+    line += fmt::format("; not drawn: {}", rest);
+  return line;
+}
+
+void count_objects(Stats& stats, const hlr::Account& account, std::string_view prefix) {
+  stats.count(fmt::format("{}objects", prefix), account.objects());
+  for (std::size_t f = static_cast<std::size_t>(hlr::Fate::drawn); f < hlr::kFates; ++f) {
+    const auto fate = static_cast<hlr::Fate>(f);
+    stats.count(fmt::format("{}objects {}", prefix, words(fate)), account.of(fate));
+  }
+  stats.count(fmt::format("{}objects in part", prefix), account.in_part);
+}
+
+}  // namespace strake::cli

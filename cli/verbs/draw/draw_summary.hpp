@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "cli/output/console.hpp"
+#include "cli/output/stats.hpp"
+#include "strake/core/diagnostics.hpp"
+#include "strake/hlr/hlr.hpp"
+
+namespace strake::cli {
+
+/// What a drawing noticed, every object by name that it could not draw, or not whole.
+void print_drawing_diagnostics(Console& console, const Diagnostics& diagnostics);
+
+/// "900 objects: 400 drawn, 496 hidden, 4 failed; 2 without some of their geometry": fates
+/// add up. Tells of files that end early, too.
+[[nodiscard]] std::string object_summary_line(const hlr::Account& account,
+                                              const model::Model& model);
+
+/// The same for --stats, every fate, each name behind `prefix`.
+void count_objects(Stats& stats, const hlr::Account& account, std::string_view prefix);
+
+}  // namespace strake::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "cli/options/options.hpp"
+#include "cli/run/exit_code.hpp"
+#include "cli/run/session.hpp"
+
+namespace strake::cli {
+
+/// A command of the program: its options are bound on the CLI::App, and `run` does the work.
+struct Verb {
+  CLI::App* command = nullptr;
+  std::function<Result<ExitCode>(Session&)> run;
+};
+
+// Each adds its command to the program. What the options are bound to lives as long as `run`.
+[[nodiscard]] Verb add_info(CLI::App& program, CommonOptions& common);
+[[nodiscard]] Verb add_clash(CLI::App& program, CommonOptions& common);
+/// `clash` is the command of add_clash().
+[[nodiscard]] Verb add_clash_diff(CLI::App& clash, CommonOptions& common);
+[[nodiscard]] Verb add_draw(CLI::App& program, CommonOptions& common);
+/// `draw` is the command of add_draw().
+[[nodiscard]] Verb add_draw_diff(CLI::App& draw, CommonOptions& common);
+[[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
+/// Of all that was added to the program by the time that they run.
+[[nodiscard]] Verb add_man(CLI::App& program);
+[[nodiscard]] Verb add_completion(CLI::App& program);
+
+}  // namespace strake::cli

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+# Headers of other projects that most sources include, read once instead of once a source. What is
+# ours is left out: a change of it would rebuild everything. The sources include what they use all the
+# same (clang-tidy sees them without).
+option(STRAKE_PRECOMPILE "Precompile the headers of the standard library and of GoogleTest" ON)
+
+set(STRAKE_STANDARD_HEADERS
+  <algorithm> <array> <bit> <cmath> <cstddef> <cstdint> <filesystem> <functional> <limits> <map>
+  <memory> <numeric> <optional> <span> <stop_token> <string> <string_view> <tuple> <unordered_map>
+  <utility> <variant> <vector>)
+
+# strake_precompile(TARGET GROUP [HEADERS header...] [LIBS library...])
+# Precompiles the standard headers and those named for TARGET. Targets of one GROUP have the same
+# flags and share what the first of them compiled.
+function(strake_precompile target group)
+  if(NOT STRAKE_PRECOMPILE)
+    return()
+  endif()
+  cmake_parse_arguments(arg "" "" "HEADERS" ${ARGN})
+  # What ccache needs to know a source again that includes a precompiled header.
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+    # GCC 12 shows warnings about the inside of precompiled headers that it hides where the same headers
+    # are included, and is wrong about texts in them (GCC bug 105651).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overread>
+    "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+  get_property(first GLOBAL PROPERTY strake_precompiled_${group})
+  if(first)
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  else()
+    set_property(GLOBAL PROPERTY strake_precompiled_${group} ${target})
+    target_precompile_headers(${target} PRIVATE ${STRAKE_STANDARD_HEADERS} ${arg_HEADERS})
+  endif()
+endfunction()
+
+option(STRAKE_UNITY "Compile a dozen sources at once: fastest from nothing, slowest after a change" OFF)
+
+# strake_unite(TARGET): one compiler run for a dozen sources. What is hidden in a source must have a
+# name of its own in its module therefore.
+function(strake_unite target)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${STRAKE_UNITY}
+    UNITY_BUILD_BATCH_SIZE 12)
+  if(STRAKE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # A source's hidden types in its own classes are warned of in what a source includes alone.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/broad_phase/broad_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "clash/broad_phase/oriented_boxes.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+constexpr std::size_t kItemsPerBlock = 4096;
+
+geometry::BoxItem item_of(const ScenePart& ref, const Sets& sets, double reach) {
+  geometry::BoxItem item;
+  item.box = inflated_box(ref, reach);
+  item.owner = ref.object;
+  item.sets = static_cast<std::uint8_t>((sets.in_a[ref.object] ? geometry::kSetA : 0U) |
+                                        (sets.in_b[ref.object] ? geometry::kSetB : 0U));
+  return item;
+}
+
+/// Pairs of boxes for each, above which it is looked whether boxes along the coordinate axes are
+/// why there are so many.
+constexpr std::uint64_t kManyPairs = 32;
+
+/// The pairs by one of the two ways there are.
+class BoxPairs {
+ public:
+  BoxPairs(const std::vector<geometry::BoxItem>& items, const Options& options,
+           const parallel::Context& context)
+      : items_(items), options_(options), context_(context) {}
+
+  Result<std::vector<geometry::IndexPair>> find(std::uint64_t most) {
+    if (all()) return geometry::overlapping_box_pairs_brute_force(items_, context_, most);
+    if (tree_.nodes().empty()) {
+      auto tree = geometry::SceneBvh::build(items_, context_);
+      if (!tree) return tree.error();
+      tree_ = std::move(*tree);
+    }
+    return geometry::overlapping_box_pairs(tree_, context_, most);
+  }
+  [[nodiscard]] Result<std::vector<geometry::IndexPair>> find(
+      const geometry::BoxesInFrames& framed) const {
+    return all() ? geometry::overlapping_box_pairs_brute_force(items_, framed, context_,
+                                                               options_.most_pairs)
+                 : geometry::overlapping_box_pairs(items_, framed, context_, options_.most_pairs);
+  }
+
+ private:
+  [[nodiscard]] bool all() const { return options_.broad_phase == BroadPhase::all_pairs; }
+
+  const std::vector<geometry::BoxItem>& items_;
+  const Options& options_;
+  const parallel::Context& context_;
+  geometry::SceneBvh tree_;
+};
+
+/// Whether there are many is the same for any team and either way, so that what is done about it
+/// is.
+Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::BoxItem>& items,
+                                                   const ScenePartList& list, double reach,
+                                                   const Options& options,
+                                                   const parallel::Context& context) {
+  BoxPairs by_boxes(items, options, context);
+  auto pairs = by_boxes.find(std::min(options.most_pairs, kManyPairs * items.size()));
+  if (pairs || pairs.error().code != ErrorCode::input) return pairs;
+  const auto framed = make_oriented_boxes(list, reach, context);
+  if (!framed) return framed.error();
+  return framed->frames.size() > 1 ? by_boxes.find(*framed) : by_boxes.find(options.most_pairs);
+}
+
+/// Pairs that stand in different groups.
+Result<std::vector<geometry::IndexPair>> across_groups(
+    const std::vector<geometry::IndexPair>& pairs, const ScenePartList& list, const Sets& sets,
+    const parallel::Context& context) {
+  const auto group = [&](std::uint32_t part) { return sets.group[list.parts[part].object]; };
+  return parallel::collect<geometry::IndexPair>(
+      context, {.name = "pairs across groups", .n = pairs.size(), .grain = kItemsPerBlock},
+      [&](std::size_t i, std::vector<geometry::IndexPair>& out) {
+        if (group(pairs[i].first) != group(pairs[i].second)) out.push_back(pairs[i]);
+      });
+}
+
+/// Puts all parts of two objects side by side in a list of pairs that is ascending by parts, which
+/// are themselves by object: the second part's object goes before the first part.
+Status gather_by_objects(std::vector<geometry::IndexPair>& pairs, const ScenePartList& list,
+                         const parallel::Context& context) {
+  const auto object = [&](std::uint32_t part) { return list.parts[part].object; };
+  const auto gather = [&](std::span<geometry::IndexPair> of_object) {
+    // Ascending by the first part.
+    if (of_object.front().first != of_object.back().first)
+      std::sort(of_object.begin(), of_object.end(), [&](const auto& x, const auto& y) {
+        return std::tuple{object(x.second), x.first, x.second} <
+               std::tuple{object(y.second), y.first, y.second};
+      });
+  };
+  const auto runs = find_runs(
+      pairs, "pairs by first object",
+      [&](const auto& x, const auto& y) { return object(x.first) == object(y.first); }, context);
+  if (!runs) return runs.error();
+  const std::vector<std::size_t>& at = *runs;
+  return parallel::for_each(
+      context, {.name = "gather by objects", .n = at.size() - 1, .grain = kItemsPerBlock},
+      [&](std::size_t k) { gather(std::span(pairs).subspan(at[k], at[k + 1] - at[k])); });
+}
+
+Error too_many(const Options& options) {
+  return {ErrorCode::input,
+          "more than " + std::to_string(options.most_pairs) +
+              " pairs of parts are within reach of each other",
+          "clash",
+          "give a smaller clearance, or raise the limit with --most-pairs; or the model holds many "
+          "objects at one place"};
+}
+
+}  // namespace
+
+geometry::Box3l inflated_box(const ScenePart& ref, double reach) {
+  const double beyond = ref.placed.part->sag + static_cast<double>(ref.step);
+  const auto inflation = static_cast<std::int64_t>(std::ceil(reach / 2 + beyond));
+  return ref.placed.part->box.as<std::int64_t>().moved(ref.placed.origin).inflated(inflation);
+}
+
+Result<ScenePartList> collect_scene_parts(const model::Scene& scene, const Sets& sets,
+                                          Curves curves, const parallel::Context& context) {
+  ScenePartList list;
+  std::vector<std::uint32_t> first(scene.shapes.size() + 1, 0);
+  for (std::size_t s = 0; s < scene.shapes.size(); ++s) {
+    for (const geometry::Part& part : scene.shapes[s].parts) list.unique.push_back(&part);
+    first[s + 1] = static_cast<std::uint32_t>(list.unique.size());
+  }
+  // Calls take(part, its number among those of the object, body) for each that can clash.
+  const auto each = [&](std::size_t o, auto&& take) {
+    if (!sets.in_a[o] && !sets.in_b[o]) return;
+    std::uint32_t number = 0;
+    for (std::size_t b = scene.first_body[o]; b < scene.first_body[o + 1]; ++b) {
+      const std::vector<geometry::Part>& parts = scene.shapes[scene.bodies[b].grid_shape].parts;
+      for (const geometry::Part& part : parts) {
+        const bool wire = part.kind == geometry::PartKind::wire;
+        if (wire ? curves == Curves::on : !part.triangles.empty())
+          take(part, number, scene.bodies[b]);
+        ++number;
+      }
+    }
+  };
+  const std::size_t objects = scene.first_body.empty() ? 0 : scene.first_body.size() - 1;
+  auto parts = parallel::count_fill<ScenePart>(
+      context, {.name = "list parts", .n = objects, .grain = kItemsPerBlock},
+      [&](std::size_t o) {
+        std::size_t count = 0;
+        each(o, [&](const auto&, std::uint32_t, const model::GridBody&) { ++count; });
+        return count;
+      },
+      [&](std::size_t o, std::span<ScenePart> out) {
+        std::size_t at = 0;
+        each(o, [&](const geometry::Part& part, std::uint32_t number, const model::GridBody& body) {
+          const geometry::Part* const all = scene.shapes[body.grid_shape].parts.data();
+          out[at++] = {{&part, body.origin},
+                       static_cast<std::uint32_t>(o),
+                       number,
+                       first[body.grid_shape] + static_cast<std::uint32_t>(&part - all),
+                       body.body};
+        });
+      });
+  if (!parts) return parts.error();
+  list.parts = std::move(parts->values);
+  return list;
+}
+
+geometry::Box3d common_box_mm(const ScenePart& a, const ScenePart& b, double reach) {
+  const geometry::Box3l common = inflated_box(a, reach).common(inflated_box(b, reach));
+  return {geometry::to_mm(common.lo), geometry::to_mm(common.hi)};
+}
+
+Result<std::vector<geometry::IndexPair>> find_candidate_pairs(const ScenePartList& list,
+                                                              const Sets& sets, double reach,
+                                                              const Options& options,
+                                                              const parallel::Context& context) {
+  const auto items = parallel::transform(
+      context, {.name = "boxes", .n = list.parts.size(), .grain = kItemsPerBlock},
+      [&](std::size_t i) { return item_of(list.parts[i], sets, reach); });
+  if (!items) return items.error();
+  auto pairs = box_pairs(*items, list, reach, options, context);
+  if (!pairs) return pairs.error().code == ErrorCode::input ? too_many(options) : pairs.error();
+  if (!sets.group.empty()) {
+    pairs = across_groups(*pairs, list, sets, context);
+    if (!pairs) return pairs;
+  }
+  if (const Status s = gather_by_objects(*pairs, list, context); !s) return s.error();
+  return pairs;
+}
+
+Result<ObjectPairs> ObjectPairs::find(std::span<const geometry::IndexPair> pairs,
+                                      const ScenePartList& list, const parallel::Context& context) {
+  const auto object = [&](std::uint32_t part) { return list.parts[part].object; };
+  auto begin = find_runs(
+      pairs, "pairs of objects",
+      [&](const auto& x, const auto& y) {
+        return object(x.first) == object(y.first) && object(x.second) == object(y.second);
+      },
+      context);
+  if (!begin) return begin.error();
+  return ObjectPairs(std::move(*begin));
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "geometry/bvh/scene_bvh.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/geometry/depth.hpp"
+#include "strake/parallel/collect.hpp"
+
+namespace strake::clash {
+
+/// A placed part of the scene: what the broad phase pairs.
+struct ScenePart {
+  geometry::PlacedPart placed;
+  std::uint32_t object = 0;
+  std::uint32_t number = 0;  ///< within its object
+  std::uint32_t unique = 0;  ///< number of the part's geometry, shared by all bodies that place it
+  std::uint32_t body = 0;    ///< index into Model::bodies
+  float snap = 0;            ///< grid units: how far its skin may lie from the source's
+  float step = 0;            ///< grid units: of the source's numbers where they are coarse, else 0
+};
+
+/// Solids and sheets of the objects in either set, and lines where asked for, by object and number.
+struct ScenePartList {
+  std::vector<ScenePart> parts;
+  std::vector<const geometry::Part*> unique;
+};
+
+/// Errors: cancelled.
+[[nodiscard]] Result<ScenePartList> collect_scene_parts(const model::Scene& scene, const Sets& sets,
+                                                        Curves curves,
+                                                        const parallel::Context& context);
+
+/// Grid units: what lies so much beyond a tolerance is for the narrow phase to see, since the snap
+/// may have moved it there.
+inline constexpr double kSnapMargin = 4;
+
+/// What boxes are inflated by for a tolerance, both in grid units.
+[[nodiscard]] constexpr double search_margin(double tolerance) {
+  return tolerance + kSnapMargin + 1;
+}
+
+/// The part's box, so much larger that the boxes of two parts meet where their true surfaces, which
+/// may stand out of the tessellation by the sag, come within `reach` grid units, or as near as the
+/// coarser one's numbers can tell.
+[[nodiscard]] geometry::Box3l inflated_box(const ScenePart& ref, double reach);
+
+/// What the inflated boxes of two parts have in common, mm.
+[[nodiscard]] geometry::Box3d common_box_mm(const ScenePart& a, const ScenePart& b, double reach);
+
+/// Pairs of parts of different objects whose boxes come within `reach` grid units, as indices into
+/// the list, by (objects, parts). Where these are very many, only those of which boxes along the
+/// parts' own faces do, too.
+[[nodiscard]] Result<std::vector<geometry::IndexPair>> find_candidate_pairs(
+    const ScenePartList& list, const Sets& sets, double reach, const Options& options,
+    const parallel::Context& context);
+
+/// The pairs of objects behind pairs of parts, which stand side by side as find_candidate_pairs()
+/// lists them.
+class ObjectPairs {
+ public:
+  ObjectPairs() = default;
+  /// Errors: cancelled.
+  [[nodiscard]] static Result<ObjectPairs> find(std::span<const geometry::IndexPair> pairs,
+                                                const ScenePartList& list,
+                                                const parallel::Context& context);
+
+  [[nodiscard]] std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
+  /// The pairs of parts of the k-th pair of objects are [begin(k), end(k)).
+  [[nodiscard]] std::size_t begin(std::size_t k) const { return begin_[k]; }
+  [[nodiscard]] std::size_t end(std::size_t k) const { return begin_[k + 1]; }
+
+ private:
+  explicit ObjectPairs(std::vector<std::size_t> begin) : begin_(std::move(begin)) {}
+  std::vector<std::size_t> begin_;  ///< and the number of pairs of parts
+};
+
+/// Where the runs of a list begin, ascending, and at last the end of the list. An item goes on with
+/// the run of the one before it where `same(one before, item)`. Errors: cancelled.
+template <class List, class Same>
+[[nodiscard]] Result<std::vector<std::size_t>> find_runs(const List& list, std::string_view name,
+                                                         const Same& same,
+                                                         const parallel::Context& context) {
+  constexpr std::size_t kGrain = 16384;
+  auto begin =
+      parallel::collect<std::size_t>(context, {.name = name, .n = list.size(), .grain = kGrain},
+                                     [&](std::size_t i, std::vector<std::size_t>& out) {
+                                       if (i == 0 || !same(list[i - 1], list[i])) out.push_back(i);
+                                     });
+  if (begin) begin->push_back(list.size());
+  return begin;
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "clash/broad_phase/broad_phase.hpp"
+#include "geometry/bvh/scene_bvh.hpp"
+
+namespace strake::clash {
+
+/// Boxes along their own faces for parts that stand askew, as inflated_box() otherwise: in a frame
+/// that parts share where that is as tight for all of them. No frame but the first where nothing
+/// stands so. Errors: cancelled.
+[[nodiscard]] Result<geometry::BoxesInFrames> make_oriented_boxes(const ScenePartList& list,
+                                                                  double reach,
+                                                                  const parallel::Context& context);
+
+}  // namespace strake::clash

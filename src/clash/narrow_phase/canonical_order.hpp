@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "clash/pairs/pair_result.hpp"
+
+namespace strake::clash {
+
+/// An order of parts by what they are and where they stand relative to each other, so that the
+/// pair is worked on the same way round whichever is called a.
+[[nodiscard]] bool in_canonical_order(const geometry::PartWithBvh& a,
+                                      const geometry::PartWithBvh& b);
+
+/// Points in steps of 2^-16 grid units: those of one part's coordinates become the other's without
+/// rounding.
+[[nodiscard]] geometry::Vec3d on_witness_grid(const geometry::Vec3d& p);
+void round_to_witness_grid(PartPairResult& answer);
+void round_to_witness_grid(PairEvaluation& evaluation);
+
+template <class Answer>
+void round_to_witness_grid(std::optional<Answer>& answer) {
+  if (answer) round_to_witness_grid(*answer);
+}
+
+/// An answer about (b, a) becomes one about (a, b).
+void swap_sides(PartPairResult& answer, const PairOperand& a, const PairOperand& b);
+void swap_sides(PairEvaluation& evaluation, const PairOperand& a, const PairOperand& b);
+
+template <class Answer>
+void swap_sides(std::optional<Answer>& answer, const PairOperand& a, const PairOperand& b) {
+  if (answer) swap_sides(*answer, a, b);
+}
+
+/// What judge(x, y) says of two parts in canonical order, as an answer about (a, b).
+template <class Judge>
+[[nodiscard]] auto evaluate_in_canonical_order(const PairOperand& a, const PairOperand& b,
+                                               Judge&& judge) {
+  const bool ordered = in_canonical_order(a.treed, b.treed);
+  auto answer = ordered ? judge(a, b) : judge(b, a);
+  round_to_witness_grid(answer);
+  if (!ordered) swap_sides(answer, a, b);
+  return answer;
+}
+
+}  // namespace strake::clash

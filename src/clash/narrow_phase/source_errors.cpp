@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/narrow_phase/source_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "clash/rules/options.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Vec3d;
+
+/// Grid units: what the snap moves a point by at most, and at most where the source's unit and
+/// precision are all that keeps it off the grid, as whole millimetres written in metres.
+constexpr float kMostMoved = 0.8661F, kLeastMoved = 1.0F / 64;
+
+/// Grid units from a coordinate to the next one on the grid; none for the double that is nearest to
+/// one.
+double off_grid(double mm) {
+  // Sums of this size have no digits behind the point.
+  constexpr double kNoFraction = 0x1.8p52;
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  const double units = mm * geometry::kGridPerMm;
+  const double off = std::fabs(units - ((units + kNoFraction) - kNoFraction));
+  return off > kRounding * std::fabs(units) ? off : 0;
+}
+
+float moved(const Vec3d& mm) {
+  const double most = std::max({off_grid(mm.x), off_grid(mm.y), off_grid(mm.z)});
+  // Along three axes no more than twice as far.
+  constexpr double kLeast = static_cast<double>(kLeastMoved) / 2;
+  return !(most > 0) ? 0 : most > kLeast ? kMostMoved : kLeastMoved;
+}
+
+float most_moved(std::span<const Vec3d> points, const geometry::Mat3d& linear) {
+  float most = 0;
+  for (const Vec3d& p : points) {
+    most = std::max(most, moved(linear * p));
+    if (most == kMostMoved) break;
+  }
+  return most;
+}
+
+float vertices_moved(const model::Shape& shape, const geometry::Mat3d& linear) {
+  if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
+    return most_moved(mesh->vertices, linear);
+  if (const auto* lines = std::get_if<geometry::Polylines>(&shape))
+    return most_moved(lines->points, linear);
+  return 0;
+}
+
+/// What the snap moved the vertices of the first body of each shape of the model, which most of the
+/// others share.
+class VertexErrors {
+ public:
+  explicit VertexErrors(const model::Model& model) : model_(model) {}
+
+  Status measure(const parallel::Context& context) {
+    first_.assign(model_.shapes.size(), kNone);
+    for (std::uint32_t b = 0; b < model_.bodies.size(); ++b) {
+      const std::size_t shape = index(model_.bodies[b].shape);
+      if (shape < first_.size() && first_[shape] == kNone) first_[shape] = b;
+    }
+    constexpr std::size_t kGrain = 64;
+    auto all = parallel::transform(
+        context, {.name = "vertices off the grid", .n = first_.size(), .grain = kGrain},
+        [&](std::size_t s) {
+          return first_[s] == kNone
+                     ? 0
+                     : vertices_moved(model_.shapes[s], model_.bodies[first_[s]].placement.linear);
+        });
+    if (!all) return all.error();
+    moved_ = std::move(*all);
+    return {};
+  }
+
+  [[nodiscard]] float of(const model::Body& body) const {
+    const std::size_t shape = index(body.shape);
+    return body.placement.linear == model_.bodies[first_[shape]].placement.linear
+               ? moved_[shape]
+               : vertices_moved(model_.shapes[shape], body.placement.linear);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  const model::Model& model_;
+  std::vector<std::uint32_t> first_;
+  std::vector<float> moved_;
+};
+
+}  // namespace
+
+Status set_source_errors(const model::Scene& scene, const Options& options, ScenePartList& list,
+                         const parallel::Context& context) {
+  VertexErrors vertices(*scene.model);
+  if (const Status s = vertices.measure(context); !s) return s;
+  constexpr std::size_t kGrain = 1024;
+  return parallel::for_each(context,
+                            {.name = "errors of sources", .n = list.parts.size(), .grain = kGrain},
+                            [&](std::size_t i) {
+                              ScenePart& part = list.parts[i];
+                              const model::Body& body = scene.model->bodies[part.body];
+                              part.snap = moved(body.placement.translation) + vertices.of(body);
+                              part.step = coarse_step(options, body.precision_um);
+                            });
+}
+
+}  // namespace strake::clash

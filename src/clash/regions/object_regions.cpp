@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/regions/object_regions.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+#include "core/union_find.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Box3d;
+
+/// A place of one pair of parts.
+struct PlacedResult {
+  Pair result;
+  Box3d box_mm;
+  std::size_t candidate = 0;
+};
+
+struct Regions {
+  std::uint32_t count = 0;
+  std::vector<Region> worst = {};    ///< of several
+  std::vector<Region> allowed = {};  ///< of a pair that no rule allows: all that one does
+};
+
+/// Of a pair that does not have just one, or allowed ones besides.
+struct NotOne {
+  std::size_t pair = 0;
+  Regions regions;
+};
+
+Region region_of(const PlacedResult& place) {
+  const Pair& p = place.result;
+  return {.cls = p.cls,
+          .flags = p.flags,
+          .d_mm = p.d_mm,
+          .d_lower_mm = p.d_lower_mm,
+          .d_upper_mm = p.d_upper_mm,
+          .point_mm = p.point_mm,
+          .box_mm = place.box_mm,
+          .part_a = p.part_a,
+          .part_b = p.part_b,
+          .allowed = p.allowed,
+          .depth_complete = p.depth_complete};
+}
+
+/// Whether a place counts for a pair of objects with this answer.
+bool counts(const Pair& place, const Pair& whole) {
+  if ((place.allowed < 0) != (whole.allowed < 0)) return false;
+  if (whole.cls == Class::clearance_violation) return place.cls == whole.cls;
+  return place.cls >= Class::contact;
+}
+
+/// Of places that are as bad as each other, that of the pair's own witness counts as the worst.
+bool worse(const PlacedResult& x, const PlacedResult& y, const Pair& whole) {
+  const auto is_witness = [&](const Pair& p) {
+    return p.part_a == whole.part_a && p.part_b == whole.part_b && p.d_mm == whole.d_mm &&
+           p.point_mm == whole.point_mm;
+  };
+  if (is_witness(x.result) != is_witness(y.result)) return is_witness(x.result);
+  return is_more_severe(x.result, y.result);
+}
+
+/// Places of different pairs of parts whose boxes meet are joined, in one sweep along x.
+UnionFind joined(const std::vector<PlacedResult>& places) {
+  UnionFind sets(places.size());
+  const auto of_first = [&](const PlacedResult& p) {
+    return p.candidate == places.front().candidate;
+  };
+  if (std::ranges::all_of(places, of_first)) return sets;
+  std::vector<std::uint32_t> order(places.size()), open;
+  std::iota(order.begin(), order.end(), std::uint32_t{0});
+  std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
+    return std::pair(places[i].box_mm.lo.x, i) < std::pair(places[j].box_mm.lo.x, j);
+  });
+  for (const std::uint32_t i : order) {
+    const PlacedResult& place = places[i];
+    std::erase_if(open, [&](std::uint32_t j) { return places[j].box_mm.hi.x < place.box_mm.lo.x; });
+    for (const std::uint32_t j : open)
+      if (places[j].candidate != place.candidate && places[j].box_mm.meets(place.box_mm))
+        sets.join(i, j);
+    open.push_back(i);
+  }
+  return sets;
+}
+
+class RegionsOfPairs {
+ public:
+  explicit RegionsOfPairs(const PartResults& findings, std::uint64_t most)
+      : findings_(findings), most_(most) {}
+
+  [[nodiscard]] Regions of(const Pair& pair) const {
+    const std::size_t first = pair.first_region;
+    if (!findings_.has_more(first))
+      return {.count = findings_.found[first].too_near_to_tell ? 0U : 1U};
+    std::vector<PlacedResult> places, allowed;
+    bool too_near_to_tell = false;
+    for (std::size_t i = first; i < findings_.found.size() && findings_.same_objects(first, i);
+         ++i) {
+      PlacedResult place = place_of(i);
+      if (pair.allowed < 0 && place.result.allowed >= 0) {
+        allowed.push_back(std::move(place));
+      } else if (counts(place.result, pair)) {
+        too_near_to_tell = too_near_to_tell || findings_.found[i].too_near_to_tell;
+        places.push_back(std::move(place));
+      }
+    }
+    Regions regions{.count = too_near_to_tell ? 0U : 1U};
+    if (!too_near_to_tell && places.size() > 1) take(together(places, pair), regions);
+    if (!allowed.empty()) regions.allowed = allowed_of(std::move(allowed), pair);
+    return regions;
+  }
+
+ private:
+  [[nodiscard]] PlacedResult place_of(std::size_t i) const {
+    PlacedResult place{findings_.pair(i), {}, findings_.found[i].candidate};
+    const double apart = std::max(place.result.d_upper_mm, 0.0) * geometry::kGridPerMm;
+    place.box_mm = findings_.extent_mm(i).value_or(
+        common_box_mm(findings_.a(i), findings_.b(i), search_margin(apart)));
+    return place;
+  }
+
+  /// One of each, the worst first.
+  [[nodiscard]] static std::vector<PlacedResult> together(const std::vector<PlacedResult>& places,
+                                                          const Pair& whole) {
+    UnionFind sets = joined(places);
+    std::vector<PlacedResult> worst;
+    std::vector<std::size_t> number(places.size());
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+      const std::uint32_t root = sets.root(i);
+      if (root == i) {
+        number[i] = worst.size();
+        worst.push_back(places[i]);
+        continue;
+      }
+      PlacedResult& known = worst[number[root]];
+      Box3d box = known.box_mm;
+      box.include(places[i].box_mm);
+      if (worse(places[i], known, whole)) known = places[i];
+      known.box_mm = box;
+    }
+    std::ranges::sort(
+        worst, [&](const PlacedResult& x, const PlacedResult& y) { return worse(x, y, whole); });
+    return worst;
+  }
+
+  void take(const std::vector<PlacedResult>& worst, Regions& regions) const {
+    regions.count = static_cast<std::uint32_t>(worst.size());
+    if (regions.count < 2) return;
+    const std::uint64_t listed = std::min<std::uint64_t>(worst.size(), most_);
+    for (std::size_t i = 0; i < listed; ++i) regions.worst.push_back(region_of(worst[i]));
+  }
+
+  /// What a rule allows of a pair that none allows as a whole. Gaps round a hit or a contact, be it
+  /// allowed, are none, as they are not where nothing is allowed. Where there is too much to tell
+  /// places apart, one stands for all.
+  [[nodiscard]] static std::vector<Region> allowed_of(std::vector<PlacedResult> places,
+                                                      const Pair& whole) {
+    Class worst = whole.cls;
+    for (const PlacedResult& place : places) worst = std::max(worst, place.result.cls);
+    const Class least = std::min(worst, Class::contact);
+    std::erase_if(places, [&](const PlacedResult& place) { return place.result.cls < least; });
+    std::vector<Region> regions;
+    for (const PlacedResult& place : together(places, whole)) regions.push_back(region_of(place));
+    return regions;
+  }
+
+  const PartResults& findings_;
+  std::uint64_t most_;
+};
+
+}  // namespace
+
+Status aggregate_regions(const PartResults& findings, const parallel::Context& context,
+                         Report& report) {
+  constexpr std::size_t kGrain = 256;
+  const bool told = report.options.most_regions > 0;
+  const RegionsOfPairs regions(findings, report.options.most_regions);
+  const auto others = parallel::collect<NotOne>(
+      context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<NotOne>& out) {
+        Pair& pair = report.pairs[i];
+        Regions of = regions.of(pair);
+        pair.regions = told ? of.count : 0;
+        pair.first_region = 0;
+        pair.allowed_regions = static_cast<std::uint32_t>(of.allowed.size());
+        if (of.count != 1 || !of.allowed.empty()) out.push_back({i, std::move(of)});
+      });
+  if (!others) return others.error();
+  for (const NotOne& other : *others) {
+    const auto& [count, worst, allowed] = other.regions;
+    Pair& pair = report.pairs[other.pair];
+    pair.first_region = static_cast<std::uint32_t>(report.regions.size());
+    report.regions.insert(report.regions.end(), worst.begin(), worst.end());
+    const std::uint32_t listed = pair.allowed_regions_listed(report.options);
+    report.regions.insert(report.regions.end(), allowed.begin(),
+                          allowed.begin() + static_cast<std::ptrdiff_t>(listed));
+    for (const Region& region : allowed)
+      ++report.allowed[static_cast<std::size_t>(region.allowed)].places;
+    report.count_allowed_regions += allowed.size();
+    if (told && count == 0) ++report.counters.regions_given_up;
+  }
+  return {};
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/results/clash_key.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "core/text_encoding.hpp"
+#include "strake/core/hash.hpp"
+
+namespace strake::clash {
+namespace {
+
+constexpr std::string_view kDigits = "0123456789abcdefghjkmnpqrstvwxyz";
+constexpr int kLength = 26, kBits = 5;
+constexpr std::uint8_t kNoDigit = 255;
+
+constexpr std::array<std::uint8_t, 256> kValues = [] {
+  std::array<std::uint8_t, 256> values{};
+  values.fill(kNoDigit);
+  for (std::size_t i = 0; i < kDigits.size(); ++i)
+    values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::uint8_t>(i);
+  return values;
+}();
+
+ElementName element(const model::Model& model, model::ObjectId id) {
+  const model::Object& object = model.object(id);
+  return {model.files[object.file].label, object.id};
+}
+
+}  // namespace
+
+std::string key_text(Hash128 hash) {
+  std::string text(kLength, '0');
+  for (int i = kLength; i-- > 0;) {
+    text[static_cast<std::size_t>(i)] = kDigits[hash.low & 31U];
+    hash.low = (hash.low >> kBits) | (hash.high << (64 - kBits));
+    hash.high >>= kBits;
+  }
+  return text;
+}
+
+std::optional<Hash128> parse_key(std::string_view text) {
+  // 26 digits are two bits more than a hash has.
+  if (text.size() != kLength || text.front() > '7') return std::nullopt;
+  Hash128 hash;
+  for (const char c : text) {
+    const std::uint8_t digit = kValues[static_cast<unsigned char>(c)];
+    if (digit == kNoDigit) return std::nullopt;
+    hash.high = (hash.high << kBits) | (hash.low >> (64 - kBits));
+    hash.low = (hash.low << kBits) | digit;
+  }
+  return hash;
+}
+
+std::uint64_t element_hash(std::string_view file_label, std::string_view id) {
+  return Hasher()
+      .add(std::string_view(valid_utf8(file_label)))
+      .add(std::string_view(valid_utf8(id)))
+      .value()
+      .low;
+}
+
+std::uint64_t element_hash(const model::Model& model, model::ObjectId id) {
+  const ElementName e = element(model, id);
+  return element_hash(e.file_label, e.id);
+}
+
+Hash128 pair_hash(std::string_view test, const ElementName& a, const ElementName& b) {
+  const auto shown = [](const ElementName& e) {
+    return std::pair(valid_utf8(e.file_label), valid_utf8(e.id));
+  };
+  // Ordered as shown, so that a reader of a file comes to the same key.
+  auto first = shown(a), second = shown(b);
+  if (second < first) std::swap(first, second);
+  Hasher hasher;
+  hasher.add(std::string_view(valid_utf8(test)));
+  for (const auto* const element : {&first, &second})
+    hasher.add(std::string_view(element->first)).add(std::string_view(element->second));
+  return hasher.value();
+}
+
+std::string pair_key(std::string_view test, const model::Model& model, model::ObjectId a,
+                     model::ObjectId b) {
+  return key_text(pair_hash(test, element(model, a), element(model, b)));
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/results/common_volumes.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "geometry/intersection_volume/intersection_volume.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Part;
+using geometry::PartKind;
+
+/// What the volume of one pair may cost, in triangle pairs and tree nodes: what it takes where each
+/// triangle lies over a few of the other part, as skins of like fineness do, and some.
+constexpr std::uint64_t kWorkPerTriangle = 16, kLeastWork = 4096;
+
+/// A pair of solid parts whose interiors meet, in a pair of objects that is a HIT.
+struct SolidOverlap {
+  const ScenePart* a = nullptr;
+  const ScenePart* b = nullptr;
+  std::size_t pair = 0;  ///< of objects
+};
+
+std::uint64_t most_work(const Part& a, const Part& b) {
+  return kLeastWork + kWorkPerTriangle * (a.triangles.size() + b.triangles.size());
+}
+
+std::vector<SolidOverlap> overlaps_of_hits(const PartResults& findings,
+                                           const std::vector<Pair>& pairs) {
+  std::vector<SolidOverlap> overlaps;
+  std::size_t pair = 0, last = std::numeric_limits<std::size_t>::max();
+  for (std::size_t i = 0; i < findings.found.size(); ++i) {
+    const PartResult& f = findings.found[i];
+    if (!f.answer->separation.interiors_meet) continue;
+    if (f.candidate == last) continue;  // another place of the same parts
+    last = f.candidate;
+    const ScenePart &a = findings.a(i), &b = findings.b(i);
+    const auto before = [&](const Pair& p) {
+      return index(p.a) != a.object ? index(p.a) < a.object : index(p.b) < b.object;
+    };
+    while (pair < pairs.size() && before(pairs[pair])) ++pair;
+    if (pair == pairs.size()) break;
+    if (index(pairs[pair].a) != a.object || index(pairs[pair].b) != b.object) continue;
+    if (pairs[pair].cls != Class::hit) continue;
+    if (a.placed.part->kind == PartKind::solid && b.placed.part->kind == PartKind::solid)
+      overlaps.push_back({&a, &b, pair});
+  }
+  return overlaps;
+}
+
+/// Which unique parts the overlaps are of.
+std::vector<bool> parts_of(const std::vector<SolidOverlap>& overlaps, std::size_t unique) {
+  std::vector<bool> parts(unique, false);
+  for (const SolidOverlap& o : overlaps) parts[o.a->unique] = parts[o.b->unique] = true;
+  return parts;
+}
+
+struct VolumeMeasure {
+  std::optional<double> volume;  ///< cubic grid units
+  std::uint64_t triangle_pairs = 0;
+};
+
+}  // namespace
+
+Status measure_volumes(const PartResults& findings, AccelerationCache& cache,
+                       const parallel::Context& context, Report& report) {
+  const std::vector<SolidOverlap> overlaps = overlaps_of_hits(findings, report.pairs);
+  const Status planted =
+      cache.ensure_trees(parts_of(overlaps, findings.list.unique.size()), context);
+  if (!planted) return planted;
+  const auto order = parallel::longest_first(overlaps.size(), [&](std::size_t i) {
+    return most_work(*overlaps[i].a->placed.part, *overlaps[i].b->placed.part);
+  });
+  const auto measured = parallel::transform(
+      context, {.name = "common volumes", .n = overlaps.size(), .order = order},
+      [&](std::size_t i) {
+        const SolidOverlap& o = overlaps[i];
+        const auto common =
+            geometry::intersection_volume(cache.treed(*o.a).treed, cache.treed(*o.b).treed,
+                                          most_work(*o.a->placed.part, *o.b->placed.part));
+        return common ? VolumeMeasure{common->volume, common->triangle_pairs} : VolumeMeasure{};
+      });
+  if (!measured) return measured.error();
+  constexpr double kCubic = geometry::kGridPerMm * geometry::kGridPerMm * geometry::kGridPerMm;
+  std::vector<bool> unknown(report.pairs.size(), false);
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    const std::size_t p = overlaps[i].pair;
+    const VolumeMeasure& m = (*measured)[i];
+    report.counters.volume_triangle_pairs += m.triangle_pairs;
+    if (!m.volume) {
+      unknown[p] = true;
+      ++report.counters.volumes_given_up;
+    } else {
+      report.pairs[p].volume_mm3 = report.pairs[p].volume_mm3.value_or(0) + *m.volume / kCubic;
+    }
+  }
+  for (std::size_t p = 0; p < unknown.size(); ++p)
+    if (unknown[p]) report.pairs[p].volume_mm3.reset();
+  return {};
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "clash/broad_phase/broad_phase.hpp"
+#include "clash/pairs/pair_result.hpp"
+#include "clash/rules/rule_matcher.hpp"
+
+namespace strake::clash {
+
+/// The answer for one pair of parts, or for one place of it, by its index among the candidates; not
+/// null.
+struct PartResult {
+  std::size_t candidate = 0;
+  const PartPairResult* answer = nullptr;
+  const geometry::Box3d* extent = nullptr;  ///< of the place, if known: relative to a's origin
+  bool too_near_to_tell = false;            ///< whether there is one place or several
+  /// Whether the result of the two objects depends on it: on other places of two parts than their
+  /// worst one only where a rule may allow that.
+  bool decides = true;
+};
+
+/// What was found about parts, and what is needed to tell it of objects.
+struct PartResults {
+  const std::vector<PartResult>& found;  ///< by candidate
+  const std::vector<geometry::IndexPair>& candidates;
+  const ScenePartList& list;
+  const RuleMatcher& rules;
+
+  [[nodiscard]] const ScenePart& a(std::size_t i) const {
+    return list.parts[candidates[found[i].candidate].first];
+  }
+  [[nodiscard]] const ScenePart& b(std::size_t i) const {
+    return list.parts[candidates[found[i].candidate].second];
+  }
+  [[nodiscard]] bool same_objects(std::size_t i, std::size_t j) const {
+    return a(i).object == a(j).object && b(i).object == b(j).object;
+  }
+  /// Whether the one after it is about the same two objects.
+  [[nodiscard]] bool has_more(std::size_t i) const {
+    return i + 1 < found.size() && same_objects(i, i + 1);
+  }
+  /// Of the place, if known.
+  [[nodiscard]] std::optional<geometry::Box3d> extent_mm(std::size_t i) const;
+  /// The answer as one about the two objects.
+  [[nodiscard]] Pair pair(std::size_t i) const;
+};
+
+/// Which of two answers about one pair of objects decides.
+[[nodiscard]] bool is_more_severe(const Pair& x, const Pair& y);
+
+/// The pairs of objects that are not NO_HIT: the join of the answers of their parts by whether a
+/// rule allows them, class, level and d. Where brackets leave open which of them is the worst, the
+/// weightiest relation counts; then d, witness and part numbers: a function of the set of answers.
+/// Whether places were told apart shows in it only through rules. Pair::first_region is the number
+/// of the pair's first answer. Errors: cancelled.
+[[nodiscard]] Result<std::vector<Pair>> aggregate_by_object(const PartResults& findings,
+                                                            const parallel::Context& context);
+
+}  // namespace strake::clash

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/results/result_counts.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+constexpr std::size_t kResultsPerBlock = 16384;
+
+Status count_work(const EvaluatedPairs& evaluated, const parallel::Context& context,
+                  Counters& counters) {
+  const auto sum = parallel::reduce(
+      context, {.name = "count work", .n = evaluated.candidates.size(), .grain = kResultsPerBlock},
+      NarrowCost{},
+      [&](NarrowCost& partial, std::size_t i) { partial.add(evaluated.candidates[i].cost); },
+      [](NarrowCost& into, const NarrowCost& partial) { into.add(partial); });
+  if (!sum) return sum.error();
+  counters.triangle_pairs = sum->pair.triangle_pairs;
+  counters.exact_fallbacks = sum->pair.exact_fallbacks;
+  counters.depth_cells = sum->depth_cells;
+  return {};
+}
+
+constexpr std::string_view kTooLarge = "pair-too-large", kInOpen = "pair-in-open-surface";
+
+/// The code of why a pair of objects was not compared; empty where it was.
+std::string_view why_not_compared(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
+                                  std::size_t pair) {
+  bool in_open = false, hit = false;
+  for (std::size_t i = objects.begin(pair); i < objects.end(pair); ++i) {
+    const Candidate& c = evaluated.of(i);
+    if (c.too_large) return kTooLarge;
+    in_open = in_open || c.in_open;
+    hit = hit || c.evaluation.answer.classification.cls == Class::hit;
+  }
+  return in_open && !hit ? kInOpen : std::string_view{};
+}
+
+}  // namespace
+
+Status record_not_compared(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
+                           const model::Scene& scene, const parallel::Context& context,
+                           Report& report) {
+  for (const model::IncompleteObject& lacking : scene.lacking)
+    if (report.in_a[index(lacking.object)] || report.in_b[index(lacking.object)])
+      report.not_compared.push_back({lacking.object, {}, lacking.code});
+  const auto pairs = parallel::collect<NotCompared>(
+      context, {.name = "pairs not compared", .n = objects.size(), .grain = kResultsPerBlock},
+      [&](std::size_t k, std::vector<NotCompared>& out) {
+        const std::string_view code = why_not_compared(evaluated, objects, k);
+        const std::size_t first = objects.begin(k);
+        if (!code.empty())
+          out.push_back({model::ObjectId{evaluated.a(first).object},
+                         model::ObjectId{evaluated.b(first).object}, code});
+      });
+  if (!pairs) return pairs.error();
+  for (const NotCompared& pair : *pairs) {
+    report.not_compared.push_back(pair);
+    report.diagnostics.add(
+        Severity::skipped, pair.code,
+        pair.code == kTooLarge
+            ? "the pair spans more than 2.1 km and was not compared"
+            : "one lies within the other, whose surface does not close: meant as solids, they hit",
+        scene.model->object(pair.a).id + " and " + scene.model->object(*pair.b).id);
+  }
+  return {};
+}
+
+void count_sheets(const ScenePartList& list, Report& report) {
+  constexpr std::uint8_t kMost = 255;
+  report.sheets.assign(report.in_a.size(), 0);
+  for (const ScenePart& part : list.parts)
+    if (std::uint8_t& sheets = report.sheets[part.object];
+        part.placed.part->kind == geometry::PartKind::sheet && sheets < kMost)
+      ++sheets;
+}
+
+Status warn_of_unknown_sag(const ScenePartList& list, const model::Model& model,
+                           const parallel::Context& context, Diagnostics& diagnostics) {
+  using Unknown = std::vector<std::uint8_t>;
+  const auto unknown = parallel::reduce(
+      context, {.name = "parts of unknown sag", .n = list.parts.size(), .grain = kResultsPerBlock},
+      Unknown(model.files.size(), 0),
+      [&](Unknown& partial, std::size_t i) {
+        const ScenePart& p = list.parts[i];
+        if (p.placed.part->flags.unknown_sag) partial[model.objects[p.object].file] = 1;
+      },
+      [](Unknown& into, const Unknown& partial) {
+        for (std::size_t f = 0; f < into.size(); ++f) into[f] |= partial[f];
+      });
+  if (!unknown) return unknown.error();
+  for (std::size_t f = 0; f < unknown->size(); ++f)
+    if ((*unknown)[f] != 0)
+      diagnostics.add(Severity::note, "unknown-sag",
+                      "meshes are taken as the true surfaces: how far they lie from them is "
+                      "not known",
+                      model.files[f].label);
+  return {};
+}
+
+Status fill_counters(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
+                     const RuleMatcher& rules, const parallel::Context& context, Report& report) {
+  report.counters.part_pairs = evaluated.pairs.size();
+  report.counters.candidate_pairs = objects.size();
+  if (const Status s = count_work(evaluated, context, report.counters); !s) return s.error();
+  return rules.count_candidates(evaluated, objects, context, report);
+}
+
+namespace {
+
+constexpr std::size_t kLogGrain = 4096;
+
+/// What one pair of objects cost; an earlier pair of parts may have been the same question as one
+/// of theirs, which then took no work of its own.
+LoggedPair logged(const EvaluatedPairs& evaluated, std::size_t begin, std::size_t end,
+                  const RuleMatcher& rules) {
+  LoggedPair pair;
+  pair.a = model::ObjectId{evaluated.a(begin).object};
+  pair.b = model::ObjectId{evaluated.b(begin).object};
+  pair.may_be_allowed = rules.may_allow(index(pair.a), index(pair.b));
+  for (std::size_t i = begin; i < end; ++i) {
+    const NarrowCost& cost = evaluated.of(i).cost;
+    ++pair.part_pairs;
+    if (evaluated.unique_pairs.first[evaluated.unique_pairs.of[i]] != i) ++pair.repeated_part_pairs;
+    pair.node_pairs += cost.pair.node_pairs;
+    pair.triangle_pairs += cost.pair.triangle_pairs;
+    pair.exact_fallbacks += cost.pair.exact_fallbacks;
+    pair.depth_cells += cost.depth_cells;
+  }
+  return pair;
+}
+
+/// Sets the classes of some logged pairs. Both lists are by objects.
+void set_classes(std::span<LoggedPair> log, const std::vector<Pair>& pairs) {
+  const auto before = [](const auto& x, const auto& y) {
+    return std::tie(x.a, x.b) < std::tie(y.a, y.b);
+  };
+  auto at = std::lower_bound(pairs.begin(), pairs.end(), log.front(), before);
+  for (LoggedPair& logged : log) {
+    while (at != pairs.end() && before(*at, logged)) ++at;
+    if (at != pairs.end() && !before(logged, *at)) logged.cls = at->cls;
+  }
+}
+
+}  // namespace
+
+Status log_pairs(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
+                 const RuleMatcher& rules, const parallel::Context& context, Report& report) {
+  auto log = parallel::transform(
+      context, {.name = "log of pairs", .n = objects.size(), .grain = kLogGrain},
+      [&](std::size_t k) { return logged(evaluated, objects.begin(k), objects.end(k), rules); });
+  if (!log) return log.error();
+  const parallel::Region pieces{.n = log->size(), .grain = kLogGrain};
+  const Status status = parallel::for_each(
+      context, {.name = "classes in the log", .n = pieces.blocks()}, [&](std::size_t piece) {
+        const std::size_t first = piece * kLogGrain;
+        set_classes(std::span(*log).subspan(first, std::min(kLogGrain, log->size() - first)),
+                    report.pairs);
+      });
+  if (!status) return status.error();
+  report.log = std::move(*log);
+  return {};
+}
+
+}  // namespace strake::clash

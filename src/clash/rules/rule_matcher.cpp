@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/rules/rule_matcher.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+/// Whether two ascending lists share a number.
+bool share(const Linked::Lists& x, std::uint32_t a, const Linked::Lists& y, std::uint32_t b) {
+  std::uint32_t i = x.first[a], j = y.first[b];
+  while (i < x.first[a + 1] && j < y.first[b + 1]) {
+    if (x.numbers[i] == y.numbers[j]) return true;
+    ++(x.numbers[i] < y.numbers[j] ? i : j);
+  }
+  return false;
+}
+
+bool within(const HalfSpace& side, const geometry::Vec3d& p) {
+  return dot(p - side.point_mm, side.normal) >= 0;
+}
+
+}  // namespace
+
+Status check(const Policy& policy, std::size_t objects) {
+  const auto fits = [&](const auto&... lists) { return ((lists.size() == objects) && ...); };
+  const auto listed = [&](const Linked::Lists& lists) {
+    return lists.first.size() == objects + 1 && lists.first.back() <= lists.numbers.size();
+  };
+  bool good = true;
+  for (const Exemption& e : policy.exemptions) {
+    if (const auto* const same = std::get_if<SameLabel>(&e.test)) good &= fits(same->label);
+    if (const auto* const linked = std::get_if<Linked>(&e.test))
+      good &= listed(linked->answers_to) && listed(linked->refers_to);
+    if (const auto* const between = std::get_if<Between>(&e.test))
+      good &= fits(between->a, between->b);
+  }
+  if (policy.matrix) {
+    const std::size_t n = policy.matrix->disciplines.size();
+    good &= fits(policy.matrix->discipline) && policy.matrix->cells.size() == n * n;
+    for (const std::uint32_t d : policy.matrix->discipline) good &= d < n || d == kNoLabel;
+    for (const std::uint32_t c : policy.matrix->cells)
+      good &= c < policy.tolerances.size() || c >= Matrix::kDefault;
+  }
+  if (policy.levels) good &= fits(policy.levels->object);
+  for (const Allowed& a : policy.allowed) good &= fits(a.a, a.b);
+  if (good) return {};
+  return Error{
+      ErrorCode::usage,
+      "the rules do not have one entry per object of the scene, or refer to what is not there",
+      "rules", "build them from the same scene"};
+}
+
+bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b) {
+  return test.label[a] == test.label[b] && test.label[a] != kNoLabel;
+}
+
+bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b) {
+  return share(test.refers_to, a, test.answers_to, b) ||
+         share(test.refers_to, b, test.answers_to, a);
+}
+
+bool allows(const Allowed& rule, const Pair& pair, double moved_mm) {
+  // Half a grid step is what a bracket about a depth on the grid may be off; the next depth that
+  // coordinates on the grid can state is a whole step away.
+  constexpr double kTieMm = geometry::kMmPerGrid / 2;
+  if (rule.max_depth_mm ? -pair.d_lower_mm > *rule.max_depth_mm + kTieMm + moved_mm
+                        : pair.cls == Class::hit)
+    return false;
+  const geometry::Vec3d& at = pair.point_mm;
+  if (rule.region_mm && !rule.region_mm->contains({at, at})) return false;
+  return std::all_of(rule.cavity.begin(), rule.cavity.end(),
+                     [&](const HalfSpace& side) { return within(side, at); });
+}
+
+bool is_as_deep_as_allowed(const Allowed& rule, const Pair& pair) {
+  return rule.max_depth_mm && -pair.d_lower_mm > *rule.max_depth_mm;
+}
+
+bool contains_box(const Allowed& rule, const geometry::Box3d& box) {
+  if (rule.region_mm && !rule.region_mm->contains(box)) return false;
+  return std::all_of(rule.cavity.begin(), rule.cavity.end(), [&](const HalfSpace& side) {
+    geometry::Vec3d outermost;
+    for (int k = 0; k < 3; ++k) outermost[k] = side.normal[k] > 0 ? box.lo[k] : box.hi[k];
+    return within(side, outermost);
+  });
+}
+
+namespace {
+
+using geometry::IndexPair;
+
+/// Pairs per block of what is counted.
+constexpr std::size_t kMatchesPerBlock = 65536;
+
+std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options) {
+  std::vector<Tolerances> all{tolerances_of(options)};
+  all.insert(all.end(), policy.tolerances.begin(), policy.tolerances.end());
+  return all;
+}
+
+double reach_of(const Tolerances& t) { return std::max(t.clearance_mm, t.touch_gap_mm); }
+
+std::size_t count_between(const Policy& policy) {
+  return static_cast<std::size_t>(
+      std::count_if(policy.exemptions.begin(), policy.exemptions.end(),
+                    [](const Exemption& e) { return std::holds_alternative<Between>(e.test); }));
+}
+
+/// For each rule that is idle the first of the rules that did its work before it, kNoLabel: none
+/// did. look(pair, take) calls take(rule, by whom) for what concerns a pair.
+template <class Look>
+Result<std::vector<std::uint32_t>> first_before(const std::vector<bool>& idle, std::size_t pairs,
+                                                const parallel::Context& context, Look&& look) {
+  using Firsts = std::vector<std::uint32_t>;
+  const bool some = std::ranges::find(idle, true) != idle.end();
+  return parallel::reduce(
+      context, {.name = "shadowed rules", .n = some ? pairs : 0, .grain = kMatchesPerBlock},
+      Firsts(idle.size(), kNoLabel),
+      [&](Firsts& partial, std::size_t i) {
+        look(i, [&](std::size_t rule, std::uint32_t by) {
+          if (idle[rule]) partial[rule] = std::min(partial[rule], by);
+        });
+      },
+      [](Firsts& into, const Firsts& partial) {
+        for (std::size_t r = 0; r < into.size(); ++r) into[r] = std::min(into[r], partial[r]);
+      });
+}
+
+}  // namespace
+
+RuleMatcher::RuleMatcher(const Policy& policy, const Options& options, const model::Model& model)
+    : policy_(policy),
+      model_(model),
+      tolerances_(all_tolerances(policy, options)),
+      between_(model.objects.size(), count_between(policy)),
+      allowed_(model.objects.size(), policy.allowed.size()) {
+  for (const Tolerances& t : tolerances_)
+    one_reach_ = one_reach_ && reach_of(t) == reach_of(tolerances_.front());
+  for (std::uint32_t e = 0; e < policy.exemptions.size(); ++e)
+    if (const auto* const test = std::get_if<Between>(&policy.exemptions[e].test)) {
+      between_.set(between_rule_.size(), test->a, test->b);
+      between_rule_.push_back(e);
+    }
+  for (std::size_t r = 0; r < policy.allowed.size(); ++r)
+    allowed_.set(r, policy.allowed[r].a, policy.allowed[r].b);
+  number_level_rules();
+}
+
+void RuleMatcher::number_level_rules() {
+  if (!policy_.levels) return;
+  level_rules_.push_back(policy_.levels->no_obstruction_rule);
+  for (const auto& row : policy_.levels->left_out)
+    for (const std::string& rule : row)
+      if (!rule.empty() &&
+          std::find(level_rules_.begin(), level_rules_.end(), rule) == level_rules_.end())
+        level_rules_.push_back(rule);
+}
+
+std::uint32_t RuleMatcher::cell(std::uint32_t a, std::uint32_t b) const {
+  const Matrix& m = *policy_.matrix;
+  const std::uint32_t row = m.discipline[a], column = m.discipline[b];
+  if (row == kNoLabel || column == kNoLabel) return Matrix::kDefault;
+  return m.cells[row * m.disciplines.size() + column];
+}
+
+std::size_t RuleMatcher::tolerances(std::uint32_t a, std::uint32_t b) const {
+  if (!policy_.matrix) return 0;
+  const std::uint32_t found = cell(a, b);
+  return found >= Matrix::kDefault ? 0 : found + 1;
+}
+
+double RuleMatcher::reach_mm() const {
+  double reach = 0;
+  for (const Tolerances& t : tolerances_) reach = std::max(reach, reach_of(t));
+  return reach;
+}
+
+Level RuleMatcher::level(const ScenePart& part) const {
+  if (!policy_.levels) return Level::hard;
+  switch (model_.bodies[part.body].category) {
+    case model::Category::insulation:
+      return Level::insulation;
+    case model::Category::obstruction:
+      return policy_.levels->obstruction_bodies;
+    case model::Category::physical:
+      break;
+  }
+  return policy_.levels->object[part.object];
+}
+
+std::uint32_t RuleMatcher::object_rule(std::uint32_t a, std::uint32_t b) const {
+  const std::uint32_t matrix = policy_.matrix ? 1 : 0;
+  if (policy_.matrix && cell(a, b) == Matrix::kNotChecked) return 0;
+  std::uint32_t between = kNoLabel;
+  between_.each(a, b, [&](std::size_t rule) {
+    between = between_rule_[rule];
+    return true;
+  });
+  const auto end = std::min(between, static_cast<std::uint32_t>(policy_.exemptions.size()));
+  for (std::uint32_t e = 0; e < end; ++e) {
+    const auto& test = policy_.exemptions[e].test;
+    const auto* const same = std::get_if<SameLabel>(&test);
+    const auto* const linked = std::get_if<Linked>(&test);
+    if ((same != nullptr && exempts(*same, a, b)) || (linked != nullptr && exempts(*linked, a, b)))
+      return matrix + e;
+  }
+  return between == kNoLabel ? kNoLabel : matrix + between;
+}
+
+std::uint32_t RuleMatcher::level_rule(Level a, Level b) const {
+  const auto first =
+      static_cast<std::uint32_t>((policy_.matrix ? 1 : 0) + policy_.exemptions.size());
+  if (a == Level::none || b == Level::none) return first;
+  const std::string& rule =
+      policy_.levels->left_out[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+  if (rule.empty()) return kNoLabel;
+  const auto at = std::find(level_rules_.begin(), level_rules_.end(), rule);
+  return first + static_cast<std::uint32_t>(at - level_rules_.begin());
+}
+
+double RuleMatcher::own_reach(const ScenePart& a, const ScenePart& b) const {
+  return search_margin(reach_of(tolerances_[tolerances(a.object, b.object)]) *
+                       geometry::kGridPerMm);
+}
+
+bool RuleMatcher::within_own_reach(const ScenePart& a, const ScenePart& b) const {
+  if (one_reach_) return true;
+  const double reach = own_reach(a, b);
+  return inflated_box(a, reach).meets(inflated_box(b, reach));
+}
+
+RuleMatcher::Verdict RuleMatcher::verdict(const ScenePart& a, const ScenePart& b) const {
+  if (!within_own_reach(a, b)) return {.rule = kNoLabel, .far = true};
+  const std::uint32_t whole = object_rule(a.object, b.object);
+  if (whole != kNoLabel || !policy_.levels) return {whole};
+  return {level_rule(level(a), level(b))};
+}
+
+Status RuleMatcher::exempt(const ScenePartList& list, std::vector<IndexPair>& pairs,
+                           const parallel::Context& context, Report& report) const {
+  constexpr std::size_t kPairs = 4096;
+  const bool rules = policy_.matrix || !policy_.exemptions.empty() || policy_.levels;
+  if (!rules && one_reach_) return {};
+  const auto verdicts = parallel::transform(
+      context, {.name = "rules", .n = pairs.size(), .grain = kPairs}, [&](std::size_t i) {
+        return verdict(list.parts[pairs[i].first], list.parts[pairs[i].second]);
+      });
+  if (!verdicts) return verdicts.error();
+  if (const Status s = record_shadowed({list, pairs, *verdicts}, context, report); !s) return s;
+  std::size_t kept = 0;
+  std::vector<std::uint32_t> told;  // rules that the current pair of objects counts for already
+  const ScenePart *last_a = nullptr, *last_b = nullptr;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const ScenePart &a = list.parts[pairs[i].first], &b = list.parts[pairs[i].second];
+    const Verdict& v = (*verdicts)[i];
+    if (v.far) continue;
+    if (v.rule == kNoLabel) {
+      pairs[kept++] = pairs[i];
+      continue;
+    }
+    if (last_a == nullptr || last_a->object != a.object || last_b->object != b.object) told.clear();
+    last_a = &a;
+    last_b = &b;
+    if (std::find(told.begin(), told.end(), v.rule) != told.end()) continue;
+    told.push_back(v.rule);
+    ++report.exempted[v.rule].pairs;
+    if (policy_.list_exempted)
+      report.exempted_pairs.push_back(
+          {model::ObjectId{a.object}, model::ObjectId{b.object}, v.rule});
+  }
+  pairs.resize(kept);
+  std::sort(report.exempted_pairs.begin(), report.exempted_pairs.end(),
+            [](const ExemptedPair& x, const ExemptedPair& y) {
+              return std::tie(x.a, x.b, x.rule) < std::tie(y.a, y.b, y.rule);
+            });
+  return {};
+}
+
+Status RuleMatcher::record_shadowed(const Verdicts& all, const parallel::Context& context,
+                                    Report& report) const {
+  const std::uint32_t base = policy_.matrix ? 1 : 0;
+  std::vector<bool> idle(policy_.exemptions.size(), true);
+  for (const Verdict& v : all.verdicts)
+    if (v.rule != kNoLabel && v.rule >= base && v.rule - base < idle.size())
+      idle[v.rule - base] = false;
+  const auto asked = [&](std::uint32_t a, std::uint32_t b, auto&& take) {
+    between_.each(a, b, [&](std::size_t k) {
+      take(between_rule_[k]);
+      return false;
+    });
+    for (std::uint32_t e = 0; e < idle.size(); ++e) {
+      if (!idle[e]) continue;
+      const auto* const same = std::get_if<SameLabel>(&policy_.exemptions[e].test);
+      const auto* const linked = std::get_if<Linked>(&policy_.exemptions[e].test);
+      if ((same != nullptr && exempts(*same, a, b)) ||
+          (linked != nullptr && exempts(*linked, a, b)))
+        take(e);
+    }
+  };
+  const auto first = first_before(idle, all.pairs.size(), context, [&](std::size_t i, auto&& take) {
+    const std::uint32_t by = all.verdicts[i].rule;
+    if (by == kNoLabel) return;
+    const geometry::IndexPair& pair = all.pairs[i];
+    asked(all.list.parts[pair.first].object, all.list.parts[pair.second].object,
+          [&](std::size_t e) { take(e, by); });
+  });
+  if (!first) return first.error();
+  for (std::size_t e = 0; e < first->size(); ++e)
+    if ((*first)[e] != kNoLabel)
+      report.exempted[base + e].shadowed_by = static_cast<std::int32_t>((*first)[e]);
+  return {};
+}
+
+bool RuleMatcher::may_allow(std::uint32_t a, std::uint32_t b) const {
+  bool some = false;
+  allowed_.each(a, b, [&](std::size_t) { return some = true; });
+  return some;
+}
+
+Status RuleMatcher::count_candidates(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
+                                     const parallel::Context& context, Report& report) const {
+  if (policy_.allowed.empty()) return {};
+  struct CandidateCounts {
+    std::uint64_t pairs = 0;
+    std::vector<std::uint64_t> by_rule;
+  };
+  const auto counts = parallel::reduce(
+      context, {.name = "candidates of rules", .n = objects.size(), .grain = kMatchesPerBlock},
+      CandidateCounts{0, std::vector<std::uint64_t>(policy_.allowed.size(), 0)},
+      [&](CandidateCounts& partial, std::size_t k) {
+        bool some = false;
+        const std::size_t first = objects.begin(k);
+        allowed_.each(evaluated.a(first).object, evaluated.b(first).object, [&](std::size_t rule) {
+          some = true;
+          ++partial.by_rule[rule];
+          return false;
+        });
+        if (some) ++partial.pairs;
+      },
+      [](CandidateCounts& into, const CandidateCounts& partial) {
+        into.pairs += partial.pairs;
+        for (std::size_t r = 0; r < into.by_rule.size(); ++r) into.by_rule[r] += partial.by_rule[r];
+      });
+  if (!counts) return counts.error();
+  report.counters.allowed_pairs = counts->pairs;
+  for (std::size_t r = 0; r < report.allowed.size(); ++r)
+    report.allowed[r].candidates = counts->by_rule[r];
+  return {};
+}
+
+void RuleMatcher::allow(const ScenePart& a, const ScenePart& b,
+                        const std::optional<geometry::Box3d>& extent_mm, Pair& pair) const {
+  const double moved = static_cast<double>(a.snap) + static_cast<double>(b.snap);
+  allowed_.each(a.object, b.object, [&](std::size_t rule) {
+    if (!allows(policy_.allowed[rule], pair, moved * geometry::kMmPerGrid)) return false;
+    pair.allowed = static_cast<std::int32_t>(rule);
+    return true;
+  });
+  if (pair.allowed < 0) return;
+  const Allowed& rule = policy_.allowed[static_cast<std::size_t>(pair.allowed)];
+  if (is_as_deep_as_allowed(rule, pair)) pair.flags |= kBorderline;
+  if (!contains_box(rule, extent_mm.value_or(common_box_mm(a, b, own_reach(a, b)))))
+    pair.flags |= kUncertain;
+  else if (rule.max_depth_mm || pair.severest != Class::hit)
+    pair.severest = Class::no_hit;  // without a depth it allows the class of d, but no HIT
+}
+
+void RuleMatcher::begin_report(const Sets& sets, Report& report) const {
+  if (policy_.matrix) report.exempted.push_back({policy_.matrix->rule, 0});
+  for (const Exemption& e : policy_.exemptions) report.exempted.push_back({e.rule, 0});
+  for (const std::string& rule : level_rules_) report.exempted.push_back({rule, 0});
+  for (const Allowed& a : policy_.allowed) report.allowed.push_back({a.rule, 0, 0});
+  report.lists_exempted = policy_.list_exempted;
+  report.levels = policy_.levels.has_value();
+  if (!policy_.matrix) return;
+  const Matrix& m = *policy_.matrix;
+  for (const std::string& name : m.disciplines) report.disciplines.push_back({name, 0});
+  for (std::size_t o = 0; o < m.discipline.size(); ++o)
+    if (m.discipline[o] != kNoLabel && (sets.in_a[o] || sets.in_b[o]))
+      ++report.disciplines[m.discipline[o]].objects;
+  report.discipline = m.discipline;
+  const auto n = static_cast<std::uint32_t>(m.disciplines.size());
+  for (std::uint32_t a = 0; a < n; ++a)
+    for (std::uint32_t b = a; b < n; ++b) {
+      const std::uint32_t cell = m.cells[a * n + b];
+      CellReport& told = report.cells.emplace_back();
+      told.a = a;
+      told.b = b;
+      told.checked = cell != Matrix::kNotChecked;
+      told.tolerances = tolerances_[cell >= Matrix::kDefault ? 0 : cell + 1];
+    }
+}
+
+Status RuleMatcher::finish_report(const parallel::Context& context, Report& report) const {
+  const auto totals = parallel::reduce(
+      context, {.name = "count by class", .n = report.pairs.size(), .grain = kMatchesPerBlock},
+      ClassTotals(policy_.allowed.size(), report.cells.size()),
+      [&](ClassTotals& partial, std::size_t i) {
+        partial.add(report.pairs[i], cell_number(report.pairs[i]));
+      },
+      [](ClassTotals& into, const ClassTotals& partial) { into.add(partial); });
+  if (!totals) return totals.error();
+  report.count_hit = totals->all.hit;
+  report.count_contact = totals->all.contact;
+  report.count_clearance = totals->all.clearance_violation;
+  report.count_allowed = totals->all.allowed;
+  for (std::size_t r = 0; r < report.allowed.size(); ++r)
+    report.allowed[r].pairs = totals->by_rule[r];
+  for (std::size_t c = 0; c < report.cells.size(); ++c) {
+    const ClassCounts& counts = totals->by_cell[c];
+    CellReport& cell = report.cells[c];
+    cell.hit = counts.hit;
+    cell.contact = counts.contact;
+    cell.clearance_violation = counts.clearance_violation;
+    cell.allowed = counts.allowed;
+  }
+  return record_shadowed_allowances(context, report);
+}
+
+Status RuleMatcher::record_shadowed_allowances(const parallel::Context& context,
+                                               Report& report) const {
+  std::vector<bool> idle;
+  for (const AllowedCount& rule : report.allowed)
+    idle.push_back(rule.pairs == 0 && rule.places == 0);
+  const auto first =
+      first_before(idle, report.pairs.size(), context, [&](std::size_t i, auto&& take) {
+        const Pair& pair = report.pairs[i];
+        if (pair.allowed < 0) return;
+        allowed_.each(index(pair.a), index(pair.b), [&](std::size_t rule) {
+          if (idle[rule] && allows(policy_.allowed[rule], pair, 0))
+            take(rule, static_cast<std::uint32_t>(pair.allowed));
+          return false;
+        });
+      });
+  if (!first) return first.error();
+  for (std::size_t r = 0; r < first->size(); ++r)
+    if ((*first)[r] != kNoLabel)
+      report.allowed[r].shadowed_by = static_cast<std::int32_t>((*first)[r]);
+  return {};
+}
+
+std::size_t RuleMatcher::cell_number(const Pair& pair) const {
+  if (!policy_.matrix) return kNoCell;
+  const Matrix& m = *policy_.matrix;
+  const auto [a, b] = std::minmax(m.discipline[index(pair.a)], m.discipline[index(pair.b)]);
+  if (b == kNoLabel) return kNoCell;
+  const std::size_t n = m.disciplines.size();
+  return a * n - a * (a + std::size_t{1}) / 2 + b;
+}
+
+}  // namespace strake::clash

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clash/broad_phase/broad_phase.hpp"
+#include "clash/pairs/pair_tasks.hpp"
+#include "geometry/bvh/scene_bvh.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/clash/policy.hpp"
+
+namespace strake::clash {
+
+/// Rules of the form "one of A and one of B" as bits of each object, so that all rules are asked
+/// about a pair at once.
+class RuleBitmasks {
+ public:
+  explicit RuleBitmasks(std::size_t objects, std::size_t rules)
+      : words_((rules + kBits - 1) / kBits), bits_(objects * words_) {}
+
+  void set(std::size_t rule, const std::vector<bool>& a, const std::vector<bool>& b) {
+    const std::size_t word = rule / kBits;
+    const std::uint64_t bit = std::uint64_t{1} << (rule % kBits);
+    for (std::size_t o = 0; o < a.size(); ++o) {
+      Bits& bits = bits_[o * words_ + word];
+      if (a[o]) bits.a |= bit;
+      if (b[o]) bits.b |= bit;
+    }
+  }
+
+  /// Calls `take(rule)` for each rule that concerns the two, in order, until it returns true.
+  template <class Take>
+  void each(std::uint32_t x, std::uint32_t y, Take&& take) const {
+    for (std::size_t w = 0; w < words_; ++w) {
+      const Bits &p = bits_[x * words_ + w], &q = bits_[y * words_ + w];
+      for (std::uint64_t both = (p.a & q.b) | (p.b & q.a); both != 0; both &= both - 1)
+        if (take(w * kBits + static_cast<std::size_t>(std::countr_zero(both)))) return;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBits = 64;
+  struct Bits {
+    std::uint64_t a = 0, b = 0;
+  };
+  std::size_t words_;
+  std::vector<Bits> bits_;  ///< words_ of each object
+};
+
+/// Pairs of each class, those apart that a rule allows.
+struct ClassCounts {
+  std::uint64_t hit = 0, contact = 0, clearance_violation = 0, allowed = 0;
+
+  void add(const Pair& pair) {
+    if (pair.allowed >= 0)
+      ++allowed;
+    else if (pair.cls == Class::hit)
+      ++hit;
+    else if (pair.cls == Class::contact)
+      ++contact;
+    else if (pair.cls == Class::clearance_violation)
+      ++clearance_violation;
+  }
+  void add(const ClassCounts& o) {
+    hit += o.hit;
+    contact += o.contact;
+    clearance_violation += o.clearance_violation;
+    allowed += o.allowed;
+  }
+};
+
+/// What is counted over the pairs of a report.
+struct ClassTotals {
+  ClassCounts all;
+  std::vector<std::uint64_t> by_rule;  ///< pairs that it allows
+  std::vector<ClassCounts> by_cell;
+
+  ClassTotals(std::size_t rules, std::size_t cells) : by_rule(rules, 0), by_cell(cells) {}
+  ClassTotals() = default;
+
+  void add(const Pair& pair, std::size_t cell) {
+    all.add(pair);
+    if (pair.allowed >= 0) ++by_rule[static_cast<std::size_t>(pair.allowed)];
+    if (cell < by_cell.size()) by_cell[cell].add(pair);
+  }
+  void add(const ClassTotals& o) {
+    all.add(o.all);
+    for (std::size_t r = 0; r < by_rule.size(); ++r) by_rule[r] += o.by_rule[r];
+    for (std::size_t c = 0; c < by_cell.size(); ++c) by_cell[c].add(o.by_cell[c]);
+  }
+};
+
+// What the rules of a policy say, each by itself.
+
+/// A usage error for a policy whose lists do not have one entry per object.
+[[nodiscard]] Status check(const Policy& policy, std::size_t objects);
+
+/// Whether pairs of two objects are left out.
+[[nodiscard]] bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b);
+[[nodiscard]] bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b);
+
+/// Whether a result is meant, by its depth and its point, of whatever objects. `moved_mm`: what the
+/// snap accounts for in its bracket.
+[[nodiscard]] bool allows(const Allowed& rule, const Pair& pair, double moved_mm);
+/// Of a result that is meant: whether its bracket reaches as deep as the rule allows.
+[[nodiscard]] bool is_as_deep_as_allowed(const Allowed& rule, const Pair& pair);
+
+/// Whether every place of a box lies within the rule's region and cavity.
+[[nodiscard]] bool contains_box(const Allowed& rule, const geometry::Box3d& box);
+
+/// The rules of a policy as a pair of objects is asked about them.
+class RuleMatcher {
+ public:
+  /// The policy must outlive this.
+  RuleMatcher(const Policy& policy, const Options& options, const model::Model& model);
+
+  /// What a pair is judged by: all() has the test's own tolerances first, then the policy's.
+  [[nodiscard]] const std::vector<Tolerances>& all() const { return tolerances_; }
+  [[nodiscard]] std::size_t tolerances(std::uint32_t a, std::uint32_t b) const;
+  /// How far apart parts may be for the test to look at them, mm.
+  [[nodiscard]] double reach_mm() const;
+
+  [[nodiscard]] Level level(const ScenePart& part) const;
+
+  /// Takes out what is exempted, and what is nearer than reach_mm() but not than the pair's own
+  /// tolerances ask. `pairs` is by objects.
+  [[nodiscard]] Status exempt(const ScenePartList& list, std::vector<geometry::IndexPair>& pairs,
+                              const parallel::Context& context, Report& report) const;
+
+  /// Counts the pairs of objects that went on for the rules that may allow them.
+  [[nodiscard]] Status count_candidates(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
+                                        const parallel::Context& context, Report& report) const;
+  [[nodiscard]] bool may_allow(std::uint32_t a, std::uint32_t b) const;
+  /// Pair::allowed by the first rule that allows the result; flagged uncertain where the place may
+  /// reach beyond what the rule allows. `extent_mm` holds the place; none: it may be anywhere
+  /// between the two parts.
+  void allow(const ScenePart& a, const ScenePart& b,
+             const std::optional<geometry::Box3d>& extent_mm, Pair& pair) const;
+
+  /// Names the rules in force, with counts of 0, and the disciplines of the sets.
+  void begin_report(const Sets& sets, Report& report) const;
+  /// Counts the pairs by class, rule and cell.
+  [[nodiscard]] Status finish_report(const parallel::Context& context, Report& report) const;
+
+ private:
+  /// What becomes of one pair of parts.
+  struct Verdict {
+    std::uint32_t rule = kNoLabel;  ///< kNoLabel: none exempts it
+    bool far = false;               ///< out of the reach of its own tolerances
+  };
+  /// Pairs of parts and their verdicts.
+  struct Verdicts {
+    const ScenePartList& list;
+    const std::vector<geometry::IndexPair>& pairs;
+    const std::vector<Verdict>& verdicts;
+  };
+  [[nodiscard]] Verdict verdict(const ScenePart& a, const ScenePart& b) const;
+  [[nodiscard]] std::uint32_t object_rule(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] std::uint32_t level_rule(Level a, Level b) const;
+  [[nodiscard]] std::uint32_t cell(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] double own_reach(const ScenePart& a, const ScenePart& b) const;
+  [[nodiscard]] bool within_own_reach(const ScenePart& a, const ScenePart& b) const;
+  void number_level_rules();
+  // Of rules that do nothing: whether that is because earlier ones have done it.
+  [[nodiscard]] Status record_shadowed(const Verdicts& all, const parallel::Context& context,
+                                       Report& report) const;
+  [[nodiscard]] Status record_shadowed_allowances(const parallel::Context& context,
+                                                  Report& report) const;
+  /// The place of a pair's cell in Report::cells, or kNoCell.
+  [[nodiscard]] std::size_t cell_number(const Pair& pair) const;
+  static constexpr std::size_t kNoCell = ~std::size_t{0};
+
+  const Policy& policy_;
+  const model::Model& model_;
+  std::vector<Tolerances> tolerances_;
+  bool one_reach_ = true;
+  RuleBitmasks between_, allowed_;
+  std::vector<std::uint32_t> between_rule_;  ///< per Between: its exemption
+  std::vector<std::string> level_rules_;     ///< distinct, after the exemptions in reports
+};
+
+}  // namespace strake::clash

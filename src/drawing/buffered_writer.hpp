@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "strake/core/result.hpp"
+#include "strake/drawing/write.hpp"
+#include "strake/parallel/pipeline.hpp"
+#include "strake/parallel/progress.hpp"
+
+namespace strake::drawing {
+
+/// Gathers text and hands it on in large pieces. What a sink throws goes to whoever made this.
+class BufferedWriter {
+ public:
+  explicit BufferedWriter(Sink sink) : sink_(sink) {}
+  /// An exception that unwinds has cut the text short: what is gathered goes nowhere then.
+  ~BufferedWriter() noexcept(false) {
+    if (std::uncaught_exceptions() == exceptions_) flush();
+  }
+  BufferedWriter(const BufferedWriter&) = delete;
+  BufferedWriter& operator=(const BufferedWriter&) = delete;
+  BufferedWriter(BufferedWriter&&) = delete;
+  BufferedWriter& operator=(BufferedWriter&&) = delete;
+
+  BufferedWriter& operator<<(std::string_view text) {
+    text_ += text;
+    done();
+    return *this;
+  }
+  /// What to append to in place; call done() after each record.
+  [[nodiscard]] std::string& text() { return text_; }
+  void done() {
+    if (text_.size() >= kFull) flush();
+  }
+
+ private:
+  void flush() {
+    if (!text_.empty()) sink_(text_);
+    text_.clear();
+  }
+  static constexpr std::size_t kFull = std::size_t{1} << 16U;
+  Sink sink_;
+  std::string text_;
+  int exceptions_ = std::uncaught_exceptions();
+};
+
+/// Writes n items in order whose bytes are made in parallel: encode(begin, end, out) appends those
+/// of a run. The bytes of 65,536 items are held at a time. Errors: cancelled, out of memory.
+template <class Encode>
+[[nodiscard]] Status write_in_batches(std::string_view name, std::size_t n, Encode&& encode,
+                                      Sink sink, const parallel::Context& context) {
+  struct Run {
+    std::size_t items = 0;
+    std::string text;
+  };
+  constexpr std::size_t kRun = 1024, kRuns = 64;
+  const parallel::ProgressPhase phase(context.progress, name, n);
+  std::size_t next = 0;
+  return parallel::pipeline(
+      context, {.name = name, .in_flight = kRuns},
+      [&]() -> std::optional<std::size_t> {
+        if (next >= n) return std::nullopt;
+        return std::exchange(next, next + kRun);
+      },
+      [&](std::size_t begin) {
+        Run run{.items = std::min(kRun, n - begin), .text = {}};
+        encode(begin, begin + run.items, run.text);
+        return run;
+      },
+      [&](const Run& run) {
+        sink(run.text);
+        phase.add(run.items);
+      });
+}
+
+}  // namespace strake::drawing

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/drawing/ink.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "drawing/collinear/collinear_overlaps.hpp"
+#include "drawing/ink/hidden_ink.hpp"
+#include "drawing/layout/duplicates.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+using geometry::Vec3d;
+
+/// Length of lines per area of paper, in squares.
+class Density {
+ public:
+  explicit Density(const Sheet& sheet)
+      : size_(std::max(4.0, std::sqrt(sheet.width_mm * sheet.height_mm) / 500)),
+        columns_(count(sheet.width_mm)),
+        rows_(count(sheet.height_mm)),
+        length_(columns_ * rows_) {}
+
+  void add(const Line& line) {
+    const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
+    const double length = std::sqrt(dx * dx + dy * dy);
+    const double steps = std::ceil(length * 2 / size_);
+    for (double i = 0; i < steps; ++i) {
+      const double t = (i + 0.5) / steps;
+      length_[index(line.a_paper.y + dy * t, rows_) * columns_ +
+              index(line.a_paper.x + dx * t, columns_)] += length / steps;
+    }
+  }
+
+  /// As a reader's eye meets it, line by line: per mm of paper, averaged over the lines.
+  [[nodiscard]] double along_lines() const {
+    double sum = 0, squares = 0;
+    for (const double length : length_) {
+      sum += length;
+      squares += length * length;
+    }
+    return sum > 0 ? squares / sum / (size_ * size_) : 0;
+  }
+
+ private:
+  [[nodiscard]] std::size_t count(double mm) const {
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(mm / size_)));
+  }
+  [[nodiscard]] std::size_t index(double mm, std::size_t n) const {
+    const double cell = std::floor(mm / size_);
+    return cell <= 0 ? 0 : std::min(static_cast<std::size_t>(cell), n - 1);
+  }
+
+  double size_;
+  std::size_t columns_, rows_;
+  std::vector<double> length_;
+};
+
+double width_of(const Line& line, const Pens& pens) {
+  if (line.state != LineState::visible || line.kind == hlr::EdgeKind::polyline ||
+      line.kind == hlr::EdgeKind::hatch || line.kind == hlr::EdgeKind::smooth)
+    return pens.thin;
+  if (line.kind == hlr::EdgeKind::section) return pens.section;
+  return line.kind == hlr::EdgeKind::contour ? pens.outline : pens.edge;
+}
+
+/// Dashed hatching would say that a hidden face is cut, and a smooth edge is worth a hint only.
+bool may_be_dashed(const Line& line) {
+  return is_hidden(line.state) && line.kind != hlr::EdgeKind::hatch &&
+         line.kind != hlr::EdgeKind::smooth;
+}
+
+/// Where lines lie on paper, not rounded: of equal objects rounding would make unequal ones where
+/// their ink nearly touches.
+class OnPaper {
+ public:
+  OnPaper(const std::vector<Line>& lines, const PaperAxes& axes, double scale)
+      : axes_(axes), scale_(scale) {
+    // An origin near the lines, that does not depend on their order.
+    if (!lines.empty()) origin_ = lines.front().a_mm;
+    for (const Line& l : lines)
+      origin_ = {std::min(origin_.x, l.a_mm.x), std::min(origin_.y, l.a_mm.y),
+                 std::min(origin_.z, l.a_mm.z)};
+  }
+
+  [[nodiscard]] PlaneSegment operator()(const Line& line) const {
+    const PaperPoint a = at(line.a_mm, line.a_paper), b = at(line.b_mm, line.b_paper);
+    return {.ax = a.x, .ay = a.y, .bx = b.x, .by = b.y};
+  }
+
+  /// How far before others hidden lines of an object are laid down: the nearer, and of equally near
+  /// ones the left and upper one. One number that leans off the view a little, in directions that
+  /// hardly any two edges have to each other: where depths alone were compared, what a corner's
+  /// rounding to the grid adds would choose between the edges of a face that is seen square.
+  [[nodiscard]] double order(const Line& line, const PlaneSegment& flat) const {
+    constexpr double kLeft = 0.13, kUp = 0.08;
+    const double toward = dot(axes_.toward, (line.a_mm - origin_) + (line.b_mm - origin_));
+    return toward / scale_ - kLeft * (flat.ax + flat.bx) - kUp * (flat.ay + flat.by);
+  }
+
+ private:
+  /// In perspective nothing looks equal.
+  [[nodiscard]] PaperPoint at(const Vec3d& mm, const PaperPoint& rounded) const {
+    if (axes_.eye) return rounded;
+    const Vec3d from = mm - origin_;
+    return {dot(axes_.right, from) / scale_, -dot(axes_.up, from) / scale_};
+  }
+
+  const PaperAxes& axes_;
+  double scale_;
+  Vec3d origin_;
+};
+
+std::vector<PlaneSegment> flatten(const std::vector<Line>& lines, const OnPaper& on_paper,
+                                  const Pens& pens, double touch) {
+  std::vector<PlaneSegment> flat(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Line& line = lines[i];
+    PlaneSegment& f = flat[i];
+    f = on_paper(line);
+    f.reach = (width_of(line, pens) + touch) / 2;
+    if (is_hidden(line.state))
+      f.rank = Rank::hidden;
+    else if (f.length() > 0)
+      f.rank = Rank::visible;
+  }
+  return flat;
+}
+
+/// What of the hidden lines is left beside visible ones and beside those of their own object, but
+/// for edges seen end-on. What other objects hide decides nothing: in a row of objects the first
+/// would take a line of the second, and so on, and equal ones would look unequal.
+class HiddenChooser {
+ public:
+  HiddenChooser(const std::vector<Line>& lines, const OnPaper& on_paper,
+                const std::vector<PlaneSegment>& flat, const LineOverlaps& beside_visible)
+      : lines_(lines), on_paper_(on_paper), flat_(flat), beside_visible_(beside_visible) {}
+
+  /// By line, then from a to b; none of a line that gets no ink. Errors: cancelled.
+  [[nodiscard]] Result<LineIntervals> run(const HiddenInkRule& rule,
+                                          const parallel::Context& context) const {
+    return parallel::collect_with<LineInterval>(
+        context, {.name = "ink of hidden lines", .n = lines_.size(), .grain = 1024},
+        [] { return std::vector<HiddenLine>{}; },
+        [&](std::vector<HiddenLine>& own, std::size_t first, LineIntervals& out) {
+          if (first > 0 && lines_[first - 1].object == lines_[first].object) return;
+          own.clear();
+          for (std::size_t i = first; i < lines_.size() && lines_[i].object == lines_[first].object;
+               ++i)
+            if (flat_[i].rank == Rank::hidden && flat_[i].length() > rule.touch &&
+                !beside_visible_.wholly.is_set(i))
+              own.push_back(hidden_line(static_cast<std::uint32_t>(i)));
+          choose_hidden_lines(own, rule, context.stop, out);
+        });
+  }
+
+ private:
+  [[nodiscard]] HiddenLine hidden_line(std::uint32_t i) const {
+    HiddenLine line{flat_[i], on_paper_.order(lines_[i], flat_[i]), i, {}};
+    for (const LineInterval& s : std::ranges::equal_range(
+             beside_visible_.stretches, i, {}, [](const LineInterval& s) { return s.line; }))
+      if (s.covered) line.covers.push_back({s.from, s.to});
+    return line;
+  }
+
+  const std::vector<Line>& lines_;
+  const OnPaper& on_paper_;
+  const std::vector<PlaneSegment>& flat_;
+  const LineOverlaps& beside_visible_;
+};
+
+Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
+                const parallel::Context& context) {
+  const double thin = ink.pens.thin, scale = drawing.sheet.scale;
+  // Ink that would just touch does. Corners are rounded to the grid: two of them may be two steps
+  // farther apart than meant, or nearer. Half a step more is no distance that corners often have.
+  const double touch = 4.5 * geometry::kMmPerGrid / scale;
+  // Lines that cross, or of which one begins on the other, do not run along each other.
+  const OverlapRule along{.least = 1e-3 + touch,
+                          .greatest_sine = 0.2,
+                          .covers_visible = false,
+                          .hidden_covers = false,
+                          .shortest = kDashGap * thin + touch};
+  const OnPaper on_paper(ink.lines, axes, scale);
+  const std::vector<PlaneSegment> flat = flatten(ink.lines, on_paper, ink.pens, touch);
+  const auto overlaps = cut_overlaps(flat, along, context);
+  if (!overlaps) return overlaps.error();
+  const auto kept =
+      HiddenChooser(ink.lines, on_paper, flat, *overlaps)
+          .run({.overlap = along, .whole_below = kDash * thin + touch, .touch = touch}, context);
+  if (!kept) return kept.error();
+  const std::vector<Line> lines = std::exchange(ink.lines, {});
+  ink.lines.reserve(lines.size());
+  std::size_t next = 0;
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    if (flat[i].rank != Rank::hidden) {
+      ink.lines.push_back(lines[i]);
+      continue;
+    }
+    double left = 0;
+    for (; next < kept->size() && (*kept)[next].line == i; ++next) {
+      const LineInterval& s = (*kept)[next];
+      left += s.to - s.from;
+      ink.lines.push_back(part_of(lines[i], axes, s.from, s.to));
+    }
+    if (left < 1) ++ink.left_out;
+  }
+  return {};
+}
+
+}  // namespace
+
+Pens choose_pens(const NeutralDrawing& drawing) {
+  Density density(drawing.sheet);
+  for (const Line& line : drawing.lines)
+    if (line.state == LineState::visible && line.kind != hlr::EdgeKind::hatch) density.add(line);
+  // The share of paper that the middle pen of each group may blacken at most.
+  constexpr double kMost = 0.35;
+  const double per_mm = density.along_lines();
+  for (const Pens& pens :
+       {Pens{0.5, 0.35, 0.25, 0.7}, Pens{0.35, 0.25, 0.18, 0.5}, Pens{0.25, 0.18, 0.13, 0.35}})
+    if (per_mm * pens.edge <= kMost) return pens;
+  return {0.18, 0.13, 0.09, 0.25};
+}
+
+Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
+                       const parallel::Context& context) {
+  Ink ink{.pens = options.pens ? *options.pens : choose_pens(drawing), .lines = {}};
+  for (const Line& line : drawing.lines)
+    if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
+      ink.lines.push_back(line);
+  const auto axes = paper_axes(drawing.view);
+  if (options.hidden && options.clean_up && axes)
+    if (const Status status = clean_up(ink, drawing, *axes, context); !status)
+      return status.error();
+  return ink;
+}
+
+}  // namespace strake::drawing

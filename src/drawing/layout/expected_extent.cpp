@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drawing/layout/expected_extent.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "geometry/numeric/trig.hpp"
+#include "hlr/sections/section_planes.hpp"
+#include "hlr/view/view_frustum.hpp"
+#include "strake/parallel/reduce.hpp"
+
+namespace strake::drawing {
+namespace {
+
+using geometry::Box3l;
+using geometry::Vec3l;
+
+constexpr double kBig = std::numeric_limits<double>::max();
+constexpr PlaneBox kNothing{kBig, -kBig, kBig, -kBig};
+
+/// What a view shows of its plane round the target.
+PlaneBox field_of_view(const hlr::Perspective& perspective, const PlanePoint& target,
+                       double distance_mm) {
+  const auto half = geometry::sin_cos(perspective.field_of_view_deg / 2 * (std::numbers::pi / 180));
+  const double reach = distance_mm * half.sin / half.cos;
+  return {target.x - reach, target.x + reach, target.y - reach, target.y + reach};
+}
+
+/// Of what is larger than this the scale is so small that it need not be known better than from
+/// boxes.
+constexpr double kLargeMm = 20'000;
+
+enum class By : std::uint8_t { boxes, corners };
+
+/// What of a box a section leaves that is at right angles to an axis; by how much another one cuts
+/// it is not asked.
+Box3l cut_along_axis(Box3l box, const hlr::Section& section) {
+  const Vec3l& n = section.normal;
+  for (int k = 0; k < 3; ++k) {
+    if (n[(k + 1) % 3] != 0 || n[(k + 2) % 3] != 0) continue;
+    if (n[k] > 0) box.hi[k] = std::min(box.hi[k], section.point[k]);
+    if (n[k] < 0) box.lo[k] = std::max(box.lo[k], section.point[k]);
+  }
+  return box;
+}
+
+class PaperExtent {
+ public:
+  PaperExtent(const model::Scene& scene, const std::vector<bool>& drawn, const hlr::View& view,
+              const hlr::ViewVolume& shown, const ViewPlane& plane)
+      : scene_(scene), drawn_(drawn), view_(view), shown_(shown), plane_(plane) {}
+
+  [[nodiscard]] Result<PlaneBox> of_all(By by, const parallel::Context& context) const {
+    return parallel::reduce(
+        context, {.name = "expected extent", .n = scene_.bodies.size(), .grain = 1024}, kNothing,
+        [&](PlaneBox& part, std::size_t b) { include(part, scene_.bodies[b], by); },
+        [](PlaneBox& into, const PlaneBox& part) { into.include(part); });
+  }
+
+ private:
+  void include(PlaneBox& extent, const model::GridBody& body, By by) const {
+    const model::GridShape& shape = scene_.shapes[body.grid_shape];
+    if (shape.box.empty() || (!drawn_.empty() && !drawn_[model::index(body.object)])) return;
+    const Box3l whole = body.box(shape);
+    if (!shown_.meets(whole)) return;
+    Box3l box = view_.limits ? whole.common(*view_.limits) : whole;
+    for (const hlr::Section& section : view_.sections) box = cut_along_axis(box, section);
+    if (box.empty()) return;
+    if (by == By::corners && box == whole) {
+      for (const geometry::Part& part : shape.parts)
+        for (const geometry::Vec3i& v : part.vertices)
+          include(extent, body.origin + v.as<std::int64_t>());
+      return;
+    }
+    for (const std::int64_t x : {box.lo.x, box.hi.x})
+      for (const std::int64_t y : {box.lo.y, box.hi.y})
+        for (const std::int64_t z : {box.lo.z, box.hi.z}) include(extent, {x, y, z});
+  }
+
+  void include(PlaneBox& extent, const Vec3l& point) const {
+    const PlanePoint p = plane_(point);
+    extent.include({p.x, p.x, p.y, p.y});
+  }
+
+  const model::Scene& scene_;
+  const std::vector<bool>& drawn_;
+  const hlr::View& view_;
+  const hlr::ViewVolume& shown_;
+  const ViewPlane& plane_;
+};
+
+}  // namespace
+
+Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bool>& drawn,
+                                 const hlr::View& view, const Vec3l& origin,
+                                 const parallel::Context& context) {
+  const auto axes = paper_axes(view);
+  const auto sections = hlr::section_planes(view.sections);
+  // hlr::draw says what is wrong with it.
+  if (!axes || !sections || !hlr::check_perspective(view)) return PlaneBox{};
+  const ViewPlane plane(*axes, origin);
+  const hlr::ViewVolume shown(view, *sections);
+  const PaperExtent measure(scene, drawn, view, shown, plane);
+  Result<PlaneBox> extent = measure.of_all(By::boxes, context);
+  if (extent && std::max(extent->width(), extent->height()) < kLargeMm)
+    extent = measure.of_all(By::corners, context);
+  if (!extent) return extent;
+  if (const auto& p = view.perspective) {
+    const PlaneBox seen = field_of_view(*p, plane(p->target), axes->eye->distance_mm);
+    *extent = {std::max(extent->left, seen.left), std::min(extent->right, seen.right),
+               std::max(extent->bottom, seen.bottom), std::min(extent->top, seen.top)};
+  }
+  if (extent->left > extent->right || extent->bottom > extent->top) *extent = {};
+  return extent;
+}
+
+double unseen_sag_mm(const PlaneBox& extent, double scale) {
+  constexpr double kPerMm = 20, kFinestMm = 0.001, kLargestSheetMm = 1189;
+  const double longest = std::max(extent.width(), extent.height());
+  if (!(longest > 0)) return 0;
+  return std::max({scale / kPerMm, longest / kLargestSheetMm / kPerMm, kFinestMm});
+}
+
+Result<double> sag_for_paper(const model::Scene& scene, const std::vector<bool>& drawn,
+                             const hlr::View& view, const LayoutOptions& options,
+                             const parallel::Context& context) {
+  const Result<PlaneBox> extent = expected_extent(scene, drawn, view, {}, context);
+  if (!extent) return extent.error();
+  return unseen_sag_mm(*extent, options.placement ? options.placement->sheet.scale
+                                                  : choose_sheet(*extent, options).scale);
+}
+
+}  // namespace strake::drawing

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drawing/layout/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "drawing/layout/duplicates.hpp"
+#include "drawing/layout/view_plane.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+void add_vector(Hasher& hasher, const geometry::Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
+
+void add_view(Hasher& hasher, const hlr::View& view) {
+  add_vector(hasher, view.direction);
+  add_vector(hasher, view.up);
+  hasher.add(static_cast<std::uint64_t>(view.limits ? 1 : 0));
+  if (view.limits) {
+    add_vector(hasher, view.limits->lo);
+    add_vector(hasher, view.limits->hi);
+  }
+  hasher.add(static_cast<std::uint64_t>(view.sections.size()));
+  for (const hlr::Section& section : view.sections) {
+    add_vector(hasher, section.normal);
+    add_vector(hasher, section.point);
+  }
+  if (const auto& perspective = view.perspective) {
+    add_vector(hasher, perspective->eye);
+    add_vector(hasher, perspective->target);
+    hasher.add(perspective->near_mm).add(perspective->field_of_view_deg);
+  }
+}
+
+Hash128 hash_of_run(std::span<const hlr::EdgePiece> pieces, const model::Model& model) {
+  Hasher hasher;
+  const hlr::EdgePiece* last = nullptr;
+  for (const hlr::EdgePiece& piece : pieces) {
+    if (last == nullptr || last->object != piece.object) {
+      const model::Object& object = model.object(piece.object);
+      hasher.add(std::string_view(model.files[object.file].label)).add(std::string_view(object.id));
+    }
+    hasher.add(static_cast<std::uint32_t>(piece.kind)).add(static_cast<std::uint32_t>(piece.state));
+    if (piece.kind == hlr::EdgeKind::intersection)
+      hasher.add(std::string_view(model.object(piece.other).id));
+    add_vector(hasher, piece.a);
+    add_vector(hasher, piece.b);
+    last = &piece;
+  }
+  return hasher.value();
+}
+
+}  // namespace
+
+Result<Hash128> hash_of(const hlr::Drawing& drawing, const model::Model& model,
+                        const parallel::Context& context) {
+  // Run by run, so that many workers can; how long a run is changes the hash.
+  constexpr std::size_t kRun = 65536;
+  const std::span<const hlr::EdgePiece> pieces = drawing.pieces;
+  const auto runs = parallel::transform(
+      context, {.name = "hash of pieces", .n = (pieces.size() + kRun - 1) / kRun},
+      [&](std::size_t run) {
+        const std::size_t begin = run * kRun;
+        return hash_of_run(pieces.subspan(begin, std::min(kRun, pieces.size() - begin)), model);
+      });
+  if (!runs) return runs.error();
+  Hasher hasher;
+  add_view(hasher, drawing.view);
+  hasher.add(static_cast<std::uint64_t>(pieces.size()));
+  for (const Hash128& run : *runs) hasher.add(run.high).add(run.low);
+  return hasher.value();
+}
+
+namespace {
+
+/// Of a run of lines, which are by object.
+struct Tally {
+  std::array<std::uint64_t, kLineStates> count{};
+  std::vector<model::ObjectId> seen;  ///< objects with visible lines, each once in a row
+};
+
+}  // namespace
+
+Status count_lines(NeutralDrawing& drawing, const parallel::Context& context) {
+  const auto see = [](Tally& tally, model::ObjectId object) {
+    if (tally.seen.empty() || tally.seen.back() != object) tally.seen.push_back(object);
+  };
+  const Result<Tally> tally = parallel::reduce(
+      context, {.name = "account of lines", .n = drawing.lines.size(), .grain = 65536}, Tally{},
+      [&](Tally& partial, std::size_t i) {
+        const Line& line = drawing.lines[i];
+        ++partial.count[static_cast<std::size_t>(line.state)];
+        if (line.state == LineState::visible) see(partial, line.object);
+      },
+      [&](Tally& into, const Tally& partial) {
+        for (std::size_t s = 0; s < kLineStates; ++s) into.count[s] += partial.count[s];
+        for (const model::ObjectId object : partial.seen) see(into, object);
+      });
+  if (!tally) return tally.error();
+  drawing.count = tally->count;
+
+  hlr::Account& account = drawing.account;
+  auto seen = tally->seen.begin();
+  for (std::uint32_t object = 0; object < account.fates.size(); ++object) {
+    const bool on_paper = seen != tally->seen.end() && model::index(*seen) == object;
+    if (on_paper) ++seen;
+    if (account.fates[object] != hlr::Fate::drawn || on_paper) continue;
+    account.fates[object] = hlr::Fate::coincident;
+    --account.count[static_cast<std::size_t>(hlr::Fate::drawn)];
+    ++account.count[static_cast<std::size_t>(hlr::Fate::coincident)];
+  }
+  return {};
+}
+
+namespace {
+
+using geometry::Vec3d;
+using geometry::Vec3l;
+
+/// Curves as they lie on the sheet: of orthographic views, which alone have any.
+PaperCurves curves_on_paper(const hlr::Curves& curves, const PaperAxes& axes,
+                            const Placement& placement) {
+  const ViewPlane plane(axes, placement.anchor);
+  const double scale = placement.sheet.scale;
+  const auto along = [&](const Vec3d& v) {
+    return PaperPoint{dot(axes.right, v) / scale, -dot(axes.up, v) / scale};
+  };
+  PaperCurves result{{}, curves.edges};
+  result.all.reserve(curves.all.size());
+  for (const hlr::Curve& curve : curves.all) {
+    const PlanePoint origin = plane(curve.origin);
+    const PaperPoint centre = along(curve.at.centre);
+    result.all.push_back({{placement.at.x + origin.x / scale + centre.x,
+                           placement.at.y - origin.y / scale + centre.y},
+                          along(curve.at.u),
+                          along(curve.at.v)});
+  }
+  return result;
+}
+
+/// What is clipped may lie anywhere, behind the eye even: it is kept within what files can say.
+double paper_coordinate(double mm) {
+  return rounded_paper(std::clamp(mm, -kFarthestPaperMm, kFarthestPaperMm));
+}
+
+/// The middle of a box in the middle of the sheet.
+Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& origin) {
+  return {sheet,
+          origin,
+          {sheet.width_mm / 2 - (box.left + box.width() / 2) / sheet.scale,
+           (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / sheet.scale}};
+}
+
+/// A line for each piece, or one for each of its stretches: what is covered is a duplicate. Without
+/// overlaps there are none.
+template <class MakeLine>
+Result<std::vector<Line>> make_lines(std::span<const hlr::EdgePiece> pieces,
+                                     const LineOverlaps& overlaps, const PaperAxes& axes,
+                                     MakeLine&& make_line, const parallel::Context& context) {
+  const std::span<const LineInterval> stretches = overlaps.stretches;
+  // The first stretch of each piece that has any: k such pieces before make so many lines fewer
+  // than their stretches.
+  std::vector<std::size_t> firsts;
+  for (std::size_t i = 0; i < stretches.size(); ++i)
+    if (i == 0 || stretches[i].line != stretches[i - 1].line) firsts.push_back(i);
+  Result<std::vector<Line>> lines =
+      parallel::slots<Line>(pieces.size() + stretches.size() - firsts.size(), context);
+  if (!lines) return lines;
+  constexpr std::size_t kPieces = 4096;
+  const Status status = parallel::for_each(
+      context, {.name = "lines on paper", .n = (pieces.size() + kPieces - 1) / kPieces},
+      [&](std::size_t block) {
+        const std::size_t begin = block * kPieces;
+        const auto before =
+            std::partition_point(firsts.begin(), firsts.end(),
+                                 [&](std::size_t first) { return stretches[first].line < begin; });
+        std::size_t next = before == firsts.end() ? stretches.size() : *before;
+        std::size_t at = begin + next - static_cast<std::size_t>(before - firsts.begin());
+        for (std::size_t i = begin; i < std::min(pieces.size(), begin + kPieces); ++i) {
+          Line line = make_line(pieces[i]);
+          if (overlaps.wholly.size() > 0 && overlaps.wholly.is_set(i))
+            line.state = LineState::duplicate;
+          if (next == stretches.size() || stretches[next].line != i) (*lines)[at++] = line;
+          for (; next < stretches.size() && stretches[next].line == i; ++next) {
+            (*lines)[at] = part_of(line, axes, stretches[next].from, stretches[next].to);
+            if (stretches[next].covered) (*lines)[at].state = LineState::duplicate;
+            ++at;
+          }
+        }
+      });
+  if (!status) return status.error();
+  return lines;
+}
+
+}  // namespace
+
+std::uint32_t PaperCurves::index_of(const Line& line) const {
+  const auto key = [](const auto& l) { return std::pair(model::index(l.object), l.edge); };
+  const auto found = std::ranges::lower_bound(edges, key(line), {},
+                                              [&](const hlr::CurvedEdge& e) { return key(e); });
+  return found != edges.end() && key(*found) == key(line) ? found->curve : kNone;
+}
+
+const PaperCurve* PaperCurves::of(const Line& line) const {
+  const std::uint32_t index = index_of(line);
+  return index == kNone ? nullptr : &all[index];
+}
+
+Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
+                              const Vec3l& origin, const parallel::Context& context) {
+  constexpr double kBig = std::numeric_limits<double>::max();
+  const ViewPlane plane(axes, origin);
+  Result<PlaneBox> box = parallel::reduce(
+      context, {.name = "extent on the plane", .n = drawing.pieces.size(), .grain = 65536},
+      PlaneBox{kBig, -kBig, kBig, -kBig},
+      [&](PlaneBox& part, std::size_t i) {
+        const hlr::EdgePiece& piece = drawing.pieces[i];
+        if (piece.state == hlr::State::clipped) return;
+        for (const Vec3l& end : {piece.a, piece.b}) {
+          const PlanePoint p = plane(end);
+          part.include({p.x, p.x, p.y, p.y});
+        }
+      },
+      [](PlaneBox& into, const PlaneBox& part) { into.include(part); });
+  if (box && box->left > box->right) *box = {};
+  return box;
+}
+
+Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
+                               const LayoutOptions& options, const parallel::Context& context) {
+  const auto axes = paper_axes(drawing.view);
+  if (!axes)
+    return Error{ErrorCode::usage, "the upward direction is parallel to the view direction", "",
+                 "give another --up"};
+  if (options.scale && !(*options.scale > 0 && std::isfinite(*options.scale)))
+    return Error{ErrorCode::usage, "the scale is not a positive number", "", "use 1:50, say"};
+  Placement placement;
+  if (options.placement) {
+    placement = *options.placement;
+  } else {
+    const Result<PlaneBox> box = plane_extent(drawing, *axes, drawing.origin, context);
+    if (!box) return box.error();
+    const Sheet sheet = choose_sheet(*box, options);
+    if (!(std::max(sheet.width_mm, sheet.height_mm) <= kFarthestPaperMm))
+      return Error{ErrorCode::usage, "the sheet would be more than 1,000 km wide", "",
+                   "give a smaller --scale, or let it be chosen"};
+    placement = in_the_middle(*box, sheet, drawing.origin);
+  }
+  const ViewPlane plane(*axes, placement.anchor);
+  const auto on_paper = [&](const Vec3l& grid) {
+    const PlanePoint p = plane(grid);
+    return PaperPoint{paper_coordinate(placement.at.x + p.x / placement.sheet.scale),
+                      paper_coordinate(placement.at.y - p.y / placement.sheet.scale)};
+  };
+  NeutralDrawing out;
+  out.sheet = placement.sheet;
+  out.view_name = options.view_name;
+  out.title = options.title.empty() ? options.view_name : options.title;
+  out.view = drawing.view;
+  out.stage = drawing.options.stage;
+  out.hidden_lines = drawing.options.hidden;
+  out.sharp_angle_deg = drawing.options.sharp_angle_deg;
+  out.smooth = drawing.options.smooth;
+  out.intersections = drawing.options.intersections;
+  out.contact_distance_mm = drawing.contact_distance_mm;
+  out.sag_mm = drawing.sag_mm;
+  out.weld_mm = drawing.weld_mm;
+  out.counters = drawing.counters;
+  const Result<Hash128> hash = hash_of(drawing, model, context);
+  if (!hash) return hash.error();
+  out.hash = *hash;
+  out.curves = curves_on_paper(drawing.curves, *axes, placement);
+  // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
+  const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);
+  const auto duplicates = options.remove_duplicates
+                              ? find_duplicates(drawing, *axes, distance, context)
+                              : Result<LineOverlaps>(LineOverlaps{});
+  if (!duplicates) return duplicates.error();
+  auto lines = make_lines(
+      drawing.pieces, *duplicates, *axes,
+      [&](const hlr::EdgePiece& piece) {
+        return Line{piece.object,
+                    piece.edge,
+                    piece.kind,
+                    line_state(piece.state),
+                    piece.other,
+                    geometry::to_mm(piece.a),
+                    geometry::to_mm(piece.b),
+                    on_paper(piece.a),
+                    on_paper(piece.b)};
+      },
+      context);
+  if (!lines) return lines.error();
+  out.lines = std::move(*lines);
+  out.account = drawing.account;
+  if (const Status status = count_lines(out, context); !status) return status.error();
+  return out;
+}
+
+}  // namespace strake::drawing

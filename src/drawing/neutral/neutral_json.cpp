@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drawing/neutral/neutral_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/number.hpp"
+#include "drawing/buffered_writer.hpp"
+#include "strake/core/version.hpp"
+#include "strake/drawing/write.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+std::string whole_numbers(const geometry::Vec3l& v) {
+  return fmt::format("[{},{},{}]", v.x, v.y, v.z);
+}
+
+void write_perspective(BufferedWriter& out, const hlr::Perspective& perspective) {
+  const geometry::Vec3d eye = geometry::to_mm(perspective.eye);
+  const geometry::Vec3d target = geometry::to_mm(perspective.target);
+  out << ",\"perspective\":{\"eye_mm\":";
+  append_numbers(out.text(), {eye.x, eye.y, eye.z});
+  out << ",\"target_mm\":";
+  append_numbers(out.text(), {target.x, target.y, target.z});
+  out << ",\"near_mm\":" << shortest(perspective.near_mm)
+      << ",\"field_of_view_deg\":" << shortest(perspective.field_of_view_deg) << "}";
+}
+
+void write_view(BufferedWriter& out, const NeutralDrawing& drawing) {
+  out << "\"view\":{\"name\":" << json_quoted(drawing.view_name) << ",\"projection\":\""
+      << (drawing.view.perspective ? "perspective" : "orthographic")
+      << "\",\"direction\":" << whole_numbers(drawing.view.direction)
+      << ",\"up\":" << whole_numbers(drawing.view.up) << ",\"limits_mm\":";
+  if (drawing.view.limits) {
+    const geometry::Vec3d lo = geometry::to_mm(drawing.view.limits->lo);
+    const geometry::Vec3d hi = geometry::to_mm(drawing.view.limits->hi);
+    append_numbers(out.text(), {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z});
+  } else {
+    out << "null";
+  }
+  out << ",\"sections\":[";
+  for (const hlr::Section& section : drawing.view.sections) {
+    const geometry::Vec3d point = geometry::to_mm(section.point);
+    out << (&section == drawing.view.sections.data() ? "" : ",")
+        << "{\"normal\":" << whole_numbers(section.normal) << ",\"point_mm\":";
+    append_numbers(out.text(), {point.x, point.y, point.z});
+    out << "}";
+  }
+  out << "]";
+  if (drawing.view.perspective) write_perspective(out, *drawing.view.perspective);
+  out << "},\n\"settings\":{\"stage\":\"" << stage_name(drawing.stage)
+      << "\",\"hidden_lines\":" << (drawing.hidden_lines ? "true" : "false")
+      << ",\"sharp_angle_deg\":" << shortest(drawing.sharp_angle_deg) << ",\"smooth\":\""
+      << smooth_name(drawing.smooth) << "\",\"intersections\":\""
+      << intersections_name(drawing.intersections) << "\""
+      << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
+  if (drawing.sag_mm > 0) out << ",\"sag_mm\":" << shortest(drawing.sag_mm);
+  if (drawing.weld_mm >= 0) out << ",\"weld_mm\":" << shortest(drawing.weld_mm);
+  out << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)
+      << ",\"height_mm\":" << shortest(drawing.sheet.height_mm)
+      << ",\"scale\":" << shortest(drawing.sheet.scale) << ",\"scale_text\":\""
+      << drawing.sheet.scale_text << "\"},\n";
+}
+
+void write_counts(BufferedWriter& out, const NeutralDrawing& drawing) {
+  out << fmt::format("\"counts\":{{\"objects\":{}", drawing.account.objects());
+  for (std::size_t f = 1; f < hlr::kFates; ++f) {
+    const auto fate = static_cast<hlr::Fate>(f);
+    out << fmt::format(",\"objects_{}\":{}", fate_name(fate), drawing.account.of(fate));
+  }
+  out << fmt::format(
+      ",\"objects_in_part\":{},\"feature_edges\":{},\"edges_left_out\":{},\"specks\":{},"
+      "\"pieces\":{}",
+      drawing.account.in_part, drawing.counters.feature_edges, drawing.counters.left_out,
+      drawing.counters.specks, drawing.lines.size());
+  for (std::size_t s = 0; s < kLineStates; ++s)
+    out << fmt::format(",\"{}\":{}", state_name(static_cast<LineState>(s)), drawing.count[s]);
+  out << "},\n";
+}
+
+void append_object(std::string& out, const model::Model& model, model::ObjectId id) {
+  const model::Object& object = model.object(id);
+  out += "{\"id\":" + json_quoted(object.id) + ",\"name\":" + json_quoted(object.name) +
+         ",\"file\":" + json_quoted(model.files[object.file].label);
+}
+
+void write_curves(BufferedWriter& out, const PaperCurves& curves) {
+  out << "\"curves\":[";
+  const char* separator = "\n";
+  for (const PaperCurve& curve : curves.all) {
+    out << separator << "{\"centre_paper_mm\":";
+    append_numbers(out.text(), {curve.centre.x, curve.centre.y});
+    out << ",\"u_paper_mm\":";
+    append_numbers(out.text(), {curve.u.x, curve.u.y});
+    out << ",\"v_paper_mm\":";
+    append_numbers(out.text(), {curve.v.x, curve.v.y});
+    out << "}";
+    separator = ",\n";
+  }
+  out << "],\n";
+}
+
+/// Objects of which something could not be drawn, each with all that says why.
+void write_defects(BufferedWriter& out, const NeutralDrawing& drawing, const model::Model& model) {
+  const std::vector<hlr::Defect>& defects = drawing.account.defects;
+  out << "\"defects\":[";
+  for (std::size_t d = 0; d < defects.size();) {
+    const model::ObjectId id = defects[d].object;
+    out << (d == 0 ? "\n" : ",\n");
+    append_object(out.text(), model, id);
+    out << ",\"fate\":\"" << fate_name(drawing.account.fates[model::index(id)]) << "\",\"why\":";
+    const char* separator = "[";
+    for (; d < defects.size() && defects[d].object == id; ++d, separator = ",")
+      out << separator << json_quoted(defects[d].code);
+    out << "]}";
+  }
+  out << "],\n";
+}
+
+/// Files of which nobody knows what the rest held, where there are such.
+void write_cut_files(BufferedWriter& out, const model::Model& model) {
+  const char* separator = "\"files_ending_early\":[";
+  for (const model::SourceFile& file : model.files) {
+    if (!file.ends_early) continue;
+    out << separator << json_quoted(file.label);
+    separator = ",";
+  }
+  if (*separator == ',') out << "],\n";
+}
+
+}  // namespace
+
+void append_numbers(std::string& out, std::initializer_list<double> values) {
+  const char* separator = "[";
+  for (const double value : values) {
+    out += separator;
+    append_shortest(out, value);
+    separator = ",";
+  }
+  out += ']';
+}
+
+ListedObjects::ListedObjects(const std::vector<Line>& lines, std::size_t objects)
+    : number_(objects, kNot) {
+  for (const Line& line : lines)
+    for (const model::ObjectId id : {line.object, line.other}) number_[model::index(id)] = 0;
+  for (std::uint32_t o = 0; o < number_.size(); ++o) {
+    if (number_[o] == kNot) continue;
+    number_[o] = static_cast<std::uint32_t>(objects_.size());
+    objects_.push_back(model::ObjectId{o});
+  }
+}
+
+void write_view_head(BufferedWriter& out, const NeutralDrawing& drawing, const model::Model& model,
+                     const ListedObjects& listed) {
+  out << "{\"schema_version\":1,\n\"generator\":{\"name\":\"strake\",\"version\":"
+      << json_quoted(version()) << "},\n";
+  write_view(out, drawing);
+  write_counts(out, drawing);
+  write_defects(out, drawing, model);
+  write_cut_files(out, model);
+  out << "\"hash\":\"" << drawing.hash.text() << "\",\n\"objects\":[";
+  for (const model::ObjectId o : listed.objects()) {
+    out << (listed.number(o) == 0 ? "\n" : ",\n");
+    append_object(out.text(), model, o);
+    out << "}";
+  }
+  out << "],\n";
+  write_curves(out, drawing.curves);
+}
+
+namespace {
+
+void append_line(std::string& out, const Line& line, std::string_view object, std::uint32_t curve,
+                 const ListedObjects& listed) {
+  out += "{\"object\":";
+  out += object;
+  fmt::format_to(
+      std::back_inserter(out), ",\"object_index\":{},\"edge\":{},\"kind\":\"{}\",\"state\":\"{}\"",
+      listed.number(line.object), line.edge, kind_name(line.kind), state_name(line.state));
+  if (line.kind == hlr::EdgeKind::intersection)
+    fmt::format_to(std::back_inserter(out), ",\"other_index\":{}", listed.number(line.other));
+  if (curve != PaperCurves::kNone)
+    fmt::format_to(std::back_inserter(out), ",\"curve_index\":{}", curve);
+  out += ",\"a_mm\":";
+  append_numbers(out, {line.a_mm.x, line.a_mm.y, line.a_mm.z});
+  out += ",\"b_mm\":";
+  append_numbers(out, {line.b_mm.x, line.b_mm.y, line.b_mm.z});
+  out += ",\"a_paper_mm\":";
+  append_numbers(out, {line.a_paper.x, line.a_paper.y});
+  out += ",\"b_paper_mm\":";
+  append_numbers(out, {line.b_paper.x, line.b_paper.y});
+  out += '}';
+}
+
+}  // namespace
+
+Status write_view_json(const NeutralDrawing& drawing, const model::Model& model, Sink sink,
+                       const parallel::Context& context) {
+  const ListedObjects listed(drawing.lines, model.objects.size());
+  {
+    BufferedWriter out(sink);
+    write_view_head(out, drawing, model, listed);
+    out << "\"pieces\":[";
+  }
+  const auto encode = [&](std::size_t begin, std::size_t end, std::string& out) {
+    std::string id;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Line& line = drawing.lines[i];
+      if (i == begin || drawing.lines[i - 1].object != line.object)
+        id = json_quoted(model.object(line.object).id);
+      out += i == 0 ? "\n" : ",\n";
+      append_line(out, line, id, drawing.curves.index_of(line), listed);
+    }
+  };
+  const Status status =
+      write_in_batches("neutral drawing", drawing.lines.size(), encode, sink, context);
+  if (!status) return status;
+  sink("]}\n");
+  return {};
+}
+
+}  // namespace strake::drawing

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "drawing/buffered_writer.hpp"
+#include "drawing/layout/duplicates.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/drawing/ink.hpp"
+#include "strake/model/model.hpp"
+
+namespace strake::drawing {
+
+/// A layer of a view: the lines of one kind, seen or hidden.
+struct Layer {
+  bool hidden;
+  hlr::EdgeKind kind;
+  std::string_view label;
+};
+
+// Later layers are drawn over earlier ones: outlines last, of all those of cuts.
+inline constexpr std::array<Layer, 16> kLayers = {{
+    {true, hlr::EdgeKind::polyline, "Hidden polylines"},
+    {true, hlr::EdgeKind::boundary, "Hidden boundary"},
+    {true, hlr::EdgeKind::non_manifold, "Hidden non-manifold"},
+    {true, hlr::EdgeKind::sharp, "Hidden sharp"},
+    {true, hlr::EdgeKind::intersection, "Hidden intersections"},
+    {true, hlr::EdgeKind::contour, "Hidden outline"},
+    {true, hlr::EdgeKind::section, "Hidden section"},
+    {false, hlr::EdgeKind::hatch, "Hatch"},
+    {false, hlr::EdgeKind::smooth, "Visible smooth"},
+    {false, hlr::EdgeKind::polyline, "Visible polylines"},
+    {false, hlr::EdgeKind::boundary, "Visible boundary"},
+    {false, hlr::EdgeKind::non_manifold, "Visible non-manifold"},
+    {false, hlr::EdgeKind::sharp, "Visible sharp"},
+    {false, hlr::EdgeKind::intersection, "Visible intersections"},
+    {false, hlr::EdgeKind::contour, "Visible outline"},
+    {false, hlr::EdgeKind::section, "Visible section"},
+}};
+
+[[nodiscard]] inline bool belongs(const Line& line, const Layer& layer) {
+  if (line.kind != layer.kind) return false;
+  return layer.hidden ? is_hidden(line.state) : line.state == LineState::visible;
+}
+
+/// The lines of a view: a group per layer, of class "visible sharp" and the like, in it one per
+/// object with one path. `prefix` stands before the ids of the layers.
+void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
+                  const model::Model& model, std::string_view prefix);
+
+}  // namespace strake::drawing

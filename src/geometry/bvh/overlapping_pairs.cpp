@@ -1,0 +1,498 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/bvh/overlapping_pairs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/bvh/scene_bvh.hpp"
+#include "strake/parallel/allowance.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::geometry {
+namespace {
+
+using Node = SceneBvh::Node;
+
+/// Pieces of work that the self-join is expanded into before it is shared out: enough for any
+/// team, and the same for every team.
+constexpr std::size_t kSubtasks = 1024;
+
+struct JoinTask {
+  std::uint32_t a = 0, b = 0;  ///< a == b: the pairs within one node
+};
+
+class SelfJoin {
+ public:
+  explicit SelfJoin(const SceneBvh& tree) : tree_(tree), nodes_(tree.nodes()) {}
+
+  /// The root pair, expanded breadth first.
+  [[nodiscard]] std::vector<JoinTask> subtasks() const {
+    std::vector<JoinTask> tasks;
+    if (nodes_.empty()) return tasks;
+    tasks.push_back({0, 0});
+    for (bool grew = true; grew && tasks.size() < kSubtasks;) {
+      grew = false;
+      std::vector<JoinTask> next;
+      for (const JoinTask& p : tasks) {
+        if (leaves(p)) {
+          next.push_back(p);
+        } else {
+          grew = true;
+          expand(p, next);
+        }
+      }
+      tasks.swap(next);
+    }
+    return tasks;
+  }
+
+  /// False when there are too many pairs.
+  [[nodiscard]] bool run(const JoinTask& task, std::vector<JoinTask>& stack,
+                         std::vector<IndexPair>& out, parallel::Allowance& allowance) const {
+    constexpr std::size_t kAskAfter = std::size_t{1} << 14U;
+    std::size_t counted = out.size();
+    stack.assign(1, task);
+    while (!stack.empty()) {
+      const JoinTask p = stack.back();
+      stack.pop_back();
+      if (leaves(p))
+        test_items(p, out);
+      else
+        expand(p, stack);
+      if (out.size() - counted < kAskAfter) continue;
+      if (!allowance.take(out.size() - counted)) return false;
+      counted = out.size();
+    }
+    return allowance.take(out.size() - counted);
+  }
+
+ private:
+  [[nodiscard]] bool leaves(const JoinTask& p) const {
+    return nodes_[p.a].count > 0 && nodes_[p.b].count > 0;
+  }
+
+  void push(std::uint32_t a, std::uint32_t b, std::vector<JoinTask>& out) const {
+    const Node &x = nodes_[a], &y = nodes_[b];
+    if (sets_match(x.sets, y.sets) && (a == b || x.box.meets(y.box))) out.push_back({a, b});
+  }
+
+  void expand(const JoinTask& p, std::vector<JoinTask>& out) const {
+    const Node &x = nodes_[p.a], &y = nodes_[p.b];
+    if (p.a == p.b) {
+      push(x.first, x.first, out);
+      push(x.first + 1, x.first + 1, out);
+      push(x.first, x.first + 1, out);
+    } else if (y.count > 0 || (x.count == 0 && size(x) >= size(y))) {
+      push(x.first, p.b, out);
+      push(x.first + 1, p.b, out);
+    } else {
+      push(p.a, y.first, out);
+      push(p.a, y.first + 1, out);
+    }
+  }
+
+  static std::int64_t size(const Node& n) {
+    return (std::int64_t{n.box.hi.x} - n.box.lo.x) + (std::int64_t{n.box.hi.y} - n.box.lo.y) +
+           (std::int64_t{n.box.hi.z} - n.box.lo.z);
+  }
+
+  void test_items(const JoinTask& p, std::vector<IndexPair>& out) const {
+    const Node &x = nodes_[p.a], &y = nodes_[p.b];
+    for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
+      const BoxItem& item = tree_.items()[i];
+      for (std::uint32_t j = p.a == p.b ? i + 1 : y.first; j < y.first + y.count; ++j) {
+        const BoxItem& other = tree_.items()[j];
+        if (item.owner == other.owner || !sets_match(item.sets, other.sets) ||
+            !item.box.meets(other.box))
+          continue;
+        const std::uint32_t a = tree_.order()[i], b = tree_.order()[j];
+        out.push_back({std::min(a, b), std::max(a, b)});
+      }
+    }
+  }
+
+  const SceneBvh& tree_;
+  const std::vector<Node>& nodes_;
+};
+
+/// Sorts pairs by counting: first into lots by ranges of their first item, then each lot by first
+/// item, and the few seconds of each. All of it in pieces that do not depend on the team.
+class PairSorter {
+ public:
+  static constexpr std::size_t kPairsPerPiece = 65536;
+
+  /// All first items are below `items`.
+  PairSorter(std::vector<IndexPair>& pairs, std::size_t items)
+      : pairs_(pairs),
+        range_(items / kLots + 1),
+        pieces_((pairs.size() + kPairsPerPiece - 1) / kPairsPerPiece) {}
+
+  Status run(const parallel::Context& context) {
+    auto counts = parallel::transform(context, {.name = "count pairs", .n = pieces_},
+                                      [&](std::size_t piece) { return count(piece); });
+    if (!counts) return counts.error();
+    // Where each piece's pairs of each lot go: lot by lot, piece by piece.
+    std::size_t at = 0;
+    for (std::size_t lot = 0; lot < kLots; ++lot) {
+      begin_[lot] = at;
+      for (std::array<std::size_t, kLots>& of : *counts) at += std::exchange(of[lot], at);
+    }
+    begin_[kLots] = at;
+    sorted_.resize(pairs_.size());
+    Status status = parallel::for_each(context, {.name = "deal pairs", .n = pieces_},
+                                       [&](std::size_t piece) { deal(piece, (*counts)[piece]); });
+    if (!status) return status;
+    return parallel::for_each(context, {.name = "sort pairs", .n = kLots},
+                              [&](std::size_t lot) { sort(lot); });
+  }
+
+ private:
+  static constexpr std::size_t kLots = 64;
+
+  [[nodiscard]] std::span<const IndexPair> piece(std::size_t number) const {
+    const std::size_t first = number * kPairsPerPiece;
+    return std::span<const IndexPair>(pairs_).subspan(
+        first, std::min(kPairsPerPiece, pairs_.size() - first));
+  }
+  [[nodiscard]] std::array<std::size_t, kLots> count(std::size_t number) const {
+    std::array<std::size_t, kLots> counts{};
+    for (const IndexPair& p : piece(number)) ++counts[p.first / range_];
+    return counts;
+  }
+  void deal(std::size_t number, std::array<std::size_t, kLots>& next) {
+    for (const IndexPair& p : piece(number)) sorted_[next[p.first / range_]++] = p;
+  }
+  /// Back from sorted_ into pairs_.
+  void sort(std::size_t lot) {
+    const std::size_t base = lot * range_, first = begin_[lot];
+    const auto from = std::span(sorted_).subspan(first, begin_[lot + 1] - first);
+    std::vector<std::size_t> begin(range_ + 1, first);
+    for (const IndexPair& p : from) ++begin[p.first - base + 1];
+    for (std::size_t i = 1; i <= range_; ++i) begin[i] += begin[i - 1] - first;
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for (const IndexPair& p : from) pairs_[next[p.first - base]++] = p;
+    const auto at = [&](std::size_t k) { return pairs_.begin() + static_cast<std::ptrdiff_t>(k); };
+    for (std::size_t i = 0; i < range_; ++i) std::sort(at(begin[i]), at(begin[i + 1]));
+  }
+
+  std::vector<IndexPair>& pairs_;
+  std::vector<IndexPair> sorted_;
+  std::size_t range_;  ///< first items of a lot
+  std::size_t pieces_;
+  std::array<std::size_t, kLots + 1> begin_{};  ///< of the lots
+};
+
+}  // namespace
+
+Error too_many(const parallel::Allowance& allowed) {
+  return {ErrorCode::input,
+          "more than " + std::to_string(allowed.most()) + " pairs of boxes meet",
+          {},
+          "take fewer objects at one place, or a smaller reach"};
+}
+
+Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& context) {
+  constexpr std::size_t kFew = 1024;
+  if (pairs.size() <= kFew) {
+    std::sort(pairs.begin(), pairs.end());
+    return {};
+  }
+  const auto last = parallel::reduce(
+      context, {.name = "last pair", .n = pairs.size(), .grain = PairSorter::kPairsPerPiece},
+      std::uint32_t{0},
+      [&](std::uint32_t& partial, std::size_t i) { partial = std::max(partial, pairs[i].first); },
+      [](std::uint32_t& into, std::uint32_t partial) { into = std::max(into, partial); });
+  if (!last) return last.error();
+  return PairSorter(pairs, std::size_t{*last} + 1).run(context);
+}
+
+Result<std::vector<IndexPair>> overlapping_box_pairs(const SceneBvh& tree,
+                                                     const parallel::Context& context,
+                                                     std::uint64_t most) {
+  parallel::Allowance allowance(most);
+  const SelfJoin join(tree);
+  const std::vector<JoinTask> tasks = join.subtasks();
+  auto pairs = parallel::collect_with<IndexPair>(
+      context, {.name = "broad phase", .n = tasks.size()}, [] { return std::vector<JoinTask>(); },
+      [&](std::vector<JoinTask>& stack, std::size_t i, std::vector<IndexPair>& out) -> Status {
+        if (join.run(tasks[i], stack, out, allowance)) return {};
+        return too_many(allowance);
+      });
+  if (!pairs) return pairs.error();
+  if (const Status s = sort_pairs(*pairs, context); !s) return s.error();
+  return pairs;
+}
+
+Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(std::span<const BoxItem> items,
+                                                                 const parallel::Context& context,
+                                                                 std::uint64_t most) {
+  const auto meet = [&](std::uint32_t a, std::uint32_t b) {
+    return items[a].box.meets(items[b].box);
+  };
+  return all_pairs_that(items, meet, context, most);
+}
+
+namespace {
+
+using Node = SceneBvh::Node;
+
+/// Two frames, and how boxes in the one are parted from boxes in the other.
+class FramePair {
+ public:
+  FramePair(const Mat3d& x, const Mat3d& y) : same_(x == y) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        turn_.row[i][j] = dot(x.row[i], y.row[static_cast<std::size_t>(j)]);
+        size_.row[i][j] = std::fabs(turn_.row[i][j]);
+      }
+  }
+
+  [[nodiscard]] bool parted(const Box3l& x, const Box3l& y) const {
+    if (same_) return !x.meets(y);
+    const Vec3d p = half(x.hi - x.lo), q = half(y.hi - y.lo);
+    const Vec3d way = turn_ * half(y.lo + y.hi) - half(x.lo + x.hi);
+    const double slack =
+        kRounding * (sum(p) + sum(q) + std::fabs(way.x) + std::fabs(way.y) + std::fabs(way.z));
+    return parted_by_face(p, q, way, slack) || parted_by_edges(p, q, way, slack);
+  }
+
+ private:
+  /// What rounding may make of a width, relative.
+  static constexpr double kRounding = 1e-12;
+
+  static Vec3d half(const Vec3l& v) { return v.as<double>() * 0.5; }
+  static double sum(const Vec3d& v) { return v.x + v.y + v.z; }
+  [[nodiscard]] double turn(int i, int j) const {
+    return turn_.row[static_cast<std::size_t>(i)][j];
+  }
+  [[nodiscard]] double size(int i, int j) const {
+    return size_.row[static_cast<std::size_t>(i)][j];
+  }
+
+  [[nodiscard]] bool parted_by_face(const Vec3d& p, const Vec3d& q, const Vec3d& way,
+                                    double slack) const {
+    for (int k = 0; k < 3; ++k) {
+      double of_q = 0, of_p = 0, along = 0;
+      for (int j = 0; j < 3; ++j) {
+        of_q += size(k, j) * q[j];
+        of_p += size(j, k) * p[j];
+        along += turn(j, k) * way[j];
+      }
+      if (std::fabs(way[k]) > p[k] + of_q + slack || std::fabs(along) > q[k] + of_p + slack)
+        return true;
+    }
+    return false;
+  }
+
+  /// Across an edge of each. Where these are parallel nothing is left of any width but rounding.
+  [[nodiscard]] bool parted_by_edges(const Vec3d& p, const Vec3d& q, const Vec3d& way,
+                                     double slack) const {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+        const double of_p = p[i1] * size(i2, j) + p[i2] * size(i1, j);
+        const double of_q = q[j1] * size(i, j2) + q[j2] * size(i, j1);
+        if (std::fabs(way[i2] * turn(i1, j) - way[i1] * turn(i2, j)) > of_p + of_q + slack)
+          return true;
+      }
+    return false;
+  }
+
+  Mat3d turn_;  ///< from the second frame to the first
+  Mat3d size_;  ///< its entries without signs
+  bool same_;
+};
+
+/// The items of one frame.
+struct Group {
+  std::vector<std::uint32_t> items;
+  SceneBvh tree = {};
+};
+
+struct FrameNodePair {
+  std::uint32_t a = 0, b = 0;
+};
+
+/// The pairs of two groups, or those within one.
+class GroupJoin {
+ public:
+  GroupJoin(std::span<const BoxItem> items, const BoxesInFrames& framed,
+            const std::vector<Group>& groups, std::size_t x, std::size_t y)
+      : items_(items),
+        x_(groups[x]),
+        y_(groups[y]),
+        frames_(framed.frames[x], framed.frames[y]),
+        within_(x == y) {}
+
+  /// The root pair, expanded breadth first.
+  [[nodiscard]] std::vector<FrameNodePair> subtasks() const {
+    constexpr std::size_t kGroupSubtasks = 1024;
+    std::vector<FrameNodePair> tasks;
+    if (!x_.tree.nodes().empty() && !y_.tree.nodes().empty()) push(0, 0, tasks);
+    for (bool grew = true; grew && tasks.size() < kGroupSubtasks;) {
+      grew = false;
+      std::vector<FrameNodePair> next;
+      for (const FrameNodePair& p : tasks) {
+        if (leaves(p)) {
+          next.push_back(p);
+        } else {
+          grew = true;
+          expand(p, next);
+        }
+      }
+      tasks.swap(next);
+    }
+    return tasks;
+  }
+
+  /// False when there are too many pairs.
+  [[nodiscard]] bool run(const FrameNodePair& task, std::vector<IndexPair>& out,
+                         parallel::Allowance& allowance) const {
+    constexpr std::size_t kAskAfter = std::size_t{1} << 14U;
+    std::size_t counted = out.size();
+    std::vector<FrameNodePair> stack{task};
+    while (!stack.empty()) {
+      const FrameNodePair p = stack.back();
+      stack.pop_back();
+      if (leaves(p))
+        test_items(p, out);
+      else
+        expand(p, stack);
+      if (out.size() - counted < kAskAfter) continue;
+      if (!allowance.take(out.size() - counted)) return false;
+      counted = out.size();
+    }
+    return allowance.take(out.size() - counted);
+  }
+
+ private:
+  [[nodiscard]] const Node& node_x(std::uint32_t i) const { return x_.tree.nodes()[i]; }
+  [[nodiscard]] const Node& node_y(std::uint32_t i) const { return y_.tree.nodes()[i]; }
+  [[nodiscard]] bool leaves(const FrameNodePair& p) const {
+    return node_x(p.a).count > 0 && node_y(p.b).count > 0;
+  }
+  [[nodiscard]] bool is_one(const FrameNodePair& p) const { return within_ && p.a == p.b; }
+
+  void push(std::uint32_t a, std::uint32_t b, std::vector<FrameNodePair>& out) const {
+    const Node &x = node_x(a), &y = node_y(b);
+    if (sets_match(x.sets, y.sets) && (is_one({a, b}) || near(x, y))) out.push_back({a, b});
+  }
+
+  /// Of one tree the boxes compare as they are.
+  [[nodiscard]] bool near(const Node& x, const Node& y) const {
+    return within_ ? x.box.meets(y.box) : !frames_.parted(x_.tree.box(x), y_.tree.box(y));
+  }
+
+  void expand(const FrameNodePair& p, std::vector<FrameNodePair>& out) const {
+    const Node &x = node_x(p.a), &y = node_y(p.b);
+    if (is_one(p)) {
+      push(x.first, x.first, out);
+      push(x.first + 1, x.first + 1, out);
+      push(x.first, x.first + 1, out);
+    } else if (y.count > 0 || (x.count == 0 && extent(x_.tree, x) >= extent(y_.tree, y))) {
+      push(x.first, p.b, out);
+      push(x.first + 1, p.b, out);
+    } else {
+      push(p.a, y.first, out);
+      push(p.a, y.first + 1, out);
+    }
+  }
+
+  static std::int64_t extent(const SceneBvh& tree, const Node& node) {
+    const Box3l box = tree.box(node);
+    const Vec3l d = box.hi - box.lo;
+    return d.x + d.y + d.z;
+  }
+
+  void test_items(const FrameNodePair& p, std::vector<IndexPair>& out) const {
+    const Node &x = node_x(p.a), &y = node_y(p.b);
+    for (std::uint32_t i = x.first; i < x.first + x.count; ++i)
+      for (std::uint32_t j = is_one(p) ? i + 1 : y.first; j < y.first + y.count; ++j) {
+        const std::uint32_t a = x_.items[x_.tree.order()[i]], b = y_.items[y_.tree.order()[j]];
+        if (items_[a].owner != items_[b].owner && sets_match(items_[a].sets, items_[b].sets) &&
+            items_[a].box.meets(items_[b].box) &&
+            !frames_.parted(x_.tree.items()[i].box, y_.tree.items()[j].box))
+          out.push_back({std::min(a, b), std::max(a, b)});
+      }
+  }
+
+  std::span<const BoxItem> items_;
+  const Group &x_, &y_;
+  FramePair frames_;
+  bool within_;
+};
+
+Result<std::vector<Group>> group_by_frame(std::span<const BoxItem> items,
+                                          const BoxesInFrames& framed,
+                                          const parallel::Context& context) {
+  std::vector<Group> groups(framed.frames.size());
+  for (std::uint32_t i = 0; i < items.size(); ++i) groups[framed.frame[i]].items.push_back(i);
+  for (Group& group : groups) {
+    std::vector<BoxItem> in_frame;
+    in_frame.reserve(group.items.size());
+    for (const std::uint32_t i : group.items)
+      in_frame.push_back({items[i].box.empty() ? empty_box<std::int64_t>() : framed.box[i],
+                          items[i].owner, items[i].sets});
+    auto tree = SceneBvh::build(in_frame, context);
+    if (!tree) return tree.error();
+    group.tree = std::move(*tree);
+  }
+  return groups;
+}
+
+}  // namespace
+
+Result<std::vector<IndexPair>> overlapping_box_pairs(std::span<const BoxItem> items,
+                                                     const BoxesInFrames& framed,
+                                                     const parallel::Context& context,
+                                                     std::uint64_t most) {
+  const auto groups = group_by_frame(items, framed, context);
+  if (!groups) return groups.error();
+  parallel::Allowance allowance(most);
+  std::vector<IndexPair> pairs;
+  for (std::size_t x = 0; x < groups->size(); ++x)
+    for (std::size_t y = x; y < groups->size(); ++y) {
+      const GroupJoin join(items, framed, *groups, x, y);
+      const std::vector<FrameNodePair> tasks = join.subtasks();
+      const auto found =
+          parallel::collect<IndexPair>(context, {.name = "broad phase, askew", .n = tasks.size()},
+                                       [&](std::size_t i, std::vector<IndexPair>& out) -> Status {
+                                         if (join.run(tasks[i], out, allowance)) return {};
+                                         return too_many(allowance);
+                                       });
+      if (!found) return found.error();
+      pairs.insert(pairs.end(), found->begin(), found->end());
+    }
+  if (const Status s = sort_pairs(pairs, context); !s) return s.error();
+  return pairs;
+}
+
+Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(std::span<const BoxItem> items,
+                                                                 const BoxesInFrames& framed,
+                                                                 const parallel::Context& context,
+                                                                 std::uint64_t most) {
+  const std::size_t n = framed.frames.size();
+  std::vector<FramePair> frames;
+  for (const Mat3d& x : framed.frames)
+    for (const Mat3d& y : framed.frames) frames.emplace_back(x, y);
+  // The lower frame first, as between groups: what rounding makes of two boxes is the same then.
+  const auto parted = [&](std::uint32_t a, std::uint32_t b) {
+    return frames[framed.frame[a] * n + framed.frame[b]].parted(framed.box[a], framed.box[b]);
+  };
+  const auto meet = [&](std::uint32_t a, std::uint32_t b) {
+    return items[a].box.meets(items[b].box) &&
+           !(framed.frame[a] <= framed.frame[b] ? parted(a, b) : parted(b, a));
+  };
+  return all_pairs_that(items, meet, context, most);
+}
+
+}  // namespace strake::geometry

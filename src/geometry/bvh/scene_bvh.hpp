@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::geometry {
+
+/// Bits of BoxItem::sets.
+inline constexpr std::uint8_t kSetA = 1;
+inline constexpr std::uint8_t kSetB = 2;
+
+/// A box that stands for something, on the 64-bit grid.
+struct BoxItem {
+  Box3l box;
+  std::uint32_t owner = 0;  ///< two items of one owner are never a pair
+  std::uint8_t sets = kSetA | kSetB;
+};
+
+/// Two items, by index, first < second.
+struct IndexPair {
+  std::uint32_t first = 0, second = 0;
+  friend bool operator==(const IndexPair&, const IndexPair&) = default;
+  friend auto operator<=>(const IndexPair&, const IndexPair&) = default;
+};
+
+/// A bounding-volume hierarchy over all boxes of a scene, for finding which of them meet.
+///
+///     const auto tree = SceneBvh::build(items, context);
+///     const auto pairs = overlapping_box_pairs(*tree, context);
+///
+/// Built top down by binned surface-area cost (Wald 2007). Nodes hold their boxes in 32 bits,
+/// rounded outward; what meets is decided on the items' own 64-bit boxes, so the pairs do not
+/// depend on the shape of the tree.
+class SceneBvh {
+ public:
+  struct Node {
+    Box3i box;
+    std::uint32_t first = 0;  ///< inner: left child (right = first + 1); leaf: first of items()
+    std::uint16_t count = 0;  ///< 0: inner node; otherwise items in the leaf
+    std::uint8_t sets = 0;
+  };
+
+  /// Errors: cancelled. Empty boxes and items of no set belong to no pair.
+  [[nodiscard]] static Result<SceneBvh> build(std::span<const BoxItem> items,
+                                              const parallel::Context& context);
+
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< root first
+  /// A node's box in the coordinates of the items, rounded outward.
+  [[nodiscard]] Box3l box(const Node& node) const {
+    Box3l box = node.box.as<std::int64_t>();
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = origin_[k] + (box.lo[k] << shift_);
+      box.hi[k] = origin_[k] + (box.hi[k] << shift_);
+    }
+    return box;
+  }
+  [[nodiscard]] const std::vector<BoxItem>& items() const { return items_; }  ///< in leaf order
+  /// The index that items()[k] had in the input.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+
+ private:
+  Vec3l origin_;   ///< of the nodes' boxes,
+  int shift_ = 0;  ///< and how often they are halved
+  std::vector<Node> nodes_;
+  std::vector<BoxItem> items_;
+  std::vector<std::uint32_t> order_;
+};
+
+/// As many pairs as there may be when nobody says otherwise: 8 bytes each.
+inline constexpr std::uint64_t kMostPairs = std::uint64_t{1} << 32U;
+
+/// Every pair of items of different owners, one of set A and one of set B, whose closed boxes
+/// share a point: each unordered pair once, ascending.
+///
+/// n boxes at one place are n(n - 1)/2 pairs, more than memory holds long before n is large:
+/// more than `most` are an error (input), found before they are kept.
+[[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs(const SceneBvh& tree,
+                                                                   const parallel::Context& context,
+                                                                   std::uint64_t most = kMostPairs);
+
+/// The same pairs by the nested loop over A x B, flattened into one 64-bit range: the oracle of
+/// the tree, and the baseline that it is measured against.
+[[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(
+    std::span<const BoxItem> items, const parallel::Context& context,
+    std::uint64_t most = kMostPairs);
+
+/// A second box for each of some items, in one of a few frames: tight for what is long and thin
+/// and stands askew, where boxes along the coordinate axes all meet.
+struct BoxesInFrames {
+  std::vector<Mat3d> frames;         ///< by rows: unit axes, at right angles but for rounding
+  Vec3l origin;                      ///< where the frames have their zero
+  std::vector<std::uint32_t> frame;  ///< by item
+  std::vector<Box3l> box;            ///< by item, in its frame, with room for rounding
+};
+
+/// Every pair of items as overlapping_box_pairs() of their tree gives it, of which the second boxes
+/// are not parted either, by a face of one of the two or a plane along an edge of each.
+[[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs(std::span<const BoxItem> items,
+                                                                   const BoxesInFrames& framed,
+                                                                   const parallel::Context& context,
+                                                                   std::uint64_t most = kMostPairs);
+
+/// The same by the nested loop.
+[[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(
+    std::span<const BoxItem> items, const BoxesInFrames& framed, const parallel::Context& context,
+    std::uint64_t most = kMostPairs);
+
+}  // namespace strake::geometry

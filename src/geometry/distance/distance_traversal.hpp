@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/bvh/pair_local_part.hpp"
+#include "geometry/bvh/parallel_traversal.hpp"
+#include "geometry/bvh/traversal.hpp"
+#include "geometry/distance/bvh_in_frame.hpp"
+#include "geometry/distance/triangle_distance.hpp"
+#include "geometry/numeric/vector_math.hpp"
+#include "geometry/obb/rotated_part.hpp"
+
+namespace strake::geometry {
+
+/// Two triangles and certain bounds on their squared distance.
+struct NearTrianglePair {
+  DistanceBounds squared;
+  std::uint32_t a = 0, b = 0;
+};
+
+/// Pairs of triangles of two parts that may be no farther apart than a reach, which may shrink on
+/// the way: depth first, the nearer of two children first.
+class DistanceTraversal {
+ public:
+  /// `near_enough`: see triangle_distance_bounds(). `aligned`: instead of the views' own trees.
+  DistanceTraversal(const PairLocalPart& a, const PairLocalPart& b, QueryContext& work,
+                    double near_enough = -1, const RotatedParts* aligned = nullptr)
+      : a_(a),
+        b_(b),
+        boxes_a_(aligned == nullptr ? BvhInFrame(a) : BvhInFrame(aligned->a)),
+        boxes_b_(aligned == nullptr ? BvhInFrame(b) : BvhInFrame(aligned->b)),
+        work_(work),
+        near_enough_(near_enough) {}
+
+  /// Two nodes that may hold near triangles.
+  struct Entry {
+    NodePair pair;
+    double squared = 0;  ///< distance of the nodes' boxes
+  };
+
+  /// Begins with everything, or with one of rest(). `reach` is a square here and below.
+  void start(double reach) {
+    if (!tree_a().nodes().empty() && !tree_b().nodes().empty()) push(0, 0, reach);
+  }
+  void start(const Entry& entry) { stack_[size_++] = entry; }
+
+  /// `visit(NearTrianglePair)` tells whether to go on. `reach` is read anew before each step. Left
+  /// off after `most` node pairs.
+  template <class Visit>
+  TraversalEnd run(const double& reach, Visit&& visit,
+                   std::uint64_t most = DualTraversal::kNoLimit) {
+    for (; size_ > 0; --most) {
+      if (most == 0) return TraversalEnd::left_off;
+      const Entry entry = stack_[--size_];
+      if (entry.squared > reach) continue;
+      ++work_.node_pairs;
+      if (!is_leaves(entry))
+        open(entry, reach);
+      else if (!leaves(entry.pair, reach, visit))
+        return TraversalEnd::stopped;
+    }
+    return TraversalEnd::done;
+  }
+
+  /// What is left, in at least so many pieces where it has as many.
+  [[nodiscard]] std::vector<Entry> rest(double reach, std::size_t wanted) {
+    std::vector<Entry> left(std::make_reverse_iterator(stack_.begin() + size_),
+                            std::make_reverse_iterator(stack_.begin()));
+    return expand_frontier(std::move(left), wanted,
+                           [&](const Entry& entry, std::vector<Entry>& out) {
+                             if (is_leaves(entry)) return false;
+                             size_ = 0;
+                             open(entry, reach);
+                             while (size_ > 0) out.push_back(stack_[--size_]);
+                             return true;
+                           });
+  }
+
+ private:
+  [[nodiscard]] const TriangleBvh& tree_a() const { return boxes_a_.tree(); }
+  [[nodiscard]] const TriangleBvh& tree_b() const { return boxes_b_.tree(); }
+
+  /// The triangles of a leaf, prepared; kept until another leaf is loaded.
+  struct LoadedLeaf {
+    std::uint32_t node = 0xffffffffU;
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, TriangleBvh::kLeafSize> id{};
+    std::array<DoubleTriangle, TriangleBvh::kLeafSize> triangle;
+    std::array<Box3d, TriangleBvh::kLeafSize> box;  ///< in the frame of the walk
+
+    void load(const PairLocalPart& view, const BvhInFrame& boxes, std::uint32_t index) {
+      if (node == index) return;
+      node = index;
+      const TriangleBvh::Node& leaf = boxes.tree().nodes()[index];
+      count = leaf.count;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        id[i] = boxes.tree().order()[leaf.first + i];
+        triangle[i] = DoubleTriangle(view.corners(id[i]));
+        box[i] = boxes.box(id[i], triangle[i]);
+      }
+    }
+  };
+
+  [[nodiscard]] bool is_leaves(const Entry& entry) const {
+    return tree_a().nodes()[entry.pair.a].count != 0 && tree_b().nodes()[entry.pair.b].count != 0;
+  }
+
+  void push(std::uint32_t a, std::uint32_t b, double reach) {
+    const double squared = squared_gap(boxes_a_.box(a), boxes_b_.box(b));
+    if (squared <= reach) stack_[size_++] = {{a, b}, squared};
+  }
+
+  void open(const Entry& entry, double reach) {
+    const TriangleBvh::Node& na = tree_a().nodes()[entry.pair.a];
+    const TriangleBvh::Node& nb = tree_b().nodes()[entry.pair.b];
+    const std::size_t before = size_;
+    if (open_first(na, nb)) {
+      push(na.first + 1, entry.pair.b, reach);
+      push(na.first, entry.pair.b, reach);
+    } else {
+      push(entry.pair.a, nb.first + 1, reach);
+      push(entry.pair.a, nb.first, reach);
+    }
+    if (size_ == before + 2 && stack_[size_ - 1].squared > stack_[size_ - 2].squared)
+      std::swap(stack_[size_ - 1], stack_[size_ - 2]);
+  }
+
+  template <class Visit>
+  bool leaves(const NodePair& pair, const double& reach, Visit& visit) {
+    leaf_a_.load(a_, boxes_a_, pair.a);
+    leaf_b_.load(b_, boxes_b_, pair.b);
+    const Box3d box_a = boxes_a_.box(pair.a);
+    for (std::uint32_t j = 0; j < leaf_b_.count; ++j) {
+      const DoubleTriangle& b = leaf_b_.triangle[j];
+      if (squared_gap(box_a, leaf_b_.box[j]) > reach) continue;
+      for (std::uint32_t i = 0; i < leaf_a_.count; ++i) {
+        const DoubleTriangle& a = leaf_a_.triangle[i];
+        if (squared_gap(leaf_a_.box[i], leaf_b_.box[j]) > reach) continue;
+        ++work_.triangle_pairs;
+        const DistanceBounds bounds = triangle_distance_bounds(a, b, reach, near_enough_);
+        if (bounds.lower > reach) continue;
+        if (!visit(NearTrianglePair{bounds, leaf_a_.id[i], leaf_b_.id[j]})) return false;
+      }
+    }
+    return true;
+  }
+
+  const PairLocalPart &a_, &b_;
+  BvhInFrame boxes_a_, boxes_b_;
+  QueryContext& work_;
+  double near_enough_;
+  std::array<Entry, 2 * kMaxTreeDepth + 2> stack_;
+  std::size_t size_ = 0;
+  LoadedLeaf leaf_a_, leaf_b_;
+};
+
+/// Triangles of two parts up to which they are turned after node_pairs_before_rotation() node
+/// pairs; of more it is first asked whether flat faces settle it.
+inline constexpr std::size_t kRotatedEarly = 2048;
+
+/// Node pairs, of up to 16 pairs of triangles each, that take about as long as turning the parts.
+[[nodiscard]] inline std::uint64_t node_pairs_before_rotation(const PairLocalPart& a,
+                                                              const PairLocalPart& b) {
+  return 32 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
+}
+
+/// Node pairs after which flat faces of needles may be why a walk takes so long.
+[[nodiscard]] inline std::uint64_t node_pairs_before_slabs(const PairLocalPart& a,
+                                                           const PairLocalPart& b) {
+  return 512 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
+}
+
+/// A DistanceTraversal that asks a team for help once it has turned out to be heavy. After
+/// node_pairs_before_rotation() or node_pairs_before_slabs() node pairs it begins anew in a frame
+/// along the parts' needles, if there are such.
+///
+/// `begin()` makes the state of a piece from what is known so far: `reach`, a square that may
+/// shrink, `work`, and operator()(NearTrianglePair) as DistanceTraversal's visitor. `take(state)`
+/// gets the states in the order of a single walk and tells whether to go on. Where the team was
+/// stopped some are missing. `settled(state)` is asked while the walk is still alone, after
+/// node_pairs_before_slabs() node pairs and then each time that the number has grown fourfold: true
+/// ends the walk. `most`: see run_in_doubling_rounds().
+template <class Begin, class Take, class Settled, class Most>
+void adaptive_distance_traversal(const PairLocalPart& a, const PairLocalPart& b, double near_enough,
+                                 QueryContext& work, const Begin& begin, const Take& take,
+                                 const Settled& settled, const Most& most) {
+  using State = decltype(begin());
+  const auto charge = [&](State& state) {
+    work += state.work;
+    return take(state);
+  };
+  std::optional<State> first(begin());
+  std::optional<RotatedParts> aligned;
+  std::optional<DistanceTraversal> walk(std::in_place, a, b, first->work, near_enough);
+  walk->start(first->reach);
+  std::uint64_t walked = 0;
+  const auto turn = [&] {
+    aligned = rotate_along_slivers(a, b, work.context());
+    if (!aligned) return;
+    // Once more from the start: little is lost.
+    work += first->work;
+    first.emplace(begin());
+    walk.emplace(a, b, first->work, near_enough, &*aligned);
+    walk->start(first->reach);
+  };
+  bool heavy = true;
+  const bool early = a.part().triangles.size() + b.part().triangles.size() <= kRotatedEarly;
+  if (early) {
+    heavy =
+        walk->run(first->reach, *first, node_pairs_before_rotation(a, b)) == TraversalEnd::left_off;
+    if (heavy) turn();
+  }
+  for (std::uint64_t pause = node_pairs_before_slabs(a, b); heavy && walked < kSequentialNodePairs;
+       pause *= 4) {
+    const std::uint64_t until = std::min(pause, kSequentialNodePairs);
+    heavy = walk->run(first->reach, *first, until - walked) == TraversalEnd::left_off &&
+            !settled(*first);
+    if (heavy && walked == 0 && !early) turn();
+    walked = until;
+  }
+  const double reach = first->reach;
+  if (!charge(*first) || !heavy) return;
+  const RotatedParts* const parts = aligned ? &*aligned : nullptr;
+  (void)run_in_doubling_rounds(
+      work.context(), walk->rest(reach, kTraversalPieces),
+      [&](std::size_t /*i*/) { return begin(); },
+      [&](State& state, const DistanceTraversal::Entry& entry) {
+        DistanceTraversal piece(a, b, state.work, near_enough, parts);
+        piece.start(entry);
+        piece.run(state.reach, state);
+      },
+      charge, most);
+}
+
+template <class Begin, class Take, class Settled>
+void adaptive_distance_traversal(const PairLocalPart& a, const PairLocalPart& b, double near_enough,
+                                 QueryContext& work, const Begin& begin, const Take& take,
+                                 const Settled& settled) {
+  adaptive_distance_traversal(a, b, near_enough, work, begin, take, settled,
+                              [](std::size_t /*done*/) { return kTraversalPieces; });
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/obb/oriented_box.hpp"
+#include "geometry/primitive_pairs/shapes/support_mapping.hpp"
+#include "strake/geometry/part.hpp"
+
+namespace strake::geometry {
+
+/// The convex hull of a part whose coordinates are relative to `origin`. `tree`: over its vertices,
+/// or empty.
+[[nodiscard]] inline primitive_pairs::ConvexBody convex_hull_body(const Part& part,
+                                                                  const SupportTree& tree,
+                                                                  const Vec3d& origin) {
+  const Box3d box = part.box.as<double>().moved(origin);
+  primitive_pairs::ConvexBody body{
+      .shape = primitive_pairs::VertexHull{part.vertices, &tree, origin},
+      .middle = (box.lo + box.hi) * 0.5};
+  for (int k = 0; k < 3; ++k)
+    body.reach = std::max({body.reach, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
+  body.error = primitive_pairs::kSupportRounding * body.reach;
+  return body;
+}
+
+/// The distance of the hulls of two parts that have vertices, by Gilbert, Johnson and Keerthi
+/// (1988). Ends at a lower bound of `enough` grid units; where it is not positive nothing is known.
+/// Costs some ten looks at the vertices of either.
+[[nodiscard]] SeparationBound convex_hull_separation(const PartWithObb& a, const PartWithObb& b,
+                                                     double enough);
+
+}  // namespace strake::geometry

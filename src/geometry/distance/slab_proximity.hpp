@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "geometry/bvh/pair_local_part.hpp"
+#include "strake/geometry/part_pair.hpp"
+
+namespace strake::geometry {
+
+/// Grid units: far above the rounding of a height, far below what matters.
+inline constexpr double kHeightMargin = 1.0 / 16;
+
+/// How high the vertices of a small part stand along a direction.
+class Heights {
+ public:
+  Heights(const PairLocalPart& view, const Vec3d& up) : part_(view.part()) {
+    all_.reserve(part_.vertices.size());
+    for (std::uint32_t v = 0; v < part_.vertices.size(); ++v) {
+      all_.push_back(dot(up, view.vertex(v).as<double>()));
+      least_ = std::min(least_, all_.back());
+    }
+  }
+
+  [[nodiscard]] double least() const { return least_; }
+  [[nodiscard]] double at(std::uint32_t vertex) const { return all_[vertex]; }
+
+  /// The triangles with a corner no higher than a level, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> below(double level) const {
+    std::vector<std::uint32_t> low;
+    for (std::uint32_t t = 0; t < part_.triangles.size(); ++t)
+      if (lowest(t) <= level) low.push_back(t);
+    return low;
+  }
+
+  [[nodiscard]] double lowest(std::uint32_t triangle) const {
+    const Triangle& t = part_.triangles[triangle];
+    return std::min({all_[t[0]], all_[t[1]], all_[t[2]]});
+  }
+  [[nodiscard]] double highest(std::uint32_t triangle) const {
+    const Triangle& t = part_.triangles[triangle];
+    return std::max({all_[t[0]], all_[t[1]], all_[t[2]]});
+  }
+
+ private:
+  const Part& part_;
+  std::vector<double> all_;  ///< by vertex
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+/// The heights of two parts over the slab between them: how far up a triangle may reach and still
+/// be near the other part.
+struct SlabHeights {
+  Heights a, b;
+  double level_a = 0, level_b = 0;
+
+  /// `normal`: unit, from b to a. Two points within `reach` grid units of each other are no
+  /// farther apart across the slab.
+  SlabHeights(const PairLocalPart& of_a, const PairLocalPart& of_b, const Vec3d& normal,
+              double reach)
+      : a(of_a, normal), b(of_b, -normal) {
+    const double margin = reach * (1 + 1e-12) + kHeightMargin;
+    level_a = margin - b.least();
+    level_b = margin - a.least();
+  }
+};
+
+/// The triangles of two parts that a slab between the two ends at.
+struct SlabFaces {
+  std::vector<std::uint32_t> a, b;
+  double beyond = 0;  ///< grid units: a pair with a triangle not listed is farther apart, certainly
+};
+
+/// `normal`: unit, from b to a. Nothing where one of the parts has more than `most` such triangles.
+/// Follows the trees: the cost is that of the triangles found.
+[[nodiscard]] std::optional<SlabFaces> slab_faces(const PairLocalPart& a, const PairLocalPart& b,
+                                                  const Vec3d& normal, std::size_t most);
+
+/// What two parts have near each other across a slab.
+struct SlabProximity {
+  std::optional<ClosestPair> near;  ///< as find_pair_within() gives it
+  bool asked = false;               ///< false: it was too much to look at, and nothing is known
+};
+
+/// find_pair_within() of small parts that lie face to face, without trees. `normal`, a unit vector
+/// from b to a, is across the widest slab between them (part_frame.hpp), which may be a little less
+/// than nothing: only triangles that come within `distance` grid units of its other end are looked
+/// at, those that lie at its ends first.
+[[nodiscard]] SlabProximity slab_proximity(const PlacedPart& a, const PlacedPart& b,
+                                           const Vec3d& normal, double distance,
+                                           QueryContext& work);
+
+}  // namespace strake::geometry

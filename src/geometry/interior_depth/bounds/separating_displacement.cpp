@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/interior_depth/bounds/separating_displacement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "geometry/bvh/pair_local_part.hpp"
+#include "geometry/bvh/traversal.hpp"
+#include "geometry/distance/triangle_distance.hpp"
+#include "geometry/sheet_separation/vertex_displacements.hpp"
+#include "strake/geometry/depth.hpp"
+#include "strake/geometry/predicates.hpp"
+#include "strake/geometry/triangle_contact.hpp"
+
+namespace strake::geometry {
+namespace {
+
+/// Near pairs of triangles and pairs of nodes, for each triangle of the two, beyond which it would
+/// take too long.
+constexpr std::size_t kNearPerTriangle = 2, kNodesPerTriangle = 8;
+constexpr std::size_t kAlwaysNear = 128;
+/// Points of a skin that are looked at for one that is clear of the other.
+constexpr std::size_t kMostProbes = 16;
+/// What moves may add to coordinates that fit the exact arithmetic.
+constexpr std::int64_t kRoom = 64;
+
+using ExactCorners = std::array<Vec3l, 3>;
+
+/// How two triangles stand to each other.
+enum class TriangleRelation : std::uint8_t {
+  apart,     ///< farther than the reach
+  near,      ///< as far as is known
+  crossing,  ///< moves within the reach do not part them
+};
+
+constexpr double kCoplanar = 1 - 1e-4;  ///< squares of cosines
+constexpr double kParallel = 1e-12;     ///< squares of sines
+
+/// Along the directions in which planes that part triangles may lie. Rounding is far below a unit.
+class SeparatingAxisTest {
+ public:
+  SeparatingAxisTest(const DoubleTriangle& a, const DoubleTriangle& b, double reach)
+      : a_(a), b_(b), reach_squared_(reach * reach) {}
+
+  TriangleRelation run() {
+    if (apart_along(a_.normal) || apart_along(b_.normal)) return TriangleRelation::apart;
+    // Beside each other in about one plane, where the edges' common normals say nothing.
+    const double cosine = dot(a_.normal, b_.normal);
+    if (cosine * cosine > kCoplanar * a_.normal_squared * b_.normal_squared) {
+      for (std::size_t i = 0; i < 3; ++i)
+        if (apart_along(cross(a_.normal, a_.corner[(i + 1) % 3] - a_.corner[i])) ||
+            apart_along(cross(b_.normal, b_.corner[(i + 1) % 3] - b_.corner[i])))
+          return TriangleRelation::apart;
+      return TriangleRelation::near;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3d e = a_.corner[(i + 1) % 3] - a_.corner[i];
+      const double squared = dot(e, e);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Vec3d f = b_.corner[(j + 1) % 3] - b_.corner[j], way = cross(e, f);
+        if (dot(way, way) > kParallel * squared * dot(f, f) && apart_along(way))
+          return TriangleRelation::apart;
+      }
+    }
+    if (crossing_) return TriangleRelation::crossing;
+    return TriangleRelation::near;
+  }
+
+ private:
+  bool apart_along(const Vec3d& way) {
+    const auto [low_a, high_a] = extent(way, a_);
+    const auto [low_b, high_b] = extent(way, b_);
+    const double common = std::min(high_a - low_b, high_b - low_a);
+    const bool beyond = common * common > reach_squared_ * dot(way, way);
+    crossing_ = crossing_ && common > 0 && beyond;
+    return common < 0 && beyond;
+  }
+
+  static std::array<double, 2> extent(const Vec3d& way, const DoubleTriangle& t) {
+    const double x = dot(way, t.corner[0]), y = dot(way, t.corner[1]), z = dot(way, t.corner[2]);
+    return {std::min(std::min(x, y), z), std::max(std::max(x, y), z)};
+  }
+
+  const DoubleTriangle &a_, &b_;
+  double reach_squared_;
+  bool crossing_ = true;
+};
+
+/// The triangles of one body that come near the other, as they are and with moved corners.
+class MovingSurface {
+ public:
+  explicit MovingSurface(const PairLocalPart& view) : view_(view) {}
+
+  void add(std::uint32_t triangle) { triangles_.push_back(triangle); }
+
+  /// False where a triangle has no area any more.
+  bool shrink(double most) {
+    here_.clear();
+    there_.clear();
+    moved_.clear();
+    longest_ = 0;
+    std::ranges::sort(triangles_);
+    triangles_.erase(std::ranges::unique(triangles_).begin(), triangles_.end());
+    std::vector<MovingTriangle> moving;
+    moving.reserve(triangles_.size());
+    for (const std::uint32_t t : triangles_) moving.push_back({t, false, false});
+    moves_ = vertex_displacements(view_.part(), moving, {}, most);
+    for (const VertexDisplacement& move : moves_) {
+      const Vec3d by = move.by.as<double>();
+      const double root = std::sqrt(dot(by, by));
+      longest_ = std::max(longest_, root == std::floor(root) ? root : root * (1 + 0x1p-50));
+    }
+    for (const std::uint32_t t : triangles_) {
+      ExactCorners corners = view_.corners(t);
+      here_.emplace_back(corners);
+      const Triangle& v = view_.part().triangles[t];
+      for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = corners[i] + move_of(v[i]).as<std::int64_t>();
+      if (cross_exact(corners[1] - corners[0], corners[2] - corners[0]) == Vec3<Int128>{})
+        return false;
+      moved_.push_back(corners);
+      there_.emplace_back(corners);
+    }
+    return true;
+  }
+
+  [[nodiscard]] double longest_move() const { return longest_; }
+  [[nodiscard]] std::size_t place(std::uint32_t triangle) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(triangles_, triangle) -
+                                    triangles_.begin());
+  }
+
+  /// Whether a triangle that was moved has a point in common with one of the other that was not.
+  [[nodiscard]] bool meets_after(std::size_t i, const MovingSurface& other, std::size_t j,
+                                 QueryContext& work) const {
+    ++work.triangle_pairs;
+    if (triangle_distance_bounds(there_[i], other.here_[j], 0).lower > 0) return false;
+    ++work.exact_fallbacks;
+    return contact(ExactTriangle(moved_[i]), other.view_.triangle(other.triangles_[j])).touch !=
+           Touch::none;
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> corners() const {
+    std::vector<std::uint32_t> all;
+    all.reserve(moves_.size());
+    for (const VertexDisplacement& move : moves_) all.push_back(move.vertex);
+    return all;
+  }
+
+ private:
+  [[nodiscard]] const Vec3i& move_of(std::uint32_t vertex) const {
+    return std::ranges::lower_bound(moves_, vertex, {}, &VertexDisplacement::vertex)->by;
+  }
+
+  const PairLocalPart& view_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<VertexDisplacement> moves_;
+  std::vector<DoubleTriangle> here_, there_;
+  std::vector<ExactCorners> moved_;
+  double longest_ = 0;
+};
+
+/// Whether some point of a skin is outside the other body and farther from it than `most`.
+bool is_clear_somewhere(const PairLocalPart& view, const PartWithBvh& other, const Vec3l& shift,
+                        double most, QueryContext& work) {
+  const Part& part = view.part();
+  const Box3d room = other.placed.part->box.as<double>().inflated(most + 1);
+  for (const Vec3i& v : part.vertices) {
+    const Vec3d p = (v.as<std::int64_t>() - shift).as<double>();
+    if (!room.contains({p, p})) return true;
+  }
+  // The middles of triangles.
+  const std::size_t n = part.triangles.size(), step = std::max<std::size_t>(1, n / kMostProbes);
+  for (std::size_t t = 0; t < n; t += step) {
+    Vec3l thrice;
+    for (const std::uint32_t v : part.triangles[t])
+      thrice = thrice + (part.vertices[v].as<std::int64_t>() - shift);
+    const Vec3d p = thrice.as<double>() * (1.0 / 3);
+    if (distance_to_surface(other, p, most + 2) > most + 1 &&
+        side_of(other, thrice, 3, work) == PointSide::outside)
+      return true;
+  }
+  return false;
+}
+
+class DisplacementSearch {
+ public:
+  DisplacementSearch(const PartWithBvh& a, const PartWithBvh& b, double most, QueryContext& work)
+      : treed_a_(a),
+        treed_b_(b),
+        shift_(b.placed.origin - a.placed.origin),
+        a_(a, {}),
+        b_(b, shift_),
+        skin_a_(a_),
+        skin_b_(b_),
+        most_(most),
+        work_(work) {}
+
+  std::optional<SeparatingDisplacement> run(double first) {
+    if (!applies() || !find_near()) return std::nullopt;
+    for (const double most : {first, most_}) {
+      if (most > most_ || !parts(most)) continue;
+      // One point speaks for all of a skin that does not meet the other, and it does so wherever
+      // the skins move by no more than that it is clear of them.
+      if (!is_clear_somewhere(a_, treed_b_, shift_, most, work_) ||
+          !is_clear_somewhere(b_, treed_a_, Vec3l{} - shift_, most, work_))
+        return std::nullopt;
+      return SeparatingDisplacement{std::max(skin_a_.longest_move(), skin_b_.longest_move()),
+                                    skin_a_.corners(), skin_b_.corners()};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] bool applies() const {
+    const Part &x = a_.part(), &y = b_.part();
+    if (x.kind != PartKind::solid || y.kind != PartKind::solid) return false;
+    if (x.shell_count != 1 || y.shell_count != 1 || !a_.has_bvh() || !b_.has_bvh()) return false;
+    const Box3l p = a_.box(x.box), q = b_.box(y.box);
+    if (p == q) return false;  // of copies all triangles are near
+    for (int k = 0; k < 3; ++k)
+      if (std::max(p.hi[k], q.hi[k]) - std::min(p.lo[k], q.lo[k]) >
+          std::numeric_limits<std::int32_t>::max() - kRoom)
+        return false;
+    return true;
+  }
+
+  /// Whether moves are found after which no triangle of one meets any of the other.
+  bool parts(double most) {
+    if (!skin_a_.shrink(most) || !skin_b_.shrink(most)) return false;
+    return std::ranges::none_of(near_, [&](const NodePair& pair) {
+      const std::size_t i = skin_a_.place(pair.a), j = skin_b_.place(pair.b);
+      return skin_a_.meets_after(i, skin_b_, j, work_) || skin_b_.meets_after(j, skin_a_, i, work_);
+    });
+  }
+
+  /// False where there are too many, or some that cross as usual.
+  bool find_near() {
+    const std::size_t triangles = a_.part().triangles.size() + b_.part().triangles.size();
+    // Whatever is farther stays apart where one of the two moves.
+    const double reach = most_ + 1;
+    const auto room = static_cast<std::int64_t>(std::ceil(reach));
+    const auto near = [&](const TriangleBvh::Node& x, const TriangleBvh::Node& y) {
+      ++work_.node_pairs;
+      return a_.box(x.box).inflated(room).meets(b_.box(y.box));
+    };
+    const auto leaves = [&](const TriangleBvh::Node& x, const TriangleBvh::Node& y) {
+      return add_near(x, y, reach) && near_.size() <= kAlwaysNear + kNearPerTriangle * triangles;
+    };
+    DualTraversal walk(a_.tree(), b_.tree());
+    walk.start();
+    return walk.run(near, leaves, kNodesPerTriangle * triangles) == TraversalEnd::done;
+  }
+
+  /// False where some cross.
+  bool add_near(const TriangleBvh::Node& x, const TriangleBvh::Node& y, double reach) {
+    std::array<DoubleTriangle, TriangleBvh::kLeafSize> of_x;
+    for (std::uint32_t i = 0; i < x.count; ++i)
+      of_x[i] = DoubleTriangle(a_.corners(a_.tree().order()[x.first + i]));
+    for (std::uint32_t j = 0; j < y.count; ++j) {
+      const std::uint32_t u = b_.tree().order()[y.first + j];
+      const DoubleTriangle of_y(b_.corners(u));
+      const Box3d room = of_y.box.inflated(reach);
+      for (std::uint32_t i = 0; i < x.count; ++i) {
+        if (!of_x[i].box.meets(room)) continue;
+        ++work_.triangle_pairs;
+        const TriangleRelation standing = SeparatingAxisTest(of_x[i], of_y, reach).run();
+        if (standing == TriangleRelation::crossing) return false;
+        if (standing == TriangleRelation::apart) continue;
+        const std::uint32_t t = a_.tree().order()[x.first + i];
+        near_.push_back({t, u});
+        skin_a_.add(t);
+        skin_b_.add(u);
+      }
+    }
+    return true;
+  }
+
+  const PartWithBvh &treed_a_, &treed_b_;
+  Vec3l shift_;
+  PairLocalPart a_, b_;
+  MovingSurface skin_a_, skin_b_;
+  double most_;
+  QueryContext& work_;
+  std::vector<NodePair> near_;  ///< of triangles
+};
+
+}  // namespace
+
+std::optional<SeparatingDisplacement> find_separating_displacement(const PartWithBvh& a,
+                                                                   const PartWithBvh& b,
+                                                                   double first, double most,
+                                                                   QueryContext& work) {
+  return DisplacementSearch(a, b, most, work).run(first);
+}
+
+}  // namespace strake::geometry

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/bvh/pair_local_part.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::geometry {
+
+/// A half-plane bounded by the axis, given by a point off the axis. Going counter-clockwise round
+/// the axis (seen against its direction), the winding number of the part changes by `step`.
+struct HalfPlane {
+  Vec3l point;
+  int step = 0;
+  bool of_b = false;
+  std::uint32_t triangle = 0;  ///< whose half-plane it is
+};
+
+/// Two triangles of two sheets that lie on each other beside the axis.
+struct CoincidentTriangles {
+  std::uint32_t a = 0, b = 0;
+  int direction = 0;  ///< a number for each direction in which there are such
+  int step = 0;       ///< that of b's half-plane
+  /// The sheets part at the axis, and a goes on along the outer side of b's triangle, or along the
+  /// inner one.
+  bool outer = false, inner = false;
+};
+
+/// What two parts' point sets have in common, gathered from places where their surfaces meet.
+/// For a sheet "interior" is the sheet itself.
+struct Overlap {
+  bool interiors = false;   ///< int a meets int b (sheets: crosses it properly)
+  bool a_leaves_b = false;  ///< a has a point outside b
+  bool b_leaves_a = false;
+
+  [[nodiscard]] constexpr bool complete() const { return interiors && a_leaves_b && b_leaves_a; }
+};
+
+/// The half-planes of two parts round a common line, and what they say of the sets near it.
+class RadialSort {
+ public:
+  void start(const Vec3l& axis_from, const Vec3l& axis_to) {
+    from_ = axis_from;
+    to_ = axis_to;
+    rays_.clear();
+  }
+  [[nodiscard]] const Vec3l& from() const { return from_; }
+  [[nodiscard]] const Vec3l& to() const { return to_; }
+  void add(const HalfPlane& ray) { rays_.push_back(ray); }
+
+  /// Adds to `overlap` what holds in the open angles between the half-planes. Exact: half-planes
+  /// are compared by orientation signs only.
+  void judge(bool a_solid, bool b_solid, Overlap& overlap);
+
+  /// After judge() of two sheets: those of their triangles that lie on each other, by direction;
+  /// `flush` is emptied before. Returns in how many directions that is.
+  int find_coincident(std::vector<CoincidentTriangles>& flush) const;
+
+ private:
+  struct Sorted {
+    HalfPlane ray;
+    int half = 0;  ///< 0 the first ray's direction, 1 up to half a turn on, 2 opposite, 3 beyond
+    bool opens = false;  ///< the first of its direction
+  };
+  struct Direction {
+    bool has_a = false, has_b = false;
+    int after_a = 0, after_b = 0;    ///< winding numbers just past it
+    std::size_t first = 0, end = 0;  ///< of sorted_
+  };
+
+  void sort();
+  void gather();
+  void judge_sheets(Overlap& overlap) const;
+  [[nodiscard]] int other_leaves(std::size_t from, std::size_t step, bool b_leaves) const;
+
+  Vec3l from_, to_;
+  std::vector<HalfPlane> rays_;
+  std::vector<Sorted> sorted_;
+  std::vector<Direction> directions_;
+};
+
+/// The triangles round an edge (0..2) of a triangle, ascending.
+[[nodiscard]] std::span<const std::uint32_t> edge_star(const Part& part, std::uint32_t triangle,
+                                                       int edge);
+
+/// Makes an edge of a triangle the axis.
+void set_axis(RadialSort& sectors, const PairLocalPart& view, std::uint32_t triangle, int edge);
+
+/// Adds the half-planes of the triangles round an edge that lies on the axis.
+void add_edge_star(RadialSort& sectors, const PairLocalPart& view, std::uint32_t triangle, int edge,
+                   bool of_b);
+
+/// Adds the two half-planes of a triangle through whose interior the axis runs.
+void add_face(RadialSort& sectors, const PairLocalPart& view, std::uint32_t triangle, bool of_b);
+
+/// The same for an axis through the interior of a face in a coordinate plane, of which a triangle
+/// is given.
+void add_coordinate_face(RadialSort& sectors, const PairLocalPart& view, std::uint32_t triangle,
+                         bool of_b);
+
+}  // namespace strake::geometry

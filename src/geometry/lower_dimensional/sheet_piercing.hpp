@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "strake/geometry/lower_dimensional_body.hpp"
+#include "strake/geometry/part_pair.hpp"
+
+namespace strake::geometry::lower_dimensional {
+
+/// Where a line passes through a sheet from one side to the other, farthest from the sheet's rim
+/// and the line's own ends.
+struct SheetPiercing {
+  double depth = 0;  ///< the smaller of the two distances, grid units; 0: it does not pass through
+  Vec3d point;       ///< relative to the sheet's origin
+};
+
+/// Exact but for the rounding of the point and the distances. A corner of the line that lies in the
+/// sheet counts as passing through where its neighbours lie on opposite sides; what runs along the
+/// sheet does not. Only segments count.
+[[nodiscard]] SheetPiercing deepest_piercing(const LowerDimensionalBody& line,
+                                             const PartWithBvh& sheet);
+
+}  // namespace strake::geometry::lower_dimensional

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geometry/primitive_pairs/solvers/primitive_operand.hpp"
+#include "strake/geometry/primitive_separation.hpp"
+
+namespace strake::geometry::primitive_pairs {
+
+/// The distance of one body, read about the mesh's origin, and the mesh's triangles: see
+/// primitive_mesh_distance().
+[[nodiscard]] PrimitiveMeshDistance operand_mesh_distance(const PrimitiveOperand& side,
+                                                          const PartWithBvh& mesh, double enough);
+
+}  // namespace strake::geometry::primitive_pairs

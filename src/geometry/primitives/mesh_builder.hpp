@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "geometry/numeric/trig.hpp"
+#include "geometry/primitives/tessellate.hpp"
+
+namespace strake::geometry::tessellation {
+
+/// What every kind is tessellated for: the map to the placed frame, and the sag in local length.
+struct TessellationTarget {
+  Mat3d linear;
+  double sag = 0;
+  /// Unit local direction to the viewer whose contours are edges; none: no view.
+  std::optional<Vec3d> towards;
+};
+
+/// The share of the sag that the chords of a rim may take. The rest is for the other direction of
+/// doubly curved faces, so that an elbow has the same rim as the pipe that it continues.
+inline constexpr double kRimShare = 0.75;
+
+[[nodiscard]] Tessellation fault(std::string_view why);
+
+/// Where a rim starts in its own plane: the direction (cos, sin) between the two plane axes whose
+/// images are given, chosen from the image's normal (up to sign) alone: the projection of Z on the
+/// plane, or of X when the normal is within 26 degrees of Z.
+[[nodiscard]] SinCos canonical_phase(const Vec3d& image_x, const Vec3d& image_y);
+
+/// The unit direction that a map takes to the given one, up to its length: what has its local
+/// normal at right angles to it has its placed one so to the given one. None where the map flattens
+/// it.
+[[nodiscard]] std::optional<Vec3d> local_direction(const Mat3d& linear, const Vec3d& placed);
+
+/// Where the contour of a pipe lies in its section: at right angles to the direction to the viewer,
+/// given along two axes of the section and along the pipe. None where that is along the pipe.
+[[nodiscard]] std::optional<SinCos> contour_phase(double x, double y, double along);
+
+/// Where a rim about local Z starts: at the contour in a view, else at the canonical phase.
+[[nodiscard]] SinCos rim_phase(const TessellationTarget& target);
+
+/// The images of the local axes.
+[[nodiscard]] Vec3d column(const Mat3d& m, int axis);
+
+/// Points of a unit circle with a vertex at `phase`.
+[[nodiscard]] std::vector<SinCos> rim(int segments, const SinCos& phase);
+
+/// The same with two more that lie anywhere: regular points within a quarter of a step of one are
+/// dropped, and the two are left out where they lie so near to each other.
+[[nodiscard]] std::vector<SinCos> rim_with(int segments, const SinCos& phase,
+                                           const std::array<SinCos, 2>& contours);
+
+/// The widest angle between neighbours of a rim, which run counter-clockwise.
+[[nodiscard]] double widest_step(std::span<const SinCos> rim);
+
+/// Triangles in local coordinates, gathered face by face.
+class MeshBuilder {
+ public:
+  /// For a view: the diagonal of a quad that is not planar is the one of which no triangle looks
+  /// the other way than the whole quad.
+  explicit MeshBuilder(const std::optional<Vec3d>& towards = std::nullopt) : towards_(towards) {}
+
+  std::uint32_t vertex(const Vec3d& v);
+  /// A planar convex polygon, counter-clockwise seen from outside; `reversed` turns it.
+  void polygon(std::span<const std::uint32_t> ring, bool reversed = false);
+  /// A planar quad as a face of its own.
+  void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
+  /// The same as one more piece of the face that `face()` returned.
+  void quad_of(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+               std::uint32_t d);
+  [[nodiscard]] std::uint32_t face() { return faces_++; }
+  [[nodiscard]] Tessellation take(double sag, bool convex) &&;
+
+ private:
+  void triangle(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  [[nodiscard]] bool other_diagonal(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                    std::uint32_t d) const;
+
+  std::optional<Vec3d> towards_;
+  TriangleMesh mesh_;
+  std::uint32_t faces_ = 0;
+};
+
+/// True when every length is finite and not negative.
+[[nodiscard]] bool are_lengths(std::initializer_list<double> lengths);
+
+[[nodiscard]] Tessellation make(const BoxPrimitive& p, const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const PyramidPrimitive& p, const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const CylinderPrimitive& p, const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const SnoutPrimitive& p, const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const SpherePrimitive& p, const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const EllipticalDishPrimitive& p, const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const SphericalDishPrimitive& p, const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const CircularTorusPrimitive& p, const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const RectangularTorusPrimitive& p,
+                                const TessellationTarget& target);
+[[nodiscard]] Tessellation make(const LinePrimitive& p, const TessellationTarget& target);
+
+/// A point of a profile: distance from the axis and height along it.
+struct ProfilePoint {
+  double radius = 0, z = 0;
+};
+
+/// How a profile is swept about the local Z axis.
+struct RevolutionSweep {
+  std::vector<SinCos> directions;  ///< one more than there are steps, unless full
+  bool full = false;               ///< the last direction is followed by the first again
+};
+
+/// Sweeps a profile, counter-clockwise in (radius, z), whose points at radius 0 stay on the axis.
+/// An open profile with both ends on the axis, or a loop, gives a closed surface; a partial sweep
+/// gets planar caps, which must be convex.
+///
+/// at(i, j) is point i of the profile at direction j; points at radius 0 must be so for every j.
+template <class At>
+std::vector<std::vector<std::uint32_t>> revolve(MeshBuilder& builder, const RevolutionSweep& sweep,
+                                                std::size_t points, bool loop, At&& at) {
+  const std::size_t count = sweep.directions.size();
+  std::vector<std::vector<std::uint32_t>> grid(points, std::vector<std::uint32_t>(count));
+  for (std::size_t i = 0; i < points; ++i)
+    for (std::size_t j = 0; j < count; ++j) {
+      const ProfilePoint p = at(i, j);
+      const SinCos& d = sweep.directions[j];
+      grid[i][j] = p.radius == 0 && j > 0
+                       ? grid[i][0]
+                       : builder.vertex({p.radius * d.cos, p.radius * d.sin, p.z});
+    }
+  const std::size_t bands = loop ? points : points - 1;
+  for (std::size_t i = 0; i < bands; ++i) {
+    const auto &low = grid[i], &high = grid[i + 1 == points ? 0 : i + 1];
+    const bool flat = at(i, 0).z == at(i + 1 == points ? 0 : i + 1, 0).z && loop && points == 4;
+    const std::uint32_t annulus = flat ? builder.face() : 0;
+    for (std::size_t j = 0; j + (sweep.full ? 0 : 1) < count; ++j) {
+      const std::size_t k = j + 1 == count ? 0 : j + 1;
+      if (flat)
+        builder.quad_of(annulus, low[j], low[k], high[k], high[j]);
+      else
+        builder.quad(low[j], low[k], high[k], high[j]);
+    }
+  }
+  if (sweep.full) return grid;
+  std::vector<std::uint32_t> first, last;
+  for (const auto& row : grid) {
+    first.push_back(row.front());
+    last.push_back(row.back());
+  }
+  builder.polygon(first);
+  builder.polygon(last, true);
+  return grid;
+}
+
+}  // namespace strake::geometry::tessellation

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/triangulation/triangulation_mesh.hpp"
+
+namespace strake::geometry::triangulation {
+
+/// A triangulation of the convex hull of points in which chosen segments are edges.
+class ConstrainedDelaunay {
+ public:
+  /// The points must be distinct and ascending. No triangles when all are collinear.
+  explicit ConstrainedDelaunay(std::vector<Point2> points);
+
+  /// Forces the segment between two points; false when it crosses one forced before.
+  [[nodiscard]] bool insert_constraint(std::uint32_t a, std::uint32_t b);
+  /// Restores the Delaunay property between the segments.
+  void restore_delaunay();
+  /// For each triangle whether an odd number of closed loops of segments surround it.
+  [[nodiscard]] std::vector<bool> inside() const;
+
+  [[nodiscard]] const std::vector<TriangulationFace>& cells() const { return cells_.all(); }
+
+ private:
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  /// An edge of a cavity, counter-clockwise, and what lies beyond.
+  struct RimEdge {
+    std::uint32_t from = kNone, to = kNone, neighbour = kNone;
+    bool constrained = false, odd = false;
+  };
+  /// The cells that a segment runs through, and the vertices on either side of it, in its sense.
+  struct Cavity {
+    std::vector<std::uint32_t> cells, left, right;
+    std::vector<RimEdge> rim;
+    std::uint32_t end = kNone;
+
+    void add(std::uint32_t number, const TriangulationFace& cell, std::uint32_t entered,
+             std::uint32_t left_through);
+  };
+
+  [[nodiscard]] FaceCorner find_edge(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] bool collect(std::uint32_t a, std::uint32_t b, FaceCorner start,
+                             Cavity& cavity) const;
+  void fill(std::uint32_t p, std::uint32_t q, std::span<const std::uint32_t> chain,
+            std::vector<std::array<std::uint32_t, 3>>& triangles) const;
+  void replace(Cavity& cavity, std::span<const std::array<std::uint32_t, 3>> triangles);
+  [[nodiscard]] bool open_way(std::uint32_t a, Cavity& cavity);
+  void mark_constrained(std::uint32_t a, std::uint32_t b);
+
+  TriangulationMesh cells_;
+};
+
+}  // namespace strake::geometry::triangulation

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::hlr {
+
+/// A line along which the skins of two parts pass through each other.
+struct IntersectionLine {
+  geometry::Vec3l a, b;                  ///< grid units; off by half a unit at most along each axis
+  std::uint32_t body_a = 0, body_b = 0;  ///< of object a <= b
+};
+
+struct IntersectionLines {
+  std::vector<IntersectionLine> all;   ///< by object of body_a
+  std::uint64_t pairs = 0, tests = 0;  ///< as Counters::crossing_pairs and crossing_tests
+  std::uint64_t met = 0;               ///< pairs of parts that were looked at, equal ones each
+};
+
+/// Which crossings are lines of a drawing.
+struct IntersectionRule {
+  Intersections which = Intersections::objects;
+  double cos_sharp = 1;  ///< skins of one object's primitives cross where they turn by more
+};
+
+/// The crossings among the drawn objects; `contact`: distances by body, within
+/// which faces are meant to touch. Errors: cancelled, too many boxes that meet (input).
+[[nodiscard]] Result<IntersectionLines> find_intersection_lines(
+    const model::Scene& scene, const std::vector<bool>& drawn,
+    const std::vector<std::int64_t>& contact, const IntersectionRule& rule,
+    const parallel::Context& context);
+
+}  // namespace strake::hlr

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/occluders/occluder_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "hlr/edges/element_loop.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
+
+namespace strake::hlr {
+namespace {
+
+// An index pays from this many polygons on. The faces of convex parts are seldom asked: their
+// outline is.
+constexpr std::size_t kIndexFrom = 12, kIndexFromIfConvex = 64;
+// Buckets::crowding() from which on a tree is better: where faces crowd in few buckets, or are much
+// longer than wide. Less is looked at than that: a walk leaves a bucket where nothing nearer is
+// left.
+constexpr double kCrowded = 256;
+
+EdgeLengths lengths_of(std::span<const ProjectedEdge> edges) {
+  EdgeLengths lengths{.count = static_cast<double>(edges.size())};
+  for (const ProjectedEdge& e : edges)
+    lengths.sum += static_cast<double>(std::max(std::abs(e.b.u - e.a.u), std::abs(e.b.v - e.a.v)));
+  return lengths;
+}
+
+/// A part runs askew where the box of its longest edge takes so much of its own, and is turned
+/// where the box that this makes is so much smaller: areas.
+constexpr double kAskew = 0.25, kWorthTurning = 0.5;
+/// Farther out a turned point would be no whole number that a double holds.
+constexpr std::int64_t kFarthestTurned = std::int64_t{1} << 44;
+
+double area(const ViewBox& box) {
+  return (static_cast<double>(box.hi.u) - static_cast<double>(box.lo.u)) *
+         (static_cast<double>(box.hi.v) - static_cast<double>(box.lo.v));
+}
+
+/// Along the longest edge, if that runs askew.
+PaperRotation turn_along(std::span<const ProjectedEdge> edges, const ViewBox& box) {
+  double longest = 0, du = 0, dv = 0;
+  for (const ProjectedEdge& e : edges) {
+    const double u = static_cast<double>(e.b.u - e.a.u), v = static_cast<double>(e.b.v - e.a.v);
+    if (u * u + v * v <= longest) continue;
+    longest = u * u + v * v;
+    du = u;
+    dv = v;
+  }
+  if (std::abs(du * dv) <= kAskew * area(box)) return {};
+  const double scale =
+      static_cast<double>(PaperRotation::kMost) / std::max(std::abs(du), std::abs(dv));
+  return {std::llround(du * scale), std::llround(dv * scale)};
+}
+
+std::vector<ViewBox> turned_boxes(const OccluderPolygons& all,
+                                  std::span<const OccluderPolygon> polygons,
+                                  const PaperRotation& turn) {
+  std::vector<ViewBox> boxes;
+  boxes.reserve(polygons.size());
+  for (const OccluderPolygon& p : polygons) {
+    ViewBox box;
+    for (const PaperCorner& c : std::span(all.corners).subspan(p.first_corner, p.corners))
+      for (const std::int64_t w : {p.box.lo.w, p.box.hi.w}) box.include(turn({c.u, c.v, w}));
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+/// Whether the part is indexed in a frame of its own (decision 0031).
+bool index_turned(const OccluderPolygons& all, std::span<const OccluderPolygon> polygons,
+                  std::span<const ProjectedEdge> edges, std::size_t from, OccluderPart& part) {
+  const ViewPoint &lo = part.box.lo, &hi = part.box.hi;
+  if (std::max({std::abs(lo.u), std::abs(lo.v), std::abs(hi.u), std::abs(hi.v)}) > kFarthestTurned)
+    return false;
+  const PaperRotation turn = turn_along(edges, part.box);
+  if (turn.is_none()) return false;
+  const std::vector<ViewBox> boxes = turned_boxes(all, polygons, turn);
+  ViewBox box;
+  for (const ViewBox& one : boxes) box.include(one);
+  const auto scale = static_cast<double>(turn.c * turn.c + turn.s * turn.s);
+  if (area(box) > kWorthTurning * scale * area(part.box)) return false;
+  part.turn = turn;
+  part.turned = rounded_outwards(box);
+  // Its facets are long strips along the frame, which buckets do not tell apart.
+  if (polygons.size() >= from) part.tree = ViewBvh(boxes);
+  return true;
+}
+
+Result<std::vector<ViewBox>> boxes_of(std::span<const OccluderPolygon> polygons,
+                                      const ProjectionSettings& settings) {
+  auto boxes = parallel::slots<ViewBox>(polygons.size(), settings.context);
+  if (!boxes) return boxes;
+  const Status status =
+      parallel::for_each(settings.context, over_elements("hidden lines: boxes", boxes->size()),
+                         [&](std::size_t i) { (*boxes)[i] = polygons[i].box; });
+  if (!status) return status.error();
+  return boxes;
+}
+
+Result<BucketPlan> plan_of(const std::vector<ViewBox>& boxes, const ProjectionSettings& settings) {
+  return parallel::reduce(
+      settings.context, over_elements("hidden lines: sizes of boxes", boxes.size()), BucketPlan(),
+      [&](BucketPlan& plan, std::size_t i) { plan.add(boxes[i]); },
+      [](BucketPlan& plan, const BucketPlan& more) { plan.add(more); });
+}
+
+Status choose(const std::vector<ViewBox>& boxes, std::span<const ProjectedEdge> edges,
+              const ProjectionSettings& settings, OccluderPart& part) {
+  if (settings.perspective_map == nullptr) {
+    const Result<BucketPlan> plan = plan_of(boxes, settings);
+    if (!plan) return plan.error();
+    const std::uint32_t side = plan->best_side(lengths_of(edges));
+    auto buckets = BucketGrid::of(boxes, plan->axes(side), settings.context);
+    if (!buckets) return buckets.error();
+    if (buckets->crowding() <= kCrowded) {
+      part.buckets = std::move(*buckets);
+      return {};
+    }
+  }
+  part.tree = ViewBvh(boxes);
+  return {};
+}
+
+}  // namespace
+
+Status build_occluder_index(const OccluderPolygons& all, std::span<const ProjectedEdge> edges,
+                            std::vector<PaperCorner> hubs, bool convex,
+                            const ProjectionSettings& settings, OccluderPart& part) {
+  const auto polygons = std::span(all.polygons).subspan(part.first, part.last - part.first);
+  const bool by_data = settings.bucketing == Options::kBucketsByData;
+  const std::size_t from = !by_data ? 2 : convex ? kIndexFromIfConvex : kIndexFrom;
+  if (by_data && settings.perspective_map == nullptr && polygons.size() < kBigShape &&
+      index_turned(all, polygons, edges, from, part))
+    return {};
+  if (polygons.size() < from || settings.bucketing == Options::kNoBuckets) return {};
+  auto boxes = boxes_of(polygons, settings);
+  if (!boxes) return boxes.error();
+  part.fans = extract_fans(std::move(hubs), polygons, all.corners, *boxes);
+  if (std::ranges::all_of(*boxes, &ViewBox::empty)) return {};
+  if (by_data) return choose(*boxes, edges, settings, part);
+  const Result<BucketPlan> plan = plan_of(*boxes, settings);
+  if (!plan) return plan.error();
+  auto buckets = BucketGrid::of(*boxes, plan->axes(static_cast<std::uint32_t>(settings.bucketing)),
+                                settings.context);
+  if (!buckets) return buckets.error();
+  part.buckets = std::move(*buckets);
+  return {};
+}
+
+}  // namespace strake::hlr

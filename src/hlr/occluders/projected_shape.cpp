@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/occluders/projected_shape.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <span>
+
+#include "hlr/edges/element_loop.hpp"
+#include "strake/geometry/part.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/slots.hpp"
+
+namespace strake::hlr {
+namespace {
+
+Int128 facing_of(const geometry::Part& part, std::uint32_t t, const Viewer& viewer) {
+  return viewer.facing(triangle_normal(part, t),
+                       part.vertices[part.triangles[t][0]].as<std::int64_t>());
+}
+
+/// Of an exactly convex part: some face looks towards the viewer.
+bool is_outside(const geometry::Part& part, const Viewer& viewer) {
+  if (!viewer.eye) return true;
+  for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
+    if (facing_of(part, t, viewer) > 0) return true;
+  return false;
+}
+
+// The viewer is outside. On the boundary of a convex body an edge of a face towards the viewer lies
+// on the body's upper side, where nothing of the body is nearer; an edge between two faces turned
+// away is behind the body all along. One with a face edge-on lies on the outline and may be behind
+// on one side.
+void classify_edges(const geometry::Part& part, const Viewer& viewer,
+                    std::span<ProjectedEdge> edges) {
+  for (ProjectedEdge& e : edges) {
+    if (e.edge.part_edge == kNoPartEdge) continue;
+    bool away = true, towards = false;
+    for (const std::uint32_t t : geometry::incident_triangles(part, e.edge.part_edge)) {
+      const Int128 facing = facing_of(part, t, viewer);
+      away = away && facing < 0;
+      towards = towards || facing > 0;
+    }
+    e.surely_behind_part = away && e.edge.away;
+    e.surely_clear_of_part = towards;
+  }
+}
+
+}  // namespace
+
+Result<ProjectedShape> view_of(const SectionedShape& seen, const ProjectionSettings& settings) {
+  const model::GridShape& shape = seen.shape();
+  const Viewer& viewer = settings.features.viewer;
+  ProjectedShape view;
+  view.viewer = viewer;
+  const auto found = sectioned_edges(seen, settings.features, settings.context);
+  if (!found) return found.error();
+  const std::vector<FeatureEdge>& edges = *found;
+  auto on_paper = parallel::slots<ProjectedEdge>(edges.size(), settings.context);
+  if (!on_paper) return on_paper.error();
+  view.edges = std::move(*on_paper);
+  const Status placed = parallel::for_each(
+      settings.context, over_elements("hidden lines: edges on paper", edges.size()),
+      [&](std::size_t i) {
+        ProjectedEdge& e = view.edges[i];
+        e.edge = edges[i];
+        if (viewer.eye) return;
+        e.a = settings.projection(e.edge.a.as<std::int64_t>());
+        e.b = settings.projection(e.edge.b.as<std::int64_t>());
+      });
+  if (!placed) return placed.error();
+
+  std::size_t begin = 0;
+  for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
+    std::size_t end = begin;
+    while (end < edges.size() && edges[end].part == p) ++end;
+    const geometry::Part& part = shape.parts[p];
+    const std::span<ProjectedEdge> own = std::span(view.edges).subspan(begin, end - begin);
+    begin = end;
+    if (part.kind == geometry::PartKind::wire) continue;
+    const Result<bool> convex = add_polygons(part, p, settings, own, view);
+    if (!convex) return convex.error();
+    // What was rounded has a contact distance within the part, which the signs know nothing of, nor
+    // do they of what is edge-on but for rounding.
+    const bool exact = seen.within == 0 && (view.parts.empty() || !view.parts.back().edge_on);
+    if (*convex && exact && is_outside(part, viewer)) classify_edges(part, viewer, own);
+  }
+  for (const OccluderPart& part : view.parts) view.box.include(part.box);
+  if (!viewer.eye && !view.box.empty())
+    view.reach = std::max({std::abs(view.box.lo.u), std::abs(view.box.hi.u),
+                           std::abs(view.box.lo.v), std::abs(view.box.hi.v)});
+  return view;
+}
+
+}  // namespace strake::hlr

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/prepare/view_diagnostics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "strake/geometry/grid.hpp"
+#include "strake/geometry/inside.hpp"
+
+namespace strake::hlr {
+
+std::string object_text(const model::Model& model, model::ObjectId id) {
+  const model::Object& object = model.object(id);
+  const std::string& name = object.name.empty() ? object.id : object.name;
+  return object.file < model.files.size() && !model.files[object.file].label.empty()
+             ? fmt::format("{}: {}", model.files[object.file].label, name)
+             : name;
+}
+
+namespace {
+
+/// "1,-2,0 > 1500 mm": a plane by its normal and its distance from the origin along it.
+std::string name_of(const SectionPlane& plane) {
+  const auto& n = plane.normal;
+  const geometry::Vec3d d = n.as<double>();
+  const double distance = static_cast<double>(plane.offset) / std::sqrt(dot(d, d));
+  return fmt::format("{},{},{} > {:.3f} mm", n.x, n.y, n.z, distance * geometry::kMmPerGrid);
+}
+
+void report_misses(const model::Scene& scene, const std::vector<bool>& drawn,
+                   std::span<const SectionPlane> planes, Diagnostics& diagnostics) {
+  for (const SectionPlane& plane : planes) {
+    bool kept = false, away = false;
+    for (const model::GridBody& body : scene.bodies) {
+      const model::GridShape& shape = scene.shapes[body.grid_shape];
+      if (!drawn[model::index(body.object)] || shape.box.empty()) continue;
+      const geometry::Box3l box = body.box(shape);
+      kept = kept || plane.least(box) < 0;
+      away = away || plane.greatest(box) >= 0;
+      if (kept && away) break;
+    }
+    if (kept == away) continue;
+    diagnostics.add(Severity::warning, "section-misses",
+                    kept ? "the section plane misses what is drawn: it cuts away nothing"
+                         : "the section plane misses what is drawn: it cuts away everything",
+                    name_of(plane));
+  }
+}
+
+}  // namespace
+
+Diagnostics report_sections(const model::Scene& scene, const std::vector<bool>& drawn,
+                            const SectionedShapes& seen, std::span<const SectionPlane> planes) {
+  Diagnostics diagnostics;
+  report_misses(scene, drawn, planes, diagnostics);
+  if (planes.empty()) return diagnostics;
+  for (std::uint32_t o = 0; o + 1 < scene.first_body.size(); ++o) {
+    std::uint64_t open_ends = 0, not_filled = 0;
+    for (std::uint32_t b = scene.first_body[o]; b < scene.first_body[o + 1]; ++b)
+      if (const ShapeCut* cut = seen.all[seen.of[b]].cut.get()) {
+        open_ends += cut->open_ends;
+        not_filled += cut->not_filled;
+      }
+    const auto add = [&](std::string_view code, const std::string& message) {
+      diagnostics.add(Severity::warning, code, message,
+                      object_text(*scene.model, model::ObjectId{o}));
+    };
+    if (open_ends > 0)
+      add("section-open",
+          fmt::format("a surface that is not closed is cut: its outline has {} loose ends and is "
+                      "not hatched",
+                      open_ends));
+    if (not_filled > 0)
+      add("section-not-filled",
+          fmt::format("{} of its sections could not be closed: not hatched, and hiding nothing",
+                      not_filled));
+  }
+  return diagnostics;
+}
+
+namespace {
+
+using geometry::PointSide;
+
+PointSide side_of(const ViewJob& job, std::uint32_t body) {
+  const geometry::Vec3l eye = job.view.perspective->eye - job.scene->bodies[body].origin;
+  const model::GridShape& shape = job.sectioned_shape_of(body).shape();
+  PointSide side = PointSide::outside;
+  if (shape.box.empty() || !shape.box.as<std::int64_t>().contains({eye, eye})) return side;
+  for (const geometry::Part& part : shape.parts)
+    if (part.kind != geometry::PartKind::wire)
+      side = std::max(side, geometry::side_of_polyhedron(part, {eye, 1}));
+  return side;
+}
+
+}  // namespace
+
+Diagnostics report_eye(const ViewJob& job) {
+  Diagnostics diagnostics;
+  if (!job.view.perspective) return diagnostics;
+  for (std::uint32_t b = 0; b < job.scene->bodies.size(); ++b) {
+    const PointSide side = job.opaque[b] ? side_of(job, b) : PointSide::outside;
+    if (side == PointSide::outside) continue;
+    std::string where = object_text(*job.scene->model, job.scene->bodies[b].object);
+    if (side == PointSide::inside)
+      diagnostics.add(Severity::warning, "eye-in-solid",
+                      "the eye lies inside a solid, which hides all that is outside it",
+                      std::move(where));
+    else
+      diagnostics.add(Severity::warning, "eye-on-surface",
+                      "the eye lies on a surface, which it does not see", std::move(where));
+  }
+  return diagnostics;
+}
+
+}  // namespace strake::hlr

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/prepare/view_job.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "hlr/prepare/hatch.hpp"
+#include "hlr/prepare/view_diagnostics.hpp"
+#include "hlr/sections/section_planes.hpp"
+#include "hlr/view/projection.hpp"
+#include "hlr/view/view_frustum.hpp"
+#include "model/scene/view_tessellation.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::hlr {
+namespace {
+
+using geometry::CutPlane;
+using geometry::Segment;
+using geometry::Vec3l;
+
+void add_crossing(Lines& lines, const model::Scene& scene, const IntersectionLine& crossing,
+                  std::span<const SectionPlane> planes) {
+  const auto push = [&](const Vec3l& a, const Vec3l& b, bool cut_away) {
+    if (a != b)
+      lines.all.push_back(
+          {a, b, crossing.body_a, crossing.body_b, EdgeKind::intersection, cut_away});
+  };
+  if (planes.empty()) return push(crossing.a, crossing.b, false);
+  const Vec3l origin = scene.bodies[crossing.body_a].origin;
+  std::vector<CutPlane> local;
+  for (const SectionPlane& plane : planes) local.push_back(plane.at(origin));
+  const auto left = geometry::left_of({crossing.a - origin, crossing.b - origin}, local);
+  if (!left) return push(crossing.a, crossing.b, true);
+  const Vec3l a = (*left)[0] + origin, b = (*left)[1] + origin;
+  push(crossing.a, a, true);
+  push(a, b, false);
+  push(b, crossing.b, true);
+}
+
+void add_section(Lines& lines, const model::Scene& scene, std::uint32_t b, const ShapeCut& cut) {
+  const Vec3l origin = scene.bodies[b].origin;
+  for (const geometry::SectionLine& line : cut.lines)
+    lines.all.push_back({line.at[0] + origin, line.at[1] + origin, b, b, EdgeKind::section, false});
+}
+
+/// By object; of one object as they came.
+void put_in_order(Lines& lines, const model::Scene& scene) {
+  if (lines.all.empty()) return;
+  const auto object = [&](const Line& line) {
+    return model::index(scene.bodies[line.body_a].object);
+  };
+  lines.first.resize(scene.model->objects.size() + 1);
+  for (const Line& line : lines.all) ++lines.first[object(line) + 1];
+  for (std::size_t o = 1; o < lines.first.size(); ++o) lines.first[o] += lines.first[o - 1];
+  std::vector<std::size_t> next = lines.first;
+  std::vector<Line> ordered(lines.all.size());
+  for (const Line& line : lines.all) ordered[next[object(line)]++] = line;
+  lines.all = std::move(ordered);
+}
+
+}  // namespace
+
+Result<Lines> derive_lines(const ViewJob& job, std::span<const IntersectionLine> crossings,
+                           std::span<const SectionPlane> planes, const parallel::Context& context) {
+  const model::Scene& scene = *job.scene;
+  Lines lines;
+  lines.contact = 1 + static_cast<std::int64_t>(planes.size());
+  for (const IntersectionLine& crossing : crossings) add_crossing(lines, scene, crossing, planes);
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
+    if (const ShapeCut* cut = job.sectioned_shape_of(b).cut.get())
+      add_section(lines, scene, b, *cut);
+  const auto hatch = hatch_lines(job, planes, context);
+  if (!hatch) return hatch.error();
+  lines.all.insert(lines.all.end(), hatch->begin(), hatch->end());
+  put_in_order(lines, scene);
+  return lines;
+}
+
+namespace {
+
+using geometry::Box3l;
+using geometry::Vec3l;
+
+constexpr std::int64_t kMaxDirection = std::int64_t{1} << 20;
+constexpr double kMaxContactMm = 1e6;
+// Largest |coordinate| · |direction component|: with part coordinates within ±2^30 the largest
+// value formed, a hiding point against a limit, then stays below 2^124.
+constexpr double kMaxReach = 72057594037927936.0;  // 2^56
+// In perspective, with r the largest |coordinate| from the eye and s the longest side of a shape:
+// orientations are 3x3 determinants of coordinates, below 12·r^3 with their differences; depths are
+// 3·s^2·2·r at most, s being below 2^32, and hiding points against limits 24·s^2·r^2.
+constexpr double kMaxFromEye = 1099511627776.0;            // 2^40: 1,100 km
+constexpr double kMaxSideFromEye = 1152921504606846976.0;  // 2^60, s·r where there are limits
+
+Status check(const View& view, const Options& options) {
+  const Vec3l& d = view.direction;
+  if (d == Vec3l{0, 0, 0})
+    return view_error("the view direction is zero", "give a direction that points to the viewer");
+  for (int k = 0; k < 3; ++k)
+    if (d[k] > kMaxDirection || d[k] < -kMaxDirection)
+      return view_error("a component of the view direction exceeds 1048576",
+                        "round the direction to 20 bits");
+  if (!(options.sharp_angle_deg >= 0 && options.sharp_angle_deg <= 180))
+    return view_error("the sharp angle is not between 0 and 180 degrees", "20 is the usual angle");
+  if (options.bucketing < Options::kBucketsByData || options.bucketing > Options::kMostBuckets)
+    return view_error("the number of buckets is not between 0 and 4096",
+                      "leave it out to have it chosen from the faces");
+  if (!(options.contact_distance_mm <= kMaxContactMm))
+    return view_error("the contact distance is not a number below a kilometre",
+                      "leave it out to have it derived from the sources");
+  if (view.limits && view.limits->empty())
+    return view_error("the limits are empty", "give lowest coordinates first");
+  return check_perspective(view);
+}
+
+std::int64_t contact_of(const model::Body& body, const Options& options) {
+  if (options.contact_distance_mm >= 0)
+    return std::llround(options.contact_distance_mm * geometry::kGridPerMm);
+  return static_cast<std::int64_t>(std::ceil(
+      std::min(model::contact_distance(body.precision_um), kMaxContactMm * geometry::kGridPerMm)));
+}
+
+void fill_bodies(ViewJob& job) {
+  const model::Scene& scene = *job.scene;
+  job.opaque.resize(scene.bodies.size());
+  job.contact.resize(scene.bodies.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const model::GridBody& body = scene.bodies[b];
+    if (!job.drawn[model::index(body.object)]) continue;
+    const model::Body& placed = scene.model->bodies[body.body];
+    job.opaque[b] = placed.color.alpha == 255;
+    job.contact[b] = contact_of(placed, job.options);
+  }
+}
+
+// What sections rounded is off by so much.
+void widen_contact(ViewJob& job) {
+  std::int64_t largest = 0;
+  for (std::uint32_t b = 0; b < job.contact.size(); ++b) {
+    if (!job.drawn[model::index(job.scene->bodies[b].object)]) continue;
+    job.contact[b] = std::max(job.contact[b], job.sectioned_shape_of(b).within);
+    largest = std::max(largest, job.contact[b]);
+  }
+  job.contact_distance_mm = static_cast<double>(largest) * geometry::kMmPerGrid;
+}
+
+Box3l drawn_box(const ViewJob& job) {
+  Box3l box = geometry::empty_box<std::int64_t>();
+  for (const model::GridBody& body : job.scene->bodies) {
+    const model::GridShape& shape = job.scene->shapes[body.grid_shape];
+    if (job.drawn[model::index(body.object)] && !shape.box.empty()) box.include(body.box(shape));
+  }
+  return box;
+}
+
+// One unit beyond what is drawn decides nothing and keeps the numbers small.
+void place_limits(ViewJob& job, const Box3l& box) {
+  if (!job.view.limits) return;
+  Box3l limits = *job.view.limits;
+  for (int k = 0; k < 3; ++k) {
+    limits.lo[k] = std::clamp(limits.lo[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
+    limits.hi[k] = std::clamp(limits.hi[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
+  }
+  job.limits = limits;
+}
+
+double longest_side(const ViewJob& job) {
+  std::int64_t side = 0;
+  for (const model::GridBody& body : job.scene->bodies) {
+    const geometry::Box3i& box = job.scene->shapes[body.grid_shape].box;
+    if (!job.drawn[model::index(body.object)] || box.empty()) continue;
+    for (int k = 0; k < 3; ++k)
+      side = std::max(side, std::int64_t{box.hi[k]} - std::int64_t{box.lo[k]});
+  }
+  return static_cast<double>(side);
+}
+
+Status place_eye(ViewJob& job, const Box3l& box) {
+  job.origin = job.view.perspective->eye;
+  double reach = 0;
+  for (int k = 0; k < 3; ++k)
+    reach = std::max({reach, std::fabs(static_cast<double>(box.lo[k] - job.origin[k])),
+                      std::fabs(static_cast<double>(box.hi[k] - job.origin[k]))});
+  if (reach > kMaxFromEye)
+    return Error{ErrorCode::input, "the eye is more than 1,000 km away from what is drawn", "view",
+                 "move the eye nearer, draw fewer objects, or use an orthographic view"};
+  if (job.view.limits && reach * longest_side(job) > kMaxSideFromEye)
+    return Error{ErrorCode::input, "the eye is too far away from objects of this size for limits",
+                 "view", "move the eye nearer, draw fewer objects, or leave out the limits"};
+  return {};
+}
+
+Status place_middle(ViewJob& job, const Box3l& box) {
+  double reach = 0;
+  const Vec3l& d = job.direction();
+  const auto largest = static_cast<double>(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
+  for (int k = 0; k < 3; ++k) {
+    job.origin[k] = box.lo[k] + (box.hi[k] - box.lo[k]) / 2;
+    reach = std::max(reach, static_cast<double>(box.hi[k] - box.lo[k]) * largest);
+  }
+  if (reach > kMaxReach)
+    return Error{ErrorCode::input, "the drawn objects are too far apart for this direction", "view",
+                 "draw fewer objects, or use a direction with smaller numbers"};
+  return {};
+}
+
+Status place(ViewJob& job) {
+  const Box3l box = drawn_box(job);
+  if (box.empty()) return {};
+  const Status placed = job.view.perspective ? place_eye(job, box) : place_middle(job, box);
+  if (placed) place_limits(job, box);
+  return placed;
+}
+
+}  // namespace
+
+Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>& drawn,
+                             const View& view, const Options& options,
+                             const parallel::Context& context) {
+  if (const Status status = check(view, options); !status) return status.error();
+  const auto planes = section_planes(view.sections);
+  if (!planes) return planes.error();
+  if (scene.model == nullptr)
+    return Error{ErrorCode::internal, "the scene has no model", "view", ""};
+  const std::size_t objects = scene.model->objects.size();
+  if (!drawn.empty() && drawn.size() != objects)
+    return Error{ErrorCode::internal, "the selection and the model differ in size", "view", ""};
+
+  ViewJob job;
+  job.view = view;
+  job.options = options;
+  job.viewer.direction = in_lowest_terms(view.direction);
+  if (view.perspective) job.viewer.eye = Vec3l{};
+  job.cos_sharp = cosine_of_degrees(options.sharp_angle_deg);
+  job.window = window(view);
+  job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
+  // Contours along a direction are no contours from an eye.
+  const auto towards = view.perspective ? std::nullopt : std::optional(job.direction());
+  const ViewVolume shown(view, *planes);
+  // What tessellation and the grid may be off by.
+  constexpr std::int64_t kRoom = 2000;
+  const auto shows = [&](const Box3l& box) { return shown.meets(box.inflated(kRoom)); };
+  auto own =
+      model::tessellate_for_view(scene, job.drawn, {towards, options.sag_mm, shows}, context);
+  if (!own) return own.error();
+  if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
+  job.scene = job.own ? job.own.get() : &scene;
+  fill_bodies(job);
+  if (const Status status = place(job); !status) return status.error();
+  const auto crossings = find_intersection_lines(*job.scene, job.drawn, job.contact,
+                                                 {options.intersections, job.cos_sharp}, context);
+  if (!crossings) return crossings.error();
+  job.counters.crossing_pairs = crossings->pairs;
+  job.counters.crossing_tests = crossings->tests;
+  auto seen = make_sectioned_shapes(*job.scene, job.drawn, *planes, context);
+  if (!seen) return seen.error();
+  job.seen = std::move(*seen);
+  widen_contact(job);
+  auto lines = derive_lines(job, crossings->all, *planes, context);
+  if (!lines) return lines.error();
+  job.lines = std::move(*lines);
+  job.diagnostics = report_sections(*job.scene, job.drawn, job.seen, *planes);
+  job.diagnostics.append(report_eye(job));
+  return job;
+}
+
+}  // namespace strake::hlr

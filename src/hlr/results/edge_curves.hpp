@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hlr/prepare/view_job.hpp"
+#include "strake/core/result.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::hlr {
+
+/// Which edges of a job are chords of circles of round primitives, and of which. Errors: cancelled.
+[[nodiscard]] Result<Curves> find_curves(const ViewJob& job, const parallel::Context& context);
+
+}  // namespace strake::hlr

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/results/object_fates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "hlr/prepare/view_diagnostics.hpp"
+#include "strake/parallel/for_each.hpp"
+
+namespace strake::hlr {
+namespace {
+
+constexpr std::size_t kObjectsPerItem = 4096;
+
+std::uint32_t object_of(const EdgePiece& piece) { return model::index(piece.object); }
+
+/// Of an object all of whose lines run along the view direction. Every wire of a model may be seen
+/// end-on in some view, so this is told but no defect of the data.
+constexpr std::string_view kOnlyPoints = "only-points";
+
+/// Of an object that is on the grid, by its lines; advances `next` beyond them.
+Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
+  const std::span<const EdgePiece> pieces = drawing.pieces;
+  bool visible = false, clipped = false, point = false;
+  bool hidden = !drawing.left_out.empty() && drawing.left_out[object] > 0;
+  for (; next < pieces.size() && object_of(pieces[next]) == object; ++next) {
+    const State state = pieces[next].state;
+    visible = visible || state == State::visible;
+    hidden = hidden || state == State::hidden_by_self || state == State::hidden_by_other;
+    clipped = clipped || state == State::clipped;
+    point = point || state == State::projecting;
+  }
+  if (visible) return Fate::drawn;
+  if (hidden) return Fate::hidden;
+  return clipped && !point ? Fate::clipped : Fate::degenerate;
+}
+
+std::span<const model::IncompleteObject> lacking_of(const model::Scene& scene,
+                                                    std::uint32_t object) {
+  const auto found = std::ranges::equal_range(scene.lacking, model::ObjectId{object}, {},
+                                              &model::IncompleteObject::object);
+  return {found.begin(), found.end()};
+}
+
+/// Of an object that has no body on the grid.
+Fate fate_without_body(const model::Scene& scene, std::uint32_t object) {
+  const auto lacking = lacking_of(scene, object);
+  if (lacking.empty())
+    return scene.model->objects[object].body_count > 0 ? Fate::left_out : Fate::degenerate;
+  const bool vanished = std::ranges::all_of(
+      lacking, [](const model::IncompleteObject& l) { return l.code == model::kVanished; });
+  return vanished ? Fate::degenerate : Fate::failed;
+}
+
+void list_defects(const model::Scene& scene, std::span<const EdgePiece> pieces, Account& account) {
+  for (std::uint32_t object = 0; object < account.fates.size(); ++object) {
+    const Fate fate = account.fates[object];
+    if (fate == Fate::unselected) continue;
+    const auto lacking = lacking_of(scene, object);
+    const bool placed = scene.first_body[object] < scene.first_body[object + 1];
+    if (placed && !lacking.empty()) ++account.in_part;
+    for (const model::IncompleteObject& l : lacking) account.defects.push_back({l.object, l.code});
+    if (fate != Fate::degenerate || !lacking.empty()) continue;
+    const bool points = std::ranges::binary_search(pieces, object, {}, object_of);
+    account.defects.push_back({model::ObjectId{object}, points ? kOnlyPoints : "no-lines"});
+  }
+}
+
+}  // namespace
+
+Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& drawn,
+                           const Drawing& drawing, const parallel::Context& context) {
+  const std::span<const EdgePiece> pieces = drawing.pieces;
+  Account account;
+  account.fates.resize(drawn.size());
+  const Status status = parallel::for_each(
+      context,
+      {.name = "account of objects", .n = (drawn.size() + kObjectsPerItem - 1) / kObjectsPerItem},
+      [&](std::size_t item) {
+        const auto begin = static_cast<std::uint32_t>(item * kObjectsPerItem);
+        const auto end =
+            static_cast<std::uint32_t>(std::min(drawn.size(), begin + kObjectsPerItem));
+        auto next = static_cast<std::size_t>(
+            std::ranges::lower_bound(pieces, begin, {}, object_of) - pieces.begin());
+        for (std::uint32_t object = begin; object < end; ++object) {
+          if (!drawn[object]) continue;
+          const bool placed = scene.first_body[object] < scene.first_body[object + 1];
+          account.fates[object] =
+              placed ? fate_of(object, drawing, next) : fate_without_body(scene, object);
+        }
+      });
+  if (!status) return status.error();
+  for (const Fate fate : account.fates) ++account.count[static_cast<std::size_t>(fate)];
+  list_defects(scene, pieces, account);
+  return account;
+}
+
+void report_defects(const model::Model& model, const Account& account, Diagnostics& diagnostics) {
+  for (std::size_t d = 0; d < account.defects.size();) {
+    const model::ObjectId id = account.defects[d].object;
+    std::string codes;
+    for (; d < account.defects.size() && account.defects[d].object == id; ++d)
+      codes.append(codes.empty() ? "" : ", ").append(account.defects[d].code);
+    if (codes == kOnlyPoints) continue;
+    const Fate fate = account.fates[model::index(id)];
+    const bool degenerate = fate == Fate::degenerate, failed = fate == Fate::failed;
+    const std::string_view code = degenerate ? "object-degenerate"
+                                  : failed   ? "object-failed"
+                                             : "object-in-part";
+    const std::string_view words = degenerate ? "it makes no line in this view"
+                                   : failed   ? "none of it could be read or placed"
+                                              : "some of it could not be read or placed";
+    if (diagnostics.count(code) >= Diagnostics::kMaxPerCode) {
+      diagnostics.add(Severity::warning, code, {}, {});
+      continue;
+    }
+    diagnostics.add(Severity::warning, code, fmt::format("{} ({})", words, codes),
+                    object_text(model, id));
+  }
+}
+
+}  // namespace strake::hlr

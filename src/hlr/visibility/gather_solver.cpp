@@ -1,0 +1,512 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/visibility/gather_solver.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hlr/prepare/view_job.hpp"
+#include "hlr/visibility/visibility_scene.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
+
+namespace strake::hlr {
+namespace {
+
+// Up to this many neighbours of an item are looked through for each of its edges: more are found
+// faster by the tree.
+constexpr std::size_t kFewNeighbours = 64;
+constexpr std::uint32_t kNoBody = 0xffffffffU;
+// Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
+constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
+// What covered tiles say of an edge is cut at multiples of this share.
+constexpr std::int64_t kFine = std::int64_t{1} << 30;
+
+}  // namespace
+
+void add(Counters& counters, const SolverWork& work) {
+  counters.feature_edges += work.edges;
+  counters.covered_edges += work.covered;
+  counters.face_tests += work.tests;
+  counters.exact_fallbacks += work.wide_tests;
+  counters.specks += work.specks;
+}
+
+std::span<const OcclusionInterval> OccluderGatherer::intervals(const EdgeQuery& edge,
+                                                               const RationalParam& lo,
+                                                               const RationalParam& hi) {
+  begin(edge, lo, hi);
+  // Who hides what is of no interest where hidden pieces are left out: then the cheapest first.
+  const bool global = job_.options.stage == Stage::global, any_order = !job_.options.hidden;
+  if (global && any_order) apply_occlusion_buffer();
+  if (!open_.empty()) gather_own_objects();
+  if (global && !any_order && !open_.empty()) apply_occlusion_buffer();
+  if (global && !open_.empty()) gather_others();
+  return intervals_;
+}
+
+std::span<const OcclusionInterval> OccluderGatherer::self_occlusion(const EdgeQuery& edge,
+                                                                    const RationalParam& lo,
+                                                                    const RationalParam& hi) {
+  begin(edge, lo, hi);
+  gather_own_objects();
+  return intervals_;
+}
+
+std::span<const OcclusionInterval> OccluderGatherer::intervals_of_body(const EdgeQuery& edge,
+                                                                       std::uint32_t body,
+                                                                       const RationalParam& lo,
+                                                                       const RationalParam& hi) {
+  begin(edge, lo, hi);
+  gather_body(body, false);
+  return intervals_;
+}
+
+void OccluderGatherer::begin(const EdgeQuery& edge, const RationalParam& lo,
+                             const RationalParam& hi) {
+  edge_ = edge;
+  intervals_.clear();
+  open_ = OpenRange(lo, hi);
+  if (visibility_.perspective_map) project_range(lo.value, hi.value);
+}
+
+ViewBox OccluderGatherer::box() const {
+  if (visibility_.perspective_map) return perspective_box_;
+  ViewBox box;
+  box.include(edge_.va);
+  box.include(edge_.vb);
+  return box;
+}
+
+std::span<const OcclusionInterval> OccluderGatherer::intervals_of_own_body(const EdgeQuery& edge) {
+  edge_ = edge;
+  intervals_.clear();
+  open_ = OpenRange();
+  if (edge_.kind != EdgeKind::polyline && !edge_.projecting) test_own_body();
+  return intervals_;
+}
+
+// Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
+// edge wholly, completely.
+void OccluderGatherer::gather_own_objects() {
+  if (edge_.kind == EdgeKind::polyline || job_.options.stage == Stage::none) return;
+  if (edge_.feature != nullptr && edge_.own->opaque) gather_own_body();
+  gather_object(edge_.own->object);
+  if (edge_.other->object != edge_.own->object) gather_object(edge_.other->object);
+}
+
+// Its bodies, but for the one that has been gathered already.
+void OccluderGatherer::gather_object(std::uint32_t object) {
+  const std::uint32_t known = edge_.feature != nullptr ? edge_.body : kNoBody;
+  const auto& first_body = job_.scene->first_body;
+  const std::uint32_t first = first_body[object], last = first_body[object + 1];
+  if ((known != kNoBody && last - first == 1) || (job_.options.culling && open_.empty())) return;
+  const auto consider = [&](std::uint32_t b) {
+    if (b == known || visibility_.placed[b].object != object) return true;
+    return gather_body(b, true);
+  };
+  if (last - first <= kFewBodies || !job_.options.culling) {
+    for (std::uint32_t b = first; b < last; ++b)
+      if (!consider(b)) return;
+  } else {
+    refresh_segment();
+    visibility_.tree.traverse(segment_, consider);
+  }
+}
+
+/// What other objects hide of either end, by what covers whole tiles. A wire may be seen through
+/// the solids of its own object, which cover them too.
+void OccluderGatherer::apply_occlusion_buffer() {
+  if (visibility_.occlusion_buffer.empty() || edge_.kind == EdgeKind::polyline) return;
+  const double lo = open_.lo().value, hi = open_.hi().value;
+  const CoveredEnds ends = visibility_.occlusion_buffer.covered_ends(edge_.va, edge_.vb, lo, hi);
+  if (ends.from >= ends.to) {
+    ++work.covered;
+    add(OcclusionInterval{open_.lo(), open_.hi(), kBothSides, false});
+    return;
+  }
+  const RationalParam from =
+      RationalParam::of(static_cast<std::int64_t>(ends.from * kFine) - 1, kFine);
+  const RationalParam to = RationalParam::of(static_cast<std::int64_t>(ends.to * kFine) + 2, kFine);
+  if (less(open_.lo(), from)) add(OcclusionInterval{open_.lo(), from, kBothSides, false});
+  if (less(to, open_.hi())) add(OcclusionInterval{to, open_.hi(), kBothSides, false});
+}
+
+void OccluderGatherer::gather_others() {
+  const auto consider = [&](std::uint32_t b) {
+    const std::uint32_t object = visibility_.placed[b].object;
+    return object == edge_.own->object || object == edge_.other->object || gather_body(b, false);
+  };
+  if (!job_.options.culling) {
+    for (std::uint32_t b = 0; b < visibility_.placed.size(); ++b) consider(b);
+    return;
+  }
+  refresh_segment();
+  if (!find_neighbours()) return visibility_.tree.traverse(segment_, consider);
+  for (const Neighbour& other : near_)
+    if (other.box.w1 <= segment_.w0 ||
+        (segment_.may_be_hidden_by(other.box) && !gather_body(other.body, false)))
+      return;
+}
+
+/// The edges of an item are near each other: one walk finds the bodies that may hide any of them.
+/// False where they are many.
+bool OccluderGatherer::find_neighbours() {
+  if (neighbours_ != Neighbours::not_searched) return neighbours_ == Neighbours::found;
+  neighbours_ = Neighbours::too_many;
+  if (item_->lines || visibility_.perspective_map) return false;
+  const BodyInstance& own = visibility_.placed[item_->body];
+  ViewBox box;
+  for (std::uint32_t i = item_->first; i < item_->last; ++i) {
+    box.include(own.view->edges[i].a);
+    box.include(own.view->edges[i].b);
+  }
+  const LooseBox room = rounded_outwards(box.moved(own.at));
+  SegmentQuery any;
+  any.u0 = room.u0;
+  any.u1 = room.u1;
+  any.v0 = room.v0;
+  any.v1 = room.v1;
+  const auto deepest = static_cast<double>(box.lo.w + own.at.w);
+  any.w0 = deepest - 1e-12 * std::abs(deepest);
+  near_.clear();
+  bool few = true;
+  visibility_.tree.traverse_boxes(any, [&](std::uint32_t body, const LooseBox& its) {
+    if (visibility_.placed[body].object != own.object) near_.push_back({its, body});
+    return few = near_.size() <= kFewNeighbours;
+  });
+  if (!few) return false;
+  std::ranges::sort(near_, [](const Neighbour& x, const Neighbour& y) {
+    return x.box.w1 != y.box.w1 ? x.box.w1 > y.box.w1 : x.body < y.body;
+  });
+  neighbours_ = Neighbours::found;
+  return true;
+}
+
+void OccluderGatherer::gather_own_body() {
+  if (!edge_.own->shares_self_occlusion) return test_own_body();
+  const SelfOcclusion& known = visibility_.self_occlusion[job_.seen.of[edge_.body]];
+  for (const OcclusionInterval& interval :
+       known.of(static_cast<std::uint32_t>(edge_.feature - edge_.own->view->edges.data())))
+    if (!add(interval)) return;
+}
+
+void OccluderGatherer::test_own_body() {
+  // Limits may cut away what hides: then the convex part's short cut does not hold.
+  const bool judged =
+      !edge_.own->cut && (edge_.feature->surely_behind_part || edge_.feature->surely_clear_of_part);
+  if (judged && edge_.feature->surely_behind_part) {
+    add(OcclusionInterval{RationalParam::zero(), RationalParam::one(), kBothSides, true});
+    if (job_.options.culling) return;
+  }
+  const LocalEdge local = localized(*edge_.own);
+  for (const OccluderPart& part : edge_.own->view->parts) {
+    const bool same = edge_.own->view->polygons[part.first].part == edge_.feature->edge.part;
+    if (same && judged) continue;
+    const bool forgives = same && edge_.own->forgives_rounding;
+    const Rule rule{.contact = same ? edge_.own->within : edge_.own->contact,
+                    .lying = forgives && !edge_.feature->edge.away ? kLyingInPlane : 0,
+                    .self = true,
+                    .edge_on = !forgives};
+    if (!test_part(local, *edge_.own->view, part, rule)) return;
+  }
+}
+
+// False when nothing of the edge is left.
+bool OccluderGatherer::gather_body(std::uint32_t b, bool self) {
+  const BodyInstance& other = visibility_.placed[b];
+  if (!other.opaque) return true;
+  const LocalEdge local = localized(other);
+  const std::int64_t contact = std::max(edge_.contact, other.contact);
+  for (const OccluderPart& part : other.view->parts)
+    if (!test_part(local, *other.view, part, {.contact = contact, .self = self})) return false;
+  return true;
+}
+
+bool OccluderGatherer::test_part(const LocalEdge& local, const ProjectedShape& view,
+                                 const OccluderPart& part, const Rule& rule) {
+  if (!may_be_hidden_by(local, part.box)) return true;
+  if (!part.turn.is_none() &&
+      !make_query(local.va, local.vb, part.turn).may_be_hidden_by(part.turned))
+    return true;
+  if (is_deep_under(local, part, std::max(rule.contact, rule.lying))) {
+    ++work.tests;
+    work.wide_tests += local.narrow ? 0 : 1;
+    return add(occluded_by_silhouette(local, view, part.outline), rule.self);
+  }
+  bool more = true;
+  const auto test = [&](std::uint32_t i) {
+    return more = test_polygon(local, view, view.polygons[part.first + i], rule);
+  };
+  if (!part.tree.empty()) {
+    part.tree.traverse(make_query(local.va, local.vb, part.turn), test);
+  } else if (!part.buckets.empty()) {
+    part.buckets.traverse(make_query(local.va, local.vb), marks_, test);
+  } else {
+    // Without an index there are no fans either, unless everything is in one.
+    for (std::uint32_t i = 0; part.fans.empty() && more && i < part.last - part.first; ++i) test(i);
+  }
+  for (const PolygonFan& fan : part.fans)
+    if (more) fan.traverse(make_query(local.va, local.vb), local.va, local.vb, test);
+  return more;
+}
+
+bool OccluderGatherer::test_polygon(const LocalEdge& local, const ProjectedShape& view,
+                                    const OccluderPolygon& p, const Rule& rule) {
+  if (!may_be_hidden_by(local, p.box) || (p.edge_on && !rule.edge_on)) return true;
+  ++work.tests;
+  work.wide_tests += local.narrow ? 0 : 1;
+  return add(occluded_by_polygon(local, view, p, rule.contact, rule.lying), rule.self);
+}
+
+bool OccluderGatherer::is_deep_under(const LocalEdge& local, const OccluderPart& part,
+                                     std::int64_t contact) const {
+  if (!part.has_outline || !job_.options.culling || local.limits != nullptr) return false;
+  const std::int64_t depth = part.farthest - local.nearest;
+  if (contact == 0) return depth > 0;
+  const double least = static_cast<double>(contact) * part.deep_per_contact + 1;
+  return static_cast<double>(depth) > least * (1 + 1e-9);
+}
+
+bool OccluderGatherer::add(std::optional<OcclusionInterval> interval, bool self) {
+  if (!interval) return true;
+  interval->self = self;
+  return add(*interval);
+}
+
+bool OccluderGatherer::add(const OcclusionInterval& interval) {
+  intervals_.push_back(interval);
+  if (!job_.options.culling) return true;
+  if (!open_.shrink_all(intervals_)) return true;
+  if (open_.empty()) return false;
+  refresh_segment();
+  return true;
+}
+
+LocalEdge OccluderGatherer::localized(const BodyInstance& other) {
+  LocalEdge local;
+  local.a = edge_.a - other.offset;
+  local.b = edge_.b - other.offset;
+  if (other.cut) {
+    limits_ = {job_.limits->lo - other.offset, job_.limits->hi - other.offset};
+    local.limits = &limits_;
+  }
+  if (visibility_.perspective_map) {
+    local.box = perspective_box_;
+    local.nearest = std::max(dot(edge_.a, job_.direction()), dot(edge_.b, job_.direction()));
+    local.narrow = true;
+    return local;
+  }
+  local.va = edge_.va - other.at;
+  local.vb = edge_.vb - other.at;
+  local.box.include(local.va);
+  local.box.include(local.vb);
+  local.nearest = local.box.hi.w;
+  const std::int64_t reach =
+      std::max({std::abs(local.va.u), std::abs(local.va.v), std::abs(local.vb.u),
+                std::abs(local.vb.v), other.view->reach});
+  local.narrow = fits_narrow(reach);
+  return local;
+}
+
+void OccluderGatherer::project_range(double from, double to) {
+  perspective_segment_ = visibility_.perspective_map->segment(edge_.a, edge_.b, from, to);
+  constexpr auto kRim = static_cast<std::int64_t>(PerspectiveMap::kRim);
+  perspective_box_ = perspective_segment_ ? perspective_segment_->box()
+                                          : ViewBox{{-kRim, -kRim, -kRim}, {kRim, kRim, kRim}};
+}
+
+SegmentQuery OccluderGatherer::make_perspective_query() const {
+  if (perspective_segment_)
+    return perspective_segment_->make_query(open_.lo().value, open_.hi().value);
+  constexpr double kRim = PerspectiveMap::kRim;
+  SegmentQuery everywhere;
+  everywhere.u0 = everywhere.v0 = everywhere.w0 = -kRim;
+  everywhere.u1 = everywhere.v1 = kRim;
+  return everywhere;
+}
+
+// The part of the edge that is still open, for a query.
+SegmentQuery OccluderGatherer::make_query(const ViewPoint& a, const ViewPoint& b,
+                                          const PaperRotation& turn) const {
+  if (visibility_.perspective_map) return make_perspective_query();
+  SegmentQuery s;
+  const std::int64_t whole =
+      turn.is_none() ? kExactInDouble : kExactInDouble / (2 * PaperRotation::kMost);
+  const bool exact = std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < whole;
+  const auto au = static_cast<double>(a.u), av = static_cast<double>(a.v);
+  const double bu = static_cast<double>(b.u) - au, bv = static_cast<double>(b.v) - av;
+  const double dw = static_cast<double>(b.w) - static_cast<double>(a.w);
+  const auto c = static_cast<double>(turn.c), k = static_cast<double>(turn.s);
+  const double du = c * bu + k * bv, dv = c * bv - k * bu;
+  s.au = c * au + k * av;
+  s.av = c * av - k * au;
+  s.du = exact ? du : 0;
+  s.dv = exact ? dv : 0;
+  // What the sums above may have lost is far below this share of their terms.
+  const auto range = [&](double from, double step, double size, double& least, double& most) {
+    const double p = from + step * open_.lo().value, q = from + step * open_.hi().value;
+    const double slack = 1e-12 * size;
+    least = std::min(p, q) - slack;
+    most = std::max(p, q) + slack;
+  };
+  const auto size = [&](double x, double y) { return std::abs(c * x) + std::abs(k * y); };
+  double w1 = 0;
+  range(s.au, du, size(au, av) + size(bu, bv), s.u0, s.u1);
+  range(s.av, dv, size(av, au) + size(bv, bu), s.v0, s.v1);
+  range(static_cast<double>(a.w), dw, std::abs(static_cast<double>(a.w)) + std::abs(dw), s.w0, w1);
+  return s;
+}
+
+bool PieceMaker::begin(const EdgeQuery& edge) {
+  edge_ = edge;
+  lo_ = RationalParam::zero();
+  hi_ = RationalParam::one();
+  whole_ = State::visible;
+  const bool limited = edge.own->cut || edge.other->cut;
+  if (edge.cut_away || !edge.clip(visibility_.job.window, lo_, hi_) ||
+      (limited && !edge.clip(*visibility_.job.limits, lo_, hi_)))
+    whole_ = State::clipped;
+  else if (edge.projecting)
+    whole_ = State::projecting;
+  return whole_ == State::visible;
+}
+
+PieceMaker::Absent PieceMaker::finish(std::uint32_t number,
+                                      std::span<const OcclusionInterval> intervals,
+                                      std::vector<EdgePiece>& out) {
+  intervals_.clear();
+  if (whole_ != State::visible) {
+    intervals_.push_back({RationalParam::zero(), RationalParam::one(), whole_});
+  } else {
+    if (lo_.num > 0) intervals_.push_back({RationalParam::zero(), lo_, State::clipped});
+    if (intervals.empty())
+      intervals_.push_back({lo_, hi_, State::visible});
+    else
+      maker_.run(intervals, lo_, hi_, intervals_);
+    if (hi_.num < hi_.den) intervals_.push_back({hi_, RationalParam::one(), State::clipped});
+  }
+  const geometry::Vec3l& origin = visibility_.job.origin;
+  const std::size_t first = out.size();
+  for (const VisibilityInterval& s : intervals_)
+    out.push_back({model::ObjectId{edge_.own->object}, number, edge_.kind, s.state,
+                   model::ObjectId{edge_.other->object}, edge_.at(s.lo, origin),
+                   edge_.at(s.hi, origin)});
+  const std::size_t specks = absorb_specks(rule_, first, out);
+  return {leave_out_unasked(visibility_.job.options, first, out), specks};
+}
+
+}  // namespace strake::hlr
+
+// The engine: every edge gathers what hides it, front to back, and stops when nothing of it is
+// left to be seen. No edge writes to another, so there are no locks and no order to wait for.
+
+namespace strake::hlr {
+namespace {
+
+/// Draws the edges of items; for one worker.
+class Drawer {
+ public:
+  Drawer(const VisibilityScene& visibility, const SpeckRule& rule)
+      : visibility_(visibility), gatherer_(visibility), maker_(visibility, rule) {}
+
+  SolverWork run(const EdgeRange& item, std::vector<EdgePiece>& out) {
+    gatherer_.start(item);
+    const auto lines = visibility_.job.lines.of(visibility_.placed[item.body].object);
+    for (std::uint32_t i = item.first; i < item.last; ++i)
+      draw(item.lines
+               ? EdgeQuery(visibility_, lines[i])
+               : EdgeQuery(visibility_, item.body, visibility_.placed[item.body].view->edges[i]),
+           item.number + (i - item.first), out);
+    return std::exchange(gatherer_.work, {});
+  }
+
+ private:
+  void draw(const EdgeQuery& edge, std::uint32_t number, std::vector<EdgePiece>& out) {
+    ++gatherer_.work.edges;
+    std::span<const OcclusionInterval> intervals;
+    if (maker_.begin(edge)) intervals = gatherer_.intervals(edge, maker_.lo(), maker_.hi());
+    const PieceMaker::Absent absent = maker_.finish(number, intervals, out);
+    gatherer_.work.specks += absent.specks;
+    if (absent.left_out) ++gatherer_.work.left_out;
+  }
+
+  const VisibilityScene& visibility_;
+  OccluderGatherer gatherer_;
+  PieceMaker maker_;
+};
+
+/// What a body's own faces hide of some of its edges.
+void append_self_occlusion(const VisibilityScene& visibility, OccluderGatherer& gatherer,
+                           const EdgeRange& item, SelfOcclusion& out) {
+  const auto& edges = visibility.placed[item.body].view->edges;
+  for (std::uint32_t i = item.first; i < item.last; ++i) {
+    out.first.push_back(static_cast<std::uint32_t>(out.intervals.size()));
+    const auto intervals =
+        gatherer.intervals_of_own_body(EdgeQuery(visibility, item.body, edges[i]));
+    out.intervals.insert(out.intervals.end(), intervals.begin(), intervals.end());
+  }
+}
+
+/// Works out once what the faces of shared shapes hide of their own edges.
+Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Context& context,
+                              Counters& counters) {
+  const std::vector<EdgeRange> items = self_occlusion_ranges(visibility);
+  struct OwnPart {
+    SelfOcclusion intervals;
+    SolverWork work;
+  };
+  std::vector<OwnPart> parts(items.size());
+  const Status done = parallel::for_each_with(
+      context, {.name = "hidden lines: shapes on themselves", .n = items.size()},
+      [&] { return OccluderGatherer(visibility); },
+      [&](OccluderGatherer& gatherer, std::size_t i) {
+        append_self_occlusion(visibility, gatherer, items[i], parts[i].intervals);
+        parts[i].work = std::exchange(gatherer.work, {});
+      });
+  if (!done) return done;
+  visibility.self_occlusion.resize(visibility.views.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    SelfOcclusion& all = visibility.self_occlusion[visibility.job.seen.of[items[i].body]];
+    if (!all.first.empty()) all.first.pop_back();
+    const auto base = static_cast<std::uint32_t>(all.intervals.size());
+    for (const std::uint32_t first : parts[i].intervals.first) all.first.push_back(base + first);
+    all.intervals.insert(all.intervals.end(), parts[i].intervals.intervals.begin(),
+                         parts[i].intervals.intervals.end());
+    all.first.push_back(static_cast<std::uint32_t>(all.intervals.size()));
+    add(counters, parts[i].work);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
+  Result<VisibilityScene> made = make_visibility_scene(job, context);
+  if (!made) return made.error();
+  if (const Status status = compute_self_occlusion(*made, context, drawing.counters); !status)
+    return status;
+  const VisibilityScene& visibility = *made;
+  const SpeckRule rule(job);
+  std::vector<SolverWork> work(visibility.items.size());
+  Result<std::vector<EdgePiece>> pieces = parallel::collect_with<EdgePiece>(
+      context, {.name = "hidden lines: edges", .n = visibility.items.size()},
+      [&] { return Drawer(visibility, rule); },
+      [&](Drawer& drawer, std::size_t i, std::vector<EdgePiece>& out) {
+        work[i] = drawer.run(visibility.items[i], out);
+      });
+  if (!pieces) return pieces.error();
+  drawing.pieces = std::move(pieces).value();
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    add(drawing.counters, work[i]);
+    if (work[i].left_out > 0)
+      drawing.left_out[visibility.placed[visibility.items[i].body].object] +=
+          static_cast<std::uint32_t>(work[i].left_out);
+  }
+  return {};
+}
+
+}  // namespace strake::hlr

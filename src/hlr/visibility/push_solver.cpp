@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// The baseline of the benchmarks, after the scheme of the source thesis (D. Sanz Villafruela): each
+// body publishes what it hides into the edges of the objects under it, each of which is locked
+// while it is written. The union of what hides an edge does not depend on who comes first, so the
+// pieces are those of the engine; how many faces are tested does depend on it.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hlr/prepare/view_job.hpp"
+#include "hlr/view/view_bvh.hpp"
+#include "hlr/visibility/gather_solver.hpp"
+#include "hlr/visibility/visibility_intervals.hpp"
+#include "hlr/visibility/visibility_scene.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/item_locks.hpp"
+#include "strake/parallel/marks.hpp"
+
+namespace strake::hlr {
+namespace {
+
+/// An edge under others, and what has been published of it.
+struct TargetEdge {
+  EdgeQuery edge;
+  RationalParam lo = RationalParam::zero(), hi = RationalParam::one();
+  OpenRange open;
+  std::vector<OcclusionInterval> intervals;
+  bool asked = false;
+
+  void add(const OcclusionInterval& interval) {
+    if (open.empty()) return;
+    intervals.push_back(interval);
+    open.shrink_all(intervals);
+  }
+};
+
+/// The edges of an object. What its own faces hide of them is known from the start.
+struct TargetObject {
+  std::vector<TargetEdge> edges;
+  /// By edge: nothing is left of it to be hidden. Read without the lock: a worker that does not
+  /// know yet tests in vain.
+  parallel::Marks done;
+  ViewBox box;
+};
+
+/// A double no greater.
+double rounded_down(std::int64_t value) {
+  const auto near = static_cast<double>(value);
+  return near - std::fabs(near) * 1e-15 - 1;
+}
+
+class Pusher {
+ public:
+  Pusher(const VisibilityScene& visibility, std::vector<TargetObject>& objects, const ViewBvh& tree,
+         parallel::ItemLocks& locks)
+      : visibility_(visibility),
+        objects_(objects),
+        tree_(tree),
+        locks_(locks),
+        gatherer_(visibility) {}
+
+  SolverWork run(std::uint32_t over) {
+    const BodyInstance& placed = visibility_.placed[over];
+    if (!placed.opaque || placed.view->box.empty()) return {};
+    const ViewBox box = placed.view->box.moved(placed.at);
+    SegmentQuery query;
+    query.u0 = rounded_down(box.lo.u);
+    query.u1 = -rounded_down(-box.hi.u);
+    query.v0 = rounded_down(box.lo.v);
+    query.v1 = -rounded_down(-box.hi.v);
+    query.w0 = rounded_down(-box.hi.w);
+    tree_.traverse(query, [&](std::uint32_t under) {
+      if (under != placed.object) publish(over, under);
+      return true;
+    });
+    return std::exchange(gatherer_.work, {});
+  }
+
+ private:
+  void publish(std::uint32_t over, std::uint32_t under) {
+    TargetObject& object = objects_[under];
+    const std::uint32_t over_object = visibility_.placed[over].object;
+    found_.clear();
+    for (std::uint32_t e = 0; e < object.edges.size(); ++e) {
+      if (object.done.is_set(e)) continue;
+      const TargetEdge& edge = object.edges[e];
+      if (edge.edge.other->object == over_object) continue;
+      for (const OcclusionInterval& interval :
+           gatherer_.intervals_of_body(edge.edge, over, edge.lo, edge.hi))
+        found_.emplace_back(e, interval);
+    }
+    if (found_.empty()) return;
+    const auto held = locks_.hold(under);
+    for (const auto& [e, interval] : found_) {
+      TargetEdge& edge = object.edges[e];
+      edge.add(interval);
+      if (edge.open.empty()) object.done.set(e);
+    }
+  }
+
+  const VisibilityScene& visibility_;
+  std::vector<TargetObject>& objects_;
+  const ViewBvh& tree_;
+  parallel::ItemLocks& locks_;
+  OccluderGatherer gatherer_;
+  std::vector<std::pair<std::uint32_t, OcclusionInterval>> found_;
+};
+
+/// The edges of an object in their order, with what its own faces hide.
+TargetObject local_step(const VisibilityScene& visibility, std::uint32_t object,
+                        OccluderGatherer& gatherer, PieceMaker& maker) {
+  TargetObject result;
+  const auto add = [&](const EdgeQuery& edge) {
+    ++gatherer.work.edges;
+    TargetEdge under;
+    under.edge = edge;
+    under.asked = maker.begin(edge);
+    if (under.asked) {
+      under.lo = maker.lo();
+      under.hi = maker.hi();
+      under.open = OpenRange(under.lo, under.hi);
+      const auto intervals = gatherer.self_occlusion(edge, under.lo, under.hi);
+      under.intervals.assign(intervals.begin(), intervals.end());
+      if (!intervals.empty()) under.open.shrink_all(intervals);
+      result.box.include(gatherer.box());
+    }
+    result.edges.push_back(std::move(under));
+  };
+  const auto& first = visibility.job.scene->first_body;
+  for (std::uint32_t b = first[object]; b < first[object + 1]; ++b) {
+    if (visibility.placed[b].view == nullptr) continue;
+    for (const ProjectedEdge& e : visibility.placed[b].view->edges)
+      add(EdgeQuery(visibility, b, e));
+  }
+  for (const Line& line : visibility.job.lines.of(object)) add(EdgeQuery(visibility, line));
+  result.done = parallel::Marks(result.edges.size());
+  for (std::size_t e = 0; e < result.edges.size(); ++e)
+    if (!result.edges[e].asked || result.edges[e].open.empty()) result.done.set(e);
+  return result;
+}
+
+/// Over the objects' boxes turned round: what is farthest comes first, so that a query finds those
+/// that reach down below it.
+ViewBvh tree_of(const std::vector<TargetObject>& objects) {
+  std::vector<ViewBox> boxes(objects.size());
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    if (objects[o].box.empty()) continue;
+    boxes[o] = objects[o].box;
+    boxes[o].lo.w = -objects[o].box.hi.w;
+    boxes[o].hi.w = -objects[o].box.lo.w;
+  }
+  return ViewBvh(boxes);
+}
+
+/// Bodies that may hide, the nearest first; of equal depth the lower number, so that the order is
+/// total.
+std::vector<std::uint32_t> nearest_first(const VisibilityScene& visibility) {
+  std::vector<std::uint32_t> order(visibility.placed.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto depth = [&](std::uint32_t b) {
+    const BodyInstance& placed = visibility.placed[b];
+    return placed.view == nullptr || placed.view->box.empty()
+               ? std::numeric_limits<std::int64_t>::min()
+               : placed.view->box.hi.w + placed.at.w;
+  };
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    const std::int64_t at_a = depth(a), at_b = depth(b);
+    return at_a != at_b ? at_a > at_b : a < b;
+  });
+  return order;
+}
+
+}  // namespace
+
+Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
+  const Result<VisibilityScene> made = make_visibility_scene(job, context);
+  if (!made) return made.error();
+  const VisibilityScene& visibility = *made;
+  const SpeckRule rule(job);
+  std::vector<TargetObject> objects(job.drawn.size());
+  std::vector<SolverWork> work(objects.size() + visibility.placed.size());
+  struct Local {
+    OccluderGatherer gatherer;
+    PieceMaker maker;
+  };
+  const Status local = parallel::for_each_with(
+      context, {.name = "push: local step", .n = objects.size()},
+      [&] { return Local{OccluderGatherer(visibility), PieceMaker(visibility, rule)}; },
+      [&](Local& own, std::size_t o) {
+        if (!job.drawn[o]) return;
+        objects[o] = local_step(visibility, static_cast<std::uint32_t>(o), own.gatherer, own.maker);
+        work[o] = std::exchange(own.gatherer.work, {});
+      });
+  if (!local) return local;
+  if (job.options.stage == Stage::global) {
+    const ViewBvh tree = tree_of(objects);
+    parallel::ItemLocks locks(objects.size());
+    const std::vector<std::uint32_t> order = nearest_first(visibility);
+    const Status global = parallel::for_each_with(
+        context, {.name = "push: global step", .n = order.size(), .order = order},
+        [&] { return Pusher(visibility, objects, tree, locks); },
+        [&](Pusher& pusher, std::size_t body) {
+          work[objects.size() + body] = pusher.run(static_cast<std::uint32_t>(body));
+        });
+    if (!global) return global;
+  }
+  Result<std::vector<EdgePiece>> pieces = parallel::collect_with<EdgePiece>(
+      context, {.name = "push: pieces", .n = objects.size()},
+      [&] { return PieceMaker(visibility, rule); },
+      [&](PieceMaker& maker, std::size_t o, std::vector<EdgePiece>& out) {
+        for (std::uint32_t e = 0; e < objects[o].edges.size(); ++e) {
+          const TargetEdge& under = objects[o].edges[e];
+          static_cast<void>(maker.begin(under.edge));
+          const PieceMaker::Absent absent = maker.finish(e, under.intervals, out);
+          work[o].specks += absent.specks;
+          if (absent.left_out) ++drawing.left_out[o];
+        }
+      });
+  if (!pieces) return pieces.error();
+  drawing.pieces = std::move(pieces).value();
+  for (const SolverWork& w : work) add(drawing.counters, w);
+  return {};
+}
+
+}  // namespace strake::hlr

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hlr/occluders/projected_shape.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/geometry/wide_int.hpp"
+#include "strake/hlr/hlr.hpp"
+
+namespace strake::hlr {
+
+/// The nearest double; most are short, and far faster converted as such.
+[[nodiscard]] inline double rounded(geometry::Int128 x) {
+  const auto low = static_cast<std::int64_t>(x);
+  return low == x ? static_cast<double>(low) : static_cast<double>(x);
+}
+
+/// An exact parameter in [0, 1] on an edge, num / den (den > 0, not reduced), with its double.
+struct RationalParam {
+  geometry::Int128 num = 0, den = 1;
+  double value = 0;
+
+  [[nodiscard]] static RationalParam of(geometry::Int128 num, geometry::Int128 den) {
+    return {num, den, rounded(num) / rounded(den)};
+  }
+  [[nodiscard]] static RationalParam zero() { return {}; }
+  [[nodiscard]] static RationalParam one() { return {1, 1, 1}; }
+};
+
+/// -1, 0 or 1, exact. Each double is off by at most 3.1·2^-53, so a difference of 2^-50 decides.
+[[nodiscard]] inline int compare(const RationalParam& x, const RationalParam& y) {
+  constexpr double kCertain = 8.9e-16;
+  const double difference = x.value - y.value;
+  if (difference > kCertain) return 1;
+  if (difference < -kCertain) return -1;
+  if (x.num == y.num && x.den == y.den) return 0;
+  const auto left = geometry::mul(x.num, y.den), right = geometry::mul(y.num, x.den);
+  return left < right ? -1 : right < left ? 1 : 0;
+}
+[[nodiscard]] inline bool less(const RationalParam& x, const RationalParam& y) {
+  return compare(x, y) < 0;
+}
+
+/// floor(delta·t + 1/2), exact: the same for every fraction that stands for the same t.
+[[nodiscard]] inline std::int64_t rounded_offset(std::int64_t delta, const RationalParam& t) {
+  const double guess = t.value * static_cast<double>(delta) + 0.5;
+  const double margin = std::fabs(static_cast<double>(delta)) * 1e-15 + 1e-9;
+  const double low = std::floor(guess - margin);
+  if (low == std::floor(guess + margin)) return static_cast<std::int64_t>(low);
+  // k is right when (2k - 1)·den <= 2·delta·num < (2k + 1)·den.
+  auto k = static_cast<std::int64_t>(low);
+  const auto twice = geometry::mul(geometry::Int128{2} * delta, t.num);
+  while (!(twice < geometry::mul(geometry::Int128{2} * k + 1, t.den))) ++k;
+  return k;
+}
+
+/// Grid units, in the measure of a contact distance: an edge of a part whose ends are no deeper
+/// than this under the plane of one of its faces lies in that plane, as both were rounded.
+inline constexpr std::int64_t kLyingInPlane = 2;
+
+enum EdgeSide : std::uint8_t { kLeft = 1, kRight = 2, kBothSides = 3 };
+
+/// A stretch of an edge that something hides, on one side of the edge or on both.
+struct OcclusionInterval {
+  RationalParam lo, hi;
+  std::uint8_t sides = 0;
+  bool self = false;
+};
+
+/// An edge in the coordinates of the shape that may hide it.
+struct LocalEdge {
+  geometry::Vec3l a, b;
+  ViewPoint va, vb;                         ///< orthographic
+  ViewBox box;                              ///< on paper, of what is drawn of it
+  std::int64_t nearest = 0;                 ///< of its ends the greater product with the direction
+  const geometry::Box3l* limits = nullptr;  ///< in the same coordinates; null where none cut
+  bool narrow = false;  ///< 64-bit integers suffice for orientations of this edge and shape
+};
+
+/// True when orientations of points within ±reach can be formed in 64 bits.
+[[nodiscard]] constexpr bool fits_narrow(std::int64_t reach) {
+  return reach < (std::int64_t{1} << 29);
+}
+
+/// The closed stretch of the edge that a polygon hides, by the two-sided rule: what lies strictly
+/// under its open inside for points a hair left or right of the edge, deeper than `contact` in
+/// the sense of docs/hlr.md. An edge of which neither end is deeper than `lying` lies in the
+/// polygon's plane: nothing. Exact. The caller has found that may_be_hidden_by(edge, polygon.box).
+[[nodiscard]] std::optional<OcclusionInterval> occluded_by_polygon(const LocalEdge& edge,
+                                                                   const ProjectedShape& shape,
+                                                                   const OccluderPolygon& polygon,
+                                                                   std::int64_t contact,
+                                                                   std::int64_t lying);
+
+/// The same for what lies deep under an outline (OccluderPart::outline), planes apart.
+[[nodiscard]] std::optional<OcclusionInterval> occluded_by_silhouette(
+    const LocalEdge& edge, const ProjectedShape& shape, const OccluderPolygon& outline);
+
+/// False when the boxes alone show that nothing in `box` hides any of the edge.
+[[nodiscard]] inline bool may_be_hidden_by(const LocalEdge& e, const ViewBox& box) {
+  return e.box.hi.u >= box.lo.u && e.box.lo.u <= box.hi.u && e.box.hi.v >= box.lo.v &&
+         e.box.lo.v <= box.hi.v && e.box.lo.w < box.hi.w;
+}
+
+/// The part of an edge that is still to be decided: everything outside is hidden on both sides.
+class OpenRange {
+ public:
+  OpenRange() = default;
+  OpenRange(const RationalParam& lo, const RationalParam& hi) : lo_(lo), hi_(hi) {}
+
+  [[nodiscard]] const RationalParam& lo() const { return lo_; }
+  [[nodiscard]] const RationalParam& hi() const { return hi_; }
+  [[nodiscard]] bool empty() const { return !less(lo_, hi_); }
+
+  /// Takes away what a hit at either end hides on both sides; true when that changed anything.
+  bool shrink(const OcclusionInterval& interval) {
+    if (interval.sides != kBothSides) return false;
+    bool changed = false;
+    if (!less(lo_, interval.lo) && less(lo_, interval.hi)) {
+      lo_ = interval.hi;
+      changed = true;
+    }
+    if (!less(interval.hi, hi_) && less(interval.lo, hi_)) {
+      hi_ = interval.lo;
+      changed = true;
+    }
+    return changed;
+  }
+  /// The same with the newest hit and then with those before it, until nothing changes.
+  bool shrink_all(std::span<const OcclusionInterval> intervals);
+
+ private:
+  RationalParam lo_ = RationalParam::zero(), hi_ = RationalParam::one();
+};
+
+/// A stretch of an edge in one state.
+struct VisibilityInterval {
+  RationalParam lo, hi;
+  State state = State::visible;
+};
+
+/// Turns hits into the states of docs/hlr.md along [lo, hi]: neighbours differ, none is empty.
+class IntervalSweep {
+ public:
+  void run(std::span<const OcclusionInterval> intervals, const RationalParam& lo,
+           const RationalParam& hi, std::vector<VisibilityInterval>& out);
+
+ private:
+  struct Event {
+    const RationalParam* at = nullptr;
+    std::uint8_t sides = 0;
+    bool self = false, begins = false;
+  };
+  void count(const Event& event);
+  [[nodiscard]] State state() const;
+
+  std::vector<Event> events_;
+  std::uint32_t self_[2] = {0, 0}, all_[2] = {0, 0};
+};
+
+}  // namespace strake::hlr

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/visibility/visibility_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "hlr/edges/element_loop.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/distinct.hpp"
+#include "strake/parallel/pieces.hpp"
+
+namespace strake::hlr {
+namespace {
+
+using geometry::Box3l;
+
+constexpr std::uint32_t kEdgesPerItem = 32;
+/// Of what covers tiles: with more tiles painting them costs more than it spares.
+constexpr std::size_t kEdgesPerTile = 16;
+
+bool within(const Box3l& inner, const Box3l& outer) {
+  for (int k = 0; k < 3; ++k)
+    if (inner.lo[k] < outer.lo[k] || inner.hi[k] > outer.hi[k]) return false;
+  return true;
+}
+
+/// About the least distance before the eye of what is drawn, its near plane apart.
+double nearest_depth(const ViewJob& job) {
+  const ViewAxes axes = axes_of(job.view);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const model::GridBody& body : job.scene->bodies) {
+    const geometry::Box3i& box = job.scene->shapes[body.grid_shape].box;
+    if (!job.drawn[model::index(body.object)] || box.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      geometry::Vec3l p = job.offset(body);
+      for (int k = 0; k < 3; ++k) p[k] += (corner >> k & 1) != 0 ? box.hi[k] : box.lo[k];
+      nearest = std::min(nearest, -dot(axes.toward, p.as<double>()));
+    }
+  }
+  const double near_plane = job.view.perspective->near_mm * geometry::kGridPerMm;
+  return std::isfinite(nearest) ? std::max(nearest, near_plane) : near_plane;
+}
+
+/// A view of a body's shape for all bodies that share it; in perspective, of each body.
+Status make_views(VisibilityScene& visibility, const parallel::Context& context) {
+  const ViewJob& job = visibility.job;
+  const model::Scene& scene = *job.scene;
+  const std::size_t views = visibility.perspective_map ? scene.bodies.size() : job.seen.all.size();
+  std::vector<std::uint32_t> body_of(views);
+  std::vector<bool> wanted(views);
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    if (!job.drawn[model::index(scene.bodies[b].object)]) continue;
+    const std::uint32_t view = visibility.view_of(b);
+    if (!wanted[view]) body_of[view] = b;
+    wanted[view] = true;
+  }
+  const auto edges = [&](std::size_t view) {
+    std::size_t sum = 0;
+    for (const geometry::Part& part : job.sectioned_shape_of(body_of[view]).source->parts)
+      sum += part.edges.size();
+    return sum;
+  };
+  visibility.views = parallel::Precomputed<ProjectedShape>(views);
+  const PerspectiveMap* const perspective_map =
+      visibility.perspective_map ? &*visibility.perspective_map : nullptr;
+  return visibility.views.fill_by_weight(
+      context, {.name = "hidden lines: shapes"}, kBigShape, parallel::keys_of(wanted), edges,
+      [&](std::size_t view) {
+        const std::uint32_t body = body_of[view];
+        return view_of(job.sectioned_shape_of(body),
+                       {visibility.projection, job.features_of(scene.bodies[body]), perspective_map,
+                        job.options.bucketing, job.may_forgive_rounding(), context});
+      });
+}
+
+/// Leaves those bodies out that hide what others of other objects hide too.
+Status drop_equal_bodies(VisibilityScene& visibility, std::vector<ViewBox>& boxes,
+                         const parallel::Context& context) {
+  // An edge, or a line that two objects have in common, asks the others: one of three is left.
+  constexpr std::uint32_t kEnough = 3;
+  const auto& first_body = visibility.job.scene->first_body;
+  std::vector<std::uint32_t> some;
+  for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+    const std::uint32_t object = visibility.placed[b].object;
+    if (!boxes[b].empty() && first_body[object + 1] - first_body[object] <= kFewBodies)
+      some.push_back(b);
+  }
+  const auto shape = [&](std::size_t i) { return visibility.job.seen.of[some[i]]; };
+  const auto placed = [&](std::size_t i) -> const BodyInstance& {
+    return visibility.placed[some[i]];
+  };
+  const auto kinds = parallel::distinct(
+      context, "hidden lines: equal bodies", some.size(),
+      [&](std::size_t i) {
+        std::uint64_t h = parallel::mixed(shape(i), static_cast<std::uint64_t>(placed(i).contact));
+        for (int k = 0; k < 3; ++k)
+          h = parallel::mixed(h, static_cast<std::uint64_t>(placed(i).offset[k]));
+        return h;
+      },
+      [&](std::size_t i, std::size_t j) {
+        return shape(i) == shape(j) && placed(i).offset == placed(j).offset &&
+               placed(i).contact == placed(j).contact;
+      });
+  if (!kinds) return kinds.error();
+  struct Kept {
+    std::uint32_t objects = 0, last = 0;
+  };
+  std::vector<Kept> kept(kinds->first.size());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    Kept& of_kind = kept[kinds->of[i]];
+    const std::uint32_t object = placed(i).object;
+    if (of_kind.objects == 0 || of_kind.last != object) ++of_kind.objects;
+    of_kind.last = object;
+    if (of_kind.objects <= kEnough) continue;
+    boxes[some[i]] = {};
+    visibility.placed[some[i]].repeated = true;
+  }
+  return {};
+}
+
+Status place_bodies(VisibilityScene& visibility, const parallel::Context& context) {
+  const ViewJob& job = visibility.job;
+  const model::Scene& scene = *job.scene;
+  visibility.placed.resize(scene.bodies.size());
+  std::vector<ViewBox> boxes(scene.bodies.size());
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    const model::GridBody& body = scene.bodies[b];
+    const std::uint32_t object = model::index(body.object);
+    if (!job.drawn[object]) continue;
+    const SectionedShape& seen = job.sectioned_shape_of(b);
+    const model::GridShape& shape = seen.shape();
+    BodyInstance& placed = visibility.placed[b];
+    placed = {visibility.views.find(visibility.view_of(b)),
+              job.offset(body),
+              visibility.perspective_map ? ViewPoint{} : visibility.projection(job.offset(body)),
+              object,
+              job.contact[b],
+              seen.within,
+              job.opaque[b],
+              false,
+              job.forgives_rounding(b)};
+    if (job.limits && !shape.box.empty()) {
+      Box3l box = body.box(shape);
+      // Hatch lines lie on the plane itself, which rounded rims are as much as 1.5 units off.
+      const std::int64_t beyond = seen.cut != nullptr ? 2 : 0;
+      const geometry::Vec3l more{beyond, beyond, beyond};
+      box = {box.lo - job.origin - more, box.hi - job.origin + more};
+      placed.cut = !within(box, *job.limits);
+      placed.opaque = placed.opaque && box.meets(*job.limits);
+    }
+    if (placed.opaque && !placed.view->box.empty()) boxes[b] = placed.view->box.moved(placed.at);
+  }
+  if (job.options.culling)
+    if (const Status status = drop_equal_bodies(visibility, boxes, context); !status) return status;
+  visibility.tree = ViewBvh(boxes);
+  return {};
+}
+
+/// Bodies of one shape that hide, whole, and take the same contact distance between their parts.
+void mark_shared_self_occlusion(VisibilityScene& visibility) {
+  const SectionedShapes& shapes = visibility.job.seen;
+  constexpr std::uint32_t kNoShape = 0xffffffffU;
+  std::vector<std::uint32_t> first(shapes.all.size(), kNoShape);
+  for (std::uint32_t b = 0; b < visibility.placed.size(); ++b) {
+    BodyInstance& placed = visibility.placed[b];
+    if (placed.view == nullptr || !placed.opaque || placed.cut) continue;
+    std::uint32_t& one = first[shapes.of[b]];
+    if (one == kNoShape) {
+      one = b;
+    } else if (placed.contact == visibility.placed[one].contact) {
+      placed.shares_self_occlusion = visibility.placed[one].shares_self_occlusion = true;
+    }
+  }
+}
+
+Status make_occlusion_buffer(VisibilityScene& visibility, const parallel::Context& context) {
+  const ViewJob& job = visibility.job;
+  if (!job.options.culling || job.options.stage != Stage::global || visibility.perspective_map)
+    return {};
+  std::size_t edges = 0;
+  for (const BodyInstance& placed : visibility.placed)
+    if (placed.view != nullptr) edges += placed.view->edges.size();
+  std::int64_t contact = job.lines.contact;
+  for (const std::int64_t c : job.contact) contact = std::max(contact, c);
+  auto occlusion_buffer = OcclusionBuffer::of(visibility.placed, visibility.projection, contact,
+                                              edges / kEdgesPerTile, context);
+  if (!occlusion_buffer) return occlusion_buffer.error();
+  visibility.occlusion_buffer = std::move(*occlusion_buffer);
+  return {};
+}
+
+void make_items(VisibilityScene& visibility) {
+  const model::Scene& scene = *visibility.job.scene;
+  std::uint32_t number = 0;
+  const auto add = [&](std::uint32_t body, std::size_t size, bool lines) {
+    const auto edges = static_cast<std::uint32_t>(size);
+    parallel::cut_evenly(edges, kEdgesPerItem, [&](std::uint32_t first, std::uint32_t last) {
+      visibility.items.push_back({body, first, last, number + first, lines});
+    });
+    number += edges;
+  };
+  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+    if (visibility.placed[b].view == nullptr) continue;
+    const std::uint32_t object = visibility.placed[b].object;
+    if (b == scene.first_body[object]) number = 0;
+    add(b, visibility.placed[b].view->edges.size(), false);
+    if (b + 1 == scene.first_body[object + 1]) add(b, visibility.job.lines.of(object).size(), true);
+  }
+}
+
+}  // namespace
+
+std::vector<EdgeRange> self_occlusion_ranges(const VisibilityScene& visibility) {
+  const SectionedShapes& shapes = visibility.job.seen;
+  std::vector<bool> known(shapes.all.size());
+  std::vector<EdgeRange> items;
+  for (std::uint32_t b = 0; b < visibility.placed.size(); ++b) {
+    if (!visibility.placed[b].shares_self_occlusion || known[shapes.of[b]]) continue;
+    known[shapes.of[b]] = true;
+    const auto edges = static_cast<std::uint32_t>(visibility.placed[b].view->edges.size());
+    parallel::cut_evenly(edges, kEdgesPerItem, [&](std::uint32_t first, std::uint32_t last) {
+      items.push_back({.body = b, .first = first, .last = last});
+    });
+  }
+  return items;
+}
+
+Result<VisibilityScene> make_visibility_scene(const ViewJob& job,
+                                              const parallel::Context& context) {
+  VisibilityScene visibility(job);
+  if (job.view.perspective) visibility.perspective_map.emplace(job.view, nearest_depth(job));
+  if (const Status status = make_views(visibility, context); !status) return status.error();
+  if (const Status status = place_bodies(visibility, context); !status) return status.error();
+  if (job.options.culling && job.options.stage != Stage::none && !visibility.perspective_map)
+    mark_shared_self_occlusion(visibility);
+  if (const Status status = make_occlusion_buffer(visibility, context); !status)
+    return status.error();
+  make_items(visibility);
+  return visibility;
+}
+
+using geometry::Int128;
+using geometry::Vec3l;
+
+namespace {
+
+/// Cuts [lo, hi] down to where an affine function, known at 0 and 1, is not negative.
+bool clip_affine(Int128 at_a, Int128 at_b, RationalParam& lo, RationalParam& hi) {
+  if (at_a >= 0 && at_b >= 0) return true;
+  if (at_a <= 0 && at_b <= 0) return false;
+  if (at_a < at_b) {
+    const RationalParam root = RationalParam::of(-at_a, at_b - at_a);
+    if (less(lo, root)) lo = root;
+  } else {
+    const RationalParam root = RationalParam::of(at_a, at_a - at_b);
+    if (less(root, hi)) hi = root;
+  }
+  return less(lo, hi);
+}
+
+}  // namespace
+
+EdgeQuery::EdgeQuery(const VisibilityScene& visibility, std::uint32_t body_index,
+                     const ProjectedEdge& e)
+    : body(body_index),
+      own(&visibility.placed[body_index]),
+      other(own),
+      feature(&e),
+      kind(e.edge.kind),
+      projecting(e.edge.projecting),
+      cut_away(e.edge.cut_away),
+      contact(own->contact),
+      a(e.edge.a.as<std::int64_t>() + own->offset),
+      b(e.edge.b.as<std::int64_t>() + own->offset),
+      va(e.a + own->at),
+      vb(e.b + own->at) {}
+
+EdgeQuery::EdgeQuery(const VisibilityScene& visibility, const Line& line)
+    : body(line.body_a),
+      own(&visibility.placed[line.body_a]),
+      other(&visibility.placed[line.body_b]),
+      kind(line.kind),
+      cut_away(line.cut_away),
+      contact(std::max({own->contact, other->contact, visibility.job.lines.contact})),
+      a(line.a - visibility.job.origin),
+      b(line.b - visibility.job.origin),
+      va(visibility.perspective_map ? ViewPoint{} : visibility.projection(a)),
+      vb(visibility.perspective_map ? ViewPoint{} : visibility.projection(b)) {
+  projecting = visibility.job.viewer.sees_as_point(a, b);
+}
+
+Vec3l EdgeQuery::at(const RationalParam& t, const Vec3l& origin) const {
+  if (t.num == 0) return a + origin;
+  if (t.num == t.den) return b + origin;
+  Vec3l p = a + origin;
+  for (int k = 0; k < 3; ++k)
+    if (a[k] != b[k]) p[k] += rounded_offset(b[k] - a[k], t);
+  return p;
+}
+
+bool EdgeQuery::clip(const geometry::Box3l& limits, RationalParam& lo, RationalParam& hi) const {
+  for (int k = 0; k < 3; ++k)
+    if (!clip_affine(a[k] - limits.lo[k], b[k] - limits.lo[k], lo, hi) ||
+        !clip_affine(limits.hi[k] - a[k], limits.hi[k] - b[k], lo, hi))
+      return false;
+  return true;
+}
+
+bool EdgeQuery::clip(std::span<const HalfSpace> window, RationalParam& lo,
+                     RationalParam& hi) const {
+  for (const HalfSpace& half : window) {
+    const ExactNormal n{half.normal.x, half.normal.y, half.normal.z};
+    if (!clip_affine(along(n, a) - half.least, along(n, b) - half.least, lo, hi)) return false;
+  }
+  return true;
+}
+
+}  // namespace strake::hlr

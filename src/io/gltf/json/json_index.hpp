@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "io/gltf/json/json.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::io::gltf {
+
+/// Where to cut a JSON text into pieces of about `piece_bytes`: offsets behind commas that stand
+/// outside strings, ascending. Depends on the text and the size only, and takes a fraction of the
+/// time of an index: whether a block of the text begins within a string follows from the number of
+/// quotes before it. In a text that is no JSON the offsets are of no use, but do no harm.
+[[nodiscard]] Result<std::vector<std::size_t>> json_split_points(std::string_view text,
+                                                                 std::size_t piece_bytes,
+                                                                 const parallel::Context& context);
+
+/// The index of a piece of a JSON text. A piece begins at the beginning of the text or behind a
+/// comma between two items, and ends at the end of the text or behind another such comma. What
+/// encloses a later piece is not known while it is indexed, only what it closes of it.
+struct JsonFragment {
+  /// The end, in this piece, of an array or object that an earlier one opened.
+  struct Close {
+    JsonType type = JsonType::absent;
+    std::uint32_t text_end = 0;
+    std::uint32_t entries = 0;  ///< of this piece that come before it
+  };
+  std::vector<JsonEntry> entries;  ///< offsets are of the whole text, `next` is of this piece
+  std::vector<Close> closes;
+  std::vector<std::uint32_t> open;  ///< entries that are still open at the end, outermost first
+  /// What the innermost array or object is that was open before the piece and still is at its
+  /// end; absent: nothing in the piece tells.
+  JsonType outer = JsonType::absent;
+  std::size_t deepest = 0;    ///< most values open at once, those opened before counted as closed
+  bool behind_comma = false;  ///< an item is expected next
+  const char* message = nullptr;  ///< of a fault at text offset `at`; null: none
+  std::size_t at = 0;
+};
+
+/// Indexes text[begin, end).
+[[nodiscard]] JsonFragment index_json_fragment(std::string_view text, std::size_t begin,
+                                               std::size_t end);
+
+}  // namespace strake::io::gltf

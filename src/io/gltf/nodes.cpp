@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/gltf/nodes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "io/source/precision.hpp"
+#include "io/source/units_and_axes.hpp"
+
+namespace strake::io::gltf {
+namespace {
+
+using geometry::Placement;
+using geometry::Vec3d;
+
+/// Extras may hold whole tables; what is longer or deeper than this is of no use as an attribute.
+constexpr std::size_t kMostAttributeBytes = 4096;
+constexpr int kMostAttributeDepth = 4;
+
+bool is_reserved(const JsonValue& key) {
+  return key.is_text("id") || key.is_text("path") || key.is_text("instances");
+}
+
+void add_attributes(const JsonValue& extras, const std::string& prefix, int depth,
+                    model::Attributes& out) {
+  extras.members([&](const JsonValue& key, const JsonValue& value) {
+    if (depth == 0 && is_reserved(key)) return;
+    if (value.raw().size() > (kMostAttributeBytes << 4U)) return;
+    // The writer's own "attributes" are not a level of the user's.
+    const bool own = depth == 0 && value.is_object() && key.is_text("attributes");
+    std::string name = prefix;
+    if (!own) key.append_text(name);
+    if (name.size() > kMostAttributeBytes) return;
+    if (value.is_object()) {
+      if (!own) name.push_back('.');
+      if (depth < kMostAttributeDepth) add_attributes(value, name, depth + 1, out);
+      return;
+    }
+    if (value.raw().size() > kMostAttributeBytes) return;
+    out.emplace_back(std::move(name),
+                     value.is_string() ? value.text_value() : std::string(value.raw()));
+  });
+}
+
+std::optional<Placement> matrix_of(const JsonValue& json) {
+  std::array<double, 16> m{};
+  if (!json.numbers(m.data(), 16)) return std::nullopt;
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) return std::nullopt;
+  Placement placement;
+  for (std::size_t row = 0; row < 3; ++row)
+    placement.linear.row[row] = {m[row], m[4 + row], m[8 + row]};
+  placement.translation = {m[12], m[13], m[14]};
+  return placement;
+}
+
+/// What a node says of its place; each may be absent.
+struct Transform {
+  JsonValue matrix, translation, rotation, scale;
+};
+
+/// Nothing when it is not a finite affine one.
+std::optional<Placement> parse_transform(const Transform& json) {
+  const auto finite = [](const std::optional<Placement>& placement) {
+    return placement && is_finite(*placement) ? placement : std::nullopt;
+  };
+  if (json.matrix.exists()) return finite(matrix_of(json.matrix));
+  std::array<double, 3> t{0, 0, 0}, s{1, 1, 1};
+  std::array<double, 4> r{0, 0, 0, 1};
+  const auto given = [](const JsonValue& value, double* out, std::size_t count) {
+    return !value.exists() || value.numbers(out, count);
+  };
+  if (!given(json.translation, t.data(), 3) || !given(json.scale, s.data(), 3) ||
+      !given(json.rotation, r.data(), 4))
+    return std::nullopt;
+  return finite(placement_of({t[0], t[1], t[2]}, r.data(), {s[0], s[1], s[2]}));
+}
+
+}  // namespace
+
+std::optional<Placement> placement_of(const Vec3d& translation, const double* quaternion,
+                                      const Vec3d& scale) {
+  const double x = quaternion[0], y = quaternion[1], z = quaternion[2], w = quaternion[3];
+  const double norm = x * x + y * y + z * z + w * w;
+  if (!(norm > 0)) return std::nullopt;
+  const double f = 2 / norm;  // exporters round: the rotation is that of the unit quaternion
+  Placement result;
+  result.linear.row[0] = {(1 - f * (y * y + z * z)) * scale.x, f * (x * y - w * z) * scale.y,
+                          f * (x * z + w * y) * scale.z};
+  result.linear.row[1] = {f * (x * y + w * z) * scale.x, (1 - f * (x * x + z * z)) * scale.y,
+                          f * (y * z - w * x) * scale.z};
+  result.linear.row[2] = {f * (x * z - w * y) * scale.x, f * (y * z + w * x) * scale.y,
+                          (1 - f * (x * x + y * y)) * scale.z};
+  result.translation = translation;
+  return result;
+}
+
+GltfNode parse_node(const JsonValue& json, std::size_t index,
+                    const std::vector<JsonValue>& mesh_names) {
+  const auto [name, mesh, children, matrix, translation, rotation, scale, extras, extensions, skin,
+              weights] =
+      json.pick<11>({"name", "mesh", "children", "matrix", "translation", "rotation", "scale",
+                     "extras", "extensions", "skin", "weights"});
+  GltfNode node;
+  node.name = name.text_value();
+  if (mesh.exists()) {
+    node.mesh = mesh.index().value_or(UINT64_MAX);
+    if (*node.mesh >= mesh_names.size())
+      node.fault = GltfFault{fmt::format("/nodes/{}/mesh", index), "does not exist"};
+    else if (node.name.empty())
+      node.name = mesh_names[*node.mesh].text_value();
+  }
+  node.counted = node.name.empty();
+  if (node.counted) node.name = fmt::format("node {}", index);
+  children.elements(
+      [&](const JsonValue& child) { node.children.push_back(child.index().value_or(UINT64_MAX)); });
+  if (const auto local = parse_transform({matrix, translation, rotation, scale}))
+    node.local = *local;
+  else
+    node.fault =
+        GltfFault{fmt::format("/nodes/{}", index), "its transformation is not a finite affine one"};
+  if (extras.is_object()) {
+    constexpr std::size_t kUsual = 4;  // what one allocation holds as well as half of it
+    node.attributes.reserve(kUsual);
+    node.id = extras["id"].text_value();
+    node.instance_extras = extras["instances"];
+    add_attributes(extras, "", 0, node.attributes);
+  }
+  node.instancing = extensions["EXT_mesh_gpu_instancing"];
+  node.skinned = skin.exists();
+  node.weights = weights;
+  return node;
+}
+
+std::uint64_t stated_instances(const GltfNode& node, const Accessors& accessors) {
+  std::uint64_t most = 0;
+  for (const JsonValue& attribute : node.instancing["attributes"].items())
+    most = std::max(most, accessors.stated_count(attribute.index().value_or(UINT64_MAX)));
+  return most;
+}
+
+namespace {
+
+/// One of the three attributes; absent is fine, anything else of another width or count is not.
+std::optional<GltfFault> open_attribute(const JsonValue& attributes, const char* name,
+                                        std::size_t width, const Accessors& accessors,
+                                        std::optional<Accessor>& out) {
+  const JsonValue json = attributes[name];
+  if (!json.exists()) return std::nullopt;
+  Checked<Accessor> opened = accessors.open(json.index().value_or(UINT64_MAX));
+  if (const GltfFault* fault = fault_of(opened)) return *fault;
+  auto& accessor = std::get<Accessor>(opened);
+  if (accessor.width != width)
+    return GltfFault{accessor.pointer, fmt::format("cannot be an instance {}", name)};
+  out = std::move(accessor);
+  return std::nullopt;
+}
+
+void read_names(const JsonValue& extras, std::size_t count, Instances& out) {
+  const std::vector<JsonValue> items = extras.items();
+  if (!extras.is_array() || items.size() != count) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonValue& item = items[i];
+    std::string name = item.is_string() ? item.text_value() : item["name"].text_value();
+    std::string id = item["id"].text_value();
+    out.counted.push_back(name.empty() && id.empty());
+    if (name.empty()) name = id.empty() ? fmt::format("instance {}", i) : id;
+    out.names.push_back(std::move(name));
+    out.ids.push_back(std::move(id));
+  }
+}
+
+}  // namespace
+
+double Instances::half_spacing(std::size_t instance) const {
+  const double largest = largest_coordinate(std::array{placements[instance].translation});
+  return std::max(float32_half_spacing(largest), translation_step / 2);
+}
+
+Instances read_instances(const GltfNode& node, const Accessors& accessors) {
+  Instances result;
+  const JsonValue attributes = node.instancing["attributes"];
+  std::optional<Accessor> translation, rotation, scale;
+  for (auto fault : {open_attribute(attributes, "TRANSLATION", 3, accessors, translation),
+                     open_attribute(attributes, "ROTATION", 4, accessors, rotation),
+                     open_attribute(attributes, "SCALE", 3, accessors, scale)})
+    if (fault) {
+      result.fault = std::move(fault);
+      return result;
+    }
+  std::optional<std::size_t> count;
+  for (const auto* part : {&translation, &rotation, &scale}) {
+    if (!*part) continue;
+    if (count && *count != (*part)->count) {
+      result.fault = GltfFault{(*part)->pointer, "instance attributes differ in their counts"};
+      return result;
+    }
+    count = (*part)->count;
+  }
+  if (translation) result.translation_step = translation->step();
+  for (std::size_t i = 0; i < count.value_or(0); ++i) {
+    std::array<double, 4> t{0, 0, 0, 0}, r{0, 0, 0, 1}, s{1, 1, 1, 0};
+    if (translation) translation->element(i, t.data());
+    if (rotation) rotation->element(i, r.data());
+    if (scale) scale->element(i, s.data());
+    const std::optional<Placement> placement =
+        placement_of({t[0], t[1], t[2]}, r.data(), {s[0], s[1], s[2]});
+    if (!placement || !is_finite(*placement)) {
+      result.fault = GltfFault{"EXT_mesh_gpu_instancing",
+                               fmt::format("instance {} has no finite transformation", i)};
+      return result;
+    }
+    result.placements.push_back(*placement);
+  }
+  read_names(node.instance_extras, result.placements.size(), result);
+  return result;
+}
+
+namespace {
+
+Error refused(std::string pointer, std::string message,
+              std::string mend = "mend the hierarchy: every node has at most one parent") {
+  return {ErrorCode::input, std::move(message), std::move(pointer), std::move(mend)};
+}
+
+Result<std::vector<std::uint32_t>> parents_of(const std::vector<GltfNode>& nodes) {
+  std::vector<std::uint32_t> parents(nodes.size(), kNoParent);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const std::uint64_t child : nodes[i].children) {
+      const auto pointer = [i] { return fmt::format("/nodes/{}/children", i); };
+      if (child >= nodes.size()) return refused(pointer(), "names a node that does not exist");
+      if (parents[child] != kNoParent)
+        return refused(pointer(),
+                       fmt::format("node {} has two parents, {} and {}", child, parents[child], i));
+      parents[child] = static_cast<std::uint32_t>(i);
+    }
+  return parents;
+}
+
+/// With one parent at most for each, nodes that no root leads to go round in a circle.
+Status check_cycles(const std::vector<GltfNode>& nodes, const std::vector<std::uint32_t>& parents) {
+  std::vector<std::uint32_t> open;
+  std::vector<bool> reached(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (parents[i] == kNoParent) open.push_back(static_cast<std::uint32_t>(i));
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
+    reached[node] = true;
+    for (const std::uint64_t child : nodes[node].children)
+      open.push_back(static_cast<std::uint32_t>(child));
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!reached[i]) return refused(fmt::format("/nodes/{}", i), "the node is its own ancestor");
+  return {};
+}
+
+Result<std::vector<std::uint32_t>> roots_of(const JsonValue& root,
+                                            const std::vector<GltfNode>& nodes,
+                                            const std::vector<std::uint32_t>& parents) {
+  std::vector<std::uint32_t> roots;
+  const std::vector<JsonValue> scenes = root["scenes"].items();
+  if (scenes.empty()) {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (parents[i] == kNoParent) roots.push_back(static_cast<std::uint32_t>(i));
+    return roots;
+  }
+  const JsonValue scene_json = root["scene"];
+  const std::uint64_t scene = scene_json.exists() ? scene_json.index().value_or(UINT64_MAX) : 0;
+  if (scene >= scenes.size()) return refused("/scene", "names a scene that does not exist");
+  const std::string pointer = fmt::format("/scenes/{}/nodes", scene);
+  std::vector<bool> listed(nodes.size());
+  for (const JsonValue& item : scenes[scene]["nodes"].items()) {
+    const std::uint64_t node = item.index().value_or(UINT64_MAX);
+    if (node >= nodes.size()) return refused(pointer, "names a node that does not exist");
+    if (parents[node] != kNoParent || listed[node])
+      return refused(pointer, fmt::format("node {} is listed but is a child of another or is "
+                                          "listed twice",
+                                          node));
+    listed[node] = true;
+    roots.push_back(static_cast<std::uint32_t>(node));
+  }
+  return roots;
+}
+
+}  // namespace
+
+Result<std::vector<VisitedNode>> visit_order(const JsonValue& root,
+                                             const std::vector<GltfNode>& nodes) {
+  const Result<std::vector<std::uint32_t>> parents = parents_of(nodes);
+  if (!parents) return parents.error();
+  if (const Status acyclic = check_cycles(nodes, *parents); !acyclic) return acyclic.error();
+  const Result<std::vector<std::uint32_t>> roots = roots_of(root, nodes, *parents);
+  if (!roots) return roots.error();
+
+  struct OpenNode {
+    VisitedNode visit;
+    std::uint32_t depth = 0;
+  };
+  std::vector<VisitedNode> order;
+  std::vector<OpenNode> open;
+  for (auto node = roots->rbegin(); node != roots->rend(); ++node)
+    open.push_back({{*node, kNoParent}, 0});
+  while (!open.empty()) {
+    const OpenNode next = open.back();
+    open.pop_back();
+    if (next.depth == kMaxNodeDepth)
+      return refused(fmt::format("/nodes/{}", next.visit.node),
+                     fmt::format("nodes are nested more than {} deep", kMaxNodeDepth),
+                     "export the model with a flatter hierarchy");
+    const auto self = static_cast<std::uint32_t>(order.size());
+    order.push_back(next.visit);
+    const std::vector<std::uint64_t>& children = nodes[next.visit.node].children;
+    for (auto child = children.rbegin(); child != children.rend(); ++child)
+      open.push_back({{static_cast<std::uint32_t>(*child), self}, next.depth + 1});
+  }
+  return order;
+}
+
+}  // namespace strake::io::gltf

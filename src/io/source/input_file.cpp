@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/source/input_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <new>
+#include <string>
+#include <system_error>
+
+namespace strake::io {
+namespace {
+
+Error cannot_read(const std::filesystem::path& path, int reason) {
+  return Error{ErrorCode::input,
+               "cannot be read: " + std::error_code(reason, std::generic_category()).message(),
+               path.string(), "check the path and the permissions"};
+}
+
+/// An open file that closes itself.
+class Descriptor {
+ public:
+  /// Does not wait for the other end of a pipe, which is no model anyway.
+  explicit Descriptor(const std::filesystem::path& path)
+      : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&&) = delete;
+  Descriptor& operator=(Descriptor&&) = delete;
+
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+}  // namespace
+
+Result<FileContent> FileContent::read(const std::filesystem::path& path) {
+  const Descriptor file(path);
+  if (file.number() < 0) return cannot_read(path, errno);
+  struct stat facts{};
+  if (::fstat(file.number(), &facts) != 0) return cannot_read(path, errno);
+  if (S_ISDIR(facts.st_mode)) return cannot_read(path, EISDIR);
+  if (!S_ISREG(facts.st_mode))
+    return Error{ErrorCode::input, "is not a regular file", path.string(),
+                 "give a model file; a pipe or a device must be saved to one first"};
+
+  FileContent content;
+  const auto size = static_cast<std::size_t>(facts.st_size);
+  content.data_.reset(new (std::nothrow) std::byte[size]);
+  if (content.data_ == nullptr) return out_of_memory();
+  while (content.size_ < size) {
+    constexpr std::size_t kMost = std::size_t{1} << 30;  // one read() takes no more than 2 GiB
+    const auto got = ::read(file.number(), content.data_.get() + content.size_,
+                            std::min(size - content.size_, kMost));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return cannot_read(path, errno);
+    if (got == 0) break;
+    content.size_ += static_cast<std::size_t>(got);
+  }
+  return content;
+}
+
+namespace {
+
+/// Whether `inner` lies below `folder`, symbolic links followed.
+bool lies_below(const std::filesystem::path& inner, const std::filesystem::path& folder) {
+  std::error_code failed;
+  const std::filesystem::path real_inner = std::filesystem::weakly_canonical(inner, failed);
+  if (failed) return false;
+  const std::filesystem::path real_folder = std::filesystem::weakly_canonical(folder, failed);
+  if (failed) return false;
+  const std::filesystem::path relative = real_inner.lexically_relative(real_folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> safe_relative_path(const std::filesystem::path& referring_file,
+                                                        std::string_view name) {
+  if (name.empty() || name.find('\0') != std::string_view::npos) return std::nullopt;
+  std::string portable(name);
+  for (char& c : portable)
+    if (c == '\\') c = '/';
+  const std::filesystem::path relative(portable);
+  if (relative.is_absolute() || portable.find("://") != std::string::npos) return std::nullopt;
+  if (portable.size() > 1 && portable[1] == ':') return std::nullopt;  // a drive letter
+  for (const std::filesystem::path& step : relative)
+    if (step == "..") return std::nullopt;
+  std::filesystem::path folder = referring_file.parent_path();
+  if (folder.empty()) folder = ".";
+  std::filesystem::path found = folder / relative;
+  if (!lies_below(found, folder)) return std::nullopt;
+  return found;
+}
+
+}  // namespace strake::io

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "model/scene/grid_shape.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/parallel/distinct.hpp"
+
+namespace strake::model {
+
+/// Which shapes are one another moved by grid steps, all that belongs to them equal: most exporters
+/// write the mesh of a part anew for every place where it stands. Shapes of primitives, and those
+/// that have a fault, equal only themselves. Errors: cancelled.
+[[nodiscard]] Result<parallel::Distinct> find_equal_shapes(std::span<const GridShapeResult> shapes,
+                                                           const parallel::Context& context);
+
+/// A hash of a shape that has parts with vertices: the same for equal ones, and hardly ever for
+/// those that differ in vertices, triangles or sag, so that few are compared.
+[[nodiscard]] std::uint64_t translation_invariant_hash(const GridShape& shape);
+
+/// How far equal shapes are moved: from one vertex of `from` to the same one of `to`.
+[[nodiscard]] geometry::Vec3l translation_between(const GridShape& from, const GridShape& to);
+
+}  // namespace strake::model

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/model/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/seeded_hash.hpp"
+#include "model/scene/grid_shape.hpp"
+#include "model/scene/instancing.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::model {
+namespace {
+
+using geometry::Mat3d;
+
+constexpr double kMostWeldMm = 1000;
+
+/// Which seams of a body close: those that its numbers cannot tell apart, before wider ones that
+/// are asked for.
+geometry::Seams seams_of(const Model& model, const Body& body, const SceneOptions& options) {
+  if (!std::holds_alternative<geometry::TriangleMesh>(model.shapes[index(body.shape)])) return {};
+  const auto on_grid = [](double units) {
+    return static_cast<std::int64_t>(std::min(units, kMostWeldMm * geometry::kGridPerMm));
+  };
+  const std::int64_t own = on_grid(std::ceil(contact_distance(body.precision_um)));
+  const std::int64_t within =
+      options.weld_mm >= 0 ? on_grid(options.weld_mm * geometry::kGridPerMm) : own;
+  return {within, std::min(own, within)};
+}
+
+/// A shape under one linear part, with its seams closed alike, and the body that asked for it
+/// first. Precisions are few: steps of float32 and of decimals.
+struct Use {
+  ShapeId shape{};
+  geometry::Seams seams;
+  std::uint32_t body = 0;
+  std::uint32_t bodies = 0;
+};
+
+/// Negative zero counts as zero: the two place alike.
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
+
+std::size_t hash_of(const SeededHash& hash, const Body& body, const geometry::Seams& seams) {
+  std::array<std::uint64_t, 12> words{index(body.shape), static_cast<std::uint64_t>(seams.within),
+                                      static_cast<std::uint64_t>(seams.first)};
+  std::size_t at = 2;
+  for (const geometry::Vec3d& row : body.placement.linear.row)
+    for (int k = 0; k < 3; ++k) words[++at] = bits(row[k]);
+  return hash.of(std::as_bytes(std::span(words)));
+}
+
+bool same_linear(const Mat3d& a, const Mat3d& b) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      if (bits(a.row[i][k]) != bits(b.row[i][k])) return false;
+  return true;
+}
+
+/// Numbers the distinct (shape, linear part, seams) in order of first appearance.
+class UseTable {
+ public:
+  UseTable(const Model& model, const SceneOptions& options, std::size_t bodies)
+      : model_(model), options_(options) {
+    slots_.assign(std::bit_ceil(bodies * 2 + 2), kEmpty);
+  }
+
+  std::uint32_t number(std::uint32_t body) {
+    const Body& b = model_.bodies[body];
+    const geometry::Seams seams = seams_of(model_, b, options_);
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t slot = hash_of(hash_, b, seams) & mask;; slot = (slot + 1) & mask) {
+      if (slots_[slot] == kEmpty) {
+        slots_[slot] = static_cast<std::uint32_t>(uses_.size());
+        uses_.push_back({b.shape, seams, body, 1});
+        return slots_[slot];
+      }
+      Use& use = uses_[slots_[slot]];
+      if (use.shape == b.shape && use.seams == seams &&
+          same_linear(model_.bodies[use.body].placement.linear, b.placement.linear)) {
+        ++use.bodies;
+        return slots_[slot];
+      }
+    }
+  }
+  [[nodiscard]] std::vector<Use> take() && { return std::move(uses_); }
+
+ private:
+  static constexpr std::uint32_t kEmpty = 0xffffffffU;
+  const Model& model_;
+  const SceneOptions& options_;
+  SeededHash hash_;
+  std::vector<std::uint32_t> slots_;
+  std::vector<Use> uses_;
+};
+
+bool wanted(Category category, const SceneOptions& options) {
+  switch (category) {
+    case Category::physical:
+      return options.physical;
+    case Category::obstruction:
+      return options.obstruction;
+    case Category::insulation:
+      return options.insulation;
+  }
+  return false;
+}
+
+/// Adds a diagnostic whose text is only made when it will be kept.
+template <class Message>
+void report(Diagnostics& diagnostics, Severity severity, std::string_view code, const Model& model,
+            ObjectId id, Message&& message) {
+  if (diagnostics.count(code) >= Diagnostics::kMaxPerCode) {
+    diagnostics.add(severity, code, {}, {});
+    return;
+  }
+  const Object& object = model.object(id);
+  const std::string_view file =
+      object.file < model.files.size() ? std::string_view(model.files[object.file].label) : "";
+  const std::string& name = object.name.empty() ? object.id : object.name;
+  diagnostics.add(severity, code, message(),
+                  file.empty() ? name : fmt::format("{}: {}", file, name));
+}
+
+/// Whether a surface ends somewhere: an edge has an odd number of triangles. One that does not end
+/// is a sheet only because its triangles do not all face the same way.
+bool ends_somewhere(const geometry::Part& part) {
+  for (std::size_t e = 0; e + 1 < part.edges.size(); ++e)
+    if ((part.edges[e + 1].first_triangle - part.edges[e].first_triangle) % 2 != 0) return true;
+  return false;
+}
+
+/// `counted` takes a code, a count and its words for one and for many.
+template <class Counted>
+void report_weld(const geometry::RepairCounts& findings, const Counted& counted) {
+  if (findings.welded_corners == 0) return;
+  const double mm = findings.largest_weld * geometry::kMmPerGrid;
+  const std::string apart =
+      mm < 1 ? fmt::format("up to {:.3g} um", mm * 1000) : fmt::format("up to {:.3f} mm", mm);
+  const bool closed = findings.welded_shells > 0;
+  const std::string what = closed ? "so that a surface closes" : "so that edges of a surface meet";
+  counted(Severity::note, "mesh-welded", findings.welded_corners,
+          fmt::format("a corner {} beside another or an edge counts as on it, {}", apart, what),
+          fmt::format("{{}} corners {} beside others or edges count as on them, {}", apart, what));
+}
+
+/// What is worth telling about a shape, said of the first object that uses it; how many bodies use
+/// it besides is added.
+void report_findings(const GridShapeResult& made, std::uint32_t bodies, const Model& model,
+                     ObjectId id, Diagnostics& diagnostics) {
+  const auto counted = [&](Severity severity, std::string_view code, std::uint64_t count,
+                           std::string_view one, std::string_view many) {
+    if (count != 0)
+      report(diagnostics, severity, code, model, id, [&] {
+        std::string text = fmt::format(fmt::runtime(count == 1 ? one : many), count);
+        if (bodies > 1)
+          text += fmt::format("; likewise in {} more {} of the same shape", bodies - 1,
+                              bodies == 2 ? "body" : "bodies");
+        return text;
+      });
+  };
+  counted(Severity::note, "mesh-degenerate", made.findings.degenerate_triangles,
+          "a triangle without area was left out", "{} triangles without area were left out");
+  counted(Severity::note, "mesh-cut", made.findings.cut_triangles,
+          "a triangle was cut where corners of others lie on its edges, to match them",
+          "{} triangles were cut where corners of others lie on their edges, to match them");
+  report_weld(made.findings, counted);
+  counted(Severity::note, "mesh-duplicate", made.findings.duplicate_triangles,
+          "a repeated triangle was left out", "{} repeated triangles were left out");
+  counted(Severity::warning, "mesh-turned", made.findings.turned_triangles,
+          "a triangle of a closed surface faced the other way than the others and is turned",
+          "{} triangles of closed surfaces faced the other way than the others and are turned");
+  counted(Severity::warning, "mesh-nested", made.findings.nested_shells,
+          "a closed shell inside solid material was left out",
+          "{} closed shells inside solid material were left out");
+  counted(Severity::warning, "mesh-two-sided", made.findings.two_sided_shells,
+          "a closed skin is drawn from both sides and counts as the solid inside it",
+          "{} closed skins are drawn from both sides and count as the solids inside them");
+  counted(Severity::skipped, "mesh-bad-triangle", made.bad_triangles,
+          "a triangle with a vertex that is missing or has no place was left out",
+          "{} triangles with a vertex that is missing or has no place were left out");
+  counted(Severity::skipped, "polyline-bad-point", made.bad_points,
+          "a point that has no place was left out", "{} points that have no place were left out");
+  std::uint64_t inverted = 0, open = 0, mixed = 0, non_manifold = 0;
+  for (const geometry::Part& part : made.shape.parts) {
+    inverted += part.flags.inverted ? 1U : 0U;
+    if (part.flags.open) ++(ends_somewhere(part) ? open : mixed);
+    non_manifold += part.flags.non_manifold ? 1U : 0U;
+  }
+  counted(Severity::warning, "mesh-inverted", inverted, "a solid was inside out and is turned",
+          "{} solids were inside out and are turned");
+  counted(Severity::note, "mesh-open", open, "a surface does not close and counts as a sheet",
+          "{} surfaces do not close and count as sheets");
+  counted(Severity::warning, "mesh-mixed-winding", mixed,
+          "a surface closes, but its triangles do not all face the same way: it counts as a sheet, "
+          "and what lies within it is not found",
+          "{} surfaces close, but their triangles do not all face the same way: they count as "
+          "sheets, and what lies within them is not found");
+  counted(Severity::note, "mesh-non-manifold", non_manifold,
+          "a part has edges with more than two triangles",
+          "{} parts have edges with more than two triangles");
+}
+
+/// Everything the assembly of a scene passes along.
+struct SceneAssembly {
+  const Model& model;
+  const SceneOptions& options;
+  Scene scene;
+};
+
+/// Lists the wanted bodies object by object, each with the number of its use.
+std::vector<Use> list_bodies(SceneAssembly& assembly) {
+  const Model& model = assembly.model;
+  Scene& scene = assembly.scene;
+  UseTable table(model, assembly.options, model.bodies.size());
+  scene.bodies.reserve(model.bodies.size());
+  for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+    const Object& object = model.objects[o];
+    if (object.incomplete)
+      scene.lacking.push_back(
+          {ObjectId{o}, object.body_count == 0 ? "object-skipped" : "object-incomplete"});
+    for (std::uint32_t b = object.first_body; b - object.first_body < object.body_count; ++b) {
+      if (b >= model.bodies.size() || index(model.bodies[b].shape) >= model.shapes.size()) {
+        report(scene.diagnostics, Severity::skipped, "body-without-shape", model, ObjectId{o},
+               [] { return std::string("a body refers to a shape that does not exist"); });
+        scene.lacking.push_back({ObjectId{o}, "body-without-shape"});
+        continue;
+      }
+      if (!wanted(model.bodies[b].category, assembly.options)) {
+        ++scene.left_out;
+        continue;
+      }
+      scene.bodies.push_back({table.number(b), b, ObjectId{o}, {}});
+    }
+  }
+  return std::move(table).take();
+}
+
+/// Triangles, roughly: what the heaviest shapes are known by.
+double estimated_cost(const Shape& shape) {
+  if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
+    return static_cast<double>(mesh->triangles.size());
+  if (const auto* lines = std::get_if<geometry::Polylines>(&shape))
+    return static_cast<double>(lines->points.size());
+  return 100;
+}
+
+Result<std::vector<GridShapeResult>> make_shapes(const SceneAssembly& assembly,
+                                                 const std::vector<Use>& uses,
+                                                 const parallel::Context& context) {
+  const Model& model = assembly.model;
+  // Small shapes go in blocks, the heaviest block first.
+  constexpr std::size_t kGrain = 16;
+  const parallel::Region blocks{.n = uses.size(), .grain = kGrain};
+  std::vector<double> costs(blocks.blocks(), 0);
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    costs[i / kGrain] += estimated_cost(model.shapes[index(uses[i].shape)]);
+  const std::vector<std::uint32_t> order = parallel::longest_first(costs);
+  const parallel::Region region{
+      .name = "shapes on the grid", .n = uses.size(), .grain = kGrain, .order = order};
+  return parallel::transform_with(
+      context, region, [] { return GridShapeMaker(); },
+      [&](GridShapeMaker& maker, std::size_t i) {
+        GridShapeResult made = maker.make(
+            model.shapes[index(uses[i].shape)], model.bodies[uses[i].body].placement.linear,
+            {.sag_mm = assembly.options.sag_mm, .seams = uses[i].seams});
+        made.shape.shape = uses[i].shape;
+        return made;
+      });
+}
+
+/// Places the bodies of the shapes that were made, each with the first that is equal; the others
+/// and the unplaceable are reported.
+void place_bodies(SceneAssembly& assembly, const std::vector<Use>& uses,
+                  const std::vector<GridShapeResult>& made, const parallel::Distinct& kinds) {
+  const Model& model = assembly.model;
+  Scene& scene = assembly.scene;
+  std::vector<bool> told(made.size(), false);
+  std::size_t kept = 0;
+  scene.first_body.assign(model.objects.size() + 1, 0);
+  for (const GridBody& candidate : scene.bodies) {
+    GridBody body = candidate;
+    const GridShapeResult& shape = made[body.grid_shape];
+    if (!told[body.grid_shape])
+      report_findings(shape, uses[body.grid_shape].bodies, model, body.object, scene.diagnostics);
+    told[body.grid_shape] = true;
+    const auto origin = geometry::snap(model.bodies[body.body].placement.translation);
+    if (shape.bad_triangles > 0) scene.lacking.push_back({body.object, "mesh-bad-triangle"});
+    if (shape.bad_points > 0) scene.lacking.push_back({body.object, "polyline-bad-point"});
+    if (!shape.fault.empty() || !origin) {
+      const std::string_view code = shape.fault.empty() ? "body-unplaceable"
+                                    : shape.vanished    ? kVanished
+                                                        : "shape-unplaceable";
+      scene.lacking.push_back({body.object, code});
+      report(scene.diagnostics, Severity::skipped, code, model, body.object, [&] {
+        return shape.fault.empty() ? std::string(
+                                         "a body has no place: its translation is not finite or "
+                                         "beyond a million kilometres")
+                                   : fmt::format("a body has no place: {}", shape.fault);
+      });
+      continue;
+    }
+    body.grid_shape = kinds.of[candidate.grid_shape];
+    body.origin = *origin + shape.shape.base;
+    const std::uint32_t first = kinds.first[body.grid_shape];
+    if (first != candidate.grid_shape)
+      body.origin = body.origin + translation_between(made[first].shape, shape.shape);
+    scene.bodies[kept++] = body;
+    ++scene.first_body[index(body.object) + 1];
+  }
+  scene.bodies.resize(kept);
+  for (std::size_t o = 1; o < scene.first_body.size(); ++o)
+    scene.first_body[o] += scene.first_body[o - 1];
+  std::ranges::sort(scene.lacking);
+  const auto repeated = std::ranges::unique(scene.lacking);
+  scene.lacking.erase(repeated.begin(), repeated.end());
+}
+
+}  // namespace
+
+double contact_distance(float precision_um) {
+  static_assert(geometry::kGridPerMm == 1000, "a grid unit is a micrometre");
+  // Two ulp are four of the half spacings that a source states.
+  return std::max(3.0, 4 * static_cast<double>(precision_um));
+}
+
+Result<Scene> make_scene(const Model& model, const SceneOptions& options,
+                         const parallel::Context& context) {
+  if (!(options.sag_mm > 0) || !std::isfinite(options.sag_mm))
+    return Error{ErrorCode::usage, "the sag must be a positive length", "", "give one like 0.5mm"};
+  if (!(options.weld_mm <= kMostWeldMm))
+    return Error{ErrorCode::usage, "the weld distance must be a length up to a metre", "",
+                 "leave it out to have it derived from the sources"};
+  SceneAssembly assembly{model, options, {}};
+  const std::vector<Use> uses = list_bodies(assembly);
+  Result<std::vector<GridShapeResult>> shapes = make_shapes(assembly, uses, context);
+  if (!shapes) return shapes.error();
+  std::vector<GridShapeResult>& made = *shapes;
+  const Result<parallel::Distinct> kinds = find_equal_shapes(made, context);
+  if (!kinds) return kinds.error();
+  place_bodies(assembly, uses, made, *kinds);
+  Scene& scene = assembly.scene;
+  scene.model = &model;
+  scene.sag_mm = options.sag_mm;
+  scene.weld_mm = options.weld_mm;
+  scene.shapes.reserve(kinds->first.size());
+  for (const std::uint32_t first : kinds->first)
+    scene.shapes.push_back(std::move(made[first].shape));
+  return std::move(assembly.scene);
+}
+
+}  // namespace strake::model

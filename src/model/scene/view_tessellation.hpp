@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::model {
+
+/// What a view wants of the primitives that it shows.
+struct ViewTessellationOptions {
+  /// To the viewer, in lowest terms: contours of round primitives are edges (geometry::tessellate).
+  /// None: no direction.
+  std::optional<geometry::Vec3l> towards = {};
+  double sag_mm = 0;  ///< the largest sag of curved primitives; 0: that of the scene
+  /// Whether anything of a body in that box, grid units, may be seen: those of which nothing is
+  /// keep the sag of the scene. None: all may.
+  std::function<bool(const geometry::Box3l&)> shows = {};
+};
+
+/// A scene as a view sees it: its primitives are tessellated anew where that changes them, once per
+/// shape and rotation as in `scene`. All else stays, bodies in their order. `drawn` says which
+/// objects are asked for (empty: all); shapes that none of them uses are left empty. Nothing where
+/// nothing changes: where no object that is drawn has a curved primitive that is not fine enough or
+/// a round one with contours, or the scene was not made by make_scene.
+///
+/// Applied twice it changes nothing more. The model must outlive the result. Errors: cancelled.
+[[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(
+    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
+    const parallel::Context& context);
+
+}  // namespace strake::model

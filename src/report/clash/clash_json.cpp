@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "report/clash/clash_json_members.hpp"
+#include "report/clash/clash_schema_version.hpp"
+#include "report/clash/group_numbers.hpp"
+#include "report/json/json_writer.hpp"
+#include "report/text/formatting.hpp"
+#include "report/text/ordered_lines.hpp"
+#include "strake/core/diagnostics.hpp"
+#include "strake/report/clash.hpp"
+
+namespace strake::report {
+namespace {
+
+using clash::Report;
+
+void files(std::string& out, const model::Model& model) {
+  append_list(out, "files", model.files, [&](const model::SourceFile& file) {
+    out += "{\"label\": ";
+    append_json(out, file.label);
+    out += ", \"format\": ";
+    append_json(out, file.format);
+    out += ", \"unit\": ";
+    append_json(out, file.unit);
+    if (file.ends_early) out += ", \"ends_early\": true";
+    out += '}';
+  });
+}
+
+void rules(std::string& out, const RulesSource& source) {
+  out += "\"rules\": {\"file\": ";
+  append_json(out, source.file);
+  out += ", \"hash\": \"" + source.hash.text() + "\"}";
+}
+
+/// What a diagnostic and a count of such begin with.
+void begin_diagnostic(std::string& out, std::string_view code, Severity severity) {
+  out += "{\"code\": ";
+  append_json(out, code);
+  out += ", \"severity\": ";
+  append_json(out, severity_name(severity));
+}
+
+void diagnostics(std::string& out, const Diagnostics& all) {
+  append_list(
+      out, "diagnostics", all.counts(),
+      [&](const Diagnostics::Count& c) {
+        begin_diagnostic(out, c.code, c.severity);
+        out += ", \"count\": " + std::to_string(c.count) + "}";
+      },
+      "\n  ");
+  out += ",\n";
+  append_list(
+      out, "messages", all.kept(),
+      [&](const Diagnostic& d) {
+        begin_diagnostic(out, d.code, d.severity);
+        out += ", \"where\": ";
+        append_json(out, d.where);
+        out += ", \"message\": ";
+        append_json(out, d.message);
+        out += '}';
+      },
+      "\n  ");
+}
+
+void groups(BufferedWriter& buffer, const clash::Grouping& grouping) {
+  std::string& out = buffer.text();
+  out += "\"groups\": {\"by\": \"";
+  out += name(grouping.rules.by);
+  out += "\"";
+  if (grouping.rules.by == clash::GroupBy::proximity) {
+    out += ", \"distance_mm\": ";
+    append_mm(out, grouping.rules.distance_mm);
+  }
+  out += ", ";
+  append_list(
+      out, "list", grouping.groups,
+      [&](const clash::Group& group) {
+        append_group(out, group);
+        buffer.done();
+      },
+      "\n  ");
+  out += '}';
+}
+
+/// The list `name` of what items(test) are, one a line: write(text, number of the test, number of
+/// the item in it, item).
+template <class Items, class Write>
+Status list(BufferedWriter& buffer, std::string_view name, const clash::Findings& findings,
+            const parallel::Context& context, Items&& items, Write&& write) {
+  append_key(buffer.text(), name);
+  buffer.text() += '[';
+  bool first = true;
+  for (std::size_t t = 0; t < findings.tests.size(); ++t) {
+    const auto& of_test = items(findings.tests[t]);
+    const Status status =
+        write_lines(context, of_test.size(), buffer, [&](std::size_t i, std::string& out) {
+          out += first && i == 0 ? "\n" : ",\n";
+          write(out, t, i, of_test[i]);
+        });
+    if (!status) return status;
+    first = first && of_test.empty();
+  }
+  buffer.text() += "\n]";
+  return {};
+}
+
+Status results(BufferedWriter& buffer, const ClashContents& contents,
+               const parallel::Context& context) {
+  const GroupNumbers numbers(contents);
+  return list(
+      buffer, "results", contents.findings, context,
+      [](const Report& test) -> const auto& { return test.pairs; },
+      [&](std::string& out, std::size_t test, std::size_t p, const clash::Pair& pair) {
+        append_result(out, contents, test, pair, numbers.of(test, p));
+      });
+}
+
+Status not_compared(BufferedWriter& buffer, const ClashContents& contents,
+                    const parallel::Context& context) {
+  return list(
+      buffer, "not_compared", contents.findings, context,
+      [](const Report& test) -> const auto& { return test.not_compared; },
+      [&](std::string& out, std::size_t test, std::size_t, const clash::NotCompared& what) {
+        append_not_compared(out, contents, test, what);
+      });
+}
+
+Status exempted_pairs(BufferedWriter& buffer, const ClashContents& contents,
+                      const parallel::Context& context) {
+  return list(
+      buffer, "exempted", contents.findings, context,
+      [](const Report& test) -> const auto& { return test.exempted_pairs; },
+      [&](std::string& out, std::size_t test, std::size_t, const clash::ExemptedPair& pair) {
+        append_exempted_pair(out, contents, test, pair);
+      });
+}
+
+}  // namespace
+
+Status write_clash_json(const ClashContents& contents, Sink sink,
+                        const parallel::Context& context) {
+  const clash::Findings& findings = contents.findings;
+  BufferedWriter buffer(sink);
+  std::string& out = buffer.text();
+  out += "{\n\"schema_version\": ";
+  out += kClashSchemaVersion;
+  out += ",\n";
+  files(out, contents.model);
+  out += ",\n";
+  if (contents.rules != nullptr) {
+    rules(out, *contents.rules);
+    out += ",\n";
+  }
+  append_tests(out, findings, contents.model);
+  out += ",\n\"hash\": ";
+  append_json(out, hash_of(findings));
+  out += ",\n";
+  Diagnostics all;
+  if (contents.loading != nullptr) all = *contents.loading;
+  all.append(findings.all_diagnostics());
+  diagnostics(out, all);
+  out += ",\n";
+  if (const Status s = not_compared(buffer, contents, context); !s) return s;
+  out += ",\n";
+  if (contents.grouping != nullptr) {
+    groups(buffer, *contents.grouping);
+    out += ",\n";
+  }
+  if (const Status s = results(buffer, contents, context); !s) return s;
+  if (std::ranges::any_of(findings.tests, &Report::lists_exempted)) {
+    out += ",\n";
+    if (const Status s = exempted_pairs(buffer, contents, context); !s) return s;
+  }
+  out += "\n}\n";
+  return {};
+}
+
+}  // namespace strake::report

@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/clash/clash_json_members.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "clash/results/clash_key.hpp"
+#include "core/text_encoding.hpp"
+#include "report/json/json_writer.hpp"
+#include "report/text/formatting.hpp"
+
+namespace strake::report {
+
+ElementHashes::ElementHashes(const model::Model& model) {
+  elements_.reserve(model.objects.size());
+  for (std::uint32_t o = 0; o < model.objects.size(); ++o)
+    elements_.push_back({clash::element_hash(model, model::ObjectId{o}), o});
+  std::ranges::sort(elements_, [](const HashedElement& x, const HashedElement& y) {
+    return x.hash != y.hash ? x.hash < y.hash : x.object < y.object;
+  });
+}
+
+void ElementHashes::append_list(std::string& out) const {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(elements_.size() * 8);
+  for (const HashedElement& e : elements_)
+    for (unsigned shift = 0; shift < 64; shift += 8)
+      bytes.push_back(static_cast<std::uint8_t>((e.hash >> shift) & 255U));
+  append_base64(out, bytes);
+}
+
+void ElementHashes::append_members(std::string& out, const std::vector<bool>& member) const {
+  std::vector<std::uint8_t> bytes((elements_.size() + 7) / 8, 0);
+  for (std::size_t i = 0; i < elements_.size(); ++i)
+    if (elements_[i].object < member.size() && member[elements_[i].object])
+      bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | (1U << (i % 8)));
+  append_base64(out, bytes);
+}
+
+void ElementHashes::append_bytes(std::string& out,
+                                 const std::vector<std::uint8_t>& of_object) const {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(elements_.size());
+  for (const HashedElement& e : elements_)
+    bytes.push_back(e.object < of_object.size() ? of_object[e.object] : std::uint8_t{0});
+  append_base64(out, bytes);
+}
+
+namespace {
+
+using clash::Pair;
+using clash::Report;
+
+/// The beginning of an object, which what is told of it may follow.
+void begin_object(std::string& out, const model::Model& model, model::ObjectId id) {
+  const model::Object& o = model.object(id);
+  out += '{';
+  append_identity(out, o.id, o.name, model.files[o.file].label);
+  if (o.positional_id) out += ", \"positional_id\": true";
+}
+
+void object(std::string& out, const model::Model& model, model::ObjectId id) {
+  begin_object(out, model, id);
+  out += '}';
+}
+
+void point(std::string& out, std::string_view name, const geometry::Vec3d& p) {
+  out += ", ";
+  append_key(out, name);
+  out += '[';
+  append_point(out, p, ", ");
+  out += ']';
+}
+
+/// Where the separation is measured: two closest points, or the way from the deepest one out.
+void witness(std::string& out, const Pair& p) {
+  point(out, "point_mm", p.point_mm);
+  if (p.d_mm >= 0) {
+    point(out, "on_a_mm", p.on_a_mm);
+    point(out, "on_b_mm", p.on_b_mm);
+  } else if (p.away == geometry::Vec3d{}) {
+    out += ", \"surface_mm\": null, \"push_out\": null";
+  } else {
+    point(out, "surface_mm", p.surface_mm());
+    point(out, "push_out", p.away);
+  }
+}
+
+void side(std::string& out, const model::Model& model, const Report& report, model::ObjectId id,
+          std::uint32_t part, clash::Level level) {
+  begin_object(out, model, id);
+  out += ", \"part\": " + std::to_string(part);
+  if (report.levels) {
+    out += ", \"level\": \"";
+    out += name(level);
+    out += '"';
+  }
+  if (!report.disciplines.empty()) {
+    const std::uint32_t d = report.discipline[index(id)];
+    out += ", \"discipline\": ";
+    append_json(out, d == clash::kNoLabel ? std::string_view() : report.disciplines[d].name);
+  }
+  out += "}";
+}
+
+/// Millimetres rounded outward, so that the points lie in it.
+void box(std::string& out, const geometry::Box3d& b) {
+  out += "[[";
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) out += ", ";
+    append_mm_floor(out, b.lo[k]);
+  }
+  out += "], [";
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) out += ", ";
+    append_mm_ceil(out, b.hi[k]);
+  }
+  out += "]]";
+}
+
+/// The d of a result or of one of its regions.
+template <class Found>
+void measured(std::string& out, const Found& found) {
+  out += ", \"d_mm\": ";
+  append_mm(out, found.d_mm);
+  out += ", \"d_range_mm\": [";
+  append_range(out, found.d_lower_mm, found.d_upper_mm, ", ");
+  out += ']';
+  if (!found.depth_complete) out += ", \"depth_complete\": false";
+}
+
+void flags(std::string& out, std::uint16_t of_found) {
+  out += ", \"flags\": [";
+  append_flags(out, of_found, ", ", "\"");
+  out += ']';
+}
+
+void allowed(std::string& out, const Report& test, std::int32_t rule) {
+  if (rule < 0) return;
+  out += ", \"allowed\": ";
+  append_json(out, test.allowed[static_cast<std::size_t>(rule)].rule);
+}
+
+void region(std::string& out, const Report& test, const clash::Region& r) {
+  out += "{\"class\": \"";
+  out += name(r.cls);
+  out += '"';
+  allowed(out, test, r.allowed);
+  measured(out, r);
+  point(out, "point_mm", r.point_mm);
+  out += ", \"box_mm\": ";
+  box(out, r.box_mm);
+  out += ", \"part_a\": " + std::to_string(r.part_a) + ", \"part_b\": " + std::to_string(r.part_b);
+  flags(out, r.flags);
+  out += '}';
+}
+
+void region_list(std::string& out, const Report& test, std::string_view name, std::size_t first,
+                 std::size_t listed) {
+  if (listed == 0) return;
+  out += ", ";
+  append_list(out, name, std::span(test.regions).subspan(first, listed),
+              [&](const clash::Region& r) { region(out, test, r); });
+}
+
+/// How many separate places the two meet in, and the worst of several; those apart that a rule
+/// allows.
+void regions(std::string& out, const Report& test, const Pair& p) {
+  if (test.options.most_regions > 0) {
+    out += ", \"region_count\": ";
+    out += p.regions == 0 ? "null" : std::to_string(p.regions);
+  }
+  if (p.allowed_regions > 0)
+    out += ", \"allowed_region_count\": " + std::to_string(p.allowed_regions);
+  const std::uint32_t listed = p.regions_listed(test.options);
+  region_list(out, test, "regions", p.first_region, listed);
+  region_list(out, test, "allowed_regions", p.first_region + listed,
+              p.allowed_regions_listed(test.options));
+}
+
+void volume(std::string& out, const Pair& p) {
+  out += ", \"volume_mm3\": ";
+  if (p.volume_mm3)
+    append_mm(out, *p.volume_mm3);
+  else
+    out += "null";
+}
+
+}  // namespace
+
+void append_result(std::string& out, const ClashContents& contents, std::size_t test, const Pair& p,
+                   std::optional<std::uint32_t> group) {
+  const model::Model& model = contents.model;
+  const Report& report = contents.findings.tests[test];
+  out += "{\"key\": \"" + clash::pair_key(report.name, model, p.a, p.b) +
+         "\", \"test\": " + std::to_string(test);
+  if (group) out += ", \"group\": " + std::to_string(*group);
+  out += ", \"a\": ";
+  side(out, model, report, p.a, p.part_a, p.level_a);
+  out += ", \"b\": ";
+  side(out, model, report, p.b, p.part_b, p.level_b);
+  out += ", \"class\": \"";
+  out += name(p.cls);
+  out += '"';
+  allowed(out, report, p.allowed);
+  if (p.severest > (p.allowed < 0 ? p.cls : clash::Class::no_hit)) {
+    out += ", \"may_be\": \"";
+    out += name(p.severest);
+    out += '"';
+  }
+  out += ", \"relation\": \"";
+  out += name(p.relation);
+  out += '"';
+  measured(out, p);
+  witness(out, p);
+  if (p.cls == clash::Class::hit && report.options.volumes == clash::Volumes::on) volume(out, p);
+  regions(out, report, p);
+  flags(out, p.flags);
+  out += '}';
+}
+
+void append_group(std::string& out, const clash::Group& g) {
+  out += "{\"id\": \"" + g.id + "\", \"name\": ";
+  append_json(out, g.name);
+  out += ", \"results\": " + std::to_string(g.results.size()) + ", \"class\": \"";
+  out += name(g.worst);
+  out += "\", \"d_mm\": ";
+  append_mm(out, g.d_mm);
+  out += ", ";
+  append_counts(out, g.count_hit, g.count_contact, g.count_clearance);
+  if (g.volume_mm3) {
+    out += ", \"volume_mm3\": ";
+    append_mm(out, *g.volume_mm3);
+  }
+  out += ", \"box_mm\": ";
+  box(out, g.box_mm);
+  out += "}";
+}
+
+void append_exempted_pair(std::string& out, const ClashContents& contents, std::size_t test,
+                          const clash::ExemptedPair& pair) {
+  out += "{\"test\": " + std::to_string(test) + ", \"rule\": ";
+  append_json(out, contents.findings.tests[test].exempted[pair.rule].rule);
+  out += ", \"a\": ";
+  object(out, contents.model, pair.a);
+  out += ", \"b\": ";
+  object(out, contents.model, pair.b);
+  out += '}';
+}
+
+void append_not_compared(std::string& out, const ClashContents& contents, std::size_t test,
+                         const clash::NotCompared& what) {
+  out += "{\"test\": " + std::to_string(test) + ", \"code\": ";
+  append_json(out, what.code);
+  out += ", \"a\": ";
+  object(out, contents.model, what.a);
+  if (what.b) {
+    out += ", \"b\": ";
+    object(out, contents.model, *what.b);
+  }
+  out += '}';
+}
+
+namespace {
+
+using clash::Report;
+
+void tolerances(std::string& out, const clash::Tolerances& t) {
+  out += "\"clearance_mm\": ";
+  append_mm(out, t.clearance_mm);
+  out += ", \"touch_gap_mm\": ";
+  append_mm(out, t.touch_gap_mm);
+  out += ", \"touch_overlap_mm\": ";
+  append_mm(out, t.touch_overlap_mm);
+  out += ", \"thickness_cap\": ";
+  out += t.thickness_cap == clash::ThicknessCap::on ? "true" : "false";
+}
+
+void settings(std::string& out, const Report& report) {
+  out += "\"settings\": {";
+  tolerances(out, clash::tolerances_of(report.options));
+  out += ", \"contact_distance_mm\": ";
+  append_mm(out, report.contact_distance_mm);
+  if (report.weld_mm >= 0) {
+    out += ", \"weld_mm\": ";
+    append_mm(out, report.weld_mm);
+  }
+  out += ", \"curves\": ";
+  out += report.options.curves == clash::Curves::on ? "true}" : "false}";
+}
+
+void sets(std::string& out, const Report& report) {
+  out += "\"sets\": {\"a\": ";
+  append_json(out, report.set_a);
+  out += ", \"b\": ";
+  append_json(out, report.set_b);
+  out += "}, \"objects\": {\"a\": " + std::to_string(report.objects_a) +
+         ", \"b\": " + std::to_string(report.objects_b) + "}";
+}
+
+void exempted(std::string& out, const Report& report) {
+  append_list(out, "exempted", report.exempted, [&](const clash::Exempted& rule) {
+    out += "{\"rule\": ";
+    append_json(out, rule.rule);
+    out += ", \"pairs\": " + std::to_string(rule.pairs) + "}";
+  });
+}
+
+void allowed(std::string& out, const Report& report) {
+  append_list(out, "allowed", report.allowed, [&](const clash::AllowedCount& rule) {
+    out += "{\"rule\": ";
+    append_json(out, rule.rule);
+    out += ", \"candidates\": " + std::to_string(rule.candidates) +
+           ", \"pairs\": " + std::to_string(rule.pairs) +
+           ", \"places\": " + std::to_string(rule.places) + "}";
+  });
+}
+
+void cell(std::string& out, const Report& report, const clash::CellReport& cell) {
+  out += "{\"a\": ";
+  append_json(out, report.disciplines[cell.a].name);
+  out += ", \"b\": ";
+  append_json(out, report.disciplines[cell.b].name);
+  out += ", \"checked\": ";
+  if (!cell.checked) {
+    out += "false}";
+    return;
+  }
+  out += "true, \"settings\": {";
+  tolerances(out, cell.tolerances);
+  out += "}, ";
+  append_counts(out, cell.hit, cell.contact, cell.clearance_violation, cell.allowed);
+  out += "}";
+}
+
+void matrix(std::string& out, const Report& report) {
+  out += "\"matrix\": {";
+  append_list(out, "disciplines", report.disciplines, [&](const clash::DisciplineCount& d) {
+    out += "{\"name\": ";
+    append_json(out, d.name);
+    out += ", \"objects\": " + std::to_string(d.objects) + "}";
+  });
+  out += ", ";
+  append_list(
+      out, "cells", report.cells, [&](const clash::CellReport& c) { cell(out, report, c); },
+      "\n    ");
+  out += "}";
+}
+
+/// Who was set against whom, so that a later run can tell what is gone from what was not looked at.
+void tested(std::string& out, const Report& report, const ElementHashes& elements) {
+  out += "\"tested\": {\"a\": \"";
+  elements.append_members(out, report.in_a);
+  out += "\", \"b\": \"";
+  elements.append_members(out, report.in_b);
+  out += "\", \"within_files\": ";
+  out += report.within_files ? "true}" : "false}";
+}
+
+/// What Report::sheets of any test says of each object: each knows those of its own sets.
+std::vector<std::uint8_t> sheets(const clash::Findings& findings) {
+  std::vector<std::uint8_t> all;
+  for (const Report& test : findings.tests) {
+    all.resize(std::max(all.size(), test.sheets.size()), 0);
+    for (std::size_t o = 0; o < test.sheets.size(); ++o) all[o] = std::max(all[o], test.sheets[o]);
+  }
+  return all;
+}
+
+/// Which objects have such ids; empty: none.
+std::vector<bool> positional_ids(const model::Model& model) {
+  const auto positional = [](const model::Object& o) { return o.positional_id; };
+  if (std::ranges::none_of(model.objects, positional)) return {};
+  std::vector<bool> ids;
+  ids.reserve(model.objects.size());
+  for (const model::Object& o : model.objects) ids.push_back(positional(o));
+  return ids;
+}
+
+void test(std::string& out, const Report& report, const ElementHashes& elements) {
+  out += "{\"name\": ";
+  append_json(out, report.name);
+  out += ", ";
+  settings(out, report);
+  out += ", ";
+  sets(out, report);
+  out += ", ";
+  append_counts(out, report.count_hit, report.count_contact, report.count_clearance,
+                report.count_allowed);
+  out += ", ";
+  exempted(out, report);
+  out += ", ";
+  allowed(out, report);
+  if (!report.disciplines.empty()) {
+    out += ", ";
+    matrix(out, report);
+  }
+  out += ", ";
+  tested(out, report, elements);
+  out += ", \"hash\": ";
+  append_json(out, report.hash);
+  out += "}";
+}
+
+}  // namespace
+
+void append_tests(std::string& out, const clash::Findings& findings, const model::Model& model) {
+  const ElementHashes elements(model);
+  out += "\"elements\": \"";
+  elements.append_list(out);
+  out += "\",\n\"sheets\": \"";
+  elements.append_bytes(out, sheets(findings));
+  out += "\",\n";
+  if (const std::vector<bool> ids = positional_ids(model); !ids.empty()) {
+    out += "\"positional_ids\": \"";
+    elements.append_members(out, ids);
+    out += "\",\n";
+  }
+  append_list(
+      out, "tests", findings.tests, [&](const Report& report) { test(out, report, elements); },
+      "\n  ");
+}
+
+}  // namespace strake::report

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strake/clash/clash.hpp"
+#include "strake/clash/group.hpp"
+#include "strake/model/model.hpp"
+#include "strake/report/clash.hpp"
+
+namespace strake::report {
+
+/// The objects of a model as a document lists them, so that a later run can be compared with it:
+/// 64-bit hashes in ascending order.
+class ElementHashes {
+ public:
+  explicit ElementHashes(const model::Model& model);
+
+  /// The hashes, little endian, as base64.
+  void append_list(std::string& out) const;
+  /// A bit for each of them in that order, the lowest of a byte first, as base64.
+  void append_members(std::string& out, const std::vector<bool>& member) const;
+  /// A byte for each of them in that order, as base64; 0 beyond the end of `of_object`.
+  void append_bytes(std::string& out, const std::vector<std::uint8_t>& of_object) const;
+
+ private:
+  struct HashedElement {
+    std::uint64_t hash = 0;
+    std::uint32_t object = 0;
+  };
+  std::vector<HashedElement> elements_;
+};
+
+// The items of the clash document's lists; `test` is the number of the test they are of.
+
+/// A result, with the number of its group if there are groups.
+void append_result(std::string& out, const ClashContents& contents, std::size_t test,
+                   const clash::Pair& pair, std::optional<std::uint32_t> group);
+
+void append_group(std::string& out, const clash::Group& group);
+
+void append_exempted_pair(std::string& out, const ClashContents& contents, std::size_t test,
+                          const clash::ExemptedPair& pair);
+
+void append_not_compared(std::string& out, const ClashContents& contents, std::size_t test,
+                         const clash::NotCompared& what);
+
+/// The members `elements` and `tests` of the clash document: what was looked at, by which rules and
+/// tolerances, and how much was found.
+void append_tests(std::string& out, const clash::Findings& findings, const model::Model& model);
+
+}  // namespace strake::report

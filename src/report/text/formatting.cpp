@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/text/formatting.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/number.hpp"
+#include "core/text_encoding.hpp"
+
+namespace strake::report {
+namespace {
+
+constexpr double kPerMm = 1e6;
+
+/// What append_mm() says of most numbers, in a third of the time. False, and nothing appended, for
+/// those that are huge, no numbers, or so near the middle between two texts that only exact
+/// arithmetic tells which is nearer.
+bool append_mm_quickly(std::string& out, double mm) {
+  const double size = std::fabs(mm);
+  if (!(size < 1e9)) return false;
+  const auto whole = static_cast<std::uint64_t>(size);
+  // The fraction is exact, its product off by less than a billionth.
+  const double scaled = (size - static_cast<double>(whole)) * kPerMm;
+  const auto below = static_cast<std::uint64_t>(scaled);
+  const double rest = scaled - static_cast<double>(below);
+  if (std::fabs(rest - 0.5) < 1e-6) return false;
+  constexpr std::uint64_t kUnits = 1000000;
+  const std::uint64_t units = whole * kUnits + below + (rest > 0.5 ? 1U : 0U);
+  if (mm < 0 && units != 0) out += '-';
+  std::array<char, 24> digits{};
+  out.append(digits.data(),
+             std::to_chars(digits.data(), digits.data() + digits.size(), units / kUnits).ptr);
+  std::uint64_t fraction = units % kUnits;
+  if (fraction == 0) return true;
+  out += '.';
+  for (std::uint64_t place = kUnits / 10; fraction != 0; fraction %= place, place /= 10)
+    out += static_cast<char>('0' + fraction / place);
+  return true;
+}
+
+}  // namespace
+
+void append_range(std::string& out, double lower_mm, double upper_mm, std::string_view between) {
+  append_mm_floor(out, lower_mm);
+  out += between;
+  append_mm_ceil(out, upper_mm);
+}
+
+void append_point(std::string& out, const geometry::Vec3d& mm, std::string_view between) {
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) out += between;
+    append_mm(out, mm[k]);
+  }
+}
+
+void append_flags(std::string& out, std::uint16_t flags, std::string_view between,
+                  std::string_view quote) {
+  bool first = true;
+  for (const std::string_view flag : clash::flag_names(flags)) {
+    if (!first) out += between;
+    first = false;
+    out += quote;
+    out += flag;
+    out += quote;
+  }
+}
+
+void append_json(std::string& out, std::string_view text) { append_json_string(out, text); }
+
+void append_mm(std::string& out, double mm) {
+  if (append_mm_quickly(out, mm)) return;
+  const std::size_t start = out.size();
+  append_fixed(out, mm, 6);
+  while (out.back() == '0') out.pop_back();
+  if (out.back() == '.') out.pop_back();
+  if (out.compare(start, std::string::npos, "-0") == 0) out.replace(start, 2, "0");
+}
+
+void append_mm_floor(std::string& out, double mm) {
+  append_mm(out, std::floor(mm * kPerMm) / kPerMm);
+}
+
+void append_mm_ceil(std::string& out, double mm) {
+  append_mm(out, std::ceil(mm * kPerMm) / kPerMm);
+}
+
+std::string_view short_class_name(clash::Class cls) {
+  return cls == clash::Class::clearance_violation ? "CLEARANCE" : clash::name(cls);
+}
+
+std::string fit_to_columns(std::string_view text, std::size_t columns) {
+  std::vector<std::string_view> characters;
+  while (!text.empty()) {
+    const TakenCharacter c = take_character(text);
+    characters.push_back(is_printable(c) ? c.bytes : "?");
+  }
+  std::string out;
+  if (characters.size() <= columns) {
+    for (const std::string_view c : characters) out += c;
+    out.append(columns - characters.size(), ' ');
+    return out;
+  }
+  if (columns == 0) return out;
+  // The tail of a name tells more than its head, so it gets the larger half.
+  const std::size_t head = (columns - 1) / 2, tail = columns - 1 - head;
+  for (std::size_t i = 0; i < head; ++i) out += characters[i];
+  out += "…";
+  for (std::size_t i = characters.size() - tail; i < characters.size(); ++i) out += characters[i];
+  return out;
+}
+
+}  // namespace strake::report

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/report/view_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <streambuf>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/checksum.hpp"
+#include "drawing/neutral/neutral_rows.hpp"
+#include "report/document/document_reader.hpp"
+#include "report/json/json_reader.hpp"
+#include "report/view/view_line_reader.hpp"
+
+namespace strake::report {
+namespace {
+
+using Kind = JsonReader::Kind;
+
+constexpr DocumentKind kView{"strake draw -o", "draw it again"};
+constexpr std::string_view kVersion = "1";
+/// No part of the schema is nested more deeply.
+constexpr int kMaxViewDepth = 8;
+
+/// Takes the text of a document; pieces as they come, the rest is small.
+class ViewDocumentReader {
+ public:
+  /// In a binary document the lines stand behind the text, as rows.
+  ViewDocumentReader(std::istream& text, bool binary, ViewDocument& document)
+      : json_(text, kMaxViewDepth),
+        binary_(binary),
+        lines_key_(binary ? "rows" : "pieces"),
+        document_(document) {}
+
+  void read_text() {
+    if (json_.kind() == Kind::object)
+      json_.members([this](std::string_view key) { section(key); });
+    else
+      json_.skip();
+    json_.end();
+    if (!met_.contains("schema_version")) throw DocumentFault{"the document", "is no drawing"};
+    for (const std::string_view key : std::initializer_list<std::string_view>{
+             "view", "settings", "sheet", "counts", "hash", "objects", lines_key_})
+      if (!met_.contains(key)) throw missing_key("the document", key);
+  }
+
+  /// Those that the text announces.
+  void read_rows(std::istream& in, Checksum& before) {
+    document_.pieces = report::read_rows(in, *rows_, said("pieces"), before);
+  }
+
+  void check() const {
+    check_objects();
+    check_counts();
+  }
+
+ private:
+  void section(std::string_view key) {
+    if (!met_.emplace(key).second)
+      throw contradiction("the document", "has \"" + std::string(key) + "\" twice");
+    if (key == "schema_version")
+      version();
+    else if (key == "view" || key == "settings")
+      settings(std::string(key));
+    else if (key == "sheet")
+      sheet();
+    else if (key == "counts")
+      counts();
+    else if (key == "hash")
+      document_.hash = fields_.text("the document", "hash");
+    else if (key == "objects")
+      objects();
+    else if (key == lines_key_)
+      lines();
+    else if (key == "pieces" || key == "rows")
+      throw DocumentFault{"the document", "has \"" + std::string(key) +
+                                              "\" beside or instead of its " + lines_key_};
+    else
+      json_.skip();
+  }
+
+  /// At once: drawings of other versions look otherwise.
+  void version() {
+    std::string said;
+    json_.copy(said);
+    if (said != kVersion)
+      throw DocumentFault{"the document", "is no drawing of schema version " +
+                                              std::string(kVersion) + ": it says version " + said};
+  }
+
+  void settings(const std::string& section) {
+    fields_.must_be(Kind::object, "the document", section, "object");
+    json_.members([&](std::string_view key) {
+      std::string& value = document_.settings[section + "." + std::string(key)];
+      if (!value.empty()) throw contradiction(section, "has \"" + std::string(key) + "\" twice");
+      json_.copy(value);
+    });
+  }
+
+  void sheet() {
+    fields_.must_be(Kind::object, "the document", "sheet", "object");
+    const std::array<std::pair<std::string_view, double*>, 3> known{
+        {{"width_mm", &document_.width_mm},
+         {"height_mm", &document_.height_mm},
+         {"scale", &document_.scale}}};
+    json_.members([&](std::string_view key) {
+      const std::string name(key);
+      const auto* const at = std::ranges::find(known, name, [](const auto& k) { return k.first; });
+      if (at == known.end()) return json_.skip();
+      *at->second = fields_.number("sheet", name);
+    });
+    for (const auto& [key, value] : known)
+      if (!(*value > 0)) throw wrong_type("sheet", key, "positive number");
+  }
+
+  void counts() {
+    fields_.must_be(Kind::object, "the document", "counts", "object");
+    json_.members([&](std::string_view key) {
+      const std::string name(key);
+      if (!counted_.emplace(name, fields_.count("counts", name)).second)
+        throw contradiction("counts", "has \"" + name + "\" twice");
+    });
+  }
+
+  void objects() {
+    fields_.must_be(Kind::array, "the document", "objects", "list");
+    json_.items([this] {
+      const std::string where = "objects[" + std::to_string(document_.objects.size()) + "]";
+      if (json_.kind() != Kind::object) throw DocumentFault{where, "is no object"};
+      ViewObject object;
+      std::array<bool, 3> there{};
+      json_.members([&](std::string_view key) {
+        const std::string name(key);
+        const auto take = [&](std::size_t i, std::string& into) {
+          into = fields_.text(where, name);
+          there.at(i) = true;
+        };
+        if (name == "id")
+          take(0, object.id);
+        else if (name == "name")
+          take(1, object.name);
+        else if (name == "file")
+          take(2, object.file);
+        else
+          json_.skip();
+      });
+      for (const auto& [i, key] : {std::pair(0, "id"), std::pair(1, "name"), std::pair(2, "file")})
+        if (!there.at(static_cast<std::size_t>(i))) throw missing_key(where, key);
+      document_.objects.push_back(std::move(object));
+    });
+  }
+
+  void lines() {
+    if (binary_) {
+      rows_ = read_row_layout(json_);
+      return;
+    }
+    fields_.must_be(Kind::array, "the document", "pieces", "list");
+    ViewPieceReader reader(json_, document_.pieces);
+    json_.items([&] { reader.take(); });
+  }
+
+  void check_objects() const {
+    std::set<std::pair<std::string_view, std::string_view>> ids;
+    for (const ViewObject& object : document_.objects)
+      if (!ids.emplace(object.file, object.id).second)
+        throw contradiction("object '" + object.id + "' of '" + object.file + "'",
+                            "stands there twice");
+    for (std::size_t p = 0; p < document_.pieces.size(); ++p) {
+      const ViewPiece& piece = document_.pieces[p];
+      if (std::max(piece.object, piece.other) >= document_.objects.size())
+        throw contradiction((binary_ ? "row " : "piece ") + std::to_string(p),
+                            "is of object " + std::to_string(std::max(piece.object, piece.other)) +
+                                ", but there are " + std::to_string(document_.objects.size()));
+    }
+  }
+
+  void check_counts() const {
+    std::map<std::string, std::uint64_t> there;
+    std::array<std::uint64_t, drawing::kLineStates> of_state{};
+    for (const ViewPiece& piece : document_.pieces)
+      ++of_state.at(static_cast<std::size_t>(piece.state));
+    for (std::size_t s = 0; s < drawing::kLineStates; ++s)
+      there[std::string(drawing::state_name(static_cast<drawing::LineState>(s)))] = of_state.at(s);
+    there["pieces"] = document_.pieces.size();
+    for (const auto& [key, count] : there)
+      if (said(key) != count)
+        throw contradiction("the document", "counts " + std::to_string(said(key)) + " of \"" + key +
+                                                "\", but lists " + std::to_string(count));
+  }
+
+  [[nodiscard]] std::uint64_t said(const std::string& key) const {
+    const auto at = counted_.find(key);
+    if (at == counted_.end()) throw missing_key("counts", key);
+    return at->second;
+  }
+
+  JsonReader json_;
+  DocumentFields fields_{json_};
+  bool binary_;
+  std::string lines_key_;
+  ViewDocument& document_;
+  std::set<std::string, std::less<>> met_;
+  std::map<std::string, std::uint64_t> counted_;
+  std::optional<RowLayout> rows_;
+};
+
+/// The first bytes of another stream, as a stream of their own, which adds them to a checksum: the
+/// text of a binary document.
+class FirstBytes : public std::streambuf {
+ public:
+  FirstBytes(std::istream& from, std::uint64_t size, Checksum& checksum)
+      : from_(from), left_(size), checksum_(checksum) {}
+  [[nodiscard]] std::uint64_t left() const { return left_; }
+
+ private:
+  int_type underflow() override {
+    from_.read(buffer_.data(),
+               static_cast<std::streamsize>(std::min<std::uint64_t>(left_, buffer_.size())));
+    const std::streamsize got = from_.gcount();
+    left_ -= static_cast<std::uint64_t>(got);
+    checksum_.add({buffer_.data(), static_cast<std::size_t>(got)});
+    setg(buffer_.data(), buffer_.data(), buffer_.data() + got);
+    return got == 0 ? traits_type::eof() : traits_type::to_int_type(buffer_[0]);
+  }
+
+  std::istream& from_;
+  std::uint64_t left_;
+  Checksum& checksum_;
+  std::array<char, 65536> buffer_{};
+};
+
+void read_binary(ViewDocument& document, std::istream& in) {
+  std::array<char, drawing::kViewMagic.size()> magic{};
+  in.read(magic.data(), magic.size());
+  if (std::string_view(magic.data(), magic.size()) != drawing::kViewMagic)
+    throw DocumentFault{"the document", "is no drawing"};
+  std::uint64_t size = 0;
+  if (!in.read(reinterpret_cast<char*>(&size), sizeof size))
+    throw contradiction("the document", "ends before its rows begin");
+  Checksum checksum;
+  checksum.add(drawing::kViewMagic);
+  checksum.add({reinterpret_cast<const char*>(&size), sizeof size});
+  FirstBytes first(in, size, checksum);
+  std::istream text(&first);
+  ViewDocumentReader reader(text, true, document);
+  reader.read_text();
+  if (first.left() > 0) throw contradiction("the document", "ends before its rows begin");
+  reader.read_rows(in, checksum);
+  reader.check();
+}
+
+void read_into(ViewDocument& document, std::istream& in) {
+  if (in.peek() == drawing::kViewMagic[0]) return read_binary(document, in);
+  ViewDocumentReader reader(in, false, document);
+  reader.read_text();
+  reader.check();
+}
+
+}  // namespace
+
+Result<ViewDocument> parse_view_document(std::istream& in, const std::string& name) {
+  ViewDocument document;
+  document.name = name;
+  const Status status = read_guarded(name, kView, [&] { read_into(document, in); });
+  if (!status) return status.error();
+  return document;
+}
+
+Result<ViewDocument> read_view_document(const std::filesystem::path& file) {
+  Result<std::ifstream> in = open_document(file);
+  if (!in) return in.error();
+  return parse_view_document(*in, file.string());
+}
+
+}  // namespace strake::report

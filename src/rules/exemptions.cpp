@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rules/exemptions.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "core/glob.hpp"
+#include "core/number.hpp"
+#include "core/seeded_hash.hpp"
+#include "model/attributes.hpp"
+
+namespace strake::rules {
+namespace {
+
+using clash::kNoLabel;
+using clash::SameLabel;
+using model::GroupId;
+using model::listed_values_of;
+using model::Model;
+using model::Object;
+using model::values_of;
+
+/// Numbers texts by their first appearance.
+class Numbers {
+ public:
+  std::uint32_t of(std::string_view text) {
+    const auto next = static_cast<std::uint32_t>(numbers_.size());
+    return numbers_.try_emplace(std::string(text), next).first->second;
+  }
+
+ private:
+  std::unordered_map<std::string, std::uint32_t, SeededHash> numbers_;
+};
+
+/// The hierarchy as paths from the outermost group.
+class Hierarchy {
+ public:
+  explicit Hierarchy(const Model& model) : model_(model) {
+    for (std::uint32_t g = 0; g < model.groups.size(); ++g) {
+      const auto key = std::pair(model.groups[g].parent, std::string_view(model.groups[g].name));
+      const auto [at, added] = own_.try_emplace(key, GroupId{g});
+      if (!added) at->second = GroupId::none;  // two of one name: nobody knows which is meant
+    }
+  }
+
+  /// The object's groups, outermost first; the group that it is itself, if it is one, last.
+  [[nodiscard]] std::vector<GroupId> path(const Object& object) const {
+    std::vector<GroupId> path;
+    for (GroupId g = object.parent; known(g) && path.size() <= model_.groups.size();
+         g = model_.groups[index(g)].parent)
+      path.push_back(g);
+    std::reverse(path.begin(), path.end());
+    const auto own = own_.find({object.parent, std::string_view(object.name)});
+    if (own != own_.end() && own->second != GroupId::none) path.push_back(own->second);
+    return path;
+  }
+
+  [[nodiscard]] const std::string& name(GroupId group) const {
+    return model_.groups[index(group)].name;
+  }
+  /// What a group states; null: nothing.
+  [[nodiscard]] const model::Attributes* attributes(GroupId group) const {
+    const std::uint32_t own = model_.groups[index(group)].attributes;
+    return own < model_.group_attributes.size() ? &model_.group_attributes[own] : nullptr;
+  }
+
+ private:
+  [[nodiscard]] bool known(GroupId g) const {
+    return g != GroupId::none && index(g) < model_.groups.size();
+  }
+  const Model& model_;
+  std::map<std::pair<GroupId, std::string_view>, GroupId> own_;
+};
+
+/// Who speaks for the references that groups state: a branch names what it connects its ends to,
+/// and its components inherit that.
+class ConnectedReferences {
+ public:
+  ConnectedReferences(const Model& model, const ConnectedRule& rule) : model_(model), rule_(rule) {
+    if (rule.heirs != Heirs::ends || model.group_attributes.empty()) return;
+    ends_.resize(rule.references.size());
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o)
+      for (std::size_t a = 0; a < ends_.size(); ++a) {
+        const Model::Stated stated = model.stated(model.objects[o], rule.references[a].attribute);
+        if (stated.group == GroupId::none) continue;
+        GroupEnds& ends = ends_[a].try_emplace(stated.group, GroupEnds{o, o}).first->second;
+        if (place(o) < place(ends.first)) ends.first = o;
+        if (place(o) >= place(ends.last)) ends.last = o;
+      }
+  }
+
+  /// What object `o` refers to.
+  [[nodiscard]] std::vector<std::string_view> of(std::uint32_t o) const {
+    std::vector<std::string_view> values;
+    for (std::size_t a = 0; a < rule_.references.size(); ++a) {
+      const std::string& attribute = rule_.references[a].attribute;
+      const Model::Stated stated = model_.stated(model_.objects[o], attribute);
+      if (stated.attributes == nullptr) continue;
+      if (stated.group != GroupId::none && !speaks(o, a, stated.group)) continue;
+      const auto more = listed_values_of(*stated.attributes, attribute, rule_.separator);
+      values.insert(values.end(), more.begin(), more.end());
+    }
+    return values;
+  }
+
+ private:
+  struct GroupEnds {
+    std::uint32_t first = 0, last = 0;
+  };
+  [[nodiscard]] std::uint32_t place(std::uint32_t o) const { return model_.objects[o].place; }
+  [[nodiscard]] bool speaks(std::uint32_t o, std::size_t reference, GroupId group) const {
+    if (rule_.heirs != Heirs::ends) return rule_.heirs == Heirs::all;
+    const GroupEnds& ends = ends_[reference].at(group);
+    const ReferenceEnd end = rule_.references[reference].end;
+    return (end != ReferenceEnd::tail && o == ends.first) ||
+           (end != ReferenceEnd::head && o == ends.last);
+  }
+
+  const Model& model_;
+  const ConnectedRule& rule_;
+  std::vector<std::map<GroupId, GroupEnds>> ends_;  ///< by reference
+};
+
+SameLabel unlabelled(const RuleContext& rule_context) {
+  return {std::vector<std::uint32_t>(rule_context.objects(), kNoLabel)};
+}
+
+/// Fills in the labels of one kind of rule.
+struct Labelling {
+  const ExemptingRule& rule;
+  RuleContext& rule_context;
+  std::vector<bool> among;
+
+  using Test = decltype(clash::Exemption::test);
+
+  Test operator()(const UnitRule& units) const {
+    const std::vector<Object>& objects = rule_context.model().objects;
+    std::vector<std::int64_t> unit(objects.size(), -1);
+    std::vector<bool> said(objects.size());
+    for (const UnitRule::UnitGroup& group : units.groups) {
+      const std::vector<bool> picked = rule_context.pick(group.chooser);
+      rule_context.check_shadow(
+          picked, [&](std::size_t o) { return !said[o]; }, group.chooser.where,
+          "every object that it picks is in an earlier group");
+      for (std::size_t o = 0; o < objects.size(); ++o) {
+        if (!picked[o] || said[o]) continue;
+        said[o] = true;
+        unit[o] = group.number;
+      }
+    }
+    bool some = units.attribute.empty();
+    for (std::size_t o = 0; o < objects.size() && !units.attribute.empty(); ++o) {
+      const auto values = values_of(rule_context.model(), objects[o], units.attribute);
+      some = some || !values.empty();
+      if (said[o]) continue;
+      for (const std::string_view value : values) {
+        if (const auto number = parse_integer(value))
+          unit[o] = *number;
+        else
+          rule_context.diagnostics().add(Severity::warning, "unit-not-a-number",
+                                         "the attribute '" + units.attribute + "' is '" +
+                                             std::string(value) + "'; the object is in no unit",
+                                         objects[o].id);
+        said[o] = true;
+        break;
+      }
+    }
+    if (!some)
+      rule_context.warn_no_match(rule.where,
+                                 "no object has the attribute '" + units.attribute + "'");
+    std::map<std::int64_t, std::uint32_t> numbers;
+    SameLabel test = unlabelled(rule_context);
+    for (std::size_t o = 0; o < objects.size(); ++o)
+      if (unit[o] >= 0 && among[o])
+        test.label[o] =
+            numbers.try_emplace(unit[o], static_cast<std::uint32_t>(numbers.size())).first->second;
+    return test;
+  }
+
+  Test operator()(const AssemblyRule& assembly) const {
+    const Hierarchy hierarchy(rule_context.model());
+    SameLabel test = unlabelled(rule_context);
+    Numbers paths;
+    bool some = false;
+    for (std::size_t o = 0; o < test.label.size(); ++o) {
+      const Object& object = rule_context.model().objects[o];
+      if (!among[o]) continue;
+      const std::vector<GroupId> path = hierarchy.path(object);
+      const std::size_t depth = depth_of(assembly, object, path, hierarchy);
+      if (depth == 0) continue;
+      some = true;
+      if (!assembly.across_files) {
+        test.label[o] = index(path[depth - 1]);
+        continue;
+      }
+      std::string text;
+      for (std::size_t g = 0; g < depth; ++g) text += hierarchy.name(path[g]) + '\0';
+      // What has no name is not the same as another without one.
+      if (hierarchy.name(path[depth - 1]).empty()) text += std::to_string(index(path[depth - 1]));
+      test.label[o] = paths.of(text);
+    }
+    if (!some) rule_context.warn_no_match(rule.where, "no object lies in such a group");
+    return test;
+  }
+
+  /// How many groups of the path lead to the assembly; 0: it has none.
+  static std::size_t depth_of(const AssemblyRule& assembly, const Object& object,
+                              const std::vector<GroupId>& path, const Hierarchy& hierarchy) {
+    if (assembly.level > 0) return assembly.level <= path.size() ? assembly.level : 0;
+    for (std::size_t depth = path.size(); depth > 0; --depth)
+      if (assembly.parent ? path[depth - 1] == object.parent
+                          : glob_match(assembly.group, hierarchy.name(path[depth - 1])))
+        return depth;
+    return 0;
+  }
+
+  Test operator()(const AttributeRule& same) const {
+    SameLabel test = unlabelled(rule_context);
+    Numbers values;
+    bool some = false;
+    for (std::size_t o = 0; o < test.label.size(); ++o) {
+      const auto found =
+          values_of(rule_context.model(), rule_context.model().objects[o], same.attribute);
+      if (found.empty() || !among[o]) continue;
+      test.label[o] = values.of(found.front());
+      some = true;
+    }
+    if (!some)
+      rule_context.warn_no_match(rule.where,
+                                 "no object has the attribute '" + same.attribute + "'");
+    return test;
+  }
+
+  Test operator()(const FileRule&) const {
+    SameLabel test = unlabelled(rule_context);
+    for (std::size_t o = 0; o < test.label.size(); ++o)
+      if (among[o]) test.label[o] = rule_context.model().objects[o].file;
+    return test;
+  }
+
+  Test operator()(const ExemptRule& exempt) const {
+    return clash::Between{rule_context.pick(exempt.a), rule_context.pick(exempt.b)};
+  }
+
+  Test operator()(const ConnectedRule& connected) const {
+    const Hierarchy hierarchy(rule_context.model());
+    const ConnectedReferences references(rule_context.model(), connected);
+    Numbers texts;
+    clash::Linked test{{{0}, {}}, {{0}, {}}};
+    for (std::uint32_t o = 0; o < rule_context.objects(); ++o) {
+      const Object& object = rule_context.model().objects[o];
+      std::vector<std::uint32_t> refers, answers;
+      if (among[o]) {
+        for (const std::string_view value : references.of(o)) refers.push_back(texts.of(value));
+        answers = connected.node ? refers : names(object, connected, hierarchy, texts);
+      }
+      append(test.refers_to, std::move(refers));
+      append(test.answers_to, std::move(answers));
+    }
+    if (test.refers_to.numbers.empty())
+      rule_context.warn_no_match(rule.where, "no object has one of the attributes with a value");
+    return test;
+  }
+
+  static std::vector<std::uint32_t> names(const Object& object, const ConnectedRule& connected,
+                                          const Hierarchy& hierarchy, Numbers& texts) {
+    std::vector<std::uint32_t> numbers;
+    for (const std::string& text : {object.id, object.name})
+      if (!text.empty()) numbers.push_back(texts.of(text));
+    for (const std::string_view value : values_of(object.attributes, "Name"))
+      numbers.push_back(texts.of(value));
+    if (!connected.groups) return numbers;
+    for (const GroupId group : hierarchy.path(object)) {
+      if (!hierarchy.name(group).empty()) numbers.push_back(texts.of(hierarchy.name(group)));
+      const model::Attributes* const stated = hierarchy.attributes(group);
+      if (stated == nullptr) continue;
+      for (const char* const attribute : {"Name", "RefNo"})
+        for (const std::string_view value : values_of(*stated, attribute))
+          numbers.push_back(texts.of(value));
+    }
+    return numbers;
+  }
+
+  static void append(clash::Linked::Lists& lists, std::vector<std::uint32_t> numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    lists.numbers.insert(lists.numbers.end(), numbers.begin(), numbers.end());
+    lists.first.push_back(static_cast<std::uint32_t>(lists.numbers.size()));
+  }
+};
+
+}  // namespace
+
+clash::Exemption exemption_of(const ExemptingRule& rule, RuleContext& rule_context) {
+  return {rule.name,
+          std::visit(Labelling{rule, rule_context, rule_context.pick(rule.among)}, rule.rule)};
+}
+
+}  // namespace strake::rules

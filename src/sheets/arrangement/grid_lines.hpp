@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sheets/spec/sheet_spec.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/sheets/sheet.hpp"
+
+namespace strake::sheets {
+
+/// Whether a file wants grid lines across this axis in a view, and the view looks along them.
+[[nodiscard]] bool shows_grid(const GridSpec& grid, const ViewSpec& view, std::uint8_t axis);
+
+/// The paper that grid lines need beside a view, for their ends and labels.
+struct GridMargin {
+  double left_mm = 0, top_mm = 0, other_mm = 0;
+};
+[[nodiscard]] GridMargin grid_margin(const GridSpec& grid, const ViewSpec& view);
+
+struct GridMarks {
+  Marks marks;
+  std::vector<bool> drawn;     ///< of the planes of the file
+  std::size_t unlabelled = 0;  ///< lines that are drawn without a label, for want of room
+};
+
+/// The grid lines of a view: across its lines and a little beyond, labels at the upper or the left
+/// end. Where labels would touch every second, fifth, tenth … is left.
+[[nodiscard]] GridMarks grid_marks(const GridSpec& grid, const ViewSpec& view,
+                                   const drawing::Placement& placement, const PaperBox& box);
+
+}  // namespace strake::sheets

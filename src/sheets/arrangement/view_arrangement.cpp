@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheets/arrangement/view_arrangement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+
+#include "drawing/layout/view_plane.hpp"
+#include "sheets/arrangement/grid_lines.hpp"
+#include "sheets/spec/text_metrics.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+using geometry::Vec3l;
+
+/// Columns and rows of the sheet, the front view in the middle of them.
+struct TrackCell {
+  int column = 0, row = 0;
+  friend bool operator==(const TrackCell&, const TrackCell&) = default;
+};
+constexpr int kLeast = -1, kMost = 2, kTracks = kMost - kLeast + 1;
+
+/// Of all but the pictorial view.
+TrackCell cell_of(ViewSlot slot, Projection projection) {
+  // In the first angle each view stands across from where one looks, in the third where one does.
+  const int side = projection == Projection::first_angle ? 1 : -1;
+  switch (slot) {
+    case ViewSlot::top:
+      return {0, side};
+    case ViewSlot::bottom:
+      return {0, -side};
+    case ViewSlot::left:
+      return {side, 0};
+    case ViewSlot::right:
+      return {-side, 0};
+    case ViewSlot::back:
+      return {2, 0};
+    case ViewSlot::front:
+    case ViewSlot::iso:
+    case ViewSlot::none:
+      break;
+  }
+  return {0, 0};
+}
+
+/// Extents along one direction of paper, of a column or a row.
+struct Track {
+  bool used = false, shared = false;
+  double before = 0, after = 0;  ///< of the point that its views share, which may lie beside them
+  double least = 0;              ///< for a view in its middle
+  [[nodiscard]] double size() const { return std::max(before + after, least); }
+};
+
+class Grid {
+ public:
+  Grid(std::span<const UnplacedView> views, Projection projection, TrackCell pictorial,
+       double scale)
+      : views_(views), scale_(scale) {
+    for (const UnplacedView& view : views) {
+      const bool free = view.slot == ViewSlot::iso;
+      cells_.push_back(free ? pictorial : cell_of(view.slot, projection));
+      const PaperBox box = view.at({0, 0}, scale);
+      add(track(columns_, cells_.back().column), free, -box.left, box.right);
+      add(track(rows_, cells_.back().row), free, -box.top, box.bottom);
+    }
+  }
+
+  /// Where the common points fall if the tracks stand in `box`, with the room that is left spread
+  /// between and beside them, or as near to the upper left corner as they can.
+  [[nodiscard]] std::vector<PaperPoint> spread(const PaperBox& box, double gap, bool packed) const {
+    const auto x = starts(columns_, box.left, box.width(), gap, packed);
+    const auto y = starts(rows_, box.top, box.height(), gap, packed);
+    std::vector<PaperPoint> at;
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      const Track& column = track(columns_, cells_[v].column);
+      const Track& row = track(rows_, cells_[v].row);
+      PaperPoint p{x[position(cells_[v].column)], y[position(cells_[v].row)]};
+      if (views_[v].slot == ViewSlot::iso) {
+        const PaperBox own = views_[v].at({0, 0}, scale_);
+        p.x += (column.size() - own.width()) / 2 - own.left;
+        p.y += (row.size() - own.height()) / 2 - own.top;
+      } else {
+        p.x += (column.size() - column.before - column.after) / 2 + column.before;
+        p.y += (row.size() - row.before - row.after) / 2 + row.before;
+      }
+      at.push_back({drawing::rounded_paper(p.x), drawing::rounded_paper(p.y)});
+    }
+    return at;
+  }
+
+  [[nodiscard]] bool fits(const PaperBox& box, double gap) const {
+    return needed(columns_, gap) <= box.width() && needed(rows_, gap) <= box.height();
+  }
+
+ private:
+  using Tracks = std::array<Track, kTracks>;
+
+  static std::size_t position(int cell) { return static_cast<std::size_t>(cell - kLeast); }
+  static Track& track(Tracks& tracks, int cell) { return tracks[position(cell)]; }
+  static const Track& track(const Tracks& tracks, int cell) { return tracks[position(cell)]; }
+
+  static void add(Track& track, bool free, double before, double after) {
+    if (free) {
+      track.least = std::max(track.least, before + after);
+    } else {
+      track.before = track.shared ? std::max(track.before, before) : before;
+      track.after = track.shared ? std::max(track.after, after) : after;
+      track.shared = true;
+    }
+    track.used = true;
+  }
+
+  static double needed(const Tracks& tracks, double gap) {
+    double sum = -gap;
+    for (const Track& track : tracks)
+      if (track.used) sum += track.size() + gap;
+    return sum;
+  }
+
+  static std::array<double, kTracks> starts(const Tracks& tracks, double from, double room,
+                                            double gap, bool packed) {
+    double count = 1;
+    for (const Track& track : tracks) count += track.used ? 1 : 0;
+    const double more = packed ? 0 : (room - needed(tracks, gap)) / count;
+    std::array<double, kTracks> at{};
+    double next = from + more;
+    for (std::size_t t = 0; t < tracks.size(); ++t) {
+      at[t] = next;
+      if (tracks[t].used) next += tracks[t].size() + gap + more;
+    }
+    return at;
+  }
+
+  std::span<const UnplacedView> views_;
+  double scale_;
+  std::vector<TrackCell> cells_;
+  Tracks columns_{}, rows_{};
+};
+
+class Arranger {
+ public:
+  Arranger(std::span<const UnplacedView> views, Projection projection, const SheetArea& room,
+           double gap)
+      : views_(views), projection_(projection), room_(room), gap_(gap) {
+    const bool pictorial = std::any_of(
+        views.begin(), views.end(), [](const UnplacedView& v) { return v.slot == ViewSlot::iso; });
+    cells_ = pictorial ? free_cells() : std::vector<TrackCell>{{0, 0}};
+    boxes_.push_back(room.area);
+    for (const PaperBox& taken : room.keep_free) {
+      PaperBox above = room.area, beside = room.area, below = room.area;
+      above.bottom = std::min(above.bottom, taken.top);
+      beside.right = std::min(beside.right, taken.left);
+      below.top = std::max(below.top, taken.bottom);
+      for (const PaperBox& box : {above, beside, below})
+        if (box.width() > 0 && box.height() > 0) boxes_.push_back(box);
+    }
+  }
+
+  [[nodiscard]] std::optional<Arranged> at_scale(double scale) const {
+    for (const TrackCell& cell : cells_) {
+      const Grid grid(views_, projection_, cell, scale);
+      for (const bool packed : {false, true})
+        for (const PaperBox& box : boxes_) {
+          if (!grid.fits(box, gap_)) continue;
+          Arranged found{scale, true, grid.spread(box, gap_, packed)};
+          if (free_of(found)) return found;
+        }
+    }
+    return std::nullopt;
+  }
+
+  /// For a scale at which they do not fit.
+  [[nodiscard]] Arranged anyhow(double scale) const {
+    return {scale, false,
+            Grid(views_, projection_, cells_.front(), scale).spread(room_.area, gap_, false)};
+  }
+
+ private:
+  /// Where the pictorial view may go, in the order in which draughtsmen would take them.
+  [[nodiscard]] std::vector<TrackCell> free_cells() const {
+    std::vector<TrackCell> cells;
+    for (const TrackCell& cell :
+         {TrackCell{1, 1}, TrackCell{1, -1}, TrackCell{-1, -1}, TrackCell{-1, 1}, TrackCell{1, 0},
+          TrackCell{0, 1}, TrackCell{0, -1}, TrackCell{-1, 0}, TrackCell{2, 1}, TrackCell{2, -1},
+          TrackCell{2, 0}})
+      if (std::none_of(views_.begin(), views_.end(), [&](const UnplacedView& v) {
+            return v.slot != ViewSlot::iso && cell_of(v.slot, projection_) == cell;
+          }))
+        cells.push_back(cell);
+    return cells;
+  }
+
+  [[nodiscard]] bool free_of(const Arranged& arranged) const {
+    for (std::size_t v = 0; v < views_.size(); ++v)
+      if (!room_.takes(views_[v].at(arranged.at[v], arranged.scale))) return false;
+    return true;
+  }
+
+  std::span<const UnplacedView> views_;
+  Projection projection_;
+  const SheetArea& room_;
+  double gap_;
+  std::vector<TrackCell> cells_;
+  std::vector<PaperBox> boxes_;
+};
+
+}  // namespace
+
+hlr::View view_in_slot(ViewSlot slot, const hlr::View& front) {
+  const Vec3l d = front.direction, u = front.up, r = cross(u, d);
+  hlr::View view = front;
+  switch (slot) {
+    case ViewSlot::top:
+      view.direction = u;
+      view.up = -d;
+      break;
+    case ViewSlot::bottom:
+      view.direction = -u;
+      view.up = d;
+      break;
+    case ViewSlot::left:
+      view.direction = -r;
+      break;
+    case ViewSlot::right:
+      view.direction = r;
+      break;
+    case ViewSlot::back:
+      view.direction = -d;
+      break;
+    case ViewSlot::iso:
+      view.direction = r + d + u;
+      break;
+    case ViewSlot::front:
+    case ViewSlot::none:
+      break;
+  }
+  return view;
+}
+
+PaperBox UnplacedView::at(const PaperPoint& at, double scale) const {
+  PaperBox box{at.x + extent.left / scale, at.y - extent.top / scale, at.x + extent.right / scale,
+               at.y - extent.bottom / scale};
+  const double wider = std::max(0.0, least_width_mm - box.width()) / 2;
+  box.left -= std::max(left_mm, wider);
+  box.right += std::max(right_mm, wider);
+  box.top -= top_mm;
+  box.bottom += bottom_mm;
+  return box;
+}
+
+bool SheetArea::takes(const PaperBox& box) const {
+  return area.holds(box) && std::none_of(keep_free.begin(), keep_free.end(),
+                                         [&](const PaperBox& k) { return k.overlaps(box); });
+}
+
+Result<Arranged> arrange(std::span<const UnplacedView> views, Projection projection,
+                         const SheetArea& room, double gap_mm, double scale) {
+  const Arranger arranger(views, projection, room, gap_mm);
+  if (scale > 0) {
+    const auto found = arranger.at_scale(scale);
+    return found ? *found : arranger.anyhow(scale);
+  }
+  for (const double usual : drawing::usual_scales())
+    if (const auto found = arranger.at_scale(usual)) return *found;
+  return Error{ErrorCode::input, "the views have no room on the sheet at any scale", "",
+               "take a larger sheet, a smaller gap, shorter titles or fewer views"};
+}
+
+namespace {
+
+using drawing::rounded_paper;
+using geometry::Vec3l;
+
+class Placer {
+ public:
+  Placer(const SheetSpec& what, const SheetArea& room)
+      : what_(what), room_(room), places_(what.views.size()) {}
+
+  /// Takes what finished views measure.
+  Status measure(std::span<const hlr::Drawing> drawings, const parallel::Context& context) {
+    // One for all that say none, so that they are aligned.
+    Vec3l common;
+    const auto some = std::find_if(drawings.begin(), drawings.end(), [](const hlr::Drawing& d) {
+      return !d.pieces.empty() && !d.view.perspective;
+    });
+    if (some != drawings.end()) common = some->origin;
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const ViewSpec& view = what_.views[v];
+      const Vec3l own = view.view.perspective ? view.view.perspective->target : common;
+      places_[v].anchor = view.anchor.value_or(own);
+      drawing::PlaneBox measured;
+      if (const auto axes = drawing::paper_axes(what_.views[v].view)) {
+        const auto extent = drawing::plane_extent(drawings[v], *axes, places_[v].anchor, context);
+        if (!extent) return extent.error();
+        measured = *extent;
+      }
+      take(v, measured);
+    }
+    return {};
+  }
+
+  /// To be done first, view by view.
+  void take(std::size_t v, const drawing::PlaneBox& extent) {
+    wanted_.push_back(to_place(v));
+    wanted_.back().extent = extent;
+  }
+
+  Result<std::vector<ViewPlace>> run() {
+    std::vector<std::size_t> arranged, own;
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const bool free =
+          what_.views[v].slot == ViewSlot::none && what_.views[v].position.has_value();
+      (free ? own : arranged).push_back(v);
+    }
+    std::optional<double> common = what_.scale;
+    if (!arranged.empty()) {
+      const Result<double> scale = arrangement(arranged);
+      if (!scale) return scale.error();
+      common = *scale;
+    }
+    const double scale = common ? *common : scale_for(own);
+    for (const std::size_t v : own) put(v, what_.views[v].scale.value_or(scale));
+    return std::move(places_);
+  }
+
+ private:
+  [[nodiscard]] UnplacedView to_place(std::size_t v) const {
+    const ViewSpec& view = what_.views[v];
+    UnplacedView place;
+    place.slot = view.slot;
+    const GridMargin rim = grid_margin(what_.grid, view);
+    place.left_mm = std::max(rim.left_mm, rim.other_mm);
+    place.top_mm = std::max(rim.top_mm, rim.other_mm);
+    place.right_mm = place.bottom_mm = rim.other_mm;
+    if (view.title.empty()) return place;
+    const Lettering letters = lettering_of(what_);
+    const bool scaled = view.scale && !view.view.perspective;
+    place.bottom_mm +=
+        letters.gap_mm + letters.title_mm + 2.5 + (scaled ? letters.scale_mm + 2 : 0);
+    place.least_width_mm = text_width(view.title) * letters.title_mm + 4;
+    return place;
+  }
+
+  Result<double> arrangement(const std::vector<std::size_t>& views) {
+    std::vector<UnplacedView> wanted;
+    for (const std::size_t v : views) wanted.push_back(wanted_[v]);
+    const double given = what_.views[views.front()].scale.value_or(what_.scale.value_or(0));
+    const auto arranged = arrange(wanted, what_.projection, room_, what_.gap_mm, given);
+    if (!arranged) {
+      Error error = arranged.error();
+      error.where = what_.file;
+      return error;
+    }
+    for (std::size_t k = 0; k < views.size(); ++k)
+      settle(views[k], arranged->scale, arranged->at[k]);
+    return arranged->scale;
+  }
+
+  /// Where the anchor of a view falls that says where it lies.
+  [[nodiscard]] PaperPoint at(std::size_t v, double scale) const {
+    const ViewSpec& view = what_.views[v];
+    const drawing::PlaneBox& box = wanted_[v].extent;
+    PaperPoint p = *view.position;
+    if (!view.anchor) {
+      p.x -= (box.left + box.right) / 2 / scale;
+      p.y += (box.bottom + box.top) / 2 / scale;
+    }
+    return {rounded_paper(p.x), rounded_paper(p.y)};
+  }
+
+  void put(std::size_t v, double scale) { settle(v, scale, at(v, scale)); }
+
+  void settle(std::size_t v, double scale, const PaperPoint& at) {
+    ViewPlace& place = places_[v];
+    place.scale = scale;
+    place.at = at;
+    UnplacedView lines = wanted_[v];
+    place.whole = lines.at(at, scale);
+    lines.left_mm = lines.right_mm = lines.top_mm = lines.bottom_mm = lines.least_width_mm = 0;
+    place.lines = lines.at(at, scale);
+  }
+
+  /// The largest usual scale at which views that say where they lie cover nothing that is taken; or
+  /// else at which none is larger than the room.
+  [[nodiscard]] double scale_for(const std::vector<std::size_t>& views) const {
+    double largest = drawing::usual_scales().back();
+    for (auto scale = drawing::usual_scales().rbegin(); scale != drawing::usual_scales().rend();
+         ++scale) {
+      if (!sizes_fit(views, *scale)) break;
+      largest = *scale;
+    }
+    for (const double scale : drawing::usual_scales())
+      if (all_clear(views, scale)) return scale;
+    return largest;
+  }
+
+  [[nodiscard]] bool sizes_fit(const std::vector<std::size_t>& views, double scale) const {
+    return std::all_of(views.begin(), views.end(), [&](std::size_t v) {
+      const PaperBox box = wanted_[v].at({0, 0}, scale);
+      return box.width() <= room_.area.width() && box.height() <= room_.area.height();
+    });
+  }
+
+  [[nodiscard]] bool all_clear(const std::vector<std::size_t>& views, double scale) const {
+    std::vector<PaperBox> taken;
+    for (const std::size_t v : views) {
+      const double own = what_.views[v].scale.value_or(scale);
+      const PaperBox box = wanted_[v].at(at(v, own), own);
+      if (!room_.takes(box)) return false;
+      for (const PaperBox& other : taken)
+        if (other.overlaps(box)) return false;
+      taken.push_back(box);
+    }
+    return true;
+  }
+
+  const SheetSpec& what_;
+  const SheetArea& room_;
+  std::vector<ViewPlace> places_;
+  std::vector<UnplacedView> wanted_;
+};
+
+}  // namespace
+
+Lettering lettering_of(const SheetSpec& what) {
+  if (std::max(what.width_mm, what.height_mm) > 420) return {};
+  return {3.5, 2.5, 3};
+}
+
+Result<std::vector<ViewPlace>> place_views(const SheetSpec& what,
+                                           std::span<const hlr::Drawing> drawings,
+                                           const SheetArea& room,
+                                           const parallel::Context& context) {
+  Placer placer(what, room);
+  if (const Status status = placer.measure(drawings, context); !status) return status.error();
+  return placer.run();
+}
+
+std::vector<double> expected_scales(const SheetSpec& what,
+                                    std::span<const drawing::PlaneBox> extents,
+                                    const SheetArea& room) {
+  Placer placer(what, room);
+  for (std::size_t v = 0; v < extents.size(); ++v) placer.take(v, extents[v]);
+  const auto places = placer.run();
+  std::vector<double> scales;
+  if (places)
+    for (const ViewPlace& place : *places) scales.push_back(place.scale);
+  return scales;
+}
+
+double main_scale(const SheetSpec& what, std::span<const ViewPlace> places) {
+  std::map<double, std::size_t> views;
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    if (what.views[v].slot != ViewSlot::none) return places[v].scale;
+    if (!what.views[v].view.perspective) ++views[places[v].scale];
+  }
+  double most = places.front().scale;
+  for (const ViewPlace& place : places)
+    if (views[place.scale] > views[most]) most = place.scale;
+  return most;
+}
+
+}  // namespace strake::sheets

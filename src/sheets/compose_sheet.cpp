@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheets/compose_sheet.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drawing/layout/expected_extent.hpp"
+#include "drawing/layout/view_plane.hpp"
+#include "settings/text_file.hpp"
+#include "sheets/annotation/occupancy_grid.hpp"
+#include "sheets/annotation/tags.hpp"
+#include "sheets/annotation/title_block.hpp"
+#include "sheets/arrangement/grid_lines.hpp"
+#include "sheets/arrangement/view_arrangement.hpp"
+#include "sheets/output/line_styles.hpp"
+#include "sheets/spec/sheet_spec.hpp"
+#include "sheets/spec/text_metrics.hpp"
+#include "strake/drawing/hatching.hpp"
+#include "strake/model/selection.hpp"
+#include "strake/sheets/sheet_file.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+using drawing::LineState;
+using drawing::rounded_paper;
+using Picks = std::vector<std::vector<bool>>;
+
+class Composer {
+ public:
+  Composer(const SheetSpec& what, const model::Scene& scene, const ComposeOptions& options,
+           const parallel::Context& context)
+      : what_(what),
+        scene_(scene),
+        options_(options),
+        context_(context),
+        room_(sheet_area_of(what)) {}
+
+  Result<Sheet> run() {
+    sheet_.width_mm = what_.width_mm;
+    sheet_.height_mm = what_.height_mm;
+    for (const auto step : {&Composer::pick, &Composer::draw, &Composer::place, &Composer::ink})
+      if (const Status status = (this->*step)(); !status) return status.error();
+    check_places();
+    const double scale = main_scale(what_, places_);
+    for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
+    grid();
+    fill_frame(what_, scale, sheet_);
+    tags();
+    for (PlacedView& view : sheet_.views) view.drawing.lines = {};
+    return std::move(sheet_);
+  }
+
+ private:
+  void warn(std::string code, std::string message, std::string where) {
+    sheet_.diagnostics.add(
+        {Severity::warning, std::move(code), std::move(message), std::move(where)});
+  }
+
+  /// Asks all selections about all objects, once.
+  Status pick() {
+    std::vector<model::Selection> selections;
+    std::vector<const settings::Chooser*> choosers;
+    const auto ask = [&](const settings::Chooser& chooser) {
+      selections.push_back(chooser.selection);
+      choosers.push_back(&chooser);
+    };
+    for (const ViewSpec& view : what_.views) {
+      for (const settings::Chooser& chooser : view.select) ask(chooser);
+      for (const HatchSpec& hatch : view.hatches)
+        for (const settings::Chooser& chooser : hatch.select) ask(chooser);
+    }
+    for (const TagSpec& tag : what_.tags) ask(*tag.select);
+    Result<Picks> picked = model::pick(selections, scene_, context_);
+    if (!picked) return picked.error();
+    picks_ = std::move(*picked);
+    std::vector<std::string> told;
+    for (std::size_t s = 0; s < picks_.size(); ++s) {
+      const bool some = std::find(picks_[s].begin(), picks_[s].end(), true) != picks_[s].end();
+      if (some || std::find(told.begin(), told.end(), choosers[s]->where) != told.end()) continue;
+      told.push_back(choosers[s]->where);
+      warn("selection-matches-nothing", "'" + choosers[s]->selection.text() + "' picks no object",
+           choosers[s]->where);
+    }
+    return {};
+  }
+
+  /// The objects that the next selections pick, those of a list together; empty: all.
+  [[nodiscard]] std::vector<bool> next_picks(std::size_t count) {
+    std::vector<bool> any;
+    if (count == 0) return any;
+    any.resize(scene_.model->objects.size());
+    for (const std::size_t end = asked_ + count; asked_ < end; ++asked_)
+      for (std::size_t o = 0; o < any.size(); ++o) any[o] = any[o] || picks_[asked_][o];
+    return any;
+  }
+
+  [[nodiscard]] std::vector<hlr::Hatch> hatches_of(const ViewSpec& view) {
+    drawing::Hatching hatching(scene_.model->objects.size());
+    for (const HatchSpec& spec : view.hatches)
+      hatching.add(spec.hatch, next_picks(spec.select.size()));
+    return std::move(hatching).by_object();
+  }
+
+  /// What of a view selections say.
+  struct Chosen {
+    std::vector<bool> drawn;
+    std::vector<hlr::Hatch> hatches;
+  };
+
+  Status draw() {
+    std::vector<Chosen> chosen;
+    for (const ViewSpec& view : what_.views) {
+      chosen.push_back({next_picks(view.select.size()), {}});
+      chosen.back().hatches = hatches_of(view);
+    }
+    const Result<std::vector<double>> sags =
+        options_.sag_for_paper ? sags_for_paper(chosen) : std::vector<double>{};
+    if (!sags) return sags.error();
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const ViewSpec& view = what_.views[v];
+      hlr::Options options = view.options;
+      options.solver = options_.solver;
+      // What the sheet does not show is not worked out.
+      options.hidden = view.hidden != HiddenLines::off;
+      options.hatches = std::move(chosen[v].hatches);
+      if (!sags->empty()) options.sag_mm = (*sags)[v];
+      Result<hlr::Drawing> lines = hlr::draw(scene_, chosen[v].drawn, view.view, options, context_);
+      if (!lines) {
+        Error error = lines.error();
+        if (error.code != ErrorCode::cancelled)
+          error.where = view.where + (error.where.empty() ? "" : ", " + error.where);
+        return error;
+      }
+      sheet_.diagnostics.append(lines->diagnostics);
+      drawings_.push_back(std::move(*lines));
+    }
+    return {};
+  }
+
+  /// Of each view, from about the scale that it will have. Nothing where nothing would fit.
+  [[nodiscard]] Result<std::vector<double>> sags_for_paper(
+      const std::vector<Chosen>& chosen) const {
+    std::vector<drawing::PlaneBox> extents;
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const ViewSpec& spec = what_.views[v];
+      const auto& eye = spec.view.perspective;
+      const geometry::Vec3l origin = spec.anchor.value_or(eye ? eye->target : geometry::Vec3l{});
+      const auto extent =
+          drawing::expected_extent(scene_, chosen[v].drawn, spec.view, origin, context_);
+      if (!extent) return extent.error();
+      extents.push_back(*extent);
+    }
+    std::vector<double> sags = expected_scales(what_, extents, room_);
+    for (std::size_t v = 0; v < sags.size(); ++v)
+      sags[v] = drawing::unseen_sag_mm(extents[v], sags[v]);
+    return sags;
+  }
+
+  Status place() {
+    auto places = place_views(what_, drawings_, room_, context_);
+    if (!places) return places.error();
+    places_ = std::move(*places);
+    if (const Status status = check_reach(); !status) return status;
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const ViewSpec& spec = what_.views[v];
+      drawing::LayoutOptions options;
+      options.view_name = spec.name;
+      options.title = spec.title;
+      options.placement = placement(v);
+      auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
+      if (!laid_out) return laid_out.error();
+      drawings_[v] = {};
+      sheet_.views.push_back(
+          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}});
+      check_lines(spec, sheet_.views.back().drawing);
+    }
+    return {};
+  }
+
+  /// Far off the sheet coordinates would not be micrometres any more.
+  [[nodiscard]] Status check_reach() const {
+    constexpr double kFarthest = 1e9;
+    const PaperBox reach{-kFarthest, -kFarthest, kFarthest, kFarthest};
+    for (std::size_t v = 0; v < places_.size(); ++v)
+      if (!reach.holds(places_[v].whole))
+        return Error{ErrorCode::input,
+                     "at " + drawing::scale_text(places_[v].scale) +
+                         " its lines lie more than 1000 km of paper off the sheet",
+                     what_.views[v].where, "mend its anchor, its limits or its scale"};
+    return {};
+  }
+
+  [[nodiscard]] drawing::Placement placement(std::size_t v) const {
+    const ViewPlace& place = places_[v];
+    return {{what_.width_mm, what_.height_mm, place.scale, drawing::scale_text(place.scale)},
+            place.anchor,
+            place.at};
+  }
+
+  void check_lines(const ViewSpec& spec, const drawing::NeutralDrawing& lines) {
+    const auto of = [&](LineState state) { return lines.count[static_cast<std::size_t>(state)]; };
+    if (of(LineState::visible) > 0) return;
+    const bool nothing = lines.account.objects() == 0;
+    const bool hidden = lines.account.of(hlr::Fate::hidden) > 0;
+    warn("view-empty",
+         "the view '" + spec.name + "' shows nothing: " +
+             (nothing                      ? "it has no objects"
+              : hidden                     ? "all that lies within is hidden"
+              : of(LineState::clipped) > 0 ? "nothing lies within what it shows"
+                                           : "its objects have no lines to draw"),
+         spec.where);
+  }
+
+  /// One set of pens for the sheet: those that the densest of its views can bear.
+  Status ink() {
+    drawing::Pens pens;
+    for (const PlacedView& view : sheet_.views) {
+      const drawing::Pens own = drawing::choose_pens(view.drawing);
+      if (own.edge < pens.edge) pens = own;
+    }
+    sheet_.styles = styles_of(what_.styles, pens);
+    for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+      const HiddenLines hidden = what_.views[v].hidden;
+      auto chosen = drawing::choose_ink(sheet_.views[v].drawing,
+                                        {.hidden = hidden != HiddenLines::off,
+                                         .clean_up = hidden != HiddenLines::all,
+                                         .pens = pens_of(sheet_.styles)},
+                                        context_);
+      if (!chosen) return chosen.error();
+      sheet_.views[v].ink = std::move(*chosen);
+    }
+    return {};
+  }
+
+  void check_places() {
+    const PaperBox paper{0, 0, what_.width_mm, what_.height_mm};
+    for (std::size_t v = 0; v < places_.size(); ++v) {
+      const ViewSpec& view = what_.views[v];
+      const PaperBox& box = places_[v].whole;
+      const std::string name =
+          "the view '" + view.name + "' at " + drawing::scale_text(places_[v].scale);
+      if (!paper.holds(box))
+        warn("view-off-the-sheet", name + " reaches beyond the paper", view.where);
+      else if (!room_.area.holds(box))
+        warn("view-off-the-frame", name + " reaches beyond the frame", view.where);
+      if (std::any_of(room_.keep_free.begin(), room_.keep_free.end(),
+                      [&](const PaperBox& k) { return k.overlaps(box); }))
+        warn("view-on-title-block", name + " covers the title block", view.where);
+      for (std::size_t w = 0; w < v; ++w)
+        if (places_[w].whole.overlaps(box))
+          warn("views-overlap", name + " overlaps '" + what_.views[w].name + "'", view.where);
+    }
+  }
+
+  /// The title below a view, underlined, and its scale where that is not the sheet's.
+  void caption(std::size_t v, double sheet_scale) {
+    PlacedView& view = sheet_.views[v];
+    const PaperBox& box = places_[v].lines;
+    const GridMargin rim = grid_margin(what_.grid, what_.views[v]);
+    const double x = rounded_paper((box.left + box.right) / 2);
+    const Lettering letters = lettering_of(what_);
+    double y = box.bottom + rim.other_mm + letters.gap_mm;
+    const auto write = [&](const std::string& text, double height) {
+      y = rounded_paper(y + height);
+      view.caption.texts.push_back({LineClass::title, {x, y}, height, Align::middle, text, false});
+      y = rounded_paper(y + 1.5);
+    };
+    if (!view.title.empty()) {
+      write(view.title, letters.title_mm);
+      const double half = rounded_paper(text_width(view.title) * letters.title_mm / 2);
+      view.caption.paths.push_back({LineClass::title, {{x - half, y}, {x + half, y}}, false});
+      y += 1.5;
+    }
+    if (places_[v].scale != sheet_scale && !what_.views[v].view.perspective)
+      write(drawing::scale_text(places_[v].scale), letters.scale_mm);
+  }
+
+  void grid() {
+    std::vector<bool> somewhere(what_.grid.planes.size());
+    for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+      GridMarks marks = grid_marks(what_.grid, what_.views[v], placement(v), places_[v].lines);
+      for (std::size_t p = 0; p < somewhere.size(); ++p)
+        somewhere[p] = somewhere[p] || marks.drawn[p];
+      if (marks.unlabelled > 0)
+        sheet_.diagnostics.add(Severity::note, "grid-label-no-room",
+                               "in the view '" + what_.views[v].name + "' " +
+                                   std::to_string(marks.unlabelled) +
+                                   " grid lines have no room for their labels",
+                               what_.grid.where);
+      sheet_.views[v].grid = std::move(marks.marks);
+    }
+    for (std::size_t p = 0; p < somewhere.size(); ++p)
+      if (!somewhere[p])
+        warn("grid-line-nowhere",
+             "the grid line '" + what_.grid.planes[p].label + "' shows in no view",
+             what_.grid.where);
+  }
+
+  void tags() {
+    if (what_.tags.empty()) return;
+    OccupancyGrid occupancy(sheet_.width_mm, sheet_.height_mm);
+    for (const PlacedView& view : sheet_.views) {
+      for (const drawing::Line& line : view.ink.lines)
+        occupancy.add_line(line.a_paper, line.b_paper);
+      for (const Path& path : view.grid.paths)
+        occupancy.add_line(path.points.front(), path.points.back());
+      for (const Marks* marks : {&view.caption, &view.grid}) {
+        for (const Text& text : marks->texts) occupancy.block(box_of(text));
+        for (const Circle& c : marks->circles)
+          occupancy.block({c.center.x - c.radius_mm, c.center.y - c.radius_mm,
+                           c.center.x + c.radius_mm, c.center.y + c.radius_mm});
+      }
+    }
+    for (const TagSpec& tag : what_.tags) {
+      const std::vector<bool>& picked = picks_[asked_++];
+      std::size_t seen = 0;
+      for (PlacedView& view : sheet_.views)
+        if (tag.views.empty() ||
+            std::find(tag.views.begin(), tag.views.end(), view.name) != tag.views.end())
+          seen += tag_view(tag, picked, view, occupancy);
+      if (seen == 0 && std::find(picked.begin(), picked.end(), true) != picked.end())
+        warn("tag-not-seen",
+             "none of the objects of '" + tag.select->selection.text() + "' is seen in a view",
+             tag.where);
+    }
+  }
+
+  /// How many of the objects show in the view.
+  std::size_t tag_view(const TagSpec& tag, const std::vector<bool>& picked, PlacedView& view,
+                       OccupancyGrid& occupancy) {
+    const TagCount count = write_tags(tag, picked, *scene_.model, room_, view, occupancy);
+    const std::string where = tag.where + ", the view '" + view.name + "'";
+    const auto say = [&](std::size_t number, const char* code, const std::string& one,
+                         const std::string& many) {
+      if (number == 1) warn(code, "1 object " + one, where);
+      if (number > 1) warn(code, std::to_string(number) + " objects " + many, where);
+    };
+    const std::string some = " some of what '" + tag.text + "' names";
+    say(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
+        "have nothing to be tagged with");
+    say(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
+    say(count.crowded, "tag-no-room", "is without its tag: there is no room for it",
+        "are without their tags: there is no room for them");
+    return static_cast<std::size_t>(std::count(picked.begin(), picked.end(), 1)) - count.unseen;
+  }
+
+  const SheetSpec& what_;
+  const model::Scene& scene_;
+  const ComposeOptions& options_;
+  const parallel::Context& context_;
+  SheetArea room_;
+  Picks picks_;
+  std::size_t asked_ = 0;  ///< of them those that have been used
+  std::vector<hlr::Drawing> drawings_;
+  std::vector<ViewPlace> places_;
+  Sheet sheet_;
+};
+
+}  // namespace
+
+Result<Sheet> compose(const SheetSpec& what, const model::Scene& scene,
+                      const ComposeOptions& options, const parallel::Context& context) {
+  return Composer(what, scene, options, context).run();
+}
+
+Result<SheetFile> SheetFile::parse(std::string_view text, std::string_view file,
+                                   ReadTemplate read_template) {
+  Result<SheetSpec> found = parse_sheet_spec(text, file, read_template);
+  if (!found) return found.error();
+  return SheetFile(std::make_shared<const SheetSpec>(std::move(*found)));
+}
+
+Result<SheetFile> SheetFile::read(const std::filesystem::path& file) {
+  const Result<std::string> text =
+      settings::read_text_file(file, "sheet file", "; models come before --sheet");
+  if (!text) return text.error();
+  return parse(*text, file.filename().string(), [&](std::string_view name) {
+    return settings::read_text_file(file.parent_path() / name, "template", "");
+  });
+}
+
+const std::string& SheetFile::template_name() const { return what_->template_name; }
+
+Result<Sheet> SheetFile::compose(const model::Scene& scene, const ComposeOptions& options,
+                                 const parallel::Context& context) const {
+  return sheets::compose(*what_, scene, options, context);
+}
+
+}  // namespace strake::sheets

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheets/output/line_styles.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+#include "drawing/ink/hidden_ink.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+/// Hundredths of a millimetre are as fine as any pen.
+double rounded(double mm) { return std::round(mm * 100) / 100; }
+
+std::vector<double> in_widths(std::initializer_list<double> dashes, double width) {
+  std::vector<double> lengths;
+  for (const double dash : dashes) lengths.push_back(std::max(rounded(dash * width), 0.01));
+  return lengths;
+}
+
+/// The dashes of a class in widths of its pen, ISO 128-20 types 02 and 04; a dot is as long as it
+/// is wide, or else it is not seen in print.
+std::vector<double> usual_dashes(LineClass line, double width) {
+  if (line == LineClass::hidden) return in_widths({drawing::kDash, drawing::kDashGap}, width);
+  if (line == LineClass::grid) return in_widths({24, 3, 1, 3}, width);
+  return {};
+}
+
+double usual_width(LineClass line, const drawing::Pens& pens) {
+  switch (line) {
+    case LineClass::outline:
+      return pens.outline;
+    case LineClass::edge:
+    case LineClass::boundary:
+    case LineClass::intersection:
+      return pens.edge;
+    case LineClass::section:
+      return pens.section;
+    case LineClass::hatch:
+    case LineClass::polyline:
+    case LineClass::smooth:
+    case LineClass::hidden:
+      return pens.thin;
+    case LineClass::grid:
+    case LineClass::grid_label:
+    case LineClass::leader:
+      // As thin as hidden lines, and no thinner than prints well.
+      return std::max(pens.thin, 0.13);
+    case LineClass::title:
+      return 0.35;
+    case LineClass::frame:
+      return 0.7;
+    case LineClass::frame_thin:
+      return 0.25;
+  }
+  return pens.thin;
+}
+
+}  // namespace
+
+std::string_view class_name(LineClass line) {
+  constexpr std::array<std::string_view, kLineClasses> kNames{
+      "outline", "edge", "boundary",   "intersection", "section", "hatch", "polyline",  "smooth",
+      "hidden",  "grid", "grid_label", "leader",       "title",   "frame", "frame_thin"};
+  return kNames.at(static_cast<std::size_t>(line));
+}
+
+LineClass class_of(hlr::EdgeKind kind, bool hidden) {
+  if (hidden) return LineClass::hidden;
+  switch (kind) {
+    case hlr::EdgeKind::contour:
+      return LineClass::outline;
+    case hlr::EdgeKind::boundary:
+      return LineClass::boundary;
+    case hlr::EdgeKind::intersection:
+      return LineClass::intersection;
+    case hlr::EdgeKind::section:
+      return LineClass::section;
+    case hlr::EdgeKind::hatch:
+      return LineClass::hatch;
+    case hlr::EdgeKind::polyline:
+      return LineClass::polyline;
+    case hlr::EdgeKind::smooth:
+      return LineClass::smooth;
+    case hlr::EdgeKind::sharp:
+    case hlr::EdgeKind::non_manifold:
+      break;
+  }
+  return LineClass::edge;
+}
+
+LineStyles styles_of(const std::array<StyleSpec, kLineClasses>& specs, const drawing::Pens& pens) {
+  LineStyles styles;
+  for (std::size_t c = 0; c < kLineClasses; ++c) {
+    const auto line = static_cast<LineClass>(c);
+    styles[c].width_mm = specs[c].width_mm.value_or(usual_width(line, pens));
+    styles[c].dash_mm = specs[c].dash_mm.value_or(usual_dashes(line, styles[c].width_mm));
+    if (specs[c].color) styles[c].color = *specs[c].color;
+  }
+  return styles;
+}
+
+drawing::Pens pens_of(const LineStyles& styles) {
+  return {.outline = style_of(styles, LineClass::outline).width_mm,
+          .edge = style_of(styles, LineClass::edge).width_mm,
+          .thin = style_of(styles, LineClass::hidden).width_mm,
+          .section = style_of(styles, LineClass::section).width_mm};
+}
+
+}  // namespace strake::sheets

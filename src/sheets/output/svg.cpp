@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string>
+
+#include "core/number.hpp"
+#include "drawing/buffered_writer.hpp"
+#include "drawing/layout/view_plane.hpp"
+#include "drawing/svg/svg_layers.hpp"
+#include "drawing/svg/svg_path.hpp"
+#include "model/attributes.hpp"
+#include "sheets/output/line_styles.hpp"
+#include "sheets/spec/text_metrics.hpp"
+#include "strake/drawing/write.hpp"
+#include "strake/sheets/write.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+using drawing::BufferedWriter;
+using drawing::xml_escaped;
+
+std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+/// "h2.5" as the name of a class: "h2_5".
+std::string height_class(double height_mm) {
+  std::string name = "h" + shortest(height_mm);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+std::string dashes(const LineStyle& style) {
+  std::string text;
+  for (const double dash : style.dash_mm) text += (text.empty() ? "" : " ") + shortest(dash);
+  return text.empty() ? "none" : text;
+}
+
+/// What a class of lines is called in the style sheet: layers of views by what they hold, marks by
+/// their class.
+std::string selector(LineClass line) {
+  std::string list;
+  for (const drawing::Layer& layer : drawing::kLayers)
+    if (class_of(layer.kind, layer.hidden) == line)
+      list += fmt::format(".strake .{}.{} path, ", layer.hidden ? "hidden" : "visible",
+                          drawing::kind_name(layer.kind));
+  return list + ".strake ." + std::string(class_name(line));
+}
+
+void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>& heights) {
+  out << "<style>\n"
+         ".strake path, .strake circle { fill: none; stroke-linecap: round; stroke-linejoin: "
+         "round; }\n";
+  for (std::size_t c = 0; c < kLineClasses; ++c) {
+    const LineStyle& style = sheet.styles.at(c);
+    out << selector(static_cast<LineClass>(c))
+        << fmt::format(" {{ stroke: {}; stroke-width: {}; stroke-dasharray: {};{} }}\n",
+                       model::color_text(style.color), shortest(style.width_mm), dashes(style),
+                       style.dash_mm.empty() ? "" : " stroke-linecap: butt;");
+  }
+  out << ".strake text { font-family: sans-serif; stroke: none; }\n";
+  for (std::size_t c = 0; c < kLineClasses; ++c) {
+    const std::string color = model::color_text(sheet.styles.at(c).color);
+    const std::string_view name = class_name(static_cast<LineClass>(c));
+    out << fmt::format(".strake text.{0}, .strake path.{0}.filled {{ fill: {1}; stroke: none; }}\n",
+                       name, color);
+  }
+  for (const double height : heights)
+    out << fmt::format(".strake text.{} {{ font-size: {}px; }}\n", height_class(height),
+                       shortest(std::round(height * kFontSize * 1000) / 1000));
+  out << ".strake .paper { fill: #fff; stroke: none; }\n</style>\n";
+}
+
+void write_metadata(BufferedWriter& out, const Sheet& sheet) {
+  out << "<metadata>\n<sheet xmlns=\"urn:strake:sheet:1\">\n";
+  for (const PlacedView& view : sheet.views) {
+    const drawing::NeutralDrawing& drawing = view.drawing;
+    out << "<view name=\"" << xml_escaped(view.name) << "\" direction=\""
+        << vector_text(drawing.view.direction) << "\" up=\"" << vector_text(drawing.view.up) << "\""
+        << (drawing.view.perspective ? " projection=\"perspective\"" : "") << " stage=\""
+        << drawing::stage_name(drawing.stage) << "\" scale=\"" << drawing.sheet.scale_text
+        << "\" contact-distance-mm=\"" << shortest(drawing.contact_distance_mm) << "\" hash=\""
+        << drawing.hash.text() << "\""
+        << fmt::format(" objects=\"{}\" objects-drawn=\"{}\" feature-edges=\"{}\"",
+                       drawing.account.objects(), drawing.account.of(hlr::Fate::drawn),
+                       drawing.counters.feature_edges);
+    for (std::size_t s = 0; s < drawing::kLineStates; ++s) {
+      const auto state = static_cast<drawing::LineState>(s);
+      const bool hidden = state == drawing::LineState::hidden_by_self ||
+                          state == drawing::LineState::hidden_by_other;
+      if (hidden && !drawing.hidden_lines) continue;
+      std::string name(drawing::state_name(state));
+      std::replace(name.begin(), name.end(), '_', '-');
+      out << fmt::format(" {}=\"{}\"", name, drawing.count[s]);
+    }
+    if (!drawing.hidden_lines) out << " hidden-lines=\"not asked for\"";
+    out << fmt::format(" hidden-left-out=\"{}\"/>\n", view.ink.left_out);
+  }
+  out << "</sheet>\n</metadata>\n";
+}
+
+void write_marks(BufferedWriter& out, const Marks& marks) {
+  for (const Text& text : marks.texts) {
+    if (!text.clears) continue;
+    const PaperBox box = box_of(text);
+    out << fmt::format("<rect class=\"paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
+                       shortest(drawing::rounded_paper(box.left)),
+                       shortest(drawing::rounded_paper(box.top)),
+                       shortest(drawing::rounded_paper(box.width())),
+                       shortest(drawing::rounded_paper(box.height())));
+  }
+  for (const Path& path : marks.paths) {
+    out << "<path class=\"" << class_name(path.line) << (path.filled ? " filled" : "") << "\" d=\"";
+    drawing::append_svg_chain(out.text(), path.points);
+    out << "\"/>\n";
+  }
+  for (const Circle& circle : marks.circles)
+    out << fmt::format("<circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n",
+                       class_name(circle.line), shortest(circle.center.x),
+                       shortest(circle.center.y), shortest(circle.radius_mm));
+  constexpr std::array<std::string_view, 3> kAnchors{"", " text-anchor=\"middle\"",
+                                                     " text-anchor=\"end\""};
+  for (const Text& text : marks.texts)
+    out << fmt::format("<text class=\"{} {}\" x=\"{}\" y=\"{}\"{}>", class_name(text.line),
+                       height_class(text.height_mm), shortest(text.at.x), shortest(text.at.y),
+                       kAnchors.at(static_cast<std::size_t>(text.align)))
+        << xml_escaped(text.text) << "</text>\n";
+}
+
+/// A layer of marks, where there are any.
+void write_layer(BufferedWriter& out, const Marks& marks, const std::string& id,
+                 std::string_view label) {
+  if (marks.paths.empty() && marks.circles.empty() && marks.texts.empty()) return;
+  out << fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" id=\"{}\">\n", label,
+                     id);
+  write_marks(out, marks);
+  out << "</g>\n";
+}
+
+void write_view(BufferedWriter& out, const PlacedView& view, const model::Model& model,
+                std::size_t number) {
+  const std::string id = fmt::format("view-{}", number);
+  out << "<g class=\"view\" id=\"" << id << "\" inkscape:groupmode=\"layer\" inkscape:label=\""
+      << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
+      << view.drawing.sheet.scale_text << "\">\n";
+  drawing::write_layers(out, view.drawing.curves, view.ink, model, id + "-");
+  write_layer(out, view.grid, id + "-grid", "Grid");
+  write_layer(out, view.tags, id + "-tags", "Tags");
+  write_layer(out, view.caption, id + "-title", "Title");
+  out << "</g>\n";
+}
+
+std::set<double> heights_of(const Sheet& sheet) {
+  std::set<double> heights;
+  const auto add = [&](const Marks& marks) {
+    for (const Text& text : marks.texts) heights.insert(text.height_mm);
+  };
+  add(sheet.frame);
+  for (const PlacedView& view : sheet.views)
+    for (const Marks* marks : {&view.caption, &view.grid, &view.tags}) add(*marks);
+  return heights;
+}
+
+}  // namespace
+
+void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink) {
+  BufferedWriter out(sink);
+  const std::string width = shortest(sheet.width_mm), height = shortest(sheet.height_mm);
+  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+         "xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+         "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
+      << fmt::format("width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n", width, height)
+      << "<title>" << xml_escaped(sheet.title) << "</title>\n";
+  write_metadata(out, sheet);
+  write_style(out, sheet, heights_of(sheet));
+  out << "<g class=\"strake\">\n"
+      << fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\"/>\n</g>\n", width, height);
+  if (sheet.artwork)
+    out << fmt::format("<svg id=\"sheet-frame\" width=\"{}\" height=\"{}\" viewBox=\"{}\">\n",
+                       width, height, sheet.artwork->view_box)
+        << sheet.artwork->elements << "\n</svg>\n";
+  out << "<g class=\"strake\" id=\"sheet-drawing\">\n";
+  write_layer(out, sheet.frame, "sheet-frame", "Frame");
+  for (std::size_t v = 0; v < sheet.views.size(); ++v)
+    write_view(out, sheet.views[v], model, v + 1);
+  out << "</g>\n</svg>\n";
+}
+
+}  // namespace strake::sheets

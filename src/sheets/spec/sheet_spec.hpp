@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "settings/named_sets.hpp"
+#include "sheets/spec/template.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/sheets/sheet_file.hpp"
+
+namespace strake::sheets {
+
+enum class Projection : std::uint8_t { first_angle, third_angle };
+
+/// What an arrangement has places for; `none` is a view that says its own.
+enum class ViewSlot : std::uint8_t { none, front, top, bottom, left, right, back, iso };
+
+enum class HiddenLines : std::uint8_t { off, dashed, all };
+
+/// How the sections of some objects are hatched.
+struct HatchSpec {
+  std::vector<settings::Chooser> select;  ///< empty: all
+  hlr::Hatch hatch;
+};
+
+struct ViewSpec {
+  std::string name, title;
+  std::string where;  ///< "deck.toml, line 7: [[view]] 'plan'"
+  ViewSlot slot = ViewSlot::none;
+  hlr::View view;
+  hlr::Options options;
+  std::vector<settings::Chooser> select;  ///< empty: everything
+  std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
+  HiddenLines hidden = HiddenLines::off;
+  std::optional<double> scale;
+  std::optional<PaperPoint> position;  ///< of the anchor, or without one of the middle
+  std::optional<geometry::Vec3l> anchor;
+};
+
+struct TagSpec {
+  std::string where;
+  std::optional<settings::Chooser> select;
+  std::string text;
+  std::vector<std::string> views;  ///< empty: all
+  bool leader = true;
+  bool once = false;  ///< of objects with equal texts one is tagged
+  double height_mm = 2.5;
+};
+
+/// A plane across an axis of the model.
+struct GridPlane {
+  std::uint8_t axis = 0;
+  std::string label;
+  double at_mm = 0;
+};
+
+struct GridSpec {
+  std::string where;
+  std::vector<GridPlane> planes;
+  std::vector<std::string> views;  ///< empty: all that look along them
+};
+
+struct StyleSpec {
+  std::optional<double> width_mm;
+  std::optional<std::vector<double>> dash_mm;
+  std::optional<model::Color> color;
+};
+
+/// What a file says of a sheet.
+struct SheetSpec {
+  std::string file;
+  double width_mm = 420, height_mm = 297;
+  std::string size = "A3";
+  bool frame = true;
+  std::optional<Template> artwork;
+  std::string template_name;        ///< as the file has it; empty: none
+  std::optional<PaperBox> area;     ///< where views may lie; none: that of the frame
+  std::vector<PaperBox> keep_free;  ///< of views
+  std::optional<double> scale;      ///< of views that say none
+  Projection projection = Projection::first_angle;
+  double gap_mm = 15;  ///< between views of the arrangement, at least
+  std::vector<std::pair<std::string, std::string>> fields;
+  std::string fields_where;
+  std::vector<ViewSpec> views;  ///< those of the arrangement first
+  std::vector<TagSpec> tags;
+  GridSpec grid;
+  std::array<StyleSpec, kLineClasses> styles;
+};
+
+[[nodiscard]] Result<SheetSpec> parse_sheet_spec(std::string_view text, std::string_view file,
+                                                 ReadTemplate read_template);
+
+}  // namespace strake::sheets
