@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""House rules that no compiler checks: layers, licence lines, file sizes, a library that never prints,
+"""House rules that no compiler checks: layers and rooms, licence lines, file sizes, a library that never prints,
 threads, locks and hidden state in the patterns alone, no scratch files in the root."""
 import re
 import shutil
@@ -23,6 +23,8 @@ MAY_USE = {
     'report': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing'],
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
 }
+# A room is a folder of a module, for one stage of an algorithm.
+MOST_IN_ROOM = 22
 LINES = {'.hpp': 300, '.cpp': 600}
 IN_ROOT = {'.clang-format', '.clang-tidy', '.gitattributes', '.gitignore', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CMakeLists.txt',
            'CMakePresets.json', 'CONTRIBUTING.md', 'HACKING.md', 'LICENSE', 'NOTICE', 'README.md', 'SECURITY.md',
@@ -105,6 +107,34 @@ def module_of(path):
     return None
 
 
+def room_of(path):
+    """The module and the folder in it, for what is not public."""
+    parts = path.parts[1:] if path.parts[0] == 'src' else path.parts
+    return (parts[0], parts[1] if len(parts) > 2 else '')
+
+
+def room_faults(sources):
+    """Rooms of a module that include each other, and rooms that hold too much; sources: path and text of each."""
+    includes, held = {}, {}
+    for path, text in sources:
+        if path.parts[0] not in ('src', 'cli') or path.suffix not in CODE or len(path.parts) < 2:
+            continue
+        held[path.parent] = held.get(path.parent, 0) + 1
+        module, room = room_of(path)
+        for line in re.findall(r'^\s*#include\s+"([\w./]+)"', text, re.MULTILINE):
+            target = Path(line).parts
+            if target[0] == module and len(target) > 1:
+                other = target[1] if len(target) > 2 else ''
+                if other != room:
+                    includes.setdefault((module, room, other), path)
+    for (module, room, other), path in sorted(includes.items()):
+        if room < other and (module, other, room) in includes:
+            yield f'{path}: includes {module}/{other}, of which {includes[module, other, room]} includes {module}/{room}'
+    for folder, count in sorted(held.items()):
+        if count > MOST_IN_ROOM:
+            yield f'{folder}: {count} files; {MOST_IN_ROOM} are the limit for one stage of an algorithm'
+
+
 def code_of(text):
     """The text without comments and what stands in quotes, but for names of headers; as many lines."""
     return TOKENS.sub(lambda match: match['kept'] or '\n' * match[0].count('\n') or ' ', text)
@@ -165,12 +195,15 @@ def faults_of(path, text):
 def main():
     faults = [f'{name}: an exception in check_house.py for a file that is not there'
               for name in OWN_CONCURRENCY if not Path(name).exists()]
+    sources = []
     for path in tracked():
         if len(path.parts) == 1 and path.is_file() and path.name not in IN_ROOT:
             faults.append(f'{path}: no file that belongs in the root (a scratch file?)')
         if path.is_file() and has_rules(path):
             text = path.read_text(encoding='utf-8', errors='replace')
             faults += [f'{path}:{n}: {what}' for n, what in faults_of(path, text)]
+            sources.append((path, text))
+    faults += room_faults(sources)
     if faults:
         sys.exit('\n'.join(faults))
 

@@ -58,6 +58,7 @@ struct KindInfo {
 inline constexpr std::array<KindInfo, static_cast<std::size_t>(ObjectKind::count)> kKinds{{
 #define STRAKE_KIND(name, code, system, discipline, red, green, blue, alpha, optional) \
   KindInfo{code, system, Discipline::discipline, {red, green, blue, alpha}, optional},
+#include "generate/object_kinds.inc"
 #undef STRAKE_KIND
 }};
 

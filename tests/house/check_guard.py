@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """check_guard.py SCRIPTS: check_house.py, from that folder, catches threads, locks, atomics and hidden state in an
-engine, however they are written, and lets pass what only looks so. Each entry is a file of its own."""
+engine, however they are written, and lets pass what only looks so, each entry a file of its own; and rooms that
+include each other or hold too much."""
 import sys
 from pathlib import Path
 
@@ -257,8 +258,24 @@ def wrong():
         yield 'a declaration of two lines after a text of three: not line 5'
 
 
+def wrong_rooms():
+    """Rooms that include each other, and rooms that hold too much."""
+    one_way = [(Path('src/hlr/view/x.cpp'), '#include "hlr/edges/x.hpp"\n#include "hlr/view/y.hpp"\n'),
+               (Path('src/hlr/draw.cpp'), '#include "hlr/view/x.hpp"\n'),
+               (Path('src/hlr/edges/x.hpp'), '#include "geometry/view/x.hpp"\n#include "strake/hlr/hlr.hpp"\n')]
+    if list(check_house.room_faults(one_way)):
+        yield 'rooms that include one another one way are caught'
+    for back in (Path('src/hlr/edges/y.cpp'), '#include "hlr/view/x.hpp"\n'), (
+            Path('src/hlr/view/y.cpp'), '#include "hlr/draw.hpp"\n'):
+        if not list(check_house.room_faults([*one_way, back])):
+            yield f'{back[0]}: rooms that include each other are not caught'
+    full = [(Path(f'cli/verbs/x{i}.cpp'), '') for i in range(check_house.MOST_IN_ROOM)]
+    if list(check_house.room_faults(full)) or not list(check_house.room_faults([*full, (Path('cli/verbs/y.hpp'), '')])):
+        yield 'cli/verbs: the number of files of a room is not counted'
+
+
 def main():
-    found = list(wrong())
+    found = [*wrong(), *wrong_rooms()]
     if found:
         sys.exit('\n'.join(found))
 

@@ -13,6 +13,7 @@
 #include "clash/narrow_phase/wire_clash.hpp"
 #include "clash/narrow_phase/witness.hpp"
 #include "geometry/contact_regions/contact_regions.hpp"
+#include "geometry/interior_depth/bounds/convexity.hpp"
 #include "geometry/interior_depth/sheets/sheet_crossing.hpp"
 #include "strake/geometry/depth.hpp"
 #include "strake/parallel/collect.hpp"

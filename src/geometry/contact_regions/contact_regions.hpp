@@ -88,10 +88,4 @@ struct ContactRegions {
 [[nodiscard]] bool meet_in_one_planar_region(const PartWithObb& a, const PartWithObb& b,
                                              double reach);
 
-/// Whether no vertex of a solid stands above the plane of a face by more than `slack` grid units.
-/// Two such parts come within a reach of each other that is well above the slack in one place.
-/// False says nothing: not where it would take long to see.
-[[nodiscard]] bool nearly_convex(const Part& part, double slack,
-                                 const parallel::Context& context = {});
-
 }  // namespace strake::geometry

@@ -69,7 +69,9 @@ bool contains(const Patch& x, const FacePoint& p) {
 
 using Point2d = std::array<double, 2>;
 
-Point2d as_double(const FacePoint& p) { return {static_cast<double>(p.u), static_cast<double>(p.v)}; }
+Point2d as_double(const FacePoint& p) {
+  return {static_cast<double>(p.u), static_cast<double>(p.v)};
+}
 
 /// Where two segments cross at interior points, if they do.
 std::optional<Point2d> crossing(const FacePoint& a, const FacePoint& b, const FacePoint& c,

@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "core/text_encoding.hpp"
-#include "io/source/text_number.hpp"
 #include "io/rvm/primitive_chunk.hpp"
 #include "io/source/input_file.hpp"
+#include "io/source/text_number.hpp"
 
 namespace strake::io::rvm {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/contact_regions/contact_regions.hpp"
+#include "geometry/interior_depth/bounds/convexity.hpp"
 #include "support/part_builder.hpp"
 
 namespace strake::geometry {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "geometry/bvh/parallel_traversal.hpp"
-#include "geometry/contact_regions/contact_regions.hpp"
+#include "geometry/interior_depth/bounds/convexity.hpp"
 #include "geometry/numeric/triangle_math.hpp"
 #include "geometry/numeric/vector_math.hpp"
 #include "geometry/obb/oriented_box.hpp"
