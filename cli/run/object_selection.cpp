@@ -33,7 +33,7 @@ Result<Picked> pick_all(Session& session, const model::Scene& scene,
       some = some || (*picked)[o];
       all.any[o] = all.any[o] || (*picked)[o];
     }
-    if (!some) all.idle.push_back(selection.text());
+    if (!some) all.idle.push_back(model::picks_nothing(selection, *scene.model));
   }
   return all;
 }
@@ -45,7 +45,7 @@ Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
   Result<Picked> picked = pick_all(session, scene, selections);
   if (!picked) return picked.error();
   if (!picked->idle.empty())
-    return Error{ErrorCode::usage, "'" + picked->idle.front() + "' picks no object", option,
+    return Error{ErrorCode::usage, std::move(picked->idle.front()), option,
                  "a bare pattern is compared with names, ids and group/.../name paths; * stands "
                  "for any text"};
   return std::move(picked->any);

@@ -18,7 +18,7 @@ namespace strake::cli {
 /// What several selections pick together.
 struct Picked {
   std::vector<bool> any;          ///< an entry per object: whether one of them picks it
-  std::vector<std::string> idle;  ///< the selections that pick nothing, as written
+  std::vector<std::string> idle;  ///< says of each selection that picks nothing that it does
 };
 
 [[nodiscard]] Result<Picked> pick_all(Session& session, const model::Scene& scene,

@@ -20,7 +20,7 @@ RuleContext::RuleContext(const model::Scene& scene, const std::vector<const Choo
 std::vector<bool> RuleContext::pick(const Chooser& chooser) {
   std::vector<bool> picked = picked_.at(&chooser);
   if (!error_ && std::find(picked.begin(), picked.end(), true) == picked.end())
-    warn_no_match(chooser.where, "'" + chooser.selection.text() + "' picks no object");
+    warn_no_match(chooser.where, model::picks_nothing(chooser.selection, model()));
   return picked;
 }
 

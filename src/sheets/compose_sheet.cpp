@@ -83,7 +83,7 @@ class Composer {
       const bool some = std::find(picks_[s].begin(), picks_[s].end(), true) != picks_[s].end();
       if (some || std::find(told.begin(), told.end(), choosers[s]->where) != told.end()) continue;
       told.push_back(choosers[s]->where);
-      warn("selection-matches-nothing", "'" + choosers[s]->selection.text() + "' picks no object",
+      warn("selection-matches-nothing", model::picks_nothing(choosers[s]->selection, *scene_.model),
            choosers[s]->where);
     }
     return {};

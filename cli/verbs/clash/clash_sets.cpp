@@ -98,9 +98,9 @@ Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded, const Set
     if (!picked) return picked.error();
     side.members = std::move(picked->any);
     side.name = joined(side.selections);
-    for (const std::string& idle : picked->idle)
-      chosen.diagnostics.add(Severity::warning, "selection-picks-nothing",
-                             "'" + idle + "' picks no object", side.option);
+    for (std::string& idle : picked->idle)
+      chosen.diagnostics.add(Severity::warning, "selection-picks-nothing", std::move(idle),
+                             side.option);
   }
   return chosen;
 }

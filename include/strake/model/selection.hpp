@@ -45,6 +45,7 @@ class Selection {
   friend Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selections,
                                                      const Scene& scene,
                                                      const parallel::Context& context);
+  friend std::string picks_nothing(const Selection& selection, const Model& model);
   explicit Selection(std::shared_ptr<const selection::SelectionQuery> query)
       : query_(std::move(query)) {}
   std::shared_ptr<const selection::SelectionQuery> query_;
@@ -60,5 +61,9 @@ class Selection {
 [[nodiscard]] Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selections,
                                                           const Scene& scene,
                                                           const parallel::Context& context);
+
+/// Says that a selection picks no object; where it asks for an attribute that no object and no
+/// group has, this too, with the names of those there are, the commonest first.
+[[nodiscard]] std::string picks_nothing(const Selection& selection, const Model& model);
 
 }  // namespace strake::model

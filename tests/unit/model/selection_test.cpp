@@ -182,6 +182,25 @@ TEST_F(SelectionTest, ValuesAreReadAsDesignersWriteThem) {
   EXPECT_EQ(picked("@L >= 150mm"), "") << "no length";
 }
 
+TEST_F(SelectionTest, WhatPicksNothingNamesTheAttributesThereAre) {
+  const auto said = [&](const char* text) {
+    return picks_nothing(Selection::parse(text).value(), model_);
+  };
+  EXPECT_EQ(said("name = ghost and @Diameter > 5mm"),
+            "'name = ghost and @Diameter > 5mm' picks no object: none has an attribute @Diameter; "
+            "there are @DN, @Spec, @Part, @Wall");
+  EXPECT_EQ(said("@DN = 7"), "'@DN = 7' picks no object");
+  EXPECT_EQ(said("ghost"), "'ghost' picks no object");
+  for (int i = 0; i < 20; ++i)
+    model_.objects[4].attributes.emplace_back("extra " + std::to_string(i), "");
+  EXPECT_EQ(said("@\"D\x07N\""),
+            "'@\"D\x07N\"' picks no object: none has an attribute @D?N; there are @DN, @Spec, "
+            "@Part, @Wall, @extra 0, @extra 1, @extra 10, @extra 11, @extra 12, @extra 13, "
+            "@extra 14, @extra 15 and 12 more");
+  EXPECT_EQ(picks_nothing(Selection::parse("@DN").value(), Model()),
+            "'@DN' picks no object: none has an attribute @DN, nor any other");
+}
+
 TEST_F(SelectionTest, BoxesOfTheModel) {
   EXPECT_EQ(picked("touches(0,-50,-500,1900,50,500)"), "p1 p2") << "touching faces count";
   EXPECT_EQ(picked("inside(-50,-50,-500,1900,50,500)"), "p1");
