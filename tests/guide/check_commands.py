@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""check_commands.py STRAKE PROJECT: the commands of README.md and of docs/*.md can be typed as they stand, page by page
+from the first to the last, on models that the page makes itself. Commands on the real models that pages tell of are run
+where STRAKE_DATA names a folder that holds those."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+COMMAND = re.compile(r'^ {4}(strake (?:[^\n]*\\\n)*[^\n]*)$', re.MULTILINE)
+REAL_MODEL = re.compile(r'\S+\.RVM\b')
+
+
+def commands_of(text):
+    """Each command of a page in one line, without the remark behind it."""
+    for command in COMMAND.findall(text):
+        yield re.sub(r'\s{2,}#.*', '', re.sub(r'\\\n\s*', ' ', command))
+
+
+def bring(pattern, folder, data):
+    """Links the real models that a pattern names into the folder; whether there are any."""
+    found = sorted(Path(data).rglob(pattern)) if data else []
+    for path in found:
+        link = folder / path.name
+        if not link.exists():
+            link.symlink_to(path)
+    return bool(found)
+
+
+def faults_of(page, strake, project, data):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / 'examples').symlink_to(project / 'examples')
+        for command in commands_of(page.read_text(encoding='utf-8')):
+            if not all([bring(pattern, folder, data) for pattern in REAL_MODEL.findall(command)]):
+                continue
+            done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True, timeout=600,
+                                  env={**os.environ, 'PATH': f'{strake.parent}:{os.environ["PATH"]}'})
+            # What --fail-on stops at is an answer, too.
+            if done.returncode not in ((0, 1) if '--fail-on' in command else (0,)):
+                yield f'{page.name}: {command}: exit code {done.returncode}\n{done.stderr}'
+
+
+def main():
+    strake, project = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    if strake.name != 'strake' or shutil.which(str(strake)) is None:
+        sys.exit(f'{strake} is no program strake')
+    data = os.environ.get('STRAKE_DATA')
+    pages = [project / 'README.md', *sorted((project / 'docs').glob('*.md'))]
+    count = sum(len(list(commands_of(page.read_text(encoding='utf-8')))) for page in pages)
+    found = [fault for page in pages for fault in faults_of(page, strake, project, data)]
+    if count < 20:
+        found.append(f'only {count} commands found')
+    if found:
+        sys.exit('\n'.join(found))
+    print(f'{count} commands')
+
+
+if __name__ == '__main__':
+    main()
