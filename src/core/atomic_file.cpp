@@ -80,7 +80,8 @@ void take_over(int descriptor, const struct stat& replaced) {
   const bool owned = ::fchown(descriptor, replaced.st_uid, replaced.st_gid) == 0 ||
                      ::fchown(descriptor, static_cast<uid_t>(-1), replaced.st_gid) == 0;
   static_cast<void>(owned);
-  // Not left to open, which takes away what the umask says. A disk without modes refuses.
+  // The mode is not left to open, which takes away what the umask says. A disk without modes
+  // refuses.
   static_cast<void>(::fchmod(descriptor, replaced.st_mode & 0777U));
 }
 

@@ -120,6 +120,7 @@ class BinaryReader {
 };
 
 /// Returns where the chunk says that the next one begins: 32 bits that wrap in files beyond 4 GiB.
+/// Nothing is returned when that lies before the end of this chunk's frame or after the file's end.
 std::optional<std::size_t> BinaryReader::next_of(std::size_t at) const {
   constexpr std::size_t kWrap = std::size_t{1} << 32;
   std::size_t next = (at & ~(kWrap - 1)) | load_u32(bytes_.data() + at + kIdBytes);
