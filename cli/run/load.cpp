@@ -39,7 +39,7 @@ constexpr std::array<Mistake, 4> kMistakes{{{1000, "m", "mm", kAlike},
 
 /// Whether `large` is larger than `small`, both in grid units, by the mistake along all three axes,
 /// and along two at least by extents that the grid has not made of nothing: two parts seldom are
-/// alike along all axes, and what stands in a line often is.
+/// alike along all axes, and objects in a row often are.
 bool is_alike(const Vec3d& small, const Vec3d& large, const Mistake& mistake) {
   constexpr double kTelling = 8;
   const auto& [factor, small_unit, large_unit, alike] = mistake;

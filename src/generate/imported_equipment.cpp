@@ -40,7 +40,7 @@ class Casing {
  public:
   Casing(std::uint64_t triangles, const Random& random) : random_(random) {
     int halvings = 0;
-    // About as many steps round as up, or up to twice as many.
+    // There are about as many steps round as up, or up to twice as many.
     const double around = std::sqrt(static_cast<double>(triangles) / 2);
     while (24.0 * std::exp2(halvings) < around) ++halvings;
     directions_ = directions(halvings);

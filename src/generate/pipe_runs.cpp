@@ -13,7 +13,8 @@ constexpr double kRest = 2100;      ///< top of the cross-bars that runs lie on,
 constexpr double kPipeJoint = 800;  ///< flange faces, from the start of a bay
 constexpr double kTrayJoint = 500;
 constexpr double kDuctJoint = 1000;
-/// As long as the clearance and more: a pipe never comes near the next pipe's end through flanges.
+/// A flange is longer than the clearance: a pipe never comes near the next pipe's end through
+/// flanges.
 constexpr double kFlangeLength = 30;
 constexpr double kRunEnd = 100;  ///< runs stop this far before the end of the last deck above
 

@@ -127,7 +127,7 @@ void weld_shell(const HullParts& hull) {
 
 constexpr double kGirderAt = 100;  ///< from the lane's start, so that plate seams stay clear of it
 constexpr double kFloorPlate = 12;
-constexpr double kDepth = kTankTop - kDeckPlate;  ///< of the double bottom, inside
+constexpr double kDepth = kTankTop - kDeckPlate;  ///< depth of the double bottom, inside
 
 OutlinePolygon hole_at(double u, double v, double radius, int sides) {
   OutlinePolygon hole = ring(sides, um(radius));

@@ -38,7 +38,7 @@ namespace strake::model {
 /// (docs/selection.md).
 struct SelectableProperties {
   std::string path;  ///< its groups and its own name
-  /// Those of its bodies, each once.
+  /// The types, categories and colours of its bodies, each once.
   std::set<std::string> types, categories, colors;
   /// Its own attributes, then those that it inherits, of the nearest group first.
   Attributes attributes;

@@ -15,7 +15,7 @@ namespace strake::parallel::detail {
 
 namespace {
 
-/// With fewer blocks, a worker's block is probably long, and one counter for all costs nothing
+/// With fewer blocks per worker, each is probably long, and one counter for all costs nothing
 /// beside it: then the low ones go first, should the caller have put the long ones there.
 constexpr std::size_t kFewBlocks = 64;
 

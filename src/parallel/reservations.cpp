@@ -135,7 +135,7 @@ class Rounds {
         slots_[slot] = status ? Slot::done : Slot::failed;
         if (!status) return status;
       }
-      // Whoever else asked for such a place sees a bid that is not his, before this and after.
+      // Another item that wants such a place sees a bid not its own, before this and after.
       for (const std::size_t place : places)
         if (held(place)) bids_[place].store(0, std::memory_order_relaxed);
       return {};
@@ -193,14 +193,14 @@ class Rounds {
   const std::string claims_name_;
   std::vector<std::atomic<std::uint32_t>> bids_;
   std::size_t next_ = 0, end_;          ///< items that no round has had yet
-  std::size_t size_ = kFirstRound;      ///< of a round, at most
+  std::size_t size_ = kFirstRound;      ///< the most of a round
   std::vector<std::uint32_t> waiting_;  ///< from head_ on, ascending
   std::size_t head_ = 0;
 
   // The following are of the round, by slot.
   std::vector<std::uint32_t> items_;
   std::vector<Slot> slots_;
-  std::vector<std::size_t> ends_;                ///< of its places in its list
+  std::vector<std::size_t> ends_;                ///< end of its places in its list
   std::vector<std::vector<std::size_t>> lists_;  ///< by kRun slots
   std::optional<Error> error_;
 };

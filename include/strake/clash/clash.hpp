@@ -20,7 +20,7 @@
 ///     const auto scene = model::make_scene(model, clash::scene_options(options), context);
 ///     const auto report = clash::detect(*scene, clash::one_set(*scene), options, context);
 ///
-/// What the answers mean is defined in docs/clash.md.
+/// docs/clash.md defines what the results mean.
 namespace strake::clash {
 
 /// The classes of a result, from the least to the most severe.

@@ -97,8 +97,8 @@ struct Policy {
 ///    of each other; where a level leaves out some pairs of their parts, the others are checked.
 /// 3. An allowed result keeps its class and d. The rules are applied to each pair of parts by
 ///    itself: one that no rule allows decides the pair, and what is allowed besides is counted
-///    (Pair::allowed_regions). Its place is the worst one: where the boxes of the two parts meet
-///    beyond region and cavity too, the result is flagged kUncertain.
+///    (Pair::allowed_regions). Its place is that of the worst: where the boxes of the two parts
+///    meet beyond region and cavity too, the result is flagged kUncertain.
 /// 4. A hard part decides before a soft one, and a soft one before insulation, where the class is
 ///    equal.
 ///

@@ -18,7 +18,7 @@ namespace selection {
 struct SelectionQuery;
 }
 
-/// A question that picks objects, as a user writes it:
+/// A query that picks objects, as a user writes it:
 ///
 ///     type = cylinder and @DN >= 150mm and not path = "/HULL/*"
 ///

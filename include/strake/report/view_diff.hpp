@@ -63,7 +63,8 @@ struct ViewDiff {
   std::vector<std::uint32_t> of_before,
       of_after;  ///< by object of the document: its number in `objects`
   std::vector<ViewSettingChange> settings;
-  /// By piece and along it: first all of the older document that is gone, then all of the newer.
+  /// The intervals by piece and along it: first all of the older document that is gone, then all of
+  /// the newer.
   std::vector<DiffInterval> intervals;
   LineCounts total;
   std::map<std::pair<hlr::EdgeKind, drawing::LineState>, LineCounts> by_class;

@@ -181,7 +181,7 @@ class ExactNarrowPhase {
       if (meeting) {
         const ScenePart &a = evaluated_.a(i), &b = evaluated_.b(i);
         const double sag = a.placed.part->sag + b.placed.part->sag;
-        // So near it may be a contact elsewhere, or as deep as the worst.
+        // Parts so near may be a contact elsewhere, or as deep as the worst.
         const PairTolerances options = stage_.pair_tolerances.of(a, b);
         far = sag + std::max(options.touch_gap, options.step) + kSnapMargin;
       }

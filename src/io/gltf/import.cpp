@@ -47,7 +47,7 @@ struct MeshShapes {
   };
   std::vector<ColoredShape> parts;
   geometry::Box3d box = geometry::empty_box<double>();
-  double half_spacing_mm = 0;  ///< of its vertices' numbers
+  double half_spacing_mm = 0;  ///< half the spacing of its vertices' numbers
   LeftOut left_out;
 };
 

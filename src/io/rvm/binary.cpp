@@ -185,7 +185,7 @@ void BinaryReader::read_chunk() {
     resynchronise(at_ + kIdBytes);
 }
 
-/// Goes on after a chunk whose body ended at `body_end`, trusting what stands in the file more
+/// Goes on after a chunk whose body ended at `body_end`, trusting what is in the file more
 /// than the stated address, which rewritten files leave stale.
 void BinaryReader::leave_chunk(std::size_t body_end, std::optional<std::size_t> next) {
   if (next == body_end) {

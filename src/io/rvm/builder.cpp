@@ -117,7 +117,7 @@ float RvmBuilder::precision_um(const model::Body& body) const {
 std::optional<model::ShapeId> RvmBuilder::shape_of(const PrimitiveChunk& chunk) {
   if (chunk.kind == kFacetKind) return facet_shape(chunk);
   auto& known = known_[chunk.kind];
-  // The length of a line may stand in its box, which is no part of the key: lines are not shared.
+  // The length of a line may be in its box, which is no part of the key: lines are not shared.
   if (chunk.kind != kLineKind) {
     const auto found = known.find(as_key(chunk.parameters));
     if (found != known.end()) return found->second;

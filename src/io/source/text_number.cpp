@@ -13,7 +13,7 @@
 namespace strake::io {
 namespace {
 
-constexpr std::int64_t kMantissaDigits = 19;  ///< that 64 bits hold
+constexpr std::int64_t kMantissaDigits = 19;  ///< the digits that 64 bits hold
 
 constexpr bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 

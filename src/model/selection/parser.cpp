@@ -340,7 +340,7 @@ class SelectionParser {
     if (!unit) return fault("no length: " + shown(token), "write millimetres or a unit, as 9m");
     const double mm = quantity->number * *unit;
     ++at_;
-    // Beyond the grid is an open side of the box.
+    // A length beyond the grid leaves that side of the box open.
     return *geometry::snap(std::clamp(mm, -geometry::kMaxGridMm, geometry::kMaxGridMm));
   }
 

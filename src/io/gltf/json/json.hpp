@@ -107,7 +107,7 @@ class JsonValue {
   /// Returns the decoded string; empty for other values.
   [[nodiscard]] std::string text_value() const;
   void append_text(std::string& out) const;
-  /// True for a string that is this text once decoded.
+  /// Whether it is a string that is this text once decoded.
   [[nodiscard]] bool is_text(std::string_view text) const {
     if (!is_string()) return false;
     return entry().escaped ? text_value() == text : raw() == text;
