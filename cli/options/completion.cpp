@@ -8,8 +8,8 @@
 namespace strake::cli {
 namespace {
 
-/// Visits a command with the words that lead to it, each after a space: " clash diff"; none for the
-/// program.
+/// A visitor of a command with the words that lead to it, each after a space: " clash diff"; none
+/// for the program.
 using Visit = std::function<void(const CommandTree&, const std::string& path)>;
 
 void walk(const CommandTree& command, const std::string& path, const Visit& visit) {

@@ -11,6 +11,7 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/progress.hpp"
 
+/// The output on a terminal: messages, standard output and the progress line.
 namespace strake::cli {
 
 /// Standard error, shared by narration, errors and the progress line; thread-safe. What is printed

@@ -14,6 +14,7 @@
 #include "strake/model/model.hpp"
 #include "strake/model/scene.hpp"
 
+/// Loads the models of a command line and prints what was noticed.
 namespace strake::cli {
 
 /// Warns of two files that may be of different units: the unit of at least one is only assumed, and

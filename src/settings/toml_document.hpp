@@ -11,6 +11,7 @@
 
 #include "strake/core/result.hpp"
 
+/// Values of a TOML file with their positions, and the parser that reads them.
 namespace strake::settings {
 
 /// A position in a file, counted from 1; columns in bytes.

@@ -16,6 +16,7 @@ namespace CLI {  // NOLINT(readability-identifier-naming): the library's own nam
 class App;
 }  // namespace CLI
 
+/// The options for the result of a clash run, and its exit code.
 namespace strake::cli {
 
 /// How the result of a clash run is to be reported, as written.

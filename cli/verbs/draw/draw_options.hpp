@@ -13,6 +13,7 @@
 #include "strake/model/scene.hpp"
 #include "strake/model/selection.hpp"
 
+/// The options of `draw` for hatches and for perspective.
 namespace strake::cli {
 
 /// How the sections of some objects are hatched.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+/// Messages about the input that a run noticed and survived.
 namespace strake {
 
 enum class Severity : std::uint8_t { note, warning, skipped };

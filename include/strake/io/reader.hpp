@@ -13,6 +13,7 @@
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
 
+/// Reads model files of all supported formats.
 namespace strake::io {
 
 enum class UpAxis { x, y, z };

@@ -10,8 +10,9 @@
 namespace strake::io {
 
 struct WriteOptions {
-  /// Writes GLB in millimetres with z up instead of the standard's metres with y up; asset.extras
-  /// says so (unit_mm, up_axis), where our reader finds it. Whole millimetres are then exact.
+  /// GLB is written in millimetres with z up instead of the standard's metres with y up;
+  /// asset.extras says so (unit_mm, up_axis), where our reader finds it. Whole millimetres are then
+  /// exact.
   bool millimetres_z_up = false;
   /// The largest distance of the triangles written for an analytic primitive from its surface, mm.
   double sag_mm = 0.5;

@@ -30,7 +30,8 @@ class Selection {
   /// could stand there.
   [[nodiscard]] static Result<Selection> parse(std::string_view text);
 
-  /// Returns what set(NAME) stands for; an error without a position gets that of the name.
+  /// A function that returns what set(NAME) stands for; an error without a position gets that of
+  /// the name.
   using SetLookup = parallel::FunctionRef<Result<Selection>(std::string_view name)>;
   /// Parses a selection where named sets are known.
   [[nodiscard]] static Result<Selection> parse(std::string_view text, SetLookup set);

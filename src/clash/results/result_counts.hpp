@@ -5,6 +5,7 @@
 #include "clash/pairs/pair_tasks.hpp"
 #include "clash/rules/rule_matcher.hpp"
 
+/// What is counted and logged over the results of a test.
 namespace strake::clash {
 
 /// Fills Report::not_compared: the objects of the sets that lack geometry, the pairs that are too

@@ -111,7 +111,7 @@ struct Accessor {
 
   /// Returns the distance between neighbouring values of a component; 0 for float32.
   [[nodiscard]] double step() const;
-  /// Returns the components of an element as numbers, normalised where the accessor says so.
+  /// Gives the components of an element as numbers, normalised where the accessor says so.
   void element(std::size_t index, double* out) const;
   /// Returns an element of an accessor of unsigned integers with one component.
   [[nodiscard]] std::uint32_t integer(std::size_t index) const;

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> spelled_out(Mode mode, const std::vector<std::uint32_
   return out;
 }
 
-/// Counts how many triangles or segments of which colour went into a shape.
+/// The number of triangles or segments of each colour that went into a shape.
 using ColorTally = std::map<std::array<std::uint8_t, 4>, std::size_t>;
 
 model::Color main_color(const ColorTally& tally) {

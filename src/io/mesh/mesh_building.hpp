@@ -7,6 +7,7 @@
 
 #include "strake/geometry/mesh.hpp"
 
+/// Builds the triangle mesh of an object from shared vertices and polygons.
 namespace strake::io {
 
 /// Renumbers indices from 0 in their ascending order and returns what each new number stood for; an

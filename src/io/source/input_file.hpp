@@ -10,6 +10,7 @@
 
 #include "strake/core/result.hpp"
 
+/// Input files in memory, and the paths of files that they name.
 namespace strake::io {
 
 /// A whole file in memory. It is read, not mapped: a mapped file that another program shortens

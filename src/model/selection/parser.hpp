@@ -40,7 +40,7 @@ struct Token {
 /// Splits a selection into tokens, the last one `end`.
 [[nodiscard]] Result<std::vector<Token>> tokens_of(std::string_view text);
 
-/// Returns what set(NAME) stands for; the caller adds the place to an error.
+/// A function that returns what set(NAME) stands for; the caller adds the place to an error.
 using SetLookup =
     parallel::FunctionRef<Result<std::shared_ptr<const SelectionQuery>>(std::string_view name)>;
 
