@@ -35,7 +35,7 @@ Exit codes: 0 done, 1 clashes found (--fail-on), 2 wrong command line, 3 a file 
 written, 4 something was skipped or a set is empty (--strict), 5 a fault of the program, 6 out of
 memory, 130 cancelled.)";
 
-/// Says why it ends, and what the shell is told.
+/// Prints why the program ends, and returns the exit code.
 int ended_by(const Error& error, Console& console) {
   if (error.code == ErrorCode::memory)
     say_out_of_memory();
@@ -54,7 +54,8 @@ int run_verb(const Verb& verb, const CommonOptions& common, Console& console) {
   return outcome ? static_cast<int>(*outcome) : ended_by(outcome.error(), console);
 }
 
-/// What is wrong with the command line, in the words of this program rather than its parser's.
+/// Returns what is wrong with the command line, in the words of this program rather than its
+/// parser's.
 std::string in_words(const CLI::App& program, const CLI::ParseError& error) {
   const std::string said = error.what();
   const std::vector<std::string> strange = program.remaining();
@@ -80,8 +81,8 @@ int usage_error(const CLI::App& program, const CLI::ParseError& error, Console& 
   return static_cast<int>(ExitCode::usage);
 }
 
-/// A standard stream that was closed is opened on nothing, and for the other direction, so that no
-/// file of ours takes its number and becomes where messages go; using it still fails.
+/// Opens standard streams that were closed on nothing, and for the other direction, so that no file
+/// of ours takes such a number and becomes where messages go; using it still fails.
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0)

@@ -9,8 +9,8 @@
 namespace strake::cli {
 namespace {
 
-/// "hit|contact" as its words, "[FILE=]x|y|z" as those that stand for all files; nothing of a value
-/// that is none of a few.
+/// Returns the words of "hit|contact", and those of "[FILE=]x|y|z" that hold for all files; nothing
+/// for a value that is not one of a few.
 std::vector<std::string> words_of(const std::string& value) {
   constexpr std::string_view kOfOneFile = "[FILE=]";
   std::vector<std::string> words;
@@ -43,7 +43,7 @@ OptionText text_of(const CLI::Option& option) {
   return text;
 }
 
-/// The command line as --help shows it, but for the word VERB.
+/// Returns the command line as --help shows it, but without the word VERB.
 std::string usage_of(const CLI::App& command, const CommandTree& tree) {
   std::string usage = "[OPTIONS]";
   for (const CLI::Option* option :

@@ -8,8 +8,8 @@
 namespace strake::cli {
 namespace {
 
-/// A command with the words that lead to it, each after a space: " clash diff"; none to the
-/// program.
+/// A visitor of a command with the words that lead to it, each after a space: " clash diff"; none
+/// for the program.
 using Visit = std::function<void(const CommandTree&, const std::string& path)>;
 
 void walk(const CommandTree& command, const std::string& path, const Visit& visit) {
@@ -17,7 +17,7 @@ void walk(const CommandTree& command, const std::string& path, const Visit& visi
   for (const CommandTree& verb : command.verbs) walk(verb, path + " " + verb.name, visit);
 }
 
-/// Verbs as mere words behind `taker`, whose options stand among them.
+/// Returns verbs as mere words behind `taker`, whose options may come among them.
 std::vector<CommandTree> as_words(const std::vector<CommandTree>& verbs, const CommandTree& taker) {
   std::vector<CommandTree> words;
   for (const CommandTree& verb : verbs) {
@@ -30,7 +30,7 @@ std::vector<CommandTree> as_words(const std::vector<CommandTree>& verbs, const C
   return words;
 }
 
-/// The program as it is typed: `man` is followed by the words of any verb.
+/// Returns the program as it is typed: `man` is followed by the words of any verb.
 CommandTree typed(const CommandTree& program) {
   CommandTree tree = program;
   for (CommandTree& verb : tree.verbs)
@@ -48,7 +48,7 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
   return text;
 }
 
-/// In single quotes of a shell, which writes a quote within them as `quote`.
+/// Puts a text in single quotes of a shell, which writes a quote within them as `quote`.
 std::string quoted(const std::string& text, std::string_view quote = "'\\''") {
   std::string out = "'";
   for (const char c : text) {
@@ -64,7 +64,7 @@ bool takes_files(const CommandTree& command) {
   return std::ranges::any_of(command.arguments, &OptionText::takes_file);
 }
 
-/// The words that may stand where no option does, but for verbs.
+/// Returns the words that may come where no option does, except verbs.
 std::vector<std::string> argument_words(const CommandTree& command) {
   std::vector<std::string> words;
   for (const OptionText& argument : command.arguments)
@@ -75,10 +75,10 @@ std::vector<std::string> argument_words(const CommandTree& command) {
 /// What words mean behind the verbs of a path, each as 'path:word'. A shell reads a command line
 /// from its start by these, so that a value with the name of a verb leads nowhere.
 struct Meanings {
-  std::vector<std::string> verbs;     ///< lead to the next command
-  std::vector<std::string> valued;    ///< are options whose value is the next word
-  std::vector<std::string> to_files;  ///< are those of them whose value is a file
-  std::vector<std::string> files;     ///< no words, paths: of commands that take files
+  std::vector<std::string> verbs;     ///< words that lead to the next command
+  std::vector<std::string> valued;    ///< options whose value is the next word
+  std::vector<std::string> to_files;  ///< those of them whose value is a file
+  std::vector<std::string> files;     ///< no words but paths: commands that take files
 };
 
 Meanings meanings(const CommandTree& program) {
@@ -138,7 +138,7 @@ else
 fi
 )";
 
-/// The cases of options whose value is one of a few words.
+/// Returns the cases of options whose value is one of a few words.
 std::string bash_values(const CommandTree& program) {
   std::string cases;
   walk(program, "", [&](const CommandTree& command, const std::string& path) {
@@ -153,7 +153,7 @@ std::string bash_values(const CommandTree& program) {
   return cases;
 }
 
-/// The cases of what may stand behind the verbs of each command.
+/// Returns the cases of what may come behind the verbs of each command.
 std::string bash_words(const CommandTree& program) {
   std::string cases;
   walk(program, "", [&](const CommandTree& command, const std::string& path) {
@@ -167,7 +167,7 @@ std::string bash_words(const CommandTree& program) {
   return cases;
 }
 
-/// Text of a specification of zsh's _arguments.
+/// Returns text for a specification of zsh's _arguments.
 std::string zsh_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -177,7 +177,7 @@ std::string zsh_text(const std::string& text) {
   return out;
 }
 
-/// An option as specifications of _arguments, one for each of its names.
+/// Returns an option as specifications of _arguments, one for each of its names.
 std::string zsh_option(const OptionText& option) {
   std::string value;
   if (!option.value.empty())
@@ -197,7 +197,7 @@ std::string zsh_option(const OptionText& option) {
   return text;
 }
 
-/// The cases of what may stand where no option does.
+/// Returns the cases of what may come where no option does.
 std::string zsh_operands(const CommandTree& program) {
   std::string cases;
   walk(program, "", [&](const CommandTree& command, const std::string& path) {
@@ -212,7 +212,7 @@ std::string zsh_operands(const CommandTree& program) {
   return cases;
 }
 
-/// The cases that let _arguments complete the rest.
+/// Returns the cases that let _arguments complete the rest.
 std::string zsh_commands(const CommandTree& program) {
   std::string cases;
   walk(program, "", [&](const CommandTree& command, const std::string& path) {
@@ -223,7 +223,7 @@ std::string zsh_commands(const CommandTree& program) {
   return cases;
 }
 
-/// An option as the end of a line that tells fish of it.
+/// Returns an option as the end of a line that describes it to fish.
 std::string fish_option(const OptionText& option) {
   std::string text;
   for (const std::string& name : option.names)

@@ -8,7 +8,8 @@
 namespace strake::cli {
 namespace {
 
-/// What troff prints as the ASCII character that it is, so that a reader may copy it to a shell.
+/// Returns what troff prints as the ASCII character that it is, so that a reader may copy it to a
+/// shell.
 std::string as_typed(char c) {
   switch (c) {
     case '\\':
@@ -28,7 +29,7 @@ std::string as_typed(char c) {
   }
 }
 
-/// Text that troff takes as it stands: no escapes, no requests at the start of a line.
+/// Returns text that troff prints unchanged: no escapes, no requests at the start of a line.
 std::string plain(std::string_view text) {
   std::string out;
   bool starts_line = true;
@@ -48,7 +49,7 @@ void add_option(std::string& page, const OptionText& option) {
   page += "\n" + plain(option.description) + "\n";
 }
 
-/// Options in their groups, in the order of the first of each.
+/// Adds options in their groups, in the order of the first of each.
 void add_options(std::string& page, const std::vector<OptionText>& options) {
   std::vector<std::string> groups;
   for (const OptionText& option : options)
@@ -61,7 +62,7 @@ void add_options(std::string& page, const std::vector<OptionText>& options) {
   }
 }
 
-/// "strake clash diff" as the name of its page.
+/// Returns "strake clash diff" as the name of its page.
 std::string page_name(std::string path) {
   std::ranges::replace(path, ' ', '-');
   return path;

@@ -22,7 +22,7 @@ namespace strake::cli {
 
 namespace {
 
-/// Far beyond any tolerance that a user can mean.
+/// The longest length, far beyond any tolerance that a user can mean.
 constexpr double kLongestMm = 1e6;
 
 Error usage(std::string message, std::string option, std::string mend) {
@@ -137,8 +137,8 @@ Result<unsigned> worker_count(const CommonOptions& options) {
 
 namespace {
 
-/// "part.stl=m" is said of that file, "m" of all. The last '=' counts: names of files may hold
-/// some.
+/// A value with the file that it is given for: "part.stl=m" is for that file, "m" for all. The last
+/// '=' counts, as names of files may hold some.
 struct Said {
   std::string text, file, value;
   bool of_all;
@@ -159,8 +159,8 @@ bool ends_in(const std::filesystem::path& path, const std::filesystem::path& end
          std::equal(end.begin(), end.end(), std::next(path.begin(), length - from));
 }
 
-/// The files that a value is said of: those of its path, or else the one whose path ends in it, as
-/// the labels of results do.
+/// Returns the files that a value is given for: those of its path, or else the one whose path ends
+/// in it, as the labels of results do.
 Result<std::vector<std::size_t>> files_meant(const Said& said,
                                              const std::vector<io::FileToRead>& files,
                                              const std::string& option) {
@@ -186,8 +186,8 @@ Result<std::vector<std::size_t>> files_meant(const Said& said,
   return ending;
 }
 
-/// Calls take(options, value) for every file that a value is said of; what is said of one goes
-/// before what is said of all.
+/// Calls take(options, value) for every file that a value is given for; a value for one file takes
+/// precedence over one for all.
 template <class Take>
 Status take_said(const std::vector<std::string>& values, const std::string& option,
                  std::vector<io::FileToRead>& files, const Take& take) {

@@ -15,61 +15,62 @@ class Option;
 
 namespace strake::cli {
 
-/// Options that every verb has, as written.
+/// The options that every verb has, as written.
 struct CommonOptions {
   std::string threads;
   bool quiet = false, stats = false, json = false;
 };
 
-/// Options of the verbs that read models, as written.
+/// The options of the verbs that read models, as written.
 struct InputOptions {
   std::vector<std::string> files;
-  std::vector<std::string> units, up_axes;  ///< "mm" of all files, "part.stl=m" of one
+  std::vector<std::string> units, up_axes;  ///< "mm" for all files, "part.stl=m" for one
   bool strict = false;
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);
 void add_input_options(CLI::App& command, InputOptions& options);
-/// -o FILE, may be given several times; `what` names the suffixes and what they mean.
+/// Adds -o FILE, which may be given several times; `what` names the suffixes and what they mean.
 void add_output_option(CLI::App& command, std::vector<std::string>& files, const std::string& what);
-/// An option whose value is one of a few words.
+/// Adds an option whose value is one of a few words.
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                         const std::vector<std::string>& words, const std::string& help);
 
-/// An error where an option of the command, or of the one within it, was given an empty value: an
-/// unset variable of a script is no default.
+/// Returns an error where an option of the command, or of the one within it, was given an empty
+/// value: an unset variable of a script is no default.
 [[nodiscard]] Status check_no_empty_values(const CLI::App& command);
 
-/// The number of workers asked for, or the machine's own.
+/// Returns the number of workers asked for, or the machine's own.
 [[nodiscard]] Result<unsigned> worker_count(const CommonOptions& options);
-/// The files, each with what was said of it or of all.
+/// Returns the files, each with the options given for it or for all.
 [[nodiscard]] Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options);
 
-/// "x,y,z" as three numbers, and so on; an error names the option.
+/// Parses "x,y,z" as three numbers, and so on; an error names the option.
 [[nodiscard]] Result<std::vector<double>> number_list(const std::string& text, std::size_t count,
                                                       const std::string& option,
                                                       const std::string& example);
-/// The suffix of a file name in lower case, ".svg".
+/// Returns the suffix of a file name in lower case, ".svg".
 [[nodiscard]] std::string suffix_of(const std::string& file);
-/// Whether every file of -o ends in one of the suffixes and can be written where it is to stand,
+/// Checks that every file of -o ends in one of the suffixes and can be written where it is to be,
 /// and is neither one of `inputs` nor named twice.
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& files,
                                    const std::vector<std::string>& suffixes,
                                    const std::vector<std::string>& inputs);
-/// The same of a file that another option names: it is none of those of -o either.
+/// Checks a file that another option names in the same way: it is none of those of -o either.
 [[nodiscard]] Status check_other_output(const std::string& option, const std::string& file,
                                         const std::string& suffix,
                                         const std::vector<std::string>& inputs,
                                         const std::vector<std::string>& outputs);
-/// A length that is an option of the command line: overwrites `value` where it was given.
+/// Parses a length that is an option of the command line; overwrites `value` where it was given.
 [[nodiscard]] Status length_option(double& value, const std::string& text,
                                    const std::string& option);
 
-/// A whole number that is an option of the command line: overwrites `value` where it was given.
+/// Parses a whole number that is an option of the command line; overwrites `value` where it was
+/// given.
 [[nodiscard]] Status whole_number(std::uint64_t& value, const std::string& text,
                                   const std::string& option);
 
-/// A length, angle or scale by its own parser, with the option named in the error.
+/// Parses a length, angle or scale by its own parser, with the option named in the error.
 [[nodiscard]] Result<double> quantity_option(const std::string& text, const std::string& option,
                                              Result<double> (*parse)(std::string_view));
 

@@ -113,7 +113,7 @@ ProgressLine::ProgressLine(Console& console, const parallel::Progress& progress,
     : console_(console), progress_(progress), step_(std::move(step)) {
   try {
     thread_ = std::thread([this] { watch(); });
-  } catch (const std::exception&) {  // the host gives no thread for it: the run goes on untold
+  } catch (const std::exception&) {  // the host gives no thread: the run goes on without progress
   }
 }
 

@@ -11,10 +11,11 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/progress.hpp"
 
+/// The output on a terminal: messages, standard output and the progress line.
 namespace strake::cli {
 
-/// Standard error, shared by narration, errors and the progress line. Thread-safe. What is said may
-/// hold names out of files: characters that command a terminal are shown as '?'.
+/// Standard error, shared by narration, errors and the progress line; thread-safe. What is printed
+/// may hold names out of files: characters that command a terminal are shown as '?'.
 class Console {
  public:
   Console();
@@ -23,14 +24,14 @@ class Console {
   /// Whether standard error is a terminal, where a line may be drawn over.
   [[nodiscard]] bool is_terminal() const { return terminal_; }
 
-  /// A line of narration; silent under --quiet.
+  /// Prints a line of narration; silent under --quiet.
   void say(std::string_view line);
-  /// "strake: ...", of what makes the exit code one of failure and standard output does not show,
-  /// and of what makes the whole result doubtful; never silent.
+  /// Prints "strake: ...", for what makes the exit code one of failure and standard output does not
+  /// show, and for what makes the whole result doubtful; never silent.
   void warn(std::string_view line);
-  /// "strake: error: ..."; never silent.
+  /// Prints "strake: error: ..."; never silent.
   void error(std::string_view line);
-  /// A line that the user asked for (--stats); never silent.
+  /// Prints a line that the user asked for (--stats); never silent.
   void print(std::string_view line);
   /// Draws the progress line over the last one (terminals only); empty removes it.
   void show_status(std::string_view line);
@@ -43,18 +44,19 @@ class Console {
   std::string status_;
 };
 
-/// The line about ErrorCode::memory on standard error. Takes neither memory nor a lock, so that it
-/// can be said wherever memory runs out.
+/// Prints the line about ErrorCode::memory on standard error. It takes neither memory nor a lock,
+/// so that it can be called wherever memory runs out.
 void say_out_of_memory() noexcept;
 
 /// Writes data to standard output. Errors: output, with the reason (a full disk).
 [[nodiscard]] Status write_stdout(std::string_view text);
 
-/// "clash narrow phase [#####.....]  48 %  12 s" for a phase; without a total only the time.
+/// Returns "clash narrow phase [#####.....]  48 %  12 s" for a phase; without a total only the
+/// time.
 [[nodiscard]] std::string progress_text(const parallel::Progress::Snapshot& now, double elapsed_s);
 
 /// Shows how far the run is, once it has taken more than a second: a line that is drawn over on a
-/// terminal, a plain line every ten seconds elsewhere. Looks from a thread of its own.
+/// terminal, a plain line every ten seconds elsewhere. It watches from a thread of its own.
 class ProgressLine {
  public:
   /// `step` names what is done while no region runs.

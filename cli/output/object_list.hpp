@@ -9,10 +9,11 @@
 
 namespace strake::cli {
 
-/// The first `most` objects with what selections go by (model::Selectable), a block of lines each,
-/// and how many there are besides.
+/// Returns the first `most` objects with the properties that selections test
+/// (model::SelectableProperties), a block of lines each, and how many there are besides.
 [[nodiscard]] std::string object_list_text(const model::Model& model, std::uint64_t most);
-/// The same as an array. An attribute is [name, value]: a name may stand there several times.
+/// Returns the same list as an array. An attribute is [name, value]: a name may occur several
+/// times.
 [[nodiscard]] nlohmann::ordered_json object_list_json(const model::Model& model,
                                                       std::uint64_t most);
 

@@ -22,7 +22,7 @@ Stats::Timer::~Timer() {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   try {
     stats_.phases_.push_back({phase_, wall, parallel::process_cpu_s() - start_cpu_s_});
-  } catch (const std::bad_alloc&) {  // the phase goes untold; what it did may be unwinding
+  } catch (const std::bad_alloc&) {  // the phase is not reported; its work may be unwinding
   }
 }
 
@@ -51,7 +51,7 @@ std::string Stats::text(const parallel::RunReport& report) const {
       out += fmt::format("{:<28}{:>10.3f}{:>10.3f}{:>12}{:>9.2f}{:>7.2f}{:>11.4f}\n", region.name,
                          region.wall_s, region.total_busy_s(), region.items, region.load_balance(),
                          region.bound(), region.longest_s);
-    // A line of its own, or where it shows beside the shared runs of the name.
+    // It gets a line of its own, or one where it is visible beside the shared runs of the name.
     if (!shared || region.nested_cpu_s >= 0.0005)
       out += fmt::format(
           "{:<28}{:>10}{:>10.3f}{:>12}   by one worker, {}\n", shared ? "" : region.name, "",

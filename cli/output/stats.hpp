@@ -12,7 +12,7 @@
 
 namespace strake::cli {
 
-/// What --stats tells: seconds per phase, work counters, parallel regions, peak memory.
+/// What --stats prints: seconds per phase, work counters, parallel regions, peak memory.
 class Stats {
  public:
   /// Measures one phase from construction to destruction.
@@ -34,12 +34,13 @@ class Stats {
 
   [[nodiscard]] Timer time(std::string_view phase) { return Timer(*this, phase); }
   void count(std::string_view name, std::uint64_t value);
-  /// One of the pairs that cost most; `where`, if anything, tells which of equal names these are.
+  /// Adds one of the pairs that cost most; `where`, if not empty, tells which of equal names these
+  /// are.
   void costly(std::string_view a, std::string_view b, std::string_view where, std::uint64_t cost);
 
-  /// Lines for a person.
+  /// Returns the statistics as lines for a person.
   [[nodiscard]] std::string text(const parallel::RunReport& report) const;
-  /// The same as one JSON object.
+  /// Returns the statistics as one JSON object.
   [[nodiscard]] std::string json(const parallel::RunReport& report) const;
 
  private:
@@ -56,7 +57,7 @@ class Stats {
   std::vector<Costly> costly_;
 };
 
-/// The most memory that this process has held at a time.
+/// Returns the most memory that this process has held at a time.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
 }  // namespace strake::cli

@@ -12,7 +12,7 @@
 
 namespace strake::cli {
 
-/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request, and sees to it that the program ends.
+/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request, and makes sure that the program ends.
 ///
 /// Make it before any other thread: it blocks both signals, which later threads inherit, and one
 /// thread of its own waits for them. The first signal requests the stop; work that has not ended

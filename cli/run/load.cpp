@@ -21,15 +21,16 @@ namespace {
 using geometry::Box3d;
 using geometry::Vec3d;
 
-/// Files of these two units, read as of one, differ by the factor.
+/// Two units: files in them, read as if in one unit, differ by the factor.
 struct Mistake {
   double factor;
   std::string_view small, large;
-  double alike;  ///< extents that differ by no more than this factor besides
+  double alike;  ///< extents may differ by this factor besides
 };
 
-/// Not 10 and 12: parts that are so much larger than others are common. 25 and 40 times as large,
-/// of a cube or a plate, are so, too: those have to be told from inches by a hundredth.
+/// Factors of 10 and 12 are left out: parts that are so much larger than others are common. A cube
+/// or a plate that is 25 or 40 times as large is so, too: inches have to be told from those by a
+/// hundredth.
 constexpr double kAlike = 1.12, kSame = 1.01;
 constexpr std::array<Mistake, 4> kMistakes{{{1000, "m", "mm", kAlike},
                                             {25.4, "in", "mm", kSame},
@@ -38,7 +39,7 @@ constexpr std::array<Mistake, 4> kMistakes{{{1000, "m", "mm", kAlike},
 
 /// Whether `large` is larger than `small`, both in grid units, by the mistake along all three axes,
 /// and along two at least by extents that the grid has not made of nothing: two parts seldom are
-/// alike along all axes, and what stands in a line often is.
+/// alike along all axes, and objects in a row often are.
 bool is_alike(const Vec3d& small, const Vec3d& large, const Mistake& mistake) {
   constexpr double kTelling = 8;
   const auto& [factor, small_unit, large_unit, alike] = mistake;
@@ -58,13 +59,13 @@ struct FileExtent {
   std::string_view assumed;  ///< the unit; empty where it is known
 };
 
-/// The unit where a file does not say it and nobody has.
+/// Returns the unit where a file does not state it and nobody has.
 std::string_view assumed_unit(std::string_view unit) {
   constexpr std::string_view kAssumed = " (assumed)";
   return unit.ends_with(kAssumed) ? unit.substr(0, unit.size() - kAssumed.size()) : "";
 }
 
-/// Of the files that anything is placed of.
+/// Returns the extents of the files of which anything is placed.
 std::vector<FileExtent> extents(const model::Scene& scene) {
   const std::vector<model::SourceFile>& files = scene.model->files;
   std::vector<Box3d> boxes(files.size(), geometry::empty_box<double>());
@@ -78,14 +79,15 @@ std::vector<FileExtent> extents(const model::Scene& scene) {
   return found;
 }
 
-/// One file may be in another axis' hands, too: y and z change places.
+/// Whether the files are alike when y and z may change places, as one file may have another up
+/// axis.
 bool is_alike_in_any_frame(const FileExtent& small, const FileExtent& large,
                            const Mistake& mistake) {
   const Vec3d& s = small.size;
   return is_alike(s, large.size, mistake) || is_alike({s.x, s.z, s.y}, large.size, mistake);
 }
 
-/// What to say of the two files: never another unit of one that is known.
+/// Returns what to advise for the two files: never another unit for one that is known.
 std::string options_to_try(const FileExtent& small, const FileExtent& large, const Mistake& mistake,
                            const std::vector<model::SourceFile>& files) {
   const auto option = [&](const FileExtent& of, std::string_view unit) {
@@ -121,7 +123,7 @@ void note_doubtful_units(model::Scene& scene) {
 
 namespace {
 
-/// Corners closer than the grid's spacing cannot be told apart.
+/// Finest sag: corners closer than the grid's spacing cannot be told apart.
 constexpr double kFinestSagMm = 0.001;
 constexpr double kWidestWeldMm = 1000;
 

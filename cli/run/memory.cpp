@@ -28,8 +28,8 @@ void keep_freed_memory() {
 
 namespace {
 
-/// Whether what ends the program is a want of memory. An exception that finds no memory for itself
-/// never comes to be: then there is none, and no more to be had.
+/// Whether the program ends for want of memory. An exception that finds no memory for itself is
+/// never created: then there is none, and no memory to be had.
 bool memory_ran_out() {
   constexpr std::size_t kLittle = std::size_t{1} << 16U;
   const std::exception_ptr thrown = std::current_exception();

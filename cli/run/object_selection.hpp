@@ -11,7 +11,7 @@
 
 namespace strake::cli {
 
-/// The selections of an option that may be given several times; an error names the option.
+/// Parses the selections of an option that may be given several times; an error names the option.
 [[nodiscard]] Result<std::vector<model::Selection>> parse_selections(
     const std::vector<std::string>& texts, const std::string& option);
 
@@ -24,7 +24,7 @@ struct Picked {
 [[nodiscard]] Result<Picked> pick_all(Session& session, const model::Scene& scene,
                                       const std::vector<model::Selection>& selections);
 
-/// Which objects one of the selections picks, an entry per object; empty where there are no
+/// Returns which objects one of the selections picks, an entry per object; empty where there are no
 /// selections. A selection that picks nothing is an error: it is misspelt more often than meant.
 [[nodiscard]] Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
                                                  const std::vector<model::Selection>& selections,

@@ -29,8 +29,8 @@ class Session {
   [[nodiscard]] parallel::Context context();
   [[nodiscard]] Console& console() { return console_; }
   [[nodiscard]] Stats& stats() { return stats_; }
-  /// Begins a step of the run: timed for --stats until the value dies, and shown as progress while
-  /// nothing more precise is known.
+  /// Begins a step of the run, which is timed for --stats until the value dies, and shown as
+  /// progress while nothing more precise is known.
   [[nodiscard]] Stats::Timer step(std::string_view name);
   [[nodiscard]] bool json() const { return options_.json; }
   [[nodiscard]] bool wants_stats() const { return options_.stats; }
@@ -43,7 +43,7 @@ class Session {
   using Producer = parallel::FunctionRef<Status(Sink)>;
   /// Writes a file, whole or not at all, and says so.
   [[nodiscard]] Status write(const std::filesystem::path& target, Producer producer);
-  /// Data for standard output.
+  /// Writes data to standard output.
   [[nodiscard]] Status write_stdout(Producer producer);
   [[nodiscard]] Status write_stdout(std::string_view text);
   /// Removes the progress line and prints what --stats asks for.
@@ -53,7 +53,7 @@ class Session {
   CommonOptions options_;
   Console& console_;
   Interrupts& interrupts_;
-  std::unique_ptr<parallel::Team> team_;  ///< none for one worker: the sequential twin
+  std::unique_ptr<parallel::Team> team_;  ///< null for one worker: the sequential twin
   parallel::Progress progress_;
   parallel::RunReport report_;
   Stats stats_;

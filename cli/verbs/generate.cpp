@@ -20,7 +20,7 @@ struct GenerateOptions {
   bool turned = false;
 };
 
-/// An std::ostream's end that hands its text on.
+/// A stream buffer that hands its text on to a sink.
 class SinkBuffer : public std::streambuf {
  public:
   explicit SinkBuffer(Session::Sink sink) : sink_(sink) {}

@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kInfoSagMm = 0.5;
 constexpr int kSchemaVersion = 1;
 
-/// What one file, or all of them, hold.
+/// The content of one file, or of all of them.
 struct Content {
   std::uint64_t objects = 0, bodies = 0, shapes = 0;
   std::map<std::string, std::uint64_t> primitives;  ///< bodies by the kind of their shape
@@ -58,7 +58,7 @@ void count_placed(Content& content, const model::Scene& scene, model::ObjectId i
   }
 }
 
-/// The content of the files with `from` <= number < `to`.
+/// Returns the content of the files with `from` <= number < `to`.
 Content content_of(const model::Model& model, const model::Scene& scene, std::size_t from,
                    std::size_t to) {
   Content content;

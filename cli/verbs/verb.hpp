@@ -15,7 +15,8 @@ struct Verb {
   std::function<Result<ExitCode>(Session&)> run;
 };
 
-// Each adds its command to the program. What the options are bound to lives as long as `run`.
+// Each function adds its command to the program. What the options are bound to lives as long as
+// `run`.
 [[nodiscard]] Verb add_info(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_clash(CLI::App& program, CommonOptions& common);
 /// `clash` is the command of add_clash().
@@ -24,7 +25,7 @@ struct Verb {
 /// `draw` is the command of add_draw().
 [[nodiscard]] Verb add_draw_diff(CLI::App& draw, CommonOptions& common);
 [[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
-/// Of all that was added to the program by the time that they run.
+/// The commands describe all that was added to the program by the time that they run.
 [[nodiscard]] Verb add_man(CLI::App& program);
 [[nodiscard]] Verb add_completion(CLI::App& program);
 

@@ -59,7 +59,7 @@ class Engine {
     report.set_a = sets_.name_a;
     report.set_b = sets_.name_b;
     report.options = options_;
-    // The baseline has no triangles to tell places by.
+    // The baseline has no triangles to tell regions by.
     if (!exact()) report.options.most_regions = 0;
     report.in_a = sets_.in_a;
     report.in_b = sets_.in_b;
@@ -68,8 +68,8 @@ class Engine {
     return report;
   }
 
-  /// The first stage: which pairs of parts go on to the detailed one, and which of them are the
-  /// same question.
+  /// The first stage finds which pairs of parts go on to the narrow phase, and which of them are
+  /// equal.
   Status run_broad_phase(Report& report) {
     const parallel::StageTimer timer(context_.report, "stage 1: pairs by boxes");
     auto parts = collect_scene_parts(scene_, sets_, options_.curves, context_);
@@ -106,7 +106,8 @@ class Engine {
     return {list_, pairs_, unique_pairs_, candidates_};
   }
 
-  /// The second stage: the answers of all cases, and their places where that shows.
+  /// The second stage computes the results of all unique pairs, and their regions where these are
+  /// reported.
   Status run_narrow_phase() {
     const parallel::StageTimer timer(context_.report, "stage 2: detailed work");
     const PairTasks work(list_, pairs_, unique_pairs_, context_);
@@ -120,7 +121,7 @@ class Engine {
     return {};
   }
 
-  /// The answers that can show in a report; tells of what was not compared.
+  /// Returns the results that can appear in a report, and records what was not compared.
   Result<std::vector<PartResult>> collect_results(Report& report) const {
     const EvaluatedPairs all = evaluated();
     if (const Status s = record_not_compared(all, objects_, scene_, context_, report); !s)
@@ -134,7 +135,7 @@ class Engine {
         });
   }
 
-  /// The places of a pair of parts, or its answer as a whole.
+  /// Appends the regions of a pair of parts, or its result as a whole.
   void append_regions(std::size_t pair, const Candidate& c, std::vector<PartResult>& found) const {
     const std::uint32_t number = unique_pairs_.of[pair];
     if (regions_.empty() || regions_[number].empty()) {
@@ -147,7 +148,7 @@ class Engine {
       found.push_back({pair, &region.answer, &region.extent, false, each || region.is_whole});
   }
 
-  /// Tells of objects what was found about parts.
+  /// Aggregates by objects what was found about parts.
   Status aggregate(const PartResults& findings, Report& report) {
     auto joined = aggregate_by_object(findings, context_);
     if (!joined) return joined.error();
@@ -200,8 +201,8 @@ class Engine {
   std::vector<IndexPair> pairs_;
   UniquePairs unique_pairs_;
   ObjectPairs objects_;
-  std::vector<Candidate> candidates_;             ///< one per case
-  std::vector<std::vector<PartRegion>> regions_;  ///< by case, where told apart
+  std::vector<Candidate> candidates_;             ///< one per unique pair
+  std::vector<std::vector<PartRegion>> regions_;  ///< by unique pair, where told apart
 };
 
 }  // namespace

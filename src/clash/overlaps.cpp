@@ -20,8 +20,8 @@ namespace {
 
 enum class OverlapState : std::uint8_t { apart, common, open };
 
-/// What becomes of the near pairs of parts: what needs no tree first, and of the others only what
-/// their own boxes leave open.
+/// Decides the candidate pairs of parts: first those that need no tree, then of the others only
+/// those that their own boxes leave open.
 class OverlapSearch {
  public:
   OverlapSearch(const ScenePartList& list, const std::vector<geometry::IndexPair>& pairs,
@@ -31,7 +31,7 @@ class OverlapSearch {
         cache_(list, model),
         states_(pairs.size(), OverlapState::open) {}
 
-  /// By pair, none of them open. Errors: cancelled.
+  /// Returns the state of each pair, none of them open. Errors: cancelled.
   Result<std::vector<OverlapState>> run() {
     if (const Status s = decide_flush(); !s) return s.error();
     if (const Status s = decide_framed(); !s) return s.error();
@@ -58,7 +58,7 @@ class OverlapSearch {
     if (const Status s = cache_.ensure_frames(work_.parts_of(*open), work_.context()); !s) return s;
     return decide(*open, "parting planes", [&](const ScenePart& x, const ScenePart& y) {
       const PairOperand p = cache_.framed(x), q = cache_.framed(y);
-      constexpr double kApart = 1;  // as the broad phase's boxes leave it: whole units
+      constexpr double kApart = 1;  // the broad phase's boxes are in whole units
       const double gap = geometry::oriented_box_separation({p.treed.placed, p.frame},
                                                            {q.treed.placed, q.frame}, kApart)
                              .lower;

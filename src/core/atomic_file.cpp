@@ -36,7 +36,7 @@ Error failure(const fs::path& target, int error) {
           target.string(), std::move(mend)};
 }
 
-/// The folder's entry of a rename reaches the disk with the folder.
+/// Brings the folder to the disk, and with it the entry of a rename.
 void sync_folder(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -51,9 +51,10 @@ std::size_t longest_name(const fs::path& file) {
   return longest > 0 ? static_cast<std::size_t>(longest) : NAME_MAX;
 }
 
-/// Named by process, so that programs writing the same target do not meet, and so that
-/// remove_partial_files knows its own. A name that is as long as the disk takes leaves no room for
-/// that: its end is told by a hash of all of it, which keeps targets that begin alike apart.
+/// Returns the name of a partial file. It holds the process, so that programs writing the same
+/// target do not collide, and so that remove_partial_files() knows its own. A name that is as long
+/// as the disk takes leaves no room for that: a hash of all of it replaces its end, which keeps
+/// targets that begin alike apart.
 fs::path partial_name(const fs::path& target, int attempt) {
   std::string name = target.filename().string();
   std::string own = ".";
@@ -66,20 +67,21 @@ fs::path partial_name(const fs::path& target, int attempt) {
     std::string hash = "~";
     hash += hash_bytes(std::as_bytes(std::span(name))).text();
     std::size_t kept = longest - std::min(longest, own.size() + hash.size());
-    // Not within a character of UTF-8, which some disks refuse.
+    // The cut is not within a character of UTF-8, which some disks refuse.
     while (kept > 0 && (static_cast<unsigned char>(name[kept]) & 0xC0U) == 0x80U) --kept;
     name = name.substr(0, kept) + hash;
   }
   return target.parent_path() / (name + own);
 }
 
-/// A file takes over what may be done with the one that it replaces. That its owner and group are
-/// kept is not everybody's right: where they cannot be, the new file is the writer's.
+/// Gives a file the rights of the one that it replaces. Not everybody may keep its owner and group:
+/// where they cannot be kept, the new file is the writer's.
 void take_over(int descriptor, const struct stat& replaced) {
   const bool owned = ::fchown(descriptor, replaced.st_uid, replaced.st_gid) == 0 ||
                      ::fchown(descriptor, static_cast<uid_t>(-1), replaced.st_gid) == 0;
   static_cast<void>(owned);
-  // Not left to open, which takes away what the umask says. A disk without modes refuses.
+  // The mode is not left to open, which takes away what the umask says. A disk without modes
+  // refuses.
   static_cast<void>(::fchmod(descriptor, replaced.st_mode & 0777U));
 }
 

@@ -8,8 +8,8 @@
 
 namespace strake {
 
-/// The hash_bytes() of bytes that come piece by piece, however they are cut: for a file that is to
-/// tell whether it is still what was written.
+/// Computes the hash_bytes() of bytes that come piece by piece, however they are cut: a file that
+/// holds it can show whether it is still what was written.
 class Checksum {
  public:
   Checksum();

@@ -30,7 +30,7 @@ void Diagnostics::append(const Diagnostics& other) {
     if (count.count < kMaxPerCode) kept_.push_back(d);
     ++count.count;
   }
-  // What the other run counted but did not keep.
+  // Counts what the other run counted but did not keep.
   for (const Count& theirs : other.counts_)
     if (theirs.count > kMaxPerCode)
       entry(theirs.code, theirs.severity).count += theirs.count - kMaxPerCode;

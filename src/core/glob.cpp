@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kNoRange = std::string_view::npos;
 
-/// Length of the UTF-8 sequence at the front; 1 where the bytes are none.
+/// Returns the length of the UTF-8 sequence at the front; 1 where the bytes are none.
 std::size_t character(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
@@ -68,8 +68,8 @@ bool match_one(std::string_view pattern, std::string_view text, std::size_t& use
   return pattern[0] == text[0];
 }
 
-/// Where a star may end at the earliest: at the character that must follow it, where that is a
-/// plain one of ASCII, which never stands within another.
+/// Returns where a star may end at the earliest: at the character that must follow it, where that
+/// is a plain one of ASCII, which never occurs within another.
 std::size_t next_start(std::string_view after_star, std::string_view text, std::size_t from) {
   const char c = after_star[0];
   const bool plain =

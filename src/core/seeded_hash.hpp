@@ -8,12 +8,12 @@
 
 namespace strake {
 
-/// A hash for tables whose keys come from files: each is seeded anew, so that nobody can write a
-/// file whose keys all meet in one place and make a table of them as slow as a list.
+/// A hash for tables whose keys come from files. Each object is seeded anew, so that nobody can
+/// write a file whose keys all collide and make a table as slow as a list.
 ///
 ///     std::unordered_map<std::string, std::uint32_t, SeededHash> numbers;
 ///
-/// The order in such a table is another in every run: look keys up, never go through them.
+/// The order in such a table differs in every run: look keys up, never iterate over them.
 class SeededHash {
  public:
   SeededHash();

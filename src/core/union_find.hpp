@@ -9,13 +9,13 @@
 
 namespace strake {
 
-/// The numbers 0 … n-1 in sets that can only be joined. The lowest member of a set is its root, so
+/// Sets of the numbers 0 … n-1 that can only be joined. The lowest member of a set is its root, so
 /// that roots do not depend on the order of the joins.
 class UnionFind {
  public:
   explicit UnionFind(std::size_t n = 0) { reset(n); }
 
-  /// As made anew; the memory is kept.
+  /// Resets it to n single sets; the memory is kept.
   void reset(std::size_t n) {
     parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
@@ -27,7 +27,8 @@ class UnionFind {
     return i;
   }
 
-  /// Whether they were apart before. Without a branch: that is often as good as chance.
+  /// Joins two sets; returns whether they were apart before. There is no branch, which would often
+  /// be as good as chance.
   bool join(std::uint32_t i, std::uint32_t j) {
     i = root(i);
     j = root(j);
@@ -38,10 +39,10 @@ class UnionFind {
   }
 
   [[nodiscard]] bool joined(std::uint32_t i, std::uint32_t j) { return root(i) == root(j); }
-  [[nodiscard]] std::size_t count() const { return count_; }  ///< of the sets
+  [[nodiscard]] std::size_t count() const { return count_; }  ///< the number of sets
 
  private:
-  std::vector<std::uint32_t> parent_;  ///< never higher than the member
+  std::vector<std::uint32_t> parent_;  ///< a parent is never higher than the member
   std::size_t count_ = 0;
 };
 

@@ -23,7 +23,7 @@ constexpr std::array<std::pair<std::string_view, double>, 27> kUnits{{
     {"foot", 304.8},    {"feet", 304.8},    {"'", 304.8},
 }};
 constexpr std::string_view kUnitNames = "um, mm, cm, dm, m, km, in or ft";
-/// Scales beyond these are slips of the pen, and their sheets no paper.
+/// Scales beyond these are typing errors, and their sheets no paper.
 constexpr double kLargestBlowUp = 1e-6, kLargestReduction = 1e9;
 constexpr double kDegPerRad = 57.29577951308232;
 
@@ -40,7 +40,7 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   for (std::size_t length = std::min(text.size(), kLongest); length > 0; --length)
     if (const auto number = parse_number(trimmed(text.substr(0, length)))) {
       const std::string_view unit = trimmed(text.substr(length));
-      // What is left of a number that is too large or too small, as 1e400, is no unit.
+      // A remainder of a number that is too large or too small, as 1e400, is no unit.
       if (!unit.empty() && unit.front() >= '0' && unit.front() <= '9') return std::nullopt;
       return Quantity{*number, std::string(unit)};
     }

@@ -9,35 +9,36 @@
 
 namespace strake {
 
-// Values as a user writes them. Each function takes the whole text, blanks round it apart, and an
-// error says what would have been right.
+// Parses values as a user writes them. Each function takes the whole text, except blanks round it,
+// and an error says what would have been right.
 
-/// A number and the text that follows it, blanks apart: "25 mm" is 25 and "mm", "1e3" has no unit.
+/// A number and the text that follows it, without blanks: "25 mm" is 25 and "mm", "1e3" has no
+/// unit.
 struct Quantity {
   double number = 0;
   std::string unit;
 };
 
-/// The longest number that a text begins with and the rest of it as its unit; nothing when it does
-/// not begin with one. The number ends within 64 characters.
+/// Parses the longest number that a text begins with, and the rest of it as its unit; returns
+/// nothing when it does not begin with one. The number ends within 64 characters.
 [[nodiscard]] std::optional<Quantity> parse_quantity(std::string_view text);
 
-/// Length of a unit in millimetres: "um", "mm", "cm", "dm", "m", "km", "in", "ft"; nothing for
-/// others. Names in full ("millimetres", "meter", "inch") are understood too.
+/// Returns the length of a unit in millimetres: "um", "mm", "cm", "dm", "m", "km", "in", "ft";
+/// nothing for others. Names in full ("millimetres", "meter", "inch") are understood too.
 [[nodiscard]] std::optional<double> unit_mm(std::string_view unit);
 
-/// The same as a Result whose error lists the units.
+/// Returns unit_mm() as a Result whose error lists the units.
 [[nodiscard]] Result<double> parse_unit_mm(std::string_view text);
 
-/// "25mm", "0.5 m", "-1in" in millimetres. A number without a unit is an error, 0 apart: 25 could
-/// be millimetres to one reader and metres to the next.
+/// Parses "25mm", "0.5 m", "-1in" in millimetres. A number without a unit is an error, except 0: 25
+/// could be millimetres to one reader and metres to the next.
 [[nodiscard]] Result<double> parse_length_mm(std::string_view text);
 
-/// "20deg" or "20°" in degrees; a bare number means degrees, "0.35rad" is converted.
+/// Parses "20deg" or "20°" in degrees; a bare number means degrees, "0.35rad" is converted.
 [[nodiscard]] Result<double> parse_angle_deg(std::string_view text);
 
-/// "1:50" is 50: how many millimetres of the model one millimetre of paper shows; "2:1" is 0.5.
-/// From 1000000:1 to 1:1000000000.
+/// Parses "1:50" as 50: how many millimetres of the model one millimetre of paper shows; "2:1" is
+/// 0.5. Scales go from 1000000:1 to 1:1000000000.
 [[nodiscard]] Result<double> parse_scale(std::string_view text);
 
 }  // namespace strake

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Equipment as other programs hand it over: one closed mesh, of far more triangles than a ship
-// needs.
+// Generates equipment as other programs export it: one closed mesh, of far more triangles than a
+// ship needs.
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -16,8 +16,8 @@ using geometry::Vec3d;
 
 constexpr std::uint32_t kBaseFace = 0, kTopFace = 1;
 
-/// Unit vectors at equal angles, counter-clockwise from +u: those of 15 degrees, halved as often as
-/// told by sums and square roots, so that every machine finds the same.
+/// Returns unit vectors at equal angles, counter-clockwise from +u: those of 15 degrees, halved
+/// `halvings` times by sums and square roots, so that every machine finds the same.
 std::vector<Vec3d> directions(int halvings) {
   std::vector<Vec3d> all;
   for (int step = 0; step < 24; ++step) all.push_back(unit_15deg(step));
@@ -33,13 +33,14 @@ std::vector<Vec3d> directions(int halvings) {
   return all;
 }
 
-/// Rings of points about z: a waisted casing with cooling fins round it and ribs along it, its skin
-/// as rough as a casting's. Seen from the axis it is a graph, so it cannot pass through itself.
+/// A waisted casing with cooling fins round it and ribs along it, as rings of points about z, its
+/// surface as rough as a casting's. Seen from the axis it is a graph, so it cannot pass through
+/// itself.
 class Casing {
  public:
   Casing(std::uint64_t triangles, const Random& random) : random_(random) {
     int halvings = 0;
-    // About as many steps round as up, or up to twice as many.
+    // There are about as many steps round as up, or up to twice as many.
     const double around = std::sqrt(static_cast<double>(triangles) / 2);
     while (24.0 * std::exp2(halvings) < around) ++halvings;
     directions_ = directions(halvings);

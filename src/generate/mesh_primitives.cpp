@@ -25,7 +25,7 @@ void add_quad(MicrometreMesh& mesh, const std::array<std::uint32_t, 4>& q, std::
   add_triangle(mesh, {q[0], q[2], q[3]}, face);
 }
 
-/// The wall between two rings of equal count, the outer side to the left of first → second.
+/// Adds the wall between two rings of equal count, the outer side to the left of first → second.
 void add_wall(MicrometreMesh& mesh, std::uint32_t low, std::uint32_t high, std::uint32_t count,
               std::uint32_t first_face) {
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -54,7 +54,7 @@ std::uint32_t add_ring(MicrometreMesh& mesh, const RevolutionPoint& at, int side
   return first;
 }
 
-/// A face is planar to the last bit only where the wall is upright or level.
+/// Returns the face of a wall, which is planar to the last bit only where it is upright or level.
 std::uint32_t wall_face(const RevolutionPoint& a, const RevolutionPoint& b,
                         std::uint32_t& next_face, int sides) {
   if (a.z == b.z) return next_face++;
@@ -81,7 +81,7 @@ void add_turned_wall(MicrometreMesh& mesh, const RevolutionPoint& a, const Revol
 
 Vec3l rounded(const Vec3d& v) { return {std::llround(v.x), std::llround(v.y), std::llround(v.z)}; }
 
-/// Directions of one place of a swept bar.
+/// The directions at one place of a swept bar.
 struct Station {
   Vec3d centre, across, beside;  ///< beside × across... an upright frame of the cross-section
 };
@@ -91,7 +91,7 @@ Vec3l unit_between(const Vec3l& a, const Vec3l& b) {
   return {sign(b.x - a.x), sign(b.y - a.y), sign(b.z - a.z)};
 }
 
-/// The frame after a 90° bend from direction d to e, and the stations of the bend between.
+/// Adds the frame after a 90° bend from direction d to e, and the stations of the bend between.
 void add_bend(std::vector<Station>& stations, const Vec3l& corner, const std::array<Vec3l, 2>& legs,
               double bend) {
   const Vec3d d = legs[0].as<double>(), e = legs[1].as<double>();
@@ -283,7 +283,7 @@ bool properly_cross(const ProfilePoint& a, const ProfilePoint& b, const ProfileP
          sign(turn_of(c, d, a)) * sign(turn_of(c, d, b)) <= 0;
 }
 
-/// True when the segment between two points meets no edge that does not end in one of them.
+/// Whether the segment between two points meets no edge that does not end in one of them.
 bool sees(const Loop& loop, std::span<const std::vector<std::uint32_t>> others,
           const ProfilePoint& from, const ProfilePoint& to) {
   const auto blocked = [&](const std::vector<std::uint32_t>& ring) {

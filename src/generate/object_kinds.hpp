@@ -8,6 +8,7 @@
 
 #include "strake/model/model.hpp"
 
+/// The disciplines and the kinds of objects of a generated ship.
 namespace strake::generate {
 
 enum class Discipline : std::uint8_t {

@@ -13,16 +13,17 @@ constexpr double kRest = 2100;      ///< top of the cross-bars that runs lie on,
 constexpr double kPipeJoint = 800;  ///< flange faces, from the start of a bay
 constexpr double kTrayJoint = 500;
 constexpr double kDuctJoint = 1000;
-/// As long as the clearance and more: a pipe never comes near the next pipe's end through flanges.
+/// A flange is longer than the clearance: a pipe never comes near the next pipe's end through
+/// flanges.
 constexpr double kFlangeLength = 30;
 constexpr double kRunEnd = 100;  ///< runs stop this far before the end of the last deck above
 
 constexpr std::array<PipeSize, 4> kPipeSizes{{{30, 60}, {45, 80}, {57, 95}, {84, 125}}};
 
-/// What one run of a lane looks like, the same in all bays.
+/// The layout of one run of a lane, the same in all bays.
 struct PipeRun {
   PipeSize size;
-  double v = 0;  ///< of the axis, across the lane
+  double v = 0;  ///< the position of the axis across the lane
 };
 
 struct LaneRuns {
@@ -47,7 +48,7 @@ LaneRuns choose_runs(const ShipPlan& plan, int lane, int level) {
   return runs;
 }
 
-/// One lane's runs below one deck, built bay by bay; what the next bay joins on to.
+/// Builds one lane's runs below one deck bay by bay, and keeps what the next bay joins on to.
 class LaneBuilder {
  public:
   LaneBuilder(const ShipPlan& plan, ShipBuilder& builder, int lane, int level)
@@ -131,7 +132,7 @@ class LaneBuilder {
     return pipe;
   }
 
-  /// Pipe, flange, valve, flange, pipe.
+  /// Builds pipe, flange, valve, flange, pipe.
   Handle valved_pipe(const Site& line, const PipeSize& size, const PipeSpan& span) const {
     constexpr double kValveAt = 2000, kValve = 300;
     const Handle first = plain_pipe(line, size, {span.start, span.bar, span.from, kValveAt});
@@ -148,7 +149,7 @@ class LaneBuilder {
     return second;
   }
 
-  /// Ladder tray: two rails, rungs between; cables lie on the rungs.
+  /// Builds a ladder tray: two rails, rungs between; cables lie on the rungs.
   void build_tray(const Site& site, int bay, Handle bar) {
     const double from = bay == 0 ? kRunEnd : kTrayJoint, to = end(bay, kTrayJoint);
     constexpr double kWidth = 400, kRail = 6, kRung = 40;

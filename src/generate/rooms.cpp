@@ -29,7 +29,7 @@ RoomBuilder choose_contents(int level, const ShipPlan& plan, Random& random) {
                         : kUpper[random.below(kUpper.size())];
 }
 
-/// One of the four ways in which the contents can face.
+/// Chooses one of the four ways in which the contents can face.
 AxisFrame choose_facing(Random& random) {
   AxisFrame frame = at({kClearU, kClearV, 0});
   if (random.chance(50)) {
@@ -43,7 +43,8 @@ AxisFrame choose_facing(Random& random) {
   return frame;
 }
 
-/// A pipe whose axis pierces the beam's web between two slots: the depth is the pipe's radius.
+/// Seeds a pipe whose axis pierces the beam's web between two slots: the depth is the pipe's
+/// radius.
 void plant_stray_pipe(const Site& site, Handle beam, Random& random, double v) {
   const double r = random.chance(50) ? 45 : 57;
   const Handle pipe =
@@ -51,7 +52,8 @@ void plant_stray_pipe(const Site& site, Handle beam, Random& random, double v) {
   site.builder->declare({pipe, beam, clash::Class::hit, PairReason::through_plate, -r});
 }
 
-/// A junction box beside the beam's web, clear of its flange: too near, near enough or touching.
+/// Seeds a junction box beside the beam's web, clear of its flange: too near, near enough or
+/// touching.
 void plant_junction_box(const Site& site, Handle beam, Random& random, double v) {
   constexpr std::array<double, 6> kGaps{0, 2.5, 8, 14.5, 22, 31};
   const double gap = kGaps[random.below(kGaps.size())], u = kBeamAt + 5 + gap;

@@ -11,8 +11,9 @@ using clash::Class;
 using geometry::Box3d;
 using geometry::Vec3d;
 
-/// D of two boxes that overlap: the largest distance to either boundary over the common box. The
-/// distance to a box's own boundary is a minimum over the axes, so each axis gives its own maximum.
+/// Returns D of two boxes that overlap: the largest distance to either boundary over the common
+/// box. The distance to a box's own boundary is a minimum over the axes, so each axis gives its own
+/// maximum.
 double depth_of_boxes(const Box3d& a, const Box3d& b) {
   const auto deepest = [&](const Box3d& body) {
     double depth = 1e300;
@@ -140,7 +141,7 @@ void in_cavity(ShipRoom& room) {
   if (room.random.chance(50)) room.site.builder->turn_inside_out(tank);
 }
 
-/// An upright channel section that opens to +x, welded to the deck.
+/// Builds an upright channel section that opens to +x, welded to the deck.
 Handle open_channel(ShipRoom& room) {
   const std::array<Vec3d, 8> profile{{{40, 60, 0},
                                       {480, 60, 0},
@@ -192,7 +193,7 @@ void slanted_blocks(ShipRoom& room) {
   declare_gap(room, a, b, gap, PairReason::gap_slanted);
 }
 
-/// A block that fills the bay of a channel: three faces touch, no plane parts the two.
+/// Seeds a block that fills the bay of a channel: three faces touch, no plane separates the two.
 void fitted_block(ShipRoom& room) {
   const Handle channel = open_channel(room);
   const Handle block = standing(room, ObjectKind::support, {{60, 80, 0}, {400, 400, 1000}});

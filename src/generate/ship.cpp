@@ -23,7 +23,7 @@ namespace {
 using geometry::Placement;
 using geometry::Vec3d;
 
-/// A general rotation with rational entries (quaternion 9, 2, -3, 5 over 119).
+/// Returns a general rotation with rational entries (quaternion 9, 2, -3, 5 over 119).
 constexpr geometry::Mat3d general_rotation() {
   const double w = 9, x = 2, y = -3, z = 5, n = w * w + x * x + y * y + z * z;
   return {
@@ -33,8 +33,9 @@ constexpr geometry::Mat3d general_rotation() {
              (w * w - x * x - y * y + z * z) / n}}};
 }
 
-/// Lanes and levels that suit a number of objects, about 75 objects to a room, the length growing
-/// fastest. Small ships have several candidates: the one that needs the least thinning out wins.
+/// Returns lanes and levels that suit a number of objects, about 75 objects to a room, the length
+/// growing fastest. Small ships have several candidates: the one that needs the least thinning out
+/// wins.
 std::vector<ShipPlan> candidate_plans(const ShipOptions& options) {
   constexpr std::uint64_t kSmall = 6000;
   const double rooms = static_cast<double>(options.objects) / 75;
@@ -65,14 +66,14 @@ ShipBuilder build(const ShipPlan& plan) {
   return builder;
 }
 
-/// The shortest ship of a plan's lanes and levels that has enough objects.
+/// Builds the shortest ship of a plan's lanes and levels that has enough objects.
 ShipBuilder build_enough(ShipPlan plan, std::uint64_t objects, const std::stop_token& stop) {
   plan.bays = 1;
   while (true) {
     ShipBuilder builder = build(plan);
     const std::uint64_t count = builder.objects().size();
     if (count >= objects || stop.stop_requested()) return builder;
-    // Aims a little short, so that it arrives from below.
+    // It aims a little short, so that it arrives from below.
     const std::uint64_t missing =
         (objects - count) * static_cast<std::uint64_t>(plan.bays) * 20 / (count * 21 + 1);
     plan.bays += std::max(1, static_cast<int>(missing));
@@ -91,8 +92,8 @@ Result<ShipBuilder> build_best(const ShipOptions& options, const std::stop_token
   return best;
 }
 
-/// Which objects stay: spare ones go first, evenly spread over the ship; if they are too few, the
-/// last built go too, but for what stays.
+/// Chooses which objects stay: spare ones are dropped first, evenly spread over the ship; if they
+/// are too few, the last built are dropped too, except those that must stay.
 std::vector<bool> choose_kept(const ShipBuilder& builder, std::uint64_t wanted) {
   const std::vector<ShipObject>& objects = builder.objects();
   std::vector<bool> kept(objects.size(), true);
@@ -113,7 +114,7 @@ std::vector<bool> choose_kept(const ShipBuilder& builder, std::uint64_t wanted) 
   return kept;
 }
 
-/// Sorts as the ids do: code, bay, lane, level, number, all of fixed width.
+/// Returns a key that sorts as the ids do: code, bay, lane, level, number, all of fixed width.
 std::uint64_t id_key(const ShipObject& built, const std::vector<std::uint8_t>& rank) {
   return (static_cast<std::uint64_t>(rank[static_cast<std::size_t>(built.kind)]) << 56U) |
          (static_cast<std::uint64_t>(built.cell.bay) << 40U) |
@@ -130,7 +131,7 @@ std::vector<std::uint8_t> code_ranks() {
   return rank;
 }
 
-/// The kept objects in the order of their ids.
+/// Returns the kept objects in the order of their ids.
 std::vector<Handle> id_order(const ShipBuilder& builder, const std::vector<bool>& kept) {
   const std::vector<std::uint8_t> rank = code_ranks();
   std::vector<std::pair<std::uint64_t, Handle>> keyed;
@@ -148,7 +149,7 @@ std::string id_of(const ShipObject& built) {
                      built.cell.lane, built.cell.level, built.number);
 }
 
-/// Zone, deck and discipline groups, made as objects ask for them.
+/// Makes zone, deck and discipline groups as objects ask for them.
 class GroupTree {
  public:
   explicit GroupTree(model::Model& model) : model_(model) {

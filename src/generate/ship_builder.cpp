@@ -22,8 +22,8 @@ enum Maker : std::int64_t {
   kHashed,
 };
 
-/// Long parameter lists (profiles, paths) go into a recipe as two independent 64-bit hashes; the
-/// few hundred shapes of a ship are some 2^-110 away from a collision.
+/// Returns a recipe for long parameter lists (profiles, paths), which go in as two independent
+/// 64-bit hashes; the few hundred shapes of a ship are some 2^-110 away from a collision.
 Recipe hashed(std::int64_t maker, std::span<const Vec3d> points, const Vec3l& more) {
   std::uint64_t h1 = 0x9ae16a3b2f90404fU, h2 = 0xc949d7c7509e6557U;
   const auto take = [&](std::int64_t value) {

@@ -19,7 +19,7 @@
 
 namespace strake::generate {
 
-/// An object of the yard, in the order of building; kNothing where there is none.
+/// An object of the builder, in the order of building; kNothing where there is none.
 using Handle = std::uint32_t;
 inline constexpr Handle kNothing = 0xffffffffU;
 
@@ -38,7 +38,7 @@ enum class FacingAxis : std::uint8_t { up, along, beside, down };
 [[nodiscard]] AxisFrame at(const geometry::Vec3d& mm);
 [[nodiscard]] geometry::Vec3l grid(const geometry::Vec3d& mm);
 
-/// Where in the ship an object belongs: bay, lane, level (0: double bottom).
+/// The cell of the ship to which an object belongs: bay, lane, level (0: double bottom).
 struct ShipCell {
   std::uint16_t bay = 0, lane = 0, level = 0;
 };
@@ -72,7 +72,7 @@ struct ShipObject {
   ShipCell cell;
   std::uint16_t number = 0;
   bool inside_out = false;
-  bool stays = false;  ///< whatever is left out to meet the asked number of objects
+  bool stays = false;  ///< never left out to meet the asked number of objects
 };
 
 struct DeclaredPair {
@@ -82,20 +82,20 @@ struct DeclaredPair {
   double d_mm = 0;
 };
 
-/// What a shape is made from: a maker's number and its parameters in micrometres. Equal recipes
-/// are one shape.
+/// The recipe of a shape: a maker's number and its parameters in micrometres. Equal recipes are one
+/// shape.
 using Recipe = std::array<std::int64_t, 10>;
 
 /// Collects objects, the shapes that they share, and the pairs that the construction knows of.
 class ShipBuilder {
  public:
-  /// The shape of a recipe, made on first use.
+  /// Returns the shape of a recipe, made on first use.
   std::uint32_t shape(const Recipe& recipe, const std::function<MicrometreMesh()>& make);
-  /// The same shape with reversed triangles.
+  /// Returns the shape with reversed triangles.
   std::uint32_t reversed(std::uint32_t shape);
-  /// A shape of one object that takes long to make: it is empty until make_late_shapes().
+  /// Adds a shape of one object that takes long to make; it is empty until make_late_shapes().
   std::uint32_t late_shape(std::function<MicrometreMesh()> make);
-  /// Errors: cancelled.
+  /// Makes the late shapes. Errors: cancelled.
   [[nodiscard]] Status make_late_shapes(const std::stop_token& stop);
   std::uint32_t lines(const Recipe& recipe, const std::function<geometry::Polylines()>& make);
 
@@ -126,7 +126,7 @@ class ShipBuilder {
   std::map<std::array<std::uint32_t, 4>, std::uint16_t> next_number_;
 };
 
-/// Builds in a frame of its own within one cell: lengths in millimetres.
+/// Builds objects in a frame of its own within one cell; lengths are in millimetres.
 struct Site {
   ShipBuilder* builder = nullptr;
   ShipCell cell;
@@ -136,25 +136,25 @@ struct Site {
   [[nodiscard]] Site in(const AxisFrame& inner) const { return {builder, cell, frame * inner}; }
 
   Handle box(ObjectKind kind, const geometry::Vec3d& lo, const geometry::Vec3d& hi) const;
-  /// A box with a closed cavity whose walls are `wall` thick.
+  /// Makes a box with a closed cavity whose walls are `wall` thick.
   Handle shell_box(ObjectKind kind, const geometry::Vec3d& lo, const geometry::Vec3d& hi,
                    double wall) const;
-  /// Body of revolution about `axis` through `from`; profile of (radius, height) in mm.
+  /// Makes a body of revolution about `axis` through `from`; profile of (radius, height) in mm.
   Handle turned(ObjectKind kind, std::span<const geometry::Vec3d> profile, const AxisFrame& where,
                 int sides = 24) const;
-  /// A round bar of radius r and length l from `from` along `axis`.
+  /// Makes a round bar of radius r and length l from `from` along `axis`.
   Handle bar(ObjectKind kind, double r, double length, const AxisFrame& where,
              int sides = 24) const;
-  /// A ring of bore radius r, outer radius R.
+  /// Makes a ring of bore radius r, outer radius R.
   Handle collar(ObjectKind kind, double bore, double outer, double length,
                 const AxisFrame& where) const;
-  /// Profile of (u, v) extruded along `axis`.
+  /// Extrudes a profile of (u, v) along `axis`.
   Handle extruded(ObjectKind kind, std::span<const geometry::Vec3d> profile, double length,
                   const AxisFrame& where) const;
-  /// A rectangular tube of outer size (u, v), wall thickness `wall`, along the frame's z.
+  /// Makes a rectangular tube of outer size (u, v), wall thickness `wall`, along the frame's z.
   Handle tube(ObjectKind kind, const geometry::Vec3d& size, double wall,
               const AxisFrame& where) const;
-  /// A bent bar along a path.
+  /// Makes a bent bar along a path.
   Handle swept(ObjectKind kind, std::span<const geometry::Vec3d> path, double r, double bend) const;
   Handle centre_line(std::span<const geometry::Vec3d> path) const;
 };

@@ -8,16 +8,17 @@
 
 #include "generate/ship_builder.hpp"
 
+/// The plan of a generated ship, and the functions that build each part of it.
 namespace strake::generate {
 
-/// Numbers that depend on the seed and the place they are used at, not on what was drawn before:
-/// a cell's contents stay the same whatever the rest of the ship does.
+/// Random numbers that depend on the seed and the place they are used at, not on what was drawn
+/// before: a cell's contents stay the same whatever the rest of the ship does.
 /// The mixing function is that of SplitMix64 (Steele, Lea, Flood 2014).
 class Random {
  public:
   explicit constexpr Random(std::uint64_t key) : state_(mix(key)) {}
 
-  /// An independent stream for a place within this one.
+  /// Returns an independent stream for a place within this one.
   [[nodiscard]] constexpr Random at(std::uint64_t place) const {
     return Random(state_ ^ mix(place + 0x632be59bd9b4e019U));
   }
@@ -25,11 +26,12 @@ class Random {
     state_ += 0x9e3779b97f4a7c15U;
     return mix(state_);
   }
-  /// Uniform in [0, count); count > 0 and small, so the bias of the remainder is without effect.
+  /// Returns a number uniform in [0, count); count > 0 and small, so the bias of the remainder is
+  /// without effect.
   constexpr std::uint32_t below(std::uint32_t count) {
     return static_cast<std::uint32_t>((next() >> 32U) % count);
   }
-  /// A whole number of [lo, hi].
+  /// Returns a whole number of [lo, hi].
   constexpr int between(int lo, int hi) {
     return lo + static_cast<int>(below(static_cast<std::uint32_t>(hi - lo + 1)));
   }
@@ -69,12 +71,13 @@ struct ShipPlan {
   std::uint64_t seed = 1;
   std::uint64_t imported = 0, imported_triangles = 0;  ///< see ShipOptions
 
-  /// Deck k (0: inner bottom, levels: weather deck) covers bays [0, deck_bays(k)); rooms of level
-  /// k stand on deck k.
+  /// Returns how many bays deck k (0: inner bottom, levels: weather deck) covers, from bay 0; rooms
+  /// of level k stand on deck k.
   [[nodiscard]] int deck_bays(int k) const {
     return std::max(1, bays - k * bays * 9 / (20 * levels));
   }
-  /// Side plating: all of it to port, a part to starboard, where the viewer looks in.
+  /// Returns the bays with side plating: all of it to port, a part to starboard, where the viewer
+  /// looks in.
   [[nodiscard]] int strake_bays(int side, int s) const {
     if (side == 1) return deck_bays(s);
     return s == 0 ? (bays + 1) / 2 : deck_bays(s) * 3 / 10;
@@ -85,7 +88,7 @@ struct ShipPlan {
   [[nodiscard]] double x(int bay) const { return bay * kBay; }
   [[nodiscard]] double y(int lane) const { return lane * kLane - lanes * kLane / 2; }
   [[nodiscard]] double z(int deck) const { return kTankTop + deck * kLevel; }
-  /// A lane's corner on a deck.
+  /// Returns the site at a lane's corner on a deck.
   [[nodiscard]] Site site(ShipBuilder& builder, int bay, int lane, int deck) const {
     return {&builder, cell(bay, lane, deck + 1), at({x(bay), y(lane), z(deck)})};
   }
@@ -93,7 +96,7 @@ struct ShipPlan {
     return {static_cast<std::uint16_t>(bay), static_cast<std::uint16_t>(lane),
             static_cast<std::uint16_t>(level)};
   }
-  /// Numbers for one place: `what` tells uses apart.
+  /// Returns random numbers for one place; `what` distinguishes uses.
   [[nodiscard]] Random random(std::uint64_t what, int bay, int lane, int level) const {
     return Random(seed)
         .at(what)
@@ -103,7 +106,7 @@ struct ShipPlan {
   }
 };
 
-/// Handles by three numbers; kNothing outside.
+/// A table of handles by three numbers; kNothing outside.
 class Handles {
  public:
   Handles(int a, int b, int c)
@@ -142,7 +145,8 @@ struct Steel {
 struct PipeSize {
   double r = 0, flange = 0;
 };
-/// A valve with bonnet and hand wheel: flow along the frame's x from its origin, wheel towards z.
+/// Builds a valve with bonnet and hand wheel: flow along the frame's x from its origin, wheel
+/// towards z.
 Handle build_valve(const Site& site, const PipeSize& size, double length, const AxisFrame& where);
 
 /// A room of 2800 x 3300 x 2000 mm clear of all steel but the deck below.
@@ -160,9 +164,10 @@ void build_fan_room(ShipRoom& room);
 void build_cabin(ShipRoom& room);
 void build_store(ShipRoom& room);
 void build_stairs(ShipRoom& room);
-/// One closed mesh of about `triangles` triangles on a foundation, as no other in the ship.
+/// Builds one closed mesh of about `triangles` triangles on a foundation, like no other in the
+/// ship.
 void build_imported(ShipRoom& room, std::uint64_t triangles);
-/// Something wrong (or nearly), in a free space of 640 x 640 x 2000 mm.
+/// Seeds a clash (or nearly one), in a free space of 640 x 640 x 2000 mm.
 void plant(ShipRoom& corner);
 
 [[nodiscard]] Steel build_steel(const ShipPlan& plan, ShipBuilder& builder);

@@ -8,7 +8,7 @@ namespace {
 
 using geometry::Vec3d;
 
-/// Everything of the steel that other steel is welded to.
+/// All of the steel that other steel is welded to.
 struct HullParts {
   HullParts(const ShipPlan& p, ShipBuilder& y)
       : plan(p),
@@ -27,7 +27,7 @@ struct HullParts {
   Handles bottom, bilge, strake, girder, longitudinal, bulkhead;
 
   [[nodiscard]] int edge_lane(int side) const { return side == 0 ? 0 : plan.lanes - 1; }
-  /// A site whose y runs inward from the shell of a side: mirrored to port.
+  /// Returns a site whose y runs inward from the shell of a side: mirrored to port.
   [[nodiscard]] Site shell_site(int side, int bay, int level, double z) const {
     AxisFrame frame = at({plan.x(bay), side == 0 ? plan.y(0) : plan.y(plan.lanes), z});
     if (side == 1) frame.m[4] = -1;
@@ -39,7 +39,7 @@ struct HullParts {
   }
 };
 
-/// Plates of a grid touch the eight around them, along an edge or at a corner.
+/// Welds plates of a grid to the eight around them, along an edge or at a corner.
 void weld_neighbours(ShipBuilder& builder, const Handles& plates, int layer, int rows,
                      int columns) {
   for (int i = 0; i < rows; ++i)
@@ -76,7 +76,8 @@ void build_bottom(HullParts& hull) {
   weld_neighbours(hull.builder, hull.bottom, 0, plan.bays, plan.lanes);
 }
 
-/// Points of the bilge's inner or outer face, from the bottom up, (distance from shell, height).
+/// Returns points of the bilge's inner or outer face, from the bottom up, (distance from shell,
+/// height).
 std::vector<Vec3d> bilge_arc(double radius) {
   std::vector<Vec3d> points;
   for (int step = 0; step <= 6; ++step) {
@@ -126,7 +127,7 @@ void weld_shell(const HullParts& hull) {
 
 constexpr double kGirderAt = 100;  ///< from the lane's start, so that plate seams stay clear of it
 constexpr double kFloorPlate = 12;
-constexpr double kDepth = kTankTop - kDeckPlate;  ///< of the double bottom, inside
+constexpr double kDepth = kTankTop - kDeckPlate;  ///< depth of the double bottom, inside
 
 OutlinePolygon hole_at(double u, double v, double radius, int sides) {
   OutlinePolygon hole = ring(sides, um(radius));
@@ -157,7 +158,8 @@ void build_girders(HullParts& hull) {
     }
 }
 
-/// The floor of an outer lane, from the shell inward to `width`; of an inner one a rectangle.
+/// Returns the floor of an outer lane, from the shell inward to `width`; for an inner one a
+/// rectangle.
 std::uint32_t floor_shape(ShipBuilder& builder, bool outer, double width) {
   return builder.shape({1002, outer ? 1 : 0, um(width)}, [&] {
     std::vector<Vec3d> profile;
@@ -242,7 +244,7 @@ void build_longitudinals(HullParts& hull) {
     }
 }
 
-/// Web with a slot for each longitudinal, flush with its web on one side; flange below.
+/// Makes a web with a slot for each longitudinal, coplanar with its web on one side; flange below.
 MicrometreMesh beam_mesh() {
   const double low = kBeamFlangeUnder + 15;
   std::vector<Vec3d> web{{0, low, 0}, {kLane, low, 0}, {kLane, kHeadroom, 0}};
@@ -318,7 +320,8 @@ void build_side_frames(const HullParts& hull) {
         }
 }
 
-/// Bulkhead plate of a lane in (y, z): a door's opening below, the passage of the runs above.
+/// Returns a bulkhead plate of a lane in (y, z): a door's opening below, the passage of the runs
+/// above.
 std::uint32_t bulkhead_shape(ShipBuilder& builder, bool door) {
   return builder.shape({1004, door ? 1 : 0}, [&] {
     const std::array<Vec3d, 4> plate{

@@ -203,7 +203,7 @@ void build_mast(ShipRoom& room) {
   }
 }
 
-/// Posts, rails and knee rails along a line of `length` in the site's x; y points outward.
+/// Builds posts, rails and knee rails along a line of `length` in the site's x; y points outward.
 Handle build_railing(const Site& site, Handle deck, double length, Handle before) {
   ShipBuilder& builder = *site.builder;
   const Handle rail = site.box(ObjectKind::railing, {0, 0, 1000}, {length, 12, 1050});
@@ -222,7 +222,7 @@ Handle build_railing(const Site& site, Handle deck, double length, Handle before
   return rail;
 }
 
-/// Rails where a deck ends, and along the open side of the weather deck.
+/// Builds rails where a deck ends, and along the open side of the weather deck.
 void build_railings(const ShipPlan& plan, const Steel& steel, ShipBuilder& builder) {
   for (int k = 0; k <= plan.levels; ++k) {
     const int bay = plan.deck_bays(k) - 1;

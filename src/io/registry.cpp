@@ -63,7 +63,8 @@ Result<model::Model> read_models(std::span<const FileToRead> files,
                    "give a unit such as mm, m or in"};
   const Readers readers = all_readers();
   model::Model all;
-  // Told in the order of the files' names, whatever the order in which they were given.
+  // Diagnostics are reported in the order of the files' names, whatever the order in which they
+  // were given.
   std::map<std::pair<std::string, std::string>, Diagnostics> diagnostics;
   for (const auto& [path, options] : files) {
     if (context.stop.stop_requested())

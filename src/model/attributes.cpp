@@ -19,7 +19,7 @@ constexpr std::string_view kBlanks = " \t\r\n";
 
 bool is_quote(char c) { return c == '\'' || c == '"'; }
 
-/// Of a text without blanks round it.
+/// Whether a text without blanks round it is quoted.
 bool is_quoted(std::string_view text) {
   return text.size() >= 2 && is_quote(text.front()) && text.back() == text.front();
 }
@@ -28,8 +28,8 @@ std::string_view without_quotes(std::string_view text) {
   return trimmed(text.substr(1, text.size() - 2), kBlanks);
 }
 
-/// The beginning of a list, up to the first separator. A quote there holds up to the next such
-/// quote that ends a piece; one that nothing closes is part of a name.
+/// Returns the beginning of a list, up to the first separator. A quote there holds up to the next
+/// such quote that ends a piece; one that nothing closes is part of a name.
 std::string_view first_piece(std::string_view list, std::string_view separator) {
   const std::string_view plain = list.substr(0, list.find(separator));
   const std::size_t open = plain.find_first_not_of(kBlanks);
@@ -132,7 +132,7 @@ SelectableProperties selectable_properties(const Model& model, ObjectId id) {
     of.colors.insert(color_text(body.color));
   }
   of.attributes = object.attributes;
-  // What is stated nearer hides what groups farther out state under the same name.
+  // A value stated nearer hides what groups farther out state under the same name.
   GroupId at = object.parent;
   for (std::size_t steps = 0; index(at) < model.groups.size() && steps < model.groups.size();
        ++steps) {

@@ -10,44 +10,45 @@
 
 namespace strake::model {
 
-// What attributes say. Blanks and quotes round a value do not count, and "", "Nulref",
-// "unset", "none" and "=0/0" say that there is none. All views are into what is asked.
+// These functions read what attributes say. Blanks and quotes round a value do not count, and "",
+// "Nulref", "unset", "none" and "=0/0" say that there is none. All views are into the argument.
 
-/// A value without the blanks and quotes round it.
+/// Returns a value without the blanks and quotes round it.
 [[nodiscard]] std::string_view unquoted(std::string_view text);
 
 /// Whether a bare value says that there is none.
 [[nodiscard]] bool is_null_value(std::string_view value);
 
-/// The values of the attributes of this name, bare, without those that say that there is none.
+/// Returns the values of the attributes of this name, bare, without those that say that there is
+/// none.
 [[nodiscard]] std::vector<std::string_view> values_of(const Attributes& attributes,
                                                       std::string_view attribute);
-/// The same of an object, inherited ones too.
+/// Returns the values of an object's attributes, inherited ones too.
 [[nodiscard]] std::vector<std::string_view> values_of(const Model& model, const Object& object,
                                                       std::string_view attribute);
 
-/// The same of attributes that hold lists: what stands between separators counts as a value of its
-/// own, with quotes of its own, within which separators do not part. Quotes may also stand round a
-/// whole list. An empty separator: each value is one.
+/// Returns the values of attributes that hold lists: what lies between separators counts as a value
+/// of its own, with quotes of its own, within which separators do not split. Quotes may also
+/// enclose a whole list. With an empty separator each value is one.
 [[nodiscard]] std::vector<std::string_view> listed_values_of(const Attributes& attributes,
                                                              std::string_view attribute,
                                                              std::string_view separator);
 
-/// What selections go by, of one object, in the words in which they are compared
+/// The properties of one object that selections test, in the words in which they are compared
 /// (docs/selection.md).
 struct SelectableProperties {
   std::string path;  ///< its groups and its own name
-  /// Of its bodies, each once.
+  /// The types, categories and colours of its bodies, each once.
   std::set<std::string> types, categories, colors;
-  /// Its own, then those that it inherits, of the nearest group first.
+  /// Its own attributes, then those that it inherits, of the nearest group first.
   Attributes attributes;
 };
 
 [[nodiscard]] SelectableProperties selectable_properties(const Model& model, ObjectId id);
 
-/// "physical", "obstruction", "insulation".
+/// Returns "physical", "obstruction" or "insulation".
 [[nodiscard]] std::string_view name(Category category);
-/// "#rrggbb", "#rrggbbaa" when transparent.
+/// Returns "#rrggbb", or "#rrggbbaa" when transparent.
 [[nodiscard]] std::string color_text(const Color& color);
 
 }  // namespace strake::model

@@ -21,8 +21,8 @@ namespace {
 
 using Order = std::vector<std::uint32_t>;
 
-/// The shortest end of `path`, cut before a folder and not shorter than `least`, that none of the
-/// other paths ends in; the whole path where they all end in it.
+/// Returns the shortest end of `path`, cut before a folder and not shorter than `least`, that none
+/// of the other paths ends in; the whole path where they all end in it.
 std::string_view telling_end(std::string_view path, std::size_t least,
                              std::span<const std::string> others) {
   for (std::size_t begin = path.size() - least; begin > 0;) {
@@ -51,8 +51,8 @@ void add_folders(std::vector<SourceFile>& files) {
   }
 }
 
-/// The ids of the objects of each file whose label another has, in the order of the source: what
-/// tells such files apart.
+/// Returns the ids of the objects of each file whose label another has, in the order of the source:
+/// they tell such files apart.
 std::vector<std::vector<std::string_view>> ids_of_namesakes(const Model& model) {
   std::map<std::string_view, std::size_t> of_label;
   for (const SourceFile& file : model.files) ++of_label[file.label];

@@ -28,7 +28,7 @@ BodyOrder identity(std::size_t count) {
 }
 
 /// Puts the indices of all objects in the order of (file, id), equal ones as the source has them.
-/// True when no two objects of a file have one id.
+/// Returns true when no two objects of a file have one id.
 bool sort_objects(const Model& model, BodyOrder& order) {
   const auto file_of = [&](std::uint32_t i) { return model.objects[i].file; };
   const auto by_file = [&](std::uint32_t a, std::uint32_t b) {
@@ -47,7 +47,7 @@ bool sort_objects(const Model& model, BodyOrder& order) {
   return distinct;
 }
 
-/// Says of each file how many ids its reader could only count.
+/// Notes for each file how many ids its reader could only count.
 void note_positional_ids(Model& model) {
   std::vector<std::size_t> counts(model.files.size(), 0);
   for (const Object& o : model.objects)
@@ -129,7 +129,7 @@ std::string_view kind_name(const Shape& shape) {
 std::vector<std::string_view> Model::group_names(const Object& object) const {
   std::vector<std::string_view> names;
   GroupId group = object.parent;
-  // A chain longer than the number of groups runs in a circle.
+  // A chain longer than the number of groups is a cycle.
   while (group != GroupId::none && index(group) < groups.size() && names.size() < groups.size()) {
     names.push_back(groups[index(group)].name);
     group = groups[index(group)].parent;
@@ -172,7 +172,7 @@ Model::Stated Model::stated(const Object& object, std::string_view attribute) co
   if (states(object.attributes)) return {&object.attributes, GroupId::none};
   if (group_attributes.empty()) return {};
   GroupId at = object.parent;
-  // A chain longer than the number of groups runs in a circle.
+  // A chain longer than the number of groups is a cycle.
   for (std::size_t steps = 0; index(at) < groups.size() && steps < groups.size(); ++steps) {
     const Group& group = groups[index(at)];
     if (group.attributes < group_attributes.size() && states(group_attributes[group.attributes]))

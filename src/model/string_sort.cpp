@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kKeyBytes = 8;
 
-/// The eight bytes at `depth` as a number that compares as they do; zeros behind the end.
+/// Returns the eight bytes at `depth` as a number that compares as they do; zeros behind the end.
 std::uint64_t key_at(std::string_view text, std::size_t depth) {
   std::uint64_t key = 0;
   const std::size_t count = std::min(kKeyBytes, text.size() - std::min(depth, text.size()));
@@ -41,7 +41,7 @@ class TextSorter {
   }
 
  private:
-  /// Places of `order_` whose texts agree in their first `depth` bytes.
+  /// A range of `order_` whose texts agree in their first `depth` bytes.
   struct TextRange {
     std::size_t first = 0, last = 0, depth = 0;
   };
@@ -76,7 +76,7 @@ void TextSorter::sort_few(const TextRange& range) {
     distinct_ = distinct_ && rest(order[i - 1]) != rest(order[i]);
 }
 
-/// How many first bytes the texts of a range have in common.
+/// Returns how many first bytes the texts of a range have in common.
 std::size_t TextSorter::shared_depth(const TextRange& range) const {
   const std::string_view first = texts_[order_[range.first]];
   std::size_t shared = first.size();
@@ -107,8 +107,9 @@ void TextSorter::sort_by_key(TextRange range) {
   }
 }
 
-/// Texts that end within the key come first, the shorter before the longer: they differ from
-/// others of the same key by zero bytes only. The rest is left to be sorted by what follows.
+/// Splits texts of one key: those that end within the key come first, the shorter before the
+/// longer, as they differ from others of the same key by zero bytes only. The rest is left to be
+/// sorted by what follows.
 void TextSorter::split_equal(const TextRange& range) {
   const std::span<std::uint32_t> order = places(range);
   const auto size = [&](std::uint32_t i) { return texts_[i].size(); };

@@ -7,11 +7,11 @@
 
 namespace strake::model {
 
-/// Sorts indices by their texts, byte by byte as unsigned, equal texts by index. True when no two
-/// of the texts are equal.
+/// Sorts indices by their texts, byte by byte as unsigned, equal texts by index. Returns true when
+/// no two of the texts are equal.
 ///
 /// Object ids share long beginnings (paths), and each comparison of two costs two cache misses. So
-/// this sorts by eight bytes at a time, kept beside the indices, behind what all texts of a range
+/// it sorts by eight bytes at a time, kept beside the indices, behind what all texts of a range
 /// share; ranges that agree in their eight bytes are sorted by the next ones.
 [[nodiscard]] bool sort_strings(std::span<const std::string_view> texts,
                                 std::span<std::uint32_t> order);

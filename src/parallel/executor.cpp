@@ -21,8 +21,8 @@ bool Executor::run(FunctionRef<void(Seat)> body) noexcept {
   return true;
 }
 
-/// One region's seats. Shared with what the host was given: a host that calls it too late, or keeps
-/// it, finds all seats taken.
+/// The seats of one region. It is shared with what the host was given: a host that calls it too
+/// late, or keeps it, finds all seats taken.
 struct HostExecutor::Run {
   Run(unsigned count, FunctionRef<void(Seat)> work) : body(work), taken(count) {}
 

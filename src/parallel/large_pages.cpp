@@ -17,14 +17,14 @@ namespace {
 constexpr std::size_t kSmallPage = 4096, kLargePage = std::size_t{2} << 20U;
 constexpr std::size_t kWorthIt = 32 * kLargePage;
 
-/// Up to the first large page.
+/// Returns the number of bytes up to the first large page.
 std::size_t bytes_before(const char* memory) {
   return (kLargePage - reinterpret_cast<std::uintptr_t>(memory) % kLargePage) % kLargePage;
 }
 
 void prefer_large(char* first, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  // A wish: what the system answers changes nothing.
+  // This is a request: the answer of the system changes nothing.
   (void)madvise(first, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #else
   (void)first;

@@ -15,8 +15,8 @@ namespace strake::parallel {
 
 namespace {
 
-/// A number that falls as the cost grows. The bits of floats that are not negative are in order;
-/// what is no cost at all, NaN among it, counts as nothing.
+/// Returns a number that falls as the cost grows. The bits of floats that are not negative are in
+/// order; what is no cost at all, NaN among it, counts as 0.
 std::uint32_t rank_of(double cost) {
   const double most = std::numeric_limits<float>::max();
   return ~std::bit_cast<std::uint32_t>(cost > 0 ? static_cast<float>(std::min(cost, most)) : 0.0F);
@@ -26,8 +26,8 @@ struct Ranked {
   std::uint32_t rank, item;
 };
 
-/// Sorted by counting, digit by digit from the lowest: what is equal stays in its order. A third of
-/// the time of comparing, of which regions of many small items would feel the rest.
+/// Sorts by counting, digit by digit from the lowest: equal items stay in their order. It takes a
+/// third of the time of comparing, of which regions of many small items would feel the rest.
 void sort_by_rank(std::vector<Ranked>& all) {
   constexpr unsigned kBits = 11, kDigits = 3;
   constexpr std::uint32_t kMask = (1U << kBits) - 1;
@@ -61,10 +61,11 @@ std::vector<std::uint32_t> longest_first(std::span<const double> costs) {
 
 namespace {
 
-/// How much longer than a fair share the busiest worker may take.
+/// How many times longer than a fair share the busiest worker may take.
 constexpr double kUneven = 1.125;
 
-/// The load of the busiest worker where the items, heaviest first, each go to whoever has least.
+/// Returns the load of the busiest worker where the items, heaviest first, each go to whoever has
+/// least.
 double busiest(std::span<const double> costs, unsigned workers) {
   std::vector<double> loads(workers, 0);  // a heap with the least on top
   for (const double cost : costs) {

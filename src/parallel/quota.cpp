@@ -36,7 +36,7 @@ bool present(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-/// cgroup v2: "max 100000" or "150000 100000".
+/// Reads the limit of cgroup v2: "max 100000" or "150000 100000".
 void read_v2(const fs::path& folder, std::optional<double>& limit) {
   std::ifstream in(folder / "cpu.max");
   std::string quota;

@@ -6,8 +6,9 @@
 
 namespace strake::parallel {
 
-/// The CPUs' worth of time that the control groups of a process allow, or nothing where there is
-/// no limit. `self_cgroup` is /proc/self/cgroup or a file like it; both versions are understood.
+/// Returns the CPUs' worth of time that the control groups of a process allow, or nothing where
+/// there is no limit. `self_cgroup` is /proc/self/cgroup or a file like it; both versions are
+/// understood.
 [[nodiscard]] std::optional<double> cpu_quota(const std::filesystem::path& cgroup_root,
                                               const std::filesystem::path& self_cgroup);
 

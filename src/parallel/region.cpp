@@ -15,8 +15,8 @@ namespace strake::parallel::detail {
 
 namespace {
 
-/// With fewer blocks a worker each is probably long, and one counter for all costs nothing beside
-/// it: then the low ones go first, should the caller have put the long ones there.
+/// With fewer blocks per worker, each is probably long, and one counter for all costs nothing
+/// beside it: then the low ones go first, should the caller have put the long ones there.
 constexpr std::size_t kFewBlocks = 64;
 
 double wall_s() {
@@ -30,7 +30,7 @@ Error described(const char* what, std::string_view region, std::size_t item) {
           {}};
 }
 
-/// Whether every block stands in the order once.
+/// Whether every block occurs in the order once.
 bool is_permutation(std::span<const std::uint32_t> order) {
   std::vector<bool> seen(order.size(), false);
   for (const std::uint32_t block : order) {
@@ -40,7 +40,8 @@ bool is_permutation(std::span<const std::uint32_t> order) {
   return true;
 }
 
-/// What one run of a region adds to the report. `alone`: by one worker of several.
+/// Returns what one run of a region adds to the report. `alone`: it was run by one worker of
+/// several.
 RegionReport summary(const Region& region, std::span<const RegionCursor> seats, double wall,
                      bool alone) {
   RegionReport run;

@@ -90,7 +90,7 @@ StageTimer::~StageTimer() {
   run_.cpu_s = process_cpu_s() - run_.cpu_s;
   try {
     report_->add(run_);
-  } catch (const std::bad_alloc&) {  // the stage goes untold; what it did may be unwinding
+  } catch (const std::bad_alloc&) {  // the stage is not reported; its work may be unwinding
   }
 }
 

@@ -16,16 +16,17 @@ namespace strake::parallel::detail {
 
 namespace {
 
-/// So many slots of a round keep their places in one list.
+/// This many slots of a round keep their places in one list.
 constexpr std::size_t kRun = 64;
-/// Items of the first round, and of a round at most: what it notes down should stay in the cache.
+/// The number of items of the first round, and of a round at most: what it notes down should stay
+/// in the cache.
 constexpr std::size_t kFirstRound = 2048, kLongestRound = 65536;
-/// Rounds with fewer are not worth a team: items that stand in each other's way go one by one.
+/// Rounds with fewer items are not worth a team: items that conflict go one by one.
 constexpr std::size_t kFew = 8;
 
 enum class Slot : std::uint8_t { waits, done, failed };
 
-/// Who wants a place. The item that bids higher gets it; 0 is nobody's bid.
+/// Returns an item's bid for a place. The item that bids higher gets it; 0 is nobody's bid.
 std::uint32_t bid_of(std::uint32_t item) {
   return std::numeric_limits<std::uint32_t>::max() - item;
 }
@@ -44,7 +45,7 @@ class Rounds {
         claims_name_(std::string(region.name) + ", claims"),
         bids_(places),
         end_(region.n) {
-    inner_.progress = nullptr;  // told of items that are done, not of those that are tried
+    inner_.progress = nullptr;  // it counts items that are done, not those that are tried
   }
 
   Result<ReservedRun> run(FunctionRef<bool(std::size_t, Claims&)> claim,
@@ -64,8 +65,8 @@ class Rounds {
   }
 
  private:
-  /// The items of the next round, ascending: those that wait, then new ones. False when none is
-  /// left.
+  /// Gathers the items of the next round, ascending: those that wait, then new ones. Returns false
+  /// when none is left.
   bool gather() {
     const std::size_t again = std::min(size_, waiting_.size() - head_);
     const auto first = waiting_.begin() + static_cast<std::ptrdiff_t>(head_);
@@ -89,7 +90,8 @@ class Rounds {
                     });
   }
 
-  /// Slots of one list come to one worker, in ascending order: they are a block of the region.
+  /// Claims the places of a slot. Slots of one list come to one worker, in ascending order: they
+  /// are a block of the region.
   Status claim_one(FunctionRef<bool(std::size_t, Claims&)> claim, std::size_t slot) {
     const std::uint32_t item = items_[slot];
     return status_of(region_.name, item, [&]() -> Status {
@@ -133,7 +135,7 @@ class Rounds {
         slots_[slot] = status ? Slot::done : Slot::failed;
         if (!status) return status;
       }
-      // Whoever else asked for such a place sees a bid that is not his, before this and after.
+      // Another item that wants such a place sees a bid not its own, before this and after.
       for (const std::size_t place : places)
         if (held(place)) bids_[place].store(0, std::memory_order_relaxed);
       return {};
@@ -145,9 +147,10 @@ class Rounds {
     return std::span(lists_[slot / kRun]).subspan(first, ends_[slot] - first);
   }
 
-  /// After an error: keeps it if it is an item's, and goes on with the items below that one alone,
-  /// of which one may fail, too. The bids of the others stay behind, and any of those that go on
-  /// bids higher. False when the error is nobody's: out of memory, or cancelled, which it then is.
+  /// Handles an error: keeps it if it is an item's, and goes on with the items below that one
+  /// alone, of which one may fail, too. The bids of the others stay behind, and any of those that
+  /// go on bids higher. Returns false when the error is nobody's: out of memory, or cancelled,
+  /// which it then is.
   bool drop_from_failed(Status& status) {
     if (inner_.stop.stop_requested()) {
       status = cancelled_error();
@@ -165,7 +168,7 @@ class Rounds {
     return true;
   }
 
-  /// Puts those that were in vain in front of those that wait; returns how many were not.
+  /// Puts the items that failed to claim in front of those that wait; returns how many succeeded.
   std::size_t end_round() {
     std::size_t kept = 0;
     for (std::size_t slot = 0; slot < items_.size(); ++slot)
@@ -190,14 +193,14 @@ class Rounds {
   const std::string claims_name_;
   std::vector<std::atomic<std::uint32_t>> bids_;
   std::size_t next_ = 0, end_;          ///< items that no round has had yet
-  std::size_t size_ = kFirstRound;      ///< of a round, at most
+  std::size_t size_ = kFirstRound;      ///< the most of a round
   std::vector<std::uint32_t> waiting_;  ///< from head_ on, ascending
   std::size_t head_ = 0;
 
-  // Of the round, by slot.
+  // The following are of the round, by slot.
   std::vector<std::uint32_t> items_;
   std::vector<Slot> slots_;
-  std::vector<std::size_t> ends_;                ///< of its places in its list
+  std::vector<std::size_t> ends_;                ///< end of its places in its list
   std::vector<std::vector<std::size_t>> lists_;  ///< by kRun slots
   std::optional<Error> error_;
 };

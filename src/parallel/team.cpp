@@ -8,9 +8,9 @@ namespace strake::parallel {
 
 namespace {
 
-/// Looks at a word before sleeping on it: some 30 microseconds, about what it takes to wake up.
-/// So a wait costs at most twice the better of the two, and one worker's last block or the caller's
-/// few lines between two regions put nobody to sleep.
+/// How often a worker looks at a word before sleeping on it: some 30 microseconds, about what it
+/// takes to wake up. So a wait costs at most twice the better of the two, and one worker's last
+/// block or the caller's few lines between two regions put nobody to sleep.
 constexpr int kLooks = 1000;
 
 /// Tells the core that this is a loop that waits: its other thread may go first.

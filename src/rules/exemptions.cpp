@@ -45,11 +45,11 @@ class Hierarchy {
     for (std::uint32_t g = 0; g < model.groups.size(); ++g) {
       const auto key = std::pair(model.groups[g].parent, std::string_view(model.groups[g].name));
       const auto [at, added] = own_.try_emplace(key, GroupId{g});
-      if (!added) at->second = GroupId::none;  // two of one name: nobody knows which is meant
+      if (!added) at->second = GroupId::none;  // two have one name: it is not known which is meant
     }
   }
 
-  /// The object's groups, outermost first; the group that it is itself, if it is one, last.
+  /// Returns the object's groups, outermost first; the group that it is itself, if it is one, last.
   [[nodiscard]] std::vector<GroupId> path(const Object& object) const {
     std::vector<GroupId> path;
     for (GroupId g = object.parent; known(g) && path.size() <= model_.groups.size();
@@ -64,7 +64,7 @@ class Hierarchy {
   [[nodiscard]] const std::string& name(GroupId group) const {
     return model_.groups[index(group)].name;
   }
-  /// What a group states; null: nothing.
+  /// Returns what a group states; null if nothing.
   [[nodiscard]] const model::Attributes* attributes(GroupId group) const {
     const std::uint32_t own = model_.groups[index(group)].attributes;
     return own < model_.group_attributes.size() ? &model_.group_attributes[own] : nullptr;
@@ -78,8 +78,8 @@ class Hierarchy {
   std::map<std::pair<GroupId, std::string_view>, GroupId> own_;
 };
 
-/// Who speaks for the references that groups state: a branch names what it connects its ends to,
-/// and its components inherit that.
+/// Finds the objects for which references that groups state hold: a branch names what it connects
+/// its ends to, and its components inherit that.
 class ConnectedReferences {
  public:
   ConnectedReferences(const Model& model, const ConnectedRule& rule) : model_(model), rule_(rule) {
@@ -95,7 +95,7 @@ class ConnectedReferences {
       }
   }
 
-  /// What object `o` refers to.
+  /// Returns what object `o` refers to.
   [[nodiscard]] std::vector<std::string_view> of(std::uint32_t o) const {
     std::vector<std::string_view> values;
     for (std::size_t a = 0; a < rule_.references.size(); ++a) {
@@ -201,7 +201,7 @@ struct Labelling {
       }
       std::string text;
       for (std::size_t g = 0; g < depth; ++g) text += hierarchy.name(path[g]) + '\0';
-      // What has no name is not the same as another without one.
+      // An object without a name is not the same as another without one.
       if (hierarchy.name(path[depth - 1]).empty()) text += std::to_string(index(path[depth - 1]));
       test.label[o] = paths.of(text);
     }
@@ -209,7 +209,7 @@ struct Labelling {
     return test;
   }
 
-  /// How many groups of the path lead to the assembly; 0: it has none.
+  /// Returns how many groups of the path lead to the assembly; 0 if it has none.
   static std::size_t depth_of(const AssemblyRule& assembly, const Object& object,
                               const std::vector<GroupId>& path, const Hierarchy& hierarchy) {
     if (assembly.level > 0) return assembly.level <= path.size() ? assembly.level : 0;

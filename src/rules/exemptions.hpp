@@ -7,7 +7,8 @@
 
 namespace strake::rules {
 
-/// What a rule that exempts says of each object, with a warning where it says nothing of any.
+/// Returns what a rule that exempts says of each object, with a warning where it says nothing of
+/// any.
 [[nodiscard]] clash::Exemption exemption_of(const ExemptingRule& rule, RuleContext& rule_context);
 
 }  // namespace strake::rules

@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::string_view kExempted = "exempted", kAllowed = "allowed";
 
-/// What became of a rule in all tests that follow it.
+/// The effect of a rule in all tests that follow it.
 struct RuleEffect {
   bool busy = false;
-  std::string_view doing;    ///< what it is there for
-  std::string_view done_by;  ///< the rule that did it before, if so
+  std::string_view doing;    ///< what it does, in words
+  std::string_view done_by;  ///< the rule that did it before, if any
 
   void add(bool did, std::int32_t shadowed_by, const auto& rule, std::string_view what) {
     busy = busy || did;
@@ -34,7 +34,7 @@ std::map<std::string_view, RuleEffect> effects_of(std::span<const clash::Report>
   for (const clash::Report& test : tests) {
     for (const clash::Exempted& e : test.exempted)
       effects[e.rule].add(e.pairs > 0, e.shadowed_by, test.exempted, kExempted);
-    // One that was asked about a pair and did not allow what became of it has done its work.
+    // A rule that was applied to a pair and did not allow the result has done its work.
     for (const clash::AllowedCount& a : test.allowed)
       effects[a.rule].add(a.pairs + a.places > 0 || (a.candidates > 0 && a.shadowed_by < 0),
                           a.shadowed_by, test.allowed, kAllowed);

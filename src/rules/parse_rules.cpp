@@ -27,11 +27,11 @@ using settings::TableReader;
 using settings::Value;
 
 constexpr std::string_view kChecked = "checked", kNotChecked = "not checked";
-/// Results have a cell for each two disciplines, and every pair carries the names of its rules: a
-/// small file must not ask for gigabytes.
+/// The most disciplines and the longest name. Results have a cell for each two disciplines, and
+/// every pair carries the names of its rules: a small file must not take gigabytes.
 constexpr std::size_t kMostDisciplines = 300, kLongestName = 200;
 
-/// Reads the tables of a file one by one. A fault is kept by the reading, and what is read after it
+/// Reads the tables of a file one by one. The ParseContext keeps a fault, and what is read after it
 /// is thrown away with the rest.
 class RulesParser {
  public:
@@ -66,7 +66,7 @@ class RulesParser {
     return reading_.file() + ", line " + std::to_string(at.line);
   }
 
-  /// A name that reports and `without` tell a rule by.
+  /// Returns a name by which reports and `without` identify a rule.
   std::string new_name(TableReader& table, std::vector<std::string>& taken) {
     std::string name = table.required_text("name");
     claim(name, table.at(), taken);
@@ -85,7 +85,7 @@ class RulesParser {
     taken.push_back(name);
   }
 
-  /// The tolerances of a table, on top of others.
+  /// Reads the tolerances of a table, on top of others.
   bool tolerances(TableReader& table, Tolerances& t) {
     bool some = false;
     const auto read = [&](std::string_view key, double& value) {
@@ -211,7 +211,7 @@ class RulesParser {
     return rule;
   }
 
-  /// What [matrix] and [[test]] have in common.
+  /// Reads what [matrix] and [[test]] have in common.
   void common(TableReader& table, TestRule& test) {
     test.enabled = table.flag("enabled").value_or(true);
     tolerances(table, test.tolerances);
@@ -230,7 +230,7 @@ class RulesParser {
     rules_.tests.push_back(std::move(test));
   }
 
-  /// The name and the `among` of a rule that exempts; `rule` is filled in by the caller.
+  /// Reads the name and the `among` of a rule that exempts; `rule` is filled in by the caller.
   ExemptingRule& exempting(TableReader& table) {
     ExemptingRule& rule = rules_.exempting.emplace_back();
     rule.name = new_name(table, rule_names_);
@@ -416,7 +416,7 @@ class RulesParser {
   }
 
  public:
-  /// Once all rules are read: what tests leave out must be there.
+  /// Checks, once all rules are read, that what tests leave out exists.
   void check_without() {
     for (const auto& [names, at] : without_at_)
       for (const std::string& name : names)
@@ -438,7 +438,7 @@ class RulesParser {
   Tolerances defaults_;
   double contact_distance_mm_ = -1;
   std::vector<std::string> rule_names_, test_names_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> cells_;  ///< of the matrix, that are given
+  std::set<std::pair<std::uint32_t, std::uint32_t>> cells_;  ///< cells of the matrix that are given
   std::vector<std::pair<std::vector<std::string>, SourcePosition>> without_at_;
 };
 
@@ -453,7 +453,7 @@ Result<RuleFile> parse_rules(std::string_view text, std::string_view file) {
     RulesParser parser(reading, *document);
     rules = parser.run();
     parser.check_without();
-  }  // the parser refuses what nobody asked for as it ends
+  }  // the parser, as it ends, refuses keys that were not read
   if (!reading.good()) return reading.error();
   return rules;
 }

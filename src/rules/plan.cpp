@@ -24,7 +24,7 @@ using clash::Level;
 using model::is_null_value;
 using model::unquoted;
 
-/// The level that an attribute's value says; none where it says something else.
+/// Returns the level that an attribute's value states; none where it states something else.
 std::optional<Level> level_of(std::string_view value) {
   constexpr std::array<std::pair<std::string_view, Level>, 6> kWords{{{"0", Level::none},
                                                                       {"1", Level::soft},
@@ -40,7 +40,7 @@ std::optional<Level> level_of(std::string_view value) {
   return std::nullopt;
 }
 
-/// Works the rules out once; each test takes those that it follows.
+/// Works the rules out for a scene once; each test takes those that it follows.
 class PlanMaker {
  public:
   PlanMaker(const RuleFile& rules, const model::Scene& scene, const parallel::Context& context)
@@ -151,7 +151,8 @@ class PlanMaker {
       if (picked[o]) levels[o] = level;
   }
 
-  /// An object counts for the first discipline that picks it; how often others pick it too is told.
+  /// Makes the disciplines. An object counts for the first that picks it; how often others pick it
+  /// too is reported.
   void make_disciplines() {
     discipline_.assign(rule_context_.objects(), kNoLabel);
     for (std::uint32_t d = 0; d < rules_.disciplines.size(); ++d) {

@@ -19,11 +19,11 @@ namespace strake::rules {
 inline constexpr std::string_view kMatchesNothing = "rule-matches-nothing",
                                   kShadowed = "rule-shadowed";
 
-/// A model that rules are asked about; keeps what turned out to match nothing, and whether the run
-/// was cancelled: what is answered after that is thrown away.
+/// The model to which rules are applied. It keeps which rules match nothing, and whether the run
+/// was cancelled; results after that are not used.
 class RuleContext {
  public:
-  /// Asks all selections about all objects, in one pass. They must outlive this.
+  /// Evaluates all selections for all objects, in one pass. They must outlive this.
   RuleContext(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
               const parallel::Context& context);
 
@@ -33,20 +33,20 @@ class RuleContext {
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
-  /// The objects that one of the selections picks; a warning where there are none.
+  /// Returns the objects that one of the selections picks, with a warning where there are none.
   std::vector<bool> pick(const Chooser& chooser);
-  /// The same, and all objects where there is no selection.
+  /// Picks as the other pick() does, and picks all objects where there is no selection.
   std::vector<bool> pick(const std::optional<Chooser>& chooser);
-  /// The same without a warning.
+  /// Picks without a warning.
   [[nodiscard]] const std::vector<bool>& peek(const Chooser& chooser) const {
     return picked_.at(&chooser);
   }
-  /// Says that a rule matches nothing.
+  /// Warns that a rule matches nothing.
   void warn_no_match(const std::string& where, const std::string& what);
-  /// How many rules were said to match nothing.
+  /// Returns how many rules were said to match nothing.
   [[nodiscard]] std::uint64_t idle() const { return diagnostics_.count(kMatchesNothing); }
-  /// Says `what` of a selection that picks objects, but none that earlier ones leave to it:
-  /// left(o).
+  /// Warns with `what` of a selection that picks objects, but none for which left(o) holds: earlier
+  /// ones leave it none.
   template <class Left>
   void check_shadow(const std::vector<bool>& picked, Left&& left, const std::string& where,
                     const std::string& what) {

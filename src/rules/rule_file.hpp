@@ -12,6 +12,7 @@
 #include "strake/clash/policy.hpp"
 #include "strake/core/hash.hpp"
 
+/// The rules of a file, as parsed.
 namespace strake::rules {
 
 using settings::Chooser;
@@ -21,14 +22,14 @@ struct TestRule {
   std::string name;
   bool enabled = true;
   bool matrix = false;
-  std::optional<Chooser> a, b;  ///< absent: everything
+  std::optional<Chooser> a, b;  ///< absent: all objects
   clash::Tolerances tolerances;
   double contact_distance_mm = -1;
   std::vector<std::string> without;  ///< rules that this test does not follow
 };
 
 struct CellRule {
-  std::uint32_t a = 0, b = 0;  ///< disciplines
+  std::uint32_t a = 0, b = 0;  ///< indices of disciplines
   bool checked = true;
   std::optional<clash::Tolerances> tolerances;  ///< absent: those of the test
 };
@@ -48,7 +49,7 @@ struct UnitRule {
   std::vector<UnitGroup> groups;  ///< the first that picks an object decides
 };
 
-/// Objects of one assembly are no pair; which of its groups that is, is said in one of three ways.
+/// Objects of one assembly are no pair; the rule says in one of three ways which group is one.
 struct AssemblyRule {
   std::uint32_t level = 0;  ///< 1: the outermost group of the path; 0: not said
   bool parent = false;
@@ -56,10 +57,10 @@ struct AssemblyRule {
   bool across_files = false;
 };
 
-/// Whom an attribute of a group speaks for, among the objects that inherit it.
+/// The objects for which an attribute of a group holds, among those that inherit it.
 enum class Heirs : std::uint8_t { none, ends, all };
 
-/// Which of the ends of a group a reference of it is about, where its ends inherit it.
+/// The ends of a group that a reference is about, where its ends inherit it.
 enum class ReferenceEnd : std::uint8_t { either, head, tail };
 
 /// Objects whose attributes name each other, or a common node, are no pair.
@@ -110,10 +111,10 @@ struct AllowedRule {
   std::optional<double> max_depth_mm;
 };
 
-/// What a rules file says.
+/// The content of a rules file.
 struct RuleFile {
   std::string file;
-  Hash128 hash;  ///< of its bytes
+  Hash128 hash;  ///< the hash of its bytes
   std::vector<NamedSet> sets, disciplines;
   std::optional<MatrixRule> matrix;
   std::vector<TestRule> tests;
@@ -123,14 +124,14 @@ struct RuleFile {
   std::vector<AllowedRule> allowed;
 };
 
-// What reports call the rules that have no name in the file.
+// These are the names that reports give to rules that have no name in the file.
 inline constexpr std::string_view kMatrixRule = "matrix";
 inline constexpr std::string_view kNoObstructionRule = "no obstruction";
 inline constexpr std::string_view kSoftRule = "soft against soft";
 inline constexpr std::string_view kInsulationRule = "insulation against insulation";
 inline constexpr std::string_view kInsulationSoftRule = "insulation against soft";
 
-/// Every selection that the tests of a file ask.
+/// Returns every selection that the tests of a file evaluate.
 [[nodiscard]] std::vector<const Chooser*> choosers_of(const RuleFile& rules);
 
 [[nodiscard]] Result<RuleFile> parse_rules(std::string_view text, std::string_view file);

@@ -6,7 +6,7 @@
 namespace strake::settings {
 namespace {
 
-/// Sets within sets within sets: more than any person follows.
+/// The deepest nesting of sets within sets: more than any person follows.
 constexpr int kDeepest = 50;
 
 }  // namespace
@@ -54,7 +54,7 @@ Result<model::Selection> NamedSets::parse(const Value& value, const std::string&
   if (selection) return selection;
   Error error = selection.error();
   error.code = ErrorCode::input;
-  // A fault in a set that this one names has its own place already.
+  // A fault in a set that this one names has its own position already.
   if (error.where.starts_with("selection, "))
     error.where =
         fault_at(reading_.file(), value.at, {}, {}).where + ", " + what + ", " + error.where;

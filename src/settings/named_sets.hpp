@@ -12,7 +12,7 @@
 
 namespace strake::settings {
 
-/// A selection and what messages call its place: "steel.toml, line 7: [sets] 'hull'".
+/// A selection and what messages call its position: "steel.toml, line 7: [sets] 'hull'".
 struct Chooser {
   model::Selection selection;
   std::string where;
@@ -23,27 +23,28 @@ struct NamedSet {
   Chooser chooser;
 };
 
-/// The [sets] of a file: selections that name each other in any order, but not in a circle.
+/// The [sets] of a file: selections that name each other in any order, but not in a cycle.
 class NamedSets {
  public:
-  /// `table` may be null: no sets.
+  /// Takes the table of sets; null: there are none.
   NamedSets(ParseContext& reading, const Value* table);
 
-  /// A selection of the file, which may name sets; a fault of the reading where it makes no sense.
+  /// Returns a selection of the file, which may name sets; one that makes no sense is a fault of
+  /// the parsing.
   std::optional<Chooser> chooser(const Value& value, const std::string& what);
-  /// The key of a table, where it is there.
+  /// Returns the selection at a key of a table, if the key is there.
   std::optional<Chooser> chooser(TableReader& table, std::string_view key);
-  /// The key of a table, which must be there.
+  /// Returns the selection at a key of a table, which must be there.
   std::optional<Chooser> required(TableReader& table, std::string_view key);
 
-  /// All sets, in the order of the file.
+  /// Returns all sets, in the order of the file.
   std::vector<NamedSet> all();
 
  private:
   struct Set {
     const KeyValue* entry = nullptr;
     std::optional<model::Selection> selection;
-    bool open = false;  ///< being worked out
+    bool open = false;  ///< it is being evaluated
   };
   Result<model::Selection> find(std::string_view name);
   Result<model::Selection> parse(const Value& value, const std::string& what);

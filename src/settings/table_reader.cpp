@@ -33,7 +33,7 @@ std::string listed(const std::vector<std::string>& words) {
   return list;
 }
 
-/// What a key of a table is written behind: "unit_groups." for "[unit_groups]".
+/// Returns what a key of a table is written behind: "unit_groups." for "[unit_groups]".
 std::string within(std::string_view table) {
   const std::size_t first = table.find_first_not_of('['), end = table.find(']');
   if (!table.starts_with('[') || end == std::string_view::npos) return {};
@@ -249,7 +249,7 @@ std::optional<geometry::Vec3d> TableReader::direction(std::string_view key) {
     way[k] = whole != nullptr ? static_cast<double>(*whole) : *number;
   }
   const double longest = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
-  // Of a subnormal number too few digits are left to scale it.
+  // A subnormal number has too few digits left to scale it.
   if (std::isnormal(longest)) return way * (1 / longest);
   reading_.fault(value(key)->at, in_quotes(key) + " of " + what_ + " has no direction",
                  "write a list with a number that is not 0, as [0, 0, 1]");

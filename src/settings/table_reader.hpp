@@ -15,7 +15,7 @@
 
 namespace strake::settings {
 
-/// A file on its way through the reader, and the first thing found wrong with it.
+/// The state of parsing a file: its name and the first thing found wrong with it.
 class ParseContext {
  public:
   explicit ParseContext(std::string file) : file_(std::move(file)) {}
@@ -35,8 +35,8 @@ class ParseContext {
   std::optional<Error> error_;
 };
 
-/// The keys of a table, each asked for by name and type. What is missing reads as nothing; a wrong
-/// type is a fault of the reading, and so is, in the end, a key that nobody asked for.
+/// Reads the keys of a table, each by name and type. A missing key reads as nothing; a wrong type
+/// is a fault of the parsing, and so is, in the end, a key that was not read.
 class TableReader {
  public:
   /// `what` names the table in messages, as "[[test]]". A value that is no table is a fault.
@@ -49,40 +49,41 @@ class TableReader {
 
   [[nodiscard]] SourcePosition at() const { return at_; }
   [[nodiscard]] const std::string& what() const { return what_; }
-  /// Puts a name to it in messages that follow.
+  /// Adds a name to the table in messages that follow.
   void call(const std::string& name) { what_ += " '" + name + "'"; }
 
-  /// The value, whatever its type.
+  /// Returns the value, whatever its type.
   const Value* value(std::string_view key);
-  /// The keys not asked for yet, which are names that the user chose; asks for all of them.
+  /// Returns the keys not read yet, which are names that the user chose, and marks all of them as
+  /// read.
   std::vector<const KeyValue*> others();
 
   std::optional<std::string> text(std::string_view key);
   std::optional<bool> flag(std::string_view key);
   std::optional<std::int64_t> whole(std::string_view key);
-  /// A text with a unit, as "25mm"; 0 needs none. From 0 to a kilometre.
+  /// Reads a text with a unit, as "25mm"; 0 needs none. It lies between 0 and a kilometre.
   std::optional<double> tolerance_mm(std::string_view key);
-  /// A text that a function of units.hpp understands; `wanted` is what to write instead of another
-  /// type, as "an angle in quotes, as \"20deg\"".
+  /// Reads a text that a function of units.hpp understands; `wanted` is what to write instead of
+  /// another type, as "an angle in quotes, as \"20deg\"".
   std::optional<double> quantity(std::string_view key, Result<double> (*parse)(std::string_view),
                                  std::string_view wanted);
-  /// A list of so many lengths, each with its unit, of any sign; `wanted` as above.
+  /// Reads a list of so many lengths, each with its unit, of any sign; `wanted` as above.
   std::optional<std::vector<double>> lengths_mm(std::string_view key, std::size_t count,
                                                 std::string_view wanted);
-  /// A value of `key` as a length of any sign.
+  /// Reads a value of `key` as a length of any sign.
   std::optional<double> length_mm(const Value& value, std::string_view key);
-  /// One of some words.
+  /// Reads one of some words.
   std::optional<std::string> word(std::string_view key, std::span<const std::string_view> words);
-  /// One text or a list of them.
+  /// Reads one text or a list of texts.
   std::vector<std::string> texts(std::string_view key);
-  /// Three lengths with their units, or three plain numbers.
+  /// Read three lengths with their units, or three plain numbers.
   std::optional<geometry::Vec3d> point_mm(std::string_view key);
   std::optional<geometry::Vec3d> direction(std::string_view key);
-  /// A table, or the tables of a [[list]]; empty where it is missing.
+  /// Return a table, or the tables of a [[list]]; empty where it is missing.
   const Value* table(std::string_view key);
   std::vector<const Value*> tables(std::string_view key);
 
-  /// The text of a key that must be there and not be empty.
+  /// Reads the text of a key that must be there and not be empty.
   std::string required_text(std::string_view key);
 
  private:
@@ -97,7 +98,7 @@ class TableReader {
   SourcePosition at_;
   std::string what_;
   std::vector<bool> asked_;
-  std::vector<std::string> known_;  ///< keys asked for, there or not
+  std::vector<std::string> known_;  ///< keys that were read, there or not
 };
 
 }  // namespace strake::settings

@@ -76,7 +76,7 @@ Error fault_at(std::string_view file, SourcePosition at, std::string message, st
 }
 
 Result<Value> parse_toml(std::string_view text, std::string_view file) {
-  // Twice as deep as any key of a file of settings.
+  // The most parts of a key: twice as deep as any key of a file of settings.
   constexpr std::size_t kMostParts = 16;
   if (const auto at = first_deep_key(text, kMostParts))
     return fault_at(file, *at, "a key of more than " + std::to_string(kMostParts) + " parts",

@@ -11,22 +11,23 @@
 
 #include "strake/core/result.hpp"
 
+/// Values of a TOML file with their positions, and the parser that reads them.
 namespace strake::settings {
 
-/// Where something stands in a file, from 1; columns in bytes.
+/// A position in a file, counted from 1; columns in bytes.
 struct SourcePosition {
   std::uint32_t line = 0, column = 0;
 };
 
 struct Value;
 
-/// A key of a table and what it is set to.
+/// A key of a table and its value.
 struct KeyValue;
 
 using Array = std::vector<Value>;
 using Table = std::vector<KeyValue>;  ///< in the order of the file
 
-/// A date or a time: known to the format, of no use here.
+/// A date or a time, which the format knows but no file uses here.
 struct DateTime {};
 
 struct Value {
@@ -40,16 +41,17 @@ struct KeyValue {
   Value value;
 };
 
-/// An error about a place of a file.
+/// Returns an error about a position in a file.
 [[nodiscard]] Error fault_at(std::string_view file, SourcePosition at, std::string message,
                              std::string mend);
 
-/// The text of a TOML 1.0 file; the value is a Table. Errors (input) name file, line and column.
+/// Parses the text of a TOML 1.0 file; the value is a Table. Errors (input) name file, line and
+/// column.
 [[nodiscard]] Result<Value> parse_toml(std::string_view text, std::string_view file);
 
-/// Where a TOML text has a dotted key of more than `most` parts, as a.b.c has three. Each part is a
-/// table within a table, and the parser, which limits the nesting of values, takes a key of any
-/// depth and ends with the stack. Of a text that is no TOML this looks at the part before the first
+/// Returns the position of a dotted key of more than `most` parts, as a.b.c has three. Each part is
+/// a table within a table, and the parser, which limits the nesting of values, takes a key of any
+/// depth and overflows the stack. Of a text that is no TOML this checks the part before the first
 /// fault at least, which is as far as the parser gets.
 [[nodiscard]] std::optional<SourcePosition> first_deep_key(std::string_view text, std::size_t most);
 

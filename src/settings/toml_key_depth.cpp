@@ -8,13 +8,14 @@
 namespace strake::settings {
 namespace {
 
-/// A block may end in one or two quotes of its own before those that close it.
+/// Returns the offset behind the closing quotes; a block may end in one or two quotes of its own
+/// before those that close it.
 std::size_t behind_marks(std::string_view text, std::size_t at, char quote) {
   for (int own = 0; own < 2 && at < text.size() && text[at] == quote; ++own) ++at;
   return at;
 }
 
-/// The place behind the string or the comment that begins at `at`.
+/// Returns the offset behind the string or the comment that begins at `at`.
 std::size_t behind_text(std::string_view text, std::size_t at) {
   const char quote = text[at];
   if (quote == '#') return std::min(text.find('\n', at), text.size());
@@ -33,7 +34,7 @@ std::size_t behind_text(std::string_view text, std::size_t at) {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// What no key goes on behind.
+/// Whether a character ends every key.
 bool ends_key(char c) { return std::string_view("=,[]{}\n").find(c) != std::string_view::npos; }
 
 SourcePosition place_of(std::string_view text, std::size_t at) {

@@ -120,9 +120,9 @@ Status write_report(Session& session, const ClashOptions& given,
       contents, {.width = terminal_width(), .sort = sort_by(given.result.sort)}));
 }
 
-/// What is to be done, understood before a model is read.
+/// What is to be done, parsed before a model is read.
 struct ClashRequest {
-  clash::Options options;  ///< of the only test; with rules, what they do not say
+  clash::Options options;  ///< of the only test; with rules, what they leave open
   SetRequest sets;
   std::optional<rules::Rules> rules;
   model::SceneOptions scene;
@@ -151,7 +151,7 @@ Result<ClashRequest> request_of(const ClashOptions& given) {
   return request;
 }
 
-/// The tests of the rules file, or the one that the command line asks for.
+/// Returns the tests of the rules file, or the one that the command line asks for.
 Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const ClashRequest& request) {
   const auto timer = session.step("select");
   if (request.rules) {
@@ -199,7 +199,7 @@ Result<clash::Findings> findings_of(Session& session, const Loaded& loaded,
   return find(session, loaded, std::move(*plan), list_exempted);
 }
 
-/// Every file that the run writes, each once.
+/// Checks every file that the run writes, each once.
 Status check_files(const ClashOptions& given) {
   if (given.input.files.empty())
     return Error{
@@ -245,7 +245,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   return clash_exit_code(*findings, given.fail_on, given.input, *loaded, session.console());
 }
 
-/// After the options that it excludes.
+/// Adds --rules; this comes after the options that it excludes.
 void add_rules_file(CLI::App& command, ClashOptions& options) {
   CLI::Option* const rules =
       command

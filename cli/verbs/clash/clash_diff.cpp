@@ -22,7 +22,8 @@ struct ClashDiffOptions {
   std::vector<std::string> outputs;
 };
 
-/// What may be new, as a result without a lasting id may, counts as new.
+/// Whether the diff fails. A result that may be new, as one without a lasting id may, counts as
+/// new.
 bool fails(const report::ClashDiff& diff, const std::string& fail_on) {
   if (fail_on == "new-hit") return diff.has_new(true) || diff.maybe_new(true) > 0;
   if (fail_on == "new") return diff.has_new(false) || diff.maybe_new(false) > 0;
@@ -39,7 +40,7 @@ void tell_maybe_new(Session& session, const report::ClashDiff& diff, const std::
                     fail_on, hits_only ? "hits" : "results", count));
 }
 
-/// Both documents, at once where there is a team.
+/// Reads both documents, at the same time where there is a team.
 Result<std::vector<report::ClashDocument>> read(Session& session, const ClashDiffOptions& given) {
   const auto timer = session.step("read");
   return parallel::transform(

@@ -93,7 +93,7 @@ std::size_t terminal_width() {
 
 namespace {
 
-/// Which of several tests, and of several files, a pair is of: the same names may stand in each.
+/// Returns which of several tests, and of several files, a pair is from: names may repeat in each.
 std::string where(const clash::Findings& findings, const clash::Report& test,
                   const clash::LoggedPair& pair, const model::Model& model) {
   std::string out;
@@ -147,7 +147,7 @@ Result<std::optional<clash::Grouping>> group(Session& session, const ClashResult
 
 namespace {
 
-/// The least severe class that --fail-on names; NO_HIT: it is not given.
+/// Returns the least severe class that --fail-on names; NO_HIT if it is not given.
 clash::Class failing_class(const std::string& fail_on) {
   if (fail_on == "hit") return clash::Class::hit;
   if (fail_on == "contact") return clash::Class::contact;
@@ -155,7 +155,7 @@ clash::Class failing_class(const std::string& fail_on) {
 }
 
 /// Whether a result or a pair stops --fail-on; says how many only may be as bad. An object that
-/// could not be read whole is in many models every night: it is told, and --strict stops at it.
+/// could not be read whole is in many models every night: it is reported, and --strict stops at it.
 bool has_failing_pair(const clash::Findings& findings, const std::string& fail_on,
                       Console& console) {
   const clash::Class worst = failing_class(fail_on);
@@ -184,7 +184,7 @@ bool has_failing_pair(const clash::Findings& findings, const std::string& fail_o
   return surely + perhaps + lacks.pairs > 0;
 }
 
-/// What of the run compared nothing at all, in words.
+/// Returns in words what of the run compared nothing at all.
 std::vector<std::string> empty_tests(const clash::Findings& findings) {
   std::vector<std::string> empty;
   for (const clash::Report& test : findings.tests) {
@@ -197,7 +197,7 @@ std::vector<std::string> empty_tests(const clash::Findings& findings) {
   return empty;
 }
 
-/// The disciplines without objects that a matrix checks against something, in words.
+/// Returns in words the disciplines without objects that a matrix checks against something.
 std::vector<std::string> empty_disciplines(const clash::Findings& findings) {
   std::vector<std::string> empty;
   for (const clash::Report& test : findings.tests) {
@@ -212,7 +212,7 @@ std::vector<std::string> empty_disciplines(const clash::Findings& findings) {
   return empty;
 }
 
-/// The only one, or of several the first and how many there are.
+/// Returns the only name, or of several the first and how many there are.
 std::string first_of(const std::vector<std::string>& names) {
   return names.size() == 1 ? names.front()
                            : fmt::format("{}, first of {}", names.front(), names.size());

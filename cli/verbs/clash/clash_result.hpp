@@ -16,9 +16,10 @@ namespace CLI {  // NOLINT(readability-identifier-naming): the library's own nam
 class App;
 }  // namespace CLI
 
+/// The options for the result of a clash run, and its exit code.
 namespace strake::cli {
 
-/// How the result of a clash run is to be told, as written.
+/// How the result of a clash run is to be reported, as written.
 struct ClashResultInput {
   std::string group_by, group_distance, sort, log_pairs, regions;
   bool volumes = false, group_contacts = false;
@@ -27,27 +28,27 @@ struct ClashResultInput {
 };
 
 void add_result_options(CLI::App& command, ClashResultInput& options);
-/// An error for options that say nothing without another.
+/// Returns an error for options that have no effect without another.
 [[nodiscard]] Status check(const ClashResultInput& input);
 [[nodiscard]] std::size_t terminal_width();
 [[nodiscard]] clash::SortBy sort_by(const std::string& word);
 
-/// Tells --stats which pairs cost most.
+/// Adds the pairs that cost most to --stats.
 void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model);
 
-/// The groups, if any are asked for.
+/// Returns the groups, if any are asked for.
 [[nodiscard]] Result<std::optional<clash::Grouping>> group(Session& session,
                                                            const ClashResultInput& input,
                                                            const clash::Findings& findings,
                                                            const model::Model& model);
 
-/// What the shell is told of a clash run, `fail_on` being --fail-on as written, empty if it is not
-/// given. Says on standard error what standard output does not show of the reasons.
+/// Returns the exit code of a clash run; `fail_on` is --fail-on as written, empty if it is not
+/// given. Prints on standard error those reasons that standard output does not show.
 ///
-/// `clashes` where a result is, or may be as far as its brackets tell, of the class of --fail-on or
-/// a worse one, where a pair was not compared, where a file ends early and where a test compared
-/// nothing, as a set of it is empty. Else `partial` where --strict is given and something was
-/// skipped, or a set or a discipline that a matrix checks is empty.
+/// The code is `clashes` where a result is, or may be as far as its brackets tell, of the class of
+/// --fail-on or a worse one, where a pair was not compared, where a file ends early and where a
+/// test compared nothing, as a set of it is empty. Else it is `partial` where --strict is given and
+/// something was skipped, or a set or a discipline that a matrix checks is empty.
 [[nodiscard]] ExitCode clash_exit_code(const clash::Findings& findings, const std::string& fail_on,
                                        const InputOptions& input, const Loaded& loaded,
                                        Console& console);

@@ -11,7 +11,8 @@ namespace strake::cli {
 
 namespace {
 
-/// A file as a selection names it: always quoted, so that no letter of the label is a pattern's.
+/// Returns a file as a selection names it: always quoted, so that no letter of the label is a
+/// pattern's.
 std::string file_selection(const std::string& label) {
   std::string text = "file = '";
   for (const char c : label) {
@@ -42,7 +43,7 @@ clash::Sets sets_by_file(const model::Model& model, bool self) {
   return sets;
 }
 
-/// The selections as one: each in brackets where there are several.
+/// Joins selections into one: each in brackets where there are several.
 std::string joined(const std::vector<model::Selection>& selections) {
   if (selections.size() == 1) return selections.front().text();
   std::string text;

@@ -13,7 +13,7 @@
 
 namespace strake::cli {
 
-/// What is to be set against what, as written.
+/// Which objects are compared with which, as written.
 struct SetInput {
   std::vector<std::string> a, b;
   bool self = false;
@@ -21,7 +21,7 @@ struct SetInput {
 
 void add_set_options(CLI::App& command, SetInput& options);
 
-/// The same, understood.
+/// The parsed form of a SetInput.
 struct SetRequest {
   std::vector<model::Selection> a, b;
   bool self = false;
@@ -34,8 +34,8 @@ struct ChosenSets {
   Diagnostics diagnostics;  ///< "selection-picks-nothing"
 };
 
-/// What --a picks against what --b picks, everything where one of them is not given. Without
-/// either: one file against itself, several against each other, or with --self all against all.
+/// Compares what --a picks with what --b picks, or with everything where one of them is not given.
+/// Without either: one file with itself, several with each other, or with --self all with all.
 [[nodiscard]] Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded,
                                              const SetRequest& request);
 

@@ -26,7 +26,7 @@ namespace strake::cli {
 
 namespace {
 
-/// At most; less where that would show on paper.
+/// The largest sag; it is less where that would show on paper.
 constexpr double kSagMm = 0.5;
 
 struct DrawOptions {
@@ -246,7 +246,7 @@ Status write_drawing(Session& session, const DrawOptions& given,
   return session.json() ? session.write_stdout(as_json) : Status{};
 }
 
-/// What the options ask for, once they are understood.
+/// What the options ask for, after parsing.
 struct DrawRequest {
   model::SceneOptions scene;
   hlr::View view;
@@ -415,7 +415,7 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->group("Lines");
 }
 
-/// A sheet says all of this itself.
+/// Adds --sheet; it excludes the options that a sheet states itself.
 void add_sheet(CLI::App& command, DrawOptions& options) {
   CLI::Option* const sheet =
       command

@@ -23,7 +23,7 @@ bool fails(const report::ViewDiff& diff, const std::string& fail_on) {
   return !fail_on.empty() && diff.differs(fail_on == "visible");
 }
 
-/// Both documents, at once where there is a team.
+/// Reads both documents, at the same time where there is a team.
 Result<std::vector<report::ViewDocument>> read(Session& session, const DrawDiffOptions& given) {
   const auto timer = session.step("read");
   return parallel::transform(

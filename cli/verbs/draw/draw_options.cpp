@@ -23,7 +23,7 @@ Error fault(const std::string& message) {
           "off"};
 }
 
-/// An angle or a length.
+/// Parses an angle or a length.
 Status add_number(std::string_view text, hlr::Hatch& hatch) {
   const auto quantity = parse_quantity(text);
   const std::string quoted = "'" + std::string(text) + "'";

@@ -13,20 +13,21 @@
 #include "strake/model/scene.hpp"
 #include "strake/model/selection.hpp"
 
+/// The options of `draw` for hatches and for perspective.
 namespace strake::cli {
 
 /// How the sections of some objects are hatched.
 struct HatchRule {
   hlr::Hatch hatch;
-  std::optional<model::Selection> selection;  ///< none: of all objects
+  std::optional<model::Selection> selection;  ///< absent: all objects
 };
 
-/// "30deg,80mm: type = pipe": angle, spacing in the model, or both, or "off", and whose sections.
-/// Errors name --hatch.
+/// Parses "30deg,80mm: type = pipe": angle, spacing in the model, or both, or "off", and whose
+/// sections. Errors name --hatch.
 [[nodiscard]] Result<std::vector<HatchRule>> parse_hatches(const std::vector<std::string>& texts);
 
-/// By object of the scene; the first rule that picks an object counts. Empty without rules.
-/// Errors: a selection that picks nothing.
+/// Returns the hatch of each object of the scene; the first rule that picks an object counts. It is
+/// empty without rules. Errors: a selection that picks nothing.
 [[nodiscard]] Result<std::vector<hlr::Hatch>> hatches_of(Session& session,
                                                          const model::Scene& scene,
                                                          const std::vector<HatchRule>& rules);
@@ -36,12 +37,12 @@ struct PerspectiveOptions {
   std::string eye, target, near, field_of_view;
 };
 
-/// Adds them; they take the place of `view` and `direction`.
+/// Adds the options; they take the place of `view` and `direction`.
 void add_perspective_options(CLI::App& command, PerspectiveOptions& options, CLI::Option* view,
                              CLI::Option* direction);
 
-/// Makes a view one in perspective: its direction too. Says where that was rounded. Nothing is done
-/// where no eye was given.
+/// Puts a view, with its direction, into perspective, and says where the direction was rounded.
+/// Does nothing where no eye was given.
 [[nodiscard]] Status set_perspective(const PerspectiveOptions& given, hlr::View& view,
                                      Console& console);
 

@@ -12,7 +12,7 @@
 
 namespace strake::cli {
 
-/// `draw --sheet`, as written.
+/// The options of `draw --sheet`, as written.
 struct SheetRequest {
   std::string file;
   std::vector<std::string> outputs;

@@ -11,15 +11,15 @@
 
 namespace strake::cli {
 
-/// What a drawing noticed, every object by name that it could not draw, or not whole.
+/// Prints what a drawing noticed, every object by name that it could not draw, or not whole.
 void print_drawing_diagnostics(Console& console, const Diagnostics& diagnostics);
 
-/// "900 objects: 400 drawn, 496 hidden, 4 failed; 2 without some of their geometry": fates
-/// add up. Tells of files that end early, too.
+/// Returns "900 objects: 400 drawn, 496 hidden, 4 failed; 2 without some of their geometry", whose
+/// fates add up. It names files that end early, too.
 [[nodiscard]] std::string object_summary_line(const hlr::Account& account,
                                               const model::Model& model);
 
-/// The same for --stats, every fate, each name behind `prefix`.
+/// Adds every fate to --stats, each name behind `prefix`.
 void count_objects(Stats& stats, const hlr::Account& account, std::string_view prefix);
 
 }  // namespace strake::cli

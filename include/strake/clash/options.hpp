@@ -11,7 +11,7 @@ enum class ThicknessCap : std::uint8_t { on, off };
 enum class Volumes : std::uint8_t { off, on };
 enum class Curves : std::uint8_t { off, on };
 
-/// What the classes of a pair depend on; the fields of Options of the same names.
+/// What the classes of a pair depend on: the fields of Options of the same names.
 struct Tolerances {
   double clearance_mm = 0, touch_gap_mm = 1, touch_overlap_mm = 1;
   ThicknessCap thickness_cap = ThicknessCap::on;
@@ -22,28 +22,30 @@ struct Options {
   double clearance_mm = 0;      ///< c: pairs nearer than this and farther than touch_gap violate it
   double touch_gap_mm = 1;      ///< t_g: up to this far apart is a contact
   double touch_overlap_mm = 1;  ///< t_o: up to this deep is a contact
-  /// on: t_o is at most a quarter of the smaller thickness of the two parts.
+  /// When on, t_o is at most a quarter of the smaller thickness of the two parts.
   ThicknessCap thickness_cap = ThicknessCap::on;
   BroadPhase broad_phase = BroadPhase::tree;
-  /// sphere_subdivision: the baseline that benchmarks compare with, see docs/clash.md.
+  /// `sphere_subdivision` is the baseline that benchmarks compare with, see docs/clash.md.
   NarrowPhase narrow_phase = NarrowPhase::exact;
-  /// Spheres that sphere_subdivision may test for one pair of parts before it gives up, flagged.
+  /// How many spheres sphere_subdivision may test for one pair of parts before it gives up,
+  /// flagged.
   std::uint64_t most_spheres = 1'000'000;
-  /// Contact distance δ for the relation, mm; negative: derived from the sources' precision.
+  /// Contact distance δ for the relation, mm; a negative one is derived from the sources'
+  /// precision.
   double contact_distance_mm = -1;
   /// Whether to measure the volume of the part common to two solids that hit.
   Volumes volumes = Volumes::off;
-  /// Whether lines and polylines are judged, as bodies without thickness; with the exact narrow
+  /// Whether lines and polylines are checked, as bodies without thickness; with the exact narrow
   /// phase only.
   Curves curves = Curves::off;
-  /// Whether to tell the separate places of a pair apart, and how many of them to list; 0: no.
+  /// How many of the separate regions of a pair are listed; 0: they are not looked for.
   std::uint64_t most_regions = 8;
   /// Whether Report::log is filled.
   bool log_pairs = false;
-  /// More pairs of parts within reach of each other than this are an error: some 300 bytes each.
+  /// The most pairs of parts within reach of each other, some 300 bytes each; more are an error.
   std::uint64_t most_pairs = std::uint64_t{1} << 25U;
 
-  /// How many of so many places are listed.
+  /// Returns how many of so many regions are listed.
   [[nodiscard]] std::uint32_t regions_listed_of(std::uint32_t places) const {
     return places < most_regions ? places : static_cast<std::uint32_t>(most_regions);
   }

@@ -13,10 +13,10 @@ struct ObjectPair {
   friend bool operator==(const ObjectPair&, const ObjectPair&) = default;
 };
 
-/// The bare question: which pairs of objects, one of set A and one of set B, have a point in
-/// common, be it a touch, a crossing or one inside the other. Exact on the grid; primitives as
-/// tessellated. Neither class nor depth: what a preview or a spatial join asks, in a third of the
-/// time of detect(). Ascending; the same for any team.
+/// Returns the pairs of objects, one of set A and one of set B, that have a point in common, be it
+/// a touch, a crossing or one inside the other: exact on the grid, primitives as tessellated, in
+/// ascending order, the same for any team. It finds neither class nor depth: it is for previews and
+/// spatial joins, and takes a third of the time of detect().
 ///
 /// Of the options only the broad phase and most_pairs count. Pairs of parts that lie too far from
 /// each other for exact arithmetic (fits_pair()) have no point in common. Errors: as detect().

@@ -11,26 +11,26 @@
 #include "strake/clash/clash.hpp"
 #include "strake/geometry/vec.hpp"
 
-/// Rules of a clash test, worked out per object, so that asking one about a pair costs the same
-/// for any model. docs/rules.md says what they mean to a user.
+/// Rules of a clash test, worked out per object, so that applying one to a pair costs the same for
+/// any model. docs/rules.md says what they mean to a user.
 namespace strake::clash {
 
 /// Two objects that carry the same label are no pair: a unit, an assembly, a file.
 struct SameLabel {
-  std::vector<std::uint32_t> label;  ///< one entry per object; kNoLabel: in none
+  std::vector<std::uint32_t> label;  ///< one entry per object; kNoLabel: it has none
 };
 
-/// Two objects are no pair where one refers to what the other answers to: connected parts. What
+/// Two objects are no pair where one refers to what the other answers to: they are connected. What
 /// they share is numbered.
 struct Linked {
-  /// Of object o: numbers[first[o]] up to numbers[first[o + 1]], ascending.
+  /// The numbers of object o are numbers[first[o]] up to numbers[first[o + 1]], ascending.
   struct Lists {
     std::vector<std::uint32_t> first, numbers;
   };
   Lists answers_to, refers_to;
 };
 
-/// One object of a and one of b are no pair.
+/// An object of a and an object of b are no pair.
 struct Between {
   std::vector<bool> a, b;  ///< one entry per object
 };
@@ -42,43 +42,44 @@ struct Exemption {
 
 /// Each pair of disciplines has tolerances of its own, or is not checked.
 struct Matrix {
-  static constexpr std::uint32_t kDefault = 0xfffffffeU;     ///< the tolerances of the test
-  static constexpr std::uint32_t kNotChecked = 0xffffffffU;  ///< no pair
+  static constexpr std::uint32_t kDefault = 0xfffffffeU;     ///< it has the tolerances of the test
+  static constexpr std::uint32_t kNotChecked = 0xffffffffU;  ///< the two are no pair
   std::string rule = "matrix";  ///< what reports call pairs of cells that are not checked
   std::vector<std::string> disciplines;
-  std::vector<std::uint32_t> discipline;  ///< one entry per object; kNoLabel: in none
+  std::vector<std::uint32_t> discipline;  ///< one entry per object; kNoLabel: in no discipline
   std::vector<std::uint32_t> cells;  ///< row by row, symmetric; an index into Policy::tolerances
 };
 
-/// What parts count as, and which of them are not set against each other.
+/// What parts count as, and which of them are not compared with each other.
 struct Levels {
-  std::vector<Level> object;               ///< of an object's physical bodies
-  Level obstruction_bodies = Level::soft;  ///< of bodies of Category::obstruction
+  std::vector<Level> object;               ///< the level of an object's physical bodies
+  Level obstruction_bodies = Level::soft;  ///< the level of bodies of Category::obstruction
   std::string no_obstruction_rule = "no obstruction";
-  /// For each two levels: the rule that leaves such pairs of parts out; empty: they are checked.
-  /// Symmetric; Level::none never is.
+  /// For each two levels, the rule that leaves such pairs of parts out; empty if they are checked.
+  /// The table is symmetric; Level::none is never checked.
   std::array<std::array<std::string, 3>, 3> left_out = {};
 };
 
 /// One side of a plane.
 struct HalfSpace {
   geometry::Vec3d point_mm;
-  geometry::Vec3d normal;  ///< towards the side that is meant; of any length but 0
+  geometry::Vec3d normal;  ///< points to the side that is meant; of any length but 0
 };
 
-/// Results between a and b that are meant: no deeper than max_depth, at a place within the region.
+/// Results between a and b that are meant: no deeper than max_depth, with the contact region within
+/// the region.
 struct Allowed {
   std::string rule;
   std::vector<bool> a, b;  ///< one entry per object
   std::optional<geometry::Box3d> region_mm;
-  std::vector<HalfSpace> cavity;  ///< the place lies in all of them
-  /// The certain depth (Pair::d_lower_mm) is at most this, to within half a grid step: a depth of
-  /// just this is allowed, and flagged kBorderline. Absent: the result is no HIT.
+  std::vector<HalfSpace> cavity;  ///< the contact region lies in all of them
+  /// The certain depth (Pair::d_lower_mm) is at most this, to within half a grid step; a depth of
+  /// just this is allowed, and flagged kBorderline. If absent, the result must be no HIT.
   std::optional<double> max_depth_mm;
 };
 
-/// The rules of one test. Where several exempt a pair, it counts for the first: of the matrix, then
-/// in the order of `exemptions`, then of the levels.
+/// The rules of one test. Where several exempt a pair, it counts for the first of them: the matrix,
+/// then `exemptions` in their order, then the levels.
 struct Policy {
   std::vector<Tolerances> tolerances;  ///< what cells of the matrix refer to
   std::optional<Matrix> matrix;
@@ -88,17 +89,18 @@ struct Policy {
   bool list_exempted = false;  ///< whether Report::exempted_pairs is filled
 };
 
-/// detect() under rules.
+/// Finds clashes as detect() does, under rules.
 ///
-/// 1. A pair that no rule concerns gives bit for bit what it gives without rules; one of a cell
-///    with tolerances of its own what it gives in a test of these.
+/// 1. A pair that no rule concerns gives bit for bit what it gives without rules; a pair of a cell
+///    with tolerances of its own gives what it gives in a test with these.
 /// 2. An exempted pair is counted, and listed where asked for, if parts of the two are within reach
 ///    of each other; where a level leaves out some pairs of their parts, the others are checked.
-/// 3. An allowed result keeps its class and d. Each pair of parts is held against the rules by
+/// 3. An allowed result keeps its class and d. The rules are applied to each pair of parts by
 ///    itself: one that no rule allows decides the pair, and what is allowed besides is counted
-///    (Pair::allowed_regions). Its place is the worst one: where the boxes of the two parts meet
-///    beyond region and cavity too, the result is flagged kUncertain.
-/// 4. A hard part decides before a soft one, and that before insulation, where the class is equal.
+///    (Pair::allowed_regions). Its place is that of the worst: where the boxes of the two parts
+///    meet beyond region and cavity too, the result is flagged kUncertain.
+/// 4. A hard part decides before a soft one, and a soft one before insulation, where the class is
+///    equal.
 ///
 /// Errors: those of detect(); usage for lists of the wrong size.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,

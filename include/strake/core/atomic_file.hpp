@@ -32,7 +32,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Buffered; an error is remembered and returned by commit().
+  /// Writes into a buffer; an error is remembered and returned by commit().
   void write(std::string_view text);
   void write(std::span<const std::byte> bytes);
   [[nodiscard]] Status commit();
@@ -50,13 +50,14 @@ class AtomicFile {
   std::string buffer_;
 };
 
-/// Where a chain of links ends, which need not be there yet: what writing to `target` replaces.
+/// Returns where a chain of links ends, which need not exist yet: what writing to `target`
+/// replaces.
 [[nodiscard]] std::filesystem::path resolve_links(const std::filesystem::path& target);
 
-/// Writes a whole file as above.
+/// Writes a whole file through an AtomicFile.
 [[nodiscard]] Status write_file(const std::filesystem::path& target, std::string_view text);
 
-/// Removes what this process has begun to write for a target and not committed: for a program that
+/// Removes what this process has begun to write for a target and not committed, for a program that
 /// must end at once and cannot unwind.
 void remove_partial_files(const std::filesystem::path& target) noexcept;
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+/// Messages about the input that a run noticed and survived.
 namespace strake {
 
 enum class Severity : std::uint8_t { note, warning, skipped };
@@ -35,11 +36,11 @@ class Diagnostics {
 
   void add(Diagnostic diagnostic);
   void add(Severity severity, std::string_view code, std::string message, std::string where);
-  /// Appends those of another run, as if they had been added here one by one.
+  /// Appends the diagnostics of another run, as if they had been added here one by one.
   void append(const Diagnostics& other);
 
   [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
-  /// One entry per code, in order of first appearance.
+  /// Returns one entry per code, in order of first appearance.
   [[nodiscard]] const std::vector<Count>& counts() const { return counts_; }
   [[nodiscard]] std::uint64_t count(std::string_view code) const;
   [[nodiscard]] std::uint64_t skipped() const;
@@ -50,7 +51,7 @@ class Diagnostics {
   std::vector<Count> counts_;
 };
 
-/// How every output spells a severity: "note", "warning", "skipped".
+/// Returns how every output spells a severity: "note", "warning", "skipped".
 [[nodiscard]] std::string_view severity_name(Severity severity);
 
 }  // namespace strake

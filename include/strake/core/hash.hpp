@@ -15,7 +15,7 @@ namespace strake {
 struct Hash128 {
   std::uint64_t high = 0, low = 0;
 
-  /// 32 lower-case hexadecimal digits.
+  /// Returns 32 lower-case hexadecimal digits.
   [[nodiscard]] std::string text() const;
   friend auto operator<=>(const Hash128&, const Hash128&) = default;
 };
@@ -49,7 +49,7 @@ class Hasher {
   std::unique_ptr<State> state_;
 };
 
-/// The hash of one run of bytes.
+/// Returns the hash of one run of bytes.
 [[nodiscard]] Hash128 hash_bytes(std::span<const std::byte> bytes);
 
 }  // namespace strake

@@ -25,12 +25,12 @@ struct Error {
   std::string where;    ///< file, line, byte offset or object; empty when nowhere in particular
   std::string mend;     ///< what the user can do about it; may be empty
 
-  /// One line for a person: "where: message (mend)".
+  /// Returns one line for a person: "where: message (mend)".
   [[nodiscard]] std::string text() const;
 };
 
-/// The error of ErrorCode::memory: the same wherever memory ran out, which says little about what
-/// took the most of it. Never throws; with nothing left at all it names no mend.
+/// Returns the error of ErrorCode::memory: the same wherever memory ran out, which says little
+/// about what took the most of it. It never throws; with no memory left at all it names no mend.
 [[nodiscard]] Error out_of_memory() noexcept;
 
 /// A value or the Error that prevented it.
@@ -47,7 +47,7 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool has_value() const { return state_.index() == 0; }
   explicit operator bool() const { return has_value(); }
 
-  /// The value; a programmer error (std::bad_variant_access) when there is none.
+  /// Returns the value; it is a programmer error (std::bad_variant_access) when there is none.
   [[nodiscard]] T& value() & { return std::get<0>(state_); }
   [[nodiscard]] const T& value() const& { return std::get<0>(state_); }
   [[nodiscard]] T&& value() && { return std::get<0>(std::move(state_)); }

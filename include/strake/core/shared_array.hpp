@@ -11,7 +11,7 @@
 
 namespace strake {
 
-/// Values that never change once they are there, so that copies may share them: copying costs a
+/// Values that never change once they are there, so that copies may share them: a copy costs one
 /// count, and equal arrays that were made once lie in memory once.
 ///
 ///     const SharedArray<int> a = std::vector<int>{1, 2, 3};
@@ -45,7 +45,7 @@ class SharedArray {
   [[nodiscard]] const T& front() const { return data()[0]; }
   [[nodiscard]] const T& back() const { return data()[size_ - 1]; }
 
-  /// To change a copy.
+  /// Returns a copy that may be changed.
   [[nodiscard]] std::vector<T> to_vector() const { return {begin(), end()}; }
 
   friend bool operator==(const SharedArray& a, const SharedArray& b) {

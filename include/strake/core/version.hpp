@@ -5,7 +5,7 @@
 
 namespace strake {
 
-/// "0.1.0"
+/// Returns the version, such as "0.1.0".
 [[nodiscard]] std::string_view version();
 
 }  // namespace strake

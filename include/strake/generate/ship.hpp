@@ -20,15 +20,15 @@ struct ShipOptions {
 
   std::uint64_t objects = 1000;  ///< the ship has exactly this many
   std::uint64_t seed = 1;
-  /// Turns the whole ship by one general rotation (composed into every placement), so that no face
-  /// lies along an axis any more and flush contacts become ties within a few micrometres.
+  /// Rotates the whole ship by one general rotation (composed into every placement), so that no
+  /// face lies along an axis any more and coplanar contacts become ties within a few micrometres.
   bool turned = false;
-  /// So many objects on the weather deck are single meshes with far more triangles than anything
-  /// else, no two alike, as equipment that was imported from another program.
+  /// This many objects on the weather deck are single meshes with far more triangles than anything
+  /// else, no two alike, like equipment that was imported from another program.
   std::uint64_t imported_detail = 0;
   static constexpr std::uint64_t kMinTriangles = 1000;
   static constexpr std::uint64_t kMaxTriangles = 20'000'000;
-  std::uint64_t imported_triangles = 1'000'000;  ///< about, of each of them
+  std::uint64_t imported_triangles = 1'000'000;  ///< about this many triangles each
 };
 
 /// A pair of objects that is not NO_HIT; a < b in the model's order.
@@ -40,7 +40,7 @@ struct TruthPair {
 };
 
 /// Every pair of the ship that is not NO_HIT at `clearance_mm` and default tolerances, known from
-/// the construction. Nothing lies within half a millimetre of a threshold.
+/// the construction. No pair lies within half a millimetre of a threshold.
 struct Truth {
   static constexpr double kClearanceMm = 25;
 
@@ -55,8 +55,9 @@ struct Ship {
   Truth truth;
 };
 
-/// A parametric ship section: plating, framing, bulkheads, piping, ducts, cable trays, machinery,
-/// tanks, cabins, stores and deck gear, with planted clashes and the truth about every pair.
+/// Generates a parametric ship section: plating, framing, bulkheads, piping, ducts, cable trays,
+/// machinery, tanks, cabins, stores and deck gear, with seeded clashes and the truth about every
+/// pair.
 ///
 /// 1. The number of objects is exact; equal options give equal bytes on every machine.
 /// 2. Object ids are unique, equal to names, and sort as strings.
@@ -67,12 +68,13 @@ struct Ship {
 ///    plates with openings are hollow. Meshes are closed; several disjoint or merely touching
 ///    shells may make one object.
 ///
-/// Usage error outside [kMinObjects, kMaxObjects] and [kMinTriangles, kMaxTriangles], and where the
-/// deck has no room for what is imported; cancelled when the context says stop.
+/// Errors: usage outside [kMinObjects, kMaxObjects] and [kMinTriangles, kMaxTriangles], and where
+/// the deck has no room for what is imported; cancelled when the context says stop.
 [[nodiscard]] Result<Ship> generate_ship(const ShipOptions& options,
                                          const parallel::Context& context);
 
-/// The truth file (schemas/truth.schema.json): `pairs[]` with `a`, `b`, `class`, `d_mm`, `why`.
+/// Writes the truth file (schemas/truth.schema.json): `pairs[]` with `a`, `b`, `class`, `d_mm`,
+/// `why`.
 void write_truth(const Ship& ship, std::ostream& out);
 
 }  // namespace strake::generate

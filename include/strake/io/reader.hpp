@@ -13,15 +13,16 @@
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
 
+/// Reads model files of all supported formats.
 namespace strake::io {
 
 enum class UpAxis { x, y, z };
 
-/// What the user says about a file; overrides what the format states.
+/// What the user says about a file; it overrides what the format states.
 struct ReadOptions {
   std::optional<double> unit_mm;  ///< length of the file's unit in mm (1000 for metres)
   std::optional<UpAxis> up_axis;
-  std::optional<std::string> encoding;  ///< of names, where the format leaves it open
+  std::optional<std::string> encoding;  ///< the encoding of names, where the format leaves it open
 };
 
 /// A whole file in memory (or mapped), with its path for messages and for files beside it.
@@ -30,17 +31,17 @@ struct FileBytes {
   std::span<const std::byte> bytes;
 };
 
-/// A format. Readers never throw on bad input, never print, and never allocate more than a small
-/// multiple of the file's size on the word of a count that the file states.
+/// A reader of one format. Readers never throw on bad input, never print, and never allocate more
+/// than a small multiple of the file's size on the word of a count that the file states.
 class Reader {
  public:
   virtual ~Reader() = default;
-  /// "RVM", "glTF", "OBJ", "STL".
+  /// Returns "RVM", "glTF", "OBJ" or "STL".
   [[nodiscard]] virtual std::string_view format() const = 0;
-  /// How sure this reader is, from the content first and the extension as a tie-breaker:
-  /// 0 not mine … 100 certain.
+  /// Returns how sure this reader is, from the content first and the extension as a tie-breaker: 0
+  /// (not mine) to 100 (certain).
   [[nodiscard]] virtual int recognise(const FileBytes& file) const = 0;
-  /// The objects of the file as one model with one SourceFile; finish() is not called.
+  /// Reads the objects of the file as one model with one SourceFile; finish() is not called.
   [[nodiscard]] virtual Result<model::Model> read(const FileBytes& file, const ReadOptions& options,
                                                   const parallel::Context& context) const = 0;
 };
@@ -50,22 +51,22 @@ class Reader {
 [[nodiscard]] std::unique_ptr<Reader> make_obj_reader();
 [[nodiscard]] std::unique_ptr<Reader> make_stl_reader();
 
-/// All readers of this build, in a fixed order.
+/// Returns all readers of this build, in a fixed order.
 [[nodiscard]] std::vector<std::unique_ptr<Reader>> all_readers();
 
 /// Reads files into one finished model, each by the reader that recognises it best.
-/// A file that nobody recognises, or that holds nothing usable, is an error that names it.
+/// A file that no reader recognises, or that holds nothing usable, is an error that names it.
 [[nodiscard]] Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
                                                const ReadOptions& options,
                                                const parallel::Context& context);
 
-/// A file, and what the user says about this one.
+/// A file, and what the user says about it.
 struct FileToRead {
   std::filesystem::path path;
   ReadOptions options;
 };
 
-/// As the other read_models(), each file by options of its own.
+/// Reads as the other read_models() does, but each file by options of its own.
 [[nodiscard]] Result<model::Model> read_models(std::span<const FileToRead> files,
                                                const parallel::Context& context);
 

@@ -10,10 +10,11 @@
 namespace strake::io {
 
 struct WriteOptions {
-  /// GLB: millimetres with z up instead of the standard's metres with y up; said in
-  /// asset.extras (unit_mm, up_axis), where our reader finds it. Whole millimetres are exact then.
+  /// GLB is written in millimetres with z up instead of the standard's metres with y up;
+  /// asset.extras says so (unit_mm, up_axis), where our reader finds it. Whole millimetres are then
+  /// exact.
   bool millimetres_z_up = false;
-  /// Largest distance of the triangles written for an analytic primitive from its surface, mm.
+  /// The largest distance of the triangles written for an analytic primitive from its surface, mm.
   double sag_mm = 0.5;
 };
 
@@ -26,15 +27,15 @@ struct WriteOptions {
 /// 3. Bodies of one object that stand apart are written in the frame of its first body, so that
 ///    a node with a mesh is always one whole object.
 ///
-/// Not kept: source polygons of triangles, body categories, analytic primitives as such.
+/// Source polygons of triangles, body categories and analytic primitives as such are not kept.
 ///
 /// Errors: output (cannot write, more than 4 GiB, a coordinate that is not finite), cancelled.
 [[nodiscard]] Status write_glb(const model::Model& model, const std::filesystem::path& path,
                                const WriteOptions& options, const parallel::Context& context);
 
-/// Writes a model as Wavefront OBJ in world millimetres with z up: one `o` per object, named by
-/// its id, triangles as `f`, polylines as `l`; numbers so that they read back exactly. Guarantee 1
-/// holds; hierarchy, attributes, colours and sharing are not kept.
+/// Writes a model as Wavefront OBJ in world millimetres with z up: one `o` per object, named by its
+/// id, triangles as `f`, polylines as `l`; numbers are written so that they read back exactly.
+/// Guarantee 1 holds; hierarchy, attributes, colours and sharing are not kept.
 [[nodiscard]] Status write_obj(const model::Model& model, const std::filesystem::path& path,
                                const WriteOptions& options, const parallel::Context& context);
 

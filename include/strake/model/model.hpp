@@ -35,7 +35,7 @@ struct Color {
   friend bool operator==(const Color&, const Color&) = default;
 };
 
-/// "box", "cylinder" … for primitives, "mesh", "polylines".
+/// Returns "box", "cylinder" … for primitives, "mesh" or "polylines".
 [[nodiscard]] std::string_view kind_name(const Shape& shape);
 
 /// What a body stands for in the source system.
@@ -48,10 +48,10 @@ enum class Category : std::uint8_t {
 /// One placed shape of an object.
 struct Body {
   ShapeId shape{};
-  /// Half the spacing of the numbers that the source has for this body, µm: what its contact
-  /// distance is derived from. 0: they are exact. (A float fills a gap that would be empty.)
+  /// Half the spacing of the numbers that the source has for this body, µm, from which its contact
+  /// distance is derived. 0: they are exact. (A float fills a gap that would be empty.)
   float precision_um = 0;
-  geometry::Placement placement;  ///< local mm to world mm, z up
+  geometry::Placement placement;  ///< from local mm to world mm, z up
   Color color;
   Category category = Category::physical;
 };
@@ -70,36 +70,36 @@ struct Group {
 /// What a user would point at: an RVM group that directly holds primitives, a glTF node with a
 /// mesh, an OBJ o/g group, an STL file.
 struct Object {
-  /// Durable: stays the same while the source element does, unless `positional_id`. Unique within
-  /// its file.
+  /// A durable id, which stays the same while the source element does, unless `positional_id`. It
+  /// is unique within its file.
   std::string id;
   std::string name;
   std::uint32_t file = 0;          ///< index into Model::files
-  GroupId parent = GroupId::none;  ///< hierarchy path, outermost group last reached
+  GroupId parent = GroupId::none;  ///< the group above; following parents ends at the outermost
   std::uint32_t first_body = 0;    ///< bodies [first_body, first_body + body_count)
   std::uint32_t body_count = 0;
-  std::uint32_t place = 0;  ///< in the order of the source, counted over the model
+  std::uint32_t place = 0;  ///< its number in the order of the source, over the model
   Attributes attributes;    ///< its own; Model::stated() has what it inherits
-  /// The source has geometry of it that could not be read; without bodies: none could.
+  /// The source has geometry of it that could not be read; if it has no bodies, none could.
   bool incomplete = false;
-  /// The source says nothing lasting of it: its id counts elements of the file, and is another
-  /// element's when one comes before it.
+  /// The source gives it no lasting name: its id counts elements of the file, and becomes another
+  /// element's when one is inserted before it.
   bool positional_id = false;
 };
 
 /// Where a part of the model came from.
 struct SourceFile {
-  /// What results call it: the file name, with as many folders as tell it from its namesakes.
+  /// What results call the file: its name, with as many folders as tell it from its namesakes.
   std::string label;
   std::string format;   ///< "RVM 2", "GLB", "OBJ", "STL binary" …
   std::string unit;     ///< the length unit applied, "mm" …, and whether stated, assumed or given
   std::string up_axis;  ///< "z", "y", …
   std::uint64_t bytes = 0;
-  /// Half the spacing of the source's numbers, in mm: the worst of its bodies.
+  /// Half the spacing of the source's numbers, in mm: that of the worst of its bodies.
   double precision_mm = 0;
   std::string folders =
-      {};  ///< it lies in, the outermost first, a '/' behind each; empty: not known
-  bool ends_early = false;  ///< it was cut off, and what the rest held nobody knows
+      {};  ///< that it lies in, the outermost first, a '/' behind each; empty: not known
+  bool ends_early = false;  ///< it was cut off, and what the rest held is not known
 };
 
 /// Objects read from one or several files, as the sources describe them (doubles, not yet on the
@@ -110,7 +110,7 @@ struct SourceFile {
 struct Model {
   std::vector<SourceFile> files;
   std::vector<Group> groups;
-  /// What groups state: kept once, for all objects below.
+  /// What groups state, kept once for all objects below.
   std::vector<Attributes> group_attributes;
   std::vector<Shape> shapes;
   std::vector<Object> objects;
@@ -118,9 +118,10 @@ struct Model {
   Diagnostics diagnostics;
 
   [[nodiscard]] const Object& object(ObjectId id) const { return objects[index(id)]; }
-  /// Names from the outermost group to the object's own parent; they last as long as the groups.
+  /// Returns names from the outermost group to the object's own parent; they last as long as the
+  /// groups.
   [[nodiscard]] std::vector<std::string_view> group_names(const Object& object) const;
-  /// The same as a path.
+  /// Returns the group names as a path.
   [[nodiscard]] std::string path(const Object& object) const;
 
   /// Where an attribute of an object is stated.
@@ -128,24 +129,26 @@ struct Model {
     const Attributes* attributes = nullptr;  ///< null: nowhere
     GroupId group = GroupId::none;           ///< none: by the object itself
   };
-  /// An object inherits what it does not state itself from the nearest group above that does.
+  /// Returns where an attribute is stated: an object inherits what it does not state itself from
+  /// the nearest group above that does.
   [[nodiscard]] Stated stated(const Object& object, std::string_view attribute) const;
   /// Gives a group attributes, if there are any.
   void set_attributes(GroupId group, Attributes attributes);
 };
 
-/// What is not known of files that end early: "the rest of a.rvm, which ends early", of several
-/// "the rest of a.rvm and 2 more files, which end early". Empty where all are whole.
+/// Returns what is not known of files that end early: "the rest of a.rvm, which ends early", for
+/// several files "the rest of a.rvm and 2 more files, which end early". It is empty where all are
+/// whole.
 [[nodiscard]] std::string unread_rest(const Model& model);
 
-/// Names joined by '/'. One that begins with '/', as full names of RVM do, brings it along:
-/// "/SITE" and "/ZONE" are "/SITE/ZONE".
+/// Joins names by '/'. A name that begins with '/', as full names of RVM do, brings it along:
+/// "/SITE" and "/ZONE" become "/SITE/ZONE".
 [[nodiscard]] std::string joined_path(std::span<const std::string_view> names);
 
 /// Makes file labels and object ids unique (a repeated id gains "#2", "#3", … and a diagnostic, and
-/// all that share it have positional ids), counts positional ids, notes the objects' places, and
-/// orders objects by (file label, id) and bodies by object. Readers' output is not a Model until
-/// this ran; io::read_models calls it.
+/// all that share it have positional ids), counts positional ids, sets the objects' places, and
+/// orders objects by (file label, id) and bodies by object. What a reader returns is not a finished
+/// Model until this ran; io::read_models() calls it.
 void finish(Model& model);
 
 /// Appends the files, groups, shapes, objects, bodies and diagnostics of `other`.

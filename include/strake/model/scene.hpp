@@ -15,28 +15,28 @@
 namespace strake::model {
 
 struct SceneOptions {
-  /// Largest distance of a tessellated primitive from the true surface, mm.
+  /// The largest distance of a tessellated primitive from the true surface, mm.
   double sag_mm = 0.5;
   /// Bodies of these categories are placed; the others are counted in Scene::left_out.
   bool physical = true, obstruction = false, insulation = false;
-  /// Seams of meshes that are no wider close, mm up to a metre; 0: only where corners lie on each
-  /// other on the grid. Negative: the contact distance of each body.
+  /// Seams of meshes that are no wider are closed, mm up to a metre; 0: only where corners lie on
+  /// each other on the grid. If negative: the contact distance of each body.
   double weld_mm = -1;
 };
 
-/// The contact distance of a body whose source has this precision (Body::precision_um), in grid
-/// units: what its numbers cannot tell apart. Two units in the last place, and what the grid
-/// rounds.
+/// Returns the contact distance of a body whose source has this precision (Body::precision_um), in
+/// grid units. It is what the source's numbers cannot tell apart: two units in the last place, and
+/// what the grid rounds.
 [[nodiscard]] double contact_distance(float precision_um);
 
 /// The parts of one (shape, linear part of the placement), shared by every body that has both, and
-/// by those of meshes that are the same but for their place.
+/// by those of meshes that are equal but for a translation.
 struct GridShape {
   std::vector<geometry::Part> parts;
   geometry::Box3i box = geometry::empty_box<std::int32_t>();
   ShapeId shape{};
-  /// Where the vertices' origin lies, grid units from the placed local origin: zero unless the
-  /// shape stands far from it (site coordinates baked into the vertices).
+  /// The origin of the vertices, in grid units from the placed local origin: zero unless the shape
+  /// lies far from it (site coordinates baked into the vertices).
   geometry::Vec3l base;
 };
 
@@ -53,18 +53,21 @@ struct GridBody {
   }
 };
 
-/// The code of a shape that is too small for the grid, or has no geometry at all.
+/// The code of the diagnostic for a shape that is too small for the grid, or has no geometry at
+/// all.
 inline constexpr std::string_view kVanished = "shape-vanished";
 
-/// An object of which a scene has not all geometry, and so finds less than there is.
+/// An object whose geometry is not all in the scene, so that fewer results are found than there
+/// are.
 struct IncompleteObject {
   ObjectId object{};
-  /// Of the diagnostic that tells why, or "object-incomplete", "object-skipped"; a literal.
+  /// The code of the diagnostic that tells why, or "object-incomplete", "object-skipped"; a
+  /// literal.
   std::string_view code;
   friend auto operator<=>(const IncompleteObject&, const IncompleteObject&) = default;
 };
 
-/// A model on the grid: what clash detection and hidden-line removal work on.
+/// A model on the grid, which clash detection and hidden-line removal work on.
 ///
 /// Vertices are snap(linear·v) + snap(translation), so equal shapes with equal linear parts share
 /// one GridShape whatever their place, and translation by grid steps changes no decision. Meshes
@@ -74,12 +77,12 @@ struct Scene {
   std::vector<GridShape> shapes;
   std::vector<GridBody> bodies;  ///< by object, then in the model's order
   std::vector<std::uint32_t>
-      first_body;              ///< per object, one more at the end; objects may have none
+      first_body;              ///< per object, with one more at the end; objects may have none
   std::uint64_t left_out = 0;  ///< bodies of categories that were not asked for
   Diagnostics diagnostics;     ///< inverted, open, degenerate, unplaceable …
-  std::vector<IncompleteObject> lacking = {};  ///< ascending; of what was asked for
-  double sag_mm = 0;    ///< that primitives were tessellated with; 0: not by make_scene
-  double weld_mm = -1;  ///< SceneOptions::weld_mm
+  std::vector<IncompleteObject> lacking = {};  ///< ascending; for the categories asked for
+  double sag_mm = 0;    ///< the sag of tessellated primitives; 0: not by make_scene()
+  double weld_mm = -1;  ///< as SceneOptions::weld_mm
 
   [[nodiscard]] std::span<const GridBody> bodies_of(ObjectId id) const {
     return std::span(bodies).subspan(first_body[index(id)],

@@ -18,7 +18,7 @@ namespace selection {
 struct SelectionQuery;
 }
 
-/// A question that picks objects, as a user writes it:
+/// A query that picks objects, as a user writes it:
 ///
 ///     type = cylinder and @DN >= 150mm and not path = "/HULL/*"
 ///
@@ -26,19 +26,21 @@ struct SelectionQuery;
 /// several threads at once.
 class Selection {
  public:
-  /// Errors: usage, with the column where the text stops making sense and what could stand there.
+  /// Parses a selection. Errors: usage, with the column where the text stops making sense and what
+  /// could stand there.
   [[nodiscard]] static Result<Selection> parse(std::string_view text);
 
-  /// What set(NAME) stands for; an error that says no place gets that of the name.
+  /// A function that returns what set(NAME) stands for; an error without a position gets that of
+  /// the name.
   using SetLookup = parallel::FunctionRef<Result<Selection>(std::string_view name)>;
-  /// The same where named sets are known.
+  /// Parses a selection where named sets are known.
   [[nodiscard]] static Result<Selection> parse(std::string_view text, SetLookup set);
 
-  /// What was parsed.
+  /// Returns the text that was parsed.
   [[nodiscard]] const std::string& text() const;
 
-  /// Whether the object is picked. An object's box is that of its placed bodies; one without any
-  /// is in no box.
+  /// Whether the object is picked. The box of an object is that of its placed bodies; an object
+  /// without bodies is in no box.
   [[nodiscard]] bool picks(const Scene& scene, ObjectId object) const;
 
  private:
@@ -51,13 +53,13 @@ class Selection {
   std::shared_ptr<const selection::SelectionQuery> query_;
 };
 
-/// One entry per object of the scene: whether it is picked. What hlr::draw() draws and the sets
-/// that clash::detect() compares are given so. Errors: cancelled.
+/// Returns whether each object of the scene is picked: the form in which hlr::draw() takes what to
+/// draw, and clash::detect() its sets. Errors: cancelled.
 [[nodiscard]] Result<std::vector<bool>> pick(const Selection& selection, const Scene& scene,
                                              const parallel::Context& context);
 
-/// The same for several selections in one pass: what they share, as an object's path and the sets
-/// they name, is found out once per object.
+/// Evaluates several selections in one pass: what they share, such as an object's path and the sets
+/// they name, is worked out once per object.
 [[nodiscard]] Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selections,
                                                           const Scene& scene,
                                                           const parallel::Context& context);

@@ -14,7 +14,7 @@
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/detail/function_ref.hpp"
 
-/// Clash reports as text: JSON for programs, CSV for spreadsheets, a table for a terminal.
+/// Writes clash reports as text: JSON for programs, CSV for spreadsheets, a table for a terminal.
 ///
 ///     AtomicFile file = ...;
 ///     const Status status = report::write_clash_json(
@@ -28,45 +28,46 @@ namespace strake::report {
 /// Takes text piece by piece; pieces end anywhere.
 using Sink = parallel::FunctionRef<void(std::string_view)>;
 
-/// The rules that findings were made by.
+/// The rules file that findings were made with.
 struct RulesSource {
   std::string file;  ///< its name, without folders
-  Hash128 hash;      ///< of its bytes
+  Hash128 hash;      ///< the hash of its bytes
 };
 
-/// What there is to tell.
+/// What a report is written from.
 struct ClashContents {
   const clash::Findings& findings;
   const model::Model& model;
-  const clash::Grouping* grouping = nullptr;  ///< of these findings, if asked for
-  const RulesSource* rules = nullptr;         ///< if there were any
+  const clash::Grouping* grouping = nullptr;  ///< the grouping of these findings, if asked for
+  const RulesSource* rules = nullptr;         ///< the rules, if there were any
   const Diagnostics* loading = nullptr;       ///< what reading and placing the model noticed
 };
 
-/// The document of schemas/clash.schema.json, one result a line, streamed: memory does not grow
-/// with the number of results. Lengths are rounded to a nanometre, brackets outward. Bytes of a
-/// name that are not UTF-8 become U+FFFD.
+/// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not
+/// grow with the number of results. Lengths are rounded to a nanometre, brackets outward. Bytes of
+/// a name that are not UTF-8 become U+FFFD.
 [[nodiscard]] Status write_clash_json(const ClashContents& contents, Sink sink,
                                       const parallel::Context& context = {});
 
-/// One header line and one line per pair, comma-separated (RFC 4180), lines ended by CRLF.
+/// Writes one header line and one line per pair, comma-separated (RFC 4180), lines ended by CRLF.
 [[nodiscard]] Status write_clash_csv(const ClashContents& contents, Sink sink,
                                      const parallel::Context& context = {});
 
-/// Every pair of objects that went to the detailed stage, as CSV in the same form: whether a rule
-/// may allow it, its class (NO_HIT too) and what it cost. Of tests that were asked to log pairs.
+/// Writes every pair of objects that went to the narrow phase as CSV of the same form: whether a
+/// rule may allow it, its class (NO_HIT too) and what it cost. Only tests that were asked to log
+/// pairs have such pairs.
 [[nodiscard]] Status write_pair_log(const ClashContents& contents, Sink sink,
                                     const parallel::Context& context = {});
 
 struct TableOptions {
   std::size_t width = 100;                    ///< columns of the terminal; names are clipped to fit
-  std::size_t rows = 20;                      ///< pairs shown at most of each test, or groups
-  clash::SortBy sort = clash::SortBy::depth;  ///< of pairs; size is as depth
+  std::size_t rows = 20;                      ///< pairs of each test, or groups, shown at most
+  clash::SortBy sort = clash::SortBy::depth;  ///< the order of pairs; size is as depth
 };
 
-/// Test by test, the worst pairs first: by class, then as sorted, then durable order. Every class
-/// has its share of the rows, and is followed by how many more of it there are. With a grouping the
-/// groups in its order, and what each test counts.
+/// Returns the worst pairs of each test: by class, then as sorted, then in durable order. Every
+/// class has its share of the rows, and is followed by how many more of it there are. With a
+/// grouping the table has the groups in its order, and what each test counts.
 [[nodiscard]] std::string clash_table(const ClashContents& contents, const TableOptions& options);
 
 }  // namespace strake::report

@@ -11,18 +11,19 @@
 
 namespace strake::report {
 
-/// One clash in two runs, told by its key, or where ids are only positions by its place.
+/// One clash in two runs, identified by its key, or by its place where ids are only positions.
 struct DiffEntry {
-  const DocumentResult* before = nullptr;  ///< absent: not a result of the old run
-  const DocumentResult* after = nullptr;   ///< absent: not a result of the new run
-  /// New: what else than the model may have made it one, if anything. Cannot tell: why not.
+  const DocumentResult* before = nullptr;  ///< null: not a result of the old run
+  const DocumentResult* after = nullptr;   ///< null: not a result of the new run
+  /// For a new clash: what else than the model may have made it one, if anything. For one that
+  /// cannot be told: why not.
   std::string why;
 
   [[nodiscard]] const DocumentResult& either() const { return after != nullptr ? *after : *before; }
 };
 
-/// 1 where a result has more separate places than before, -1 where fewer; 0 where as many, or where
-/// a run did not count them.
+/// Returns 1 where a result has more separate regions than before, -1 where it has fewer, 0 where
+/// it has as many or a run did not count them.
 [[nodiscard]] int more_places(const DocumentResult& before, const DocumentResult& after);
 
 struct SettingChange {
@@ -30,41 +31,42 @@ struct SettingChange {
   std::string before, after;  ///< as in the documents; empty: absent
 };
 
-/// What changed between two runs. Refers to both documents. Each list has HITs first, then
+/// What changed between two runs; it refers to both documents. Each list has HITs first, then
 /// CLEARANCE_VIOLATIONs, then CONTACTs, what a rule allows after what none allows, by d, then key.
 struct ClashDiff {
   const ClashDocument* before = nullptr;
   const ClashDocument* after = nullptr;
   std::vector<DiffEntry> added;  ///< new
-  /// Still there: another class, rule, d (by over a micrometre) or number of places.
+  /// Clashes that are still there, with another class, rule, d (by over a micrometre) or number of
+  /// regions.
   std::vector<DiffEntry> changed;
   std::vector<DiffEntry> same;  ///< still there
-  std::vector<DiffEntry> gone;  ///< looked at again, and no result any more
-  /// No result any more, but it was not looked at again; and results of either run that ids do not
-  /// identify, where the other run has no such result at that place.
+  std::vector<DiffEntry> gone;  ///< checked again, and no result any more
+  /// Clashes that are no result any more, but were not checked again; and results of either run
+  /// that ids do not identify, where the other run has no such result at that place.
   std::vector<DiffEntry> cannot_tell;
   std::vector<SettingChange> settings;
   std::vector<std::string> tests_added, tests_gone;
 
-  /// The run that either() of an entry is of.
+  /// Returns the run that either() of an entry is from.
   [[nodiscard]] const ClashDocument& run_of(const DiffEntry& entry) const {
     return entry.after != nullptr ? *after : *before;
   }
 
   /// Whether a result is new, or still there and worse: of a severer class, deeper or nearer by
-  /// over a micrometre, or at more places. What a rule allows in the new run is neither.
+  /// over a micrometre, or in more regions. What a rule allows in the new run is neither.
   [[nodiscard]] bool has_new(bool hits_only) const;
   [[nodiscard]] bool has_worse() const;
-  /// How many of `cannot_tell` would be new if they were not there before.
+  /// Returns how many of `cannot_tell` would be new if they were not there before.
   [[nodiscard]] std::size_t maybe_new(bool hits_only) const;
 };
 
-/// Tests of the two documents go together by name. A result of the old run that the new one does
-/// not have is `gone` only if the new run looked at the pair: both objects are in its model and in
-/// opposite sets of the test, no rule exempts them, and its tolerances would report what the old
-/// run measured.
+/// Compares two runs. Tests of the two documents go together by name. A result of the old run that
+/// the new one does not have is `gone` only if the new run checked the pair: both objects are in
+/// its model and in opposite sets of the test, no rule exempts them, and its tolerances would
+/// report what the old run measured.
 ///
-/// Where the id of an object is only a position in its file, in either run, keys are not asked:
+/// Where the id of an object is only a position in its file, in either run, keys are not used:
 /// results of one class, d and point (to a micrometre) between the same objects, as far as these
 /// have ids, are one clash. What has no such partner, or several, is `cannot_tell` in both runs.
 [[nodiscard]] ClashDiff compare(const ClashDocument& before, const ClashDocument& after);
@@ -72,10 +74,11 @@ ClashDiff compare(ClashDocument&& before, const ClashDocument& after) = delete;
 ClashDiff compare(const ClashDocument& before, ClashDocument&& after) = delete;
 ClashDiff compare(ClashDocument&& before, ClashDocument&& after) = delete;
 
-/// The document of schemas/clash-diff.schema.json.
+/// Writes the document of schemas/clash-diff.schema.json.
 void write_clash_diff_json(const ClashDiff& diff, Sink sink);
 
-/// For a terminal: what is new, changed, gone and not to be told, as many of each as `rows`.
+/// Returns a table for a terminal of what is new, changed, gone and undecided, as many of each as
+/// `rows`.
 [[nodiscard]] std::string clash_diff_table(const ClashDiff& diff, const TableOptions& options);
 
 }  // namespace strake::report

@@ -16,16 +16,17 @@
 #include "strake/report/clash.hpp"
 #include "strake/report/view_document.hpp"
 
-/// What changed from one drawing of a view to another.
+/// Tells what changed from one drawing of a view to another.
 ///
 ///     const auto old_drawing = report::read_view_document("monday.json");
 ///     const auto new_drawing = report::read_view_document("tuesday.json");
 ///     const auto diff = report::compare(*old_drawing, *new_drawing, {}, context);
 namespace strake::report {
 
-/// What a line is: of which object, of which kind, in which state.
+/// What a line is: its object, kind and state.
 struct DiffLineClass {
-  std::uint32_t object = 0, other = 0;  ///< of ViewDiff::objects; other: of an intersection
+  std::uint32_t object = 0,
+                other = 0;  ///< indices into ViewDiff::objects; other: for an intersection
   hlr::EdgeKind kind = hlr::EdgeKind::sharp;
   drawing::LineState state = drawing::LineState::visible;
   friend auto operator<=>(const DiffLineClass&, const DiffLineClass&) = default;
@@ -35,12 +36,12 @@ enum class LineChange : std::uint8_t { same, added, gone, changed };
 inline constexpr std::size_t kLineChanges = 4;
 [[nodiscard]] std::string_view change_name(LineChange change);  ///< "same", "new" …
 
-/// A stretch of a piece: of the older document where it is gone, else of the newer.
+/// A part of a piece, which is of the older document where it is gone, else of the newer.
 struct DiffInterval {
   std::uint32_t piece = 0;
-  float from = 0, to = 1;  ///< parameters, 0 at a to 1 at b
+  float from = 0, to = 1;  ///< parameters, from 0 at a to 1 at b
   LineChange change = LineChange::same;
-  DiffLineClass was;  ///< where it changed
+  DiffLineClass was;  ///< the class before, where it changed
 };
 
 struct LineCount {
@@ -53,38 +54,41 @@ struct ViewSettingChange {
   std::string setting, before, after;  ///< as in the documents; empty: absent
 };
 
-/// Refers to both documents.
+/// The differences of two documents; it refers to both.
 struct ViewDiff {
   const ViewDocument* before = nullptr;
   const ViewDocument* after = nullptr;
   double tolerance_mm = 0;
-  std::vector<const ViewObject*> objects;          ///< of both, each once, by file and id
-  std::vector<std::uint32_t> of_before, of_after;  ///< by object of the document: its number there
+  std::vector<const ViewObject*> objects;  ///< the objects of both, each once, by file and id
+  std::vector<std::uint32_t> of_before,
+      of_after;  ///< by object of the document: its number in `objects`
   std::vector<ViewSettingChange> settings;
-  /// By piece and along it: first all of the older document that is gone, then all of the newer.
+  /// The intervals by piece and along it: first all of the older document that is gone, then all of
+  /// the newer.
   std::vector<DiffInterval> intervals;
   LineCounts total;
   std::map<std::pair<hlr::EdgeKind, drawing::LineState>, LineCounts> by_class;
-  std::map<std::uint32_t, LineCounts> by_object;  ///< those of which not all is the same
+  std::map<std::uint32_t, LineCounts> by_object;  ///< objects of which not all is the same
 
   [[nodiscard]] const ViewPiece& piece(const DiffInterval& s) const {
     return (s.change == LineChange::gone ? before : after)->pieces[s.piece];
   }
   [[nodiscard]] DiffLineClass line_class(const DiffInterval& s) const;
-  /// Whether any line is new, gone or changed; with `visible_only` one that is visible now or was.
+  /// Whether any line is new, gone or changed; with `visible_only`, one that is or was visible.
   [[nodiscard]] bool differs(bool visible_only) const;
 };
 
 struct ViewDiffOptions {
-  /// Lines no farther apart than this lie on each other, and stretches no longer than this count
-  /// as what is beside them. Two micrometres are what rounding to the grid makes of one line.
+  /// Lines no farther apart than this lie on each other, and intervals no longer than this count as
+  /// what is beside them. Two micrometres are what rounding to the grid makes of one line.
   double tolerance_mm = 0.002;
 };
 
-/// Compares place by place in the model. Where lines of both drawings lie on each other, classes
-/// that both have are the same however the lines are cut into pieces; of those that only one has,
-/// as many as the other lacks are changed, those of one object and kind before others, and the rest
-/// is new or gone. Lines of one drawing that lie on each other and are of one class count as one.
+/// Compares drawings place by place in the model. Where lines of both drawings lie on each other,
+/// classes that both have are the same however the lines are cut into pieces; of those that only
+/// one has, as many as the other lacks are changed, those of one object and kind before others, and
+/// the rest is new or gone. Lines of one drawing that lie on each other and are of one class count
+/// as one.
 ///
 /// Errors: usage for a tolerance that is none; input for drawings that look from different sides,
 /// or have more lines at one place than can be compared; cancelled.
@@ -92,14 +96,14 @@ struct ViewDiffOptions {
                                        const ViewDiffOptions& options,
                                        const parallel::Context& context);
 
-/// The document of schemas/view-diff.schema.json.
+/// Writes the document of schemas/view-diff.schema.json.
 void write_view_diff_json(const ViewDiff& diff, Sink sink);
 
-/// The picture on the sheet of the newer drawing: what is gone, new and changed over what is the
-/// same, in colours, hidden lines dashed.
+/// Draws a picture on the sheet of the newer drawing: what is gone, new and changed over what is
+/// the same, in colours, hidden lines dashed.
 void write_view_diff_svg(const ViewDiff& diff, Sink sink);
 
-/// For a terminal: counts by class and by object, as many of these as `rows`.
+/// Returns a table for a terminal: counts by class and by object, as many of these as `rows`.
 [[nodiscard]] std::string view_diff_table(const ViewDiff& diff, const TableOptions& options);
 
 }  // namespace strake::report

@@ -14,7 +14,7 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
 
-/// Drawings of one view read back from their neutral form.
+/// Reads drawings of one view back from their neutral form.
 namespace strake::report {
 
 struct ViewObject {
@@ -23,16 +23,17 @@ struct ViewObject {
 
 /// A straight piece of an edge, as drawing::Line.
 struct ViewPiece {
-  geometry::Vec3l a, b;                       ///< in the model, µm
+  geometry::Vec3l a, b;                       ///< ends in the model, µm
   std::array<float, 2> a_paper{}, b_paper{};  ///< mm, good to a part in ten million
-  std::uint32_t object = 0, other = 0;  ///< of ViewDocument::objects; other: of an intersection
+  std::uint32_t object = 0,
+                other = 0;  ///< indices into ViewDocument::objects; other: for an intersection
   hlr::EdgeKind kind = hlr::EdgeKind::sharp;
   drawing::LineState state = drawing::LineState::visible;
 };
 
 /// What a comparison needs of a document of schemas/view.schema.json.
 struct ViewDocument {
-  std::string name;  ///< of the file, as given
+  std::string name;  ///< the name of the file, as given
   std::string hash;
   /// What lines depend on, as text by name: "view.direction", "settings.stage" …
   std::map<std::string, std::string> settings;
@@ -41,12 +42,12 @@ struct ViewDocument {
   std::vector<ViewPiece> pieces;  ///< as in the document
 };
 
-/// Errors: input for a file that cannot be read, is cut off, is no such document, is of another
-/// version of the schema, or contradicts itself (has not as many pieces of each state as it counts,
-/// lists an object twice); each names the line or the piece.
+/// Reads a document. Errors: input for a file that cannot be read, is cut off, is no such document,
+/// is of another version of the schema, or contradicts itself (has not as many pieces of each state
+/// as it counts, lists an object twice); each names the line or the piece.
 [[nodiscard]] Result<ViewDocument> read_view_document(const std::filesystem::path& file);
 
-/// The same from a stream, in one pass; `name` is what errors call it.
+/// Reads a document from a stream, in one pass; `name` is what errors call it.
 [[nodiscard]] Result<ViewDocument> parse_view_document(std::istream& in, const std::string& name);
 
 }  // namespace strake::report

@@ -15,7 +15,7 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 
-/// Rules files: several clash tests in one run, with what is exempted and what is meant.
+/// A rules file describes several clash tests of one run, with what is exempted and what is meant.
 ///
 ///     const auto rules = rules::Rules::read("rules.toml");
 ///     const auto scene = model::make_scene(model, rules->scene_options(), context);
@@ -36,45 +36,47 @@ struct PlannedTest {
   clash::Policy policy;
 };
 
-/// A rule and what messages call its place: "steel.toml, line 7: [[exempt]] 'hull'".
+/// A rule and what messages call the line it stands in: "steel.toml, line 7: [[exempt]] 'hull'".
 struct WatchedRule {
   std::string name, where;
 };
 
 struct Plan {
-  std::vector<PlannedTest> tests;  ///< those that are enabled, in the order of the file
-  /// "rule-matches-nothing" (a rule or a set, by name), "rule-shadowed" (it picks objects, but
-  /// earlier ones leave it none), "in-several-disciplines", "in-no-discipline",
+  std::vector<PlannedTest> tests;  ///< the enabled tests, in the order of the file
+  /// The codes are "rule-matches-nothing" (a rule or a set, by name), "rule-shadowed" (it picks
+  /// objects, but earlier ones leave it none), "in-several-disciplines", "in-no-discipline",
   /// "unit-not-a-number", "obstruction-not-known".
   Diagnostics diagnostics;
-  /// Rules that exempt or allow, and match objects: idle_rules() tells which of them do nothing.
+  /// The rules that exempt or allow, and match objects; idle_rules() tells which of them do
+  /// nothing.
   std::vector<WatchedRule> watched = {};
 };
 
-/// Names, once its tests have run, the rules of a plan that did nothing in any of them:
+/// Reports, once its tests have run, the rules of a plan that did nothing in any of them:
 /// "rule-matches-nothing" where they concern no pair of objects within reach of each other,
 /// "rule-shadowed" where an earlier rule took or allowed whatever they would.
 [[nodiscard]] Diagnostics idle_rules(const Plan& plan, std::span<const clash::Report> tests);
 
-/// A rules file, understood but not yet held against a model. Immutable; cheap to copy.
+/// A rules file, parsed but not yet applied to a model. It is immutable and cheap to copy.
 class Rules {
  public:
-  /// `file` is what errors and diagnostics call it.
+  /// Parses a rules file; `file` is what errors and diagnostics call it.
   ///
   /// Errors: input, with line and column, what is wrong there and how to mend it. Keys that are not
   /// known, wrong types, names given twice and sets that need themselves are errors.
   [[nodiscard]] static Result<Rules> parse(std::string_view text, std::string_view file);
   [[nodiscard]] static Result<Rules> read(const std::filesystem::path& file);
 
-  /// What parse() was told to call the file, and the hash of its bytes: what a result names it by.
+  /// What parse() was told to call the file, and the hash of its bytes: results name the rules by
+  /// both.
   [[nodiscard]] const std::string& file() const;
   [[nodiscard]] Hash128 hash() const;
 
-  /// What the scene must hold for all tests: the finest tessellation that one of them asks for, and
-  /// the categories of bodies that a rule speaks of.
+  /// Returns what the scene must hold for all tests: the finest tessellation that one of them
+  /// needs, and the categories of bodies that a rule speaks of.
   [[nodiscard]] model::SceneOptions scene_options() const;
 
-  /// Asks every selection about every object of the scene, once. Errors: cancelled.
+  /// Evaluates every selection for every object of the scene, once. Errors: cancelled.
   [[nodiscard]] Result<Plan> plan(const model::Scene& scene,
                                   const parallel::Context& context) const;
 

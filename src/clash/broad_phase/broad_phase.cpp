@@ -30,11 +30,11 @@ geometry::BoxItem item_of(const ScenePart& ref, const Sets& sets, double reach) 
   return item;
 }
 
-/// Pairs of boxes for each, above which it is looked whether boxes along the coordinate axes are
-/// why there are so many.
+/// The number of pairs of boxes per part above which it is checked whether boxes along the
+/// coordinate axes are why there are so many.
 constexpr std::uint64_t kManyPairs = 32;
 
-/// The pairs by one of the two ways there are.
+/// Finds the pairs of boxes by one of the two broad phases.
 class BoxPairs {
  public:
   BoxPairs(const std::vector<geometry::BoxItem>& items, const Options& options,
@@ -66,8 +66,8 @@ class BoxPairs {
   geometry::SceneBvh tree_;
 };
 
-/// Whether there are many is the same for any team and either way, so that what is done about it
-/// is.
+/// Returns the pairs of boxes. Whether there are many is the same for any team and either broad
+/// phase, so the response to it is too.
 Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::BoxItem>& items,
                                                    const ScenePartList& list, double reach,
                                                    const Options& options,
@@ -80,7 +80,7 @@ Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::B
   return framed->frames.size() > 1 ? by_boxes.find(*framed) : by_boxes.find(options.most_pairs);
 }
 
-/// Pairs that stand in different groups.
+/// Returns the pairs that lie in different groups.
 Result<std::vector<geometry::IndexPair>> across_groups(
     const std::vector<geometry::IndexPair>& pairs, const ScenePartList& list, const Sets& sets,
     const parallel::Context& context) {
@@ -98,7 +98,7 @@ Status gather_by_objects(std::vector<geometry::IndexPair>& pairs, const ScenePar
                          const parallel::Context& context) {
   const auto object = [&](std::uint32_t part) { return list.parts[part].object; };
   const auto gather = [&](std::span<geometry::IndexPair> of_object) {
-    // Ascending by the first part.
+    // Sort by the first part.
     if (of_object.front().first != of_object.back().first)
       std::sort(of_object.begin(), of_object.end(), [&](const auto& x, const auto& y) {
         return std::tuple{object(x.second), x.first, x.second} <

@@ -13,60 +13,63 @@
 #include "strake/geometry/depth.hpp"
 #include "strake/parallel/collect.hpp"
 
+/// The broad phase: the parts of a scene, and the pairs of them that are near enough to be
+/// evaluated.
 namespace strake::clash {
 
-/// A placed part of the scene: what the broad phase pairs.
+/// A placed part of the scene, of which the broad phase makes pairs.
 struct ScenePart {
   geometry::PlacedPart placed;
   std::uint32_t object = 0;
-  std::uint32_t number = 0;  ///< within its object
+  std::uint32_t number = 0;  ///< its number within its object
   std::uint32_t unique = 0;  ///< number of the part's geometry, shared by all bodies that place it
   std::uint32_t body = 0;    ///< index into Model::bodies
-  float snap = 0;            ///< grid units: how far its skin may lie from the source's
-  float step = 0;            ///< grid units: of the source's numbers where they are coarse, else 0
+  float snap = 0;            ///< grid units: how far its surface may lie from the source's
+  float step = 0;            ///< grid units: step of the source's numbers if coarse, else 0
 };
 
-/// Solids and sheets of the objects in either set, and lines where asked for, by object and number.
+/// The solids and sheets of the objects in either set, and lines where asked for, by object and
+/// number.
 struct ScenePartList {
   std::vector<ScenePart> parts;
   std::vector<const geometry::Part*> unique;
 };
 
-/// Errors: cancelled.
+/// Lists the parts of a scene that are tested. Errors: cancelled.
 [[nodiscard]] Result<ScenePartList> collect_scene_parts(const model::Scene& scene, const Sets& sets,
                                                         Curves curves,
                                                         const parallel::Context& context);
 
-/// Grid units: what lies so much beyond a tolerance is for the narrow phase to see, since the snap
-/// may have moved it there.
+/// Grid units beyond a tolerance within which the narrow phase decides, since the snap may have
+/// moved a part so far.
 inline constexpr double kSnapMargin = 4;
 
-/// What boxes are inflated by for a tolerance, both in grid units.
+/// Returns what boxes are inflated by for a tolerance, both in grid units.
 [[nodiscard]] constexpr double search_margin(double tolerance) {
   return tolerance + kSnapMargin + 1;
 }
 
-/// The part's box, so much larger that the boxes of two parts meet where their true surfaces, which
-/// may stand out of the tessellation by the sag, come within `reach` grid units, or as near as the
-/// coarser one's numbers can tell.
+/// Returns the part's box, so much larger that the boxes of two parts overlap where their true
+/// surfaces, which may stand out of the tessellation by the sag, come within `reach` grid units, or
+/// as near as the coarser one's numbers can tell.
 [[nodiscard]] geometry::Box3l inflated_box(const ScenePart& ref, double reach);
 
-/// What the inflated boxes of two parts have in common, mm.
+/// Returns what the inflated boxes of two parts have in common, mm.
 [[nodiscard]] geometry::Box3d common_box_mm(const ScenePart& a, const ScenePart& b, double reach);
 
-/// Pairs of parts of different objects whose boxes come within `reach` grid units, as indices into
-/// the list, by (objects, parts). Where these are very many, only those of which boxes along the
-/// parts' own faces do, too.
+/// Returns the pairs of parts of different objects whose boxes come within `reach` grid units, as
+/// indices into the list, by (objects, parts). Where these are very many, boxes along the parts'
+/// own faces have to come as near, too.
 [[nodiscard]] Result<std::vector<geometry::IndexPair>> find_candidate_pairs(
     const ScenePartList& list, const Sets& sets, double reach, const Options& options,
     const parallel::Context& context);
 
-/// The pairs of objects behind pairs of parts, which stand side by side as find_candidate_pairs()
-/// lists them.
+/// The pairs of objects behind pairs of parts; the pairs of parts of one pair of objects are
+/// neighbours, as find_candidate_pairs() lists them.
 class ObjectPairs {
  public:
   ObjectPairs() = default;
-  /// Errors: cancelled.
+  /// Finds the pairs of objects. Errors: cancelled.
   [[nodiscard]] static Result<ObjectPairs> find(std::span<const geometry::IndexPair> pairs,
                                                 const ScenePartList& list,
                                                 const parallel::Context& context);
@@ -78,11 +81,11 @@ class ObjectPairs {
 
  private:
   explicit ObjectPairs(std::vector<std::size_t> begin) : begin_(std::move(begin)) {}
-  std::vector<std::size_t> begin_;  ///< and the number of pairs of parts
+  std::vector<std::size_t> begin_;  ///< with the number of pairs of parts at the end
 };
 
-/// Where the runs of a list begin, ascending, and at last the end of the list. An item goes on with
-/// the run of the one before it where `same(one before, item)`. Errors: cancelled.
+/// Returns where the runs of a list begin, ascending, and at last the end of the list. An item
+/// belongs to the run of the one before it where `same(one before, item)`. Errors: cancelled.
 template <class List, class Same>
 [[nodiscard]] Result<std::vector<std::size_t>> find_runs(const List& list, std::string_view name,
                                                          const Same& same,

@@ -23,21 +23,21 @@ using geometry::Vec3d;
 using geometry::Vec3i;
 
 constexpr std::size_t kPairsPerBlock = 4096;
-/// By how much smaller a part's own box has to be than that along the coordinate axes.
+/// How many times smaller a part's own box has to be than that along the coordinate axes.
 constexpr double kGain = 8;
-/// By how much larger than its own box a part's box in a frame of others may be.
+/// How many times larger than its own box a part's box in a frame of others may be.
 constexpr double kLoss = 2;
-/// Frames that are kept: each is joined with each.
+/// The most frames that are kept, since each is joined with each.
 constexpr std::size_t kMostFrames = 16;
 
-/// Of the vertices, in the part's own coordinates turned into a frame.
+/// Returns the extent of the vertices, in the part's own coordinates rotated into a frame.
 Box3d extent_in(const Mat3d& axes, const Part& part) {
   Box3d box = geometry::empty_box<double>();
   for (const Vec3i& v : part.vertices) box.include(axes * v.as<double>());
   return box;
 }
 
-/// Of a part's box in a frame, with what it is inflated by.
+/// Returns the volume of a part's box in a frame, with what it is inflated by.
 double room_in(const Mat3d& axes, const Part& part, double reach) {
   const Box3d box = extent_in(axes, part);
   const Vec3d d = box.hi - box.lo;
@@ -46,11 +46,11 @@ double room_in(const Mat3d& axes, const Part& part, double reach) {
 
 struct TiltedPart {
   std::uint32_t unique = 0;
-  double room = 0;  ///< of its own box; 0 for a part that does not stand askew
+  double room = 0;  ///< volume of its own box; 0 for a part that is not rotated
   double gain = 0;
   Mat3d axes;
 
-  /// What gains most goes first; parts that are alike may go in any order.
+  /// The part that gains most goes first; parts that are alike may go in any order.
   [[nodiscard]] bool before(const TiltedPart& other) const {
     return std::tie(other.gain, room, axes.row) < std::tie(gain, other.room, other.axes.row);
   }
@@ -64,7 +64,7 @@ TiltedPart tighter_box_of(const Part& part, std::uint32_t unique, double reach) 
   return {.unique = unique, .room = own, .gain = straight / own, .axes = axes};
 }
 
-/// A frame for each unique part; the first, for what does not stand askew, is that of the
+/// A frame for each unique part; the first, for parts that are not rotated, is that of the
 /// coordinates.
 struct Frames {
   std::vector<Mat3d> all{{}};
@@ -92,7 +92,7 @@ struct Frames {
   }
 };
 
-/// Rounded outward.
+/// Rounds a box outward.
 Box3l on_grid(const Box3d& box) {
   const auto each = [](const Vec3d& v, auto&& round) {
     return geometry::Vec3l{static_cast<std::int64_t>(round(v.x)),
@@ -130,7 +130,7 @@ Result<geometry::BoxesInFrames> make_oriented_boxes(const ScenePartList& list, d
         const ScenePart& ref = list.parts[i];
         const Vec3d away = (ref.placed.origin - boxes.origin).as<double>();
         const Vec3d at = frames.all[boxes.frame[i]] * away;
-        // What rounding may make of where it is.
+        // Rounding may change its position by this much.
         const double margin = 1 + 1e-12 * (std::fabs(at.x) + std::fabs(at.y) + std::fabs(at.z));
         return on_grid((*extents)[ref.unique].moved(at).inflated(
             std::ceil(reach / 2 + ref.placed.part->sag) + margin));

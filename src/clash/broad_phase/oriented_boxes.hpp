@@ -6,9 +6,9 @@
 
 namespace strake::clash {
 
-/// Boxes along their own faces for parts that stand askew, as inflated_box() otherwise: in a frame
-/// that parts share where that is as tight for all of them. No frame but the first where nothing
-/// stands so. Errors: cancelled.
+/// Makes boxes along their own faces for rotated parts, inflated as inflated_box() does, in a frame
+/// that parts share where that is as tight for all of them. There is no frame but the first where
+/// no part is rotated. Errors: cancelled.
 [[nodiscard]] Result<geometry::BoxesInFrames> make_oriented_boxes(const ScenePartList& list,
                                                                   double reach,
                                                                   const parallel::Context& context);

@@ -26,7 +26,7 @@ double squared_distance(const Vec3d& p, const Box3d& box) {
   return dot(d, d);
 }
 
-/// Points that lie so near each other that all are one group: the diagonal of a cell is below the
+/// Points so near each other that all are in one group: the diagonal of a cell is below the
 /// distance.
 struct ProximityCell {
   Vec3l at;
@@ -77,7 +77,7 @@ class Linkage {
     }
   }
 
-  /// The cells of a row beside a cell, those after it where the row is its own.
+  /// Visits the cells of a row beside a cell; where the row is its own, those after it.
   void row(std::size_t c, std::int64_t dx, std::int64_t dy) {
     const Vec3l& at = cells_[c].at;
     const bool own = dx == 0 && dy == 0;

@@ -35,7 +35,7 @@ Labels files_of(const model::Model& model, const Pair& pair) {
   return std::minmax(label(pair.a), label(pair.b));
 }
 
-/// Groups by a value of each item, numbered in the order of the values.
+/// Groups items by a value of each, numbered in the order of the values.
 template <class Value>
 Partition by_value(std::span<const GroupingItem> items, Value&& value) {
   std::map<std::decay_t<decltype(value(items.front()))>, std::uint32_t> numbers;
@@ -76,7 +76,7 @@ void add(Group& group, const GroupingItem& item) {
   group.results.push_back({item.test, item.number});
 }
 
-/// "at 12.3 4.5 6.7 m": the middle of the box.
+/// Returns "at 12.3 4.5 6.7 m": the middle of the box.
 std::string place_of(const geometry::Box3d& box) {
   std::string text = "at";
   const geometry::Vec3d middle = (box.lo + box.hi) * 0.5;

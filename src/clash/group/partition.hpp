@@ -9,23 +9,23 @@
 
 namespace strake::clash {
 
-/// What grouping asks of a result.
+/// A result as grouping sees it.
 struct GroupingItem {
   const Pair* pair = nullptr;
   std::uint32_t test = 0, number = 0;  ///< as in ResultRef
 };
 
-/// Numbers of groups, one per item; `about` is the object that a group is about.
+/// The numbers of groups, one per item; `about` is the object that a group is about.
 struct Partition {
   std::vector<std::uint32_t> group;
-  std::vector<model::ObjectId> about;  ///< by element only
+  std::vector<model::ObjectId> about;  ///< filled by by_element() only
   std::uint32_t count = 0;
 };
 
-/// Greedy cover by objects, most items first.
+/// Groups items by a greedy cover by objects, most items first.
 [[nodiscard]] Partition by_element(std::span<const GroupingItem> items);
 
-/// Single linkage of the items' points.
+/// Groups items by single linkage of their points.
 [[nodiscard]] Partition by_proximity(std::span<const GroupingItem> items, double distance_mm);
 
 }  // namespace strake::clash

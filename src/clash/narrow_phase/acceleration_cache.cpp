@@ -17,7 +17,7 @@ template <class T, class Make>
 Status AccelerationCache::add(parallel::Precomputed<T>& kind, const std::vector<bool>& wanted,
                               std::string_view name, const parallel::Context& context,
                               Make&& make) {
-  // Not before: the list was empty when this was made.
+  // This cannot be done earlier: the list was empty when this was made.
   if (kind.size() == 0) kind = parallel::Precomputed<T>(list_.unique.size());
   return kind.fill_by_weight(
       context, {.name = name}, PairTasks::kHeavy, parallel::keys_of(wanted),

@@ -10,15 +10,16 @@
 
 namespace strake::clash {
 
-/// What is worked out about a part once for all pairs that it is in, as far as they asked for it:
-/// its frame, its tree, its support planes. Made by the team between stages, only read within them.
+/// The acceleration structures of parts (frame, tree, support planes), made once for all pairs that
+/// need them. The team makes them between stages; within a stage they are only read.
 class AccelerationCache {
  public:
   /// `list` and `model` must outlive this.
   AccelerationCache(const ScenePartList& list, const model::Model& model)
       : list_(list), model_(model) {}
 
-  /// Make those that are wanted, by unique part, and not there yet. Errors: cancelled.
+  /// Each function makes the structures that are wanted, by unique part, and not there yet. Errors:
+  /// cancelled.
   [[nodiscard]] Status ensure_frames(const std::vector<bool>& wanted,
                                      const parallel::Context& context);
   [[nodiscard]] Status ensure_trees(const std::vector<bool>& wanted,
@@ -26,8 +27,8 @@ class AccelerationCache {
   [[nodiscard]] Status ensure_planes(const std::vector<bool>& wanted,
                                      const parallel::Context& context);
 
-  /// The part with nothing, with its frame, with its tree too, and with its planes too. What was
-  /// not made is null; a tree, empty.
+  /// Return the part with nothing, with its frame, with its tree too, and with its planes too. What
+  /// was not made is null, or an empty tree.
   [[nodiscard]] PairOperand bare(const ScenePart& part) const;
   [[nodiscard]] PairOperand framed(const ScenePart& part) const;
   [[nodiscard]] PairOperand treed(const ScenePart& part) const;
@@ -40,7 +41,7 @@ class AccelerationCache {
 
   const ScenePartList& list_;
   const model::Model& model_;
-  parallel::Precomputed<geometry::OrientedBox> frames_;  ///< by unique part, as the others
+  parallel::Precomputed<geometry::OrientedBox> frames_;  ///< by unique part, as the others are
   parallel::Precomputed<geometry::TriangleBvh> trees_;
   parallel::Precomputed<geometry::FaceKdop> planes_;
 };

@@ -7,13 +7,13 @@
 
 namespace strake::clash {
 
-/// An order of parts by what they are and where they stand relative to each other, so that the
-/// pair is worked on the same way round whichever is called a.
+/// Whether a comes before b in an order of parts by what they are and where they lie relative to
+/// each other, so that a pair is evaluated the same way round whichever is called a.
 [[nodiscard]] bool in_canonical_order(const geometry::PartWithBvh& a,
                                       const geometry::PartWithBvh& b);
 
-/// Points in steps of 2^-16 grid units: those of one part's coordinates become the other's without
-/// rounding.
+/// Round points to steps of 2^-16 grid units: a point in one part's coordinates then becomes one in
+/// the other's without rounding.
 [[nodiscard]] geometry::Vec3d on_witness_grid(const geometry::Vec3d& p);
 void round_to_witness_grid(PartPairResult& answer);
 void round_to_witness_grid(PairEvaluation& evaluation);
@@ -23,7 +23,7 @@ void round_to_witness_grid(std::optional<Answer>& answer) {
   if (answer) round_to_witness_grid(*answer);
 }
 
-/// An answer about (b, a) becomes one about (a, b).
+/// Turn a result about (b, a) into one about (a, b).
 void swap_sides(PartPairResult& answer, const PairOperand& a, const PairOperand& b);
 void swap_sides(PairEvaluation& evaluation, const PairOperand& a, const PairOperand& b);
 
@@ -32,7 +32,7 @@ void swap_sides(std::optional<Answer>& answer, const PairOperand& a, const PairO
   if (answer) swap_sides(*answer, a, b);
 }
 
-/// What judge(x, y) says of two parts in canonical order, as an answer about (a, b).
+/// Returns what judge(x, y) gives for two parts in canonical order, as a result about (a, b).
 template <class Judge>
 [[nodiscard]] auto evaluate_in_canonical_order(const PairOperand& a, const PairOperand& b,
                                                Judge&& judge) {

@@ -44,7 +44,8 @@ class ExactNarrowPhase {
   }
 
  private:
-  /// Closed forms, and contacts in coordinate planes, which are most of them, need no trees.
+  /// Evaluates closed forms and contacts in coordinate planes, which are most pairs and need no
+  /// trees.
   Status evaluate_simple_pairs() {
     return parallel::for_each(
         work_.context(), {.name = "simple pairs", .n = work_.size(), .grain = PairTasks::kGrain},
@@ -68,7 +69,8 @@ class ExactNarrowPhase {
         name, [&](std::size_t i) { return !candidates_[i].done && !candidates_[i].too_large; });
   }
 
-  /// Boxes along the coordinate axes of what stands askew meet far more often than the bodies do.
+  /// Separates rotated parts: their boxes along the coordinate axes overlap far more often than the
+  /// bodies do.
   Status separate_distant_pairs() {
     const auto unsettled = open_cases("unsettled pairs");
     if (!unsettled) return unsettled.error();
@@ -129,13 +131,13 @@ class ExactNarrowPhase {
         });
   }
 
-  /// A case whose distance may show in the answer of a pair of objects, as far as `far`.
+  /// A unique pair whose distance, up to `far`, may affect the result of a pair of objects.
   struct DistanceRequest {
     std::uint32_t number = 0;
     double far = 0;
   };
 
-  /// How far apart the others are; where two objects meet, only as far as it could matter.
+  /// Computes how far apart the others are; where two objects meet, only as far as it could matter.
   Status distances() {
     const auto wanted = parallel::collect<DistanceRequest>(
         work_.context(),
@@ -160,13 +162,13 @@ class ExactNarrowPhase {
         });
   }
 
-  /// How far the distances of one pair of objects' parts may show in its answer. Parts that meet
-  /// are more severe than parts that are apart, unless the sag of those hides that they meet too.
-  /// Whether regions are listed makes no difference: the answer is the same without them.
+  /// Collects how far the distances of one pair of objects' parts may affect its result. Parts that
+  /// meet are more severe than parts that are apart, unless the sag of those hides that they meet
+  /// too. Whether regions are listed makes no difference: the result is the same without them.
   void collect_distance_requests(std::size_t objects, std::vector<DistanceRequest>& wanted) const {
     const std::size_t first = stage_.objects.begin(objects), end = stage_.objects.end(objects);
     bool meeting = false;
-    // Where a rule may allow the worst of them, every other one counts.
+    // Where a rule may allow the worst of them, each of the others counts.
     const bool all = stage_.rules.may_allow(evaluated_.a(first).object, evaluated_.b(first).object);
     for (std::size_t i = first; i < end && !all; ++i) {
       const PartPairResult& answer = evaluated_.of(i).evaluation.answer;
@@ -179,7 +181,7 @@ class ExactNarrowPhase {
       if (meeting) {
         const ScenePart &a = evaluated_.a(i), &b = evaluated_.b(i);
         const double sag = a.placed.part->sag + b.placed.part->sag;
-        // As near as that it may be a contact elsewhere, or as deep as what is worst.
+        // Parts so near may be a contact elsewhere, or as deep as the worst.
         const PairTolerances options = stage_.pair_tolerances.of(a, b);
         far = sag + std::max(options.touch_gap, options.step) + kSnapMargin;
       }
@@ -192,7 +194,7 @@ class ExactNarrowPhase {
   AccelerationCache& cache_;
   const EvaluatedPairs& evaluated_;
   std::vector<Candidate>& candidates_;
-  std::vector<std::size_t> open_;  ///< cases that want trees
+  std::vector<std::size_t> open_;  ///< unique pairs that need trees
 };
 
 }  // namespace
@@ -227,8 +229,8 @@ using geometry::PartKind;
 using geometry::Vec3d;
 using geometry::WindingNumber;
 
-/// Whether some of a part may lie within another; all of it need not, as it may reach out through
-/// the gap.
+/// Whether a part of `within` may lie within `around`; not all of it must, as it may reach out
+/// through the gap.
 bool may_enclose(const ScenePart& around, const ScenePart& within) {
   const geometry::Part &a = *around.placed.part, &b = *within.placed.part;
   return a.kind == PartKind::sheet && b.kind != PartKind::wire &&
@@ -238,8 +240,8 @@ bool may_enclose(const ScenePart& around, const ScenePart& within) {
               .empty();
 }
 
-/// Some eight corners of a part, of those in the box of the other, in its coordinates. Every second
-/// corner of a box, in the order of coordinates, may stand on the floor.
+/// Returns about eight corners of a part, of those in the box of the other, in its coordinates.
+/// Every second corner of a box, in the order of coordinates, may lie on the floor.
 std::vector<Vec3d> corners_in_box(const ScenePart& around, const ScenePart& within) {
   constexpr std::size_t kAsked = 8;
   const geometry::Vec3l shift = within.placed.origin - around.placed.origin;
@@ -255,8 +257,8 @@ std::vector<Vec3d> corners_in_box(const ScenePart& around, const ScenePart& with
   return asked;
 }
 
-/// Whether a corner of a part lies within, and not on the skin: then a little to this side of it
-/// and a little to that is within, too.
+/// Whether a corner of a part lies within, and not on the surface: then points a little to either
+/// side of it are within, too.
 bool lies_within(const WindingNumber& winding, const ScenePart& around, const ScenePart& within) {
   constexpr double kLittle = 16;
   const geometry::Box3d box = within.placed.part->box.as<double>().moved(
@@ -270,15 +272,15 @@ bool lies_within(const WindingNumber& winding, const ScenePart& around, const Sc
   });
 }
 
-/// A surface, how open it is, and may be.
+/// A surface with how open it is, and how open it may be.
 struct EnclosingSurface {
   WindingNumber winding;
   double openness = 1, most = 0;
 };
 
-/// Of the directions within a surface, those that may lead out on average, if it is to be meant as
-/// a body: where skins are apart, there where it lacks pieces of flat faces alone, and where they
-/// touch, which is told already, but not as what it may be.
+/// The share of the directions within a surface that may lead out on average, if it is to be meant
+/// as a body: where surfaces are apart, where it lacks pieces of flat faces alone, and where they
+/// touch, which is reported already, but not as what it may be.
 constexpr double kMostOut = 0.05, kMostOutOfFaces = 0.25, kMostOutOfContact = 0.01;
 
 bool may_be_hit(const Candidate& c) {

@@ -8,9 +8,10 @@
 #include "clash/narrow_phase/pair_tolerances.hpp"
 #include "clash/pairs/pair_tasks.hpp"
 
+/// The narrow phase: classes, separations and relations of all unique pairs of a run.
 namespace strake::clash {
 
-/// What the stages of a run share.
+/// The inputs that the stages of a run share.
 struct StageInputs {
   const PairTasks& work;
   const ObjectPairs& objects;
@@ -20,21 +21,21 @@ struct StageInputs {
   AccelerationCache& cache;
 };
 
-/// The answers of all cases, exact and certified: what takes least decides first, and only what is
-/// left open goes on to trees, depths and distances. `evaluated` shows `candidates`, one per case.
-/// Errors here and below: cancelled.
+/// Evaluates all unique pairs, exact and certified: the cheapest test decides first, and only what
+/// is left open goes on to trees, depths and distances. `evaluated` shows `candidates`, one per
+/// unique pair. Errors here and below: cancelled.
 [[nodiscard]] Status run_exact_narrow_phase(const StageInputs& stage,
                                             const EvaluatedPairs& evaluated,
                                             std::vector<Candidate>& candidates);
 
-/// The baseline: every case by halving its common box.
+/// Evaluates every unique pair by halving its common box: the baseline.
 [[nodiscard]] Status run_sphere_narrow_phase(const StageInputs& stage,
                                              std::vector<Candidate>& candidates);
 
-/// Marks the cases (Candidate::in_open) that are apart as far as skins tell, but where one part
-/// lies within the other, an open surface that nearly encloses what it surrounds: meant as a solid,
-/// it would hit. Those that touch there are UNCERTAIN instead, and may be a HIT. After all answers
-/// are there. Errors: cancelled.
+/// Marks the unique pairs (Candidate::in_open) whose surfaces are apart, but where one part lies
+/// within the other, an open surface that nearly encloses what it surrounds: were it meant as a
+/// solid, they would hit. Pairs that touch there become UNCERTAIN instead, and may be a HIT. It
+/// runs after all results are there. Errors: cancelled.
 [[nodiscard]] Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidates);
 
 }  // namespace strake::clash

@@ -81,14 +81,15 @@ using geometry::Vec3d;
 
 namespace {
 
-/// An interior that is known to be met without a measured depth: less than any grid can resolve.
+/// The depth of an interior that is known to be met without a measured depth: less than any grid
+/// can resolve.
 constexpr double kLeastDepth = 1e-6;
 
-/// Grid units that a distance may be left open by where it decides nothing: what the snap makes of
-/// two flat faces that stand askew.
+/// Grid units by which a distance may be left open where it decides nothing: what the snap makes of
+/// two rotated flat faces.
 constexpr double kSnapSlack = 4;
 
-/// Grid units: more than this is more than nothing, whatever the rounding.
+/// Grid units: a distance of more than this is not 0, whatever the rounding.
 constexpr double kLeastGap = 1.0 / 1024;
 
 geometry::PartWithObb framed(const PairOperand& part) { return {part.treed.placed, part.frame}; }
@@ -174,7 +175,7 @@ PairEvaluation PairEvaluator::evaluation(const PriorBounds& known) {
   return evaluation;
 }
 
-/// Whether a plane keeps the two apart that is no face of either, as between pipes that cross.
+/// Whether the two are separated by a plane that is no face of either, as between pipes that cross.
 bool PairEvaluator::hulls_part() const {
   return geometry::convex_hull_separation(framed(part_a_), framed(part_b_), kLeastGap).lower > 0;
 }
@@ -192,9 +193,9 @@ PartPairResult PairEvaluator::depth(const PairEvaluation& evaluation, const Prio
   return answer;
 }
 
-/// The sag that the answer has to count with.
+/// Measures parts that are apart; returns the sag that the result has to count with.
 double PairEvaluator::apart(double limit, PartPairResult& answer) {
-  // What a weld moved out of reach is told: judge().
+  // What a weld moved out of reach is reported: see classify().
   const double reach = std::min(limit + 1, reach_of(options_) + thresholds_.weld);
   const double parting = reach + sag();
   const auto hulls = geometry::convex_hull_separation(framed(part_a_), framed(part_b_), parting);
@@ -232,7 +233,7 @@ void PairEvaluator::within(const SignedSeparation& meshes, geometry::PrimitiveSe
   if (!(lower > 0)) s.d = std::min(s.d, 0.0);
 }
 
-/// Whether any distance in a bracket means the same.
+/// Whether any distance in a bracket gives the same result.
 bool PairEvaluator::all_one(double lower, double upper) const {
   const double band = options_.contact_distance;
   if (lower == upper) return true;
@@ -246,8 +247,8 @@ bool PairEvaluator::all_one(double lower, double upper) const {
   return of(lower) == of(upper);
 }
 
-/// A primitive beside a mesh, by its true surface; false where that is not certainly clear of the
-/// mesh, and the sag of its triangles has to be counted.
+/// Evaluates a primitive beside a mesh by its true surface; returns false where that is not
+/// certainly clear of the mesh, and the sag of its triangles has to be counted.
 bool PairEvaluator::apart_from_mesh(double reach, PartPairResult& answer) {
   const bool a_is_primitive = a_.placed.part->primitive.has_value();
   const PairOperand &p = a_is_primitive ? part_a_ : part_b_,
@@ -272,8 +273,8 @@ bool PairEvaluator::apart_from_mesh(double reach, PartPairResult& answer) {
   return true;
 }
 
-/// The same triangles in the same place: copies are common, and no walk over all their contacts
-/// says more.
+/// Whether the parts have the same triangles in the same place: copies are common, and traversing
+/// all their contacts says no more.
 bool PairEvaluator::equal_solids() const {
   const Part &x = *a_.placed.part, &y = *b_.placed.part;
   return x.kind == PartKind::solid && y.kind == PartKind::solid &&
@@ -297,10 +298,9 @@ void PairEvaluator::touching(const MeetingResult& meeting, PartPairResult& answe
   answer.relation = relation_of_contact(a_, b_, meeting, options_.contact_distance, work_.pair);
 }
 
-/// Flush faces of a model that stands askew are what the snap has made of them: a little apart,
-/// touching, a little deep, or all of it here and there. Within the contact distance that says
-/// nothing about the source, and it is one class and one relation: two triangles so near settle
-/// it.
+/// Coplanar faces of a rotated model are what the snap has made of them: a little apart, touching,
+/// a little deep, or all of it here and there. Within the contact distance that says nothing about
+/// the source, and it is one class and one relation: two triangles so near decide it.
 bool PairEvaluator::may_be_flush(double gap) const {
   const Part &x = *a_.placed.part, &y = *b_.placed.part;
   const double band = options_.contact_distance;
@@ -312,8 +312,7 @@ bool PairEvaluator::may_be_flush(double gap) const {
 }
 
 /// Two triangles so near say nothing of the others, which may cross: the two are apart only where
-/// the gap is certain. Of true surfaces that are known better than the triangles these have the
-/// word.
+/// the gap is certain. True surfaces that are known better than the triangles take precedence.
 void PairEvaluator::nearly_touching(const geometry::ClosestPair& near,
                                     const geometry::SeparationBound& gap,
                                     PartPairResult& answer) const {
@@ -334,8 +333,8 @@ void PairEvaluator::nearly_touching(const geometry::ClosestPair& near,
   conclude(answer);
 }
 
-/// Whether moves within a contact distance that is more than may overlap part two sheets, so that
-/// nobody can say whether they cross.
+/// Whether moves within a contact distance that is more than may overlap separate two sheets, so
+/// that it cannot be told whether they cross.
 bool PairEvaluator::may_touch(DepthOptions goal) {
   if (options_.contact_distance <= goal.apart_within) return false;
   if (goal.known_upper <= options_.contact_distance) return true;
@@ -349,8 +348,8 @@ void PairEvaluator::interpenetrating(const MeetingResult& meeting, double gap,
   goal.known_upper =
       -std::max(gap, geometry::kdop_separation({a_, part_a_.planes}, {b_, part_b_.planes}));
   goal.threshold = thresholds_.overlap;
-  // Sheets that moves within the contact distance part touch: what the snap made of sheets that lie
-  // on each other askew passes to and fro along lines that mean nothing.
+  // Sheets that moves within the contact distance separate touch: rotated sheets that lie on each
+  // other pass to and fro after the snap along lines that mean nothing.
   const bool sheets =
       a_.placed.part->kind == PartKind::sheet && b_.placed.part->kind == PartKind::sheet;
   goal.apart_within = apart_within(*a_.placed.part, *b_.placed.part, options_);
@@ -372,7 +371,7 @@ void PairEvaluator::interpenetrating(const MeetingResult& meeting, double gap,
     depth.value = kLeastDepth;
     depth.point = meeting.point;
   }
-  // What parts the two by a move bounds the depth of a sheet in a solid as well.
+  // A move that separates the two bounds the depth of a sheet in a solid as well.
   if (!sheets) depth.upper = std::min(depth.upper, goal.known_upper);
   depth.upper = std::max(depth.upper, depth.value);
   answer.separation = {.d = -depth.value,
@@ -387,8 +386,8 @@ void PairEvaluator::interpenetrating(const MeetingResult& meeting, double gap,
 
 double PairEvaluator::sag() const { return a_.placed.part->sag + b_.placed.part->sag; }
 
-/// Of two that touch as tessellated: the true surfaces, where they are known, say how far from that
-/// they are, and where. Triangles of a concave skin stand out of it.
+/// Concludes for parts that touch as tessellated: the true surfaces, where they are known, say how
+/// far from that they are, and where. Triangles of a concave surface stand out of it.
 void PairEvaluator::conclude_touching(PartPairResult& answer) const {
   const auto form = closed_form(part_a_, part_b_, reach_of(options_));
   if (!form) return conclude(answer);
@@ -426,7 +425,7 @@ std::optional<PartPairResult> evaluate_axis_plane_contact(const PairOperand& a,
     separated = contact.separated;
     if (!contact.touching) return std::nullopt;
     if (may_be_one_sheet(x.treed, y.treed, options.contact_distance)) {
-      // How much of them lies on the other is for their trees to say.
+      // The trees decide how much of them lies on the other.
       separated = false;
       return std::nullopt;
     }

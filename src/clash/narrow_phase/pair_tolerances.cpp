@@ -42,7 +42,8 @@ Thresholds thresholds(const Part& a, const Part& b, const PairTolerances& option
 }
 
 double reach_of(const PairTolerances& options) {
-  // More than the thresholds: what the snap may have moved beyond one is for judge() to see.
+  // More than the thresholds: classify() takes into account what the snap may have moved beyond
+  // one.
   return std::max({options.touch_gap, options.clearance, options.step}) + kSnapMargin;
 }
 

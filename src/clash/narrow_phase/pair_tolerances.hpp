@@ -11,42 +11,44 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
+/// The tolerances of one pair of parts, and the table of those that a run has.
 namespace strake::clash {
 
-/// t_o' of the pair: docs/clash.md, "Classes".
+/// Returns the thresholds of a pair, with t_o' of docs/clash.md, "Classes".
 [[nodiscard]] Thresholds thresholds(const geometry::Part& a, const geometry::Part& b,
                                     const PairTolerances& options);
 
-/// How far the corners of two parts may move for what such moves part to be touching, grid units:
-/// the contact distance, of two sheets no more than may overlap, or it would decide their class.
+/// Returns how far the corners of two parts may move, in grid units, for parts that such moves
+/// separate to be touching: the contact distance, of two sheets no more than may overlap, or it
+/// would decide their class.
 [[nodiscard]] double apart_within(const geometry::Part& a, const geometry::Part& b,
                                   const PairTolerances& options);
 
-/// The flags of a pair that come from its parts.
+/// Returns the flags of a pair that come from its parts.
 [[nodiscard]] std::uint16_t part_flags(const geometry::Part& a, const geometry::Part& b);
 
-/// How far apart is too far for any class, grid units.
+/// Returns how far apart is too far for any class, grid units.
 [[nodiscard]] double reach_of(const PairTolerances& options);
 
-/// The same for triangles: true surfaces may stand out of them by the sag of both.
+/// Returns reach_of() for triangles: true surfaces may stand out of them by the sag of both.
 [[nodiscard]] double reach_with_sag(const geometry::Part& a, const geometry::Part& b,
                                     const PairTolerances& options);
 
-/// What each pair of parts is judged by: the tolerances that the rules give it, and the precision
-/// that the source's numbers have for its two bodies, whatever else there is in the files.
+/// The tolerances of each pair of parts: those that the rules give it, and the precision that the
+/// source's numbers have for its two bodies, whatever else there is in the files.
 class PairToleranceTable {
  public:
   /// `rules`, `options` and `model` must outlive this.
   PairToleranceTable(const RuleMatcher& rules, const Options& options, const model::Model& model);
 
   [[nodiscard]] PairTolerances of(const ScenePart& a, const ScenePart& b) const;
-  /// The same, to compare pairs by.
+  /// Returns a key by which the tolerances of pairs can be compared.
   [[nodiscard]] PairToleranceKey settings(const ScenePart& a, const ScenePart& b) const;
 
-  /// The largest contact distance of a part, grid units.
+  /// Returns the largest contact distance of a part, grid units.
   [[nodiscard]] Result<double> widest_band(std::span<const ScenePart> parts,
                                            const parallel::Context& context) const;
-  /// The smallest touch gap of any pair, grid units.
+  /// Returns the smallest touch gap of any pair, grid units.
   [[nodiscard]] double least_touch_gap() const;
 
  private:

@@ -17,7 +17,8 @@ using geometry::PartKind;
 using geometry::PartWithBvh;
 using geometry::Vec3l;
 
-/// Beyond this many vertices a body is not walked vertex by vertex for the sake of a word.
+/// The number of vertices beyond which a body is not checked vertex by vertex for the sake of a
+/// relation.
 constexpr std::size_t kMaxVertices = std::size_t{1} << 21U;
 
 bool box_within(const PartWithBvh& a, const PartWithBvh& b, double band) {
@@ -42,8 +43,8 @@ bool on_surface(const PartWithBvh& a, const PartWithBvh& b, double band,
   return cover.within && cover.on_surface;
 }
 
-/// Whether a bridges a gap of b: the skin of b runs deep inside a, though the corners of a lie in b
-/// or on it. Only what is certain counts, and b's corners say it all where b is convex.
+/// Whether a bridges a gap of b: the surface of b runs deep inside a, though the corners of a lie
+/// in b or on it. Only what is certain counts, and b's corners suffice where b is convex.
 bool bridges_gap(const DepthOperand& a, const DepthOperand& b, double band,
                  geometry::QueryContext& work) {
   if (b.planes->nearly_convex) return false;
@@ -55,8 +56,8 @@ bool bridges_gap(const DepthOperand& a, const DepthOperand& b, double band,
 }
 
 /// Whether a is thicker than the two are deep: what fills a channel has all its corners on the
-/// channel's skin, but is not in it. Half the thickness, volume by area, is no more than the radius
-/// of the largest ball in a convex body, and where that is in b, its centre is as deep.
+/// channel's surface, but is not in it. Half the thickness, volume by area, is no more than the
+/// radius of the largest ball in a convex body, and where that is in b, its centre is as deep.
 bool sticks_out(const DepthOperand& a, const geometry::Depth& depth, double band) {
   return a.planes->nearly_convex && depth.upper < a.treed.placed.part->thickness() / 2 - 2 * band;
 }
@@ -67,12 +68,12 @@ bool skins_meet(const PartWithBvh& a, const PartWithBvh& b, double band,
   return near && near->distance <= band;
 }
 
-/// Of the one of the two that is a solid.
+/// Returns the thickness of the one of the two that is a solid.
 double solid_thickness(const PartWithBvh& a, const PartWithBvh& b) {
   return (a.placed.part->kind == PartKind::solid ? a : b).placed.part->thickness();
 }
 
-/// Two sheets that are the same one: exactly, or each within the band of the other.
+/// Whether two sheets are the same one: exactly, or each within the band of the other.
 bool one_sheet(const PartWithBvh& a, const PartWithBvh& b, const MeetingResult& meeting,
                double band, geometry::QueryContext& work) {
   if (!may_be_one_sheet(a, b, band)) return false;
@@ -100,7 +101,8 @@ Relation relation_of(const DepthOperand& deep_a, const DepthOperand& deep_b,
   if (a.placed.part->kind == PartKind::sheet || b.placed.part->kind == PartKind::sheet) {
     if (meeting.meeting == Meeting::a_inside_b) return Relation::a_in_b;
     if (meeting.meeting == Meeting::b_inside_a) return Relation::b_in_a;
-    // On the skin of a solid, but for what the snap has made of it; slivers as thin have no inside.
+    // It lies on the surface of a solid, but for what the snap made of it; slivers as thin have no
+    // inside.
     if (depth.upper <= band && a.placed.part->kind != b.placed.part->kind &&
         solid_thickness(a, b) >= 4 * band)
       return Relation::abut_outside;
@@ -115,7 +117,7 @@ Relation relation_of(const DepthOperand& deep_a, const DepthOperand& deep_b,
   if (depth.upper <= band &&
       std::min(a.placed.part->thickness(), b.placed.part->thickness()) >= 4 * band)
     return Relation::abut_outside;
-  // One in the other for certain, and not the same: no need to ask vertex by vertex.
+  // One is in the other for certain, and they are not the same: no vertices need to be checked.
   if ((meeting.a_within_b || meeting.b_within_a) &&
       !(box_within(a, b, band) && box_within(b, a, band)))
     return depth.upper <= band ? Relation::abut_outside : Relation::abut_inside;

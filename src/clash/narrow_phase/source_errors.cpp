@@ -19,12 +19,12 @@ namespace {
 
 using geometry::Vec3d;
 
-/// Grid units: what the snap moves a point by at most, and at most where the source's unit and
-/// precision are all that keeps it off the grid, as whole millimetres written in metres.
+/// Grid units: the most that the snap moves a point by, and the most where the source's unit and
+/// precision alone keep it off the grid, as whole millimetres written in metres.
 constexpr float kMostMoved = 0.8661F, kLeastMoved = 1.0F / 64;
 
-/// Grid units from a coordinate to the next one on the grid; none for the double that is nearest to
-/// one.
+/// Returns the grid units from a coordinate to the next one on the grid; 0 for the double that is
+/// nearest to one.
 double off_grid(double mm) {
   // Sums of this size have no digits behind the point.
   constexpr double kNoFraction = 0x1.8p52;
@@ -36,7 +36,7 @@ double off_grid(double mm) {
 
 float moved(const Vec3d& mm) {
   const double most = std::max({off_grid(mm.x), off_grid(mm.y), off_grid(mm.z)});
-  // Along three axes no more than twice as far.
+  // Along three axes a point is off by no more than twice as far.
   constexpr double kLeast = static_cast<double>(kLeastMoved) / 2;
   return !(most > 0) ? 0 : most > kLeast ? kMostMoved : kLeastMoved;
 }
@@ -58,8 +58,8 @@ float vertices_moved(const model::Shape& shape, const geometry::Mat3d& linear) {
   return 0;
 }
 
-/// What the snap moved the vertices of the first body of each shape of the model, which most of the
-/// others share.
+/// How far the snap moved the vertices of the first body of each shape of the model; most of the
+/// others share it.
 class VertexErrors {
  public:
   explicit VertexErrors(const model::Model& model) : model_(model) {}

@@ -5,9 +5,9 @@
 
 namespace strake::clash {
 
-/// Notes of every part how far it may lie from what its source states: what the snap moved its
+/// Sets for every part how far it may lie from what its source states: what the snap moved its
 /// place and the vertices of a mesh (those of a primitive count in its sag), and the step of its
-/// numbers where that is coarse. Few different values, so that equal pairs stay equal. Errors:
+/// numbers where that is coarse. The values are few, so that equal pairs stay equal. Errors:
 /// cancelled.
 [[nodiscard]] Status set_source_errors(const model::Scene& scene, const Options& options,
                                        ScenePartList& list, const parallel::Context& context);

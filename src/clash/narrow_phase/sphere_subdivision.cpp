@@ -21,15 +21,15 @@ using geometry::PointSide;
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-/// A twentieth of a millimetre, in grid units: spheres are not made smaller.
+/// The smallest sphere: a twentieth of a millimetre, in grid units.
 constexpr double kSmallest = 50;
-/// Sides are asked at points of this fraction of the grid.
+/// Points are located on this fraction of the grid.
 constexpr std::int64_t kDenominator = 16;
 
 /// A part as the sphere test sees it.
 struct SphereOperand {
   const PartWithBvh& treed;
-  Vec3l shift;  ///< of the part's coordinates against the pair's
+  Vec3l shift;  ///< from the part's coordinates to the pair's
 
   [[nodiscard]] bool solid() const { return treed.placed.part->kind == PartKind::solid; }
 
@@ -37,7 +37,7 @@ struct SphereOperand {
     return treed.placed.part->box.as<std::int64_t>().moved(shift).as<double>();
   }
 
-  /// Distance of a point to the part's skin; negative inside a solid.
+  /// Returns the distance of a point to the part's surface; negative inside a solid.
   [[nodiscard]] double signed_distance(const Vec3d& p, geometry::QueryContext& work) const {
     const double distance = nearest_on_surface(treed, p - shift.as<double>()).distance;
     if (!solid()) return distance;
@@ -59,7 +59,7 @@ class SphereSearch {
         b_{b.treed, b.treed.placed.origin - a.treed.placed.origin},
         options_(options),
         thresholds_(thresholds(part_a_, part_b_, options)),
-        // Fine enough to tell a touch from a clash.
+        // This is fine enough to tell a touch from a clash.
         resolution_(std::max(std::min(thresholds_.overlap, thresholds_.gap) / 2, kSmallest)),
         most_cells_(most_cells),
         work_(work) {}
@@ -67,10 +67,10 @@ class SphereSearch {
   [[nodiscard]] std::uint64_t cells() const { return cells_; }
 
   PartPairResult run() {
-    // Something to begin with: a corner of one is as far from the other as that.
+    // The search starts from a corner of one and its distance to the other.
     point_ = part_a_.vertices.front().as<double>();
     best_ = std::max(b_.signed_distance(point_, work_.pair), 0.0);
-    // Half the reach from either: the middle of the closest pair of points lies in both.
+    // Half the reach from either suffices: the middle of the closest pair of points lies in both.
     const Box3d root = a_.box().common(b_.box()).inflated(reach() / 2);
     if (root.empty()) return concluded();
     stack_.push_back(root);

@@ -7,17 +7,17 @@
 
 namespace strake::clash {
 
-/// The narrow phase of D. Sanz Villafruela, "Novel Parallelization Techniques for Computer Graphics
-/// Applications": the baseline that benchmarks compare with.
+/// Evaluates a pair by the narrow phase of D. Sanz Villafruela, "Novel Parallelization Techniques
+/// for Computer Graphics Applications": the baseline that benchmarks compare with.
 ///
 /// The boxes of the two parts, inflated by the reach, have a common box. It is halved along its
 /// longest side again and again; a half whose surrounding sphere is farther from either part than
 /// the reach allows is dropped. A sphere as small as the resolution gives its centre's distances to
-/// both parts. Ends at the first point that is a HIT. The cost is that of the area over which the
-/// parts are near each other, in units of (gap - tolerance) squared: after `most_cells` halves the
-/// answer is what was found by then, with a bracket that says so.
+/// both parts. The search ends at the first point that is a HIT. The cost is that of the area over
+/// which the parts are near each other, in units of (gap - tolerance) squared: after `most_cells`
+/// halves the result is what was found by then, with a bracket that says so.
 ///
-/// Answers carry brackets, so that their class is that of the exact narrow phase wherever it is not
+/// Results carry brackets, so that their class is that of the exact narrow phase wherever it is not
 /// flagged. Relations are coarse: SEPARATE, ABUT_OUTSIDE, INTERFERE, CROSS.
 [[nodiscard]] PartPairResult evaluate_by_spheres(const PairOperand& a, const PairOperand& b,
                                                  const PairTolerances& options,

@@ -18,19 +18,19 @@ using geometry::Part;
 using geometry::PartKind;
 using geometry::Vec3d;
 
-/// Below this a direction between two points is the rounding of both, grid units.
+/// A distance below this is rounding, grid units: it gives no direction between two points.
 constexpr double kLeastWireLength = 1.0 / 64;
 
 bool is_wire(const PairOperand& p) { return p.treed.placed.part->kind == PartKind::wire; }
 
-/// The same lines in the same place.
+/// Whether both parts are the same lines in the same place.
 bool equal_wires(const PairOperand& a, const PairOperand& b) {
   const Part &x = *a.treed.placed.part, &y = *b.treed.placed.part;
   return a.treed.placed.origin == b.treed.placed.origin && x.vertices == y.vertices &&
          x.chain_first == y.chain_first;
 }
 
-/// What was measured, and how far what it was measured on may lie from the true surface.
+/// A measured separation, and how far what it was measured on may lie from the true surface.
 struct WireMeasure {
   LowerDimensionalSeparation separation;
   double sag = 0;
@@ -71,7 +71,7 @@ Relation relation_of(const LowerDimensionalSeparation& s, const PairOperand& wir
   return s.wholly_inside > band ? Relation::a_in_b : Relation::cross;
 }
 
-/// The wire first.
+/// Evaluates a pair with the wire first.
 PartPairResult judge_ordered(const PairOperand& wire, const PairOperand& body,
                              const PairTolerances& options, NarrowWork& work) {
   const Part &x = *wire.treed.placed.part, &y = *body.treed.placed.part;

@@ -5,11 +5,11 @@
 
 namespace strake::clash {
 
-/// Whether one of the two is a wire: lines, which have no triangles to be judged by.
+/// Whether one of the two is a wire: lines, which have no triangles to be tested by.
 [[nodiscard]] bool has_wire(const geometry::Part& a, const geometry::Part& b);
 
-/// The whole answer for such a pair: docs/clash.md, "Lines". Trees are wanted. A swap of the two
-/// mirrors it.
+/// Returns the whole result for such a pair: docs/clash.md, "Lines". Both parts need trees. A swap
+/// of the two mirrors the result.
 [[nodiscard]] PartPairResult evaluate_wire(const PairOperand& a, const PairOperand& b,
                                            const PairTolerances& options, NarrowWork& work);
 

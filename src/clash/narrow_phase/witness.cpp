@@ -11,10 +11,11 @@ using geometry::PartWithBvh;
 using geometry::SurfacePoint;
 using geometry::Vec3d;
 
-/// Below this a direction between two points is the rounding of both, grid units.
+/// A distance below this is rounding, grid units: it gives no direction between two points.
 constexpr double kLeastLength = 1.0 / 64;
 
-/// From the deepest point to the skin: where they all but coincide, out through the skin.
+/// Returns the direction from the deepest point to the surface; where they all but coincide, out
+/// through the surface.
 Vec3d way_out(const Vec3d& deepest, const SurfacePoint& skin) {
   const Vec3d way = skin.point - deepest;
   const double length = std::sqrt(dot(way, way));

@@ -6,26 +6,27 @@
 
 namespace strake::clash {
 
-/// A point that both share.
+/// Returns the witness of parts that share a point.
 [[nodiscard]] Witness witness_of_touch(const geometry::Vec3d& point);
 
-/// Two that overlap by -d <= 0 across a slab with this normal, from b to a, and meet at a point.
+/// Returns the witness of parts that overlap by -d <= 0 across a slab with this normal, from b to
+/// a, and meet at a point.
 [[nodiscard]] Witness witness_of_slab(const geometry::Vec3d& point, const geometry::Vec3d& normal,
                                       double d);
 
-/// The closest points of two parts that are apart.
+/// Returns the closest points of two parts that are apart.
 [[nodiscard]] Witness witness_of_gap(const geometry::ClosestPair& closest);
 
-/// A closed form; `point` is its point relative to a's origin.
+/// Returns the witness of a closed form; `point` is its point relative to a's origin.
 [[nodiscard]] Witness witness_of(const geometry::PrimitiveSeparation& s,
                                  const geometry::Vec3d& point);
 
-/// The deepest point of two parts whose interiors meet, and where it comes out.
+/// Returns the deepest point of two parts whose interiors meet, and where it comes out.
 [[nodiscard]] Witness witness_of_depth(const geometry::PartWithBvh& a,
                                        const geometry::PartWithBvh& b,
                                        const geometry::Vec3d& deepest);
 
-/// What is about (b, a) as what is about (a, b); `shift` = b's origin minus a's.
+/// Turns a witness about (b, a) into one about (a, b); `shift` = b's origin minus a's.
 [[nodiscard]] Witness mirrored(const Witness& w, const geometry::Vec3d& shift);
 
 }  // namespace strake::clash

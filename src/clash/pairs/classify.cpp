@@ -7,15 +7,15 @@
 namespace strake::clash {
 namespace {
 
-/// One end of a bracket: a separation of the grid's bodies, or with sag of the true ones, and what
-/// the snap may have moved it by.
+/// One end of a bracket: a separation of the bodies on the grid, or with sag of the true ones, and
+/// how far the snap may have moved it.
 struct BracketEnd {
   double d = 0, off = 0;
   bool interiors_meet = false;
   bool on_grid = true;
 };
 
-/// Whether a tolerance is asked of the grid itself.
+/// Whether a tolerance is compared with the geometry on the grid itself.
 bool is_exact(double tolerance, const Thresholds& t) { return !(tolerance > 0) && !(t.step > 0); }
 
 Class class_of(const BracketEnd& end, const Thresholds& t) {
@@ -28,19 +28,20 @@ Class class_of(const BracketEnd& end, const Thresholds& t) {
   return Class::no_hit;
 }
 
-/// Of a d whose bracket leaves its class open: numbers in coarse steps do not tell a touch from
-/// what is a step off.
+/// Returns the class of a d whose bracket leaves its class open: numbers in coarse steps do not
+/// tell a touch from what is a step off.
 Class class_of_nominal(const SignedSeparation& s, const Thresholds& t) {
   if (t.step > 0 && std::fabs(s.d) <= t.step) return Class::contact;
   return class_of({s.d, 0, s.interiors_meet}, t);
 }
 
-/// What a weld may have moved out of reach is told as the least that it may be.
+/// Returns the least class that a result may be which a weld may have moved out of reach.
 Class least_told(Class severest, const Thresholds& t) {
   return std::min(severest, t.clearance > t.gap ? Class::clearance_violation : Class::contact);
 }
 
-/// The same, with what the snap may account for of a weld put to what it moved.
+/// Returns the separation with the part of a weld for which the snap may account put to what it
+/// moved.
 SignedSeparation with_weld(const SignedSeparation& s, double by_snap) {
   SignedSeparation of_snap = s;
   of_snap.sag -= by_snap;
@@ -48,9 +49,9 @@ SignedSeparation with_weld(const SignedSeparation& s, double by_snap) {
   return of_snap;
 }
 
-/// For a bracket of this width.
+/// Classifies for a bracket of this width.
 Classification classify(const SignedSeparation& s, double width, const Thresholds& t) {
-  // Whose numbers are coarse may be apart where these meet.
+  // Bodies with coarse numbers may be apart where these meet.
   const bool meet = s.interiors_meet && !(t.step > 0);
   const Class severe = class_of({s.lower, -s.moved, s.interiors_meet}, t);
   const Class mild = class_of({s.upper, s.moved, meet}, t);
@@ -64,8 +65,8 @@ Classification classify(const SignedSeparation& s, double width, const Threshold
     j.cls = class_of_nominal(s, t);
     j.flags = kUncertain;
   }
-  // With sag the true bodies may be apart even where the meshes' interiors meet, and are not the
-  // grid's: what the snap moved counts at a tolerance of 0 too.
+  // With sag the true bodies may be apart even where the meshes' interiors meet, and are not those
+  // on the grid: what the snap moved counts at a tolerance of 0 too.
   const bool no_sag = !(s.sag > 0);
   j.severest = class_of({s.lower - s.sag, -s.moved, s.interiors_meet, no_sag}, t);
   const Class mildest = class_of({s.upper + s.sag, s.moved, meet && no_sag, no_sag}, t);

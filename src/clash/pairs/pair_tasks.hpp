@@ -15,16 +15,18 @@
 #include "strake/parallel/distinct.hpp"
 #include "strake/parallel/heavy.hpp"
 
+/// Unique pairs of parts, and the work on them.
 namespace strake::clash {
 
-/// Which pairs of parts are the same question: equal geometry in equal relative position, judged by
-/// equal settings. A ship has its frames, brackets and pipe hangers a hundred thousand times over.
+/// The unique pairs among pairs of parts: those of equal geometry in equal relative position under
+/// equal tolerances are one. A ship has its frames, brackets and pipe hangers a hundred thousand
+/// times over.
 using UniquePairs = parallel::Distinct;
 
-/// Every pair a case of its own.
+/// Makes every pair a unique pair of its own.
 [[nodiscard]] UniquePairs all_unique(std::size_t pairs);
 
-/// What a pair is judged by, besides its parts.
+/// What the result of a pair depends on, besides its parts.
 struct PairToleranceKey {
   std::uint32_t tolerances = 0;
   double contact_distance = 0;
@@ -32,13 +34,13 @@ struct PairToleranceKey {
   friend bool operator==(const PairToleranceKey&, const PairToleranceKey&) = default;
 };
 
-/// `settings`: one a pair. Errors: cancelled.
+/// Finds the unique pairs; `settings` has one key per pair. Errors: cancelled.
 [[nodiscard]] Result<UniquePairs> find_unique_pairs(std::span<const geometry::IndexPair> pairs,
                                                     const ScenePartList& list,
                                                     std::span<const PairToleranceKey> settings,
                                                     const parallel::Context& context);
 
-/// One case of a pair of parts on its way through the engine.
+/// A unique pair of parts on its way through the engine.
 struct Candidate {
   PairEvaluation evaluation;
   NarrowCost cost;
@@ -46,11 +48,11 @@ struct Candidate {
   bool done = false;
   bool too_large = false;
   bool in_open = false;  ///< one part lies within the other, which is open: see mark_enclosed()
-  bool too_near_to_tell = false;  ///< whether it has one place or several
+  bool too_near_to_tell = false;  ///< for knowing whether it has one region or several
 };
 
-/// Has a candidate judged, with a team's help where it is heavy, and notes what it cost:
-/// `judge(NarrowWork&)` gives the answer.
+/// Evaluates a candidate, with a team's help where it is heavy, and adds what it cost:
+/// `judge(NarrowWork&)` returns the result.
 template <class Judge>
 auto with_cost(Candidate& candidate, const parallel::Context& team, Judge&& judge) {
   NarrowWork work;
@@ -60,12 +62,12 @@ auto with_cost(Candidate& candidate, const parallel::Context& team, Judge&& judg
   return answer;
 }
 
-/// The pairs that went to the detailed stage, and what it found.
+/// The pairs that went to the narrow phase, and what it found.
 struct EvaluatedPairs {
   const ScenePartList& list;
   std::span<const geometry::IndexPair> pairs;
   const UniquePairs& unique_pairs;
-  std::span<const Candidate> candidates;  ///< one per case
+  std::span<const Candidate> candidates;  ///< one per unique pair
 
   [[nodiscard]] const Candidate& of(std::size_t pair) const {
     return candidates[unique_pairs.of[pair]];
@@ -76,15 +78,14 @@ struct EvaluatedPairs {
   }
 };
 
-/// The cases of a run as work for a team. Each is done once, about the first pair that is one.
+/// The unique pairs of a run as work for a team. Each is evaluated once, for its first pair.
 class PairTasks {
  public:
-  /// Items per block of what takes a pair some time: small enough that a heavy one holds up few
-  /// others.
+  /// Items per block where a pair takes some time: so few that a heavy one holds up few others.
   static constexpr std::size_t kGrain = 8;
-  /// Items per block where each is done in no time.
+  /// Items per block where each takes hardly any time.
   static constexpr std::size_t kBlock = 4096;
-  /// Triangles of a part, or of two, that are worth a whole team.
+  /// The number of triangles of a part, or of two, that is worth a whole team.
   static constexpr double kHeavy = 1 << 16;
 
   PairTasks(const ScenePartList& list, std::span<const geometry::IndexPair> pairs,
@@ -99,14 +100,14 @@ class PairTasks {
     return a(i).placed.part->triangles.size() + b(i).placed.part->triangles.size();
   }
 
-  /// Which unique parts some of the cases are about.
+  /// Returns which unique parts some of the unique pairs are about.
   [[nodiscard]] std::vector<bool> parts_of(std::span<const std::size_t> some) const {
     std::vector<bool> parts(list_.unique.size(), false);
     for (const std::size_t i : some) parts[a(i).unique] = parts[b(i).unique] = true;
     return parts;
   }
 
-  /// The cases that pass a test, ascending. Errors here and below: cancelled.
+  /// Returns the unique pairs that pass a test, ascending. Errors here and below: cancelled.
   template <class Test>
   [[nodiscard]] Result<std::vector<std::size_t>> filter(std::string_view name, Test&& test) const {
     return parallel::collect<std::size_t>(context_, {.name = name, .n = size(), .grain = kBlock},
@@ -115,8 +116,8 @@ class PairTasks {
                                           });
   }
 
-  /// Calls work(i, a, b) for some of the cases, those with most triangles first; one that nobody
-  /// should wait for has the team to itself.
+  /// Calls work(i, a, b) for some of the unique pairs, those with most triangles first; one that is
+  /// very heavy has the team to itself.
   template <class Work>
   [[nodiscard]] Status for_each_of(std::span<const std::size_t> some, std::string_view name,
                                    std::size_t grain, Work&& work) const {

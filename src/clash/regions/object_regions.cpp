@@ -16,7 +16,7 @@ namespace {
 
 using geometry::Box3d;
 
-/// A place of one pair of parts.
+/// A region of one pair of parts.
 struct PlacedResult {
   Pair result;
   Box3d box_mm;
@@ -25,11 +25,11 @@ struct PlacedResult {
 
 struct Regions {
   std::uint32_t count = 0;
-  std::vector<Region> worst = {};    ///< of several
-  std::vector<Region> allowed = {};  ///< of a pair that no rule allows: all that one does
+  std::vector<Region> worst = {};    ///< the regions, if there are several
+  std::vector<Region> allowed = {};  ///< for a pair that no rule allows: all that a rule does
 };
 
-/// Of a pair that does not have just one, or allowed ones besides.
+/// The regions of a pair that does not have just one, or has allowed ones besides.
 struct NotOne {
   std::size_t pair = 0;
   Regions regions;
@@ -50,14 +50,15 @@ Region region_of(const PlacedResult& place) {
           .depth_complete = p.depth_complete};
 }
 
-/// Whether a place counts for a pair of objects with this answer.
+/// Whether a region counts for a pair of objects with this result.
 bool counts(const Pair& place, const Pair& whole) {
   if ((place.allowed < 0) != (whole.allowed < 0)) return false;
   if (whole.cls == Class::clearance_violation) return place.cls == whole.cls;
   return place.cls >= Class::contact;
 }
 
-/// Of places that are as bad as each other, that of the pair's own witness counts as the worst.
+/// Whether x is worse than y. Of regions that are equally bad, that of the pair's own witness is
+/// the worst.
 bool worse(const PlacedResult& x, const PlacedResult& y, const Pair& whole) {
   const auto is_witness = [&](const Pair& p) {
     return p.part_a == whole.part_a && p.part_b == whole.part_b && p.d_mm == whole.d_mm &&
@@ -67,7 +68,7 @@ bool worse(const PlacedResult& x, const PlacedResult& y, const Pair& whole) {
   return is_more_severe(x.result, y.result);
 }
 
-/// Places of different pairs of parts whose boxes meet are joined, in one sweep along x.
+/// Joins regions of different pairs of parts whose boxes meet, in one sweep along x.
 UnionFind joined(const std::vector<PlacedResult>& places) {
   UnionFind sets(places.size());
   const auto of_first = [&](const PlacedResult& p) {
@@ -126,7 +127,7 @@ class RegionsOfPairs {
     return place;
   }
 
-  /// One of each, the worst first.
+  /// Returns one region of each set, the worst first.
   [[nodiscard]] static std::vector<PlacedResult> together(const std::vector<PlacedResult>& places,
                                                           const Pair& whole) {
     UnionFind sets = joined(places);
@@ -157,9 +158,9 @@ class RegionsOfPairs {
     for (std::size_t i = 0; i < listed; ++i) regions.worst.push_back(region_of(worst[i]));
   }
 
-  /// What a rule allows of a pair that none allows as a whole. Gaps round a hit or a contact, be it
-  /// allowed, are none, as they are not where nothing is allowed. Where there is too much to tell
-  /// places apart, one stands for all.
+  /// Returns what a rule allows of a pair that none allows as a whole. Gaps round a hit or a
+  /// contact, be it allowed, do not count, as they do not where nothing is allowed. Where there are
+  /// too many triangles to tell regions apart, one stands for all.
   [[nodiscard]] static std::vector<Region> allowed_of(std::vector<PlacedResult> places,
                                                       const Pair& whole) {
     Class worst = whole.cls;

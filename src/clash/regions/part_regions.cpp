@@ -24,11 +24,11 @@ namespace strake::clash {
 namespace {
 
 struct DetailRequest {
-  std::uint32_t number = 0;  ///< of the case
+  std::uint32_t number = 0;  ///< the number of the unique pair
   RegionDetail detail = RegionDetail::whole;
 };
 
-/// What the k-th pair of objects asks of its cases.
+/// Requests the detail that the k-th pair of objects needs of its unique pairs.
 void request_detail(const EvaluatedPairs& evaluated, const ObjectPairs& objects, std::size_t k,
                     bool may_allow, std::vector<DetailRequest>& out) {
   const std::size_t first = objects.begin(k), end = objects.end(k), before = out.size();
@@ -40,7 +40,7 @@ void request_detail(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
   for (std::size_t i = first; i < end; ++i) {
     if (cls(i) == Class::no_hit) continue;
     if (cls(i) == Class::clearance_violation && cls(i) != worst && !may_allow) continue;
-    // Of a line and anything else the places are not told apart.
+    // The regions of a line and any other part are not told apart.
     if (has_wire(*evaluated.a(i).placed.part, *evaluated.b(i).placed.part)) continue;
     const bool copies = evaluated.of(i).evaluation.answer.relation == Relation::duplicate;
     out.push_back(
@@ -81,14 +81,14 @@ using geometry::PartKind;
 using geometry::SingleRegionDetail;
 using geometry::Vec3d;
 
-/// Pairs of near triangles beyond which places are not told apart. Parts of some thousand triangles
-/// may have them all near each other; of finer parts no pair of parts may take more than
-/// microseconds a triangle, and a dozen a triangle is what lies face to face.
+/// The most pairs of near triangles for which regions are told apart. Parts of some thousand
+/// triangles may have them all near each other; of finer parts no pair of parts may take more than
+/// microseconds a triangle, and parts that lie face to face have a dozen a triangle.
 constexpr std::uint64_t kPairsPerTriangle = 2, kLeastPairs = 1U << 14U;
-/// Cells of space that a place may cut at least, however many places there are.
+/// The least number of cells of space that a region may cut, however many regions there are.
 constexpr std::uint32_t kLeastCells = 400;
 
-/// Two parts in canonical order.
+/// Finds the regions of two parts in canonical order.
 class PartRegionFinder {
  public:
   PartRegionFinder(const PairOperand& a, const PairOperand& b, const PartPairResult& whole,
@@ -108,7 +108,8 @@ class PartRegionFinder {
     const double clearance = options_.clearance + part_a_.sag + part_b_.sag;
     const bool beyond = detail == RegionDetail::all && clearance > reach;
     const bool describe_one = detail >= RegionDetail::each;
-    // Where interiors meet, what is common reaches farther than the skins that are near each other.
+    // Where interiors meet, the common part reaches farther than the surfaces that are near each
+    // other.
     const bool boxed = describe_one && !whole_.separation.interiors_meet;
     if (!find(reach, boxed ? SingleRegionDetail::boxed : SingleRegionDetail::counted))
       return std::nullopt;
@@ -159,7 +160,7 @@ class PartRegionFinder {
     return {whole_, deep ? extent_in_common() : found_.all.front().extent, true};
   }
 
-  /// Of the places within the clearance those that hold none within the touch gap.
+  /// Adds those regions within the clearance that hold none within the touch gap.
   void add_gaps(std::vector<PartRegion>& regions) {
     for (std::size_t n = 0; n < found_.all.size(); ++n) {
       const ContactRegion& region = found_.all[n];
@@ -195,7 +196,7 @@ class PartRegionFinder {
     return part_a_.kind == PartKind::sheet && part_b_.kind == PartKind::sheet;
   }
 
-  /// Finds where two sheets cross, and which place each stretch of that is in.
+  /// Finds where two sheets cross, and the region of each stretch of that.
   void cross_sheets() {
     crossing_.emplace(a_.treed, b_.treed, apart_within(part_a_, part_b_, options_), work_.pair);
     stretches_.resize(found_.all.size());
@@ -222,8 +223,8 @@ class PartRegionFinder {
     return answer;
   }
 
-  /// Whether the skins do not touch in a place, and what is between them is outside of both bodies:
-  /// then these have nothing in common there.
+  /// Whether the surfaces do not touch in a region, and what is between them is outside of both
+  /// bodies: then these have nothing in common there.
   [[nodiscard]] bool is_gap(const ContactRegion& region) {
     if (!(region.least > 0)) return false;
     constexpr double kSteps = 4096;
@@ -238,8 +239,8 @@ class PartRegionFinder {
     return outside(a_.treed, middle) && outside(b_.treed, middle - shift_);
   }
 
-  /// The place of a point of both bodies: that of the skin nearest to it, since no skin lies
-  /// between.
+  /// Returns the region of a point of both bodies: that of the surface nearest to it, since no
+  /// surface lies between.
   [[nodiscard]] std::optional<std::uint32_t> region_of(const Vec3d& p) const {
     const geometry::SurfacePoint on_a = nearest_on_surface(a_.treed, p);
     const geometry::SurfacePoint on_b = nearest_on_surface(b_.treed, p - shift_);
@@ -249,10 +250,11 @@ class PartRegionFinder {
         {.of_a = false, .triangle = on_b.triangle, .point = on_b.point + shift_});
   }
 
-  /// The depth there; none that can be found is a touch that may be as deep as the bound.
+  /// Measures the depth there; if none can be found, it is a touch that may be as deep as the
+  /// bound.
   void go_deep(std::size_t number, PartPairResult& answer) {
     geometry::DepthOptions goal;
-    // Places share the allowance of the pair, as long as enough is left for each.
+    // Regions share the allowance of the pair, as long as enough is left for each.
     const auto regions = static_cast<std::uint32_t>(found_.all.size());
     goal.cells_undecided = std::max(goal.cells_undecided / regions, kLeastCells);
     goal.cells_decided = std::max(goal.cells_decided / regions, kLeastCells);
@@ -275,7 +277,7 @@ class PartRegionFinder {
     answer.relation = sheet ? Relation::cross : Relation::interfere;
   }
 
-  /// What a place holds of what is common to both, of which one is a solid.
+  /// Returns the depth of the common part in a region, where one part is a solid.
   geometry::Depth depth_within(std::size_t number, geometry::DepthOptions goal) {
     const ContactRegion& region = found_.all[number];
     goal.apart_within = apart_within(part_a_, part_b_, options_);
@@ -289,7 +291,7 @@ class PartRegionFinder {
     return depth_of(a_, b_, goal, work_);
   }
 
-  /// The answer as a whole is that of the worst place, which holds its witness.
+  /// Gives the result as a whole to the worst region, which holds its witness.
   void give_whole(std::vector<PartRegion>& regions, std::optional<std::uint32_t> deepest) const {
     const Vec3d at = whole_.witness.point();
     const auto less_likely = [&](const PartRegion& x, const PartRegion& y) {
@@ -303,12 +305,12 @@ class PartRegionFinder {
     worst->is_whole = true;
     for (PartRegion& region : regions) {
       if (&region == &*worst) continue;
-      // No place is worse than the whole; the two searches stop at different brackets.
+      // No region is worse than the whole; the two searches stop at different brackets.
       keep_within_whole(region.answer);
     }
   }
 
-  /// The whole may be known from the true surfaces, where places are told by triangles.
+  /// The whole may be known from the true surfaces, where regions are told by triangles.
   void keep_within_whole(PartPairResult& answer) const {
     SignedSeparation& s = answer.separation;
     const double least = whole_.separation.lower - whole_.separation.sag;
@@ -331,8 +333,8 @@ class PartRegionFinder {
   geometry::ContactRegions found_;
   Thresholds thresholds_;
   geometry::FaceKdop planes_a_, planes_b_;
-  std::optional<geometry::SheetCrossing> crossing_;    ///< of two sheets in several places
-  std::vector<std::vector<std::uint32_t>> stretches_;  ///< by place: those in it
+  std::optional<geometry::SheetCrossing> crossing_;    ///< for two sheets with several regions
+  std::vector<std::vector<std::uint32_t>> stretches_;  ///< by region: the stretches in it
 };
 
 }  // namespace
@@ -399,8 +401,8 @@ class RegionStage {
   }
 
  private:
-  /// Takes those cases out that certainly have one place: where one flat face of each meets, where
-  /// one body lies in the other, and of two convex parts.
+  /// Removes the unique pairs that certainly have one region: where one flat face of each meets,
+  /// where one body lies in the other, and where both parts are convex.
   Result<std::vector<std::size_t>> take_simple(std::vector<std::size_t>& some) const {
     const auto flat = parallel::transform(
         work_.context(), {.name = "flat places", .n = some.size(), .grain = PairTasks::kGrain},
@@ -420,7 +422,7 @@ class RegionStage {
     return taken;
   }
 
-  /// A solid that lies in another: a connected body of which every point is common.
+  /// Whether a solid lies in another: a connected body of which every point is common.
   [[nodiscard]] bool is_contained(std::size_t i) const {
     const Relation relation = candidates_[i].evaluation.answer.relation;
     return work_.a(i).placed.part->kind == geometry::PartKind::solid &&
@@ -442,10 +444,10 @@ class RegionStage {
                                                reach);
   }
 
-  /// By unique part, of those that some of the cases are about.
+  /// Returns whether each unique part is convex, for those that some of the unique pairs are about.
   Result<parallel::Precomputed<std::uint8_t>> convex_parts(
       const std::vector<std::size_t>& some) const {
-    // Dents that a place cannot be told by: the touch gap bridges them.
+    // Dents that do not separate regions: the touch gap bridges them.
     const double slack = std::max(1.0, stage_.pair_tolerances.least_touch_gap() / 4);
     const auto& unique = evaluated_.list.unique;
     parallel::Precomputed<std::uint8_t> convex(unique.size());
@@ -461,7 +463,7 @@ class RegionStage {
     return convex;
   }
 
-  /// The boxes of cases that have one place.
+  /// Measures the boxes of unique pairs that have one region.
   Status measure_simple(const std::vector<std::size_t>& some) {
     if (const Status s = cache_.ensure_frames(work_.parts_of(some), work_.context()); !s) return s;
     return work_.for_each_of(
@@ -494,7 +496,8 @@ class RegionStage {
         });
   }
 
-  /// Small parts that only touch are walked faster than a tree is built.
+  /// Whether a pair needs trees: small parts that only touch are traversed faster than a tree is
+  /// built.
   [[nodiscard]] bool wants_trees(std::size_t i) const {
     constexpr std::size_t kMostWalked = 512;
     return candidates_[i].evaluation.answer.separation.interiors_meet ||

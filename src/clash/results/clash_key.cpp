@@ -71,7 +71,7 @@ Hash128 pair_hash(std::string_view test, const ElementName& a, const ElementName
   const auto shown = [](const ElementName& e) {
     return std::pair(valid_utf8(e.file_label), valid_utf8(e.id));
   };
-  // Ordered as shown, so that a reader of a file comes to the same key.
+  // They are ordered as shown, so that a reader of a file gets the same key.
   auto first = shown(a), second = shown(b);
   if (second < first) std::swap(first, second);
   Hasher hasher;

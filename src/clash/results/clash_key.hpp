@@ -13,26 +13,26 @@
 /// Bytes of a label or id that are not UTF-8 count as U+FFFD, which is how files show them.
 namespace strake::clash {
 
-/// 64 bits of an object's file label and durable id.
+/// Returns 64 bits of hash of an object's file label and durable id.
 [[nodiscard]] std::uint64_t element_hash(std::string_view file_label, std::string_view id);
 [[nodiscard]] std::uint64_t element_hash(const model::Model& model, model::ObjectId id);
 
-/// The key of a clash: 26 characters of 0-9 and a-z without i, l, o and u. It depends on the name
-/// of the test, the file labels and the durable ids of the two alone: the same tomorrow, whatever
-/// the class, for swapped sets and files in another order.
+/// Returns the key of a clash: 26 characters of 0-9 and a-z without i, l, o and u. It depends on
+/// the name of the test, the file labels and the durable ids of the two alone: it is the same
+/// tomorrow, whatever the class, for swapped sets and files in another order.
 [[nodiscard]] std::string pair_key(std::string_view test, const model::Model& model,
                                    model::ObjectId a, model::ObjectId b);
 
-/// What a durable id is unique within, and the id.
+/// A durable id, with what it is unique within.
 struct ElementName {
   std::string_view file_label, id;
 };
 
-/// The same of two objects that are known by name, as the hash that it is.
+/// Returns the key of two objects that are known by name, as the hash that it is.
 [[nodiscard]] Hash128 pair_hash(std::string_view test, const ElementName& a, const ElementName& b);
 
-/// A hash as such a text, and back; nothing for any other text. Texts are ordered as the hashes
-/// are.
+/// Convert a hash to such a text, and back; any other text gives nothing. Texts are ordered as the
+/// hashes are.
 [[nodiscard]] std::string key_text(Hash128 hash);
 [[nodiscard]] std::optional<Hash128> parse_key(std::string_view text);
 

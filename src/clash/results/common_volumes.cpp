@@ -17,15 +17,15 @@ namespace {
 using geometry::Part;
 using geometry::PartKind;
 
-/// What the volume of one pair may cost, in triangle pairs and tree nodes: what it takes where each
-/// triangle lies over a few of the other part, as skins of like fineness do, and some.
+/// The most that the volume of one pair may cost, in triangle pairs and tree nodes: some more than
+/// it takes where each triangle lies over a few of the other part, as on surfaces of like fineness.
 constexpr std::uint64_t kWorkPerTriangle = 16, kLeastWork = 4096;
 
 /// A pair of solid parts whose interiors meet, in a pair of objects that is a HIT.
 struct SolidOverlap {
   const ScenePart* a = nullptr;
   const ScenePart* b = nullptr;
-  std::size_t pair = 0;  ///< of objects
+  std::size_t pair = 0;  ///< the pair of objects
 };
 
 std::uint64_t most_work(const Part& a, const Part& b) {
@@ -39,7 +39,7 @@ std::vector<SolidOverlap> overlaps_of_hits(const PartResults& findings,
   for (std::size_t i = 0; i < findings.found.size(); ++i) {
     const PartResult& f = findings.found[i];
     if (!f.answer->separation.interiors_meet) continue;
-    if (f.candidate == last) continue;  // another place of the same parts
+    if (f.candidate == last) continue;  // another region of the same parts
     last = f.candidate;
     const ScenePart &a = findings.a(i), &b = findings.b(i);
     const auto before = [&](const Pair& p) {
@@ -55,7 +55,7 @@ std::vector<SolidOverlap> overlaps_of_hits(const PartResults& findings,
   return overlaps;
 }
 
-/// Which unique parts the overlaps are of.
+/// Returns which unique parts overlap.
 std::vector<bool> parts_of(const std::vector<SolidOverlap>& overlaps, std::size_t unique) {
   std::vector<bool> parts(unique, false);
   for (const SolidOverlap& o : overlaps) parts[o.a->unique] = parts[o.b->unique] = true;
@@ -63,7 +63,7 @@ std::vector<bool> parts_of(const std::vector<SolidOverlap>& overlaps, std::size_
 }
 
 struct VolumeMeasure {
-  std::optional<double> volume;  ///< cubic grid units
+  std::optional<double> volume;  ///< in cubic grid units
   std::uint64_t triangle_pairs = 0;
 };
 

@@ -6,8 +6,8 @@
 
 namespace strake::clash {
 
-/// Pair::volume_mm3 of every HIT of the report: the common volumes of its pairs of solid parts
-/// whose interiors meet, added up in their order.
+/// Computes Pair::volume_mm3 of every HIT of the report: the common volumes of its pairs of solid
+/// parts whose interiors meet, added up in their order.
 [[nodiscard]] Status measure_volumes(const PartResults& findings, AccelerationCache& cache,
                                      const parallel::Context& context, Report& report);
 

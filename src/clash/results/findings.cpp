@@ -14,14 +14,14 @@ namespace strake::clash {
 
 namespace {
 
-/// The diagnostics of a test, each place said to lie within it.
+/// Returns the diagnostics of a test, each with the test's name in its place.
 Diagnostics named(const Report& test) {
   Diagnostics all;
   for (Diagnostic d : test.diagnostics.kept()) {
     d.where = "test '" + test.name + "'" + (d.where.empty() ? "" : ", ") + d.where;
     all.add(std::move(d));
   }
-  // What was counted but not kept: there are enough of its code already.
+  // Counts of what was not kept are added too: there are enough of its code already.
   for (const Diagnostics::Count& c : test.diagnostics.counts())
     for (std::uint64_t n = all.count(c.code); n < c.count; ++n) all.add(c.severity, c.code, {}, {});
   return all;

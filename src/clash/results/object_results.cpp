@@ -18,25 +18,25 @@ namespace {
 
 using geometry::Vec3d;
 
-/// A point relative to a part's origin.
+/// Converts a point relative to a part's origin to mm.
 Vec3d place_mm(const ScenePart& part, const Vec3d& p) {
   return geometry::to_mm(part.placed.origin.as<double>() + p);
 }
 
-/// The answer of two parts or of one place of theirs, told of their objects.
+/// The result of two parts or of one region of theirs, about their objects.
 struct Answer {
   Pair pair;
   const PartPairResult* of_parts = nullptr;
 };
 
-/// What stands differently is worse or less bad whatever its d.
+/// The rank of a result: a different rank makes it worse or less bad whatever its d.
 auto standing(const Pair& p) {
   return std::tuple(p.allowed < 0, p.cls, std::max(p.level_a, p.level_b),
                     std::min(p.level_a, p.level_b));
 }
 
-/// How much a relation says, the same for either order of the two: of parts that are equally deep,
-/// what lies inside says less than what passes through.
+/// Returns how much a relation says, the same for either order of the two: of parts that are
+/// equally deep, one inside the other says less than one passing through.
 int weight(Relation relation) {
   switch (relation) {
     case Relation::separate:
@@ -58,17 +58,17 @@ int weight(Relation relation) {
   return 0;
 }
 
-/// The least d is no more than this. Without sag: relations too are those of the tessellated.
+/// Returns an upper bound of the least d, without sag: relations too are of the tessellated parts.
 double least_d(const std::vector<Answer>& peers) {
   double least = std::numeric_limits<double>::infinity();
   for (const Answer& peer : peers) least = std::min(least, peer.of_parts->separation.upper);
   return least;
 }
 
-/// One answer of those that stand as the worst one does. Where brackets leave open which of them is
-/// the deepest, as between equal depths that were rounded differently, d does not choose among
-/// them: the weightiest relation counts, and the witness is of it wherever that is as deep to a
-/// grid unit.
+/// Returns one result of those that rank as the worst one does. Where brackets leave open which of
+/// them is the deepest, as between equal depths that were rounded differently, d does not choose
+/// among them: the weightiest relation counts, and the witness is of it wherever that is as deep to
+/// a grid unit.
 Pair decisive(const Pair& worst, const std::vector<Answer>& peers) {
   const double least = least_d(peers);
   Pair pair = worst;
@@ -91,12 +91,14 @@ Pair decisive(const Pair& worst, const std::vector<Answer>& peers) {
   return pair;
 }
 
-/// Whether no work limit left a bracket down to that of an answer wider than the grid accounts for.
+/// Whether no work limit left a bracket, down to that of a result, wider than the grid accounts
+/// for.
 bool is_complete(const SignedSeparation& s, double upper) {
   return s.depth_complete || upper - s.lower <= kBorderlineWidth;
 }
 
-/// The d of two objects is the least of their parts': so is either end of its bracket.
+/// Widens the bracket: the d of two objects is the least of their parts', and so is either end of
+/// its bracket.
 void widen_bracket(Pair& pair, const std::vector<Answer>& peers) {
   for (const Answer& peer : peers) {
     pair.d_lower_mm = std::min(pair.d_lower_mm, peer.pair.d_lower_mm);
@@ -108,14 +110,15 @@ void widen_bracket(Pair& pair, const std::vector<Answer>& peers) {
   pair.d_upper_mm = std::max(pair.d_mm, pair.d_upper_mm);
 }
 
-/// What the brackets of the answers permit where no rule allows it, Pair::severest of them all.
+/// Returns the severest class that the brackets permit where no rule allows it, Pair::severest of
+/// all results.
 Class severest_open(const std::vector<Answer>& answers) {
   Class severest = Class::no_hit;
   for (const Answer& answer : answers) severest = std::max(severest, answer.pair.severest);
   return severest;
 }
 
-/// Whether the answers of a pair of objects begin at `i` and it is not NO_HIT: any answer that is
+/// Whether the results of a pair of objects begin at `i` and it is not NO_HIT: any result that is
 /// not NO_HIT is worse than those that are.
 bool begins(const PartResults& findings, std::size_t i) {
   if (i > 0 && findings.same_objects(i - 1, i)) return false;
@@ -125,7 +128,8 @@ bool begins(const PartResults& findings, std::size_t i) {
   return false;
 }
 
-/// The pair of objects whose answers begin at `first`; of the places of two parts one decides.
+/// Returns the pair of objects whose results begin at `first`; of the regions of two parts one
+/// decides.
 Pair join(const PartResults& findings, std::size_t first) {
   std::vector<Answer> answers;
   for (std::size_t i = first; i < findings.found.size() && findings.same_objects(first, i); ++i)
@@ -149,7 +153,7 @@ Pair join(const PartResults& findings, std::size_t first) {
 
 }  // namespace
 
-/// Nothing that a rule allows hides something that none allows, and nothing soft something hard.
+/// What a rule allows never hides what none allows, and a soft part never hides a hard one.
 bool is_more_severe(const Pair& x, const Pair& y) {
   const auto open = [](const Pair& p) { return p.allowed < 0 && p.cls != Class::no_hit; };
   if (open(x) != open(y)) return open(x);

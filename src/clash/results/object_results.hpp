@@ -11,19 +11,19 @@
 
 namespace strake::clash {
 
-/// The answer for one pair of parts, or for one place of it, by its index among the candidates; not
-/// null.
+/// The result for one pair of parts, or for one region of it, by its index among the candidates;
+/// not null.
 struct PartResult {
   std::size_t candidate = 0;
   const PartPairResult* answer = nullptr;
-  const geometry::Box3d* extent = nullptr;  ///< of the place, if known: relative to a's origin
-  bool too_near_to_tell = false;            ///< whether there is one place or several
-  /// Whether the result of the two objects depends on it: on other places of two parts than their
-  /// worst one only where a rule may allow that.
+  const geometry::Box3d* extent = nullptr;  ///< the region's box, if known; relative to a's origin
+  bool too_near_to_tell = false;            ///< for knowing whether there is one region or several
+  /// Whether the result of the two objects depends on it; regions of two parts other than their
+  /// worst decide only where a rule may allow that one.
   bool decides = true;
 };
 
-/// What was found about parts, and what is needed to tell it of objects.
+/// What was found about parts, and what is needed to aggregate it by objects.
 struct PartResults {
   const std::vector<PartResult>& found;  ///< by candidate
   const std::vector<geometry::IndexPair>& candidates;
@@ -39,24 +39,24 @@ struct PartResults {
   [[nodiscard]] bool same_objects(std::size_t i, std::size_t j) const {
     return a(i).object == a(j).object && b(i).object == b(j).object;
   }
-  /// Whether the one after it is about the same two objects.
+  /// Whether the next result is about the same two objects.
   [[nodiscard]] bool has_more(std::size_t i) const {
     return i + 1 < found.size() && same_objects(i, i + 1);
   }
-  /// Of the place, if known.
+  /// Returns the box of the region, if known.
   [[nodiscard]] std::optional<geometry::Box3d> extent_mm(std::size_t i) const;
-  /// The answer as one about the two objects.
+  /// Returns the result as one about the two objects.
   [[nodiscard]] Pair pair(std::size_t i) const;
 };
 
-/// Which of two answers about one pair of objects decides.
+/// Whether x, of two results about one pair of objects, decides.
 [[nodiscard]] bool is_more_severe(const Pair& x, const Pair& y);
 
-/// The pairs of objects that are not NO_HIT: the join of the answers of their parts by whether a
-/// rule allows them, class, level and d. Where brackets leave open which of them is the worst, the
-/// weightiest relation counts; then d, witness and part numbers: a function of the set of answers.
-/// Whether places were told apart shows in it only through rules. Pair::first_region is the number
-/// of the pair's first answer. Errors: cancelled.
+/// Returns the pairs of objects that are not NO_HIT: the results of their parts are aggregated by
+/// whether a rule allows them, class, level and d. Where brackets leave open which of them is the
+/// worst, the weightiest relation counts; then d, witness and part numbers: a function of the set
+/// of results. Whether regions were told apart shows in it only through rules. Pair::first_region
+/// is the number of the pair's first result. Errors: cancelled.
 [[nodiscard]] Result<std::vector<Pair>> aggregate_by_object(const PartResults& findings,
                                                             const parallel::Context& context);
 

@@ -35,7 +35,7 @@ Status count_work(const EvaluatedPairs& evaluated, const parallel::Context& cont
 
 constexpr std::string_view kTooLarge = "pair-too-large", kInOpen = "pair-in-open-surface";
 
-/// The code of why a pair of objects was not compared; empty where it was.
+/// Returns the code of why a pair of objects was not compared; empty where it was.
 std::string_view why_not_compared(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
                                   std::size_t pair) {
   bool in_open = false, hit = false;
@@ -122,8 +122,8 @@ namespace {
 
 constexpr std::size_t kLogGrain = 4096;
 
-/// What one pair of objects cost; an earlier pair of parts may have been the same question as one
-/// of theirs, which then took no work of its own.
+/// Returns what one pair of objects cost; an earlier pair of parts may have been equal to one of
+/// theirs, which then took no work of its own.
 LoggedPair logged(const EvaluatedPairs& evaluated, std::size_t begin, std::size_t end,
                   const RuleMatcher& rules) {
   LoggedPair pair;

@@ -5,30 +5,31 @@
 #include "clash/pairs/pair_tasks.hpp"
 #include "clash/rules/rule_matcher.hpp"
 
+/// What is counted and logged over the results of a test.
 namespace strake::clash {
 
-/// Report::not_compared: the objects of the sets that lack geometry, the pairs that are too large
-/// and those of which one lies within the other's open surface, unless they hit otherwise; messages
-/// of these codes tell of both. Errors here and below: cancelled.
+/// Fills Report::not_compared: the objects of the sets that lack geometry, the pairs that are too
+/// large and those of which one lies within the other's open surface, unless they hit otherwise;
+/// messages of these codes tell of both. Errors here and below: cancelled.
 [[nodiscard]] Status record_not_compared(const EvaluatedPairs& evaluated,
                                          const ObjectPairs& objects, const model::Scene& scene,
                                          const parallel::Context& context, Report& report);
 
-/// Report::sheets.
+/// Fills Report::sheets.
 void count_sheets(const ScenePartList& list, Report& report);
 
-/// "unknown-sag", once per file.
+/// Adds "unknown-sag", once per file.
 [[nodiscard]] Status warn_of_unknown_sag(const ScenePartList& list, const model::Model& model,
                                          const parallel::Context& context,
                                          Diagnostics& diagnostics);
 
-/// Report::counters, and the candidates of each rule.
+/// Fills Report::counters, and the candidates of each rule.
 [[nodiscard]] Status fill_counters(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
                                    const RuleMatcher& rules, const parallel::Context& context,
                                    Report& report);
 
-/// Report::log; the classes are those of the report's pairs, and what it does not hold is NO_HIT.
-/// Errors: cancelled.
+/// Fills Report::log; the classes are those of the report's pairs, and what it does not hold is
+/// NO_HIT. Errors: cancelled.
 [[nodiscard]] Status log_pairs(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
                                const RuleMatcher& rules, const parallel::Context& context,
                                Report& report);

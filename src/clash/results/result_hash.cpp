@@ -15,7 +15,7 @@ namespace strake::clash {
 
 namespace {
 
-/// Pairs hashed as one piece; part of what the hash is.
+/// The number of pairs hashed as one piece; it is part of the definition of the hash.
 constexpr std::size_t kPiece = 4096;
 
 void add_region(Hasher& hasher, const Region& region) {

@@ -7,8 +7,8 @@
 
 namespace strake::clash {
 
-/// Hexadecimal hash of the pairs by durable ids: classes, relations, d, witnesses, and the rules
-/// that allow them. Errors: cancelled.
+/// Returns a hexadecimal hash of the pairs by durable ids: classes, relations, d, witnesses, and
+/// the rules that allow them. Errors: cancelled.
 [[nodiscard]] Result<std::string> hash_of(const Report& report, const model::Model& model,
                                           const parallel::Context& context);
 

@@ -12,10 +12,11 @@
 namespace strake::clash {
 namespace {
 
-/// Far beyond any clearance a user can mean, and small enough for every box of the grid.
+/// The largest tolerance: far beyond any clearance a user can mean, and small enough for every box
+/// of the grid.
 constexpr double kMaxToleranceMm = 1e6;
 
-/// Finest tessellation that is asked for when a tolerance is zero.
+/// The finest tessellation, used when a tolerance is zero.
 constexpr double kFinestSagMm = 0.02;
 
 Error bad(const char* option, const char* what) {
@@ -61,7 +62,7 @@ double contact_distance(const Options& options, float precision_um) {
 }
 
 float coarse_step(const Options& options, float precision_um) {
-  // Where a reader warns of coarse-coordinates, in half spacings.
+  // The half spacing at which a reader warns of coarse-coordinates.
   constexpr float kCoarseUm = 250;
   return options.contact_distance_mm < 0 && precision_um > kCoarseUm ? 2 * precision_um : 0;
 }

@@ -7,17 +7,17 @@
 
 namespace strake::clash {
 
-/// A usage error for a tolerance that is no length from 0 to a kilometre.
+/// Returns a usage error for a tolerance that is no length from 0 to a kilometre.
 [[nodiscard]] Status check(const Tolerances& tolerances);
 
-/// A usage error for a tolerance that makes no sense or sets of the wrong size.
+/// Returns a usage error for a tolerance that makes no sense or sets of the wrong size.
 [[nodiscard]] Status check(const Options& options, const Sets& sets, std::size_t objects);
 
-/// The contact distance δ in grid units of a body whose source has this precision.
+/// Returns the contact distance δ in grid units of a body whose source has this precision.
 [[nodiscard]] double contact_distance(const Options& options, float precision_um);
 
-/// The step of a body's numbers in grid units where it is so coarse that a touch cannot be told
-/// from what is a step off; 0 where it is not, and where the contact distance is given.
+/// Returns the step of a body's numbers in grid units where it is so coarse that a touch cannot be
+/// told from what is a step off; 0 where it is not, and where the contact distance is given.
 [[nodiscard]] float coarse_step(const Options& options, float precision_um);
 
 }  // namespace strake::clash

@@ -97,7 +97,7 @@ namespace {
 
 using geometry::IndexPair;
 
-/// Pairs per block of what is counted.
+/// Pairs per block where results are counted.
 constexpr std::size_t kMatchesPerBlock = 65536;
 
 std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options) {
@@ -114,7 +114,7 @@ std::size_t count_between(const Policy& policy) {
                     [](const Exemption& e) { return std::holds_alternative<Between>(e.test); }));
 }
 
-/// For each rule that is idle the first of the rules that did its work before it, kNoLabel: none
+/// Finds for each idle rule the first of the rules that did its work before it; kNoLabel if none
 /// did. look(pair, take) calls take(rule, by whom) for what concerns a pair.
 template <class Look>
 Result<std::vector<std::uint32_t>> first_before(const std::vector<bool>& idle, std::size_t pairs,
@@ -370,7 +370,7 @@ void RuleMatcher::allow(const ScenePart& a, const ScenePart& b,
   if (!contains_box(rule, extent_mm.value_or(common_box_mm(a, b, own_reach(a, b)))))
     pair.flags |= kUncertain;
   else if (rule.max_depth_mm || pair.severest != Class::hit)
-    pair.severest = Class::no_hit;  // without a depth it allows the class of d, but no HIT
+    pair.severest = Class::no_hit;  // without a depth the rule allows the class of d, but no HIT
 }
 
 void RuleMatcher::begin_report(const Sets& sets, Report& report) const {

@@ -14,10 +14,11 @@
 #include "strake/clash/clash.hpp"
 #include "strake/clash/policy.hpp"
 
+/// Applies the rules of a policy to pairs of objects.
 namespace strake::clash {
 
-/// Rules of the form "one of A and one of B" as bits of each object, so that all rules are asked
-/// about a pair at once.
+/// Rules of the form "one of A and one of B" as bits of each object, so that all rules are applied
+/// to a pair at once.
 class RuleBitmasks {
  public:
   explicit RuleBitmasks(std::size_t objects, std::size_t rules)
@@ -49,10 +50,10 @@ class RuleBitmasks {
     std::uint64_t a = 0, b = 0;
   };
   std::size_t words_;
-  std::vector<Bits> bits_;  ///< words_ of each object
+  std::vector<Bits> bits_;  ///< words_ entries of each object
 };
 
-/// Pairs of each class, those apart that a rule allows.
+/// The number of pairs of each class, without those that a rule allows.
 struct ClassCounts {
   std::uint64_t hit = 0, contact = 0, clearance_violation = 0, allowed = 0;
 
@@ -77,7 +78,7 @@ struct ClassCounts {
 /// What is counted over the pairs of a report.
 struct ClassTotals {
   ClassCounts all;
-  std::vector<std::uint64_t> by_rule;  ///< pairs that it allows
+  std::vector<std::uint64_t> by_rule;  ///< pairs that each rule allows
   std::vector<ClassCounts> by_cell;
 
   ClassTotals(std::size_t rules, std::size_t cells) : by_rule(rules, 0), by_cell(cells) {}
@@ -95,50 +96,50 @@ struct ClassTotals {
   }
 };
 
-// What the rules of a policy say, each by itself.
+// The following functions apply one rule of a policy by itself.
 
-/// A usage error for a policy whose lists do not have one entry per object.
+/// Returns a usage error for a policy whose lists do not have one entry per object.
 [[nodiscard]] Status check(const Policy& policy, std::size_t objects);
 
-/// Whether pairs of two objects are left out.
+/// Whether the rule leaves out pairs of these two objects.
 [[nodiscard]] bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b);
 [[nodiscard]] bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b);
 
-/// Whether a result is meant, by its depth and its point, of whatever objects. `moved_mm`: what the
-/// snap accounts for in its bracket.
+/// Whether a result is meant, by its depth and its point, whatever the objects. `moved_mm` is what
+/// the snap accounts for in its bracket.
 [[nodiscard]] bool allows(const Allowed& rule, const Pair& pair, double moved_mm);
-/// Of a result that is meant: whether its bracket reaches as deep as the rule allows.
+/// Whether the bracket of a result that is meant reaches as deep as the rule allows.
 [[nodiscard]] bool is_as_deep_as_allowed(const Allowed& rule, const Pair& pair);
 
-/// Whether every place of a box lies within the rule's region and cavity.
+/// Whether every point of a box lies within the rule's region and cavity.
 [[nodiscard]] bool contains_box(const Allowed& rule, const geometry::Box3d& box);
 
-/// The rules of a policy as a pair of objects is asked about them.
+/// The rules of a policy, prepared to be applied to pairs of objects.
 class RuleMatcher {
  public:
   /// The policy must outlive this.
   RuleMatcher(const Policy& policy, const Options& options, const model::Model& model);
 
-  /// What a pair is judged by: all() has the test's own tolerances first, then the policy's.
+  /// The tolerances of pairs: all() has the test's own first, then the policy's.
   [[nodiscard]] const std::vector<Tolerances>& all() const { return tolerances_; }
   [[nodiscard]] std::size_t tolerances(std::uint32_t a, std::uint32_t b) const;
-  /// How far apart parts may be for the test to look at them, mm.
+  /// Returns how far apart parts may be for the test to check them, mm.
   [[nodiscard]] double reach_mm() const;
 
   [[nodiscard]] Level level(const ScenePart& part) const;
 
-  /// Takes out what is exempted, and what is nearer than reach_mm() but not than the pair's own
-  /// tolerances ask. `pairs` is by objects.
+  /// Removes exempted pairs, and pairs within reach_mm() but beyond the reach of their own
+  /// tolerances. `pairs` is by objects.
   [[nodiscard]] Status exempt(const ScenePartList& list, std::vector<geometry::IndexPair>& pairs,
                               const parallel::Context& context, Report& report) const;
 
-  /// Counts the pairs of objects that went on for the rules that may allow them.
+  /// Counts the pairs of objects that went on, for the rules that may allow them.
   [[nodiscard]] Status count_candidates(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
                                         const parallel::Context& context, Report& report) const;
   [[nodiscard]] bool may_allow(std::uint32_t a, std::uint32_t b) const;
-  /// Pair::allowed by the first rule that allows the result; flagged uncertain where the place may
-  /// reach beyond what the rule allows. `extent_mm` holds the place; none: it may be anywhere
-  /// between the two parts.
+  /// Sets Pair::allowed by the first rule that allows the result, flagged uncertain where the
+  /// region may reach beyond what the rule allows. `extent_mm` encloses the region; if absent, it
+  /// may be anywhere between the two parts.
   void allow(const ScenePart& a, const ScenePart& b,
              const std::optional<geometry::Box3d>& extent_mm, Pair& pair) const;
 
@@ -150,8 +151,8 @@ class RuleMatcher {
  private:
   /// What becomes of one pair of parts.
   struct Verdict {
-    std::uint32_t rule = kNoLabel;  ///< kNoLabel: none exempts it
-    bool far = false;               ///< out of the reach of its own tolerances
+    std::uint32_t rule = kNoLabel;  ///< the rule that exempts it; kNoLabel: none
+    bool far = false;               ///< beyond the reach of its own tolerances
   };
   /// Pairs of parts and their verdicts.
   struct Verdicts {
@@ -166,12 +167,12 @@ class RuleMatcher {
   [[nodiscard]] double own_reach(const ScenePart& a, const ScenePart& b) const;
   [[nodiscard]] bool within_own_reach(const ScenePart& a, const ScenePart& b) const;
   void number_level_rules();
-  // Of rules that do nothing: whether that is because earlier ones have done it.
+  // For rules that do nothing: whether that is because earlier ones have done it.
   [[nodiscard]] Status record_shadowed(const Verdicts& all, const parallel::Context& context,
                                        Report& report) const;
   [[nodiscard]] Status record_shadowed_allowances(const parallel::Context& context,
                                                   Report& report) const;
-  /// The place of a pair's cell in Report::cells, or kNoCell.
+  /// Returns the index of a pair's cell in Report::cells, or kNoCell.
   [[nodiscard]] std::size_t cell_number(const Pair& pair) const;
   static constexpr std::size_t kNoCell = ~std::size_t{0};
 
@@ -180,7 +181,7 @@ class RuleMatcher {
   std::vector<Tolerances> tolerances_;
   bool one_reach_ = true;
   RuleBitmasks between_, allowed_;
-  std::vector<std::uint32_t> between_rule_;  ///< per Between: its exemption
+  std::vector<std::uint32_t> between_rule_;  ///< the exemption of each Between
   std::vector<std::string> level_rules_;     ///< distinct, after the exemptions in reports
 };
 

@@ -333,7 +333,7 @@ Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
   const std::size_t size = component_bytes(accessor.component) * accessor.width;
 
   if (!stated.view) {
-    // Zeros, of which a file may ask for any number: no more than its data could hold.
+    // It is all zeros, of which a file may ask for any number: no more than its data could hold.
     const std::size_t most = std::max<std::size_t>(buffers_->total_bytes(), 4096);
     if (accessor.count > most / size)
       return GltfFault{accessor.pointer,
@@ -390,7 +390,8 @@ bool Accessors::apply_sparse(Accessor& accessor, const JsonValue& sparse, GltfFa
     }
     if (*count != 0) part->bytes = found.bytes.subspan(offset);
   }
-  // A copy with the replaced elements; the accessor's own data may be interleaved with others'.
+  // It becomes a copy with the replaced elements; the accessor's own data may be interleaved with
+  // others'.
   std::vector<std::byte> dense(size * accessor.count);
   for (std::size_t i = 0; i < accessor.count; ++i)
     std::memcpy(dense.data() + size * i, accessor.bytes.data() + accessor.stride * i, size);

@@ -17,6 +17,7 @@
 #include "io/gltf/json/json.hpp"
 #include "io/source/input_file.hpp"
 
+/// Buffers, buffer views and accessors of a glTF document.
 namespace strake::io::gltf {
 
 /// Why a part of a document cannot be used: the JSON pointer of the culprit and what is wrong.
@@ -34,10 +35,10 @@ template <class T>
   return std::get_if<GltfFault>(&checked);
 }
 
-/// The bytes of a data: URI's base64, nothing when it is not valid.
+/// Returns the bytes of a data: URI's base64, nothing when it is not valid.
 [[nodiscard]] std::optional<std::vector<std::byte>> decode_base64(std::string_view text);
 
-/// A relative URI with its percent escapes decoded.
+/// Returns a relative URI with its percent escapes decoded.
 [[nodiscard]] std::string decode_uri(std::string_view uri);
 
 /// The buffers and buffer views of a document. All is checked here: a view that was given out lies
@@ -50,7 +51,7 @@ class Buffers {
   };
 
   /// Loads what the document names: the GLB's own chunk, data: URIs, and files in the model's
-  /// folder or below it. What cannot be had is a fault of its views.
+  /// folder or below it. What cannot be loaded is a fault of its views.
   Buffers(const JsonValue& root, const Container& container, const std::filesystem::path& file);
 
   [[nodiscard]] Checked<BufferView> view(std::size_t index) const;
@@ -100,19 +101,19 @@ struct Accessor {
   ~Accessor() = default;
 
   std::string pointer;
-  std::vector<std::byte> dense;  ///< its elements where they are not simply those of a view
+  std::vector<std::byte> dense;  ///< its elements, where they are not simply those of a view
   std::span<const std::byte> bytes;
   std::size_t stride = 0;
   std::size_t count = 0;
-  std::size_t width = 0;  ///< components of an element
+  std::size_t width = 0;  ///< the number of components of an element
   Component component = Component::float32;
   bool normalized = false;
 
-  /// The distance between neighbouring values of a component; 0 for float32.
+  /// Returns the distance between neighbouring values of a component; 0 for float32.
   [[nodiscard]] double step() const;
-  /// Components of an element as numbers, normalised where the accessor says so.
+  /// Gives the components of an element as numbers, normalised where the accessor says so.
   void element(std::size_t index, double* out) const;
-  /// An element of an accessor of unsigned integers with one component.
+  /// Returns an element of an accessor of unsigned integers with one component.
   [[nodiscard]] std::uint32_t integer(std::size_t index) const;
 };
 
@@ -121,18 +122,19 @@ class Accessors {
  public:
   Accessors(const JsonValue& root, const Buffers& buffers);
 
-  /// Any accessor that is well-formed; without data it is zeros. Sparse ones are made dense.
+  /// Opens any accessor that is well-formed; without data it is zeros. Sparse ones are made dense.
   [[nodiscard]] Checked<Accessor> open(std::uint64_t index) const;
 
-  /// The count that an accessor states, 0 if it does not exist; nothing else is looked at.
+  /// Returns the count that an accessor states, 0 if it does not exist; nothing else is checked.
   [[nodiscard]] std::uint64_t stated_count(std::uint64_t index) const;
   [[nodiscard]] bool has_data(std::uint64_t index) const;
-  /// The count of an accessor whose elements are put into memory whenever it is opened, else 0.
+  /// Returns the count of an accessor whose elements are copied into memory whenever it is opened,
+  /// else 0.
   [[nodiscard]] std::uint64_t copied_count(std::uint64_t index) const;
 
  private:
-  /// What the document states. Read once: many primitives may share an accessor, and an object
-  /// may hold any number of members that are none of ours.
+  /// What the document states of an accessor. It is read once: many primitives may share an
+  /// accessor, and an object may hold any number of members that are none of ours.
   struct Stated {
     std::optional<std::uint64_t> count, component, offset;
     std::optional<std::uint64_t> view;  ///< UINT64_MAX where it is no index

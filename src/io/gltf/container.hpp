@@ -15,7 +15,7 @@ namespace strake::io::gltf {
 struct Container {
   bool binary_file = false;
   std::string_view json;
-  std::size_t json_offset = 0;  ///< of the text within the file, for messages
+  std::size_t json_offset = 0;  ///< the offset of the text within the file, for messages
   std::optional<std::span<const std::byte>> chunk;
 };
 

@@ -32,7 +32,7 @@ PlacementKey key_of(const Placement& p) {
   return key;
 }
 
-/// The placement that undoes p; nothing when p flattens space.
+/// Returns the placement that undoes p; nothing when p flattens space.
 std::optional<Placement> inverse(const Placement& p) {
   const double determinant = p.linear.determinant();
   if (determinant == 0 || !std::isfinite(1 / determinant)) return std::nullopt;

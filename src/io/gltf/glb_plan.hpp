@@ -14,17 +14,17 @@
 
 namespace strake::io::gltf {
 
-/// Geometry that stands in the binary chunk once: a shape, in the frame of the mesh that has it.
+/// Geometry that is stored in the binary chunk once: a shape, in the frame of the mesh that has it.
 struct StoredGeometry {
   const geometry::TriangleMesh* mesh = nullptr;  ///< one of these two
   const geometry::Polylines* lines = nullptr;
-  geometry::Placement relative;  ///< shape frame to mesh frame; identity for most
+  geometry::Placement relative;  ///< from shape frame to mesh frame; identity for most
   std::uint64_t first_vertex = 0;
   std::uint64_t vertex_count = 0;
   std::uint64_t first_index = 0;  ///< among the indices of its width
   std::uint64_t index_count = 0;
   bool wide = false;                ///< 32-bit indices; otherwise 16
-  std::array<float, 3> lo{}, hi{};  ///< of the coordinates as written
+  std::array<float, 3> lo{}, hi{};  ///< the bounds of the coordinates as written
 
   [[nodiscard]] const std::vector<geometry::Vec3d>& vertices() const {
     return mesh != nullptr ? mesh->vertices : lines->points;
@@ -39,22 +39,22 @@ struct MeshPrimitive {
 
 inline constexpr std::uint32_t kNoMesh = 0xffffffffU;
 
-/// What a model becomes as glTF, before a byte is written.
+/// The glTF document that a model becomes, before a byte is written.
 struct GlbPlan {
-  SourceFrame frame;  ///< of the file
+  SourceFrame frame;  ///< the frame of the file
   std::vector<StoredGeometry> pieces;
   std::vector<std::vector<MeshPrimitive>> meshes;
   std::vector<model::Color> materials;
   struct ObjectNode {
     std::uint32_t mesh = kNoMesh;
-    geometry::Placement placement;  ///< model frame
+    geometry::Placement placement;  ///< in the model's frame
   };
   std::vector<ObjectNode> objects;  ///< per object of the model
   std::uint64_t vertex_count = 0, wide_count = 0, narrow_count = 0;
-  std::deque<geometry::TriangleMesh> made;  ///< triangles of analytic primitives
+  std::deque<geometry::TriangleMesh> made;  ///< the triangles of analytic primitives
   std::deque<geometry::Polylines> made_lines;
 
-  /// A vertex of a piece as it is written.
+  /// Returns a vertex of a piece as it is written.
   [[nodiscard]] std::array<float, 3> written(const StoredGeometry& piece,
                                              const geometry::Vec3d& v) const;
 };

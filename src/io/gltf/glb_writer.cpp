@@ -120,7 +120,7 @@ void JsonChunk::object_node(std::size_t object) {
   out_ += "}";
 }
 
-/// Groups first, then objects, so that the number of an object's node is groups + object.
+/// Writes groups first, then objects, so that the number of an object's node is groups + object.
 void JsonChunk::nodes() {
   std::vector<std::vector<std::uint32_t>> children(model_.groups.size());
   std::vector<std::uint32_t> roots;

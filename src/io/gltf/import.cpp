@@ -27,7 +27,7 @@ namespace {
 using geometry::Placement;
 using geometry::Vec3d;
 
-/// The standard's metres with y up, unless the file says otherwise as our own writer does.
+/// Returns the standard's metres with y up, unless the file says otherwise as our own writer does.
 FrameDefault stated_frame(const JsonValue& root) {
   FrameDefault frame{1000.0, UpAxis::y, true};
   const JsonValue extras = root["asset"]["extras"];
@@ -47,18 +47,18 @@ struct MeshShapes {
   };
   std::vector<ColoredShape> parts;
   geometry::Box3d box = geometry::empty_box<double>();
-  double half_spacing_mm = 0;  ///< of its vertices' numbers
+  double half_spacing_mm = 0;  ///< half the spacing of its vertices' numbers
   LeftOut left_out;
 };
 
-/// Where a mesh goes.
+/// The placement of a mesh.
 struct MeshPlacement {
-  Placement world;             ///< file frame
-  double half_spacing_mm = 0;  ///< of the numbers that say where; 0: doubles
+  Placement world;             ///< in the file's frame
+  double half_spacing_mm = 0;  ///< of the numbers of the placement; 0: doubles
 };
 
-/// Of the numbers of a node, in the unit of the file. They are decimals, but of many writers such
-/// as float32 has.
+/// Returns half the spacing of the numbers of a node, in the unit of the file. They are decimals,
+/// but many writers write such as float32 has.
 double half_spacing_of(const Placement& local) {
   if (!came_through_float32(local.translation)) return 0;
   return float32_half_spacing(largest_coordinate(std::array{local.translation}));
@@ -68,7 +68,7 @@ double largest_coordinate_of(const geometry::Box3d& box) {
   return box.empty() ? 0 : largest_coordinate(std::array{box.lo, box.hi});
 }
 
-/// What naming each instance of a node copies for it.
+/// Returns how many bytes naming each instance of a node copies for it.
 std::uint64_t attribute_bytes(const GltfNode& node) {
   std::uint64_t bytes = 0;
   for (const auto& [key, value] : node.attributes)
@@ -83,7 +83,7 @@ bool any_weight(const JsonValue& weights) {
   return any;
 }
 
-/// A path that is not too long, else a hash of it and the end of its last name.
+/// Returns a path that is not too long, else a hash of it and the end of its last name.
 std::string shortened(std::string path, std::string_view name) {
   constexpr std::size_t kMost = 256;
   if (path.size() <= kMost) return path;
@@ -91,8 +91,8 @@ std::string shortened(std::string path, std::string_view name) {
   return fmt::format("{}/{}", Hasher().add(std::string_view(path)).value().text(), name);
 }
 
-/// A node takes half a kilobyte of memory: where there are many, each must be worth as many bytes
-/// of the file ({"mesh":1,"translation":[1,2,3]} is 36), beyond a number that hurts nobody.
+/// The fewest bytes of the file per node beyond a number of nodes that hurts nobody. A node takes
+/// half a kilobyte of memory, and {"mesh":1,"translation":[1,2,3]} is 36 bytes.
 constexpr std::size_t kLeastNodeBytes = 24, kFreeNodes = std::size_t{1} << 20U;
 
 class Importer {
@@ -141,10 +141,10 @@ class Importer {
   }
 
   struct PlacedNode {
-    Placement world;                              ///< file frame
-    double half_spacing_mm = 0;                   ///< as of a Place
-    model::GroupId group = model::GroupId::none;  ///< that its children stand in
-    const GltfFault* fault = nullptr;             ///< its own or an ancestor's
+    Placement world;                              ///< in the file's frame
+    double half_spacing_mm = 0;                   ///< as of a MeshPlacement
+    model::GroupId group = model::GroupId::none;  ///< the group of its children
+    const GltfFault* fault = nullptr;             ///< its own fault or an ancestor's
     bool counted = false;                         ///< its name or an ancestor's is only a number
   };
   [[nodiscard]] std::optional<GltfFault> damage_of(const GltfNode& node,
@@ -165,7 +165,7 @@ class Importer {
   std::vector<MeshShapes> shapes_;   ///< per mesh of the document
   std::vector<std::optional<GltfFault>> mesh_faults_;
   std::vector<PlacedNode> placed_;  ///< per visit
-  std::vector<std::string> paths_;  ///< per group, '/' at the end; empty: nobody asked yet
+  std::vector<std::string> paths_;  ///< per group, '/' at the end; empty: not made yet
   model::Model model_;
 };
 
@@ -198,8 +198,8 @@ Status Importer::parse_nodes() {
   return {};
 }
 
-/// A few bytes of JSON can refer to the same data again and again: what that would become in
-/// memory is bounded by the file's size before anything is loaded.
+/// Checks the amount of data: a few bytes of JSON can refer to the same data again and again, so
+/// what that would become in memory is bounded by the file's size before anything is loaded.
 Status Importer::check_amount() const {
   const std::uint64_t bytes = input_.file.bytes.size() + buffers_.total_bytes();
   const auto refuse = [&](const char* what) {
@@ -247,7 +247,7 @@ void Importer::note_meshes() {
   }
 }
 
-/// What of the nodes is not read, though it bears on what there is or where.
+/// Notes what of the nodes is not read, though it affects what there is or where.
 void Importer::note_nodes() {
   std::vector<bool> visited(nodes_.size()), displaced(meshes_.size());
   for (const std::uint32_t mesh : used_) displaced[mesh] = any_weight(meshes_[mesh]["weights"]);
@@ -310,8 +310,8 @@ void Importer::adopt_meshes() {
   loaded_.clear();
 }
 
-/// Names from the root, joined by '/'. What is too long for the many objects of a deep tree keeps
-/// its end behind a hash of the whole.
+/// Returns names from the root, joined by '/'. A path that is too long for the many objects of a
+/// deep tree keeps its end behind a hash of the whole.
 std::string Importer::path_id(model::GroupId parent, const std::string& name) {
   if (parent == model::GroupId::none) return shortened(name, name);
   paths_.resize(model_.groups.size());
@@ -328,7 +328,7 @@ std::string Importer::path_id(model::GroupId parent, const std::string& name) {
   return shortened(paths_[model::index(parent)] + name, name);
 }
 
-/// One without bodies, at the end of the model.
+/// Adds an object without bodies at the end of the model.
 model::Object& Importer::new_object(ObjectIdentity element, model::GroupId parent) {
   model::Object object;
   object.positional_id = element.id.empty() && element.counted;
@@ -340,7 +340,7 @@ model::Object& Importer::new_object(ObjectIdentity element, model::GroupId paren
   return model_.objects.emplace_back(std::move(object));
 }
 
-/// The object stays in the model, so that it is told what lacks it.
+/// Keeps the object in the model, so that what lacks it is reported.
 void Importer::skip(ObjectIdentity element, model::GroupId parent, const GltfFault& fault) {
   model_.diagnostics.add(Severity::skipped, "gltf-damaged-object",
                          fmt::format("object '{}' is skipped: {}", element.name, fault.message),
@@ -404,7 +404,7 @@ void Importer::place_instances(const GltfNode& node, model::GroupId parent,
                group, std::span(places).subspan(i, 1));
 }
 
-/// Why a node with a mesh is no usable object, if so.
+/// Returns why a node with a mesh is no usable object, if so.
 std::optional<GltfFault> Importer::damage_of(const GltfNode& node, const PlacedNode& here) const {
   if (here.fault != nullptr) return *here.fault;
   if (const auto& fault = mesh_faults_[*node.mesh]) return fault;
@@ -434,7 +434,7 @@ void Importer::place(const VisitedNode& visit, std::size_t self) {
   const std::optional<GltfFault> fault = damage_of(node, here);
   if (!fault && node.instancing.exists())
     return place_instances(node, above.group, at, here.counted);
-  // Nobody asks for these again: a node is visited once.
+  // These are not needed again: a node is visited once.
   ObjectIdentity element{node.name, std::move(node.id), std::move(node.attributes), here.counted};
   if (fault) return skip(std::move(element), above.group, *fault);
   add_object(node, std::move(element), above.group, std::span(&at, 1));

@@ -28,7 +28,7 @@ bool is_line(Mode mode) {
   return mode == Mode::lines || mode == Mode::line_loop || mode == Mode::line_strip;
 }
 
-/// The corners of a strip, loop or fan one triangle or segment after the other.
+/// Returns the corners of a strip, loop or fan one triangle or segment after the other.
 std::vector<std::uint32_t> spelled_out(Mode mode, const std::vector<std::uint32_t>& corners) {
   const std::size_t n = corners.size();
   std::vector<std::uint32_t> out;
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> spelled_out(Mode mode, const std::vector<std::uint32_
   return out;
 }
 
-/// How many triangles or segments of which colour went into a shape.
+/// The number of triangles or segments of each colour that went into a shape.
 using ColorTally = std::map<std::array<std::uint8_t, 4>, std::size_t>;
 
 model::Color main_color(const ColorTally& tally) {
@@ -95,7 +95,7 @@ model::Color MeshLoader::color_of(const JsonValue& json) const {
   return (*input_.materials)[*material];
 }
 
-/// The vertices of the primitive's corners in their order.
+/// Reads the vertices of the primitive's corners in their order.
 bool MeshLoader::corners(const JsonValue& json, std::uint64_t vertices,
                          std::vector<std::uint32_t>& out) {
   const JsonValue indices_json = json["indices"];
@@ -118,7 +118,7 @@ bool MeshLoader::corners(const JsonValue& json, std::uint64_t vertices,
   return true;
 }
 
-/// Which of the vertices have no place, or do not exist.
+/// Returns which of the vertices have no position, or do not exist.
 std::vector<bool> MeshLoader::without_place(const Accessor& positions, const std::string& pointer,
                                             const std::vector<std::uint32_t>& used) {
   std::vector<bool> bad(used.size());
@@ -137,8 +137,8 @@ std::vector<bool> MeshLoader::without_place(const Accessor& positions, const std
   return bad;
 }
 
-/// The vertices in use, which `indices` count from 0 then; they have `corners_each` for each
-/// triangle or segment, of which those that need a vertex without a place are gone.
+/// Returns the vertices in use, which `indices` count from 0 then; they have `corners_each` for
+/// each triangle or segment, of which those that need a vertex without a position are removed.
 std::vector<Vec3d> MeshLoader::vertices(const Accessor& positions, const std::string& pointer,
                                         std::size_t corners_each,
                                         std::vector<std::uint32_t>& indices) {
@@ -177,7 +177,7 @@ void MeshLoader::triangles(const std::vector<std::uint32_t>& indices,
   tally[{color.red, color.green, color.blue, color.alpha}] += indices.size() / 3;
 }
 
-/// Segments that go on where the last one ended are one chain.
+/// Joins segments that continue where the last one ended into one chain.
 void MeshLoader::chains(const std::vector<std::uint32_t>& indices,
                         const std::vector<Vec3d>& points) {
   geometry::Polylines& lines = result_.lines;

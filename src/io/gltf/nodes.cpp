@@ -19,7 +19,8 @@ namespace {
 using geometry::Placement;
 using geometry::Vec3d;
 
-/// Extras may hold whole tables; what is longer or deeper than this is of no use as an attribute.
+/// The longest text of an attribute: extras may hold whole tables; what is longer or deeper than
+/// this is of no use.
 constexpr std::size_t kMostAttributeBytes = 4096;
 constexpr int kMostAttributeDepth = 4;
 
@@ -59,12 +60,12 @@ std::optional<Placement> matrix_of(const JsonValue& json) {
   return placement;
 }
 
-/// What a node says of its place; each may be absent.
+/// What a node states of its placement; each member may be absent.
 struct Transform {
   JsonValue matrix, translation, rotation, scale;
 };
 
-/// Nothing when it is not a finite affine one.
+/// Returns nothing when it is not a finite affine transform.
 std::optional<Placement> parse_transform(const Transform& json) {
   const auto finite = [](const std::optional<Placement>& placement) {
     return placement && is_finite(*placement) ? placement : std::nullopt;
@@ -146,7 +147,8 @@ std::uint64_t stated_instances(const GltfNode& node, const Accessors& accessors)
 
 namespace {
 
-/// One of the three attributes; absent is fine, anything else of another width or count is not.
+/// Opens one of the three attributes; absent is fine, anything else of another width or count is
+/// not.
 std::optional<GltfFault> open_attribute(const JsonValue& attributes, const char* name,
                                         std::size_t width, const Accessors& accessors,
                                         std::optional<Accessor>& out) {
@@ -242,7 +244,7 @@ Result<std::vector<std::uint32_t>> parents_of(const std::vector<GltfNode>& nodes
   return parents;
 }
 
-/// With one parent at most for each, nodes that no root leads to go round in a circle.
+/// Checks for cycles: with one parent at most for each, nodes that no root leads to form a cycle.
 Status check_cycles(const std::vector<GltfNode>& nodes, const std::vector<std::uint32_t>& parents) {
   std::vector<std::uint32_t> open;
   std::vector<bool> reached(nodes.size());

@@ -7,7 +7,7 @@
 namespace strake::io::gltf {
 namespace {
 
-/// The fifth root by Newton's method from above: no libm, so the same bits everywhere.
+/// Returns the fifth root by Newton's method from above: no libm, so the same bits everywhere.
 constexpr double fifth_root(double x) {
   double root = 1;
   for (int i = 0; i < 60; ++i) {

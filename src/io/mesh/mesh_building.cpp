@@ -9,7 +9,8 @@
 namespace strake::io {
 namespace {
 
-/// The usual case: the vertices of an object stand together, a table over their range is small.
+/// Handles the usual case: the vertices of an object lie together, so a table over their range is
+/// small.
 std::vector<std::uint32_t> compact_by_table(std::vector<std::uint32_t>& indices, std::uint32_t low,
                                             std::size_t range) {
   constexpr std::uint32_t kUnused = 0xffffffffU;
@@ -45,8 +46,8 @@ namespace {
 
 using geometry::Vec3d;
 
-/// A quadrilateral that either diagonal cuts into two triangles of one sense: most polygons of
-/// real files, and not worth a triangulation.
+/// Whether a quadrilateral is cut by either diagonal into two triangles of one sense: so are most
+/// polygons of real files, which are not worth a triangulation.
 bool is_convex_quad(const geometry::TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
   if (corners.size() != 4) return false;
   const Vec3d &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]],

@@ -12,15 +12,15 @@
 
 namespace strake::io {
 
-/// A body's geometry as triangles or polylines, and what places them.
+/// A body's geometry as triangles or polylines, and its placement.
 struct TessellatedShape {
   const geometry::TriangleMesh* mesh = nullptr;  ///< one of these two, or neither
   const geometry::Polylines* lines = nullptr;
   geometry::Placement placement;
 };
 
-/// Bodies as triangles and polylines for writers that know no analytic primitives: a primitive is
-/// tessellated once per linear part of its placements.
+/// Gives bodies as triangles and polylines to writers that know no analytic primitives: a primitive
+/// is tessellated once per linear part of its placements.
 class TessellationCache {
  public:
   TessellationCache(const model::Model& model, double sag_mm) : model_(&model), sag_mm_(sag_mm) {}

@@ -28,7 +28,7 @@ struct MeshEdge {
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> key() const { return {low, high}; }
 };
 
-/// A number for each vertex of the two meshes, the same where they lie in the same place.
+/// Returns a number for each vertex of the two meshes, the same where they lie in the same place.
 std::vector<std::uint32_t> places(const TriangleMesh& opaque, const TriangleMesh& transparent) {
   std::vector<Vec3d> points = opaque.vertices;
   points.insert(points.end(), transparent.vertices.begin(), transparent.vertices.end());
@@ -70,7 +70,7 @@ std::vector<MeshEdge> edges_of(const TriangleMesh& opaque, const TriangleMesh& t
   return edges;
 }
 
-/// Of shells, by the triangle that stands for each.
+/// What is known of shells, by the triangle that stands for each.
 struct Shells {
   UnionFind joined;
   std::vector<bool> open;    ///< some edge of it does not run both ways equally often

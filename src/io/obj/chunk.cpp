@@ -12,7 +12,7 @@
 namespace strake::io::obj {
 namespace {
 
-/// True when the line that ends at this newline goes on in the next one.
+/// Whether the line that ends at this newline goes on in the next one.
 bool continues(const char* text_begin, const char* newline) {
   const char* last = newline;
   if (last != text_begin && last[-1] == '\r') --last;
@@ -25,7 +25,8 @@ const char* find_newline(const char* at, const char* end) {
   return found == nullptr ? end : static_cast<const char*>(found);
 }
 
-/// An integer at `at`; one too large for any file saturates, so that it is out of range later.
+/// Reads an integer at `at`; one too large for any file saturates, so that it is out of range
+/// later.
 bool read_index(const char*& at, const char* end, std::int64_t& value) {
   constexpr std::int64_t kTooLarge = std::int64_t{1} << 40;
   const char* digit = at;
@@ -58,7 +59,7 @@ class ChunkParser {
   std::string joined_;  ///< a line put together from its continuations
 };
 
-/// The keyword of a line; `at` moves behind it.
+/// Returns the keyword of a line; `at` moves behind it.
 std::string_view keyword(const char*& at, const char* end) {
   const char* const begin = at;
   while (at != end && !is_blank(*at)) ++at;
@@ -102,7 +103,7 @@ void ChunkParser::vertex(const char* at, const char* end) {
   chunk_.digits.push_back(digits);
 }
 
-/// Face corners "7", "7/1", "7//3", "-1/-1/-1": the vertex index alone matters.
+/// Reads face corners "7", "7/1", "7//3", "-1/-1/-1": the vertex index alone matters.
 void ChunkParser::row(const char* at, const char* end, bool face) {
   CornerRows& rows = face ? chunk_.faces : chunk_.polylines;
   const std::size_t begin = rows.corners.size();
@@ -139,8 +140,8 @@ void ChunkParser::statement(StatementKind kind, const char* at, const char* end)
       {kind, std::string(text), chunk_.faces.size(), chunk_.polylines.size()});
 }
 
-/// The logical line from `at`, its continuations joined by blanks; `end` moves to the newline that
-/// really ends it.
+/// Returns the logical line from `at`, its continuations joined by blanks; `end` moves to the
+/// newline that really ends it.
 std::pair<const char*, const char*> ChunkParser::joined(const char* at, const char*& end,
                                                         const char* text_end,
                                                         std::uint64_t& extra) {

@@ -18,15 +18,15 @@ struct VertexReference {
   bool chunk_relative = false;
 };
 
-/// A statement that changes what the following faces and lines belong to, or `unread`: that what
-/// they belong to has geometry of a kind that is not read.
+/// A statement that changes what the following faces and lines belong to, or `unread`: what they
+/// belong to has geometry of a kind that is not read.
 enum class StatementKind : std::uint8_t { object, group, material, library, unread };
 
 struct Statement {
   StatementKind kind = StatementKind::object;
   std::string text;
-  std::uint32_t face = 0;      ///< first face of the chunk behind it
-  std::uint32_t polyline = 0;  ///< first polyline likewise
+  std::uint32_t face = 0;      ///< the first face of the chunk behind it
+  std::uint32_t polyline = 0;  ///< the first polyline behind it
 };
 
 /// What is wrong with a line of the file.
@@ -34,7 +34,7 @@ enum class LineFault : std::uint8_t {
   bad_vertex,        ///< `v` without three finite numbers
   bad_face,          ///< a corner that is not an index
   short_face,        ///< fewer than three corners
-  bad_polyline,      ///< likewise for `l`
+  bad_polyline,      ///< `l` with a point that is not an index
   short_polyline,    ///< fewer than two points
   curve_or_surface,  ///< free-form geometry, which is not read
 };
@@ -48,7 +48,7 @@ struct Problem {
 struct CornerRows {
   std::vector<VertexReference> corners;
   std::vector<std::uint32_t> end;
-  std::vector<std::uint32_t> line;  ///< where in the chunk each row stands, 0-based
+  std::vector<std::uint32_t> line;  ///< the line in the chunk of each row, 0-based
 
   [[nodiscard]] std::uint32_t begin_of(std::uint32_t row) const {
     return row == 0 ? 0 : end[row - 1];
@@ -56,10 +56,10 @@ struct CornerRows {
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(end.size()); }
 };
 
-/// What one piece of the text says, read without knowing the pieces before it.
+/// What one chunk of the text says, read without knowing the chunks before it.
 struct ObjChunk {
   std::vector<geometry::Vec3d> vertices;  ///< as written; a bad one is NaN, to keep the numbering
-  std::vector<DigitStatistics> digits;    ///< per vertex
+  std::vector<DigitStatistics> digits;    ///< one entry per vertex
   CornerRows faces;
   CornerRows polylines;
   std::vector<Statement> statements;
@@ -68,7 +68,7 @@ struct ObjChunk {
   bool cut_off = false;  ///< its last line does not end and has a problem
 };
 
-/// Cuts the text into pieces of about `size` bytes at line ends that no continuation crosses.
+/// Cuts the text into chunks of about `size` bytes at line ends that no continuation crosses.
 /// The cuts depend on the text and the size alone.
 [[nodiscard]] std::vector<std::string_view> cut_chunks(std::string_view text, std::size_t size);
 

@@ -17,7 +17,7 @@ std::uint8_t to_byte(double share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255));
 }
 
-/// The finite numbers at the start of `text`, at most three.
+/// Returns the finite numbers at the start of `text`, at most three.
 std::vector<double> numbers(std::string_view text) {
   std::vector<double> found;
   DigitStatistics unused;

@@ -17,9 +17,9 @@ using Materials = std::map<std::string, model::Color, std::less<>>;
 /// The first definition of a name counts.
 void parse_materials(std::string_view text, Materials& materials);
 
-/// Adds those of the libraries that an `mtllib` line names, from the folder of the OBJ file. A
-/// library that is missing or lies outside that folder leaves its materials at the default colour
-/// and a diagnostic.
+/// Adds the materials of the libraries that an `mtllib` line names, from the folder of the OBJ
+/// file. A library that is missing or lies outside that folder leaves its materials at the default
+/// colour and a diagnostic.
 void load_materials(std::string_view names, const std::filesystem::path& obj_path,
                     Materials& materials, Diagnostics& diagnostics);
 

@@ -188,7 +188,7 @@ bool ObjectBuilder::corner(const GeometryRun& segment, const VertexReference& co
   return true;
 }
 
-/// Appends the corners of a row; false when one of them has no place.
+/// Appends the corners of a row; returns false when one of them has no position.
 bool ObjectBuilder::row(const GeometryRun& segment, const CornerRows& rows, std::uint32_t row,
                         FlatFaces& flat) {
   if (rows.begin_of(row) == rows.end[row]) {
@@ -218,7 +218,8 @@ void ObjectBuilder::flatten(const GeometryRun& segment, bool faces, FlatFaces& f
   (faces ? result_.bad_faces : result_.bad_lines) += end - begin - good;
 }
 
-/// Vertices of the file for the object, which learns how large they are and how finely written.
+/// Returns vertices of the file for the object, and records how large they are and how finely
+/// written.
 std::vector<Vec3d> ObjectBuilder::take(std::span<const std::uint32_t> vertices) {
   std::vector<Vec3d> taken;
   for (const std::uint32_t vertex : vertices) {

@@ -12,6 +12,7 @@
 #include "strake/geometry/mesh.hpp"
 #include "strake/model/model.hpp"
 
+/// Assembles the chunks of an OBJ file and builds the geometry of each object.
 namespace strake::io::obj {
 
 inline constexpr std::uint32_t kNoMaterial = 0xffffffffU;
@@ -21,38 +22,39 @@ struct GeometryRun {
   std::uint32_t chunk = 0;
   std::uint32_t face_begin = 0, face_end = 0;
   std::uint32_t polyline_begin = 0, polyline_end = 0;
-  std::uint32_t material = kNoMaterial;  ///< index into Assembly::material_names
+  std::uint32_t material = kNoMaterial;  ///< index into ObjAssembly::material_names
 };
 
 /// An `o` or `g` of the file that has geometry.
 struct ObjElement {
-  std::string object_name;   ///< of the `o` that it stands under; empty: none
-  std::string group_name;    ///< of its own `g`; empty: the object itself
-  std::uint32_t object = 0;  ///< ordinal of the `o` statement, 0: before any
+  std::string object_name;   ///< the name of the `o` above it; empty: none
+  std::string group_name;    ///< the name of its own `g`; empty: the object itself
+  std::uint32_t object = 0;  ///< ordinal of the `o` statement; 0: before any
   std::vector<GeometryRun> segments;
   bool incomplete = false;  ///< it has free-form geometry as well, or alone
 };
 
-/// The chunks in order, and what belongs together across them.
+/// What belongs together across the chunks of a file.
 struct ObjAssembly {
-  std::vector<std::uint64_t> vertex_base;   ///< per chunk; the total at the end
-  std::vector<std::uint64_t> line_base;     ///< per chunk: lines before it
+  std::vector<std::uint64_t> vertex_base;   ///< per chunk, with the total at the end
+  std::vector<std::uint64_t> line_base;     ///< per chunk: the lines before it
   std::vector<ObjElement> entries;          ///< in order of their first face or line
   std::vector<std::string> material_names;  ///< in order of first use
   std::vector<std::string> libraries;       ///< mtllib lines in order
 };
 
 /// Follows the o, g and usemtl statements through all chunks. A `g` that is named again under the
-/// same `o` goes on; an `o` always starts anew.
+/// same `o` is continued; an `o` always starts anew.
 [[nodiscard]] ObjAssembly assemble(const std::vector<ObjChunk>& chunks);
 
-/// All that building an object looks at; shared by the objects, changed by none.
+/// All that building an object needs; shared by the objects, changed by none.
 struct BuildInput {
   std::span<const ObjChunk> chunks;
   const ObjAssembly* assembly = nullptr;
-  std::span<const geometry::Vec3d> vertices;  ///< of the file in order, in mm with z up
-  std::span<const DigitStatistics> digits;    ///< of the vertices
-  std::span<const model::Color> colors;       ///< per material of the assembly
+  std::span<const geometry::Vec3d>
+      vertices;                             ///< the vertices of the file in order, in mm with z up
+  std::span<const DigitStatistics> digits;  ///< the digits of each vertex
+  std::span<const model::Color> colors;     ///< one per material of the assembly
 };
 
 /// The geometry of one object: its opaque faces are one mesh whatever their materials, because a
@@ -61,17 +63,17 @@ struct BuildInput {
 struct BuiltObject {
   geometry::TriangleMesh opaque, transparent;
   geometry::Polylines lines;
-  model::Color opaque_color, transparent_color, line_color;  ///< of most of the faces or lines
-  std::uint32_t crossing_faces = 0;                          ///< cut as fans
-  bool part_transparent = false;                             ///< some are among the opaque
-  double largest_mm = 0;                                     ///< coordinate
-  DigitStatistics digits;                                    ///< of the vertices in use
+  model::Color opaque_color, transparent_color, line_color;  ///< the colours of most faces or lines
+  std::uint32_t crossing_faces = 0;                          ///< faces cut as fans
+  bool part_transparent = false;  ///< some transparent faces are among the opaque
+  double largest_mm = 0;          ///< the largest coordinate
+  DigitStatistics digits;         ///< the digits of the vertices in use
   struct Damage {
     std::string message;
     std::uint64_t line = 0;  ///< 1-based
   };
-  std::optional<Damage> damage;                ///< the first; what it is in is left out
-  std::uint64_t bad_faces = 0, bad_lines = 0;  ///< that are left out
+  std::optional<Damage> damage;  ///< the first damage; the face or line that has it is left out
+  std::uint64_t bad_faces = 0, bad_lines = 0;  ///< faces and lines that are left out
 
   [[nodiscard]] bool empty() const {
     return opaque.triangles.empty() && transparent.triangles.empty() && lines.points.empty();

@@ -113,7 +113,8 @@ void ObjReading::report_problems() {
     }
 }
 
-/// An OBJ does not say where it ends, but a line that stops in the middle does.
+/// Notes a file that is cut off: an OBJ does not say where it ends, but a line that stops in the
+/// middle does.
 void ObjReading::note_cut_off() {
   if (chunks_.empty() || !chunks_.back().cut_off) return;
   model_.files.front().ends_early = true;
@@ -224,7 +225,7 @@ Result<model::Model> ObjReading::read() {
   return end_model(file_, std::move(model_));
 }
 
-/// Share of a text's lines that OBJ could hold, judged by its start.
+/// Returns the share of a text's lines that OBJ could hold, estimated from its start.
 int obj_likeness(std::string_view text) {
   constexpr std::array<std::string_view, 12> kWords{"v", "vt", "vn",     "f",      "l",  "o",
                                                     "g", "s",  "usemtl", "mtllib", "vp", "p"};

@@ -13,7 +13,7 @@
 namespace strake::io {
 namespace {
 
-/// A name on one line: control characters would end it or hide in it.
+/// Returns a name on one line: control characters would end it or hide in it.
 std::string one_line(std::string_view name) {
   std::string line(name);
   for (char& c : line)
@@ -26,7 +26,7 @@ class ObjText {
  public:
   ObjText(const model::Model& model, double sag_mm) : model_(model), shapes_(model, sag_mm) {}
 
-  /// The text of one object; `false` when a coordinate is not finite.
+  /// Writes the text of one object; returns false when a coordinate is not finite.
   [[nodiscard]] bool object(const model::Object& object, std::string& out);
 
  private:

@@ -122,7 +122,7 @@ class AttributeParser {
   bool header_seen_ = false;
 };
 
-/// Children of one parent by name; a name that occurs twice among them is ambiguous.
+/// Indexes children of one parent by name; a name that occurs twice among them is ambiguous.
 class NameIndex {
  public:
   static constexpr std::uint32_t kAmbiguous = 0xfffffffeU;
@@ -145,7 +145,7 @@ std::string keyed(std::uint32_t parent, std::string_view name) {
   return fmt::format("{}\n{}", parent, name);
 }
 
-/// Which attribute node each group is, kNoGroup for none.
+/// Returns which attribute node each group is, kNoGroup for none.
 std::vector<std::uint32_t> match(const RvmModel& built, const std::vector<std::string>& names,
                                  const AttributeFile& file) {
   NameIndex by_path, by_name, groups;

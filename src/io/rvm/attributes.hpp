@@ -26,18 +26,19 @@ struct AttributeNode {
 struct AttributeFile {
   std::vector<AttributeNode> nodes;  ///< parents before children; the header block left out
   std::uint64_t unreadable_lines = 0;
-  bool ends_early = false;  ///< within an element: what the rest said nobody knows
+  bool ends_early = false;  ///< it ends within an element: what the rest said is not known
 };
 
 /// Parses an attribute file (".att" or ".txt" beside the model): blocks `NEW name … END` of
 /// `key := value` lines, with the four tokens that its first line declares.
 ///
-/// Indentation has no meaning. A missing END is taken as closed by the next NEW only at the end
-/// of the file, since a missing END cannot be told from nesting. An error when the first line is
+/// Indentation has no meaning. A missing END counts as closed by the next NEW only at the end of
+/// the file, since a missing END cannot be told from nesting. It is an error when the first line is
 /// not that of an attribute file.
 [[nodiscard]] Result<AttributeFile> parse_attributes(std::string_view text);
 
-/// The attribute file beside a model: same name, ending .att or .txt in any case, .att first.
+/// Returns the attribute file beside a model: same name, ending .att or .txt in any case, .att
+/// first.
 [[nodiscard]] std::optional<std::filesystem::path> find_attribute_file(
     const std::filesystem::path& model_path);
 
@@ -47,8 +48,8 @@ struct AttributeFile {
 void attach_attributes(RvmModel& built, const AttributeFile& file, const TextDecoder& decode,
                        std::string_view where, Diagnostics& diagnostics);
 
-/// The reference number of an element ("=16821/2"), which survives renaming; empty when absent or
-/// null.
+/// Returns the reference number of an element ("=16821/2"), which survives renaming; empty when
+/// absent or null.
 [[nodiscard]] std::string reference_of(const model::Attributes& attributes);
 
 }  // namespace strake::io::rvm

@@ -15,8 +15,8 @@ using Bytes = std::span<const std::byte>;
          std::to_integer<std::uint32_t>(p[2]) << 8 | std::to_integer<std::uint32_t>(p[3]);
 }
 
-/// Reads big-endian values from a span and never past its end: a read that does not fit gives
-/// zero and leaves the cursor failed, so that a body is read first and judged once.
+/// Reads big-endian values from a span and never past its end: a read that does not fit gives zero
+/// and leaves the cursor failed, so that a body is read first and checked once.
 class BigEndianCursor {
  public:
   explicit BigEndianCursor(Bytes bytes, std::size_t at = 0) : bytes_(bytes), at_(at) {
@@ -50,7 +50,7 @@ class BigEndianCursor {
     const Bytes b = take(1);
     return b.empty() ? std::uint8_t{0} : std::to_integer<std::uint8_t>(b[0]);
   }
-  /// Raw bytes of a counted string up to its first NUL.
+  /// Reads the raw bytes of a counted string up to its first NUL.
   [[nodiscard]] Bytes string() {
     const std::size_t words = u32();
     const Bytes padded = take(words * 4);

@@ -30,8 +30,8 @@ constexpr std::uint32_t pack(std::string_view id) {
   return packed;
 }
 
-/// The four letters of an id, one in the low byte of each big-endian word, as one number; 0 where
-/// no id can stand.
+/// Returns the four letters of an id, one in the low byte of each big-endian word, as one number; 0
+/// where there can be no id.
 std::uint32_t id_at(Bytes bytes, std::size_t at) {
   if (at > bytes.size() || bytes.size() - at < kFrameBytes) return 0;
   std::uint32_t id = 0;
@@ -119,8 +119,8 @@ class BinaryReader {
   bool bounded_ = false;  ///< the body being read ends where the next chunk begins
 };
 
-/// Where the chunk says that the next one begins: 32 bits that wrap in files beyond 4 GiB.
-/// Nothing when that lies before the end of this chunk's frame or after the end of the file.
+/// Returns where the chunk says that the next one begins: 32 bits that wrap in files beyond 4 GiB.
+/// Nothing is returned when that lies before the end of this chunk's frame or after the file's end.
 std::optional<std::size_t> BinaryReader::next_of(std::size_t at) const {
   constexpr std::size_t kWrap = std::size_t{1} << 32;
   std::size_t next = (at & ~(kWrap - 1)) | load_u32(bytes_.data() + at + kIdBytes);
@@ -147,7 +147,7 @@ FileRead BinaryReader::read(const parallel::Context& context) {
   return {.ends_early = !ended_};
 }
 
-/// The group that it ends in is incomplete; what else is missing nobody can tell.
+/// Marks the group in which the file ends as incomplete; what else is missing cannot be told.
 void BinaryReader::note_truncation() {
   if (builder_->depth() > 0) builder_->note_loss(at_);
   log_->skip("rvm-truncated",
@@ -185,7 +185,7 @@ void BinaryReader::read_chunk() {
     resynchronise(at_ + kIdBytes);
 }
 
-/// Goes on after a chunk whose body ended at `body_end`, trusting what stands in the file more
+/// Goes on after a chunk whose body ended at `body_end`, trusting what is in the file more
 /// than the stated address, which rewritten files leave stale.
 void BinaryReader::leave_chunk(std::size_t body_end, std::optional<std::size_t> next) {
   if (next == body_end) {
@@ -217,7 +217,7 @@ void BinaryReader::skip_unknown(std::optional<std::size_t> next) {
   at_ = *next;
 }
 
-/// The first chunk id at or after `from`, at any alignment: bytes may be missing.
+/// Returns the first chunk id at or after `from`, at any alignment: bytes may be missing.
 std::size_t BinaryReader::next_chunk(std::size_t from) const {
   for (std::size_t at = from; at + kFrameBytes <= bytes_.size(); ++at) {
     // The first word of an id: three zero bytes and a capital letter.
@@ -327,7 +327,7 @@ bool BinaryReader::read_color(BigEndianCursor& in) {
   return true;
 }
 
-/// Obstruction and insulation volumes carry one more word, whose place the known readers do not
+/// Reads one more word of obstruction and insulation volumes, whose place the known readers do not
 /// agree about: it is taken after the box unless only the other place makes the matrix a frame.
 void BinaryReader::read_category(PrimitiveChunk& primitive, BigEndianCursor& in) {
   const auto read_floats = [](BigEndianCursor& cursor, auto& values) {

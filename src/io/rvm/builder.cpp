@@ -19,7 +19,7 @@ std::string_view as_key(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Told of what is missing, and of what has no area and therefore is not.
+/// Reports what is missing, and what has no area and therefore is not missing.
 void tell_facets(DiagnosticLog& log, const FacetMesh& facets, std::uint64_t offset) {
   std::string lost, empty;
   const auto add = [](std::string& text, std::uint32_t count, std::string_view what) {
@@ -65,7 +65,7 @@ bool RvmBuilder::end_group() {
 }
 
 void RvmBuilder::add(const PrimitiveChunk& chunk) {
-  // Nothing is built from it but the length of some lines, which then is missing and told.
+  // Nothing is built from it but the length of some lines, which then is missing and reported.
   if (!std::ranges::all_of(chunk.box, [](float v) { return std::isfinite(v); }))
     log_->warn("rvm-nonfinite-box",
                fmt::format("{} has a stored box with an entry that is not a finite number",
@@ -106,7 +106,8 @@ double RvmBuilder::origin_half_spacing_mm(const PrimitiveChunk& chunk) const {
   return float32_half_spacing(static_cast<double>(largest)) * frame_.unit_mm;
 }
 
-/// The worse of what its origin says, which it has already, and what its shape's numbers say.
+/// Returns the worse of what its origin says, which it has already, and what its shape's numbers
+/// say.
 float RvmBuilder::precision_um(const model::Body& body) const {
   const auto largest = static_cast<double>(largest_[model::index(body.shape)]);
   return std::max(body.precision_um, io::precision_um(float32_half_spacing(largest) *
@@ -116,7 +117,7 @@ float RvmBuilder::precision_um(const model::Body& body) const {
 std::optional<model::ShapeId> RvmBuilder::shape_of(const PrimitiveChunk& chunk) {
   if (chunk.kind == kFacetKind) return facet_shape(chunk);
   auto& known = known_[chunk.kind];
-  // The length of a line may stand in its box, which is no part of the key: lines are not shared.
+  // The length of a line may be in its box, which is no part of the key: lines are not shared.
   if (chunk.kind != kLineKind) {
     const auto found = known.find(as_key(chunk.parameters));
     if (found != known.end()) return found->second;

@@ -21,20 +21,20 @@ namespace strake::io::rvm {
 
 inline constexpr std::uint32_t kNoGroup = 0xffffffffU;
 
-/// A CNTB: the hierarchy as the file has it.
+/// A CNTB chunk: a group of the hierarchy as the file has it.
 struct GroupRecord {
   std::uint32_t parent = kNoGroup;
   std::uint32_t material = 0;
   std::uint8_t transparency = 0;  ///< percent, own or inherited
   std::uint64_t offset = 0;
-  bool lost = false;  ///< something that it holds could not be read, which is told
+  bool lost = false;  ///< something that it holds could not be read, and a message says so
 };
 
-/// A model under construction with what only this format's later steps need.
+/// A model under construction, with what only this format's later steps need.
 struct RvmModel {
   model::Model model;  ///< model.groups[i] is group i of the file
   std::vector<GroupRecord> groups;
-  std::vector<std::uint32_t> group_of;  ///< per object; kNoGroup: primitives outside any group
+  std::vector<std::uint32_t> group_of;  ///< one per object; kNoGroup: primitives outside any group
 };
 
 /// Collects groups and primitives in file order and makes a model of them.
@@ -44,11 +44,11 @@ class RvmBuilder {
 
   void begin_group(std::string name, std::uint32_t material, std::uint8_t transparency,
                    std::uint64_t offset);
-  /// False when no group is open.
+  /// Ends the innermost group; returns false when no group is open.
   [[nodiscard]] bool end_group();
   void add(const PrimitiveChunk& chunk);
-  /// Something of the group that is open, or outside any group, cannot be read: an object of that
-  /// group is in the model even if nothing else is left of it.
+  /// Records that something of the group that is open, or outside any group, cannot be read: an
+  /// object of that group is in the model even if nothing else is left of it.
   void note_loss(std::uint64_t offset);
   void redefine_color(std::uint32_t index, model::Color color) { palette_.redefine(index, color); }
   void set_root_name(std::string name) { root_name_ = std::move(name); }
@@ -76,7 +76,7 @@ class RvmBuilder {
   [[nodiscard]] std::optional<model::ShapeId> shape_of(const PrimitiveChunk& chunk);
   [[nodiscard]] model::ShapeId facet_shape(const PrimitiveChunk& chunk);
   enum class Facets : std::uint8_t { complete, incomplete, empty };
-  /// How much of each shape there is.
+  /// Returns how much of each shape there is.
   [[nodiscard]] Result<std::vector<Facets>> triangulate(const parallel::Context& context);
   void note_facets(const std::vector<Facets>& facets);
   void check_stored_box(const PrimitiveChunk& chunk, const geometry::Primitive& primitive);
@@ -92,7 +92,7 @@ class RvmBuilder {
   std::vector<GroupRecord> groups_;
   std::vector<model::Group> names_;
   std::vector<std::uint32_t> open_;
-  bool lost_outside_ = false;  ///< what GroupRecord::lost is, outside any group
+  bool lost_outside_ = false;  ///< as GroupRecord::lost, outside any group
   std::vector<BodyRecord> bodies_;
   std::vector<model::Shape> shapes_;
   std::vector<float> largest_;  ///< per shape: its largest number, local units

@@ -11,14 +11,15 @@
 
 namespace strake::io::rvm {
 
-/// Where the chunks of a text-variant file came from: chunk at byte `offset` of the transcoded
-/// stream began on line `line`. Ascending by offset.
+/// Where a chunk of a text-variant file came from: the chunk at byte `offset` of the transcoded
+/// stream began on line `line`. Marks ascend by offset.
 struct LineMark {
   std::uint64_t offset = 0;
   std::uint64_t line = 0;
 };
 
-/// Diagnostics of one file, each with its place there: a byte offset, or a line of a text file.
+/// The diagnostics of one file, each with its position there: a byte offset, or a line of a text
+/// file.
 class DiagnosticLog {
  public:
   DiagnosticLog(Diagnostics& to, std::string file) : to_(&to), file_(std::move(file)) {}

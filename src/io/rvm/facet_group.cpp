@@ -44,7 +44,7 @@ FacetVertex read_corner(BigEndianCursor& in) {
   return corner;
 }
 
-/// All corners of a facet group, one after another.
+/// Reads all corners of a facet group, one after another.
 std::vector<FacetVertex> read_corners(BigEndianCursor in) {
   std::vector<FacetVertex> corners;
   corners.reserve(in.left() / kVertexBytes);
@@ -75,7 +75,7 @@ struct NumberedCorner {
 };
 
 /// Gives equal positions one vertex, in order of first appearance, and each corner its vertex:
-/// kNowhere where it has no place. By sorting: corners can be made to meet in any hash.
+/// kNowhere where it has no position. It sorts: corners can be made to collide in any hash.
 std::vector<std::uint32_t> weld(std::span<const FacetVertex> corners,
                                 std::vector<Vec3d>& vertices) {
   std::vector<NumberedCorner> sorted;
@@ -164,7 +164,8 @@ class FacetBuilder {
   std::uint32_t face_ = 0;
 };
 
-/// Reads one contour as a ring without repeated neighbours; false when fewer than three remain.
+/// Reads one contour as a ring without repeated neighbours; returns false when fewer than three
+/// remain.
 bool FacetBuilder::read_contour(bool& finite) {
   const std::uint32_t count = in_.u32();
   const std::size_t begin = polygon_.indices.size();
@@ -243,7 +244,7 @@ void FacetBuilder::add_quad() {
     add_triangle(q[0], q[2], q[3]);
 }
 
-/// True when every corner of the only ring turns the same way and the fan from its first vertex
+/// Whether every corner of the only ring turns the same way and the fan from its first vertex
 /// covers the polygon once.
 bool FacetBuilder::is_convex() const {
   const std::vector<std::uint32_t>& ring = polygon_.indices;

@@ -9,8 +9,8 @@
 
 namespace strake::io::rvm {
 
-/// The colour that a material index stands for in AVEVA's default palette; nothing for indices
-/// that it leaves open (65 to 205 and above 255).
+/// Returns the colour that a material index stands for in AVEVA's default palette; nothing for
+/// indices that it leaves open (65 to 205 and above 255).
 [[nodiscard]] std::optional<model::Color> default_color(std::uint32_t index);
 
 /// The default palette with a file's own entries (COLR chunks) over it.

@@ -11,8 +11,8 @@ namespace {
 
 using geometry::Vec3d;
 
-/// The stored value in millimetres: the decimal with the fewest places (down to a micrometre)
-/// that the same float stands for, or the float itself when there is none.
+/// Returns the stored value in millimetres: the decimal with the fewest places (down to a
+/// micrometre) that the same float stands for, or the float itself when there is none.
 double decimal_mm(float stored, double unit_mm) {
   const double mm = static_cast<double>(stored) * unit_mm;
   for (const double steps : {1.0, 10.0, 100.0, 1000.0}) {
@@ -36,7 +36,7 @@ Vec3d clean_column(Vec3d column) {
     // Single-precision cos(90°) leaves 4.4e-8 where zero was meant.
     if (std::fabs(column[k]) < 0x1p-23) column[k] = 0;
   }
-  // Divided, not multiplied by an inverse: a column along an axis becomes exactly one.
+  // It is divided, not multiplied by an inverse: a column along an axis becomes exactly one.
   const double clean = std::sqrt(dot(column, column));
   return {column.x / clean, column.y / clean, column.z / clean};
 }
@@ -67,7 +67,8 @@ class Parameters {
 
 constexpr std::string_view kNoExtent = "it has no extent";
 
-/// A full turn as single precision stores it, or more, sweeps the whole ring.
+/// Returns a clean angle: a full turn as single precision stores it, or more, sweeps the whole
+/// ring.
 double clean_angle(double angle) {
   constexpr double kTurn = 2 * std::numbers::pi;
   return angle > kTurn - 1e-5 ? kTurn : angle;
@@ -145,8 +146,8 @@ DecodedPrimitive decode_two_lengths(std::uint32_t kind, Parameters& in) {
   return {geometry::CylinderPrimitive{a, b}, problem};
 }
 
-/// The file gives the half width a and, in b, the length along local Z; with b = 0 only the
-/// stored box tells the length.
+/// Decodes a line. The file gives the half width a and, in b, the length along local Z; with b = 0
+/// only the stored box tells the length.
 DecodedPrimitive decode_line(Parameters& in, const std::array<float, 6>& box) {
   const double a = std::fabs(in.next()), b = std::fabs(in.next());
   const double from_box = static_cast<double>(box[5]) - static_cast<double>(box[2]);

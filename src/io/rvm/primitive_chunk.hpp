@@ -26,25 +26,26 @@ struct PrimitiveChunk {
   std::uint8_t transparency = 0;   ///< percent
   std::array<float, 12> matrix{};  ///< columns X, Y, Z, origin; local mm to world metres
   std::array<float, 6> box{};      ///< as stored; not to be trusted
-  Bytes parameters;                ///< of the kind, big-endian
+  Bytes parameters;                ///< the parameters of the kind, big-endian
 };
 
-/// Number of float parameters of kinds 1 to 10; 0 for any other kind.
+/// Returns the number of float parameters of kinds 1 to 10; 0 for any other kind.
 [[nodiscard]] std::size_t parameter_count(std::uint32_t kind);
 
-/// "a cylinder", "a facet group": how messages call kinds 1 to 11; "a primitive" for any other.
+/// Returns "a cylinder", "a facet group": how messages call kinds 1 to 11; "a primitive" for any
+/// other.
 [[nodiscard]] std::string_view kind_with_article(std::uint32_t kind);
 
-/// The placement that a matrix stands for; nothing when an entry is not finite.
+/// Returns the placement that a matrix stands for; nothing when an entry is not finite.
 ///
 /// Matrices are float32 images of decimal numbers and of rotations. Both are undone within half a
-/// float spacing: an origin becomes the shortest decimal millimetre value that rounds to the
-/// stored float, a column that is one local millimetre long within float precision becomes exactly
-/// that long. So flush faces of different elements stay flush.
+/// float spacing: an origin becomes the shortest decimal millimetre value that rounds to the stored
+/// float, a column that is one local millimetre long within float precision becomes exactly that
+/// long. So coplanar faces of different elements stay coplanar.
 [[nodiscard]] std::optional<geometry::Placement> placement_of(const std::array<float, 12>& matrix,
                                                               const SourceFrame& frame);
 
-/// True when the three columns are finite, mutually orthogonal and of similar length.
+/// Whether the three columns are finite, mutually orthogonal and of similar length.
 [[nodiscard]] bool is_plausible_frame(const std::array<float, 12>& matrix);
 
 /// A primitive of kinds 1 to 10, or why there is none.

@@ -30,8 +30,8 @@ std::string file_name(const FileBytes& file) {
   return file.path.empty() ? "RVM data" : file.path.filename().string();
 }
 
-/// Names from the root down, each begun by a '/'; nothing when that is too long to be an id or
-/// the element itself has no name.
+/// Returns names from the root down, each begun by a '/'; nothing when that is too long to be an id
+/// or the element itself has no name.
 std::optional<std::string> path_id(const RvmModel& built, std::uint32_t group) {
   constexpr std::size_t kLongest = 4096;
   if (built.model.groups[group].name.empty()) return std::nullopt;
@@ -51,8 +51,8 @@ std::optional<std::string> path_id(const RvmModel& built, std::uint32_t group) {
   return id;
 }
 
-/// "BOX 2 of EQUIPMENT /P-101": an element that its database has no name for is called by its type
-/// and its number among those of its owner.
+/// Whether a name is like "BOX 2 of EQUIPMENT /P-101": an element that its database has no name for
+/// is called by its type and its number among those of its owner.
 bool is_counted(std::string_view name) {
   constexpr std::string_view kDigits = "0123456789";
   const std::size_t number = name.find(' ') + 1;
@@ -68,8 +68,8 @@ bool is_counted(const RvmModel& built, std::uint32_t group) {
   return false;
 }
 
-/// The reference number where attributes give one, else the full name path, else the place in
-/// the file.
+/// Gives each object its id: the reference number where attributes give one, else the full name
+/// path, else the place in the file.
 void assign_ids(RvmModel& built) {
   for (std::size_t o = 0; o < built.model.objects.size(); ++o) {
     model::Object& object = built.model.objects[o];
@@ -94,7 +94,8 @@ std::optional<std::string> read_whole(const std::filesystem::path& path) {
   return text;
 }
 
-/// Attributes are a help, never a condition: whatever is wrong with their file is a diagnostic.
+/// Adds attributes, which are a help, never a condition: whatever is wrong with their file is a
+/// diagnostic.
 void add_attributes(RvmModel& built, const FileBytes& file,
                     const std::optional<TextDecoder>& stated) {
   const auto path = find_attribute_file(file.path);

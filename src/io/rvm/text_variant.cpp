@@ -24,7 +24,7 @@ namespace {
 constexpr std::array<std::string_view, 9> kIds = {"HEAD", "MODL", "CNTB", "CNTE", "PRIM",
                                                   "OBST", "INSU", "COLR", "END:"};
 
-/// Lines and numbers of the text. Numbers are read across line breaks; a token in which two
+/// Reads lines and numbers of the text. Numbers are read across line breaks; a token in which two
 /// fixed-width numbers touch is split after the five decimals of the first.
 class LineScanner {
  public:
@@ -41,11 +41,11 @@ class LineScanner {
     ++line_;
     return line;
   }
-  /// The rest of a line whose numbers have been read.
+  /// Reads the rest of a line whose numbers have been read.
   void finish_line() {
     if (at_ > 0 && text_[at_ - 1] != '\n') next_line();
   }
-  /// The next line, trimmed, without consuming it.
+  /// Returns the next line, trimmed, without consuming it.
   [[nodiscard]] std::string_view peek_line() const {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
     return trimmed(text_.substr(at_, end - at_), kLineBlanks);
@@ -165,7 +165,7 @@ bool Transcoder::integer() {
   return value.has_value();
 }
 
-/// Three rows of four in the text, four columns of three in the chunk.
+/// Reads a matrix: three rows of four in the text, four columns of three in the chunk.
 bool Transcoder::matrix() {
   std::array<float, 12> m{};
   for (std::size_t row = 0; row < 3; ++row) {
@@ -241,7 +241,8 @@ bool Transcoder::transcode_chunk(std::string_view id) {
   return true;
 }
 
-/// Of a chunk that is not known: the reader of chunks tells of it, its numbers are stray lines.
+/// Whether a line looks like the id of a chunk that is not known: the reader of chunks reports it,
+/// its numbers are stray lines.
 bool looks_like_id(std::string_view line) {
   return line.size() == 4 &&
          std::all_of(line.begin(), line.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
@@ -264,8 +265,8 @@ Transcoded Transcoder::run() {
     }
     begin(line);
     in_.next_line();  // two integers that carry nothing
-    // A chunk that ends, or holds something else, where a number must stand remains as short as
-    // that: the reader of chunks tells of it and of what it belongs to.
+    // A chunk that ends, or holds something else, where a number must be remains as short as that:
+    // the reader of chunks reports it and what it belongs to.
     ended = transcode_chunk(line) && line == "END:";
     in_.finish_line();
     end();

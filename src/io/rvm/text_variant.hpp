@@ -10,7 +10,7 @@
 
 namespace strake::io::rvm {
 
-/// True when the file begins as the text variant does: a HEAD line, then a line of two integers.
+/// Whether the file begins as the text variant does: a HEAD line, then a line of two integers.
 [[nodiscard]] bool is_text_variant(std::string_view text);
 
 /// The text variant as the same chunks in binary, and the line that each began on.
@@ -19,7 +19,7 @@ struct Transcoded {
   std::vector<LineMark> marks;
 };
 
-/// Rewrites a text file (.rev) as binary chunks, so that one reader judges both.
+/// Rewrites a text file (.rev) as binary chunks, so that one reader handles both.
 ///
 /// Lines that are no chunk where one must begin are skipped and counted; a chunk whose numbers
 /// are not numbers is left out with a diagnostic that names its line.

@@ -23,7 +23,7 @@ Error cannot_read(const std::filesystem::path& path, int reason) {
 /// An open file that closes itself.
 class Descriptor {
  public:
-  /// Does not wait for the other end of a pipe, which is no model anyway.
+  /// It does not wait for the other end of a pipe, which is no model anyway.
   explicit Descriptor(const std::filesystem::path& path)
       : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~Descriptor() {

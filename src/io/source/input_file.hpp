@@ -10,10 +10,11 @@
 
 #include "strake/core/result.hpp"
 
+/// Input files in memory, and the paths of files that they name.
 namespace strake::io {
 
 /// A whole file in memory. It is read, not mapped: a mapped file that another program shortens
-/// while we read it would end this one.
+/// while we read it would end this program.
 class FileContent {
  public:
   [[nodiscard]] static Result<FileContent> read(const std::filesystem::path& path);
@@ -29,15 +30,16 @@ class FileContent {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The text behind the mark that some writers put before UTF-8: no part of the first line.
+/// Returns the text behind the mark that some writers put before UTF-8: it is no part of the first
+/// line.
 [[nodiscard]] inline std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
   return text;
 }
 
-/// The path of a file that another file names, if it lies in the same folder or below; nothing
-/// for absolute names, names that climb out of the folder, and URLs, so that a model from
+/// Returns the path of a file that another file names, if it lies in the same folder or below;
+/// nothing for absolute names, names that climb out of the folder, and URLs, so that a model from
 /// elsewhere cannot make this program read what its author should not see.
 [[nodiscard]] std::optional<std::filesystem::path> safe_relative_path(
     const std::filesystem::path& referring_file, std::string_view name);

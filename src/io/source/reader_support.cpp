@@ -14,7 +14,7 @@ namespace strake::io {
 
 namespace {
 
-/// The folders from the root to a file, a '/' behind each.
+/// Returns the folders from the root to a file, a '/' behind each.
 std::string folders_of(const std::filesystem::path& path) {
   std::error_code failed;
   const std::filesystem::path whole = std::filesystem::absolute(path, failed).lexically_normal();

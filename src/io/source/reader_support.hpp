@@ -10,35 +10,35 @@
 
 namespace strake::io {
 
-/// What every reader starts with: a model of one file whose facts that do not depend on the
+/// Returns what every reader starts with: a model of one file whose facts that do not depend on the
 /// content are filled in.
 [[nodiscard]] model::Model start_model(const FileBytes& file, std::string format,
                                        const ReadOptions& options, const FrameDefault& fallback);
 
-/// What every reader ends with: the model and what its numbers can carry, or an error when no
-/// object is left of the file.
+/// Returns what every reader ends with: the model and what its numbers can carry, or an error when
+/// no object is left of the file.
 [[nodiscard]] Result<model::Model> end_model(const FileBytes& file, model::Model&& model);
 
 [[nodiscard]] Error cancelled(const FileBytes& file);
 
-/// Extension in lower case, with the point: ".obj".
+/// Returns the extension in lower case, with the point: ".obj".
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
-/// What a body has besides its shape and place.
+/// What a body has besides its shape and placement.
 struct BodyLook {
   model::Color color = {};
-  double half_spacing_mm = 0;  ///< of the numbers that say where it is
+  double half_spacing_mm = 0;  ///< half the spacing of the numbers that say where it is
 };
 
-/// What an object is kept without, as it needs a vertex that has no place or does not exist.
+/// What an object lacks because it needs a vertex that has no position or does not exist.
 struct LeftOut {
   std::uint64_t faces = 0, lines = 0;
-  std::string why, where;  ///< of the first
+  std::string why, where;  ///< the reason and place of the first
 
   [[nodiscard]] bool any() const { return faces + lines != 0; }
 };
 
-/// Tells of what the object lacks, if it does; it is incomplete then.
+/// Adds a diagnostic of what the object lacks, if anything; it is incomplete then.
 void note_left_out(model::Model& model, model::Object& object, const LeftOut& lacks);
 
 /// Appends a body with a shape of its own to the object that owns the last bodies of the model.

@@ -13,7 +13,7 @@
 namespace strake::io {
 namespace {
 
-constexpr std::int64_t kMantissaDigits = 19;  ///< that 64 bits hold
+constexpr std::int64_t kMantissaDigits = 19;  ///< the digits that 64 bits hold
 
 constexpr bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 
@@ -38,7 +38,7 @@ const char* scan_digits(const char* at, const char* end, Scan& scan) {
   return at;
 }
 
-/// The exponent at `at` ("e-12"), or `at` itself when there is none.
+/// Reads the exponent at `at` ("e-12"), or returns `at` itself when there is none.
 const char* scan_exponent(const char* at, const char* end, Scan& scan) {
   if (at == end || (*at != 'e' && *at != 'E')) return at;
   const char* digit = at + 1;
@@ -91,7 +91,7 @@ bool simple_value(const Scan& scan, double& value) {
   return true;
 }
 
-/// What the value of a number tells of float32.
+/// Records what the value of a number tells of float32.
 void compare_with_float32(const Scan& scan, double value, DigitStatistics& digits) {
   constexpr std::int64_t kFloatDigits = std::numeric_limits<float>::max_digits10;
   if (!(std::fabs(value) <= static_cast<double>(std::numeric_limits<float>::max()))) return;
@@ -102,7 +102,7 @@ void compare_with_float32(const Scan& scan, double value, DigitStatistics& digit
       off > power_of_ten(scan.exponent - scan.decimals) / 2 + kRounding * std::fabs(value)) {
     digits.beyond_float32 = true;
   } else if (scan.significant > kFloatDigits && !digits.tells_float32) {
-    // Zeros at the end of fixed notation are no digits that tell.
+    // Zeros at the end of fixed notation are no digits that count.
     std::uint64_t mantissa = scan.mantissa;
     std::int64_t telling = std::min<std::int64_t>(scan.significant, kMantissaDigits);
     for (; telling > kFloatDigits && mantissa % 10 == 0; mantissa /= 10) --telling;
@@ -119,7 +119,7 @@ double hard_value(const Scan& scan, const char* begin) {
   return magnitude > 0 ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
-/// "inf", "nan" and their longer spellings.
+/// Reads "inf", "nan" and their longer spellings.
 bool read_special(const char*& at, const char* end, double& value) {
   const auto answer = std::from_chars(at, end, value);
   if (answer.ec != std::errc()) return false;

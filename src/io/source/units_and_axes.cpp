@@ -13,8 +13,8 @@ namespace strake::io {
 
 namespace {
 
-/// T·L·Tᵀ for a turn T given as two functions: column k of L·Tᵀ is L applied to the axis that T
-/// turns onto axis k. Only signs and places change.
+/// Returns T·L·Tᵀ for a rotation T given as two functions: column k of L·Tᵀ is L applied to the
+/// axis that T turns onto axis k. Only signs and places change.
 template <class Turn, class TurnBack>
 geometry::Mat3d conjugated(const geometry::Mat3d& linear, Turn turn, TurnBack turn_back) {
   geometry::Mat3d result;

@@ -8,19 +8,19 @@
 
 namespace strake::io {
 
-/// How the numbers of a file become millimetres with z up: a length unit and a turn that is a
-/// signed permutation of the axes, so that no coordinate is rounded by it.
+/// Converts the numbers of a file to millimetres with z up by a length unit and a rotation that is
+/// a signed permutation of the axes, so that no coordinate is rounded by it.
 struct SourceFrame {
   double unit_mm = 1;
   UpAxis up = UpAxis::z;
 
-  /// A direction or position in the file's axes, turned so that its up axis is z.
+  /// Returns a direction or position in the file's axes, rotated so that its up axis is z.
   [[nodiscard]] constexpr geometry::Vec3d turn(const geometry::Vec3d& v) const {
     if (up == UpAxis::y) return {v.x, -v.z, v.y};
     if (up == UpAxis::x) return {v.y, v.z, v.x};
     return v;
   }
-  /// The reverse of turn().
+  /// Reverses turn().
   [[nodiscard]] constexpr geometry::Vec3d turn_back(const geometry::Vec3d& v) const {
     if (up == UpAxis::y) return {v.x, v.z, -v.y};
     if (up == UpAxis::x) return {v.z, v.x, v.y};
@@ -29,9 +29,9 @@ struct SourceFrame {
   [[nodiscard]] constexpr geometry::Vec3d point(const geometry::Vec3d& v) const {
     return turn(v) * unit_mm;
   }
-  /// A matrix of the file's axes and unit as one of millimetres with z up.
+  /// Returns a matrix of the file's axes and unit as one of millimetres with z up.
   [[nodiscard]] geometry::Placement placement(const geometry::Placement& file) const;
-  /// The reverse of placement().
+  /// Reverses placement().
   [[nodiscard]] geometry::Placement placement_back(const geometry::Placement& model) const;
 };
 
@@ -39,16 +39,16 @@ struct SourceFrame {
 struct FrameDefault {
   double unit_mm = 1;
   UpAxis up = UpAxis::z;
-  bool stated = false;  ///< by the format itself; otherwise it is assumed
+  bool stated = false;  ///< stated by the format itself; otherwise it is assumed
 };
 
 [[nodiscard]] SourceFrame choose_frame(const ReadOptions& options, const FrameDefault& fallback);
 
-/// "mm (assumed)", "m (stated)", "in (given)", "0.7 mm (given)".
+/// Returns "mm (assumed)", "m (stated)", "in (given)", "0.7 mm (given)".
 [[nodiscard]] std::string unit_text(const ReadOptions& options, const FrameDefault& fallback);
 [[nodiscard]] std::string up_axis_text(UpAxis axis);
 
-/// Half the distance between a float32 of this magnitude and the next, in the same unit.
+/// Returns half the distance between a float32 of this magnitude and the next, in the same unit.
 [[nodiscard]] double float32_half_spacing(double magnitude);
 
 }  // namespace strake::io

@@ -12,7 +12,7 @@ namespace {
 
 constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Keywords are written in any case.
+/// Compares keywords, which are written in any case.
 bool is_word(std::string_view text, std::string_view word) {
   return text.size() == word.size() && std::equal(text.begin(), text.end(), word.begin(),
                                                   [](char a, char b) { return lower(a) == b; });
@@ -29,7 +29,7 @@ std::string_view take_word(std::string_view& line) {
 class AsciiParser {
  public:
   void line(std::string_view line);
-  /// What is left of a line that does not end.
+  /// Handles what is left of a line that does not end.
   void cut_line(std::string_view line);
   std::vector<Solid> take();
   void next_line() { ++line_; }
@@ -53,7 +53,7 @@ class AsciiParser {
   std::vector<Solid> solids_;
   std::uint64_t line_ = 1;
   bool open_ = false;
-  std::size_t loop_corners_ = 0;  ///< of the loop that is being read
+  std::size_t loop_corners_ = 0;  ///< corners of the loop that is being read
   bool bad_facet_ = false;        ///< it is to be left out
 };
 
@@ -96,7 +96,7 @@ void AsciiParser::end_solid() {
   open_ = false;
 }
 
-/// Where another solid begins or the file ends.
+/// Handles the place where another solid begins or the file ends.
 void AsciiParser::cut_off() {
   if (open_) solid().cut_off = line_;
   end_solid();

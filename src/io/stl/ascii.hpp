@@ -18,21 +18,21 @@ struct StlDamage {
   std::uint64_t line = 0;  ///< 1-based
 };
 
-/// One "solid … endsolid"; corners stand three by three.
+/// One "solid … endsolid" block; every three corners are a facet.
 struct Solid {
   std::string name;
   std::vector<geometry::Vec3d> corners;
-  DigitStatistics digits;           ///< of its corners
-  std::optional<StlDamage> damage;  ///< the first; the facet that it is in is left out
-  std::uint64_t bad_facets = 0;     ///< that are left out
-  /// The line on which it stops without its endsolid: what else it held nobody can tell.
+  DigitStatistics digits;           ///< the digits of its corners
+  std::optional<StlDamage> damage;  ///< the first damage; its facet is left out
+  std::uint64_t bad_facets = 0;     ///< facets that are left out
+  /// The line on which it stops without its endsolid: what else it held cannot be told.
   std::optional<std::uint64_t> cut_off;
 };
 
-/// Text that starts with "solid" and goes on with facets or ends.
+/// Whether the text starts with "solid" and goes on with facets or ends.
 [[nodiscard]] bool looks_like_ascii(std::string_view text);
 
-/// Nothing when stopped.
+/// Parses the text; returns nothing when stopped.
 [[nodiscard]] std::optional<std::vector<Solid>> parse_ascii(std::string_view text,
                                                             const std::stop_token& stop);
 

@@ -36,7 +36,8 @@ std::uint64_t stated_facets(std::span<const std::byte> bytes) {
 
 enum class StlKind { none, binary, binary_longer, binary_truncated, ascii };
 
-/// Binary files are known by their size, because many begin with "solid" like the text variant.
+/// Returns the kind of a file; binary files are known by their size, because many begin with
+/// "solid" like the text variant.
 StlKind kind_of(std::span<const std::byte> bytes) {
   const bool text = stl::looks_like_ascii(without_byte_order_mark(as_text(bytes)));
   if (bytes.size() < kHeaderBytes) return text ? StlKind::ascii : StlKind::none;
@@ -47,7 +48,7 @@ StlKind kind_of(std::span<const std::byte> bytes) {
   return bytes.size() > expected ? StlKind::binary_longer : StlKind::binary_truncated;
 }
 
-/// An object without bodies.
+/// Returns an object without bodies.
 model::Object new_object(const model::Model& model, std::string name) {
   model::Object object;
   object.id = name;
@@ -64,7 +65,7 @@ void add_object(model::Model& model, std::string name, geometry::TriangleMesh me
   model.objects.push_back(std::move(object));
 }
 
-/// The three corners of facet i, as float32 in the file's frame.
+/// Returns the three corners of facet i, as float32 in the file's frame.
 std::array<std::array<float, 3>, 3> facet_corners(std::span<const std::byte> bytes,
                                                   std::uint64_t facet) {
   std::array<std::array<float, 3>, 3> corners{};
@@ -74,7 +75,7 @@ std::array<std::array<float, 3>, 3> facet_corners(std::span<const std::byte> byt
   return corners;
 }
 
-/// Takes out the facets of which a corner is not finite.
+/// Removes the facets of which a corner is not finite.
 LeftOut leave_out_bad_facets(const FileBytes& file, geometry::TriangleMesh& mesh) {
   LeftOut lacks;
   std::size_t kept = 0;
@@ -132,7 +133,7 @@ Result<model::Model> read_binary(const FileBytes& file, const ReadOptions& optio
   return end_model(file, std::move(model));
 }
 
-/// Tells of a solid that does not end; true when nobody knows what else it held.
+/// Reports a solid that does not end; returns true when it is not known what else it held.
 bool note_cut_off(const FileBytes& file, const stl::Solid& solid, const std::string& name,
                   model::Model& model) {
   if (!solid.cut_off) return false;
@@ -192,7 +193,7 @@ Error truncated(const FileBytes& file) {
           "copy or export the file again"};
 }
 
-/// What could be facets, as of a second solid behind the first, is told as missing.
+/// Reports trailing bytes that could be facets, as of a second solid behind the first, as missing.
 void note_trailing_bytes(const FileBytes& file, model::Model& model) {
   const std::uint64_t end = kHeaderBytes + kFacetBytes * stated_facets(file.bytes);
   const bool facets = file.bytes.size() - end >= kFacetBytes;

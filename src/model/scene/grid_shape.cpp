@@ -31,8 +31,8 @@ void add_lines(const geometry::Polylines& lines, const Mat3d& linear, GridShapeR
   result.shape.parts.push_back(std::move(wire->part));
 }
 
-/// The farthest that the snap moves a vertex, grid units: by so much the body on the grid may lie
-/// from the one that its primitive states.
+/// Returns the farthest that the snap moves a vertex, grid units: by so much the body on the grid
+/// may lie from the one that its primitive states.
 double moved_by_snap(const geometry::TriangleMesh& mesh) {
   double most = 0;
   for (const geometry::Vec3d& v : mesh.vertices) {
@@ -44,8 +44,8 @@ double moved_by_snap(const geometry::TriangleMesh& mesh) {
   return std::sqrt(most);
 }
 
-/// Takes the folds out of a solid: where a primitive is thinner than the grid, the snap lays its
-/// two sides onto each other.
+/// Removes the folds of a solid: where a primitive is thinner than the grid, the snap lays its two
+/// sides onto each other.
 void drop_folds(std::vector<Part>& parts) {
   const auto is_sheet = [](const Part& p) { return p.kind == geometry::PartKind::sheet; };
   if (!std::all_of(parts.begin(), parts.end(), is_sheet)) std::erase_if(parts, is_sheet);
@@ -70,7 +70,7 @@ void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& l
     part.sag = part.flags.unknown_sag
                    ? 0
                    : mesh.sag_mm * geometry::kGridPerMm * geometry::largest_scale(linear);
-    // Which corners of the source's were moved together is not known of a part.
+    // It is not known for a single part which corners of the source were moved together.
     part.weld = analysis.findings.largest_weld;
     part.sag += part.weld;
   }

@@ -18,17 +18,17 @@ struct GridShapeResult {
   std::uint64_t bad_triangles = 0;
   std::uint64_t bad_points = 0;
   std::string_view fault;  ///< why the shape has no parts; empty when it has some
-  bool vanished = false;   ///< for nothing is left on the grid of what is sound
+  bool vanished = false;   ///< because nothing is left on the grid of what is sound
 };
 
 struct GridShapeOptions {
   double sag_mm = 0.5;
-  geometry::Seams seams = {};  ///< of meshes
-  /// Primitives with their contours for a view, if it is one; see geometry::tessellate.
+  geometry::Seams seams = {};  ///< the seams of meshes to close
+  /// The view whose contours primitives get, if there is one; see geometry::tessellate().
   std::optional<geometry::Vec3d> towards = std::nullopt;
 };
 
-/// Makes shapes one after another in memory that it keeps: one per worker.
+/// Makes shapes one after another in memory that it keeps; each worker has one.
 class GridShapeMaker {
  public:
   [[nodiscard]] GridShapeResult make(const Shape& shape, const geometry::Mat3d& linear,

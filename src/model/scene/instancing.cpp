@@ -14,7 +14,7 @@ using geometry::Triangle;
 using geometry::Vec3i;
 using geometry::Vec3l;
 
-/// Whether the parts tell all there is of a shape.
+/// Whether the parts say all there is of a shape.
 bool is_mesh(const GridShapeResult& made) {
   return made.fault.empty() && std::ranges::none_of(made.shape.parts, [](const Part& part) {
            return part.primitive.has_value() || part.vertices.empty();
@@ -54,7 +54,8 @@ std::uint64_t translation_invariant_hash(const GridShape& shape) {
       const Vec3l at = v.as<std::int64_t>() - from;
       for (int k = 0; k < 3; ++k) hash = parallel::mixed(hash, static_cast<std::uint64_t>(at[k]));
     }
-    // Whoever splits the faces anew at every place has the same vertices and other triangles.
+    // An exporter that splits the faces anew at every place has the same vertices and other
+    // triangles.
     for (const Triangle& t : part.triangles)
       hash = parallel::mixed(parallel::mixed(hash, std::uint64_t{t[0]} << 32U | t[1]), t[2]);
   }

@@ -10,17 +10,17 @@
 
 namespace strake::model {
 
-/// Which shapes are one another moved by grid steps, all that belongs to them equal: most exporters
-/// write the mesh of a part anew for every place where it stands. Shapes of primitives, and those
-/// that have a fault, equal only themselves. Errors: cancelled.
+/// Finds shapes that differ by a translation of grid steps only, with all that belongs to them
+/// equal: most exporters write the mesh of a part anew for every place where it is. Shapes of
+/// primitives, and those that have a fault, equal only themselves. Errors: cancelled.
 [[nodiscard]] Result<parallel::Distinct> find_equal_shapes(std::span<const GridShapeResult> shapes,
                                                            const parallel::Context& context);
 
-/// A hash of a shape that has parts with vertices: the same for equal ones, and hardly ever for
-/// those that differ in vertices, triangles or sag, so that few are compared.
+/// Returns a hash of a shape that has parts with vertices: the same for equal ones, and hardly ever
+/// for those that differ in vertices, triangles or sag, so that few are compared.
 [[nodiscard]] std::uint64_t translation_invariant_hash(const GridShape& shape);
 
-/// How far equal shapes are moved: from one vertex of `from` to the same one of `to`.
+/// Returns how far equal shapes are moved: from one vertex of `from` to the same one of `to`.
 [[nodiscard]] geometry::Vec3l translation_between(const GridShape& from, const GridShape& to);
 
 }  // namespace strake::model

@@ -26,8 +26,8 @@ using geometry::Mat3d;
 
 constexpr double kMostWeldMm = 1000;
 
-/// Which seams of a body close: those that its numbers cannot tell apart, before wider ones that
-/// are asked for.
+/// Returns which seams of a body are closed: those that its numbers cannot tell apart, before wider
+/// ones that are asked for.
 geometry::Seams seams_of(const Model& model, const Body& body, const SceneOptions& options) {
   if (!std::holds_alternative<geometry::TriangleMesh>(model.shapes[index(body.shape)])) return {};
   const auto on_grid = [](double units) {
@@ -39,8 +39,8 @@ geometry::Seams seams_of(const Model& model, const Body& body, const SceneOption
   return {within, std::min(own, within)};
 }
 
-/// A shape under one linear part, with its seams closed alike, and the body that asked for it
-/// first. Precisions are few: steps of float32 and of decimals.
+/// A shape under one linear part, with its seams closed alike, and the first body that uses it.
+/// There are few precisions: steps of float32 and of decimals.
 struct Use {
   ShapeId shape{};
   geometry::Seams seams;
@@ -48,7 +48,7 @@ struct Use {
   std::uint32_t bodies = 0;
 };
 
-/// Negative zero counts as zero: the two place alike.
+/// Returns the bits of a number, with negative zero as zero: the two place alike.
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
 
 std::size_t hash_of(const SeededHash& hash, const Body& body, const geometry::Seams& seams) {
@@ -154,8 +154,8 @@ void report_weld(const geometry::RepairCounts& findings, const Counted& counted)
           fmt::format("{{}} corners {} beside others or edges count as on them, {}", apart, what));
 }
 
-/// What is worth telling about a shape, said of the first object that uses it; how many bodies use
-/// it besides is added.
+/// Reports what is notable about a shape, for the first object that uses it, with the number of
+/// further bodies that use it.
 void report_findings(const GridShapeResult& made, std::uint32_t bodies, const Model& model,
                      ObjectId id, Diagnostics& diagnostics) {
   const auto counted = [&](Severity severity, std::string_view code, std::uint64_t count,
@@ -211,7 +211,7 @@ void report_findings(const GridShapeResult& made, std::uint32_t bodies, const Mo
           "{} parts have edges with more than two triangles");
 }
 
-/// Everything the assembly of a scene passes along.
+/// The state that the assembly of a scene passes along.
 struct SceneAssembly {
   const Model& model;
   const SceneOptions& options;
@@ -246,7 +246,7 @@ std::vector<Use> list_bodies(SceneAssembly& assembly) {
   return std::move(table).take();
 }
 
-/// Triangles, roughly: what the heaviest shapes are known by.
+/// Returns a rough number of triangles, by which the heaviest shapes are known.
 double estimated_cost(const Shape& shape) {
   if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
     return static_cast<double>(mesh->triangles.size());

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// By shape the first body that is drawn with it, or none.
+/// Returns by shape the first body that is drawn with it, or none.
 std::vector<std::uint32_t> first_bodies(const Scene& scene, const std::vector<bool>& drawn) {
   std::vector<std::uint32_t> first(scene.shapes.size(), kNone);
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
@@ -29,7 +29,8 @@ const geometry::Primitive* primitive_of(const Scene& scene, std::uint32_t shape)
   return std::get_if<geometry::Primitive>(&scene.model->shapes[index(scene.shapes[shape].shape)]);
 }
 
-/// By shape whether it is to be finer than in the scene: that of a body which may be seen.
+/// Returns by shape whether it is to be finer than in the scene: so is that of a body which may be
+/// seen.
 std::vector<bool> finer_shapes(const Scene& scene, const std::vector<bool>& drawn,
                                const ViewTessellationOptions& seen_by) {
   std::vector<bool> finer(scene.shapes.size());
@@ -44,7 +45,7 @@ std::vector<bool> finer_shapes(const Scene& scene, const std::vector<bool>& draw
   return finer;
 }
 
-/// A shape anew; as it was where that has no place on the grid.
+/// Makes a shape anew, or keeps it as it was where the new one does not fit the grid.
 GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3d& linear,
                    const GridShapeOptions& wanted, GridShapeMaker& maker) {
   const GridShape& old = scene.shapes[shape];

@@ -12,22 +12,22 @@
 
 namespace strake::model {
 
-/// What a view wants of the primitives that it shows.
+/// How the primitives that a view shows are tessellated.
 struct ViewTessellationOptions {
-  /// To the viewer, in lowest terms: contours of round primitives are edges (geometry::tessellate).
-  /// None: no direction.
+  /// The direction to the viewer, in lowest terms: contours of round primitives are edges
+  /// (geometry::tessellate()). Absent: no direction.
   std::optional<geometry::Vec3l> towards = {};
   double sag_mm = 0;  ///< the largest sag of curved primitives; 0: that of the scene
-  /// Whether anything of a body in that box, grid units, may be seen: those of which nothing is
-  /// keep the sag of the scene. None: all may.
+  /// Whether anything of a body in that box, grid units, may be seen; bodies that cannot be seen
+  /// keep the sag of the scene. Empty: all may be seen.
   std::function<bool(const geometry::Box3l&)> shows = {};
 };
 
-/// A scene as a view sees it: its primitives are tessellated anew where that changes them, once per
-/// shape and rotation as in `scene`. All else stays, bodies in their order. `drawn` says which
-/// objects are asked for (empty: all); shapes that none of them uses are left empty. Nothing where
-/// nothing changes: where no object that is drawn has a curved primitive that is not fine enough or
-/// a round one with contours, or the scene was not made by make_scene.
+/// Returns a scene as a view sees it: its primitives are tessellated anew where that changes them,
+/// once per shape and rotation as in `scene`. All else stays, with bodies in their order. `drawn`
+/// says which objects are asked for (empty: all); shapes that none of them uses are left empty. It
+/// returns nothing where nothing changes: where no object that is drawn has a curved primitive that
+/// is not fine enough or a round one with contours, or the scene was not made by make_scene().
 ///
 /// Applied twice it changes nothing more. The model must outlive the result. Errors: cancelled.
 [[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(

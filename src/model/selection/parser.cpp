@@ -16,7 +16,7 @@ namespace strake::model::selection {
 namespace {
 
 constexpr std::string_view kTokenBlanks = " \t\r\n";
-/// Longer ones first, so that "<=" is not read as "<" and "=".
+/// The symbols, longer ones first, so that "<=" is not read as "<" and "=".
 constexpr std::array<std::string_view, 11> kSymbols{"!=", "!~", "<=", ">=", "=", "~",
                                                     "<",  ">",  "(",  ")",  ","};
 
@@ -56,14 +56,14 @@ class SelectionTokenizer {
     return Token{attribute ? TokenKind::attribute : plain, std::move(*text), column};
   }
 
-  /// The symbol that stands at a place. '!' alone is none: it belongs to patterns.
+  /// Returns the symbol at a place. '!' alone is none: it belongs to patterns.
   [[nodiscard]] std::optional<std::string_view> symbol_at(std::size_t at) const {
     for (const std::string_view symbol : kSymbols)
       if (text_.substr(at).starts_with(symbol)) return symbol;
     return std::nullopt;
   }
 
-  /// Up to the quote of the same kind; a doubled one stands for itself.
+  /// Reads up to the quote of the same kind; a doubled one stands for itself.
   Result<std::string> quoted() {
     const std::size_t column = at_ + 1;
     const char quote = text_[at_++];
@@ -107,9 +107,9 @@ Result<std::vector<Token>> tokens_of(std::string_view text) {
 
 namespace {
 
-/// Deeper nesting than any person writes; a hostile text must not exhaust the stack.
+/// The deepest nesting, more than any person writes; a hostile text must not exhaust the stack.
 constexpr int kDeepest = 200;
-/// Sets that name each other twice over and over grow beyond any model.
+/// The largest weight: sets that name each other twice over and over grow beyond any model.
 constexpr std::uint64_t kHeaviest = 100'000;
 
 constexpr std::array<std::pair<std::string_view, PropertyField>, 7> kFields{{
@@ -330,7 +330,7 @@ class SelectionParser {
     return add({QueryNodeKind::box, static_cast<std::uint32_t>(query_.boxes.size() - 1), 0});
   }
 
-  /// A length of a box, in grid units; without a unit it is in millimetres.
+  /// Reads a length of a box, in grid units; without a unit it is in millimetres.
   Result<std::int64_t> length() {
     const Token& token = now();
     const auto quantity = token.is_value() ? parse_quantity(token.text) : std::nullopt;
@@ -340,7 +340,7 @@ class SelectionParser {
     if (!unit) return fault("no length: " + shown(token), "write millimetres or a unit, as 9m");
     const double mm = quantity->number * *unit;
     ++at_;
-    // Beyond the grid is an open side of the box.
+    // A length beyond the grid leaves that side of the box open.
     return *geometry::snap(std::clamp(mm, -geometry::kMaxGridMm, geometry::kMaxGridMm));
   }
 

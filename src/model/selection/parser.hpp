@@ -12,6 +12,7 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/detail/function_ref.hpp"
 
+/// The tokens and the parser of the selection language.
 namespace strake::model::selection {
 
 enum class TokenKind : std::uint8_t { word, quoted, attribute, symbol, end };
@@ -19,7 +20,7 @@ enum class TokenKind : std::uint8_t { word, quoted, attribute, symbol, end };
 struct Token {
   TokenKind kind = TokenKind::end;
   std::string text;        ///< a symbol, or the text without its quotes or '@'
-  std::size_t column = 1;  ///< in bytes, from 1
+  std::size_t column = 1;  ///< in bytes, counted from 1
 
   [[nodiscard]] bool is(std::string_view symbol) const {
     return kind == TokenKind::symbol && text == symbol;
@@ -27,23 +28,23 @@ struct Token {
   [[nodiscard]] bool is_keyword(std::string_view word) const {
     return kind == TokenKind::word && text == word;
   }
-  /// Whether it can stand where a value is wanted.
+  /// Whether the token can be a value.
   [[nodiscard]] bool is_value() const {
     return kind == TokenKind::word || kind == TokenKind::quoted;
   }
 };
 
-/// An error at a column of a selection.
+/// Returns an error at a column of a selection.
 [[nodiscard]] Error fault_at(std::size_t column, std::string message, std::string mend);
 
-/// The tokens of a selection, the last one `end`.
+/// Splits a selection into tokens, the last one `end`.
 [[nodiscard]] Result<std::vector<Token>> tokens_of(std::string_view text);
 
-/// What set(NAME) stands for; an error's place is for the caller to say.
+/// A function that returns what set(NAME) stands for; the caller adds the place to an error.
 using SetLookup =
     parallel::FunctionRef<Result<std::shared_ptr<const SelectionQuery>>(std::string_view name)>;
 
-/// Recursive descent over
+/// Parses a selection by recursive descent over the grammar
 ///
 ///     either := both ("or" both)*
 ///     both   := one ("and" one)*

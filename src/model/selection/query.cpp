@@ -18,12 +18,13 @@
 namespace strake::model::selection {
 namespace {
 
-/// Both in millimetres where either has a unit: a number without one is in millimetres then.
+/// Two numbers, both in millimetres where either has a unit: a number without one is in millimetres
+/// then.
 struct Comparable {
   double left = 0, right = 0;
 };
 
-/// As values have it: in capitals too, and with more behind it ("150MM x 20MM").
+/// Returns the unit as values have it: in capitals too, and with more behind it ("150MM x 20MM").
 std::optional<double> unit_of_value_mm(std::string_view unit) {
   if (unit.empty()) return 1.0;
   if (const auto mm = unit_mm(unit)) return mm;
@@ -32,7 +33,8 @@ std::optional<double> unit_of_value_mm(std::string_view unit) {
   return unit_mm(word);
 }
 
-/// 6in and 152.4mm are one length, though their products are not the same double.
+/// Whether two numbers differ by rounding: 6in and 152.4mm are one length, though their products
+/// are not the same double.
 bool differ_by_rounding(double x, double y) {
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   return std::fabs(x - y) <= kRounding * std::max(std::fabs(x), std::fabs(y));
@@ -79,7 +81,7 @@ bool text_passes(const PropertyTest& test, std::string_view text) {
   }
 }
 
-/// Of a text that is a number with blanks round it: 7 or 7.0, but not 007, a part number, nor 1e2
+/// Whether a text is a number with blanks round it: 7 or 7.0, but not 007, a part number, nor 1e2
 /// or what has more digits than a double.
 bool is_plain_number(std::string_view text) {
   constexpr std::size_t kDigits = 15;
@@ -105,7 +107,7 @@ bool quantity_passes(const PropertyTest& test, std::string_view text) {
 
 }  // namespace
 
-/// One query about one object.
+/// Evaluates one query for one object.
 class QueryEvaluator {
  public:
   QueryEvaluator(const SelectionQuery& query, SelectionContext& asked)
@@ -165,14 +167,15 @@ class QueryEvaluator {
     return false;
   }
 
-  /// In either form: "/SITE/ZONE", or "/SITE//ZONE" as the plain joining of the names has it.
+  /// Whether the path passes in either form: "/SITE/ZONE", or "/SITE//ZONE" as the plain joining of
+  /// the names has it.
   [[nodiscard]] bool path_passes(const PropertyTest& test) const {
     const SelectionContext::Path& path = asked_.whole_path();
     return text_passes(test, path.joined) ||
            (!path.slashed.empty() && text_passes(test, path.slashed));
   }
 
-  /// A name may be carried several times; one that passes is enough.
+  /// Whether an attribute passes. A name may occur several times; one that passes is enough.
   [[nodiscard]] bool attribute_passes(const PropertyTest& test) const {
     const Attributes* const stated = model_.stated(object_, test.attribute).attributes;
     if (stated == nullptr) return false;

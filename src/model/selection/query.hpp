@@ -14,6 +14,7 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/model/scene.hpp"
 
+/// A parsed selection, and its evaluation for an object.
 namespace strake::model::selection {
 
 enum class PropertyField : std::uint8_t {
@@ -30,17 +31,17 @@ enum class PropertyField : std::uint8_t {
 
 enum class Operator : std::uint8_t { exists, equal, match, less, less_equal, more, more_equal };
 
-/// One question about one property of an object.
+/// A test of one property of an object.
 struct PropertyTest {
   PropertyField field = PropertyField::any;
   Operator op = Operator::equal;
-  std::string attribute;             ///< its name, for Field::attribute
+  std::string attribute;             ///< its name, for PropertyField::attribute
   std::string text;                  ///< the value as written: a glob for `equal`
   std::optional<Quantity> quantity;  ///< the value as a number with its unit, when it is one
   std::shared_ptr<const RE2> regex;  ///< for `match`
 };
 
-/// Where an object's box stands to a box of the model, grid units.
+/// A test of how an object's box lies to a box of the model, grid units.
 struct BoxTest {
   geometry::Box3l box;
   bool whole = false;  ///< the object lies inside, rather than touching
@@ -48,8 +49,8 @@ struct BoxTest {
 
 enum class QueryNodeKind : std::uint8_t { test, box, set, negation, conjunction, disjunction };
 
-/// A leaf's `first` is the index of its test, box or set; an inner node's operands are
-/// Query::operands[first, first + count).
+/// A node of the tree of a query. A leaf's `first` is the index of its test, box or set; an inner
+/// node's operands are SelectionQuery::operands[first, first + count).
 struct QueryNode {
   QueryNodeKind kind = QueryNodeKind::test;
   std::uint32_t first = 0, count = 0;
@@ -59,15 +60,16 @@ struct SelectionQuery {
   std::string text;
   std::vector<PropertyTest> tests;
   std::vector<BoxTest> boxes;
-  std::vector<std::shared_ptr<const SelectionQuery>> sets;  ///< that set(NAME) stands for
+  std::vector<std::shared_ptr<const SelectionQuery>>
+      sets;  ///< the queries that set(NAME) stands for
   std::vector<QueryNode> nodes;
   std::vector<std::uint32_t> operands;
   std::uint32_t root = 0;
-  /// Nodes that asking may visit, those of its sets included.
+  /// The number of nodes that an evaluation may visit, those of its sets included.
   std::uint64_t weight = 0;
 };
 
-/// An object that several queries are asked about: what took work to find out is kept.
+/// An object for which several queries are evaluated: what is costly to find out is kept.
 class SelectionContext {
  public:
   SelectionContext(const Scene& scene, ObjectId id) : scene_(scene), id_(id) {}
@@ -77,10 +79,10 @@ class SelectionContext {
 
  private:
   friend class QueryEvaluator;
-  /// The same, remembered: for sets, which many queries name.
+  /// Whether a set picks the object; the answer is kept, as many queries name the same set.
   [[nodiscard]] bool picks_set(const SelectionQuery& query);
-  /// The path of its groups and its own name. `slashed` has a '/' of the level's besides the one
-  /// that a name begins with, where there are such; empty else.
+  /// The path of its groups and its own name. `slashed` has a '/' for the level besides the one
+  /// that a name begins with, where there are such names; else it is empty.
   struct Path {
     std::string joined, slashed;
   };

@@ -42,7 +42,7 @@ Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selection
                                             const Scene& scene, const parallel::Context& context) {
   constexpr std::size_t kGrain = 256;
   const std::size_t objects = scene.model->objects.size();
-  // Bytes, because several workers cannot write bits of one word.
+  // They are bytes, because several workers cannot write bits of one word.
   std::vector<std::vector<std::uint8_t>> answers(selections.size(),
                                                  std::vector<std::uint8_t>(objects));
   const Status status = parallel::for_each(

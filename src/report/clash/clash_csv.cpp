@@ -68,7 +68,7 @@ void line(std::string& out, const model::Model& model, const clash::Report& test
   out += "\r\n";
 }
 
-/// A pair that was left out: of the class EXEMPTED, with nothing measured.
+/// Appends a pair that was left out: of the class EXEMPTED, with nothing measured.
 void exempted_line(std::string& out, const model::Model& model, const clash::Report& test,
                    const clash::ExemptedPair& p) {
   append_csv_identity(out, model, p.a);

@@ -19,7 +19,7 @@ int severity(clash::Class cls) {
   return cls == clash::Class::contact ? 1 : 0;
 }
 
-/// The order in which results want to be looked at.
+/// Returns the order in which results should be examined.
 int attention(const DocumentResult& r) {
   using enum clash::Class;
   const int rank = r.cls == hit ? 0 : r.cls == clearance_violation ? 1 : 2;
@@ -43,7 +43,7 @@ std::string of_test(const DocumentTest& test) {
   return test.name.empty() ? std::string() : " of test '" + test.name + "'";
 }
 
-/// Whether a run looked at a pair, and if not, why.
+/// Tells whether a run checked a pair, and if not, why.
 class Looks {
  public:
   explicit Looks(const ClashDocument& run) : run_(run) {
@@ -55,7 +55,7 @@ class Looks {
     return it == tests_.end() ? nullptr : it->second;
   }
 
-  /// Why a result that the other run has may be missing here; empty: it is not so.
+  /// Returns why a result that the other run has may be missing here; empty if there is no reason.
   [[nodiscard]] std::string reason(const DocumentResult& r, const ClashDocument& other_run) const {
     const DocumentTest& other = other_run.tests[r.test];
     const DocumentTest* const here = test(other.name);
@@ -88,7 +88,7 @@ class Looks {
     bool there = false, in_a = false, in_b = false;
   };
 
-  /// Why an object could not be compared whole; null: it was.
+  /// Returns why an object could not be compared whole; null if it was.
   [[nodiscard]] const std::string* lacks(const ObjectPresence& side,
                                          const DocumentTest& here) const {
     const auto test = static_cast<std::uint32_t>(&here - run_.tests.data());
@@ -98,15 +98,15 @@ class Looks {
     return at != run_.lacking.end() && key(*at) == wanted ? &run_.rules[at->code] : nullptr;
   }
 
-  /// The rule, or the reason, by which a list has a pair; null: it does not have it.
+  /// Returns the rule, or the reason, by which a list has a pair; null if it does not have it.
   [[nodiscard]] const std::string* listed(const std::vector<DocumentExempted>& list,
                                           const DocumentResult& r) const {
     const auto at = std::ranges::lower_bound(list, r.key, {}, &DocumentExempted::key);
     return at != list.end() && at->key == r.key ? &run_.rules[at->rule] : nullptr;
   }
 
-  /// How many parts of an element enclose nothing, so that what lies within them is not found; 0
-  /// where the run does not say.
+  /// Returns how many parts of an element enclose nothing, so that what lies within them is not
+  /// found; 0 where the run does not say.
   [[nodiscard]] static int sheets(const ClashDocument& run, std::uint64_t element) {
     const auto at = std::ranges::lower_bound(run.elements, element);
     const bool there = at != run.elements.end() && *at == element && !run.sheets.empty();
@@ -134,7 +134,8 @@ class Looks {
     return opposite ? std::string() : "both are in the same set" + of_test(here);
   }
 
-  /// A pair as far apart as the other run found it would be no result here.
+  /// Returns the settings by which a pair as far apart as the other run found it would be no result
+  /// here.
   [[nodiscard]] static std::string by_settings(const DocumentResult& r, const DocumentTest& here,
                                                const DocumentTest& other) {
     if (here.has_matrix || other.has_matrix) {
@@ -232,10 +233,10 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
   while (x != before.results.end() || y != after.results.end()) {
     const bool is = y != after.results.end() && (x == before.results.end() || y->key <= x->key);
     const bool was = x != before.results.end() && (y == after.results.end() || x->key <= y->key);
-    // Of one key: both or neither are.
+    // Both or neither are of one key.
     const bool positional = is ? placed_after.has(*y) : placed_before.has(*x);
     if (positional) {
-      // A key says nothing of them.
+      // A key does not identify them.
     } else if (is && was) {
       still_there({&*x, &*y, {}});
     } else if (is) {

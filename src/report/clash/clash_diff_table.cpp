@@ -25,7 +25,8 @@ std::string told(const ClashDocument& run, const DocumentResult& r, bool with_pl
   return out;
 }
 
-/// "HIT -12.000", "HIT -12.000 (was CONTACT 0.000)"; with the number of places where that changed.
+/// Returns "HIT -12.000", "HIT -12.000 (was CONTACT 0.000)"; with the number of regions where that
+/// changed.
 std::string change(const ClashDiff& diff, const DiffEntry& e) {
   const bool both = e.before != nullptr && e.after != nullptr;
   const bool places = both && (more_places(*e.before, *e.after) != 0 ||
@@ -36,8 +37,8 @@ std::string change(const ClashDiff& diff, const DiffEntry& e) {
 
 std::string_view label(const DocumentObject& o) { return o.name.empty() ? o.id : o.name; }
 
-/// Which of several tests, and of several files, the objects of a result are of: the same names may
-/// stand in each.
+/// Tells which of several tests, and of several files, the objects of a result are from: names may
+/// repeat in each.
 class Origin {
  public:
   explicit Origin(const ClashDiff& diff) : diff_(diff) {
@@ -99,7 +100,7 @@ std::string in_test(const std::string& name) {
   return name.empty() ? std::string() : " of test '" + printable(name) + "'";
 }
 
-/// Where the two runs were not made by the same rules.
+/// Returns where the two runs were not made with the same rules.
 std::string rules_text(const DocumentRules& before, const DocumentRules& after) {
   if (before == after) return {};
   const auto name = [](const DocumentRules& rules) {

@@ -23,10 +23,10 @@ namespace {
 
 using Kind = JsonReader::Kind;
 
-/// No part of the schema is nested more deeply.
+/// The deepest nesting of the schema.
 constexpr int kMaxClashDepth = 12;
 
-/// Results and exempted pairs are taken as they come; the rest is small, or skipped.
+/// Reads a document: results and exempted pairs one by one; the rest is small, or skipped.
 class ClashDocumentReader {
  public:
   ClashDocumentReader(std::istream& in, ClashDocument& document)
@@ -56,7 +56,8 @@ class ClashDocumentReader {
   }
 
  private:
-  /// A pair of a list that is no result, or of what was not compared an object alone.
+  /// A pair of a list that is no result; in the list of what was not compared, it may be an object
+  /// alone.
   struct ListedPair {
     std::uint32_t test = 0, a = 0, b = 0, rule = 0;
   };
@@ -97,7 +98,7 @@ class ClashDocumentReader {
     return json_.text();
   }
 
-  /// At once: results of other versions look otherwise.
+  /// Checks the version at once: results of other versions have another form.
   void version() {
     std::string said;
     json_.copy(said);
@@ -166,7 +167,7 @@ class ClashDocumentReader {
     }
   }
 
-  /// Where exempted pairs are listed, all are.
+  /// Checks the count of exempted pairs: where they are listed, all are.
   void count_exempted() const {
     if (!document_.lists_exempted) return;
     std::vector<std::uint64_t> listed(document_.tests.size(), 0);
@@ -182,7 +183,7 @@ class ClashDocumentReader {
                                 std::to_string(listed[t]));
   }
 
-  /// Pairs of a list by the keys that their results would have.
+  /// Returns the pairs of a list by the keys that their results would have.
   [[nodiscard]] std::vector<DocumentExempted> by_key(const std::vector<ListedPair>& list) const {
     std::vector<DocumentExempted> pairs;
     pairs.reserve(list.size());
@@ -219,7 +220,7 @@ class ClashDocumentReader {
   ClashDocument& document_;
   std::optional<std::string> elements_, sheets_, positional_ids_, tests_;
   std::vector<ListedPair> exempted_, pairs_not_compared_, lacking_;
-  std::array<bool, 10> there_{};  ///< sections met
+  std::array<bool, 10> there_{};  ///< sections that were found
   bool has_version_ = false, has_results_ = false, has_hash_ = false;
 };
 

@@ -5,9 +5,9 @@
 
 namespace strake::report {
 
-/// Holds a document that is otherwise complete against what it says of itself: counts, keys,
-/// elements and hash. Its results must be of its tests. Throws DocumentFault for the first thing
-/// that does not go with the rest.
+/// Checks a document that is otherwise complete against its own counts, keys, elements and hash.
+/// Its results must be of its tests. Throws DocumentFault for the first thing that contradicts the
+/// rest.
 void check_against_itself(const ClashDocument& document);
 
 }  // namespace strake::report

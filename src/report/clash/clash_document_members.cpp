@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kChunk = std::size_t{1} << 16U;
 
 std::size_t hash_of(const SeededHash& hash, const DocumentObject& o) {
-  // An odd factor each, so that two texts that change places do not meet.
+  // Each has an odd factor, so that two texts that are swapped do not collide.
   return hash(o.id) + 3 * hash(o.name) + 5 * hash(o.file);
 }
 
@@ -54,7 +54,7 @@ std::uint32_t ObjectTable::number(const DocumentObject& object) {
   return last_;
 }
 
-/// Where an object stands, or an empty slot.
+/// Returns the slot of an object, or an empty slot.
 std::size_t ObjectTable::slot(const DocumentObject& object, std::size_t hash) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t at = hash & mask;
@@ -64,7 +64,7 @@ std::size_t ObjectTable::slot(const DocumentObject& object, std::size_t hash) co
   return at;
 }
 
-/// Into the first empty slot: no other object is equal.
+/// Puts an object into the first empty slot: no other object is equal.
 void ObjectTable::put(std::size_t hash, std::uint32_t number) {
   const std::size_t mask = slots_.size() - 1;
   std::size_t at = hash & mask;
@@ -275,7 +275,7 @@ void read_matrix(const Json& json, DocumentTest& t, const std::string& where) {
   }
 }
 
-/// Of a model with so many elements.
+/// Reads a test of a model with so many elements.
 DocumentTest read_test(const Json& json, std::size_t elements, const std::string& where) {
   if (!json.is_object()) throw DocumentFault{where, "is no object"};
   DocumentTest t;
@@ -285,7 +285,7 @@ DocumentTest read_test(const Json& json, std::size_t elements, const std::string
   t.counts = {count(counts, "HIT", where), count(counts, "CONTACT", where),
               count(counts, "CLEARANCE_VIOLATION", where), count(counts, "ALLOWED", where)};
   const Json& settings = held(json, "settings", Json::value_t::object, where);
-  t.settings["curves"] = "false";  // what older results do not say
+  t.settings["curves"] = "false";  // older results do not state it
   for (const auto& [key, value] : settings.items()) t.settings[key] = value.dump();
   t.clearance_mm = number(settings, "clearance_mm", where);
   t.touch_gap_mm = number(settings, "touch_gap_mm", where);

@@ -18,6 +18,7 @@
 #include "strake/core/hash.hpp"
 #include "strake/report/clash_document.hpp"
 
+/// Reads the members of a clash document.
 namespace strake::report {
 
 /// Numbers the objects that a document names, so that each is kept once.
@@ -26,12 +27,13 @@ class ObjectTable {
   /// Objects and texts go to `document`, which must outlive this and stay where it is.
   explicit ObjectTable(ClashDocument& document);
 
-  /// The number of an object in ClashDocument::objects.
+  /// Returns the number of an object in ClashDocument::objects.
   [[nodiscard]] std::uint32_t number(const DocumentObject& object);
 
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffU;
-  /// Open addressing: the number of an object, or kEmpty, beside what of its hash sorts out others.
+  /// A slot of open addressing: the number of an object, or kEmpty, and the bits of its hash that
+  /// rule out others.
   struct HashSlot {
     std::uint32_t number = kEmpty, tag = 0;
   };
@@ -44,14 +46,15 @@ class ObjectTable {
   ClashDocument& document_;
   SeededHash hash_;
   std::vector<HashSlot> slots_;
-  /// Results are ordered by their first object: every other one is that of the last result.
+  /// Results are ordered by their first object, so every other object is that of the last result.
   std::uint32_t last_ = kEmpty, last_but_one_ = kEmpty;
   std::set<std::string_view> labels_;
-  std::size_t room_ = 0;  ///< bytes left of the last of the texts
+  std::size_t room_ = 0;  ///< bytes left in the last of the texts
   char* free_ = nullptr;
 };
 
-/// What a pair of a list says of itself: a result, an exempted pair or what was not compared.
+/// A pair of a list as the document describes it: a result, an exempted pair or what was not
+/// compared.
 struct DocumentEntry {
   std::optional<Hash128> key;
   std::optional<std::uint32_t> test, a, b, rule;
@@ -62,15 +65,15 @@ struct DocumentEntry {
   bool depth_complete = true;
 };
 
-/// Takes the pairs of a list one by one; objects and rules go to the document. Throws
+/// Reads the pairs of a list one by one; objects and rules go to the document. Throws
 /// DocumentFault.
 class EntryReader {
  public:
   EntryReader(JsonReader& json, ClashDocument& document)
       : json_(json), document_(document), objects_(document) {}
 
-  /// Each pair of the list `section`, which comes next: take(entry). A pair's rule is its member
-  /// `rule`.
+  /// Calls take(entry) for each pair of the list `section`, which comes next. A pair's rule is its
+  /// member `rule`.
   template <class Take>
   void each(const char* section, const char* rule, Take&& take) {
     if (json_.kind() != JsonReader::Kind::array) throw wrong_type("the document", section, "list");
@@ -83,7 +86,7 @@ class EntryReader {
     });
   }
 
-  /// The value of a member that every pair must have.
+  /// Returns the value of a member that every pair must have.
   template <class T>
   [[nodiscard]] T required(const std::optional<T>& value, std::string_view key) const {
     if (!value) throw missing_key(where(), key);
@@ -94,7 +97,7 @@ class EntryReader {
   [[nodiscard]] std::string where() const;
   [[nodiscard]] DocumentEntry next();
   void take_member(std::string_view key, DocumentEntry& entry);
-  // The value of a member, which comes next.
+  // These read the value of a member, which comes next.
   [[nodiscard]] std::string_view text(const char* key);
   [[nodiscard]] double millimetres(const char* key);
   [[nodiscard]] bool truth(const char* key);
@@ -109,26 +112,26 @@ class EntryReader {
   ClashDocument& document_;
   ObjectTable objects_;
   std::map<std::string, std::uint32_t, std::less<>> rules_;
-  std::array<std::string, 3> texts_;  ///< of the object being read
+  std::array<std::string, 3> texts_;  ///< the texts of the object being read
   const char* section_ = "";
   const char* rule_ = "";
   std::size_t at_ = 0;
 };
 
-// The members of a clash document that are small enough to be read as a whole. All throw
-// DocumentFault.
+// These functions read the members of a clash document that are small enough to be read as a whole.
+// All throw DocumentFault.
 
-/// The member `elements`: hashes in ascending order.
+/// Reads the member `elements`: hashes in ascending order.
 [[nodiscard]] std::vector<std::uint64_t> read_elements(std::string_view base64);
 
-/// The member `sheets`: a byte for each of so many elements.
+/// Reads the member `sheets`: a byte for each of so many elements.
 [[nodiscard]] std::vector<std::uint8_t> read_sheets(std::string_view base64, std::size_t elements);
 
-/// The member `positional_ids`: a bit for each of so many elements.
+/// Reads the member `positional_ids`: a bit for each of so many elements.
 [[nodiscard]] std::vector<std::uint8_t> read_positional_ids(std::string_view base64,
                                                             std::size_t elements);
 
-/// The member `tests`, of a model with so many elements.
+/// Reads the member `tests`, of a model with so many elements.
 [[nodiscard]] std::vector<DocumentTest> read_tests(std::string_view json, std::size_t elements);
 
 }  // namespace strake::report

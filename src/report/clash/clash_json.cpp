@@ -37,7 +37,7 @@ void rules(std::string& out, const RulesSource& source) {
   out += ", \"hash\": \"" + source.hash.text() + "\"}";
 }
 
-/// What a diagnostic and a count of such begin with.
+/// Appends what a diagnostic, and a count of such, begins with.
 void begin_diagnostic(std::string& out, std::string_view code, Severity severity) {
   out += "{\"code\": ";
   append_json(out, code);
@@ -87,8 +87,8 @@ void groups(BufferedWriter& buffer, const clash::Grouping& grouping) {
   out += '}';
 }
 
-/// The list `name` of what items(test) are, one a line: write(text, number of the test, number of
-/// the item in it, item).
+/// Appends the list `name` of what items(test) returns, one a line: write(text, number of the test,
+/// number of the item in it, item).
 template <class Items, class Write>
 Status list(BufferedWriter& buffer, std::string_view name, const clash::Findings& findings,
             const parallel::Context& context, Items&& items, Write&& write) {

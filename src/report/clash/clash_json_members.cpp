@@ -55,7 +55,7 @@ namespace {
 using clash::Pair;
 using clash::Report;
 
-/// The beginning of an object, which what is told of it may follow.
+/// Appends the beginning of an object, which further members may follow.
 void begin_object(std::string& out, const model::Model& model, model::ObjectId id) {
   const model::Object& o = model.object(id);
   out += '{';
@@ -76,7 +76,8 @@ void point(std::string& out, std::string_view name, const geometry::Vec3d& p) {
   out += ']';
 }
 
-/// Where the separation is measured: two closest points, or the way from the deepest one out.
+/// Appends where the separation is measured: two closest points, or the way from the deepest one
+/// out.
 void witness(std::string& out, const Pair& p) {
   point(out, "point_mm", p.point_mm);
   if (p.d_mm >= 0) {
@@ -107,7 +108,7 @@ void side(std::string& out, const model::Model& model, const Report& report, mod
   out += "}";
 }
 
-/// Millimetres rounded outward, so that the points lie in it.
+/// Appends a box in millimetres rounded outward, so that the points lie in it.
 void box(std::string& out, const geometry::Box3d& b) {
   out += "[[";
   for (int k = 0; k < 3; ++k) {
@@ -122,7 +123,7 @@ void box(std::string& out, const geometry::Box3d& b) {
   out += "]]";
 }
 
-/// The d of a result or of one of its regions.
+/// Appends the d of a result or of one of its regions.
 template <class Found>
 void measured(std::string& out, const Found& found) {
   out += ", \"d_mm\": ";
@@ -167,8 +168,8 @@ void region_list(std::string& out, const Report& test, std::string_view name, st
               [&](const clash::Region& r) { region(out, test, r); });
 }
 
-/// How many separate places the two meet in, and the worst of several; those apart that a rule
-/// allows.
+/// Appends how many separate regions the two meet in, and the worst of several; those that a rule
+/// allows apart.
 void regions(std::string& out, const Report& test, const Pair& p) {
   if (test.options.most_regions > 0) {
     out += ", \"region_count\": ";
@@ -351,7 +352,8 @@ void matrix(std::string& out, const Report& report) {
   out += "}";
 }
 
-/// Who was set against whom, so that a later run can tell what is gone from what was not looked at.
+/// Appends which objects were compared with which, so that a later run can tell what is gone from
+/// what was not checked.
 void tested(std::string& out, const Report& report, const ElementHashes& elements) {
   out += "\"tested\": {\"a\": \"";
   elements.append_members(out, report.in_a);
@@ -361,7 +363,7 @@ void tested(std::string& out, const Report& report, const ElementHashes& element
   out += report.within_files ? "true}" : "false}";
 }
 
-/// What Report::sheets of any test says of each object: each knows those of its own sets.
+/// Returns what Report::sheets of any test says of each object: each has those of its own sets.
 std::vector<std::uint8_t> sheets(const clash::Findings& findings) {
   std::vector<std::uint8_t> all;
   for (const Report& test : findings.tests) {
@@ -371,7 +373,7 @@ std::vector<std::uint8_t> sheets(const clash::Findings& findings) {
   return all;
 }
 
-/// Which objects have such ids; empty: none.
+/// Returns which objects have positional ids; empty if none has.
 std::vector<bool> positional_ids(const model::Model& model) {
   const auto positional = [](const model::Object& o) { return o.positional_id; };
   if (std::ranges::none_of(model.objects, positional)) return {};

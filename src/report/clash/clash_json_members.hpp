@@ -12,6 +12,7 @@
 #include "strake/model/model.hpp"
 #include "strake/report/clash.hpp"
 
+/// Writes the members of a clash document.
 namespace strake::report {
 
 /// The objects of a model as a document lists them, so that a later run can be compared with it:
@@ -20,11 +21,11 @@ class ElementHashes {
  public:
   explicit ElementHashes(const model::Model& model);
 
-  /// The hashes, little endian, as base64.
+  /// Appends the hashes, little endian, as base64.
   void append_list(std::string& out) const;
-  /// A bit for each of them in that order, the lowest of a byte first, as base64.
+  /// Appends a bit for each hash in that order, the lowest of a byte first, as base64.
   void append_members(std::string& out, const std::vector<bool>& member) const;
-  /// A byte for each of them in that order, as base64; 0 beyond the end of `of_object`.
+  /// Appends a byte for each hash in that order, as base64; 0 beyond the end of `of_object`.
   void append_bytes(std::string& out, const std::vector<std::uint8_t>& of_object) const;
 
  private:
@@ -35,9 +36,10 @@ class ElementHashes {
   std::vector<HashedElement> elements_;
 };
 
-// The items of the clash document's lists; `test` is the number of the test they are of.
+// These functions append the items of the clash document's lists; `test` is the number of their
+// test.
 
-/// A result, with the number of its group if there are groups.
+/// Appends a result, with the number of its group if there are groups.
 void append_result(std::string& out, const ClashContents& contents, std::size_t test,
                    const clash::Pair& pair, std::optional<std::uint32_t> group);
 
@@ -49,8 +51,8 @@ void append_exempted_pair(std::string& out, const ClashContents& contents, std::
 void append_not_compared(std::string& out, const ClashContents& contents, std::size_t test,
                          const clash::NotCompared& what);
 
-/// The members `elements` and `tests` of the clash document: what was looked at, by which rules and
-/// tolerances, and how much was found.
+/// Appends the members `elements` and `tests` of the clash document: what was checked, by which
+/// rules and tolerances, and how much was found.
 void append_tests(std::string& out, const clash::Findings& findings, const model::Model& model);
 
 }  // namespace strake::report

@@ -5,7 +5,7 @@
 
 namespace strake::report {
 
-/// Of schemas/clash.schema.json, as the writer says it and the reader wants it.
+/// The version of schemas/clash.schema.json, which the writer states and the reader requires.
 inline constexpr std::string_view kClashSchemaVersion = "2";
 
 }  // namespace strake::report

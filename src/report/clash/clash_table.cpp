@@ -24,8 +24,8 @@ constexpr std::size_t kClassColumns = 9, kNumberColumns = 10, kRelationColumns =
 constexpr std::size_t kVolumeColumns = 14;
 constexpr std::size_t kFixedColumns = kClassColumns + kNumberColumns + kRelationColumns + 8;
 constexpr std::size_t kLeastName = 8;
-/// The grid alone may account for a bracket this wide, as for BORDERLINE: d is known as well as its
-/// digits say, and nearly all meshes and primitives have such a bracket.
+/// The widest bracket that is not shown: the grid alone may account for it, as for BORDERLINE, so d
+/// is known as well as its digits say, and nearly all meshes and primitives have such a bracket.
 constexpr double kUntoldWidthMm = 0.008;
 
 /// The pairs of a class that no rule allows by d, then durable order, as many as are shown.
@@ -58,8 +58,8 @@ struct ClassRows {
   std::size_t count, rows;
 };
 
-/// A fifth of the rows for each class, so that none hides the others, and the rest to those that
-/// ask for a decision before those that are mostly meant.
+/// Returns the rows of each class: a fifth for each, so that none hides the others, and the rest to
+/// those that need a decision before those that are mostly meant.
 std::array<ClassRows, 3> shares(const Report& report, std::size_t rows) {
   constexpr std::size_t kParts = 5;
   std::array<ClassRows, 3> all{{
@@ -94,7 +94,7 @@ struct TableRow {
   std::string_view relation, a, b;
 };
 
-/// A table lacks a column that is 0 wide.
+/// The widths of the columns; a column that is 0 wide is left out.
 struct Columns {
   std::size_t range = 0, volume = 0, names = kLeastName;
 };
@@ -112,12 +112,12 @@ std::string text_of(const TableRow& row, const Columns& columns) {
   return line + "\n";
 }
 
-/// The bracket of d, rounded outward, where d may be another number than its digits say.
+/// Returns the bracket of d, rounded outward, where d may be another number than its digits say.
 std::string range_of(const Pair& p) {
   if (!(p.d_upper_mm - p.d_lower_mm > kUntoldWidthMm)) return {};
   constexpr int kDigits = 3;
   constexpr double kSteps = 1000;
-  // Not "-0.000".
+  // Adding zero avoids "-0.000".
   return "[" + fixed(std::floor(p.d_lower_mm * kSteps) / kSteps + 0.0, kDigits) + ", " +
          fixed(std::ceil(p.d_upper_mm * kSteps) / kSteps + 0.0, kDigits) + "]";
 }
@@ -133,7 +133,7 @@ std::string counted(std::uint64_t n, std::string_view one, std::string_view many
 
 std::string counted(const ClassRows& c, std::size_t n) { return counted(n, c.one, c.many); }
 
-/// How many answers brackets leave open: the classes counted are those of the nominal d.
+/// Returns how many results brackets leave open: the classes counted are those of the nominal d.
 std::string uncertain(const Report& report) {
   std::uint64_t all = 0, worse = 0;
   for (const Pair& p : report.pairs) {
@@ -145,7 +145,7 @@ std::string uncertain(const Report& report) {
          (worse == 0 ? "" : ", " + std::to_string(worse) + " may be of a severer class");
 }
 
-/// What a class of no hits may hide.
+/// Returns what a report without hits may hide.
 std::string not_compared(const Report& report, const model::Model& model) {
   if (report.objects_a == 0 || report.objects_b == 0)
     return std::string("; not compared: anything, as set ") + (report.objects_a == 0 ? "A" : "B") +
@@ -182,7 +182,7 @@ std::string cell_row(std::string_view cell, const std::array<std::string, 4>& co
   return line + "\n";
 }
 
-/// The cells of a matrix in which something was found.
+/// Returns the cells of a matrix in which something was found.
 std::string matrix_table(const Report& report, std::size_t width) {
   constexpr std::size_t kCounts = 4 * (kNumberColumns + 2), kMost = 40;
   const std::size_t columns = std::clamp(width - std::min(width, kCounts), kLeastName, kMost);
@@ -199,7 +199,7 @@ std::string matrix_table(const Report& report, std::size_t width) {
   return out.empty() ? out : out + "\n";
 }
 
-/// Brackets have a column where one of them is worth telling.
+/// Returns the columns; brackets have one where one of them is worth showing.
 Columns columns_of(const Report& report, const std::array<TableBlock, 3>& blocks,
                    const TableOptions& options) {
   Columns columns;

@@ -10,7 +10,7 @@
 
 namespace strake::report {
 
-/// The number of the group that each result is in, if it is in one.
+/// Gives the number of the group that each result is in, if it is in one.
 class GroupNumbers {
  public:
   explicit GroupNumbers(const ClashContents& contents) {

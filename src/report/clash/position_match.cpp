@@ -25,7 +25,7 @@ bool is_positional(const ClashDocument& run, std::uint64_t element) {
   return ((run.positional_ids[i / 8] >> (i % 8)) & 1U) != 0;
 }
 
-/// "node 12" and "node 7" are one.
+/// Returns a name without its numbers: "node 12" and "node 7" are one.
 std::string without_numbers(std::string_view name) {
   std::string text;
   for (const char c : name) {
@@ -39,7 +39,7 @@ constexpr std::size_t kCoordinates = 4;
 
 /// A result as the other run may know it.
 struct PositionedResult {
-  Hash128 kind;  ///< of what must be equal
+  Hash128 kind;  ///< the hash of what must be equal
   std::array<double, kCoordinates> at{};
   const DocumentResult* result = nullptr;
   bool is_after = false;
@@ -52,7 +52,7 @@ Hash128 kind_of(const PositionalResults& results, const DocumentResult& r) {
     const bool positional = results.has(object);
     return std::tuple(positional, o.file, positional ? without_numbers(o.name) : std::string(o.id));
   };
-  // Numbers in ids decide which of the two stands first.
+  // Numbers in ids decide which of the two comes first.
   std::array sides{side(r.a), side(r.b)};
   std::ranges::sort(sides);
   Hasher hasher;
@@ -81,14 +81,15 @@ void cut(Cluster all, Before&& before, Apart&& apart, std::vector<Cluster>& clus
   }
 }
 
-/// Results that are alike, with a gap in some coordinate between any two clusters.
+/// Returns clusters of results that are alike, with a gap in some coordinate between any two
+/// clusters.
 std::vector<Cluster> clusters_of(Cluster all) {
   std::vector<Cluster> clusters;
   cut(
       all, [](const PositionedResult& x, const PositionedResult& y) { return x.kind < y.kind; },
       [](const PositionedResult& x, const PositionedResult& y) { return x.kind != y.kind; },
       clusters);
-  // What a cut along one coordinate parts may leave gaps along those before it.
+  // What a cut along one coordinate separates may leave gaps along those before it.
   constexpr std::size_t kRounds = 2;
   for (std::size_t k = 0; k < kRounds * kCoordinates; ++k) {
     const auto at = [k](const PositionedResult& p) { return p.at[k % kCoordinates]; };
@@ -107,8 +108,8 @@ std::vector<Cluster> clusters_of(Cluster all) {
   return clusters;
 }
 
-/// Whether it makes no difference which result of one run goes with which of the other: all stand
-/// at one place, and those of a run differ in nothing that a comparison looks at.
+/// Whether it makes no difference which result of one run is paired with which of the other: all
+/// are at one place, and those of a run differ in nothing that a comparison considers.
 bool interchangeable(const Cluster cluster) {
   for (std::size_t k = 0; k < kCoordinates; ++k) {
     const auto [least, most] =
@@ -153,7 +154,7 @@ std::vector<DiffEntry> match_by_position(const PositionalResults& before,
   place(after, true, all);
   std::vector<DiffEntry> entries;
   for (const Cluster cluster : clusters_of(all)) {
-    // By key, so that the same two go together whatever the order of the documents.
+    // They are sorted by key, so that the same two are paired whatever the order of the documents.
     std::ranges::sort(cluster, {}, [](const PositionedResult& p) {
       return std::pair(p.is_after, p.result->key);
     });

@@ -8,17 +8,17 @@
 
 namespace strake::report {
 
-/// Below this, in millimetres, a difference of d or of a coordinate is that of the grid.
+/// A difference of d or of a coordinate below this, in millimetres, is that of the grid.
 inline constexpr double kSameMm = 1e-3;
 
-/// The results of a run whose keys do not say what they are about: the id of one of the objects is
-/// only a position in its file, in this run or in the other.
+/// The results of a run that keys do not identify: the id of one of the objects is only a position
+/// in its file, in this run or in the other.
 class PositionalResults {
  public:
   PositionalResults(const ClashDocument& run, const ClashDocument& other);
 
   [[nodiscard]] const ClashDocument& run() const { return run_; }
-  /// Whether the id of an object of the run is such.
+  /// Whether the id of an object of the run is only a position.
   [[nodiscard]] bool has(std::uint32_t object) const {
     return !positional_.empty() && positional_[object];
   }
@@ -26,15 +26,16 @@ class PositionalResults {
 
  private:
   const ClashDocument& run_;
-  std::vector<bool> positional_;  ///< of the objects of the run; empty: none is
+  std::vector<bool> positional_;  ///< one per object of the run; empty: none is
 };
 
-/// Pairs such results of two runs by what does not move: the test, the class, the objects as far as
-/// ids say which they are, d and the point. Every result of either run that PositionalResults::has
-/// is in one entry: with its partner, or alone with the reason why it has none.
+/// Pairs positional results of two runs by what does not move: the test, the class, the objects as
+/// far as ids say which they are, d and the point. Every result of either run that
+/// PositionalResults::has() is in one entry: with its partner, or alone with the reason why it has
+/// none.
 ///
 /// Results that are alike, and no farther apart than the grid, are one cluster; it is paired where
-/// both runs have as many of them and it makes no difference how. So the answer does not depend on
+/// both runs have as many of them and it makes no difference how. So the pairing does not depend on
 /// any number in an id.
 [[nodiscard]] std::vector<DiffEntry> match_by_position(const PositionalResults& before,
                                                        const PositionalResults& after);

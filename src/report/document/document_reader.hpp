@@ -16,6 +16,7 @@
 #include "strake/core/result.hpp"
 #include "strake/geometry/grid.hpp"
 
+/// Reads the fields of a document, with errors that name the place.
 namespace strake::report {
 
 /// What is wrong with a document and where in it; thrown, and caught where the file's name is
@@ -25,7 +26,7 @@ struct DocumentFault {
   bool edited = false;  ///< no run wrote it so: something was changed since
 };
 
-/// A document that says two things which exclude each other.
+/// Returns the fault of a document that says two things which exclude each other.
 [[nodiscard]] inline DocumentFault contradiction(std::string where, std::string what) {
   return {std::move(where), std::move(what), true};
 }
@@ -39,7 +40,7 @@ struct DocumentFault {
   return {where, "\"" + std::string(key) + "\" is no " + what};
 }
 
-/// The value of an enumeration that has this name; name(value) is empty beyond the last.
+/// Returns the value of an enumeration that has this name; name(value) is empty beyond the last.
 template <class Enum, class Name>
 std::optional<Enum> enum_by_name(std::string_view text, Name&& name) {
   for (std::uint8_t i = 0; !name(static_cast<Enum>(i)).empty(); ++i)
@@ -47,10 +48,10 @@ std::optional<Enum> enum_by_name(std::string_view text, Name&& name) {
   return std::nullopt;
 }
 
-/// Takes values that must be of some kind; `where` and `key` are what a DocumentFault names.
+/// Reads values that must be of some kind; `where` and `key` are what a DocumentFault names.
 class DocumentFields {
  public:
-  /// No number of a drawing is larger. Nothing can be placed farther out than geometry::kMaxGridMm;
+  /// The largest number of a drawing. Nothing can be placed farther out than geometry::kMaxGridMm;
   /// where placed bodies meet sections and limits, twice that is plenty.
   static constexpr double kFarthestMm = 2 * geometry::kMaxGridMm;
 
@@ -72,14 +73,14 @@ class DocumentFields {
     return value;
   }
 
-  /// A whole number from 0 on.
+  /// Reads a whole number from 0 on.
   [[nodiscard]] std::uint64_t count(const std::string& where, std::string_view key) {
     const double value = number(where, key);
     if (!(value >= 0) || value != std::floor(value)) throw wrong_type(where, key, "whole number");
     return static_cast<std::uint64_t>(value);
   }
 
-  /// So many numbers up to `farthest`; where() is asked only where something is wrong.
+  /// Reads so many numbers up to `farthest`; where() is called only where something is wrong.
   template <std::size_t N, class Where>
   [[nodiscard]] std::array<double, N> numbers(Where&& where, std::string_view key,
                                               double farthest) {
@@ -99,7 +100,7 @@ class DocumentFields {
   JsonReader& json_;
 };
 
-/// What errors about a kind of document tell to do.
+/// The advice that errors about a kind of document give.
 struct DocumentKind {
   std::string_view writer;  ///< "strake clash -o FILE.json"
   std::string_view again;   ///< "run the test again"
@@ -110,10 +111,10 @@ struct DocumentKind {
 [[nodiscard]] Error document_error(const std::string& name, const DocumentKind& kind,
                                    const DocumentFault& fault);
 
-/// Errors: input for a folder and for what cannot be opened.
+/// Opens a document. Errors: input for a folder and for what cannot be opened.
 [[nodiscard]] Result<std::ifstream> open_document(const std::filesystem::path& file);
 
-/// Runs what reads a document; what it throws becomes an error that names the file.
+/// Runs a function that reads a document; what it throws becomes an error that names the file.
 template <class Read>
 [[nodiscard]] Status read_guarded(const std::string& name, const DocumentKind& kind, Read&& read) {
   try {

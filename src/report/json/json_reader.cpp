@@ -21,7 +21,7 @@ bool in_number(char c) {
 
 bool in_word(char c) { return c >= 'a' && c <= 'z'; }
 
-/// Moves `at` over digits; false where there is none.
+/// Moves `at` over digits; returns false where there is none.
 bool pass_digits(const char*& at, const char* end) {
   const char* const first = at;
   while (at != end && is_digit(*at)) ++at;

@@ -10,11 +10,11 @@
 
 namespace strake::report {
 
-/// Takes a JSON text (RFC 8259) from a stream value by value, in one pass: memory does not grow
-/// with the text. The caller says what it wants of each value and skips the rest, which is checked
+/// Reads a JSON text (RFC 8259) from a stream value by value, in one pass: memory does not grow
+/// with the text. The caller takes the values that it wants and skips the rest, which is checked
 /// all the same.
 ///
-/// Throws Fault, and is of no use after that.
+/// It throws Fault, and is of no use after that.
 class JsonReader {
  public:
   enum class Kind : std::uint8_t { object, array, string, number, boolean, null };
@@ -24,14 +24,14 @@ class JsonReader {
     std::uint64_t line = 0;  ///< counted from 1
   };
 
-  /// Values may be nested this deep.
+  /// Values may be nested `most_depth` deep.
   JsonReader(std::istream& in, int most_depth);
 
-  /// Of the value that comes next.
+  /// Returns the kind of the value that comes next.
   [[nodiscard]] Kind kind();
 
-  /// Of an object, which must come next: member(key) is called for each and takes its value; `key`
-  /// is valid until it begins to.
+  /// Reads an object, which must come next: member(key) is called for each member and takes its
+  /// value; `key` is valid until it begins to.
   template <class Member>
   void members(Member&& member) {
     for (bool more = open('{', '}'); more; more = next('}')) {
@@ -39,21 +39,21 @@ class JsonReader {
       member(std::string_view(key_));
     }
   }
-  /// Of an array, which must come next: item() is called for each and takes it.
+  /// Reads an array, which must come next: item() is called for each item and takes it.
   template <class Item>
   void items(Item&& item) {
     for (bool more = open('[', ']'); more; more = next(']')) item();
   }
 
-  /// The string that must come next, decoded; valid until anything else is taken.
+  /// Returns the string that must come next, decoded; valid until anything else is taken.
   [[nodiscard]] std::string_view text();
-  /// The number that must come next; infinite where no double comes near it.
+  /// Returns the number that must come next; infinite where no double comes near it.
   [[nodiscard]] double number();
   void skip();
-  /// Appends the value as it stands, without blanks between.
+  /// Appends the value as it is written, without blanks between.
   void copy(std::string& out);
 
-  /// Nothing but blanks may follow.
+  /// Checks that nothing but blanks follows.
   void end();
 
  private:
@@ -68,10 +68,10 @@ class JsonReader {
   [[nodiscard]] std::uint32_t take_hex();
   [[nodiscard]] std::string_view take_number();
   [[nodiscard]] std::string_view take_word();
-  /// Line ends of the buffer up to there.
+  /// Returns the number of line ends in the buffer up to there.
   [[nodiscard]] std::uint64_t lines_up_to(const char* at) const;
   [[noreturn]] void fail(Fault::What what) const;
-  /// Broken, or cut off where the text ends here.
+  /// Fails as broken, or as cut off where the text ends here.
   [[noreturn]] void fail_at_next();
 
   static constexpr int kEnd = -1;
@@ -81,7 +81,7 @@ class JsonReader {
   const char* at_ = nullptr;
   const char* end_ = nullptr;
   std::uint64_t lines_before_ = 0;  ///< line ends before the buffer
-  std::string spilled_;             ///< a value that the buffer does not hold as it is meant
+  std::string spilled_;             ///< a value that the buffer does not hold in its final form
   std::string key_;
   int depth_ = 0, most_depth_;
 };

@@ -8,20 +8,21 @@
 
 namespace strake::report {
 
-// What the JSON documents of this layer are put together from.
+// These functions write what the JSON documents of this layer have in common.
 
-/// `"name": `
+/// Appends `"name": `.
 void append_key(std::string& out, std::string_view name);
 
-/// The members that name an object: id, name and file.
+/// Appends the members that name an object: id, name and file.
 void append_identity(std::string& out, std::string_view id, std::string_view name,
                      std::string_view file);
 
-/// The member `counts` of results by class, and of those that a rule allows where they are told.
+/// Appends the member `counts` of results by class, and of those that a rule allows where they are
+/// given.
 void append_counts(std::string& out, std::uint64_t hit, std::uint64_t contact,
                    std::uint64_t clearance_violation, std::optional<std::uint64_t> allowed = {});
 
-/// The member `name`, a list: write(item) appends each. `line` is what stands before each item
+/// Appends the member `name`, a list: write(item) appends each item. `line` comes before each item
 /// where each begins a line.
 template <class Items, class Write>
 void append_list(std::string& out, std::string_view name, const Items& items, const Write& write,

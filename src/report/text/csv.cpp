@@ -6,8 +6,8 @@
 namespace strake::report {
 namespace {
 
-/// How many bytes at the start of UTF-8 are one blank that a spreadsheet passes over: controls, and
-/// the blanks, marks and separators of Unicode; 0 for anything that shows.
+/// Returns how many bytes at the start of UTF-8 are one blank that a spreadsheet skips: controls,
+/// and the blanks, marks and separators of Unicode; 0 for anything that is visible.
 std::size_t blank_length(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -24,7 +24,8 @@ std::size_t blank_length(std::string_view text) {
   return spaces || (byte(1) == 0x81 && byte(2) >= 0x9F && byte(2) <= 0xAF) ? 3 : 0;
 }
 
-/// Spreadsheets take the full-width signs of East Asian keyboards for the plain ones.
+/// Whether a spreadsheet takes a text for a formula; it takes the full-width signs of East Asian
+/// keyboards for the plain ones.
 bool looks_like_formula(std::string_view text) {
   constexpr std::string_view kTabsAndBreaks = "\t\r\n";
   if (!text.empty() && kTabsAndBreaks.find(text.front()) != std::string_view::npos) return true;
@@ -40,7 +41,7 @@ bool looks_like_formula(std::string_view text) {
 void append_csv(std::string& out, std::string_view raw) {
   std::string text = valid_utf8(raw);
   if (looks_like_formula(text)) text.insert(0, 1, '\'');
-  // Where the comma is the decimal point, spreadsheets part cells at semicolons, or at tabs.
+  // Where the comma is the decimal point, spreadsheets split cells at semicolons, or at tabs.
   if (text.find_first_of(",;\t\"\r\n") == std::string::npos) {
     out += text;
     return;

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kPerMm = 1e6;
 
-/// What append_mm() says of most numbers, in a third of the time. False, and nothing appended, for
-/// those that are huge, no numbers, or so near the middle between two texts that only exact
-/// arithmetic tells which is nearer.
+/// Appends what append_mm() gives for most numbers, in a third of the time. Returns false, and
+/// appends nothing, for those that are huge, no numbers, or so near the middle between two texts
+/// that only exact arithmetic tells which is nearer.
 bool append_mm_quickly(std::string& out, double mm) {
   const double size = std::fabs(mm);
   if (!(size < 1e9)) return false;

@@ -14,29 +14,29 @@ namespace strake::report {
 
 using drawing::BufferedWriter;
 
-/// A JSON string with its quotes.
+/// Appends a JSON string with its quotes.
 void append_json(std::string& out, std::string_view text);
 
-/// Millimetres to a nanometre, without trailing zeros.
+/// Appends millimetres to a nanometre, without trailing zeros.
 void append_mm(std::string& out, double mm);
 
-/// The same, rounded down or up, so that a bracket stays certain.
+/// Append millimetres rounded down or up, so that a bracket stays certain.
 void append_mm_floor(std::string& out, double mm);
 void append_mm_ceil(std::string& out, double mm);
 
-/// Fields of a result with something between: the bounds of d, the coordinates of a point, the
-/// names of the flags, each between quotes.
+/// Append fields of a result with something between: the bounds of d, the coordinates of a point,
+/// the names of the flags, each between quotes.
 void append_range(std::string& out, double lower_mm, double upper_mm, std::string_view between);
 void append_point(std::string& out, const geometry::Vec3d& mm, std::string_view between);
 void append_flags(std::string& out, std::uint16_t flags, std::string_view between,
                   std::string_view quote);
 
-/// The name of a class for a column of a table.
+/// Returns the name of a class for a column of a table.
 [[nodiscard]] std::string_view short_class_name(clash::Class cls);
 
-/// At most `columns` characters of the text, the middle left out where it is longer; padded to the
-/// left-aligned width. Control characters, those that turn the writing, and bytes that are not
-/// UTF-8 become '?'.
+/// Returns at most `columns` characters of the text, the middle left out where it is longer; padded
+/// to the left-aligned width. Control characters, those that change the direction of writing, and
+/// bytes that are not UTF-8 become '?'.
 [[nodiscard]] std::string fit_to_columns(std::string_view text, std::size_t columns);
 
 }  // namespace strake::report

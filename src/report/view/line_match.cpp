@@ -21,7 +21,7 @@ constexpr double kMmPerUm = 1e-3;
 
 Vec3d mm(const Vec3l& um) { return um.as<double>() * kMmPerUm; }
 
-/// What lies at one place, each class once, in order.
+/// The classes of the lines at one place, each once, in order.
 struct ClassesHere {
   std::vector<DiffLineClass> before, after;
 };
@@ -38,8 +38,8 @@ std::vector<DiffLineClass> without(const std::vector<DiffLineClass>& all,
   return left;
 }
 
-/// Which class of `before` each of `after` was: first those of one object and kind, then those of
-/// one object, then as they come. The same whichever of the drawings asks.
+/// Returns which class of `before` each of `after` was: first those of one object and kind, then
+/// those of one object, then as they come. It is the same whichever of the drawings is first.
 std::vector<std::pair<DiffLineClass, DiffLineClass>> pair_up(std::vector<DiffLineClass> before,
                                                              std::vector<DiffLineClass> after) {
   std::vector<std::pair<DiffLineClass, DiffLineClass>> pairs;
@@ -85,7 +85,7 @@ std::optional<std::pair<double, double>> common_interval(const ViewPiece& piece,
   const double length = std::sqrt(dot(along, along));
   const double other_length = std::sqrt(dot(others, others));
   if (length <= tolerance_mm) {
-    // A point: does the other pass there?
+    // The piece is a point: does the other pass there?
     const double reach = dot(others, others);
     const double at = reach > 0 ? std::clamp(-dot(to_a, others) / reach, 0.0, 1.0) : 0.0;
     const Vec3d off = to_a + others * at;
@@ -101,14 +101,14 @@ std::optional<std::pair<double, double>> common_interval(const ViewPiece& piece,
   const double s0 = dot(to_a, unit), s1 = dot(to_b, unit);
   const double from = std::max(0.0, std::min(s0, s1)), to = std::min(length, std::max(s0, s1));
   if (from > to + tolerance_mm) return std::nullopt;
-  // How far the other is off, as a line: off(s) = p + q (s - s0), at most the tolerance between the
-  // roots.
+  // The distance of the other, as a line, is off(s) = p + q (s - s0), at most the tolerance between
+  // the roots.
   const Vec3d p = to_a - unit * s0;
   const double run = s1 - s0;
   const Vec3d q = run != 0 ? (to_b - unit * s1 - p) * (1 / run) : Vec3d{};
   const double a = dot(q, q), b = dot(p, q), c = dot(p, p) - tolerance_mm * tolerance_mm;
   if (a * length * length < 1e-6 * tolerance_mm * tolerance_mm) {
-    // Parallel, but for what does not matter.
+    // They are parallel, but for what does not matter.
     if (c > 0) return std::nullopt;
     return std::pair(std::min(from, to), std::max(from, to));
   }
@@ -159,7 +159,7 @@ namespace {
 using geometry::Box3l;
 using geometry::Vec3l;
 
-/// Pairs of boxes that meet, 8 bytes each.
+/// The most pairs of boxes that overlap, 8 bytes each.
 constexpr std::uint64_t kMostPairs = std::uint64_t{1} << 28U;
 
 auto key(const ClassedPiece& p) {
@@ -196,7 +196,7 @@ std::vector<std::uint8_t> find_equal_pieces(std::span<const ClassedPiece> pieces
     } else if (order > 0) {
       ++b;
     } else {
-      // Of one class at one place, however often.
+      // They are of one class at one place, however often.
       const auto same = by_key(*a);
       for (; a != before.end() && by_key(*a) == same; ++a) twins[*a] = 1;
       for (; b != after.end() && by_key(*b) == same; ++b) twins[*b] = 1;

@@ -10,23 +10,25 @@
 #include "strake/parallel/context.hpp"
 #include "strake/report/view_diff.hpp"
 
+/// Finds lines of two drawings that lie on each other, and what changed along them.
 namespace strake::report {
 
-/// A stretch of a piece on which another piece lies, and what that one is.
+/// An interval of a piece on which another piece lies, with the class of that one.
 struct CoveredInterval {
-  double from_mm = 0, to_mm = 0;  ///< from the piece's end a
+  double from_mm = 0, to_mm = 0;  ///< measured from the piece's end a
   DiffLineClass cls;
-  bool after = false;  ///< of the newer drawing
+  bool after = false;  ///< it is of the newer drawing
 };
 
-/// The stretch of `piece` on which `other` lies: where they are at most `tolerance_mm` apart, if
-/// they are parallel for their lengths (their sine at most twice that over the shorter one's).
+/// Returns the interval of `piece` on which `other` lies: where they are at most `tolerance_mm`
+/// apart, if they are parallel for their lengths (their sine at most twice that over the shorter
+/// one's).
 [[nodiscard]] std::optional<std::pair<double, double>> common_interval(const ViewPiece& piece,
                                                                        const ViewPiece& other,
                                                                        double tolerance_mm);
 
 /// Cuts a piece where what lies on it changes. `covers` are of both drawings, in any order; those
-/// of the same class in the piece's own drawing need not be there.
+/// of the same class in the piece's own drawing may be left out.
 void append_diff_intervals(std::vector<DiffInterval>& out, std::uint32_t piece, double length_mm,
                            const DiffLineClass& cls, bool after,
                            std::span<const CoveredInterval> covers, double tolerance_mm);
@@ -38,16 +40,16 @@ struct ClassedPiece {
   bool after = false;
 };
 
-/// Which pieces have a twin in the other drawing: of one class, between the same ends.
+/// Marks pieces that have an equal in the other drawing: of one class, between the same ends.
 [[nodiscard]] std::vector<std::uint8_t> find_equal_pieces(std::span<const ClassedPiece> pieces);
 
-/// What lies on each piece that has no twin; `of` is the piece.
+/// What lies on a piece that has no equal; `of` is the piece.
 struct PieceCoverage {
   std::uint32_t of = 0;
   CoveredInterval cover;
 };
 
-/// By piece. Errors: input where too many lines are at one place; cancelled.
+/// Returns the coverage by piece. Errors: input where too many lines are at one place; cancelled.
 [[nodiscard]] Result<std::vector<PieceCoverage>> find_coverage(
     std::span<const ClassedPiece> pieces, std::span<const std::uint8_t> has_equal,
     double tolerance_mm, const parallel::Context& context);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostToleranceMm = 1e6;
 
-/// Settings of a view that say what of it is drawn, not from where.
+/// Whether a setting of a view says what of it is drawn, not from where.
 bool may_differ(std::string_view setting) {
   constexpr std::array<std::string_view, 4> kThese{"view.name", "view.up", "view.limits_mm",
                                                    "view.sections"};

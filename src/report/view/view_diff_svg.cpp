@@ -24,8 +24,8 @@ struct Point {
   double x = 0, y = 0;
 };
 
-/// How a change looks: colours that colour-blind eyes tell apart (Okabe and Ito), the lines of
-/// interest wide. Later ones are drawn over earlier ones.
+/// How a change is drawn: in colours that colour-blind eyes tell apart (Okabe and Ito), the lines
+/// of interest wide. Later ones are drawn over earlier ones.
 struct DiffLineStyle {
   LineChange change;
   std::string_view color;
@@ -42,8 +42,8 @@ bool is_hidden(LineState state) {
 }
 bool has_ink(LineState state) { return state == LineState::visible || is_hidden(state); }
 
-/// What of a stretch is seen on paper: what became visible or hidden is new there, what no longer
-/// is either is gone.
+/// Returns what of an interval is seen on paper: what became visible or hidden is new there, what
+/// no longer is either is gone.
 std::optional<LineChange> seen_as(const ViewDiff& diff, const DiffInterval& s) {
   const bool is = has_ink(diff.piece(s).state);
   if (s.change != LineChange::changed) return is ? std::optional(s.change) : std::nullopt;
@@ -67,8 +67,8 @@ Point at(const ViewPiece& piece, float t) {
   return {mix(0), mix(1)};
 }
 
-/// From the older sheet to the newer one: by the scales, and by a place in the model that both
-/// show. None: they lie as they are.
+/// The shift from the older sheet to the newer one: by the scales, and by a place in the model that
+/// both show. If there is none, they lie as they are.
 struct Shift {
   double scale = 1;
   Point from, to;
@@ -118,7 +118,7 @@ class DiffPicture {
     return s.change == LineChange::gone ? shift_(p) : p;
   }
 
-  /// The newer sheet, made larger where lines lie beyond it.
+  /// Fits the newer sheet, made larger where lines lie beyond it.
   void find_frame() {
     hi_ = {diff_.after->width_mm, diff_.after->height_mm};
     for (const DiffInterval& s : diff_.intervals) {
@@ -188,7 +188,7 @@ class DiffPicture {
 
   static std::string rounded(double mm) { return shortest(std::round(mm * 1000) / 1000); }
 
-  /// Tells how many stretches have which colour: what is seen here, which is not the tally of the
+  /// Shows how many intervals have which colour: what is seen here, which is not the count of the
   /// comparison. A line that is not drawn any more has changed, and what is gone is its ink.
   void legend() {
     std::string& out = buffer_.text();

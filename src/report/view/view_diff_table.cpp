@@ -41,7 +41,7 @@ std::string settings_text(const ViewDiff& diff) {
   return out.empty() ? out : out + "\n";
 }
 
-/// Lengths of what is not the same.
+/// Returns the length of what is not the same.
 double weight(const LineCounts& counts) {
   double length = 0;
   for (std::size_t c = 1; c < kLineChanges; ++c) length += counts.at(c).length_mm;

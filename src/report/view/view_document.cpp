@@ -25,13 +25,13 @@ using Kind = JsonReader::Kind;
 
 constexpr DocumentKind kView{"strake draw -o", "draw it again"};
 constexpr std::string_view kVersion = "1";
-/// No part of the schema is nested more deeply.
+/// The deepest nesting of the schema.
 constexpr int kMaxViewDepth = 8;
 
-/// Takes the text of a document; pieces as they come, the rest is small.
+/// Reads the text of a document: pieces one by one; the rest is small.
 class ViewDocumentReader {
  public:
-  /// In a binary document the lines stand behind the text, as rows.
+  /// In a binary document the lines follow the text, as rows.
   ViewDocumentReader(std::istream& text, bool binary, ViewDocument& document)
       : json_(text, kMaxViewDepth),
         binary_(binary),
@@ -50,7 +50,7 @@ class ViewDocumentReader {
       if (!met_.contains(key)) throw missing_key("the document", key);
   }
 
-  /// Those that the text announces.
+  /// Reads the rows that the text announces.
   void read_rows(std::istream& in, Checksum& before) {
     document_.pieces = report::read_rows(in, *rows_, said("pieces"), before);
   }
@@ -85,7 +85,7 @@ class ViewDocumentReader {
       json_.skip();
   }
 
-  /// At once: drawings of other versions look otherwise.
+  /// Checks the version at once: drawings of other versions have another form.
   void version() {
     std::string said;
     json_.copy(said);

@@ -96,7 +96,7 @@ namespace {
 
 using Kind = JsonReader::Kind;
 
-/// The names of an enumeration's values, as the writer numbered them.
+/// Reads the names of an enumeration's values, as the writer numbered them.
 template <class Enum, class Name>
 std::vector<Enum> take_names(JsonReader& json, std::string_view key, Name&& name) {
   DocumentFields fields(json);
@@ -167,7 +167,7 @@ void check_checksum(std::istream& in, const Checksum& checksum) {
         "has not the checksum that stands behind its rows: it was damaged or edited");
 }
 
-/// A run at a time: a file that claims more rows than it has must not claim memory.
+/// Reads a run at a time: a file that claims more rows than it has must not claim memory.
 template <class Int>
 std::vector<ViewPiece> read_all(std::istream& in, const RowLayout& form, std::uint64_t count,
                                 Checksum& checksum) {

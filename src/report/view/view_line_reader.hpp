@@ -17,9 +17,10 @@
 #include "strake/hlr/hlr.hpp"
 #include "strake/report/view_document.hpp"
 
+/// Reads the lines of a view document, from JSON pieces or from binary rows.
 namespace strake::report {
 
-/// Takes the items of "pieces" of a view document, one by one.
+/// Reads the items of "pieces" of a view document, one by one.
 class ViewPieceReader {
  public:
   ViewPieceReader(JsonReader& json, std::vector<ViewPiece>& pieces)
@@ -29,7 +30,7 @@ class ViewPieceReader {
   void take();
 
  private:
-  /// Where faults are.
+  /// Returns the place that faults name.
   [[nodiscard]] std::string here() const;
   void member(std::string_view key, ViewPiece& piece);
   [[nodiscard]] std::uint32_t index(const char* key);
@@ -40,24 +41,24 @@ class ViewPieceReader {
   JsonReader& json_;
   DocumentFields fields_;
   std::vector<ViewPiece>& pieces_;
-  std::array<bool, kMembers> there_{};  ///< members of the piece in hand
+  std::array<bool, kMembers> there_{};  ///< members found of the current piece
 };
 
-/// The member "rows" of a binary view document: how its lines stand behind the text.
+/// The member "rows" of a binary view document: how its lines are stored behind the text.
 struct RowLayout {
-  std::uint64_t bytes = 0;  ///< of a row
-  std::string fields;       ///< as it stands, without blanks
+  std::uint64_t bytes = 0;  ///< the size of a row
+  std::string fields;       ///< as written, without blanks
   geometry::Vec3l origin;
   std::vector<hlr::EdgeKind> kinds;
   std::vector<drawing::LineState> states;
-  bool has_checksum = false;  ///< behind the rows; drawings of older versions have none
+  bool has_checksum = false;  ///< one follows the rows; drawings of older versions have none
 };
 
-/// Takes the member, which must come next. Throws DocumentFault, JsonReader::Fault.
+/// Reads the member, which must come next. Throws DocumentFault, JsonReader::Fault.
 [[nodiscard]] RowLayout read_row_layout(JsonReader& json);
 
-/// The rows that follow in the stream, `count` of them, the checksum where there is one, which must
-/// be that of `before` and the rows, and nothing behind. Throws DocumentFault.
+/// Reads the `count` rows that follow in the stream and the checksum where there is one, which must
+/// be that of `before` and the rows, with nothing behind it. Throws DocumentFault.
 [[nodiscard]] std::vector<ViewPiece> read_rows(std::istream& in, const RowLayout& form,
                                                std::uint64_t count, Checksum& before);
 

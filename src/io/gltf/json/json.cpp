@@ -61,7 +61,7 @@ bool JsonValue::numbers(double* out, std::size_t count) const {
 
 namespace {
 
-/// How many bytes at the beginning are ASCII that stands for itself.
+/// Returns how many bytes at the beginning are ASCII that stands for itself.
 std::size_t plain_length(std::string_view text) {
   constexpr std::uint64_t kOnes = 0x0101010101010101U, kHighs = 0x80 * kOnes;
   std::size_t at = 0;

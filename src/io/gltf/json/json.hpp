@@ -19,30 +19,30 @@ enum class JsonType : std::uint8_t { absent, null, boolean, number, string, arra
 
 class JsonValue;
 
-/// Where a value stands in the text and where the next one is in the index.
+/// Where a value lies in the text and where the next one is in the index.
 struct JsonEntry {
-  std::uint32_t begin;  ///< of the value in the text, quotes left out
+  std::uint32_t begin;  ///< begin of the value in the text, without quotes
   std::uint32_t end;
-  std::uint32_t next;  ///< entry behind this value and all within it
+  std::uint32_t next;  ///< the entry behind this value and all within it
   JsonType type;
   bool escaped;  ///< a string that holds a backslash
 };
 
-/// An index over a JSON text: one fixed-size entry per value. Strings and numbers stay where they
+/// An index of a JSON text with one fixed-size entry per value. Strings and numbers stay where they
 /// are in the text and are decoded when asked for, so a document of a hundred megabytes costs
-/// little more than looking at each of its bytes once.
+/// little more than reading each of its bytes once.
 ///
 /// The text must outlive the document. Follows RFC 8259, except that bytes which are not UTF-8 are
 /// let through in strings (they become U+FFFD when decoded).
 class JsonDocument {
  public:
-  /// Values may be nested this deep.
+  /// The deepest nesting of values.
   static constexpr std::size_t kMaxDepth = 512;
   /// Long texts are indexed in pieces of about this size, in parallel.
   static constexpr std::size_t kPieceBytes = std::size_t{1} << 19U;
 
-  /// The error's `where` is the byte offset alone; the caller puts the file before it. Document
-  /// and error are the same for every piece size and every team.
+  /// Parses a text. The error's `where` is the byte offset alone; the caller puts the file before
+  /// it. Document and error are the same for every piece size and every team.
   [[nodiscard]] static Result<JsonDocument> parse(std::string_view text,
                                                   const parallel::Context& context = {},
                                                   std::size_t piece_bytes = kPieceBytes);
@@ -56,8 +56,8 @@ class JsonDocument {
   std::size_t size_ = 0;
 };
 
-/// A value of a document, or the absence of one: every question may be put to any value and is
-/// answered "no" where it does not apply.
+/// A value of a document, or the absence of one: every function may be called for any value and
+/// returns "no" where it does not apply.
 class JsonValue {
  public:
   JsonValue() = default;
@@ -68,10 +68,10 @@ class JsonValue {
   [[nodiscard]] bool is_array() const { return type() == JsonType::array; }
   [[nodiscard]] bool is_string() const { return type() == JsonType::string; }
 
-  /// Member of an object; of repeated keys the first.
+  /// Returns a member of an object; of repeated keys the first.
   [[nodiscard]] JsonValue operator[](std::string_view key) const;
 
-  /// The same for several keys at a time, in one pass over the object.
+  /// Returns the members for several keys at a time, in one pass over the object.
   template <std::size_t N>
   [[nodiscard]] std::array<JsonValue, N> pick(const std::array<std::string_view, N>& keys) const {
     std::array<JsonValue, N> found;
@@ -82,7 +82,7 @@ class JsonValue {
     return found;
   }
 
-  /// Elements of an array, values of an object.
+  /// Returns the elements of an array, or the values of an object.
   [[nodiscard]] std::vector<JsonValue> items() const;
   /// Calls visit(key, value) for each member of an object, if it is one.
   template <class Visit>
@@ -101,23 +101,23 @@ class JsonValue {
   }
 
   [[nodiscard]] std::optional<double> number() const;
-  /// A number that is a whole number from 0 to 2^53.
+  /// Returns a number that is a whole number from 0 to 2^53.
   [[nodiscard]] std::optional<std::uint64_t> index() const;
   [[nodiscard]] std::optional<bool> boolean() const;
-  /// The decoded string; empty for other values.
+  /// Returns the decoded string; empty for other values.
   [[nodiscard]] std::string text_value() const;
   void append_text(std::string& out) const;
-  /// True for a string that is this text once decoded.
+  /// Whether it is a string that is this text once decoded.
   [[nodiscard]] bool is_text(std::string_view text) const {
     if (!is_string()) return false;
     return entry().escaped ? text_value() == text : raw() == text;
   }
-  /// The value as it stands in the text; strings without their quotes.
+  /// Returns the value as it is written in the text; strings without their quotes.
   [[nodiscard]] std::string_view raw() const {
     if (!exists()) return {};
     return document_->text_.substr(entry().begin, entry().end - entry().begin);
   }
-  /// Numbers of an array, if there are exactly `count` and nothing else.
+  /// Reads the numbers of an array, if there are exactly `count` and nothing else.
   [[nodiscard]] bool numbers(double* out, std::size_t count) const;
 
  private:
@@ -137,7 +137,7 @@ class JsonValue {
 
   const JsonDocument* document_ = nullptr;
   std::uint32_t entry_ = 0;
-  std::uint32_t end_ = 0;  ///< entry behind the last sibling
+  std::uint32_t end_ = 0;  ///< the entry behind the last sibling
 };
 
 }  // namespace strake::io::gltf

@@ -17,14 +17,14 @@
 namespace strake::io::gltf {
 namespace {
 
-/// Where a text stands between two of its bytes.
+/// The state of a text between two of its bytes.
 struct QuoteState {
   bool in_string = false;
   bool escaped = false;  ///< behind a backslash that the next byte belongs to
 };
 
-/// From a place outside strings before the block to the place behind it. Backslashes occur in
-/// strings only, so it does not matter here where they stand.
+/// Returns the state behind a block that begins outside strings. Backslashes occur in strings only,
+/// so it does not matter here where they are.
 QuoteState pass(std::string_view block, bool escaped) {
   QuoteState place{false, escaped};
   if (!escaped && block.find('\\') == std::string_view::npos) {
@@ -38,7 +38,8 @@ QuoteState pass(std::string_view block, bool escaped) {
   return place;
 }
 
-/// Behind the first comma of the block that is not in a string; 0 when there is none.
+/// Returns the offset behind the first comma of the block that is not in a string; 0 when there is
+/// none.
 std::size_t first_cut(std::string_view text, std::size_t begin, std::size_t end, QuoteState place) {
   for (std::size_t at = begin; at < end; ++at) {
     const char c = text[at];
@@ -85,7 +86,7 @@ constexpr bool stops_string(char c) {
   return c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20;
 }
 
-/// Where the plain part of a string ends: at a quote, a backslash, or a control character.
+/// Returns where the plain part of a string ends: at a quote, a backslash, or a control character.
 std::size_t string_stop(std::string_view text, std::size_t at) {
   constexpr std::uint64_t kOnes = 0x0101010101010101U, kHighs = 0x80 * kOnes;
   for (; at + 8 <= text.size(); at += 8) {
@@ -104,7 +105,7 @@ std::size_t string_stop(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// A loop over the items of the text with an explicit stack of what is open.
+/// Indexes a fragment in a loop over the items of the text with an explicit stack of what is open.
 class PieceIndexer {
  public:
   PieceIndexer(std::string_view text, std::size_t begin, std::size_t end)
@@ -116,7 +117,7 @@ class PieceIndexer {
   JsonFragment run();
 
  private:
-  /// What the next item stands in.
+  /// What encloses the next item.
   enum class In : std::uint8_t { document, array, object, unknown };
 
   bool item();
@@ -254,7 +255,7 @@ bool PieceIndexer::close_outer(JsonType type) {
   return true;
 }
 
-/// An item of an object begins with a key.
+/// Determines what encloses the fragment: an item of an object begins with a key.
 void PieceIndexer::tell_outer() {
   const std::size_t begin = at_, entries = piece_.entries.size();
   bool is_key = here() == '"' && string();
@@ -306,7 +307,7 @@ bool PieceIndexer::item() {
   return (in_ != In::object || key()) && value();
 }
 
-/// What may stand between two items: the ends of arrays and objects, and a comma.
+/// Reads what may come between two items: the ends of arrays and objects, and a comma.
 bool PieceIndexer::after_item() {
   while (true) {
     skip_space();
@@ -341,7 +342,8 @@ namespace {
 
 using Fragments = std::vector<JsonFragment>;
 
-/// Ties what one piece opened to what a later one closed. False: the pieces are no document.
+/// Joins what one fragment opened to what a later one closed. Returns false if the fragments are no
+/// document.
 class FragmentJoiner {
  public:
   explicit FragmentJoiner(JsonEntry* entries) : entries_(entries) {}
@@ -386,7 +388,7 @@ Result<Fragments> index_pieces(std::string_view text, std::size_t piece_bytes,
       });
 }
 
-/// The first fault of an only piece, which begins and ends as the text does.
+/// Returns the first fault of a single fragment, which begins and ends as the text does.
 std::optional<Error> fault_of(const JsonFragment& only) {
   if (only.message != nullptr) return invalid(only.message, only.at);
   if (only.behind_comma || !only.open.empty()) return invalid("the text ends too early", only.at);
@@ -427,7 +429,7 @@ Result<JsonDocument> JsonDocument::parse(std::string_view text, const parallel::
   for (std::size_t k = 0; k < pieces->size() && good; ++k)
     good = (*pieces)[k].message == nullptr && joiner.add((*pieces)[k], bases[k]);
   if (good && joiner.is_complete()) return document;
-  // In one piece the text is read as it stands, and says where it is at fault.
+  // As one fragment the text is parsed in order, and the error says where the fault is.
   return parse(text, context, std::max<std::size_t>(text.size(), 1));
 }
 
