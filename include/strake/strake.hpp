@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0058 says what is public.
 #pragma once
 
 /// The common path: read models, select objects, find clashes, draw views, write results.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0048 says why tables of keys from files have a seeded hash.
 #pragma once
 
 #include <cstddef>

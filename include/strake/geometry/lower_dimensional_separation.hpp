@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0011 says why a line is the limit of a thin rod, and is not compared by default.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0008 says why supports, cutting planes and multipliers solve these pairs.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0041 says when boxes along the faces come in.
 #pragma once
 
 #include "clash/broad_phase/broad_phase.hpp"

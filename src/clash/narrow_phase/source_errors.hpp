@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0043 says why the bracket counts what the grid and the source leave open.
 #pragma once
 
 #include "clash/broad_phase/broad_phase.hpp"

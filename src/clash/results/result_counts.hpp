@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0020 says what counts as not compared, and which of it stops a run.
 #pragma once
 
 #include "clash/broad_phase/broad_phase.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0009 says why rules are asked about objects and answers about parts.
 #pragma once
 
 #include <bit>

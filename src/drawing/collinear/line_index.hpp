@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0025 says why lines are sought by length, direction and place.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0052 says why equal things get equal ink.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0028 says why the file is rows behind a JSON head.
+// Decision 0047 says why a checksum stands behind the rows.
 #pragma once
 
 #include <array>

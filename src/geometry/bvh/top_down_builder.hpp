@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0059 says what differs from bvh v2 here, and why.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0012 says why a region is a component of near pairs of points.
 #pragma once
 
 #include <cstdint>

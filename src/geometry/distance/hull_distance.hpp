@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0022 says why the hulls come before any traversal.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0026 says why points in fans are located one after the other.
 #pragma once
 
 #include <array>

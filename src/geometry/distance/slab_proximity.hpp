@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0023 says why faces at the ends of a slab come before trees.
 #pragma once
 
 #include <algorithm>

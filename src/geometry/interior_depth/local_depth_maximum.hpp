@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0037 says why points go uphill before surfaces are searched.
 #pragma once
 
 #include <optional>

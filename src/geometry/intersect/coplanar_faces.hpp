@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0002 says why contacts in coordinate planes need no tree.
+// Decision 0024 says why large coplanar faces are judged by their boundaries.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0030 says why planes come before triangles at intersections.
 #pragma once
 
 #include "geometry/bvh/pair_local_part.hpp"

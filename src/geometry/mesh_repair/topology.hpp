@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0004 says what becomes a part of an imported mesh, and why.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0003 says why vertices and triangles are put in an order of their own.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0007 says why every part has such a box before anything else is built for it.
 #pragma once
 
 #include <array>

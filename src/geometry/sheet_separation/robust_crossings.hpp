@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0019 says why displacements tell a touch of sheets from a crossing.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0005 says why faces with holes are not cut into ears.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0053 says why such facets hide nothing of their own part.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0046 says which lines between primitives of one object are edges.
 #pragma once
 
 #include <cstdint>

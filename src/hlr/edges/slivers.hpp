@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0056 says why slivers have no plane of their own.
 #pragma once
 
 #include <cstdint>

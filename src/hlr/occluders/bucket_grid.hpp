@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0029 says why parts have buckets, and how many.
 #pragma once
 
 #include <algorithm>

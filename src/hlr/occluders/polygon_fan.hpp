@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0042 says why fans are no boxes, and what equal objects hide.
 #pragma once
 
 #include <cstdint>

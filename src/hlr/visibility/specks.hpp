@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0045 says why specks become like what is beside them.
 #pragma once
 
 #include <cstddef>

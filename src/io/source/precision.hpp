@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0014 says why precision belongs to a body and not to a file.
 #pragma once
 
 #include <span>

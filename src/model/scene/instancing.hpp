@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0032 says why meshes that are each other moved share a shape.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0027 says why every view tessellates round primitives along their contours.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0010 says what the first touch of memory costs.
 #pragma once
 
 #include <cstddef>

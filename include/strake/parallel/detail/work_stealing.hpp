@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0033 says why each worker has a share of its own.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0021 says why vertices are moved before the linear programs.
 #pragma once
 
 #include <cstdint>

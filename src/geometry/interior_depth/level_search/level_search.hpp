@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0055 says why only surfaces are searched.
 #pragma once
 
 #include <cstdint>

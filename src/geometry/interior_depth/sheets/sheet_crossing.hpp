@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0040 says why all regions share one curve.
 #pragma once
 
 #include <cstdint>

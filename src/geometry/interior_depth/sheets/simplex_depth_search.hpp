@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0006 says how simplices are searched; sheets still are.
 #pragma once
 
 #include <algorithm>
