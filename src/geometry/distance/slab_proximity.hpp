@@ -89,9 +89,9 @@ struct SlabProximity {
 };
 
 /// find_pair_within() of small parts that lie face to face, without trees. `normal`, a unit vector
-/// from b to a, is across the widest slab between them (part_frame.hpp), which may be a little less
-/// than nothing: only triangles that come within `distance` grid units of its other end are looked
-/// at, those that lie at its ends first.
+/// from b to a, is across the widest slab between them (obb/oriented_box.hpp), which may be a
+/// little less than nothing: only triangles that come within `distance` grid units of its other end
+/// are looked at, those that lie at its ends first.
 [[nodiscard]] SlabProximity slab_proximity(const PlacedPart& a, const PlacedPart& b,
                                            const Vec3d& normal, double distance,
                                            QueryContext& work);

@@ -27,7 +27,7 @@ struct CoplanarContact {
 /// They are decided exactly from the triangles in that plane alone, without a tree.
 ///
 /// `separated` without `touching` says that the parts do not meet in the plane or that there are
-/// too many triangles in it to try all pairs: ask closest().
+/// too many triangles in it to try all pairs: ask find_closest_pair().
 [[nodiscard]] CoplanarContact find_coplanar_contact(const PlacedPart& a, const PlacedPart& b);
 
 /// A coordinate plane in which many triangles of each of two solids lie, those of either all facing
