@@ -58,15 +58,37 @@ def symbol_faults(project, page, text):
                 yield f'{page}: {name} is not in {row["file"]}'
 
 
+def included_rooms(folder, module):
+    """By room of a module: the other rooms of it whose headers its files include, each with one such file."""
+    used = {}
+    for path in sorted(folder.rglob('*.?pp')):
+        room = path.relative_to(folder).parts[0]
+        for header in re.findall(r'^#include "([\w./]+)"', path.read_text(encoding='utf-8'), re.MULTILINE):
+            parts = header.split('/')
+            if parts[0] == module and len(parts) > 2 and parts[1] != room:
+                used.setdefault(room, {})[parts[1]] = path
+    return used
+
+
 def room_faults(project, page, text):
-    """A room is a folder in the folder of a module; the map has a row for each, in the module's table."""
+    """A room is a folder of a module; the map has a row for each, with the rooms that it uses, and which come later."""
     sections = re.split(r'\n\*\*(\w+)\*\*', text.split('### Rooms')[1].split('\n## ')[0])
     for module, section in zip(sections[1::2], sections[2::2]):
         folder = project / ('cli' if module == 'cli' else f'src/{module}')
         there = {path.name for path in folder.iterdir() if path.is_dir()}
-        told = {name for row in tables(section) for name in in_quotes(row['room'])}
-        yield from (f'{page}: {module} has no room {name}' for name in sorted(told - there))
-        yield from (f'{page}: the room {name} of {module} is not told of' for name in sorted(there - told))
+        told = {name: row['uses'] for row in tables(section) for name in in_quotes(row['room'])}
+        yield from (f'{page}: {module} has no room {name}' for name in sorted(told.keys() - there))
+        yield from (f'{page}: the room {name} of {module} is not told of' for name in sorted(there - told.keys()))
+        used, above = included_rooms(folder, module), []
+        for room, cell in told.items():
+            uses = re.findall(r'(\w+)(?: \((below)\))?', cell)
+            for name, below in uses:
+                if (name in above) == bool(below) or name not in told:
+                    yield f'{page}: {module}/{name} is not {"below" if below else "above"} {room}'
+            for name, path in used.get(room, {}).items():
+                if name not in {use for use, _ in uses}:
+                    yield f'{path.relative_to(project)}: includes {module}/{name}, which {page} does not say of {room}'
+            above.append(room)
 
 
 def decision_faults(project):
