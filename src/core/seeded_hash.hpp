@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0048 says why tables of keys from files have a seeded hash.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+// Decision 0048 says why tables of keys from files have a seeded hash.
 namespace strake {
 
 /// A hash for tables whose keys come from files: each is seeded anew, so that nobody can write a

@@ -25,7 +25,7 @@ struct CircularArc {
 ///
 /// Corners stand on the grid, relative to `origin`, so that whatever has corners is exact; arcs are
 /// what their numbers say, but for the snap of their centres, as with primitives. Start with one of
-/// the functions below; lower_dimensional_separation.hpp measures.
+/// the functions below; thin_pair.hpp measures.
 struct LowerDimensionalBody {
   Vec3l origin;
   std::vector<Vec3i> vertices;

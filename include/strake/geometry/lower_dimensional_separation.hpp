@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0011 says why a line is the limit of a thin rod, and is not compared by default.
 #pragma once
 
 #include <limits>
@@ -10,6 +9,7 @@
 #include "strake/geometry/part_pair.hpp"
 #include "strake/geometry/primitive_separation.hpp"
 
+// Decision 0011 says why a line is the limit of a thin rod, and is not compared by default.
 namespace strake::geometry {
 
 /// Signed separation of a body without thickness and another body, grid units: lower <= d <= upper

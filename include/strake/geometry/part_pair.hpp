@@ -86,7 +86,7 @@ struct QueryContext : QueryStats {
 struct ClosestPair {
   double squared = 0;   ///< grid units², the exact rational rounded to nearest
   double distance = 0;  ///< its square root, rounded
-  double lower = 0;     ///< no points are nearer; the distance itself unless there was slack
+  double lower = 0;     ///< no points are nearer; the distance itself unless closest() had slack
   Vec3d on_a, on_b;     ///< grid units relative to a's origin
   /// The lowest ids among exact ties, but for two flat faces of very many needles: there the first
   /// that the walk finds, which is the same for any team.

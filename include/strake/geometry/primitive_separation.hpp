@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0008 says why supports, cutting planes and multipliers solve these pairs.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include "strake/geometry/primitive.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Decision 0008 says why supports, cutting planes and multipliers solve these pairs.
 namespace strake::geometry {
 
 /// A primitive and the placement of the body that it is; the translation counts as snapped.

@@ -29,7 +29,7 @@ struct ClosedForm {
 /// The relation that it shows; `band` is δ in grid units.
 [[nodiscard]] Relation relation_of(const geometry::PrimitiveSeparation& s, double band);
 
-/// Two parts in canonical order, and what is said of them: canonical_order.hpp.
+/// Two parts in canonical order, and what is said of them: narrow.hpp.
 class PairEvaluator {
  public:
   /// All must outlive this.

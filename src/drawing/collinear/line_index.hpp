@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0025 says why lines are sought by length, direction and place.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/marks.hpp"
 
+// Decision 0025 says why lines are sought by length, direction and place.
 namespace strake::drawing {
 
 /// Takes out of `keys`, in which twins (lines with the same ends and reach) have equal keys and

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0052 says why equal things get equal ink.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +7,7 @@
 
 #include "drawing/collinear/collinear_overlaps.hpp"
 
+// Decision 0052 says why equal things get equal ink.
 namespace strake::drawing {
 
 /// A dashed line in widths of its pen (ISO 128-20).

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0057 says why curves are as fine as the paper shows.
 #pragma once
 
 #include <vector>
@@ -10,6 +9,7 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 
+// Decision 0057 says why curves are as fine as the paper shows.
 namespace strake::drawing {
 
 /// The sag that nobody sees, model mm, of curved primitives in a view of that extent and scale:

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0059 says what differs from bvh v2 here, and why.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +12,7 @@
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
 
+// Decision 0059 says what differs from bvh v2 here, and why.
 namespace strake::geometry {
 
 /// What a range of items was cut into: neither half is empty.

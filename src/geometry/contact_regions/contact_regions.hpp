@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0012 says why a region is a component of near pairs of points.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include "geometry/obb/oriented_box.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Decision 0012 says why a region is a component of near pairs of points.
 namespace strake::geometry {
 
 /// One of the places where two parts meet or come near. Coordinates are grid units relative to the

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0022 says why the hulls come before any traversal.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include "geometry/primitive_pairs/shapes/support_mapping.hpp"
 #include "strake/geometry/part.hpp"
 
+// Decision 0022 says why the hulls come before any traversal.
 namespace strake::geometry {
 
 /// The convex hull of a part whose coordinates are relative to `origin`. `tree`: over its vertices,

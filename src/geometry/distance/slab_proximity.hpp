@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0023 says why faces at the ends of a slab come before trees.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Decision 0023 says why faces at the ends of a slab come before trees.
 namespace strake::geometry {
 
 /// Grid units: far above the rounding of a height, far below what matters.

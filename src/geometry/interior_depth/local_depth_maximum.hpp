@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0037 says why points go uphill before surfaces are searched.
 #pragma once
 
 #include <optional>
@@ -7,6 +6,7 @@
 
 #include "geometry/interior_depth/surface_distance/distance_field.hpp"
 
+// Decision 0037 says why points go uphill before surfaces are searched.
 namespace strake::geometry {
 
 /// From a point of both parts to one where the distance to the skin of the first is greatest

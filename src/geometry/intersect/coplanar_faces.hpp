@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0002 says why contacts in coordinate planes need no tree.
-// Decision 0024 says why large coplanar faces are judged by their boundaries.
 #pragma once
 
 #include <array>
@@ -12,6 +10,8 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/part.hpp"
 
+// Decision 0002 says why contacts in coordinate planes need no tree.
+// Decision 0024 says why large coplanar faces are judged by their boundaries.
 namespace strake::geometry {
 
 /// What the boxes of two parts say about how the parts meet.

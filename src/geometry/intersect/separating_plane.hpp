@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0030 says why planes come before triangles at intersections.
 #pragma once
 
 #include "geometry/bvh/pair_local_part.hpp"
 
+// Decision 0030 says why planes come before triangles at intersections.
 namespace strake::geometry {
 
 /// Whether the plane of a triangle has the parts on opposite closed sides, `below` on the negative

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0018 says which T-junctions are cut.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "geometry/mesh_repair/topology.hpp"
 
+// Decision 0018 says which T-junctions are cut.
 namespace strake::geometry {
 
 /// The triangles that run along an edge, from its lower vertex to the higher one, and back.

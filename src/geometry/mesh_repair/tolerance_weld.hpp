@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0034 says why seams close up to the precision of the source.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include "geometry/mesh_repair/t_junctions.hpp"
 #include "geometry/mesh_repair/topology.hpp"
 
+// Decision 0034 says why seams close up to the precision of the source.
 namespace strake::geometry {
 
 /// Where edges that do not balance are to be cut at corners beside them.

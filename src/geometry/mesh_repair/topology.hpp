@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0004 says what becomes a part of an imported mesh, and why.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "strake/geometry/part.hpp"
 
+// Decision 0004 says what becomes a part of an imported mesh, and why.
 namespace strake::geometry {
 
 /// The first `count` places of memory that is kept from mesh to mesh; what they hold is stale.

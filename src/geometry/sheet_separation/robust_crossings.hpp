@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0019 says why displacements tell a touch of sheets from a crossing.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include "geometry/numeric/parity_union_find.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Decision 0019 says why displacements tell a touch of sheets from a crossing.
 namespace strake::geometry {
 
 /// A triangle of one sheet that comes within a distance of the other.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0005 says why faces with holes are not cut into ears.
 #pragma once
 
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "geometry/triangulation/triangulation_mesh.hpp"
 
+// Decision 0005 says why faces with holes are not cut into ears.
 namespace strake::geometry::triangulation {
 
 /// A triangulation of the convex hull of points in which chosen segments are edges.

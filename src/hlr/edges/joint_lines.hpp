@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0046 says which lines between primitives of one object are edges.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Decision 0046 says which lines between primitives of one object are edges.
 namespace strake::hlr {
 
 /// Of the lines along which two primitives of one object pass through each other, those that are

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0056 says why slivers have no plane of their own.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +6,7 @@
 
 #include "strake/geometry/part.hpp"
 
+// Decision 0056 says why slivers have no plane of their own.
 namespace strake::hlr {
 
 /// By how much moves of its corners, by the snap and a weld, may turn a triangle about its longest

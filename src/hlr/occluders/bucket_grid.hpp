@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0029 says why parts have buckets, and how many.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
+// Decision 0029 says why parts have buckets, and how many.
 namespace strake::hlr {
 
 /// One side of a grid over the paper.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0042 says why fans are no boxes, and what equal objects hide.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include "hlr/occluders/occluder_polygons.hpp"
 #include "hlr/view/view_bvh.hpp"
 
+// Decision 0042 says why fans are no boxes, and what equal objects hide.
 namespace strake::hlr {
 
 /// Many polygons of a part round one point on paper. An edge passes under those alone whose angle

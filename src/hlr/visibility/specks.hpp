@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0045 says why specks become like what is beside them.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include "strake/hlr/hlr.hpp"
 #include "strake/parallel/context.hpp"
 
+// Decision 0045 says why specks become like what is beside them.
 namespace strake::hlr {
 
 /// Tells what of a drawing is a speck: no longer in the plane of the view than twice the contact

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0014 says why precision belongs to a body and not to a file.
 #pragma once
 
 #include <span>
@@ -7,6 +6,7 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/io/reader.hpp"
 
+// Decision 0014 says why precision belongs to a body and not to a file.
 namespace strake::io {
 
 /// As a body has it; what is no finite length, or more than any model measures, becomes the most.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0032 says why meshes that are each other moved share a shape.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/parallel/distinct.hpp"
 
+// Decision 0032 says why meshes that are each other moved share a shape.
 namespace strake::model {
 
 /// Which shapes are one another moved by grid steps, all that belongs to them equal: most exporters

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0027 says why every view tessellates round primitives along their contours.
 #pragma once
 
 #include <functional>
@@ -11,6 +10,7 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 
+// Decision 0027 says why every view tessellates round primitives along their contours.
 namespace strake::model {
 
 /// What a view wants of the primitives that it shows.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0010 says what the first touch of memory costs.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +6,7 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
+// Decision 0010 says what the first touch of memory costs.
 namespace strake::parallel::detail {
 
 /// Has the system provide memory that nobody has touched yet: in large pages where it has them, and

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0033 says why each worker has a share of its own.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 
 #include "strake/parallel/executor.hpp"
 
+// Decision 0033 says why each worker has a share of its own.
 namespace strake::parallel::detail {
 
 /// What a worker has in hand of the positions that are dealt out.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0021 says why vertices are moved before the linear programs.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +7,7 @@
 
 #include "strake/geometry/part_pair.hpp"
 
+// Decision 0021 says why vertices are moved before the linear programs.
 namespace strake::geometry {
 
 /// Two solids that all but touch.

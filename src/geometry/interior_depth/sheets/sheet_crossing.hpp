@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0040 says why all regions share one curve.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +8,7 @@
 
 #include "strake/geometry/depth.hpp"
 
+// Decision 0040 says why all regions share one curve.
 namespace strake::geometry {
 
 /// Where two sheets cross, found once for all that is asked about it: how deep they cross as a

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0006 says how simplices are searched; sheets still are.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "strake/geometry/depth.hpp"
 #include "strake/parallel/reduce.hpp"
 
+// Decision 0006 says how simplices are searched; sheets still are.
 namespace strake::geometry {
 
 /// Work limit: pieces are cheaper than the cells of two solids.
