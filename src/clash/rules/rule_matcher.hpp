@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0009 says why rules are asked about objects and answers about parts.
 #pragma once
 
 #include <bit>
@@ -14,7 +15,6 @@
 #include "strake/clash/clash.hpp"
 #include "strake/clash/policy.hpp"
 
-// Decision 0009 says why rules are asked about objects and answers about parts.
 namespace strake::clash {
 
 /// Rules of the form "one of A and one of B" as bits of each object, so that all rules are asked
