@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0048 says why tables of keys from files have a seeded hash.
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
 
-// Decision 0048 says why tables of keys from files have a seeded hash.
 namespace strake {
 
 /// A hash for tables whose keys come from files: each is seeded anew, so that nobody can write a

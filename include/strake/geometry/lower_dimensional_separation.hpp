@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0011 says why a line is the limit of a thin rod, and is not compared by default.
+
 #include <limits>
 #include <optional>
 
@@ -9,7 +11,6 @@
 #include "strake/geometry/part_pair.hpp"
 #include "strake/geometry/primitive_separation.hpp"
 
-// Decision 0011 says why a line is the limit of a thin rod, and is not compared by default.
 namespace strake::geometry {
 
 /// Signed separation of a body without thickness and another body, grid units: lower <= d <= upper

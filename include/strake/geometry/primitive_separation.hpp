@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0008 says why supports, cutting planes and multipliers solve these pairs.
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -9,7 +11,6 @@
 #include "strake/geometry/primitive.hpp"
 #include "strake/geometry/vec.hpp"
 
-// Decision 0008 says why supports, cutting planes and multipliers solve these pairs.
 namespace strake::geometry {
 
 /// A primitive and the placement of the body that it is; the translation counts as snapped.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0041 says when boxes along the faces come in.
+
 #include "clash/broad_phase/broad_phase.hpp"
 #include "geometry/bvh/scene_bvh.hpp"
 
-// Decision 0041 says when boxes along the faces come in.
 namespace strake::clash {
 
 /// Boxes along their own faces for parts that stand askew, as inflated_box() otherwise: in a frame

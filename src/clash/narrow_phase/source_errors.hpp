@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0043 says why the bracket counts what the grid and the source leave open.
+
 #include "clash/broad_phase/broad_phase.hpp"
 
-// Decision 0043 says why the bracket counts what the grid and the source leave open.
 namespace strake::clash {
 
 /// Notes of every part how far it may lie from what its source states: what the snap moved its

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0020 says what counts as not compared, and which of it stops a run.
+
 #include "clash/broad_phase/broad_phase.hpp"
 #include "clash/pairs/pair_tasks.hpp"
 #include "clash/rules/rule_matcher.hpp"
 
-// Decision 0020 says what counts as not compared, and which of it stops a run.
 namespace strake::clash {
 
 /// Report::not_compared: the objects of the sets that lack geometry, the pairs that are too large

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decision 0009 says why rules are asked about objects and answers about parts.
 #pragma once
+
+// Decision 0009 says why rules are asked about objects and answers about parts.
 
 #include <bit>
 #include <cstddef>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0025 says why lines are sought by length, direction and place.
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -17,7 +19,6 @@
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/marks.hpp"
 
-// Decision 0025 says why lines are sought by length, direction and place.
 namespace strake::drawing {
 
 /// Takes out of `keys`, in which twins (lines with the same ends and reach) have equal keys and

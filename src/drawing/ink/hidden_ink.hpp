@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0052 says why equal things get equal ink.
+
 #include <cstdint>
 #include <stop_token>
 #include <vector>
 
 #include "drawing/collinear/collinear_overlaps.hpp"
 
-// Decision 0052 says why equal things get equal ink.
 namespace strake::drawing {
 
 /// A dashed line in widths of its pen (ISO 128-20).

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0057 says why curves are as fine as the paper shows.
+
 #include <vector>
 
 #include "drawing/layout/view_plane.hpp"
@@ -9,7 +11,6 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 
-// Decision 0057 says why curves are as fine as the paper shows.
 namespace strake::drawing {
 
 /// The sag that nobody sees, model mm, of curved primitives in a view of that extent and scale:

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0028 says why the file is rows behind a JSON head.
+// Decision 0047 says why a checksum stands behind the rows.
+
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -13,8 +16,6 @@
 // The binary neutral drawing (docs/drawing.md): kMagic; the number of bytes of a text; the text, a
 // document of schemas/view.schema.json that has "rows" in the place of "pieces"; the rows; where
 // "rows" has a "checksum", that of everything before it. Numbers are little-endian.
-// Decision 0028 says why the file is rows behind a JSON head.
-// Decision 0047 says why a checksum stands behind the rows.
 namespace strake::drawing {
 
 static_assert(std::endian::native == std::endian::little, "rows are copied as they are");

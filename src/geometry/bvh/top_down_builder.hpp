@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0059 says what differs from bvh v2 here, and why.
+
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -12,7 +14,6 @@
 #include "strake/parallel/order.hpp"
 #include "strake/parallel/transform.hpp"
 
-// Decision 0059 says what differs from bvh v2 here, and why.
 namespace strake::geometry {
 
 /// What a range of items was cut into: neither half is empty.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0012 says why a region is a component of near pairs of points.
+
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -9,7 +11,6 @@
 #include "geometry/obb/oriented_box.hpp"
 #include "strake/geometry/part_pair.hpp"
 
-// Decision 0012 says why a region is a component of near pairs of points.
 namespace strake::geometry {
 
 /// One of the places where two parts meet or come near. Coordinates are grid units relative to the

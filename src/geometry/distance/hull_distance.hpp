@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0022 says why the hulls come before any traversal.
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +10,6 @@
 #include "geometry/primitive_pairs/shapes/support_mapping.hpp"
 #include "strake/geometry/part.hpp"
 
-// Decision 0022 says why the hulls come before any traversal.
 namespace strake::geometry {
 
 /// The convex hull of a part whose coordinates are relative to `origin`. `tree`: over its vertices,

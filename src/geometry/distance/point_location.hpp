@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0026 says why points in fans are located one after the other.
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +13,6 @@
 #include "geometry/obb/rotated_part.hpp"
 #include "strake/geometry/part_pair.hpp"
 
-// Decision 0026 says why points in fans are located one after the other.
 namespace strake::geometry {
 
 /// As side_of() of the header beside the part pairs; by the boxes of a frame of the part's own, if

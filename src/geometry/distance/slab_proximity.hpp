@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0023 says why faces at the ends of a slab come before trees.
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +13,6 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/part_pair.hpp"
 
-// Decision 0023 says why faces at the ends of a slab come before trees.
 namespace strake::geometry {
 
 /// Grid units: far above the rounding of a height, far below what matters.
@@ -89,9 +90,9 @@ struct SlabProximity {
 };
 
 /// find_pair_within() of small parts that lie face to face, without trees. `normal`, a unit vector
-/// from b to a, is across the widest slab between them (obb/oriented_box.hpp), which may be a
-/// little less than nothing: only triangles that come within `distance` grid units of its other end
-/// are looked at, those that lie at its ends first.
+/// from b to a, is across the widest slab between them (part_frame.hpp), which may be a little less
+/// than nothing: only triangles that come within `distance` grid units of its other end are looked
+/// at, those that lie at its ends first.
 [[nodiscard]] SlabProximity slab_proximity(const PlacedPart& a, const PlacedPart& b,
                                            const Vec3d& normal, double distance,
                                            QueryContext& work);

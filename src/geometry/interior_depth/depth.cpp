@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0001 says why certificates come before a search.
 #include "strake/geometry/depth.hpp"
 
 #include <algorithm>
@@ -19,7 +20,6 @@
 #include "geometry/interior_depth/surface_distance/distance_field.hpp"
 #include "geometry/numeric/vector_math.hpp"
 
-// Decision 0001 says why certificates come before a search.
 namespace strake::geometry {
 namespace {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0037 says why points go uphill before surfaces are searched.
+
 #include <optional>
 #include <span>
 
 #include "geometry/interior_depth/surface_distance/distance_field.hpp"
 
-// Decision 0037 says why points go uphill before surfaces are searched.
 namespace strake::geometry {
 
 /// From a point of both parts to one where the distance to the skin of the first is greatest

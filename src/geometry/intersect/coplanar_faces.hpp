@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0002 says why contacts in coordinate planes need no tree.
+// Decision 0024 says why large coplanar faces are judged by their boundaries.
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -10,8 +13,6 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/part.hpp"
 
-// Decision 0002 says why contacts in coordinate planes need no tree.
-// Decision 0024 says why large coplanar faces are judged by their boundaries.
 namespace strake::geometry {
 
 /// What the boxes of two parts say about how the parts meet.
@@ -27,7 +28,7 @@ struct CoplanarContact {
 /// They are decided exactly from the triangles in that plane alone, without a tree.
 ///
 /// `separated` without `touching` says that the parts do not meet in the plane or that there are
-/// too many triangles in it to try all pairs: ask find_closest_pair().
+/// too many triangles in it to try all pairs: ask closest().
 [[nodiscard]] CoplanarContact find_coplanar_contact(const PlacedPart& a, const PlacedPart& b);
 
 /// A coordinate plane in which many triangles of each of two solids lie, those of either all facing

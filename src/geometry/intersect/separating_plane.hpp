@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0030 says why planes come before triangles at intersections.
+
 #include "geometry/bvh/pair_local_part.hpp"
 
-// Decision 0030 says why planes come before triangles at intersections.
 namespace strake::geometry {
 
 /// Whether the plane of a triangle has the parts on opposite closed sides, `below` on the negative

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0018 says which T-junctions are cut.
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +13,6 @@
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "geometry/mesh_repair/topology.hpp"
 
-// Decision 0018 says which T-junctions are cut.
 namespace strake::geometry {
 
 /// The triangles that run along an edge, from its lower vertex to the higher one, and back.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0034 says why seams close up to the precision of the source.
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,7 +13,6 @@
 #include "geometry/mesh_repair/t_junctions.hpp"
 #include "geometry/mesh_repair/topology.hpp"
 
-// Decision 0034 says why seams close up to the precision of the source.
 namespace strake::geometry {
 
 /// Where edges that do not balance are to be cut at corners beside them.

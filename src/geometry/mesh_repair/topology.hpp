@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0004 says what becomes a part of an imported mesh, and why.
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,7 +13,6 @@
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "strake/geometry/part.hpp"
 
-// Decision 0004 says what becomes a part of an imported mesh, and why.
 namespace strake::geometry {
 
 /// The first `count` places of memory that is kept from mesh to mesh; what they hold is stale.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0003 says why vertices and triangles are put in an order of their own.
+
 #include <cstdint>
 #include <span>
 
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "geometry/mesh_repair/topology.hpp"
 
-// Decision 0003 says why vertices and triangles are put in an order of their own.
 namespace strake::geometry {
 
 /// Fills scratch.box and the vertices of scratch.welded: those of the mesh, equal ones made one,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0007 says why every part has such a box before anything else is built for it.
+
 #include <array>
 #include <limits>
 
@@ -10,7 +12,6 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/parallel/context.hpp"
 
-// Decision 0007 says why every part has such a box before anything else is built for it.
 namespace strake::geometry {
 
 /// A box round a part that lies along the part's own faces: tight for what stands askew, where the

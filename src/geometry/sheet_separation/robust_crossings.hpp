@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0019 says why displacements tell a touch of sheets from a crossing.
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,7 +13,6 @@
 #include "geometry/numeric/parity_union_find.hpp"
 #include "strake/geometry/part_pair.hpp"
 
-// Decision 0019 says why displacements tell a touch of sheets from a crossing.
 namespace strake::geometry {
 
 /// A triangle of one sheet that comes within a distance of the other.

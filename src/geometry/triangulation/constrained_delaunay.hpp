@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0005 says why faces with holes are not cut into ears.
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -9,7 +11,6 @@
 
 #include "geometry/triangulation/triangulation_mesh.hpp"
 
-// Decision 0005 says why faces with holes are not cut into ears.
 namespace strake::geometry::triangulation {
 
 /// A triangulation of the convex hull of points in which chosen segments are edges.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0053 says why such facets hide nothing of their own part.
+
 #include <cstdint>
 
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/vec.hpp"
 
-// Decision 0053 says why such facets hide nothing of their own part.
 namespace strake::hlr {
 
 /// Whether a triangle of a part may be one that is seen edge-on along a direction, which rounding

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0046 says which lines between primitives of one object are edges.
+
 #include <cstdint>
 #include <vector>
 
@@ -9,7 +11,6 @@
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/vec.hpp"
 
-// Decision 0046 says which lines between primitives of one object are edges.
 namespace strake::hlr {
 
 /// Of the lines along which two primitives of one object pass through each other, those that are

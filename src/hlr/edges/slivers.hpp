@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0056 says why slivers have no plane of their own.
+
 #include <cstdint>
 #include <vector>
 
 #include "strake/geometry/part.hpp"
 
-// Decision 0056 says why slivers have no plane of their own.
 namespace strake::hlr {
 
 /// By how much moves of its corners, by the snap and a weld, may turn a triangle about its longest

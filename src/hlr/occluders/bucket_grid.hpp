@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0029 says why parts have buckets, and how many.
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,7 +16,6 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
-// Decision 0029 says why parts have buckets, and how many.
 namespace strake::hlr {
 
 /// One side of a grid over the paper.

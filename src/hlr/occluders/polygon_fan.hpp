@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0042 says why fans are no boxes, and what equal objects hide.
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,7 +11,6 @@
 #include "hlr/occluders/occluder_polygons.hpp"
 #include "hlr/view/view_bvh.hpp"
 
-// Decision 0042 says why fans are no boxes, and what equal objects hide.
 namespace strake::hlr {
 
 /// Many polygons of a part round one point on paper. An edge passes under those alone whose angle

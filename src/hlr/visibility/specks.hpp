@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0045 says why specks become like what is beside them.
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,7 +13,6 @@
 #include "strake/hlr/hlr.hpp"
 #include "strake/parallel/context.hpp"
 
-// Decision 0045 says why specks become like what is beside them.
 namespace strake::hlr {
 
 /// Tells what of a drawing is a speck: no longer in the plane of the view than twice the contact

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0014 says why precision belongs to a body and not to a file.
+
 #include <span>
 
 #include "strake/geometry/vec.hpp"
 #include "strake/io/reader.hpp"
 
-// Decision 0014 says why precision belongs to a body and not to a file.
 namespace strake::io {
 
 /// As a body has it; what is no finite length, or more than any model measures, becomes the most.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0032 says why meshes that are each other moved share a shape.
+
 #include <cstdint>
 #include <span>
 
@@ -8,7 +10,6 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/parallel/distinct.hpp"
 
-// Decision 0032 says why meshes that are each other moved share a shape.
 namespace strake::model {
 
 /// Which shapes are one another moved by grid steps, all that belongs to them equal: most exporters

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0027 says why every view tessellates round primitives along their contours.
+
 #include <functional>
 #include <optional>
 #include <vector>
@@ -10,7 +12,6 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 
-// Decision 0027 says why every view tessellates round primitives along their contours.
 namespace strake::model {
 
 /// What a view wants of the primitives that it shows.

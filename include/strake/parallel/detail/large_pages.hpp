@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0010 says what the first touch of memory costs.
+
 #include <cstddef>
 
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
-// Decision 0010 says what the first touch of memory costs.
 namespace strake::parallel::detail {
 
 /// Has the system provide memory that nobody has touched yet: in large pages where it has them, and

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0033 says why each worker has a share of its own.
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -10,7 +12,6 @@
 
 #include "strake/parallel/executor.hpp"
 
-// Decision 0033 says why each worker has a share of its own.
 namespace strake::parallel::detail {
 
 /// What a worker has in hand of the positions that are dealt out.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0021 says why vertices are moved before the linear programs.
+
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "strake/geometry/part_pair.hpp"
 
-// Decision 0021 says why vertices are moved before the linear programs.
 namespace strake::geometry {
 
 /// Two solids that all but touch.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0055 says why only surfaces are searched.
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,7 +11,6 @@
 #include "geometry/interior_depth/level_search/offset_cell.hpp"
 #include "geometry/interior_depth/surface_distance/distance_field.hpp"
 
-// Decision 0055 says why only surfaces are searched.
 namespace strake::geometry {
 
 /// What is asked: whether a point of both parts is farther from the skin of the first than `level`.

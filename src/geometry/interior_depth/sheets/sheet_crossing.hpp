@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0040 says why all regions share one curve.
+
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -8,7 +10,6 @@
 
 #include "strake/geometry/depth.hpp"
 
-// Decision 0040 says why all regions share one curve.
 namespace strake::geometry {
 
 /// Where two sheets cross, found once for all that is asked about it: how deep they cross as a

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0006 says how simplices are searched; sheets still are.
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -17,7 +19,6 @@
 #include "strake/geometry/depth.hpp"
 #include "strake/parallel/reduce.hpp"
 
-// Decision 0006 says how simplices are searched; sheets still are.
 namespace strake::geometry {
 
 /// Work limit: pieces are cheaper than the cells of two solids.
