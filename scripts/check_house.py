@@ -23,7 +23,7 @@ MAY_USE = {
     'report': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing'],
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
 }
-# A room is a folder of a module, for one stage of an algorithm.
+# A room is a folder of a module, for one stage of an algorithm (decision 0060).
 MOST_IN_ROOM = 22
 LINES = {'.hpp': 300, '.cpp': 600}
 IN_ROOT = {'.clang-format', '.clang-tidy', '.gitattributes', '.gitignore', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CMakeLists.txt',

@@ -141,7 +141,7 @@ class Site:
             if heading:
                 name = next(sections)
                 title = SPANS.sub(lambda match: match[0] if match['code'] else self.span(page, match), heading[2])
-                if page.startswith('docs/decisions/') and heading[1] == '#':
+                if re.match(r'docs/decisions/\d', page) and heading[1] == '#':
                     title = f'{Path(page).name[:4]} {title.removeprefix(Path(page).name[:4] + " ")}'
                 label = page_id(page) if heading[1] == '#' else f'{page_id(page)}-{name}'
                 out.append(f'{heading[1]} {title} {{#{label}}}\n')
@@ -308,9 +308,9 @@ def make_input(site):
         text = site.text_of(header)
         write(site.input / 'include/strake' / header, documented(text, header, site))
     texts = {page: site.page(page) for page in sorted(site.pages)}
-    guide = 'docs/patterns/README.md'
     for page in sorted(site.pages):
-        if page.startswith('docs/patterns/') and page != guide:
+        guide = f'{posixpath.dirname(page)}/README.md'
+        if guide in ('docs/patterns/README.md', 'docs/decisions/README.md') and page != guide:
             # The first link of the guide to a page of it makes it one.
             texts[guide] = re.sub(rf'\[([^\]]*)\]\(@ref {page_id(page)}\)', rf'@subpage {page_id(page)} "\1"',
                                   texts[guide], count=1)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0058 says what is public.
+
 /// The common path: read models, select objects, find clashes, draw views, write results.
 /// docs/library.md has the steps; `find_package(strake)` defines strake::strake.
 // IWYU pragma: begin_exports

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0048 says why tables of keys from files have a seeded hash.
+
 #include <cstddef>
 #include <cstdint>
 #include <span>

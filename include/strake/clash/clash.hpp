@@ -42,12 +42,10 @@ enum class Level : std::uint8_t { hard, soft, insulation, none };
 
 /// Bits of Pair::flags.
 enum Flag : std::uint16_t {
-  kBorderline =
-      1U << 0U,  ///< the bracket cannot be told from a threshold: the severer class is given
-  kUncertain =
-      1U << 1U,          ///< the bracket straddles a threshold: the class of the nominal d is given
-  kOpen = 1U << 2U,      ///< one of the two is an open surface
-  kInverted = 1U << 3U,  ///< one of the two came inside out
+  kBorderline = 1U << 0U,  ///< d cannot be told from a threshold: the severer class is given
+  kUncertain = 1U << 1U,   ///< the bracket straddles a threshold: the class is that of d
+  kOpen = 1U << 2U,        ///< one of the two is an open surface
+  kInverted = 1U << 3U,    ///< one of the two came inside out
 };
 
 /// One of several regions where a pair of objects meets or comes too near.
@@ -134,8 +132,7 @@ struct LoggedPair {
   bool may_be_allowed = false;  ///< a rule about allowed contacts concerns the two
   std::uint64_t part_pairs = 0, node_pairs = 0, triangle_pairs = 0, exact_fallbacks = 0,
                 depth_cells = 0;
-  /// Pairs of parts that were equal to an earlier one: copies in equal places are evaluated once.
-  /// What that took counts for each of them all the same.
+  /// Pairs of parts equal to an earlier one, which is evaluated once; its work counts for each.
   std::uint64_t repeated_part_pairs = 0;
 
   /// Returns what the pair takes, in steps of about ten nanoseconds. They are counted, not timed,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0011 says why a line is the limit of a thin rod, and is not compared by default.
+
 #include <limits>
 #include <optional>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0008 says why supports, cutting planes and multipliers solve these pairs.
+
 #include <algorithm>
 #include <limits>
 #include <optional>

@@ -135,7 +135,7 @@ class RegionRun {
   /// an item said no. `i` is left at that item, or at one that throws.
   ///
   /// The test stands at the loop's end: what the body reads through references is then certain to
-  /// be read, and g++ reads it once before the loop rather than for every item (relaxed.hpp).
+  /// be read, and g++ reads it once before the loop rather than for every item (load_relaxed.hpp).
   template <class Item>
   bool each(std::size_t& i, std::size_t last, Item&& item) const {
     if (i >= last || i >= limit()) return true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0041 says when boxes along the faces come in.
+
 #include "clash/broad_phase/broad_phase.hpp"
 #include "geometry/bvh/scene_bvh.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0035 says who is told of what lies within an open surface.
 #include "clash/narrow_phase/narrow_phase.hpp"
 
 #include <algorithm>

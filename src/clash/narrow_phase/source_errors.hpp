@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0043 says why the bracket counts what the grid and the source leave open.
+
 #include "clash/broad_phase/broad_phase.hpp"
 
 namespace strake::clash {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0020 says what counts as not compared, and which of it stops a run.
+
 #include "clash/broad_phase/broad_phase.hpp"
 #include "clash/pairs/pair_tasks.hpp"
 #include "clash/rules/rule_matcher.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0009 says why rules are asked about objects and answers about parts.
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0025 says why lines are sought by length, direction and place.
+
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0052 says why equal things get equal ink.
+
 #include <cstdint>
 #include <stop_token>
 #include <vector>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0057 says why curves are as fine as the paper shows.
+
 #include <vector>
 
 #include "drawing/layout/view_plane.hpp"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0028 says why the file is rows behind a JSON head.
+// Decision 0047 says why a checksum stands behind the rows.
+
 #include <array>
 #include <bit>
 #include <cstdint>

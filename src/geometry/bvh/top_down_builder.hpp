@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0059 says what differs from bvh v2 here, and why.
+
 #include <cstddef>
 #include <cstdint>
 #include <utility>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0012 says why a region is a component of near pairs of points.
+
 #include <cstdint>
 #include <functional>
 #include <optional>

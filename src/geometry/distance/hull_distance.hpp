@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0022 says why the hulls come before any traversal.
+
 #include <algorithm>
 #include <cmath>
 

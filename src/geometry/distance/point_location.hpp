@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0026 says why points in fans are located one after the other.
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

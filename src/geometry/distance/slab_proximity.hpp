@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0023 says why faces at the ends of a slab come before trees.
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

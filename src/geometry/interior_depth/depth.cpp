@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0001 says why certificates come before a search.
 #include "strake/geometry/depth.hpp"
 
 #include <algorithm>

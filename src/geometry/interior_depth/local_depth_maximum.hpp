@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0037 says why points go uphill before surfaces are searched.
+
 #include <optional>
 #include <span>
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decision 0015 says what bounds over concave surfaces were before this search.
+// Decision 0016 says what a search over blocks gave before this one.
+// Decision 0017 says what bodies that fit each other ask of any search.
 #include "geometry/interior_depth/solid_depth_search.hpp"
 
 #include <algorithm>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0002 says why contacts in coordinate planes need no tree.
+// Decision 0024 says why large coplanar faces are judged by their boundaries.
+
 #include <array>
 #include <cstdint>
 #include <optional>

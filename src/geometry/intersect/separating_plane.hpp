@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0030 says why planes come before triangles at intersections.
+
 #include "geometry/bvh/pair_local_part.hpp"
 
 namespace strake::geometry {

@@ -36,7 +36,7 @@ struct Connectivity {
 
 /// Connectivities that came more than once. Plants and ships hold the same few pipes, elbows and
 /// profiles in all sizes: each of them needs its edges found only once, and held only once, which
-/// is what counts (docs/decisions/0013-shared-connectivity.md). Bounded; what is not remembered is
+/// is what counts (decision 0013). Bounded; what is not remembered is
 /// worked out again.
 class ConnectivityCache {
  public:

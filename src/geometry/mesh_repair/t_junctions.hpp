@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0018 says which T-junctions are cut.
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

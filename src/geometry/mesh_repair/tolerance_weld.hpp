@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0034 says why seams close up to the precision of the source.
+
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0004 says what becomes a part of an imported mesh, and why.
+
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0003 says why vertices and triangles are put in an order of their own.
+
 #include <cstdint>
 #include <span>
 

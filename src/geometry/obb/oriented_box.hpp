@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0007 says why every part has such a box before anything else is built for it.
+
 #include <array>
 #include <limits>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0019 says why displacements tell a touch of sheets from a crossing.
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0005 says why faces with holes are not cut into ears.
+
 #include <array>
 #include <cstdint>
 #include <span>

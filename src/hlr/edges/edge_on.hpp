@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0053 says why such facets hide nothing of their own part.
+
 #include <cstdint>
 
 #include "strake/geometry/part.hpp"

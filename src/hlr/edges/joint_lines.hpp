@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0046 says which lines between primitives of one object are edges.
+
 #include <cstdint>
 #include <vector>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0056 says why slivers have no plane of their own.
+
 #include <cstdint>
 #include <vector>
 

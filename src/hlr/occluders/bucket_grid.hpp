@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0029 says why parts have buckets, and how many.
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0042 says why fans are no boxes, and what equal objects hide.
+
 #include <cstdint>
 #include <optional>
 #include <span>

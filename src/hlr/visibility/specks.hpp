@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0045 says why specks become like what is beside them.
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>

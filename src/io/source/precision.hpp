@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0014 says why precision belongs to a body and not to a file.
+
 #include <span>
 
 #include "strake/geometry/vec.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0032 says why meshes that are each other moved share a shape.
+
 #include <cstdint>
 #include <span>
 

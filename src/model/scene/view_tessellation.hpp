@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0027 says why every view tessellates round primitives along their contours.
+
 #include <functional>
 #include <optional>
 #include <vector>

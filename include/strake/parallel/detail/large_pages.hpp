@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0010 says what the first touch of memory costs.
+
 #include <cstddef>
 
 #include "strake/core/result.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0033 says why each worker has a share of its own.
+
 #include <algorithm>
 #include <array>
 #include <atomic>

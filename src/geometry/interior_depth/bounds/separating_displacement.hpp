@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0021 says why vertices are moved before the linear programs.
+
 #include <cstdint>
 #include <optional>
 #include <vector>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0055 says why only surfaces are searched.
+
 #include <cstdint>
 #include <optional>
 #include <span>

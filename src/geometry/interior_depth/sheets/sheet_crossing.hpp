@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0040 says why all regions share one curve.
+
 #include <cstdint>
 #include <memory>
 #include <span>

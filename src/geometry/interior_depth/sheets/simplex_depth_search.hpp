@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0006 says how simplices are searched; sheets still are.
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
