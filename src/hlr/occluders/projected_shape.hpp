@@ -68,7 +68,7 @@ struct ProjectedShape : OccluderPolygons {
   std::vector<ProjectedEdge> edges;
 };
 
-/// Errors: cancelled.
+/// Projects a shape and makes its occluders and edges. Errors: cancelled.
 [[nodiscard]] Result<ProjectedShape> view_of(const SectionedShape& seen,
                                              const ProjectionSettings& settings);
 
@@ -80,14 +80,14 @@ struct ProjectedShape : OccluderPolygons {
 
 /// A body that places a projected shape, as the solvers use it.
 struct BodyInstance {
-  const ProjectedShape* view = nullptr;  ///< null: not drawn
+  const ProjectedShape* view = nullptr;  ///< null: the body is not drawn
   geometry::Vec3l offset;
   ViewPoint at;
   std::uint32_t object = 0;
   std::int64_t contact = 0;
   std::int64_t within = 0;             ///< contact distance within a part
   bool opaque = false;                 ///< hides; where there are limits, not wholly outside them
-  bool cut = false;                    ///< by the limits
+  bool cut = false;                    ///< the limits cut it
   bool forgives_rounding = false;      ///< see ViewJob::forgives_rounding()
   bool shares_self_occlusion = false;  ///< shares it with the other bodies of its shape
   bool repeated = false;               ///< equal bodies at its place hide what it hides

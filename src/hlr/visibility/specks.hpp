@@ -24,8 +24,8 @@ class SpeckRule {
  public:
   explicit SpeckRule(const ViewJob& job);
 
-  /// Returns the greatest length of a speck, grid units, for the lines of an object or, at
-  /// intersections, of two; 0: there are no specks.
+  /// Returns the greatest length of a speck, grid units, on lines of an object or, at
+  /// intersections, of two; 0: none.
   [[nodiscard]] std::int64_t longest(model::ObjectId object, model::ObjectId other) const;
   [[nodiscard]] std::int64_t longest(const EdgePiece& piece) const {
     return longest(piece.object, piece.other);

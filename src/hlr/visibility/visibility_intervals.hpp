@@ -101,8 +101,8 @@ struct LocalEdge {
                                                                    std::int64_t contact,
                                                                    std::int64_t lying);
 
-/// Returns the interval of the edge that lies under an outline (OccluderPart::outline); the caller
-/// has checked that it is deep enough.
+/// Returns the interval of an edge that lies under an outline (OccluderPart::outline), for an edge
+/// deep under it.
 [[nodiscard]] std::optional<OcclusionInterval> occluded_by_silhouette(
     const LocalEdge& edge, const ProjectedShape& shape, const OccluderPolygon& outline);
 

@@ -81,8 +81,8 @@ struct VisibilityScene {
 /// Returns the edges of one body of each shape whose bodies share its self-occlusion.
 [[nodiscard]] std::vector<EdgeRange> self_occlusion_ranges(const VisibilityScene& visibility);
 
-/// An edge whose visibility is sought: a feature edge of a body, or a line that is no edge of one,
-/// in the coordinates of the job.
+/// An edge to solve: a feature edge of a body, or a line that is no edge of one, in the coordinates
+/// of the job.
 struct EdgeQuery {
   std::uint32_t body = 0;
   const BodyInstance* own = nullptr;
