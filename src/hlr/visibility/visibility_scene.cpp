@@ -80,8 +80,7 @@ Status make_views(VisibilityScene& visibility, const parallel::Context& context)
 /// Drops the bodies that hide only what bodies of other objects hide, too.
 Status drop_equal_bodies(VisibilityScene& visibility, std::vector<ViewBox>& boxes,
                          const parallel::Context& context) {
-  // An edge is tested against other objects, and a line may belong to two objects: of three one is
-  // left.
+  // A line may belong to two objects and is tested against the others: of three one is left.
   constexpr std::uint32_t kEnough = 3;
   const auto& first_body = visibility.job.scene->first_body;
   std::vector<std::uint32_t> some;
