@@ -49,7 +49,7 @@ enum class EdgeKind : std::uint8_t {
   polyline,
   intersection,  ///< where the skins of two parts pass through each other
   section,       ///< where a section plane cuts a part
-  hatch,         ///< on the face of a cut through a solid
+  hatch,         ///< a hatch line on the face of a cut through a solid
   smooth,        ///< where two faces turn by no more than the sharp angle, if asked for
 };
 enum class State : std::uint8_t {

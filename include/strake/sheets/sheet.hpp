@@ -89,7 +89,7 @@ enum class Align : std::uint8_t { start, middle, end };
 
 struct Text {
   LineClass line = LineClass::title;  ///< the class whose colour it has
-  PaperPoint at;                      ///< on the base line
+  PaperPoint at;                      ///< a point on the base line
   double height_mm = 3.5;             ///< of a capital letter
   Align align = Align::start;
   std::string text;
@@ -108,7 +108,7 @@ struct PlacedView {
   std::string name, title;
   drawing::NeutralDrawing drawing;  ///< its data without its lines, which are in `ink`
   drawing::Ink ink;
-  PaperBox box;  ///< of all lines of the view, hidden ones included
+  PaperBox box;  ///< box of all lines of the view, hidden ones included
   Marks caption, grid, tags;
 };
 

@@ -66,7 +66,7 @@ using LineIntervals = std::vector<LineInterval>;
 /// The lines, and intervals of lines, that lie on others.
 struct LineOverlaps {
   parallel::Marks wholly;   ///< by line: one other line covers all of it
-  LineIntervals stretches;  ///< of the other lines that are covered in part
+  LineIntervals stretches;  ///< intervals of the other lines that are covered in part
 };
 
 /// Cuts lines where they lie on lines that stay: of two coincident lines the one of lower rank

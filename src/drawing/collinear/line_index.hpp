@@ -103,7 +103,7 @@ class LineIndex {
     Target(const LineIndex& index, const Leaf& leaf);
     Leaf leaf;
     double from = 2, to = 0;  ///< range of their directions, see slant()
-    Box2 box;                 ///< in their sector's axes
+    Box2 box;                 ///< box of the lines in their sector's axes
   };
   /// The lines of a leaf in the axes of the queried sector.
   struct Query {
@@ -150,7 +150,7 @@ class LineIndex {
   double reach_ = 0;      ///< the largest distance of two coincident lines
   double x_ = 0, y_ = 0;  ///< centre of all lines
   double greatest_sine_ = 1;
-  double radius_ = 0;  ///< of a circle about the centre that holds all lines
+  double radius_ = 0;  ///< radius of a circle about the centre that holds all lines
   double pad_ = 0;     ///< margin for rounding, and the reach
   std::vector<Sector> sectors_;
   std::vector<std::uint32_t> order_;

@@ -18,7 +18,7 @@ namespace strake::drawing {
 struct Eye {
   geometry::Vec3l at;      ///< grid units
   geometry::Vec3l target;  ///< grid units
-  double distance_mm = 0;  ///< of the view's plane, which goes through the target, from the eye
+  double distance_mm = 0;  ///< from the eye to the view's plane, which goes through the target
   double near_mm = 0;      ///< nearer points are taken to be as far away as this
 };
 

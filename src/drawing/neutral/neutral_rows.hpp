@@ -37,7 +37,7 @@ struct ViewRow {
   std::uint8_t kind = 0, state = 0;  ///< indices into "kinds" and "states"
   std::array<std::uint8_t, 6> zero{};
   std::array<Int, 3> a{}, b{};              ///< ends in the model, from the form's origin
-  std::array<Int, 2> a_paper{}, b_paper{};  ///< on the sheet
+  std::array<Int, 2> a_paper{}, b_paper{};  ///< ends on the sheet
 };
 static_assert(std::has_unique_object_representations_v<ViewRow<std::int32_t>>);
 static_assert(std::has_unique_object_representations_v<ViewRow<std::int64_t>>);

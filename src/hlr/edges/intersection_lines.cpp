@@ -385,7 +385,7 @@ class Finder {
   const parallel::Context& context_;
   struct {
     std::uint64_t pairs = 0, tests = 0;
-  } stacked_;  ///< of equal parts at one place, of which there are no pairs
+  } stacked_;  ///< counts for equal parts at one place, of which there are no pairs
   std::vector<IndexPair> pairs_;
   parallel::Precomputed<geometry::OrientedBox> frames_;  ///< by unique part
 };

@@ -191,7 +191,7 @@ class BucketGrid::Dealer {
   BucketGrid& to_;
   const parallel::Context& context_;
   std::size_t buckets_, runs_;
-  std::vector<std::uint32_t> next_;  ///< by run and bucket
+  std::vector<std::uint32_t> next_;  ///< next entry by run and bucket
 };
 
 Result<BucketGrid> BucketGrid::of(std::span<const ViewBox> boxes, const BucketAxes& axes,

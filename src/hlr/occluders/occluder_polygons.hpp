@@ -35,7 +35,7 @@ struct OccluderPolygon {
 
 /// Polygons with the corners, rays and normals that they refer to.
 struct OccluderPolygons {
-  std::vector<OccluderPolygon> polygons;  ///< by part
+  std::vector<OccluderPolygon> polygons;  ///< sorted by part
   std::vector<PaperCorner> corners;       ///< orthographic
   std::vector<geometry::Vec3l> rays;      ///< perspective: corners relative to the eye
   std::vector<ExactNormal> wide_normals;

@@ -55,7 +55,7 @@ struct ProjectionSettings {
   const PerspectiveMap* perspective_map = nullptr;  ///< null: orthographic
   std::int32_t bucketing = Options::kBucketsByData;
   bool find_edge_on = false;       ///< find polygons that may be edge-on but for rounding
-  parallel::Context context = {};  ///< for big shapes
+  parallel::Context context = {};  ///< the team for big shapes
 };
 
 /// A shape seen in one direction, shared by all bodies that place it; or in perspective, for one
@@ -63,7 +63,7 @@ struct ProjectionSettings {
 struct ProjectedShape : OccluderPolygons {
   Viewer viewer;                    ///< in the coordinates of the shape
   std::vector<OccluderPart> parts;  ///< the parts that can hide
-  ViewBox box;                      ///< of the polygons
+  ViewBox box;                      ///< box of the polygons
   std::int64_t reach = 0;           ///< largest |u| or |v| of a corner
   std::vector<ProjectedEdge> edges;
 };

@@ -35,7 +35,7 @@ struct ProjectedPart {
   const Viewer& viewer;
   std::vector<ViewPoint> points = {};      ///< projected vertices; orthographic
   std::vector<geometry::Vec3l> rays = {};  ///< from the eye to the vertices; perspective
-  std::vector<TrianglePlane> planes = {};  ///< for parts within 2^30
+  std::vector<TrianglePlane> planes = {};  ///< only for parts within 2^30
   bool find_edge_on = false;               ///< look for triangles that may be edge-on
 
   // Errors: cancelled.

@@ -57,14 +57,14 @@ struct VisibilityScene {
   ViewProjection projection;
   std::optional<PerspectiveMap> perspective_map;  ///< in perspective
   parallel::Precomputed<ProjectedShape>
-      views;  ///< of drawn bodies, by sectioned shape or, in perspective, by body
+      views;  ///< shapes of drawn bodies, by sectioned shape or, in perspective, by body
   std::vector<SelfOcclusion>
       self_occlusion;                ///< per sectioned shape; empty where no two bodies share it
   std::vector<BodyInstance> placed;  ///< per body
   /// The hierarchy over the bodies that may hide. Of equal bodies at one place a few are enough, of
   /// objects of up to kFewBodies: what one hides the others hide.
   ViewBvh tree;
-  OcclusionBuffer occlusion_buffer;  ///< of those bodies; empty without culling
+  OcclusionBuffer occlusion_buffer;  ///< covers those bodies; empty without culling
   std::vector<EdgeRange> items;
 
   /// Returns the number of a body's view.

@@ -21,7 +21,7 @@ struct GridMargin {
 
 struct GridMarks {
   Marks marks;
-  std::vector<bool> drawn;     ///< by plane of the file
+  std::vector<bool> drawn;     ///< whether each plane of the file is drawn
   std::size_t unlabelled = 0;  ///< lines that are drawn without a label, for want of room
 };
 

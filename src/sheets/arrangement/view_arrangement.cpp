@@ -52,9 +52,8 @@ TrackCell cell_of(ViewSlot slot, Projection projection) {
 /// The extents of a column or a row along one direction of paper.
 struct Track {
   bool used = false, shared = false;
-  double before = 0,
-         after = 0;  ///< before and after the point that its views share, which may lie beside them
-  double least = 0;  ///< for a view in its middle
+  double before = 0, after = 0;  ///< from the point that its views share, which may lie beside them
+  double least = 0;              ///< the least size, for a view in its middle
   [[nodiscard]] double size() const { return std::max(before + after, least); }
 };
 

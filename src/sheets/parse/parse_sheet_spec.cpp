@@ -382,7 +382,7 @@ class Parser {
   ViewReader views_;
   ViewSpec defaults_;
   SheetSpec found_;
-  std::vector<SourcePosition> places_;  ///< of the views
+  std::vector<SourcePosition> places_;  ///< positions of the views in the file
 };
 
 }  // namespace

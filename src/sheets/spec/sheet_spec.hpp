@@ -84,7 +84,7 @@ struct SheetSpec {
   std::string template_name;        ///< as written in the file; empty: none
   std::optional<PaperBox> area;     ///< where views may lie; none: the frame's inside
   std::vector<PaperBox> keep_free;  ///< of views
-  std::optional<double> scale;      ///< of views without their own
+  std::optional<double> scale;      ///< scale of views without their own
   Projection projection = Projection::first_angle;
   double gap_mm = 15;  ///< least gap between arranged views
   std::vector<std::pair<std::string, std::string>> fields;

@@ -17,7 +17,7 @@ namespace strake::sheets {
 struct XmlEvent {
   enum class Kind : std::uint8_t { start, end, text, finish };
   Kind kind = Kind::finish;
-  std::size_t line = 0;  ///< from 1
+  std::size_t line = 0;  ///< counted from 1
   std::string name;      ///< name of an element, with its prefix
   std::vector<std::pair<std::string, std::string>> attributes;  ///< values decoded
   std::string text;                                             ///< decoded
