@@ -73,8 +73,7 @@ class BucketPlan {
   [[nodiscard]] bool fits(std::uint32_t side, double per_box) const;
 
   ViewBox extent_;
-  double count_ = 0, sides_sum_ = 0,
-         area_ = 0;  ///< number, sum of half perimeters and area of the boxes
+  double count_ = 0, sides_sum_ = 0, area_ = 0;  ///< sums over the boxes
 };
 
 /// Marks of the items that a traversal has met already, for one worker; it keeps its memory.
