@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Writers of long texts: through a buffer, and in batches that are encoded in parallel.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +18,11 @@
 
 namespace strake::drawing {
 
-/// Gathers text and hands it on in large pieces. What a sink throws goes to whoever made this.
+/// Gathers text and hands it on in large chunks. Exceptions of the sink are passed on to the owner.
 class BufferedWriter {
  public:
   explicit BufferedWriter(Sink sink) : sink_(sink) {}
-  /// An exception that unwinds has cut the text short: what is gathered goes nowhere then.
+  /// Flushes, unless an exception is unwinding: the text has been cut short then and is dropped.
   ~BufferedWriter() noexcept(false) {
     if (std::uncaught_exceptions() == exceptions_) flush();
   }
@@ -35,7 +36,7 @@ class BufferedWriter {
     done();
     return *this;
   }
-  /// What to append to in place; call done() after each record.
+  /// Returns the buffer to append to in place; call done() after each record.
   [[nodiscard]] std::string& text() { return text_; }
   void done() {
     if (text_.size() >= kFull) flush();
@@ -52,7 +53,7 @@ class BufferedWriter {
   int exceptions_ = std::uncaught_exceptions();
 };
 
-/// Writes n items in order whose bytes are made in parallel: encode(begin, end, out) appends those
+/// Writes n items in order and makes their bytes in parallel: encode(begin, end, out) appends those
 /// of a run. The bytes of 65,536 items are held at a time. Errors: cancelled, out of memory.
 template <class Encode>
 [[nodiscard]] Status write_in_batches(std::string_view name, std::size_t n, Encode&& encode,

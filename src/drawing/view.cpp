@@ -46,7 +46,7 @@ std::int64_t largest_of(const Vec3l& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// Three decimals as whole numbers of the finest digit among them, when they fit.
+/// Reads three decimals as whole numbers of the finest digit among them, when they fit.
 bool scale_exactly(const std::array<std::string_view, 3>& texts, Vec3l& out) {
   std::size_t places = 0;
   for (const std::string_view text : texts) {
@@ -79,7 +79,7 @@ double sine_between(const Vec3d& a, const Vec3d& b) {
   return std::sqrt(dot(normal, normal) / (dot(a, a) * dot(b, b)));
 }
 
-/// Of a vector whose largest component is 1.
+/// Rounds the direction of a vector whose largest component is 1.
 Direction rounded_direction(const Vec3d& wanted) {
   Direction direction;
   for (int k = 0; k < 3; ++k)
@@ -119,7 +119,7 @@ Result<Direction> parse_direction(std::string_view text) {
   if (!(largest > 0)) return malformed;
   Direction direction;
   if (scale_exactly(parts, direction.vector)) return direction;
-  // Divided first, so that neither huge nor tiny components overflow on the way.
+  // The division comes first, so that neither huge nor tiny components overflow.
   return rounded_direction({values[0] / largest, values[1] / largest, values[2] / largest});
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Composing a sheet from its description, and the public SheetFile.
 #include "sheets/compose_sheet.hpp"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ class Composer {
         {Severity::warning, std::move(code), std::move(message), std::move(where)});
   }
 
-  /// Asks all selections about all objects, once.
+  /// Evaluates all selections on all objects, once.
   Status pick() {
     std::vector<model::Selection> selections;
     std::vector<const settings::Chooser*> choosers;
@@ -89,7 +90,7 @@ class Composer {
     return {};
   }
 
-  /// The objects that the next selections pick, those of a list together; empty: all.
+  /// Returns the objects that the next selections pick, those of a list together; empty: all.
   [[nodiscard]] std::vector<bool> next_picks(std::size_t count) {
     std::vector<bool> any;
     if (count == 0) return any;
@@ -106,7 +107,7 @@ class Composer {
     return std::move(hatching).by_object();
   }
 
-  /// What of a view selections say.
+  /// The objects and hatches that selections choose for a view.
   struct Chosen {
     std::vector<bool> drawn;
     std::vector<hlr::Hatch> hatches;
@@ -125,7 +126,7 @@ class Composer {
       const ViewSpec& view = what_.views[v];
       hlr::Options options = view.options;
       options.solver = options_.solver;
-      // What the sheet does not show is not worked out.
+      // Lines that the sheet does not show are not computed.
       options.hidden = view.hidden != HiddenLines::off;
       options.hatches = std::move(chosen[v].hatches);
       if (!sags->empty()) options.sag_mm = (*sags)[v];
@@ -142,7 +143,8 @@ class Composer {
     return {};
   }
 
-  /// Of each view, from about the scale that it will have. Nothing where nothing would fit.
+  /// Returns the sag of each view, from about the scale that it will have; empty where nothing
+  /// would fit.
   [[nodiscard]] Result<std::vector<double>> sags_for_paper(
       const std::vector<Chosen>& chosen) const {
     std::vector<drawing::PlaneBox> extents;
@@ -182,7 +184,7 @@ class Composer {
     return {};
   }
 
-  /// Far off the sheet coordinates would not be micrometres any more.
+  /// Checks that no view lies far off the sheet, where coordinates would not be micrometres.
   [[nodiscard]] Status check_reach() const {
     constexpr double kFarthest = 1e9;
     const PaperBox reach{-kFarthest, -kFarthest, kFarthest, kFarthest};
@@ -216,7 +218,7 @@ class Composer {
          spec.where);
   }
 
-  /// One set of pens for the sheet: those that the densest of its views can bear.
+  /// Chooses the ink of all views with one set of pens: those that the densest view can bear.
   Status ink() {
     drawing::Pens pens;
     for (const PlacedView& view : sheet_.views) {
@@ -257,7 +259,7 @@ class Composer {
     }
   }
 
-  /// The title below a view, underlined, and its scale where that is not the sheet's.
+  /// Writes the title below a view, underlined, and its scale where that is not the sheet's.
   void caption(std::size_t v, double sheet_scale) {
     PlacedView& view = sheet_.views[v];
     const PaperBox& box = places_[v].lines;
@@ -330,7 +332,7 @@ class Composer {
     }
   }
 
-  /// How many of the objects show in the view.
+  /// Writes the tags of a view; returns how many of the objects show in it.
   std::size_t tag_view(const TagSpec& tag, const std::vector<bool>& picked, PlacedView& view,
                        OccupancyGrid& occupancy) {
     const TagCount count = write_tags(tag, picked, *scene_.model, room_, view, occupancy);
@@ -355,7 +357,7 @@ class Composer {
   const parallel::Context& context_;
   SheetArea room_;
   Picks picks_;
-  std::size_t asked_ = 0;  ///< of them those that have been used
+  std::size_t asked_ = 0;  ///< how many of them have been used
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
   Sheet sheet_;

@@ -10,7 +10,7 @@
 
 namespace strake::sheets {
 
-/// The sheet that a file describes, of this scene.
+/// Composes the sheet that a file describes for a scene.
 [[nodiscard]] Result<Sheet> compose(const SheetSpec& what, const model::Scene& scene,
                                     const ComposeOptions& options,
                                     const parallel::Context& context);

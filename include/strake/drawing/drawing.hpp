@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Drawings without a format: lines and curves of a view on paper, and how a view gets there.
 #pragma once
 
 #include <array>
@@ -17,14 +18,14 @@
 
 namespace strake::drawing {
 
-/// What a piece is on paper: hlr::State and one more that only paper knows.
+/// The state of a piece on paper: hlr::State, and `duplicate`, which only the layout knows.
 enum class LineState : std::uint8_t {
   visible,
   hidden_by_self,
   hidden_by_other,
   projecting,
   clipped,
-  duplicate,  ///< drawn already by a piece that lies on it: visible first, then nearest, lowest id
+  duplicate,  ///< covered by a piece that is drawn: visible first, then nearest, lowest id
 };
 inline constexpr std::size_t kLineStates = 6;
 
@@ -38,13 +39,13 @@ inline constexpr std::size_t kLineStates = 6;
 [[nodiscard]] std::string_view smooth_name(hlr::Smooth smooth);
 [[nodiscard]] std::string_view intersections_name(hlr::Intersections intersections);
 
-/// Millimetres on the sheet: x to the right, y down, from the upper left corner.
+/// A point on the sheet in millimetres: x to the right, y down, from the upper left corner.
 struct PaperPoint {
   double x = 0, y = 0;
   friend bool operator==(const PaperPoint&, const PaperPoint&) = default;
 };
 
-/// No point of a drawing lies farther out on paper.
+/// The largest coordinate on paper that a point of a drawing may have.
 inline constexpr double kFarthestPaperMm = 1e9;
 
 /// A straight piece of an edge, in the model and on the sheet.
@@ -53,7 +54,7 @@ struct Line {
   std::uint32_t edge = 0;
   hlr::EdgeKind kind = hlr::EdgeKind::sharp;
   LineState state = LineState::visible;
-  model::ObjectId other{};  ///< of an intersection the second object; otherwise the same again
+  model::ObjectId other{};  ///< the second object of an intersection; otherwise equal to `object`
   geometry::Vec3d a_mm, b_mm;
   PaperPoint a_paper, b_paper;  ///< multiples of a micrometre of paper
 };
@@ -63,14 +64,14 @@ struct PaperCurve {
   PaperPoint centre, u, v;
 };
 
-/// Curves that straight lines stand for.
+/// The curves that straight lines stand for.
 struct PaperCurves {
   std::vector<PaperCurve> all;
-  std::vector<hlr::CurvedEdge> edges;  ///< by (object, edge); of `all`
+  std::vector<hlr::CurvedEdge> edges;  ///< sorted by (object, edge); indices into `all`
 
-  /// The curve that a line is a chord of; null: it is straight.
+  /// Returns the curve that a line is a chord of; null: the line is straight.
   [[nodiscard]] const PaperCurve* of(const Line& line) const;
-  /// Its index into `all`; kNone: it is straight.
+  /// Returns the index of that curve into `all`; kNone: the line is straight.
   [[nodiscard]] std::uint32_t index_of(const Line& line) const;
   static constexpr std::uint32_t kNone = 0xffffffffU;
 };
@@ -81,16 +82,16 @@ struct Sheet {
   std::string scale_text;  ///< "1:50", "2:1"
 };
 
-/// Where a view lies on a sheet that is known already.
+/// The place of a view on a sheet that is known already.
 struct Placement {
   Sheet sheet;
   geometry::Vec3l anchor;  ///< a point of the model, grid units …
-  PaperPoint at;  ///< … and where it comes to lie. Views that share the anchor are aligned.
+  PaperPoint at;  ///< … and where that point lies. Views that share the anchor are aligned.
 };
 
 struct LayoutOptions {
   std::string view_name = "view";
-  std::string title = {};                      ///< of the sheet; empty: from the view's name
+  std::string title = {};                      ///< title of the sheet; empty: from the view's name
   std::optional<double> scale = std::nullopt;  ///< model mm per paper mm; none: chosen to fit A3
   double margin_mm = 10;
   std::optional<Placement> placement = std::nullopt;  ///< instead of scale, sheet and margin
@@ -99,9 +100,10 @@ struct LayoutOptions {
   bool remove_duplicates = true;
 };
 
-/// A drawing without a format: what SVG and JSON are both written from.
+/// A drawing without a format: SVG and JSON are both written from it.
 ///
-/// Lines keep the order (object, edge, parameter) and so the same bytes for any number of threads.
+/// Lines keep the order (object, edge, parameter), so the bytes do not depend on the number of
+/// threads.
 struct NeutralDrawing {
   std::string view_name, title;
   hlr::View view;
@@ -111,30 +113,31 @@ struct NeutralDrawing {
   hlr::Smooth smooth = hlr::Smooth::off;
   hlr::Intersections intersections = hlr::Intersections::primitives;
   double contact_distance_mm = 0;
-  double sag_mm = 0;    ///< asked for, of curved primitives; 0: unknown
-  double weld_mm = -1;  ///< that seams were closed within; negative: the precision of each body
+  double sag_mm = 0;    ///< the sag asked for of curved primitives; 0: unknown
+  double weld_mm = -1;  ///< seams were closed within it; negative: the precision of each body
   Sheet sheet;
   std::vector<Line> lines;
   PaperCurves curves;
-  std::array<std::uint64_t, kLineStates> count{};  ///< of lines, by state
+  std::array<std::uint64_t, kLineStates> count{};  ///< number of lines by state
   hlr::Counters counters;
   hlr::Account account;
   Hash128 hash;  ///< of the view and of every line in the model; not of the sheet or of settings
 };
 
-/// How far curved primitives may be from their true surfaces so that nobody sees it on paper
-/// (hlr::Options::sag_mm), model mm: 0.05 mm at the scale of the drawing, in perspective in the
-/// plane of the target; no less than the grid's 1 µm, and than 0.05 mm on an A0 sheet that has all
-/// of the view. Where the scale is to be chosen, the corners of the objects tell what it will be,
-/// or nearly where limits or sections cut them. 0 of a view of nothing. Errors: cancelled.
+/// Returns how far curved primitives may be from their true surfaces so that nobody sees it on
+/// paper (hlr::Options::sag_mm), model mm: 0.05 mm at the scale of the drawing, in perspective in
+/// the plane of the target; no less than the grid's 1 µm, nor than 0.05 mm on an A0 sheet that
+/// holds the whole view. Where the scale is yet to be chosen, it is estimated from the corners of
+/// the objects: exactly, or nearly where limits or sections cut them. 0 for an empty view. Errors:
+/// cancelled.
 [[nodiscard]] Result<double> sag_for_paper(const model::Scene& scene,
                                            const std::vector<bool>& drawn, const hlr::View& view,
                                            const LayoutOptions& options,
                                            const parallel::Context& context);
 
-/// Puts a finished hidden-line run on paper: axes from direction and up, the scale, the sheet.
-/// Objects whose visible lines all are duplicates become Fate::coincident.
-/// Deterministic: + - * / and sqrt only.
+/// Puts a finished hidden-line run on paper: chooses the axes from direction and up, the scale and
+/// the sheet. Objects whose visible lines are all duplicates become Fate::coincident. The result is
+/// deterministic: it uses + - * / and sqrt only.
 [[nodiscard]] Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
                                              const LayoutOptions& options,
                                              const parallel::Context& context);

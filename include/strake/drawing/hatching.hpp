@@ -9,15 +9,15 @@
 
 namespace strake::drawing {
 
-/// Rules of hatching, one after the other; the first that picks an object holds for it.
+/// Rules of hatching in order; the first rule that picks an object holds for it.
 class Hatching {
  public:
   explicit Hatching(std::size_t objects) : objects_(objects) {}
 
-  /// `picked` by object; empty: all.
+  /// Adds a rule. `picked` selects objects; empty: all.
   void add(const hlr::Hatch& hatch, const std::vector<bool>& picked);
 
-  /// For hlr::Options::hatches: empty where there are no rules.
+  /// Returns the value for hlr::Options::hatches: empty where there are no rules.
   [[nodiscard]] std::vector<hlr::Hatch> by_object() && { return std::move(hatches_); }
 
  private:

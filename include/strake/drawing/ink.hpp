@@ -19,26 +19,26 @@ struct Pens {
 
 struct InkOptions {
   bool hidden = false;  ///< draw hidden lines, dashed; otherwise leave them out
-  /// Leave out what of a hidden line runs along a visible line, or along a hidden one of the same
-  /// object, so close on paper that their ink touches: two dashed lines out of step look like a
-  /// third, solid one. Equal objects get equal ink, whatever other objects hide.
+  /// Leave out the parts of a hidden line that run along a visible line, or along a hidden one of
+  /// the same object, so close on paper that their ink touches: two dashed lines out of step look
+  /// like a third, solid one. Equal objects get equal ink, whatever other objects hide.
   bool clean_up = true;
-  std::optional<Pens> pens = std::nullopt;  ///< none: by how dense the drawing is
+  std::optional<Pens> pens = std::nullopt;  ///< none: chosen by the density of the drawing
 };
 
-/// What of a drawing gets ink on paper, and how wide.
+/// The lines of a drawing that get ink on paper, and the pens.
 struct Ink {
   Pens pens;
   std::vector<Line> lines;     ///< visible or hidden, in the order of the drawing
-  std::uint64_t left_out = 0;  ///< hidden lines of which some or all was left out
+  std::uint64_t left_out = 0;  ///< hidden lines that were left out in part or wholly
 };
 
-/// The pens for a drawing, by how dense it is where its lines are: a dense drawing in wide lines is
-/// a black patch.
+/// Returns the pens for a drawing, by its density where its lines are: a dense drawing in wide
+/// lines is a black patch.
 [[nodiscard]] Pens choose_pens(const NeutralDrawing& drawing);
 
-/// Chooses what is worth drawing, with the pens asked for or with those of choose_pens(). Visible
-/// lines are never left out.
+/// Chooses which lines are worth drawing, with the given pens or with those of choose_pens().
+/// Visible lines are never left out.
 [[nodiscard]] Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                                      const parallel::Context& context);
 

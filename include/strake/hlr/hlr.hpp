@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Hidden-line removal: what may be drawn of a scene in a view, and draw(), which finds the
+// visibility of each edge. docs/hlr.md defines the states.
 #pragma once
 
 #include <array>
@@ -19,85 +21,85 @@
 namespace strake::hlr {
 
 enum class Stage : std::uint8_t { none, local, global };
-/// How lines are hidden; the pieces are the same. `push` is the scheme of the source thesis, whose
-/// counters of work depend on the schedule.
+/// The algorithm that finds what is hidden; all give the same pieces. `push` is the scheme of the
+/// source thesis, whose counters of work depend on the schedule.
 enum class Solver : std::uint8_t { gather, brute_force, push };
 
-/// Whose skins' intersections are drawn.
+/// Which parts' intersections are drawn.
 enum class Intersections : std::uint8_t {
   off,
-  objects,     ///< of different objects
-  primitives,  ///< those, and of one object where a primitive passes through another part of it
-  parts,       ///< of all parts
+  objects,     ///< those of different objects
+  primitives,  ///< also those of one object, where a primitive passes through another part of it
+  parts,       ///< those of all parts
 };
 
-/// Which smooth edges are drawn, those where faces turn by no more than the sharp angle.
+/// Which smooth edges are drawn. An edge is smooth where its faces turn by no more than the sharp
+/// angle.
 enum class Smooth : std::uint8_t {
   off,
-  tangent,  ///< where a curved skin begins or ends
+  tangent,  ///< those where a curved skin begins or ends
   all,
 };
 
 enum class EdgeKind : std::uint8_t {
   sharp,
-  contour,
+  contour,  ///< computer graphics says silhouette: one face looks towards the viewer, one does not
   boundary,
   non_manifold,
   polyline,
   intersection,  ///< where the skins of two parts pass through each other
   section,       ///< where a section plane cuts a part
-  hatch,         ///< on the face of a cut through a solid
+  hatch,         ///< a hatch line on the face of a cut through a solid
   smooth,        ///< where two faces turn by no more than the sharp angle, if asked for
 };
 enum class State : std::uint8_t {
   visible,
   hidden_by_self,
   hidden_by_other,
-  projecting,  ///< parallel to the view direction, or towards the eye, or a speck: a point on paper
-  clipped,     ///< outside the limits or the window, or cut away by a section
+  projecting,  ///< a point on paper: parallel to the view, in line with the eye, or a speck
+  clipped,     ///< outside the limits or the frustum, or cut away by a section
 };
 
-/// A plane through a grid point that cuts away what lies on it and on the side that `normal` points
-/// to, by the rule of geometry::CutPlane: that is neither drawn nor hides, and solids are closed
-/// where they are cut.
+/// A plane through a grid point. What lies on it and on the side that `normal` points to is cut
+/// away, by the rule of geometry::CutPlane: it is neither drawn nor hides. Solids are closed where
+/// they are cut.
 struct Section {
   geometry::Vec3l normal{0, 0, 1};  ///< |component| <= 2^20, not zero
   geometry::Vec3l point;            ///< grid units
 };
 
-/// Seen from a point. The paper is square to View::direction; lengths on it are true in the plane
-/// through the target.
+/// A central projection from a point. The paper is square to View::direction; lengths on it are
+/// true in the plane through the target.
 struct Perspective {
   geometry::Vec3l eye;     ///< grid units
   geometry::Vec3l target;  ///< grid units; lies before the eye
-  /// What is nearer to the eye than this, measured along the view, is not drawn (but hides).
+  /// The near plane: what is nearer to the eye, measured along the view, is not drawn (but hides).
   double near_mm = 100;
   double field_of_view_deg = 90;  ///< from side to side of the square that is drawn; 1 to 160
 };
 
-/// An orthographic view, or one in perspective. Directions are integers so that every decision is
-/// exact.
+/// An orthographic or perspective view. Directions are integers so that every decision is exact.
 struct View {
   geometry::Vec3l direction{1, -1, 1};  ///< points to the viewer; |component| <= 2^20
   geometry::Vec3l up{0, 0, 1};
   std::optional<geometry::Box3l> limits =
-      std::nullopt;  ///< grid units: lines outside are clipped, points outside do not hide
+      std::nullopt;  ///< grid units; lines outside are clipped, points outside do not hide
   std::vector<Section> sections = {};  ///< in any order, 16 at most
   std::optional<Perspective> perspective = std::nullopt;
 };
 
-/// Where normal · p >= least, p relative to the eye in grid units.
+/// The half-space normal · p >= least, with p relative to the eye in grid units.
 struct HalfSpace {
   geometry::Vec3l normal;
   std::int64_t least = 0;
 };
 
-/// What is drawn in perspective lies in all of these, exactly: before the near plane and within
-/// the four sides of the field of view, whose normals are rounded to 20 bits. None otherwise.
-/// For a view that draw() takes.
+/// Returns the view frustum: what is drawn in perspective lies in all of these half-spaces,
+/// exactly. They are the near plane and the four sides of the field of view, whose normals are
+/// rounded to 20 bits. Orthographic views have none. The view must be one that draw() takes.
 [[nodiscard]] std::vector<HalfSpace> window(const View& view);
 
-/// How the sections of an object are hatched; what is negative is chosen.
+/// How the sections of an object are hatched; negative values are chosen automatically.
 struct Hatch {
   double angle_deg = -1;   ///< from the horizontal of the paper, seen square; at most 180
   double spacing_mm = -1;  ///< in the model; 0: none
@@ -108,130 +110,134 @@ struct Options {
   Solver solver = Solver::gather;
   double sharp_angle_deg = 20;
   Smooth smooth = Smooth::off;
-  /// Contact distance δ, mm; negative: derived from the sources' precision.
+  /// The contact distance δ, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
   Intersections intersections = Intersections::primitives;
-  /// Curved primitives are tessellated at most this far from their true surfaces, as far as the
-  /// most segments of each kind allow, where the scene's are farther and the view may show them; 0:
-  /// as in the scene. See drawing::sag_for_paper.
+  /// The largest distance of tessellated curved primitives from their true surfaces, as far as the
+  /// most segments of each kind allow. Meshes of the scene that are coarser are made anew where the
+  /// view may show them; 0: as in the scene. See drawing::sag_for_paper.
   double sag_mm = 0;
   bool culling = true;  ///< changes the work, never the answer
   static constexpr std::int32_t kNoBuckets = 0, kBucketsByData = -1;
   static constexpr std::int32_t kMostBuckets = 4096;
-  /// How the faces of a part are found: by so many buckets (1 to kMostBuckets) along the longer
-  /// side of the part on paper, fewer where they would list its faces over and over; by as many as
-  /// suit its faces and edges, or a tree; or each face is asked. Changes the work, never the
-  /// answer.
+  /// How the faces of a part are found. A number from 1 to kMostBuckets: by so many buckets along
+  /// the longer side of the part on paper, fewer where they would list its faces over and over.
+  /// kBucketsByData: by as many as suit its faces and edges, or a tree. kNoBuckets: each face is
+  /// tested. Changes the work, never the answer.
   std::int32_t bucketing = kBucketsByData;
-  /// Keep hidden pieces. Without them a drawing is found in less time and memory; its other pieces
-  /// and the fates of its objects are the same.
+  /// Keep hidden pieces. Without them a drawing takes less time and memory; its other pieces and
+  /// the fates of its objects are the same.
   bool hidden = true;
-  /// Keep pieces that are shorter than the precision of the sources can tell, each in its exact
-  /// state. Otherwise their neighbours take them over, and what joins nothing becomes a point.
+  /// Keep specks, pieces shorter than the precision of the sources can tell, each in its exact
+  /// state. Otherwise their neighbours absorb them, and specks that join nothing become points.
   bool keep_specks = false;
-  /// The usual distance of hatch lines in the model, mm; 0: no hatch; negative: from the size of
-  /// what is drawn.
+  /// The usual distance of hatch lines in the model, mm; 0: no hatch; negative: derived from the
+  /// size of what is drawn.
   double hatch_spacing_mm = -1;
-  /// By object; empty: chosen, so that neighbours differ in angle and colours in spacing.
+  /// The hatch of each object; empty: chosen so that neighbours differ in angle and colours in
+  /// spacing.
   std::vector<Hatch> hatches = {};
 };
 
-/// A piece of an edge in one state. Coordinates are grid units, rounded once from exact values.
+/// A piece of an edge in one state: a visible or hidden segment. Coordinates are grid units,
+/// rounded once from exact values.
 struct EdgePiece {
   model::ObjectId object{};
   std::uint32_t edge = 0;  ///< number of the feature edge among those of its object
   EdgeKind kind = EdgeKind::sharp;
   State state = State::visible;
-  model::ObjectId other{};  ///< of an intersection the second object; otherwise the same again
+  model::ObjectId other{};  ///< the second object of an intersection; otherwise equal to `object`
   geometry::Vec3l a, b;
 };
 
 struct Counters {
   std::uint64_t feature_edges = 0;
-  std::uint64_t covered_edges = 0;  ///< the rest of which whole tiles of paper hide
-  std::uint64_t face_tests = 0;     ///< edge against face
+  std::uint64_t covered_edges = 0;  ///< edges whose rest the occlusion buffer hides
+  std::uint64_t face_tests = 0;     ///< tests of an edge against a face
   std::uint64_t exact_fallbacks = 0;
-  std::uint64_t crossing_pairs = 0;  ///< of parts, searched for intersections; equal ones once
-  std::uint64_t crossing_tests = 0;  ///< triangle against triangle, for those
-  std::uint64_t specks = 0;          ///< pieces that were taken over, or made points: see Options
-  std::uint64_t left_out = 0;  ///< edges with hidden pieces that Options::hidden did not ask for
+  std::uint64_t crossing_pairs = 0;  ///< pairs of parts searched for intersections, equal ones once
+  std::uint64_t crossing_tests = 0;  ///< tests of two triangles, for those pairs
+  std::uint64_t specks = 0;  ///< pieces that were absorbed or made points: see Options::keep_specks
+  std::uint64_t left_out = 0;  ///< edges with hidden pieces that were dropped, see Options::hidden
 };
 
-/// What became of an object. Each that was selected has one fate other than `unselected`: none
+/// What became of an object. Each selected object has one fate other than `unselected`: none
 /// vanishes silently.
 enum class Fate : std::uint8_t {
   unselected,
-  drawn,       ///< a line of it is visible
-  coincident,  ///< visible, but all that is lies on lines of others, which are drawn: see lay_out()
-  hidden,      ///< no line of it is visible, some are hidden
-  clipped,     ///< its lines are all outside the limits, or cut away
+  drawn,       ///< at least one of its lines is visible
+  coincident,  ///< all that is visible of it lies on lines of others, which are drawn: see
+               ///< lay_out()
+  hidden,      ///< none of its lines is visible, some are hidden
+  clipped,     ///< all of its lines are outside the limits, or cut away
   degenerate,  ///< it makes no line in this view: nothing but points, or too small for the grid
   failed,      ///< none of its geometry could be read or placed
-  left_out,    ///< all of its bodies are of categories that the scene was not asked for
+  left_out,    ///< all of its bodies are of categories that the scene was made without
 };
 inline constexpr std::size_t kFates = 8;
 
 /// Why an object is degenerate or failed, or drawn without some of its geometry.
 struct Defect {
   model::ObjectId object{};
-  /// "only-points", "no-lines", or that of model::Lacking; a literal.
+  /// "only-points", "no-lines", or the code of a model::Lacking; a literal.
   std::string_view code;
   friend bool operator==(const Defect&, const Defect&) = default;
 };
 
 struct Account {
-  std::vector<Fate> fates;  ///< by object of the model
+  std::vector<Fate> fates;  ///< the fate of each object of the model
   std::array<std::uint64_t, kFates> count{};
   std::uint64_t in_part = 0;    ///< objects that lack some of their geometry, but not all
-  std::vector<Defect> defects;  ///< by object: of degenerate, failed and partial ones
+  std::vector<Defect> defects;  ///< those of degenerate, failed and partial objects, by object
 
   [[nodiscard]] std::uint64_t of(Fate fate) const { return count[static_cast<std::size_t>(fate)]; }
-  /// Those that were asked for.
+  /// Returns the number of selected objects.
   [[nodiscard]] std::uint64_t objects() const {
     return std::accumulate(count.begin() + 1, count.end(), std::uint64_t{0});
   }
 };
 
-/// A circle of a round primitive, or what its placement makes of it: millimetres from `origin`,
-/// which is in grid units.
+/// A circle of a round primitive, or the ellipse that its placement makes of it: millimetres from
+/// `origin`, which is in grid units.
 struct Curve {
   geometry::Vec3l origin;
   geometry::Ellipse at;
 };
 
-/// An edge that is a chord of a curve: its ends lie on it but for the snap.
+/// An edge that is a chord of a curve: its ends lie on the curve but for the snap.
 struct CurvedEdge {
   model::ObjectId object{};
-  std::uint32_t edge = 0;   ///< as Piece::edge
+  std::uint32_t edge = 0;   ///< as EdgePiece::edge
   std::uint32_t curve = 0;  ///< index into Curves::all
 };
 
-/// Which of the straight edges of a drawing stand for curves.
+/// The straight edges of a drawing that stand for curves.
 struct Curves {
   std::vector<Curve> all;
-  std::vector<CurvedEdge> edges;  ///< by (object, edge)
+  std::vector<CurvedEdge> edges;  ///< sorted by (object, edge)
 };
 
 struct Drawing {
   View view;
   Options options;
   double contact_distance_mm = 0;  ///< the largest that was applied
-  double weld_mm = -1;             ///< of the scene: model::SceneOptions::weld_mm
-  double sag_mm = 0;               ///< asked for, of curved primitives; 0: unknown
-  std::vector<EdgePiece> pieces;   ///< by (object, edge, parameter)
+  double weld_mm = -1;             ///< the scene's model::SceneOptions::weld_mm
+  double sag_mm = 0;               ///< the sag asked for of curved primitives; 0: unknown
+  std::vector<EdgePiece> pieces;   ///< sorted by (object, edge, parameter)
   Curves curves;
-  /// By object: edges of which hidden pieces were left out, see Options::hidden. Empty: none were.
+  /// By object, how many edges had hidden pieces left out, see Options::hidden. Empty: none had.
   std::vector<std::uint32_t> left_out;
-  /// To reckon from, grid units: the middle of all that is drawn; in perspective the target.
+  /// A reference point, grid units: the middle of all that is drawn; in perspective the target.
   geometry::Vec3l origin;
   Counters counters;
   Account account;
-  /// Of sections: planes that miss, what is cut but not hatched. Of objects: defects.
+  /// Reports on sections (planes that miss, solids that are cut but not closed) and on defective
+  /// objects.
   Diagnostics diagnostics;
 };
 
-/// The lines of the scene in one view, each piece with its state. `drawn` selects the objects
-/// (empty: all); bodies whose colour is transparent are hidden but hide nothing.
+/// Returns the lines of the scene in one view, each piece with its state. `drawn` selects the
+/// objects (empty: all); bodies whose colour is transparent are hidden but hide nothing.
 [[nodiscard]] Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn,
                                    const View& view, const Options& options,
                                    const parallel::Context& context);

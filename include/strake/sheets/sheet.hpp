@@ -17,7 +17,7 @@
 /// Sheets: several views of a model on one piece of paper, with frame, title block, tags and grid
 /// lines. docs/sheets.md defines the files that describe them.
 ///
-/// A Sheet is neutral: what SVG is written from, and any other format can be. Coordinates are
+/// A Sheet is neutral: SVG is written from it, and any other format can be. Coordinates are
 /// millimetres of paper, x to the right, y down, from the upper left corner.
 namespace strake::sheets {
 
@@ -43,14 +43,14 @@ enum class LineClass : std::uint8_t {
 };
 inline constexpr std::size_t kLineClasses = 15;
 
-/// As files spell it: "frame_thin".
+/// Returns the name of a class as files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);
-/// The class of a line of a view.
+/// Returns the class of a line of a view.
 [[nodiscard]] LineClass class_of(hlr::EdgeKind kind, bool hidden);
 
 struct LineStyle {
   double width_mm = 0.25;
-  std::vector<double> dash_mm;  ///< ink and gap by turns; empty: continuous
+  std::vector<double> dash_mm;  ///< lengths of ink and gap by turns; empty: continuous
   model::Color color{0, 0, 0, 255};
 };
 using LineStyles = std::array<LineStyle, kLineClasses>;
@@ -59,7 +59,7 @@ struct PaperBox {
   double left = 0, top = 0, right = 0, bottom = 0;
   [[nodiscard]] double width() const { return right - left; }
   [[nodiscard]] double height() const { return bottom - top; }
-  /// Whether they have more than a rim in common.
+  /// Returns whether the two boxes have more than a rim in common.
   [[nodiscard]] bool overlaps(const PaperBox& other) const {
     return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
   }
@@ -76,7 +76,7 @@ struct PaperBox {
 struct Path {
   LineClass line = LineClass::frame;
   std::vector<PaperPoint> points;
-  bool filled = false;  ///< with the colour of its class
+  bool filled = false;  ///< filled with the colour of its class
 };
 
 struct Circle {
@@ -88,38 +88,38 @@ struct Circle {
 enum class Align : std::uint8_t { start, middle, end };
 
 struct Text {
-  LineClass line = LineClass::title;  ///< whose colour it has
-  PaperPoint at;                      ///< on the base line
+  LineClass line = LineClass::title;  ///< the class whose colour it has
+  PaperPoint at;                      ///< a point on the base line
   double height_mm = 3.5;             ///< of a capital letter
   Align align = Align::start;
   std::string text;
-  bool clears = false;  ///< the paper behind it: lines end there
+  bool clears = false;  ///< clears the paper behind it: lines end there
 };
 
-/// What is drawn beside the lines of the model.
+/// Lines and texts that are drawn beside the lines of the model.
 struct Marks {
   std::vector<Path> paths;
   std::vector<Circle> circles;
   std::vector<Text> texts;
 };
 
-/// A view on its place.
+/// A view in its place on the sheet.
 struct PlacedView {
   std::string name, title;
-  drawing::NeutralDrawing drawing;  ///< what is known of it; its lines are in `ink`
+  drawing::NeutralDrawing drawing;  ///< its data without its lines, which are in `ink`
   drawing::Ink ink;
-  PaperBox box;  ///< of what was drawn in the model's plane, hidden lines included
+  PaperBox box;  ///< box of all lines of the view, hidden ones included
   Marks caption, grid, tags;
 };
 
 struct Sheet {
-  std::string title;  ///< of the file that is written
+  std::string title;  ///< title of the file that is written
   double width_mm = 420, height_mm = 297;
   LineStyles styles;
   std::vector<PlacedView> views;
-  Marks frame;  ///< border and title block, where they are the built-in ones
-  /// Otherwise the template with its fields filled in: elements of SVG and a viewBox of the size of
-  /// the sheet, or what a nested `<svg>` with that viewBox shows.
+  Marks frame;  ///< the built-in border and title block; empty with a template
+  /// A template with its fields filled in, in the place of `frame`: elements of SVG and a viewBox
+  /// of the size of the sheet, or what a nested `<svg>` with that viewBox shows.
   struct Template {
     std::string view_box, elements;
   };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Files that describe a sheet: reading one, and composing the sheet of a model.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +18,7 @@ namespace strake::sheets {
 
 struct SheetSpec;
 
-/// The text of the template of that name.
+/// Returns the text of the template of that name.
 using ReadTemplate = parallel::FunctionRef<Result<std::string>(std::string_view name)>;
 
 struct ComposeOptions {
@@ -27,27 +28,27 @@ struct ComposeOptions {
   bool sag_for_paper = true;
 };
 
-/// A file that describes a sheet, understood but not yet held against a model. Immutable; cheap to
-/// copy.
+/// A file that describes a sheet, parsed but not yet applied to a model. Immutable; cheap to copy.
 ///
 ///     const auto file = sheets::SheetFile::read("deck.toml");
 ///     const auto sheet = file->compose(*scene, {}, context);
 ///     sheets::write_svg(*sheet, model, sink);
 class SheetFile {
  public:
-  /// `file` is what errors and diagnostics call it.
+  /// Parses a description. `file` is its name in errors and diagnostics.
   ///
   /// Errors: input, with line and column, what is wrong there and how to mend it: keys that are not
   /// known, wrong types, names given twice, templates that are no SVG or hold more than drawing.
   [[nodiscard]] static Result<SheetFile> parse(std::string_view text, std::string_view file,
                                                ReadTemplate read_template);
-  /// Templates are looked for beside the file.
+  /// Reads and parses a file. Templates are looked for beside it.
   [[nodiscard]] static Result<SheetFile> read(const std::filesystem::path& file);
 
-  /// As the file names it, beside itself; empty where it has none.
+  /// Returns the template's name as the file has it, relative to itself; empty where there is none.
   [[nodiscard]] const std::string& template_name() const;
 
-  /// Draws the views one after another and puts them on paper. The same for any team.
+  /// Draws the views one after another and puts them on paper. The result does not depend on the
+  /// team.
   ///
   /// Errors: cancelled, memory; input where the views have no room on the sheet at any scale.
   [[nodiscard]] Result<Sheet> compose(const model::Scene& scene, const ComposeOptions& options,

@@ -7,8 +7,9 @@
 
 namespace strake::sheets {
 
-/// A sheet as SVG in millimetres of paper: a group per view with the layers of drawing::write_svg,
-/// its caption, grid lines and tags, and the frame. Styles once; neither time nor path of this run.
+/// Writes a sheet as SVG in millimetres of paper: a group per view with the layers of
+/// drawing::write_svg, its caption, grid lines and tags, and the frame. Styles are written once;
+/// neither time nor path of this run is.
 void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink);
 
 }  // namespace strake::sheets

@@ -8,11 +8,11 @@
 
 namespace strake::drawing {
 
-/// A box of a plane, about whatever axes.
+/// A box of a plane, in any axes.
 struct Box2 {
   float u0, u1, v0, v1;
 
-  /// What every other box widens.
+  /// Returns the empty box, which any other box widens.
   [[nodiscard]] static Box2 nothing() {
     constexpr float kBig = 1e30F;  // half of it from its negative is no infinity
     return {kBig, -kBig, kBig, -kBig};
@@ -26,12 +26,12 @@ struct Box2 {
 /// A box about axes that are turned by an angle, with its cosine and sine.
 struct TurnedBox2 {
   float cosine, sine;
-  float u, v, hu, hv;  ///< middle and half size in its own axes
+  float u, v, hu, hv;  ///< centre and half sizes in its own axes
 };
 
-/// Eight boxes side by side, empty ones where there are fewer, tested four at a time: vectors of
-/// GCC and Clang, which both spell out in whatever the processor has. A loop over floats is left
-/// one by one by GCC.
+/// Eight boxes in SIMD lanes, padded with empty ones, tested four at a time: vector extensions of
+/// GCC and Clang, which both compile to whatever the processor has. GCC does not vectorise a loop
+/// over floats.
 class BoxLanes {
  public:
   static constexpr std::size_t kCount = 8;
@@ -51,7 +51,7 @@ class BoxLanes {
     return box;
   }
 
-  /// The bits of those that have a point in common with a box.
+  /// Returns the bits of the boxes that have a point in common with a box.
   [[nodiscard]] unsigned meeting(const Box2& box) const {
     Ints found{};
     for (std::size_t h = 0; h < 2; ++h)
@@ -59,7 +59,7 @@ class BoxLanes {
                bits(h);
     return any(found);
   }
-  /// The bits of those that the axes of a turned box do not tell apart from it.
+  /// Returns the bits of the boxes that the axes of a turned box do not separate from it.
   [[nodiscard]] unsigned meeting(const TurnedBox2& box) const {
     const float c = box.cosine, s = box.sine;
     const float ac = c < 0 ? -c : c, as = s < 0 ? -s : s;

@@ -16,13 +16,13 @@ namespace strake::drawing {
 
 namespace {
 
-/// A stretch that was found to be covered; each line has as many as there are lines on it.
+/// A covered interval of a line; each line has one for every line on it.
 struct Cover {
   std::uint32_t line = 0;
   ParamInterval interval{};
 };
 
-/// Makes one of intervals that have a point in common.
+/// Unites intervals that have a point in common.
 void unite(std::vector<ParamInterval>& intervals) {
   std::sort(intervals.begin(), intervals.end(), [](const ParamInterval& a, const ParamInterval& b) {
     return std::tie(a.from, a.to) < std::tie(b.from, b.to);
@@ -36,18 +36,18 @@ void unite(std::vector<ParamInterval>& intervals) {
   intervals.resize(kept);
 }
 
-/// Finds what is covered, leaf by leaf of the index.
+/// Finds the covered intervals, leaf by leaf of the index.
 ///
-/// The lines of a leaf look for what covers them among lines of their own class of lengths and of
-/// lower ones; what they cover in turn is found on the same way in lower ones, so that a short line
-/// need not look for long ones, which are everywhere.
+/// For the lines of a leaf, covering lines are sought in their own class of lengths and in lower
+/// ones; lines of lower classes that they cover are found on the same pass, so that a short line
+/// need not search for long ones, which are everywhere.
 class Finder {
  public:
-  /// `wholly`, by line: marks what one other covers as a whole.
+  /// `wholly`, by line: marks the lines that one other covers as a whole.
   Finder(const OverlapRule& rule, const LineIndex& index, parallel::Marks& wholly)
       : rule_(rule), index_(index), wholly_(wholly) {}
 
-  /// Of lines that are covered in part.
+  /// Returns the covered intervals of lines that are covered in part.
   [[nodiscard]] Result<std::vector<Cover>> run(const parallel::Context& context) {
     return parallel::collect_with<Cover>(
         context, {.name = "overlapping lines", .n = index_.leaves(), .grain = 64},
@@ -58,18 +58,18 @@ class Finder {
   }
 
  private:
-  /// What covers each line of a leaf.
+  /// The covers of one line of a leaf.
   struct List {
     std::uint32_t position = 0;
     bool can_be_covered = false;
     std::vector<ParamInterval> covers;
-    std::size_t many = 0;  ///< so many are worth being made fewer
+    std::size_t many = 0;  ///< the number from which on uniting them pays
   };
   using Lists = std::array<List, LineIndex::kFan>;
   static constexpr std::size_t kMany = 64;
 
-  /// Nothing else matters for lines that one other covers. Who sees it when changes the work, not
-  /// the result.
+  /// Whether one other line covers a line as a whole: then nothing else matters. When a worker sees
+  /// the mark changes the work, not the result.
   [[nodiscard]] bool is_wholly(std::uint32_t position) {
     return wholly_.is_set(index_.line(position));
   }
@@ -148,7 +148,7 @@ class Finder {
   parallel::Marks& wholly_;
 };
 
-/// Covers by line, as keys with their numbers.
+/// Returns the covers by line, as keys with their numbers.
 Result<std::vector<KeyedItem>> by_line(std::span<const Cover> covers,
                                        const parallel::Context& context) {
   std::vector<KeyedItem> keys(covers.size());
@@ -180,7 +180,7 @@ std::optional<ParamInterval> covered(const PlaneSegment& line, const PlaneSegmen
   }
   const double from = std::max(0.0, s0), to = std::min(length, s1);
   if (to - from <= rule.least) return std::nullopt;
-  // The other line's distance at both ends of the common stretch.
+  // The other line's distance at both ends of the common interval.
   const double slope = (d1 - d0) / (s1 - s0);
   if (std::fabs(d0 + slope * (from - s0)) > distance ||
       std::fabs(d0 + slope * (to - s0)) > distance)

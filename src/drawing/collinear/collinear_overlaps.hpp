@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Overlaps of lines in a plane: which lines, or intervals of them, lie on others that stay.
 #pragma once
 
 #include <array>
@@ -14,17 +15,17 @@
 
 namespace strake::drawing {
 
-/// Which of two lines stays where they lie on each other: the lower rank, then the nearer.
-enum class Rank : std::uint8_t { visible, hidden, none };  ///< none: covers nothing, is not covered
+/// The rank of a line: of two that lie on each other the one of lower rank stays, then the nearer.
+enum class Rank : std::uint8_t { visible, hidden, none };  ///< none: neither covers nor is covered
 
-/// Both ends of a line, the same whichever way it runs.
+/// Both ends of a line, equal for both ways of running.
 using SegmentEnds = std::array<double, 4>;
 
-/// A line in a plane, in whatever unit the caller measures.
+/// A line segment in a plane, in the caller's unit.
 struct PlaneSegment {
   double ax = 0, ay = 0, bx = 0, by = 0;
   double depth = 0;  ///< larger is nearer to the viewer
-  double reach = 0;  ///< two lines lie on each other up to the sum of their reaches
+  double reach = 0;  ///< two lines coincide within the sum of their reaches
   Rank rank = Rank::none;
 
   [[nodiscard]] double length() const {
@@ -38,71 +39,72 @@ struct PlaneSegment {
 };
 
 struct OverlapRule {
-  /// Common stretches no longer than this are not looked at.
+  /// Common intervals no longer than this are ignored.
   double least = 0;
-  /// Of the angle between two lines that lie on each other; no more in any case than twice their
-  /// distance over the shorter one's length, within which a line that lies on another as a whole
-  /// always is.
+  /// The largest sine of the angle between two coincident lines. In any case it is at most twice
+  /// their distance over the shorter one's length, which holds for any line that lies on another as
+  /// a whole.
   double greatest_sine = 1;
   bool covers_visible = true;
-  bool hidden_covers = true;  ///< otherwise visible lines alone cover others
-  /// Stretches of a cut line that are no longer than this, nor than what is covered beside them,
+  bool hidden_covers = true;  ///< otherwise only visible lines cover others
+  /// Intervals of a cut line that are no longer than this, nor than what is covered beside them,
   /// count as covered.
   double shortest = 0;
 };
 
-/// Part of a line, as parameters 0 at a to 1 at b, that lies on nothing or on what stays.
+/// An interval of a line, with parameters from 0 at a to 1 at b: free, or covered by a line that
+/// stays.
 struct LineInterval {
   std::uint32_t line = 0;
   bool covered = false;
   double from = 0, to = 1;
 };
 
-/// By line, then from a to b, without a gap.
+/// Intervals by line, then from a to b, without a gap.
 using LineIntervals = std::vector<LineInterval>;
 
-/// What of lines lies on others.
+/// The lines, and intervals of lines, that lie on others.
 struct LineOverlaps {
-  parallel::Marks wholly;   ///< by line: all of it lies on one other
-  LineIntervals stretches;  ///< of other lines that lie on some
+  parallel::Marks wholly;   ///< by line: one other line covers all of it
+  LineIntervals stretches;  ///< intervals of the other lines that are covered in part
 };
 
-/// Cuts lines where they lie on lines that stay: of two, the one of lower rank, then the nearer,
-/// then the first.
+/// Cuts lines where they lie on lines that stay: of two coincident lines the one of lower rank
+/// stays, then the nearer, then the first.
 ///
-/// Cost: lines with the same ends are one. A line is compared with those of its direction in its
-/// place (LineIndex), longer and shorter ones. 32 bytes a line while all are sorted, then 16, and
-/// 84 for each that has no twin, and 24 for each stretch that is covered in part. The same for any
-/// team.
+/// Cost: coincident lines with the same ends count as one. A line is compared with longer and
+/// shorter lines of its direction in its place (LineIndex). Memory is 32 bytes a line during the
+/// sort, then 16, and 84 for each line without a coincident one, and 24 for each interval that is
+/// covered in part. The result does not depend on the team.
 [[nodiscard]] Result<LineOverlaps> cut_overlaps(std::span<const PlaneSegment> lines,
                                                 const OverlapRule& rule,
                                                 const parallel::Context& context);
 
-/// Parameters of a line.
+/// An interval of parameters on a line.
 struct ParamInterval {
   double from, to;
 };
 
-/// The definition, line by line: the stretch of `line` that `other` lies on, when the two coincide
-/// there. All of it where they have the same ends, whatever rounding would make of that.
+/// The definition for one pair: returns the interval of `line` on which `other` coincides with it.
+/// It is all of `line` where they have the same ends, whatever rounding would make of that.
 [[nodiscard]] std::optional<ParamInterval> covered(const PlaneSegment& line,
                                                    const PlaneSegment& other,
                                                    const OverlapRule& rule);
 
-/// Whether line i stays where both i and j are: a total order.
+/// Returns whether line i stays where i and j coincide: a total order.
 [[nodiscard]] bool has_precedence(std::span<const PlaneSegment> lines, std::uint32_t i,
                                   std::uint32_t j);
 
 [[nodiscard]] bool has_precedence(const PlaneSegment& a, std::uint32_t i, const PlaneSegment& b,
                                   std::uint32_t j);
 
-/// Whether a line may be covered at all.
+/// Returns whether a line may be covered at all.
 [[nodiscard]] bool can_be_covered(const PlaneSegment& line, const OverlapRule& rule);
 
-/// Whether it may cover others.
+/// Returns whether a line may cover others.
 [[nodiscard]] bool can_cover(const PlaneSegment& line, const OverlapRule& rule);
 
-/// Appends a line cut at the intervals that are covered, in any order.
+/// Appends a line cut at its covered intervals, which come in any order.
 void append_intervals(LineIntervals& out, std::uint32_t line, std::span<ParamInterval> covers,
                       double shortest);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The removal of coincident lines with equal ends, and building and querying the index.
 #include "drawing/collinear/line_index.hpp"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ struct TwinKey {
   [[nodiscard]] auto twins() const { return std::tie(ends, reach); }
 };
 
-/// Of lines with one key.
+/// Removes coincident lines from a run with one key.
 void take_out(std::vector<TwinKey>& run, std::span<const PlaneSegment> lines,
               const OverlapRule& rule, parallel::Marks& gone) {
   std::sort(run.begin(), run.end(), [&](const TwinKey& a, const TwinKey& b) {
@@ -70,11 +71,11 @@ Status remove_coincident(std::vector<KeyedItem>& keys, std::span<const PlaneSegm
 
 namespace {
 
-/// The shortest lines of a class, in distances; into how many sectors a half turn is cut; and how
-/// many bits of a key the distance across has before that along.
+/// A class of lengths: its shortest lines, in distances; the number of sectors of a half turn; and
+/// how many more bits of a key the distance across has than that along.
 ///
 /// A sector is about four times as wide as the angle within which lines of the class can lie on
-/// each other: mostly one is asked, or two.
+/// each other: mostly one or two are queried.
 struct LengthClass {
   double shortest;
   std::uint32_t sectors, first;
@@ -87,8 +88,8 @@ constexpr double kSmallSine = 0.125;  ///< half a sector of the lowest class tha
 constexpr unsigned kPlaceBits = 52;
 constexpr std::size_t kGrain = 8192;
 
-/// The direction of a line, whichever way it runs, as a number from 0 to below 2 that grows with
-/// the angle, no faster than the angle in radians does.
+/// Returns the direction of a line, whichever way it runs, as a number from 0 to below 2 that grows
+/// with the angle, no faster than the angle in radians does.
 double slant(double x, double y) {
   if (y < 0 || (y == 0 && x < 0)) {
     x = -x;
@@ -102,7 +103,7 @@ std::uint32_t sector_at(double slant, const LengthClass& c) {
   return c.first + std::min(c.sectors - 1, static_cast<std::uint32_t>(slant * c.sectors / 2));
 }
 
-/// The lower 32 bits with a zero before each.
+/// Returns the lower 32 bits with a zero before each.
 std::uint64_t spread(std::uint64_t bits) {
   bits &= 0xffffffffU;
   bits = (bits | bits << 16U) & 0x0000ffff0000ffffU;
@@ -137,7 +138,8 @@ struct Extent {
 };
 
 bool takes_part(const PlaneSegment& line, double least) {
-  // A rounding below: what is just as long as the least is judged where lines are compared.
+  // A rounding below the least length: lines of just that length are decided where lines are
+  // compared.
   constexpr double kBelow = 1 - 1e-9;
   const double length = line.length();
   return line.rank != Rank::none && length > 0 && length > least * kBelow;
@@ -184,13 +186,13 @@ Status LineIndex::measure(std::span<const PlaneSegment> lines, double least,
   y_ = extent->low + height / 2;
   radius_ = std::sqrt(width * width + height * height) / 2 * (1 + 1e-6);
   reach_ = 2 * extent->reach;
-  // Half a step of what a float tells apart, twice, and that of doubles far from the origin.
+  // Twice half a unit in the last place of a float, and that of doubles far from the origin.
   pad_ = std::ldexp(radius_, -23) + 1e-14 * (std::fabs(x_) + std::fabs(y_) + radius_);
   return {};
 }
 
-/// That of the longest line of each sector, of a sample: in a model of plates and bars most lines
-/// of a sector are exactly parallel, and along their own axes they are thin.
+/// Takes the axes of a sector from the longest line of a sample: in a model of plates and bars most
+/// lines of a sector are exactly parallel, and their boxes are thin along their own axes.
 void LineIndex::choose_frames(std::span<const PlaneSegment> lines, double least) {
   for (const LengthClass& c : kLengths)
     for (std::uint32_t k = 0; k < c.sectors; ++k) {
@@ -218,7 +220,7 @@ void LineIndex::choose_frames(std::span<const PlaneSegment> lines, double least)
 std::uint32_t LineIndex::sector_of(const PlaneSegment& line) const {
   const double length = line.length();
   unsigned c = kClasses - 1;
-  // Where no angle is large the shortest have sectors too, those of the class above.
+  // Where no angle is large the shortest lines have sectors, too: those of the class above.
   const unsigned lowest = greatest_sine_ <= 2 * kSmallSine ? 1 : 0;
   while (c > lowest && !(length >= kLengths[c].shortest * reach_)) --c;
   return kLengths[c].sectors == 1 ? kLengths[c].first : sector_at(slant(line), kLengths[c]);
@@ -355,7 +357,7 @@ LineIndex::Numbers LineIndex::sectors_near(const Target& target, unsigned length
     out.number[out.count++] = c.first;
     return out;
   }
-  // Of the angle's sine, with room for the angle and for rounding.
+  // The bound of the angle's sine, with a margin for the angle and for rounding.
   const double bound = 2 / c.shortest;
   const double window =
       1.05 * (greatest_sine_ <= 2 * kSmallSine && length_class == 1 ? greatest_sine_ : bound);
@@ -381,7 +383,8 @@ LineIndex::Query::Query(const LineIndex& index, const Target& target, std::uint3
     lines.set(i, box.widened(static_cast<float>(slack)));
   }
   all = lines.all();
-  // A pad is half a step of a float at the rim of the whole; no more than 16 such roundings follow.
+  // pad_ is half a unit in the last place of a float at the rim; no more than 16 such roundings
+  // follow.
   const auto room = static_cast<float>(slack + 16 * index.pad_);
   const Box2& box = target.box;
   own = {.cosine = static_cast<float>(sector->frame.along(from.frame.x, from.frame.y)),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The index that finds candidates for coincident lines, and the removal of lines with equal ends.
 #pragma once
 
 // Decision 0025 says why lines are sought by length, direction and place.
@@ -21,31 +22,33 @@
 
 namespace strake::drawing {
 
-/// Takes out of `keys`, in which twins (lines with the same ends and reach) have equal keys and
-/// stand together, each line that may go and has a twin that stays, and marks it in `gone`, by
-/// line.
+/// Removes from `keys` each line that can be covered and coincides with a line of the same ends and
+/// reach that stays, and marks it in `gone`, by line. Such lines have equal keys and stand
+/// together.
 ///
-/// Most lines of a plan go here: what stands on the deck has its edges exactly above each other.
+/// Most lines of a plan are removed here: what stands on the deck has its edges exactly above each
+/// other.
 [[nodiscard]] Status remove_coincident(std::vector<KeyedItem>& keys,
                                        std::span<const PlaneSegment> lines, const OverlapRule& rule,
                                        parallel::Marks& gone, const parallel::Context& context);
 
-/// Lines of a plane, sought by which may lie on each other.
+/// An index of lines in a plane that finds the pairs that may lie on each other.
 ///
-/// Two lines lie on each other only if the sine of their angle is within twice their distance over
-/// the shorter one's length. So lines are put into classes by their lengths, those of a class into
-/// sectors by their directions, the finer the longer they are, and those of a sector into a tree of
-/// boxes whose axes run along and across the lines: parallel lines beside each other do not meet.
+/// Two lines lie on each other only if the sine of their angle is at most twice their distance over
+/// the shorter one's length. So lines are divided into classes by length, those of a class into
+/// sectors by direction, the finer the longer they are, and those of a sector form a tree of boxes
+/// whose axes run along and across the lines, so that boxes of parallel lines beside each other do
+/// not meet.
 ///
-/// Leaves hold eight lines, nodes eight nodes, whose boxes are tested side by side. The order
-/// within a sector is that of a curve through the middles of the lines (Z-order, G. M. Morton
-/// 1966), the distance across weighed by how fine the sectors are.
+/// Leaves hold eight lines, nodes eight nodes, whose boxes are tested side by side. Lines of a
+/// sector are in Z-order (G. M. Morton 1966) of their middles, with the distance across weighted by
+/// how fine the sectors are.
 class LineIndex {
  public:
-  /// Lines of rank none, those no longer than the rule's least, and those that are `gone`, by line,
-  /// are left out, and so may be pairs at a greater angle. A line that a twin covers, one with the
-  /// same ends, is left out too and marked in `gone`: the twin covers whatever the line does. The
-  /// same for any team.
+  /// Builds the index. Lines of rank none, those no longer than the rule's least, and those marked
+  /// in `gone` are left out; pairs at a greater angle may be left out, too. A line that a
+  /// coincident one with the same ends covers is left out and marked in `gone`: that one covers
+  /// whatever the line does. The result does not depend on the team.
   [[nodiscard]] static Result<LineIndex> build(std::span<const PlaneSegment> lines,
                                                const OverlapRule& rule, parallel::Marks& gone,
                                                const parallel::Context& context);
@@ -53,7 +56,7 @@ class LineIndex {
   static constexpr std::size_t kFan = BoxLanes::kCount;
   static constexpr unsigned kClasses = 4;
 
-  /// A direction, with how to turn into its axes.
+  /// The axes of a sector: along a direction and across it.
   struct SectorAxes {
     double x = 1, y = 0;
     [[nodiscard]] double along(double px, double py) const { return px * x + py * y; }
@@ -61,8 +64,8 @@ class LineIndex {
   };
   struct Sector {
     unsigned length_class = 0;
-    std::uint32_t first = 0, last = 0;  ///< of its lines, as positions
-    std::size_t nodes = 0;              ///< its first node: the leaves, then what is above
+    std::uint32_t first = 0, last = 0;  ///< positions of its lines
+    std::size_t nodes = 0;              ///< its first node: leaves first, then upper levels
     std::size_t leaf = 0;               ///< number of its first leaf among all
     SectorAxes frame;
   };
@@ -75,15 +78,16 @@ class LineIndex {
   [[nodiscard]] std::size_t leaves() const { return leaves_; }
   [[nodiscard]] Leaf leaf(std::size_t number) const;
 
-  /// The line at a position: its number and a copy, beside those of its neighbours.
+  /// Return the number of the line at a position, and a copy of the line, stored beside its
+  /// neighbours.
   [[nodiscard]] std::uint32_t line(std::uint32_t position) const { return order_[position]; }
   [[nodiscard]] const PlaneSegment& flat(std::uint32_t position) const { return flats_[position]; }
   [[nodiscard]] std::size_t size() const { return order_.size(); }
   [[nodiscard]] const Sector& sector(std::uint32_t number) const { return sectors_[number]; }
 
-  /// Calls visit(line of the leaf, counted from its first; other position) for every pair that may
-  /// lie on each other, with the others of one class of lengths, the leaf's own or a lower one.
-  /// Where it returns false that line of the leaf is done with this class.
+  /// Calls visit(line of the leaf, counted from its first; position of the other line) for every
+  /// pair that may lie on each other. The other lines are of one class of lengths, the leaf's own
+  /// or a lower one. Where visit returns false that line of the leaf is done with this class.
   template <class Visit>
   void candidates(const Leaf& leaf, unsigned length_class, Visit&& visit) const {
     const Target target(*this, leaf);
@@ -100,14 +104,14 @@ class LineIndex {
   struct Target {
     Target(const LineIndex& index, const Leaf& leaf);
     Leaf leaf;
-    double from = 2, to = 0;  ///< of their directions, see slant()
-    Box2 box;                 ///< in their sector's axes
+    double from = 2, to = 0;  ///< range of their directions, see slant()
+    Box2 box;                 ///< box of the lines in their sector's axes
   };
-  /// The same in the axes of the sector that is asked.
+  /// The lines of a leaf in the axes of the queried sector.
   struct Query {
     Query(const LineIndex& index, const Target& target, std::uint32_t number);
-    /// The bits of those boxes of a node that no axis of the sector or of the leaf tells apart
-    /// from the box of all its lines.
+    /// Returns the bits of the boxes of a node that no axis of the sector or of the leaf separates
+    /// from the box of all lines of the leaf.
     [[nodiscard]] unsigned meeting(const BoxLanes& node) const {
       const unsigned found = node.meeting(all);
       return found != 0 && turned ? found & node.meeting(own) : found;
@@ -115,8 +119,8 @@ class LineIndex {
     const Sector* sector;
     BoxLanes lines;
     Box2 all;
-    bool turned;     ///< the leaf has other axes than the sector
-    TurnedBox2 own;  ///< the box of all in these
+    bool turned;     ///< the leaf's axes differ from the sector's
+    TurnedBox2 own;  ///< the box of all lines in the leaf's axes
   };
   /// Numbers of sectors, at most all.
   struct Numbers {
@@ -145,11 +149,11 @@ class LineIndex {
   template <class Visit>
   void descend(const Query& query, unsigned& open, Visit&& visit) const;
 
-  double reach_ = 0;      ///< up to which two lines lie on each other, at most
-  double x_ = 0, y_ = 0;  ///< middle of all
+  double reach_ = 0;      ///< the largest distance of two coincident lines
+  double x_ = 0, y_ = 0;  ///< centre of all lines
   double greatest_sine_ = 1;
-  double radius_ = 0;  ///< round it
-  double pad_ = 0;     ///< what rounding may take from a box, and the reach
+  double radius_ = 0;  ///< radius of a circle about the centre that holds all lines
+  double pad_ = 0;     ///< margin for rounding, and the reach
   std::vector<Sector> sectors_;
   std::vector<std::uint32_t> order_;
   std::vector<PlaneSegment> flats_;

@@ -23,14 +23,14 @@ using Counts = std::array<std::uint32_t, kDigits>;
 
 std::size_t digit(std::uint64_t key, unsigned shift) { return (key >> shift) & (kDigits - 1); }
 
-/// The items of one piece.
+/// Returns the items of one block.
 template <class T>
 std::span<T> piece_of(std::span<T> items, std::size_t number) {
   const std::size_t first = number * kPiece;
   return items.subspan(first, std::min(kPiece, items.size() - first));
 }
 
-/// One pass: `to` holds the items of `from` by one digit of their keys.
+/// One pass: distributes the items of `from` to `to` by one digit of their keys.
 Status deal(std::span<const KeyedItem> from, std::span<KeyedItem> to, unsigned shift,
             const parallel::Context& context) {
   const std::size_t pieces = (from.size() + kPiece - 1) / kPiece;

@@ -12,10 +12,10 @@ namespace strake::drawing {
 
 namespace {
 
-/// The square cells of a plane.
+/// A grid of square cells over a plane.
 class LineGrid {
  public:
-  /// Over all lines; a cell is no smaller than `least`.
+  /// Makes a grid over all lines; a cell is no smaller than `least`.
   LineGrid(std::span<const HiddenLine> lines, double least) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     double right = -kFar, top = -kFar;
@@ -36,11 +36,11 @@ class LineGrid {
 
   [[nodiscard]] std::size_t count() const { return columns_ * rows_; }
 
-  /// Calls visit(cell) for those that have a point within `reach` of a line, and may be for others
-  /// beside it.
+  /// Calls visit(cell) for the cells that have a point within `reach` of a line, and maybe for
+  /// others beside it.
   template <class Visit>
   void along(const PlaneSegment& line, double reach, Visit&& visit) const {
-    // Far more than rounding makes of a place.
+    // The margin is far more than rounding.
     const double room = reach + size_ * 1e-6;
     const bool turned = line.bx < line.ax;
     const double ax = turned ? line.bx : line.ax, ay = turned ? line.by : line.ay;
@@ -60,7 +60,7 @@ class LineGrid {
   [[nodiscard]] std::size_t cell(double from_edge, std::size_t n) const {
     return from_edge <= 0 ? 0 : std::min(static_cast<std::size_t>(from_edge / size_), n - 1);
   }
-  /// Of a line that runs to the right, at the nearest of its points.
+  /// Returns the height at x of a line that runs to the right, or at its nearest end.
   [[nodiscard]] static double height_at(double ax, double ay, double bx, double by, double x) {
     if (x <= ax) return ay;
     if (x >= bx) return by;
@@ -71,7 +71,7 @@ class LineGrid {
   std::size_t columns_ = 1, rows_ = 1;
 };
 
-/// Stretches that have ink, and where they lie.
+/// Intervals that have ink, found by place.
 class LaidLines {
  public:
   LaidLines(const LineGrid& cells, const OverlapRule& rule)
@@ -88,7 +88,7 @@ class LaidLines {
     reach_ = std::max(reach_, flat.reach);
   }
 
-  /// Appends what of a line runs along them. Each query has another number.
+  /// Appends the intervals of a line that run along inked ones. Each query has another number.
   void find(const HiddenLine& line, std::uint32_t query, std::vector<ParamInterval>& covers) {
     cells_.along(line.flat, line.flat.reach + reach_, [&](std::size_t cell) {
       for (std::uint32_t e = first_[cell]; e != kNone; e = entries_[e].next) {
@@ -111,7 +111,7 @@ class LaidLines {
   const OverlapRule& rule_;
   double reach_ = 0;
   std::vector<PlaneSegment> stretches_;
-  std::vector<std::uint32_t> asked_by_;  ///< the last query that met a stretch
+  std::vector<std::uint32_t> asked_by_;  ///< by entry: the last query that met it
   std::vector<std::uint32_t> first_;     ///< by cell: the last of its entries
   std::vector<LaidEntry> entries_;
 };
@@ -130,8 +130,8 @@ PlaneSegment part_of(const PlaneSegment& flat, double from, double to) {
   return part;
 }
 
-/// The stretches of a line that stay: crumbs of the many short lines that make a circle would say
-/// nothing, so that such a line goes or stays as a whole.
+/// Appends the intervals of a line that stay. Crumbs of the many short lines that make a circle
+/// would be meaningless, so such a line is dropped or kept as a whole.
 void cut(const HiddenLine& line, std::span<ParamInterval> covers, const HiddenInkRule& rule,
          LineIntervals& out) {
   const std::size_t first = out.size();
@@ -159,11 +159,11 @@ void choose_hidden_lines(std::vector<HiddenLine>& lines, const HiddenInkRule& ru
                     [](const HiddenLine& line) { return std::pair(-line.order, line.number); });
   double reach = 0;
   for (const HiddenLine& line : lines) reach = std::max(reach, line.flat.reach);
-  // Wide enough that a query, which is widened by the reach, sees few cells.
+  // Cells are so wide that a query, which is widened by the reach, visits few of them.
   const LineGrid cells(lines, 16 * reach);
   LaidLines laid(cells, rule.overlap);
   const std::size_t begin = out.size();
-  constexpr std::size_t kUnasked = 1024;  // lines between two looks at whether to stop
+  constexpr std::size_t kUnasked = 1024;  // lines between two checks whether to stop
   for (std::uint32_t i = 0; i < lines.size(); ++i) {
     if (i % kUnasked == 0 && stop.stop_requested()) return;
     HiddenLine& line = lines[i];

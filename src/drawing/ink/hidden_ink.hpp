@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The choice of the hidden lines that get ink.
 #pragma once
 
 // Decision 0052 says why equal things get equal ink.
@@ -11,32 +12,33 @@
 
 namespace strake::drawing {
 
-/// A dashed line in widths of its pen (ISO 128-20).
+/// The dash and the gap of a dashed line in widths of its pen (ISO 128-20).
 inline constexpr double kDash = 12, kDashGap = 3;
 
 struct HiddenInkRule {
   OverlapRule overlap;
-  double whole_below = 0;  ///< lines shorter than this go or stay as a whole
+  double whole_below = 0;  ///< lines shorter than this are dropped or kept as a whole
   double touch = 0;        ///< lengths that differ by no more are equal
 };
 
-/// A hidden line that gets ink unless there is some beside it.
+/// A hidden line that gets ink unless there is ink beside it.
 struct HiddenLine {
   PlaneSegment flat;
-  double order = 0;                   ///< lines are laid down by it, the largest first
-  std::uint32_t number = 0;           ///< of the line, for the result; different for each
-  std::vector<ParamInterval> covers;  ///< what of it lies on visible lines
+  double order = 0;                   ///< lines with the largest are laid down first
+  std::uint32_t number = 0;           ///< number of the line, for the result; unique
+  std::vector<ParamInterval> covers;  ///< the parts of it that lie on visible lines
 };
 
-/// Appends the stretches of the hidden lines of one object that get ink, by number; none of a line
-/// that gets none.
+/// Appends the intervals of the hidden lines of one object that get ink, by number; a line without
+/// ink has none.
 ///
-/// One line after the other is laid down where it does not run along a stretch that lies there
-/// already. So nothing is left out for the sake of what is left out itself: of many lines that
-/// touch each other every other one stays.
+/// One line after the other is laid down where it does not run along an interval that is laid down
+/// already. So a line that is left out covers nothing: of many lines that touch each other every
+/// other one stays.
 ///
-/// Cost: what is laid down is found in cells, of which there are about as many as lines; a cell has
-/// room for few lines of a direction. Once it is to stop, the rest is missing.
+/// Cost: intervals that are laid down are found in grid cells, of which there are about as many as
+/// lines; a cell has room for few lines of a direction. Once `stop` is requested, the rest is
+/// missing.
 void choose_hidden_lines(std::vector<HiddenLine>& lines, const HiddenInkRule& rule,
                          const std::stop_token& stop, LineIntervals& out);
 

@@ -20,7 +20,7 @@ namespace {
 
 using geometry::Vec3d;
 
-/// Length of lines per area of paper, in squares.
+/// The length of lines per area of paper, by square.
 class Density {
  public:
   explicit Density(const Sheet& sheet)
@@ -40,7 +40,7 @@ class Density {
     }
   }
 
-  /// As a reader's eye meets it, line by line: per mm of paper, averaged over the lines.
+  /// Returns the density as a reader's eye meets it: per mm of paper, averaged over the lines.
   [[nodiscard]] double along_lines() const {
     double sum = 0, squares = 0;
     for (const double length : length_) {
@@ -72,19 +72,20 @@ double width_of(const Line& line, const Pens& pens) {
   return line.kind == hlr::EdgeKind::contour ? pens.outline : pens.edge;
 }
 
-/// Dashed hatching would say that a hidden face is cut, and a smooth edge is worth a hint only.
+/// Returns whether a line may be dashed. Dashed hatching would suggest a cut hidden face, and a
+/// smooth edge is worth a hint only.
 bool may_be_dashed(const Line& line) {
   return is_hidden(line.state) && line.kind != hlr::EdgeKind::hatch &&
          line.kind != hlr::EdgeKind::smooth;
 }
 
-/// Where lines lie on paper, not rounded: of equal objects rounding would make unequal ones where
+/// The places of lines on paper, without rounding, which would make equal objects unequal where
 /// their ink nearly touches.
 class OnPaper {
  public:
   OnPaper(const std::vector<Line>& lines, const PaperAxes& axes, double scale)
       : axes_(axes), scale_(scale) {
-    // An origin near the lines, that does not depend on their order.
+    // An origin near the lines that does not depend on their order.
     if (!lines.empty()) origin_ = lines.front().a_mm;
     for (const Line& l : lines)
       origin_ = {std::min(origin_.x, l.a_mm.x), std::min(origin_.y, l.a_mm.y),
@@ -96,10 +97,10 @@ class OnPaper {
     return {.ax = a.x, .ay = a.y, .bx = b.x, .by = b.y};
   }
 
-  /// How far before others hidden lines of an object are laid down: the nearer, and of equally near
-  /// ones the left and upper one. One number that leans off the view a little, in directions that
-  /// hardly any two edges have to each other: where depths alone were compared, what a corner's
-  /// rounding to the grid adds would choose between the edges of a face that is seen square.
+  /// Returns the order in which hidden lines of an object are laid down: the nearer first, and of
+  /// equally near ones the left and upper one. It is one number, a depth along a direction that
+  /// leans off the view a little, as hardly any two edges do to each other: with depths alone, a
+  /// corner's rounding to the grid would choose between the edges of a face that is seen square.
   [[nodiscard]] double order(const Line& line, const PlaneSegment& flat) const {
     constexpr double kLeft = 0.13, kUp = 0.08;
     const double toward = dot(axes_.toward, (line.a_mm - origin_) + (line.b_mm - origin_));
@@ -107,7 +108,7 @@ class OnPaper {
   }
 
  private:
-  /// In perspective nothing looks equal.
+  /// Returns an unrounded point; in perspective, where nothing looks equal, `rounded`.
   [[nodiscard]] PaperPoint at(const Vec3d& mm, const PaperPoint& rounded) const {
     if (axes_.eye) return rounded;
     const Vec3d from = mm - origin_;
@@ -135,16 +136,17 @@ std::vector<PlaneSegment> flatten(const std::vector<Line>& lines, const OnPaper&
   return flat;
 }
 
-/// What of the hidden lines is left beside visible ones and beside those of their own object, but
-/// for edges seen end-on. What other objects hide decides nothing: in a row of objects the first
-/// would take a line of the second, and so on, and equal ones would look unequal.
+/// Chooses the intervals of hidden lines that are left beside visible lines and beside hidden ones
+/// of their own object, without edges seen end-on. Hidden lines of other objects do not matter: in
+/// a row of objects the first would take a line of the second, and so on, and equal ones would look
+/// unequal.
 class HiddenChooser {
  public:
   HiddenChooser(const std::vector<Line>& lines, const OnPaper& on_paper,
                 const std::vector<PlaneSegment>& flat, const LineOverlaps& beside_visible)
       : lines_(lines), on_paper_(on_paper), flat_(flat), beside_visible_(beside_visible) {}
 
-  /// By line, then from a to b; none of a line that gets no ink. Errors: cancelled.
+  /// Returns intervals by line, then from a to b; a line without ink has none. Errors: cancelled.
   [[nodiscard]] Result<LineIntervals> run(const HiddenInkRule& rule,
                                           const parallel::Context& context) const {
     return parallel::collect_with<LineInterval>(
@@ -180,8 +182,9 @@ class HiddenChooser {
 Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
                 const parallel::Context& context) {
   const double thin = ink.pens.thin, scale = drawing.sheet.scale;
-  // Ink that would just touch does. Corners are rounded to the grid: two of them may be two steps
-  // farther apart than meant, or nearer. Half a step more is no distance that corners often have.
+  // Ink that would just touch counts as touching. Corners are rounded to the grid: two of them may
+  // be two steps farther apart than meant, or nearer. With half a step more, the limit is a
+  // distance that corners seldom have.
   const double touch = 4.5 * geometry::kMmPerGrid / scale;
   // Lines that cross, or of which one begins on the other, do not run along each other.
   const OverlapRule along{.least = 1e-3 + touch,
@@ -222,7 +225,7 @@ Pens choose_pens(const NeutralDrawing& drawing) {
   Density density(drawing.sheet);
   for (const Line& line : drawing.lines)
     if (line.state == LineState::visible && line.kind != hlr::EdgeKind::hatch) density.add(line);
-  // The share of paper that the middle pen of each group may blacken at most.
+  // The largest fraction of the paper that the middle pen of each group may blacken.
   constexpr double kMost = 0.35;
   const double per_mm = density.along_lines();
   for (const Pens& pens :

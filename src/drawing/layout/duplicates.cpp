@@ -27,7 +27,7 @@ Rank rank_of(hlr::State state) {
   return Rank::none;
 }
 
-/// A piece in the plane of the view.
+/// Returns a piece in the plane of the view.
 PlaneSegment flat_of(const hlr::EdgePiece& piece, const Vec3l& direction, const ViewPlane& plane,
                      double reach) {
   const PlanePoint a = plane(piece.a), b = plane(piece.b);
@@ -55,7 +55,7 @@ Line part_of(const Line& line, const PaperAxes& axes, double from, double to) {
   Line part = line;
   const auto at = [&](double share) {
     const double t = axes.share_in_model(line.a_mm, line.b_mm, share);
-    // The grid's micrometre: more digits would say nothing.
+    // Rounded to the grid's micrometre: more digits would be meaningless.
     return Vec3d{rounded_paper(line.a_mm.x + (line.b_mm.x - line.a_mm.x) * t),
                  rounded_paper(line.a_mm.y + (line.b_mm.y - line.a_mm.y) * t),
                  rounded_paper(line.a_mm.z + (line.b_mm.z - line.a_mm.z) * t)};

@@ -20,7 +20,7 @@ using geometry::Vec3l;
 constexpr double kBig = std::numeric_limits<double>::max();
 constexpr PlaneBox kNothing{kBig, -kBig, kBig, -kBig};
 
-/// What a view shows of its plane round the target.
+/// Returns the box that a view shows of its plane round the target.
 PlaneBox field_of_view(const hlr::Perspective& perspective, const PlanePoint& target,
                        double distance_mm) {
   const auto half = geometry::sin_cos(perspective.field_of_view_deg / 2 * (std::numbers::pi / 180));
@@ -28,14 +28,13 @@ PlaneBox field_of_view(const hlr::Perspective& perspective, const PlanePoint& ta
   return {target.x - reach, target.x + reach, target.y - reach, target.y + reach};
 }
 
-/// Of what is larger than this the scale is so small that it need not be known better than from
-/// boxes.
+/// The scale of models larger than this is so small that boxes give it well enough.
 constexpr double kLargeMm = 20'000;
 
 enum class By : std::uint8_t { boxes, corners };
 
-/// What of a box a section leaves that is at right angles to an axis; by how much another one cuts
-/// it is not asked.
+/// Returns what a section at right angles to an axis leaves of a box; other sections leave it
+/// whole.
 Box3l cut_along_axis(Box3l box, const hlr::Section& section) {
   const Vec3l& n = section.normal;
   for (int k = 0; k < 3; ++k) {
@@ -98,7 +97,7 @@ Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bo
                                  const parallel::Context& context) {
   const auto axes = paper_axes(view);
   const auto sections = hlr::section_planes(view.sections);
-  // hlr::draw says what is wrong with it.
+  // hlr::draw reports what is wrong with the view.
   if (!axes || !sections || !hlr::check_perspective(view)) return PlaneBox{};
   const ViewPlane plane(*axes, origin);
   const hlr::ViewVolume shown(view, *sections);

@@ -13,16 +13,16 @@
 
 namespace strake::drawing {
 
-/// The sag that nobody sees, model mm, of curved primitives in a view of that extent and scale:
-/// 0.05 mm on paper, a fraction of the finest line's width; no less than the grid can say, and than
-/// what is not seen with all of the view on the largest sheet, so that the scale alone makes no
-/// drawing endless. Of a view of nothing 0.
+/// Returns the largest sag of curved primitives, model mm, that nobody sees in a view of that
+/// extent and scale: 0.05 mm on paper, a fraction of the finest line's width. It is no less than
+/// the grid can express, nor than what is not seen with the whole view on the largest sheet, so
+/// that the scale alone makes no drawing endless. 0 for an empty view.
 [[nodiscard]] double unseen_sag_mm(const PlaneBox& extent, double scale);
 
-/// About the extent that a view has on its plane, before it is drawn, about a point of the model:
-/// of the corners of all bodies, `drawn` as in hlr::draw, within the limits and the field of view;
-/// of large models, and where limits or sections cut a body, of boxes. Of a view that makes no
-/// sense nothing. Errors: cancelled.
+/// Estimates the extent that a view will have on its plane, relative to a point of the model: from
+/// the corners of all bodies, `drawn` as in hlr::draw, within the limits and the field of view;
+/// from boxes in large models and where limits or sections cut a body. An invalid view has an empty
+/// extent. Errors: cancelled.
 [[nodiscard]] Result<PlaneBox> expected_extent(const model::Scene& scene,
                                                const std::vector<bool>& drawn,
                                                const hlr::View& view, const geometry::Vec3l& origin,

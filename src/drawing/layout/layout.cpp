@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// lay_out(), and its parts: the hash of a view, the counts of its lines, lines and curves on the
+// sheet.
 #include "drawing/layout/layout.hpp"
 
 #include <algorithm>
@@ -68,7 +70,7 @@ Hash128 hash_of_run(std::span<const hlr::EdgePiece> pieces, const model::Model& 
 
 Result<Hash128> hash_of(const hlr::Drawing& drawing, const model::Model& model,
                         const parallel::Context& context) {
-  // Run by run, so that many workers can; how long a run is changes the hash.
+  // Hashed run by run, in parallel; the length of a run changes the hash.
   constexpr std::size_t kRun = 65536;
   const std::span<const hlr::EdgePiece> pieces = drawing.pieces;
   const auto runs = parallel::transform(
@@ -87,7 +89,7 @@ Result<Hash128> hash_of(const hlr::Drawing& drawing, const model::Model& model,
 
 namespace {
 
-/// Of a run of lines, which are by object.
+/// The counts of a run of lines, which are sorted by object.
 struct Tally {
   std::array<std::uint64_t, kLineStates> count{};
   std::vector<model::ObjectId> seen;  ///< objects with visible lines, each once in a row
@@ -131,7 +133,7 @@ namespace {
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-/// Curves as they lie on the sheet: of orthographic views, which alone have any.
+/// Returns the curves on the sheet. Only orthographic views have any.
 PaperCurves curves_on_paper(const hlr::Curves& curves, const PaperAxes& axes,
                             const Placement& placement) {
   const ViewPlane plane(axes, placement.anchor);
@@ -152,12 +154,13 @@ PaperCurves curves_on_paper(const hlr::Curves& curves, const PaperAxes& axes,
   return result;
 }
 
-/// What is clipped may lie anywhere, behind the eye even: it is kept within what files can say.
+/// Rounds a coordinate and clamps it to what files can express: clipped lines may lie anywhere,
+/// even behind the eye.
 double paper_coordinate(double mm) {
   return rounded_paper(std::clamp(mm, -kFarthestPaperMm, kFarthestPaperMm));
 }
 
-/// The middle of a box in the middle of the sheet.
+/// Places the middle of a box in the middle of the sheet.
 Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& origin) {
   return {sheet,
           origin,
@@ -165,15 +168,15 @@ Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& or
            (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / sheet.scale}};
 }
 
-/// A line for each piece, or one for each of its stretches: what is covered is a duplicate. Without
-/// overlaps there are none.
+/// Makes a line for each piece, or one for each of its intervals if it has any: covered ones are
+/// duplicates.
 template <class MakeLine>
 Result<std::vector<Line>> make_lines(std::span<const hlr::EdgePiece> pieces,
                                      const LineOverlaps& overlaps, const PaperAxes& axes,
                                      MakeLine&& make_line, const parallel::Context& context) {
   const std::span<const LineInterval> stretches = overlaps.stretches;
-  // The first stretch of each piece that has any: k such pieces before make so many lines fewer
-  // than their stretches.
+  // The first interval of each piece that has any: behind k such pieces there are k lines fewer
+  // than pieces and intervals.
   std::vector<std::size_t> firsts;
   for (std::size_t i = 0; i < stretches.size(); ++i)
     if (i == 0 || stretches[i].line != stretches[i - 1].line) firsts.push_back(i);
@@ -284,7 +287,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   if (!hash) return hash.error();
   out.hash = *hash;
   out.curves = curves_on_paper(drawing.curves, *axes, placement);
-  // What the sources' precision cannot tell apart is one line; the grid's own rounding at least.
+  // Lines that the sources' precision, or at least the grid's rounding, cannot separate are one.
   const double distance = std::max(drawing.contact_distance_mm, 3 * geometry::kMmPerGrid);
   const auto duplicates = options.remove_duplicates
                               ? find_duplicates(drawing, *axes, distance, context)

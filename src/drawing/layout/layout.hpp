@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Parts of lay_out(): the hash of a view and the counts of its lines.
 #pragma once
 
 #include "strake/core/hash.hpp"
@@ -10,13 +11,13 @@
 
 namespace strake::drawing {
 
-/// Of the view and of every piece in the model. The same for any team. Errors: cancelled, out of
-/// memory.
+/// Returns the hash of the view and of every piece in the model. It does not depend on the team.
+/// Errors: cancelled, out of memory.
 [[nodiscard]] Result<Hash128> hash_of(const hlr::Drawing& drawing, const model::Model& model,
                                       const parallel::Context& context);
 
-/// Counts the lines of a drawing by state, and finds out which of its drawn objects have visible
-/// lines on paper: the others are coincident. Errors: cancelled.
+/// Counts the lines of a drawing by state, and makes drawn objects without visible lines on paper
+/// coincident. Errors: cancelled.
 [[nodiscard]] Status count_lines(NeutralDrawing& drawing, const parallel::Context& context);
 
 }  // namespace strake::drawing

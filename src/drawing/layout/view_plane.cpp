@@ -34,7 +34,7 @@ bool fits(const PlaneBox& box, double scale, const Size& space) {
   return box.width() <= space.width * scale && box.height() <= space.height * scale;
 }
 
-/// The largest usual one at which the box fits; of nothing 1:1.
+/// Returns the largest usual scale at which the box fits; 1:1 for an empty box.
 double usual_scale(const PlaneBox& box, const Size& space) {
   if (!(box.width() > 0 || box.height() > 0)) return 1;
   const auto usual = usual_scales();
@@ -43,13 +43,14 @@ double usual_scale(const PlaneBox& box, const Size& space) {
   return found != usual.end() ? *found : usual.back();
 }
 
-/// Without the last digits that division leaves: 49:1 is kept as 1/49, and 1 over that is not 49.
+/// Rounds off the last digits that division leaves: 49:1 is kept as 1/49, and 1 over that is not
+/// 49.
 double neat(double value) {
   const double rounded = std::nearbyint(value * 1e6) / 1e6;
   return std::fabs(rounded - value) <= 1e-12 * value ? rounded : value;
 }
 
-/// 100000, not 1e+05.
+/// Writes 100000, not 1e+05.
 std::string plain(double value) {
   return value == std::nearbyint(value) ? fixed(value, 0) : shortest(value);
 }
@@ -59,7 +60,8 @@ double next_ten(double mm) { return std::ceil(mm / 10) * 10; }
 }  // namespace
 
 std::optional<PaperAxes> paper_axes(const hlr::View& view) {
-  // Exact while components stay within 2^20: the first product within 2^41, the second 2^62.
+  // Exact while components stay within 2^20: the first product is within 2^41, the second within
+  // 2^62.
   const geometry::Vec3l right = cross(view.up, view.direction);
   const geometry::Vec3l up = cross(view.direction, right);
   const auto r = unit(right.as<double>()), u = unit(up.as<double>()),
@@ -86,7 +88,7 @@ double PaperAxes::magnification(const Vec3d& mm) const {
 
 double PaperAxes::share_in_model(const Vec3d& a_mm, const Vec3d& b_mm, double t) const {
   if (!eye) return t;
-  // Depths are the inverses of what they magnify by.
+  // Depths are the inverses of the magnifications.
   const double of_b = t / magnification(a_mm), of_a = (1 - t) / magnification(b_mm);
   return of_b / (of_a + of_b);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The plane of a view: its axes, points and boxes on it, and the scale and sheet that suit a box.
 #pragma once
 
 #include <algorithm>
@@ -13,22 +14,23 @@
 
 namespace strake::drawing {
 
-/// Where a view in perspective is seen from.
+/// The eye of a view in perspective.
 struct Eye {
   geometry::Vec3l at;      ///< grid units
   geometry::Vec3l target;  ///< grid units
-  double distance_mm = 0;  ///< before the eye, of the plane through the target: the view's plane
-  double near_mm = 0;      ///< what is nearer is taken to be as far away as this
+  double distance_mm = 0;  ///< from the eye to the view's plane, which goes through the target
+  double near_mm = 0;      ///< nearer points are taken to be as far away as this
 };
 
-/// The plane of a view: unit vectors to the right, up and to the viewer, in the model.
+/// The axes of a view's plane: unit vectors to the right, up and to the viewer, in the model.
 struct PaperAxes {
   geometry::Vec3d right, up, toward;
   std::optional<Eye> eye = std::nullopt;  ///< in perspective
 
-  /// By how much lengths at a point of the model, mm, grow in the view's plane: 1 without an eye.
+  /// Returns by what factor lengths at a point of the model, mm, grow in the view's plane: 1
+  /// without an eye.
   [[nodiscard]] double magnification(const geometry::Vec3d& mm) const;
-  /// Of a segment in the model the share at which its picture has gone the share t of its way.
+  /// Returns the parameter on a segment in the model of the point at parameter t of its projection.
   [[nodiscard]] double share_in_model(const geometry::Vec3d& a_mm, const geometry::Vec3d& b_mm,
                                       double t) const;
 };
@@ -40,8 +42,8 @@ struct PlanePoint {
   double magnification = 1;
 };
 
-/// The plane of a view about a point of the model. Points are taken relative to it, or to the eye,
-/// before they become doubles, so that a model in map coordinates loses nothing.
+/// The plane of a view about a point of the model. Points are made relative to it, or to the eye,
+/// before they become doubles, so that a model in map coordinates loses no precision.
 class ViewPlane {
  public:
   ViewPlane(const PaperAxes& axes, const geometry::Vec3l& origin);
@@ -53,16 +55,16 @@ class ViewPlane {
 
   PaperAxes axes_;
   geometry::Vec3l from_;  ///< the eye, or the origin
-  double x_ = 0, y_ = 0;  ///< of the origin
+  double x_ = 0, y_ = 0;  ///< coordinates of the origin
 };
 
-/// How near to the viewer a segment is, larger is nearer: the same number for the same depth,
-/// whatever else is drawn. The sum over both ends, exact but for one last rounding, in grid units
-/// times the direction's length.
+/// Returns how near to the viewer a segment is, larger is nearer: the same number for the same
+/// depth, whatever else is drawn. It is the sum over both ends, exact but for one last rounding, in
+/// grid units times the direction's length.
 [[nodiscard]] double nearness(const geometry::Vec3l& direction, const geometry::Vec3l& a,
                               const geometry::Vec3l& b);
 
-/// Nothing when the direction is zero or up is parallel to it.
+/// Returns the axes of a view; nothing when the direction is zero or up is parallel to it.
 [[nodiscard]] std::optional<PaperAxes> paper_axes(const hlr::View& view);
 
 /// A box on the plane of the view, in model millimetres.
@@ -78,26 +80,26 @@ struct PlaneBox {
   }
 };
 
-/// The box of all that a finished run has within the limits, about a point of the model. Errors:
-/// cancelled.
+/// Returns the box of all that a finished run has within the limits, about a point of the model.
+/// Errors: cancelled.
 [[nodiscard]] Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
                                             const geometry::Vec3l& origin,
                                             const parallel::Context& context);
 
-/// The usual scales of ISO 5455, 50:1 to 1:1000000000, the largest first.
+/// Returns the usual scales of ISO 5455, 50:1 to 1:1000000000, the largest first.
 [[nodiscard]] std::span<const double> usual_scales();
 
-/// "1:50", "2:1".
+/// Returns a scale as text: "1:50", "2:1".
 [[nodiscard]] std::string scale_text(double scale);
 
-/// The sheet on which a box of this size is drawn: A3 where it fits, otherwise the next A size,
-/// otherwise as large as it must be.
+/// Returns the sheet on which a box of this size is drawn: A3 where it fits, otherwise the next A
+/// size, otherwise as large as it must be.
 [[nodiscard]] Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options);
 
 /// Height of the strip at the foot of a sheet that holds the title, mm.
 inline constexpr double kTitleStrip = 8;
 
-/// The nearest whole micrometre of paper.
+/// Rounds to the nearest whole micrometre of paper.
 [[nodiscard]] double rounded_paper(double mm);
 
 }  // namespace strake::drawing

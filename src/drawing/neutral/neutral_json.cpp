@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The neutral drawing as JSON: its head, which the binary form shares, and its lines.
 #include "drawing/neutral/neutral_json.hpp"
 
 #include <fmt/format.h>
@@ -109,7 +110,7 @@ void write_curves(BufferedWriter& out, const PaperCurves& curves) {
   out << "],\n";
 }
 
-/// Objects of which something could not be drawn, each with all that says why.
+/// Writes the objects of which something could not be drawn, each with all reasons.
 void write_defects(BufferedWriter& out, const NeutralDrawing& drawing, const model::Model& model) {
   const std::vector<hlr::Defect>& defects = drawing.account.defects;
   out << "\"defects\":[";
@@ -126,7 +127,7 @@ void write_defects(BufferedWriter& out, const NeutralDrawing& drawing, const mod
   out << "],\n";
 }
 
-/// Files of which nobody knows what the rest held, where there are such.
+/// Writes the files that end early, whose further contents are unknown, where there are such.
 void write_cut_files(BufferedWriter& out, const model::Model& model) {
   const char* separator = "\"files_ending_early\":[";
   for (const model::SourceFile& file : model.files) {

@@ -27,11 +27,11 @@ class ListedObjects {
   std::vector<model::ObjectId> objects_;
 };
 
-/// What both neutral forms begin with: the opened object and all its members but the lines.
+/// Writes the beginning of both neutral forms: the opened object and all its members but the lines.
 void write_view_head(BufferedWriter& out, const NeutralDrawing& drawing, const model::Model& model,
                      const ListedObjects& listed);
 
-/// "[1,2.5]"
+/// Appends "[1,2.5]".
 void append_numbers(std::string& out, std::initializer_list<double> values);
 
 }  // namespace strake::drawing

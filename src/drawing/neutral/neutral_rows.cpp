@@ -22,11 +22,11 @@ namespace {
 
 using geometry::Vec3l;
 
-// Numbers of a drawing are whole micrometres within what the grid holds.
+// Numbers of a drawing are whole micrometres within the range of the grid.
 std::int64_t micrometres(double mm) { return geometry::snap(mm).value_or(0); }
 Vec3l micrometres(const geometry::Vec3d& mm) { return geometry::snap(mm).value_or(Vec3l{}); }
 
-/// Where the lines are.
+/// The extents of the lines, in the model and on paper.
 struct Reach {
   static constexpr std::int64_t kBig = std::int64_t{1} << 62U;
   geometry::Box3l model{{kBig, kBig, kBig}, {-kBig, -kBig, -kBig}};
@@ -42,7 +42,7 @@ struct Reach {
     model.include(other.model);
     farthest_on_paper = std::max(farthest_on_paper, other.farthest_on_paper);
   }
-  /// The middle, so that the numbers are small.
+  /// Returns the middle of the model, so that numbers relative to it are small.
   [[nodiscard]] Vec3l origin() const {
     if (model.empty()) return {};
     const auto middle = [](std::int64_t lo, std::int64_t hi) { return lo + (hi - lo) / 2; };
@@ -53,7 +53,7 @@ struct Reach {
     constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
     if (model.empty()) return true;
     const Vec3l size = model.hi - model.lo;
-    // An end lies at most half a size from the middle, or that and a half.
+    // An end lies at most half a size from the middle, or half a unit more.
     return std::max({size.x, size.y, size.z}) / 2 < kMost && farthest_on_paper <= kMost;
   }
 };
@@ -90,7 +90,7 @@ ViewRow<Int> row_of(const Line& line, std::uint32_t curve, const Vec3l& origin,
   return row;
 }
 
-/// "["sharp","contour"]": the names of all values of an enumeration, in order.
+/// Returns the names of all values of an enumeration, in order: ["sharp","contour"].
 template <class Enum, class Name>
 std::string names_of(Name&& name) {
   std::string out;
@@ -109,7 +109,7 @@ void write_form(BufferedWriter& out, const Vec3l& origin) {
       << "\"}}\n";
 }
 
-/// The text, from its length on, in one piece: the length stands before it.
+/// Returns the text with its length before it, in one string.
 template <class Int>
 std::string head_of(const NeutralDrawing& drawing, const model::Model& model,
                     const ListedObjects& listed, const Vec3l& origin) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// SVG of a drawing: the layers of a view, and the sheet round them.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The layers of a view in SVG: their order, their lines, and how they are written.
 #pragma once
 
 #include <array>
@@ -13,14 +14,14 @@
 
 namespace strake::drawing {
 
-/// A layer of a view: the lines of one kind, seen or hidden.
+/// A layer of a view: the visible or the hidden lines of one kind.
 struct Layer {
   bool hidden;
   hlr::EdgeKind kind;
   std::string_view label;
 };
 
-// Later layers are drawn over earlier ones: outlines last, of all those of cuts.
+// Later layers are drawn over earlier ones: outlines last, and of these the outlines of cuts.
 inline constexpr std::array<Layer, 16> kLayers = {{
     {true, hlr::EdgeKind::polyline, "Hidden polylines"},
     {true, hlr::EdgeKind::boundary, "Hidden boundary"},
@@ -45,8 +46,8 @@ inline constexpr std::array<Layer, 16> kLayers = {{
   return layer.hidden ? is_hidden(line.state) : line.state == LineState::visible;
 }
 
-/// The lines of a view: a group per layer, of class "visible sharp" and the like, in it one per
-/// object with one path. `prefix` stands before the ids of the layers.
+/// Writes the lines of a view: a group per layer, of class "visible sharp" and the like, and in it
+/// a group per object with one path. `prefix` stands before the ids of the layers.
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                   const model::Model& model, std::string_view prefix);
 

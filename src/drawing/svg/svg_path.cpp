@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Joining lines into chains, and writing chains with the arcs of their curves.
 #include "drawing/svg/svg_path.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace strake::drawing {
 
 namespace {
 
-/// A point of the sheet in whole micrometres: points that are written alike are alike.
+/// A point of the sheet in whole micrometres: points that are written alike are equal.
 struct Key {
   std::int64_t x, y;
   friend auto operator<=>(const Key&, const Key&) = default;
@@ -94,9 +95,10 @@ namespace {
 
 using geometry::kPi;
 
-/// Narrower than this an ellipse is drawn as the straight lines that it is on paper, mm.
+/// An ellipse narrower than this, mm, is drawn as the straight lines that it is on paper.
 constexpr double kNarrowest = 0.01;
-/// An arc in SVG is given by its ends, which tell little about its place when it is half a turn.
+/// The longest arc, since an SVG arc is given by its ends, which hardly determine it at half a
+/// turn.
 constexpr double kLongestArc = 0.7 * kPi;
 
 void append_point(std::string& out, const PaperPoint& p) {
@@ -107,13 +109,13 @@ void append_point(std::string& out, const PaperPoint& p) {
 
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
-/// An ellipse by its axes, as SVG wants it.
+/// An ellipse by its axes, the form of SVG.
 struct Axes {
   double major = 0, minor = 0, turn_deg = 0;
 };
 
 Axes axes_of(const PaperCurve& c) {
-  // Of the form u·uᵀ + v·vᵀ: its eigenvalues are the squares of the half axes.
+  // The matrix u·uᵀ + v·vᵀ has the squares of the half axes as eigenvalues.
   const double a = c.u.x * c.u.x + c.v.x * c.v.x, b = c.u.x * c.u.y + c.v.x * c.v.y,
                d = c.u.y * c.u.y + c.v.y * c.v.y;
   const double middle = (a + d) / 2, half = (a - d) / 2, off = std::sqrt(half * half + b * b);
@@ -124,7 +126,7 @@ Axes axes_of(const PaperCurve& c) {
           round ? 0 : geometry::arc_tan2(b, half) / 2 * 180 / kPi};
 }
 
-/// The parameter of a point on the curve, or of the one that it is beside.
+/// Returns the parameter of a point on the curve, or of the curve's point that it is beside.
 double parameter(const PaperCurve& c, const PaperPoint& p) {
   const double x = p.x - c.centre.x, y = p.y - c.centre.y;
   const double area = c.u.x * c.v.y - c.u.y * c.v.x;
@@ -169,7 +171,7 @@ class SvgPathWriter {
   }
 
  private:
-  /// Chains that close begin where one curve ends and another begins.
+  /// Rotates a closed chain to begin where one curve ends and another begins.
   void turn_to_a_change() {
     if (points_.size() < 3 || !(points_.front() == points_.back())) return;
     std::size_t at = 0;
@@ -181,7 +183,8 @@ class SvgPathWriter {
     points_.push_back(points_.front());
   }
 
-  /// The run of one curve's chords, one way round, that begins with stretch i; returns its end.
+  /// Writes the run of one curve's chords, one way round, that begins with segment i; returns its
+  /// end.
   std::size_t arcs(std::size_t i) {
     const PaperCurve& curve = *of_[i];
     const bool forward = turn_between(curve, points_[i], points_[i + 1]) > 0;

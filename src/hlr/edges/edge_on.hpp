@@ -10,13 +10,13 @@
 
 namespace strake::hlr {
 
-/// Whether a triangle of a part may be one that is seen edge-on along a direction, which rounding
-/// its corners to the grid turned a little: each coordinate of a corner by half a unit at most.
-/// Exact. False of triangles so narrow that rounding may have turned them anyhow.
+/// Returns whether a triangle of a part may be seen edge-on along a direction, were its corners not
+/// rounded to the grid, each coordinate by half a unit at most. Exact. False for triangles so
+/// narrow that rounding may have turned them anyhow.
 ///
 /// With corners p, q, r and the direction d the product (q - p) × (r - p) · d, which is zero
-/// edge-on, is changed by half the taxicab lengths of d × (q - r), d × (r - p) and d × (p - q),
-/// and by one and a half times that of d where two corners move.
+/// edge-on, is changed by half the taxicab lengths of d × (q - r), d × (r - p) and d × (p - q), and
+/// by one and a half times the taxicab length of d where two corners move.
 [[nodiscard]] bool may_be_edge_on(const geometry::Part& part, std::uint32_t triangle,
                                   const geometry::Vec3l& direction);
 

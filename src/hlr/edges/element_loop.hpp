@@ -8,13 +8,13 @@
 
 namespace strake::hlr {
 
-/// What is worth a team: so many triangles, edges or vertices of one shape.
+/// The number of triangles, edges or vertices of one shape that is worth a team.
 inline constexpr std::size_t kBigShape = std::size_t{1} << 15U;
-/// Elements that a worker takes at a time.
+/// The number of elements that a worker takes at a time.
 inline constexpr std::size_t kElements = 2048;
 
-/// A loop over the elements of one shape: by the whole team where it is big, so that one imported
-/// mesh does not keep a worker busy while the others wait.
+/// Returns a loop over the elements of one shape. The whole team runs it where the shape is big, so
+/// that one imported mesh does not keep a worker busy while the others wait.
 [[nodiscard]] inline parallel::Region over_elements(std::string_view name, std::size_t n) {
   return {.name = name, .n = n, .grain = kElements, .alone_below = kBigShape};
 }

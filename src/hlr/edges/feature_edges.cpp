@@ -46,11 +46,11 @@ bool is_sharp(const ExactNormal& m, const ExactNormal& n, double cos_sharp,
   return along < (cos_sharp * (1 - more * more / 2) - sin_sharp * more) * lengths;
 }
 
-/// The plane that says to which side a face looks.
+/// The plane that decides to which side a face looks.
 struct FacePlane {
   ExactNormal normal{};
   Vec3i on{};
-  double turn = 0;  ///< that rounding may account for, radians
+  double turn = 0;  ///< the turn that rounding may account for, radians
 };
 
 FacePlane plane_of(const Part& part, std::uint32_t t) {
@@ -60,10 +60,10 @@ FacePlane plane_of(const Part& part, std::uint32_t t) {
           part.primitive ? 0 : turn_by_rounding(part, t)};
 }
 
-// For each triangle the area vector and the lexicographically least corner of the whole source
-// face that it is a piece of, and what rounding turns its steadiest triangle by. They depend on the
-// outline of the face alone, so neither the triangulation nor the way that snapping bends a polygon
-// decides whether it faces the viewer.
+// Returns for each triangle the area vector and the lexicographically least corner of its whole
+// source face, and the turn that rounding may give the face's steadiest triangle. They depend on
+// the outline of the face alone, so neither the triangulation nor the way that snapping bends a
+// polygon decides whether it faces the viewer.
 Result<std::vector<FacePlane>> face_planes(const Part& part, const parallel::Context& context) {
   const std::size_t count = part.triangles.size();
   std::vector<FacePlane> result(count);
@@ -98,12 +98,12 @@ Result<std::vector<FacePlane>> face_planes(const Part& part, const parallel::Con
   return result;
 }
 
-// What a part's edges are judged by, per triangle.
+// The data by which a part's edges are classified, per triangle.
 struct Faces {
   std::vector<FacePlane> planes;
-  /// A quad or triangle of a curved side, told from the flat ends by its few triangles: between
-  /// two of them there is no edge however coarse the tessellation of a thin pipe is. Empty where
-  /// the part has no curved side.
+  /// Whether a triangle belongs to a curved side, whose quads and triangles differ from the flat
+  /// ends by their few triangles: between two of them there is no edge however coarse the
+  /// tessellation of a thin pipe is. Empty where the part has no curved side.
   std::vector<bool> facet;
   PlaneOwners owners;
 };
@@ -159,7 +159,7 @@ std::optional<ClassifiedEdge> classify_edge(const Part& part, std::uint32_t edge
   // face exactly one line is the contour.
   const bool front_m = options.viewer.is_towards(m, one.on.as<std::int64_t>());
   const bool front_n = options.viewer.is_towards(n, other.on.as<std::int64_t>());
-  // Which way a sheet is wound means nothing.
+  // The winding of a sheet has no meaning.
   const bool away = part.kind == geometry::PartKind::solid && !front_m && !front_n;
   if (!smooth && is_sharp(m, n, options.cos_sharp, by_rounding))
     return ClassifiedEdge{EdgeKind::sharp, away};
@@ -171,7 +171,7 @@ std::optional<ClassifiedEdge> classify_edge(const Part& part, std::uint32_t edge
   return std::nullopt;
 }
 
-// Nothing where the edge has no length.
+// Adds nothing where the edge has no length.
 void add_edge(std::vector<FeatureEdge>& edges, const Part& part, FeatureEdge e, std::uint32_t v0,
               std::uint32_t v1, const Viewer& viewer) {
   e.a = std::min(part.vertices[v0], part.vertices[v1]);
@@ -194,7 +194,7 @@ void sort_edges(std::vector<FeatureEdge>& edges) {
   const auto before = [](const FeatureEdge& x, const FeatureEdge& y) {
     return std::tie(x.a, x.b, x.part_edge) < std::tie(y.a, y.b, y.part_edge);
   };
-  // Most come so: vertices and edges of a part are sorted.
+  // Most are in this order already: vertices and edges of a part are sorted.
   if (!std::ranges::is_sorted(edges, before)) std::ranges::sort(edges, before);
 }
 

@@ -23,28 +23,28 @@ struct FeatureEdge {
   std::uint32_t part_edge = 0;  ///< index into Part::edges; kNoPartEdge for a polyline's segment
   EdgeKind kind = EdgeKind::sharp;
   bool projecting = false;  ///< a point on paper
-  bool away = false;        ///< of a solid, between two faces that both look away from the viewer
-  bool cut_away = false;    ///< by a section plane: neither hidden nor seen
+  bool away = false;        ///< an edge of a solid between two faces that look away from the viewer
+  bool cut_away = false;    ///< cut away by a section plane: neither hidden nor seen
 };
 
 inline constexpr std::uint32_t kNoPartEdge = 0xffffffffU;
 
 struct FeatureOptions {
-  Viewer viewer;         ///< in the coordinates of the shape
+  Viewer viewer;         ///< the viewer in the coordinates of the shape
   double cos_sharp = 0;  ///< an edge is sharp when the cosine between its faces is below this
-  Smooth smooth = Smooth::off;  ///< which of the others to take, too
+  Smooth smooth = Smooth::off;  ///< which smooth edges to include
 };
 
-/// The cosine of an angle in [0, 180] degrees from additions and multiplications alone, the same
-/// on every machine.
+/// Returns the cosine of an angle in [0, 180] degrees from additions and multiplications alone, so
+/// that it is the same on every machine.
 [[nodiscard]] double cosine_of_degrees(double degrees);
 
-/// The edges of a part that are drawn wherever it is seen from: sharp ones and those of other than
+/// Returns the edges of a part that are drawn in every view: sharp ones and those that do not have
 /// two triangles.
 [[nodiscard]] Result<std::vector<FeatureEdge>> view_independent_edges(const geometry::Part& part,
                                                                       double cos_sharp);
 
-/// The lines of a shape for one viewer: by part, then by (a, b). Errors: cancelled.
+/// Returns the lines of a shape for one viewer, sorted by part, then by (a, b). Errors: cancelled.
 [[nodiscard]] Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
                                                              const FeatureOptions& options,
                                                              const parallel::Context& context);

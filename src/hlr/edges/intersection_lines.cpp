@@ -34,11 +34,11 @@ using geometry::Vec3l;
 using parallel::Region;
 
 constexpr std::size_t kGrain = 1024;
-/// Lines along which parts may cross, and more of them for each triangle: many times what models
-/// have, and in proportion to the file, where triangles that all cross each other have the square.
+/// The most intersection lines, and more of them for each triangle: many times what models have,
+/// and in proportion to the file, where triangles that all cross each other have the square.
 constexpr std::uint64_t kMostLines = 1000000, kMostLinesOfTriangle = 100;
 
-/// A part that has faces, where it stands.
+/// A part that has faces, with its place.
 struct PlacedSkin {
   geometry::PlacedPart placed;
   std::uint32_t unique = 0;  ///< its number among the parts of all shapes
@@ -72,10 +72,10 @@ Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
   return skins;
 }
 
-/// Parts as they are paired up. Of many equal parts at one place that do not cross each other, one
-/// stands for all: n of them would be n²/2 pairs with nothing to find.
+/// Groups of parts that are paired as one: of many equal parts at one place that do not cross each
+/// other, one stands for all, as n of them would be n²/2 pairs with nothing to find.
 struct Stacks {
-  std::vector<std::uint32_t> first;    ///< by stack, and the end
+  std::vector<std::uint32_t> first;    ///< first member by stack, and the end
   std::vector<std::uint32_t> members;  ///< ascending within each
 
   [[nodiscard]] std::size_t size() const { return first.size() - 1; }
@@ -84,7 +84,7 @@ struct Stacks {
   }
 };
 
-/// Of a pair, in the coordinates of its first part.
+/// The intersection lines of a pair, in the coordinates of its first part.
 struct Found {
   std::vector<Segment> lines;
   std::uint64_t tests = 0;
@@ -129,7 +129,7 @@ class Finder {
   [[nodiscard]] bool is_joint(const PlacedSkin& x, const PlacedSkin& y) const {
     return x.placed.part->primitive && y.placed.part->primitive && object(x) == object(y);
   }
-  /// Whether the parts of a pair are primitives of one object.
+  /// Returns whether the parts of a pair are primitives of one object.
   [[nodiscard]] bool is_joint(std::size_t i) const { return is_joint(a(i), b(i)); }
   [[nodiscard]] std::uint64_t hash(std::size_t i) const {
     std::uint64_t h = parallel::mixed(0, (std::uint64_t{a(i).unique} << 32U) | b(i).unique);
@@ -143,7 +143,8 @@ class Finder {
            contact(i) == contact(j) && is_joint(i) == is_joint(j);
   }
 
-  /// Equal for parts that are not asked about together, as far as that can be said of each alone.
+  /// Returns a number that is equal for parts that are not to be paired, as far as each alone
+  /// decides that.
   [[nodiscard]] std::uint32_t owner(std::size_t i) const {
     const PlacedSkin& skin = skins_.placed[i];
     const bool alone = rule_.which == Intersections::parts ||
@@ -152,25 +153,26 @@ class Finder {
                  : model::index(object(skin));
   }
 
-  /// Unlike all others.
+  /// Returns an owner unlike all others.
   [[nodiscard]] std::uint32_t owner_of_stack(std::size_t stack) const {
     return static_cast<std::uint32_t>(scene_.model->objects.size() + skins_.placed.size() + stack);
   }
 
-  /// Whether the skins of two parts with different owners are asked about.
+  /// Returns whether two parts with different owners are to be intersected.
   [[nodiscard]] bool is_asked(const PlacedSkin& x, const PlacedSkin& y) const {
     return rule_.which != Intersections::primitives || object(x) != object(y) || is_joint(x, y);
   }
 
-  /// By kind of equal parts at one place: whether they are many that do not cross each other.
+  /// Returns, by kind of equal parts at one place, whether they are many that do not cross each
+  /// other.
   Result<std::vector<bool>> find_quiet(const parallel::Distinct& kinds) {
-    // Fewer are no more work as pairs.
+    // Fewer parts are no more work as pairs.
     constexpr std::uint32_t kMany = 8;
     std::vector<std::uint32_t> count(kinds.first.size()), second(kinds.first.size());
     for (std::uint32_t i = 0; i < kinds.of.size(); ++i) {
       const std::uint32_t kind = kinds.of[i];
       ++count[kind];
-      // What is left of the lines of joints is some of the lines of others.
+      // Joints have a subset of the lines that other pairs have.
       if (!is_joint(skins_.placed[kinds.first[kind]], skins_.placed[i])) second[kind] = i;
     }
     std::vector<bool> quiet(kinds.first.size());
@@ -260,16 +262,15 @@ class Finder {
     return {};
   }
 
-  /// Whether a plane along two axes has one of the boxes on its one side and the other on the
-  /// other: then what is in them cannot pass through each other. Most of what meets in a ship is
-  /// so.
+  /// Returns whether a plane along two axes separates the boxes: then their contents cannot pass
+  /// through each other. Most boxes that meet in a ship are so.
   static bool only_touch(const geometry::Box3l& a, const geometry::Box3l& b) {
     for (int k = 0; k < 3; ++k)
       if (a.hi[k] <= b.lo[k] || b.hi[k] <= a.lo[k]) return true;
     return false;
   }
 
-  /// By unique part: make(part) for each part of the pairs that are wanted, wanted(first, second).
+  /// Returns, by unique part, make(part) for each part of the pairs with wanted(first, second).
   template <class Wanted, class Make>
   auto for_parts(std::string_view name, Wanted&& wanted, Make&& make) const {
     using T = std::invoke_result_t<Make&, const geometry::Part&>;
@@ -294,14 +295,14 @@ class Finder {
     return {};
   }
 
-  /// Pairs that a plane along a face of either part keeps apart. Where a model stands askew these
-  /// are nearly all whose boxes meet.
+  /// Drops the pairs that a plane along a face of either part separates. Where a model stands askew
+  /// these are nearly all whose boxes meet.
   Status leave_out_parted() {
     if (const Status s = make_frames(); !s) return s;
     auto left = parallel::collect<IndexPair>(
         context_, {.name = "intersections: parting planes", .n = pairs_.size(), .grain = kGrain},
         [&](std::size_t i, std::vector<IndexPair>& out) {
-          // Nothing parts what is in one place: of many equal objects all pairs are so.
+          // No plane separates equal parts in one place: of many equal objects all pairs are so.
           if (a(i).unique == b(i).unique && a(i).placed.origin == b(i).placed.origin)
             return out.push_back(pairs_[i]);
           const geometry::PartWithObb x{a(i).placed, frames_.find(a(i).unique)};
@@ -314,7 +315,7 @@ class Finder {
     return {};
   }
 
-  /// Of some pairs.
+  /// Finds the lines of some pairs.
   Result<std::vector<Found>> find_lines(const std::vector<std::uint32_t>& some) const {
     const auto trees = for_parts(
         "intersections: trees", geometry::want_trees,
@@ -358,7 +359,7 @@ class Finder {
     return kMostLines + kMostLinesOfTriangle * triangles;
   }
 
-  /// By pair, which is by object of the first part.
+  /// Places the lines by pair, and so by object of the first part.
   Result<std::vector<IntersectionLine>> place(const parallel::Distinct& kinds,
                                               const std::vector<Found>& found) const {
     // Equal pairs that stand in many places count each time.
@@ -384,7 +385,7 @@ class Finder {
   const parallel::Context& context_;
   struct {
     std::uint64_t pairs = 0, tests = 0;
-  } stacked_;  ///< of equal parts at one place, of which there are no pairs
+  } stacked_;  ///< counts for equal parts at one place, of which there are no pairs
   std::vector<IndexPair> pairs_;
   parallel::Precomputed<geometry::OrientedBox> frames_;  ///< by unique part
 };

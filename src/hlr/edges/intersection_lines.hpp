@@ -15,22 +15,22 @@ namespace strake::hlr {
 /// A line along which the skins of two parts pass through each other.
 struct IntersectionLine {
   geometry::Vec3l a, b;                  ///< grid units; off by half a unit at most along each axis
-  std::uint32_t body_a = 0, body_b = 0;  ///< of object a <= b
+  std::uint32_t body_a = 0, body_b = 0;  ///< body_a's object comes before body_b's or is the same
 };
 
 struct IntersectionLines {
-  std::vector<IntersectionLine> all;   ///< by object of body_a
+  std::vector<IntersectionLine> all;   ///< sorted by object of body_a
   std::uint64_t pairs = 0, tests = 0;  ///< as Counters::crossing_pairs and crossing_tests
-  std::uint64_t met = 0;               ///< pairs of parts that were looked at, equal ones each
+  std::uint64_t met = 0;  ///< pairs of parts that were examined, each of equal ones counted
 };
 
-/// Which crossings are lines of a drawing.
+/// Which intersections are lines of a drawing.
 struct IntersectionRule {
   Intersections which = Intersections::objects;
-  double cos_sharp = 1;  ///< skins of one object's primitives cross where they turn by more
+  double cos_sharp = 1;  ///< primitives of one object intersect where their skins turn by more
 };
 
-/// The crossings among the drawn objects; `contact`: distances by body, within
+/// Finds the intersection lines among the drawn objects. `contact`: by body, the distance within
 /// which faces are meant to touch. Errors: cancelled, too many boxes that meet (input).
 [[nodiscard]] Result<IntersectionLines> find_intersection_lines(
     const model::Scene& scene, const std::vector<bool>& drawn,

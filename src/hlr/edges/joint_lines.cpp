@@ -22,12 +22,12 @@ using geometry::Segment;
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-/// What rounding the ends of a line to the grid takes it off the faces that it lies on, and more.
+/// A bound for how far rounding its ends to the grid takes a line off the faces that it lies on.
 constexpr double kOffFace = 2;
 
 double length_of(const Segment& s) { return geometry::length((s[1] - s[0]).as<double>()); }
 
-/// The ends and the middle, which stand for all of a line.
+/// Returns the ends and the middle, which stand for all of a line.
 std::array<Vec3d, 3> samples(const Segment& line) {
   const Vec3d a = line[0].as<double>(), b = line[1].as<double>();
   return {a, (a + b) * 0.5, b};
@@ -45,7 +45,7 @@ class Skin {
   Skin(const PlacedPart& placed, const Vec3l& origin, std::vector<FeatureEdge> edges)
       : part_(*placed.part), at_((placed.origin - origin).as<double>()), edges_(std::move(edges)) {}
 
-  /// Whether all of a line lies that near to edges that are drawn whatever the view.
+  /// Returns whether all of a line lies that near to edges that are drawn in every view.
   [[nodiscard]] bool has_edge_along(const Segment& line, double within) const {
     return std::ranges::all_of(samples(line), [&](const Vec3d& p) {
       return std::ranges::any_of(edges_, [&](const FeatureEdge& e) {
@@ -54,7 +54,7 @@ class Skin {
     });
   }
 
-  /// Of the triangles that hold a point.
+  /// Returns the normals of the triangles that hold a point.
   [[nodiscard]] std::vector<Vec3d> normals_at(const Vec3d& point) const {
     const Vec3d p = point - at_;
     std::vector<Vec3d> normals;
@@ -67,7 +67,7 @@ class Skin {
   [[nodiscard]] Vec3d corner(std::uint32_t t, std::size_t k) const {
     return part_.vertices[part_.triangles[t][k % 3]].as<double>();
   }
-  /// Of length 1.
+  /// Returns the unit normal of a triangle.
   [[nodiscard]] Vec3d normal(std::uint32_t t) const {
     const Vec3d n = cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
     return n * (1 / geometry::length(n));
@@ -95,7 +95,7 @@ class Skin {
 /// Ends of pipes that are flush face each other within less than this: a milliradian.
 constexpr double kCosFlush = 1 - 5e-7;
 
-/// Whether the skins turn by more than the sharp angle at a line, and are not flush.
+/// Returns whether the skins turn by more than the sharp angle at a line, and are not flush.
 bool turns_sharply(const Skin& a, const Skin& b, const Segment& line, double cos_sharp) {
   const Vec3d middle = samples(line)[1];
   const std::vector<Vec3d> of_b = b.normals_at(middle);
@@ -105,7 +105,7 @@ bool turns_sharply(const Skin& a, const Skin& b, const Segment& line, double cos
   });
 }
 
-/// The ends of lines, numbered, and which lines run between them.
+/// The graph of lines: their ends, numbered, and the lines between them.
 class LineGraph {
  public:
   explicit LineGraph(const std::vector<Segment>& lines) : lines_(lines) {
@@ -118,7 +118,7 @@ class LineGraph {
         if (const auto p = find(end)) at_[*p].push_back(i);
   }
 
-  /// Marks the lines of the shortest ways from the first of the ends in each connected set of lines
+  /// Marks the lines of the shortest paths from the first of the ends in each connected component
   /// to all others in it.
   [[nodiscard]] std::vector<bool> shortest_paths_between(const std::vector<Vec3l>& ends) const {
     std::vector<bool> kept(lines_.size()), wanted(points_.size()), done(points_.size());
@@ -140,7 +140,7 @@ class LineGraph {
                  std::vector<bool>& kept) const {
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     std::vector<double> way(points_.size(), std::numeric_limits<double>::infinity());
-    std::vector<std::size_t> by(points_.size(), kNone);  // the line that a point is reached by
+    std::vector<std::size_t> by(points_.size(), kNone);  // the line by which a point is reached
     way[start] = 0;
     for (;;) {
       std::size_t next = kNone;

@@ -41,7 +41,7 @@ Vec3d rounded_normal(const Part& part, std::uint32_t t) {
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
 
-/// How far a point lies off the plane of a triangle, grid units.
+/// Returns the distance of a point from the plane of a triangle, grid units.
 double off_plane(const Part& part, std::uint32_t triangle, std::uint32_t vertex) {
   const Vec3l to = part.vertices[vertex].as<std::int64_t>() -
                    part.vertices[part.triangles[triangle][0]].as<std::int64_t>();
@@ -50,7 +50,7 @@ double off_plane(const Part& part, std::uint32_t triangle, std::uint32_t vertex)
          std::sqrt(dot(size, size));
 }
 
-/// Hands planes on to slivers, from those that know their own, step by step.
+/// Propagates planes to slivers, from triangles that have their own, step by step.
 class Owners {
  public:
   explicit Owners(const Part& part) : part_(part), within_(2 + part.weld) {
@@ -93,7 +93,7 @@ class Owners {
   /// differently.
   template <class Take>
   void each_beside(std::uint32_t t, const Take& take) const {
-    constexpr double kLong = 0.25;  // half the longest, squared
+    constexpr double kLong = 0.25;  // half of the longest, squared
     const std::array<double, 3> sides = squared_sides(part_, t);
     const double longest = *std::max_element(sides.begin(), sides.end());
     const geometry::Triangle& corners = part_.triangles[t];
@@ -109,9 +109,9 @@ class Owners {
     }
   }
 
-  /// Those of the slivers that lie in a plane which one beside them knows, with its owner: of two
-  /// planes, as where a corner of a flat face was rounded beyond its rim, the one to which it turns
-  /// less.
+  /// Returns the slivers that lie in the plane of a triangle beside them that has an owner, with
+  /// that owner. Of two planes, as where a corner of a flat face was rounded beyond its rim, it is
+  /// the one to which the sliver turns less.
   [[nodiscard]] std::vector<Owned> owned(const std::vector<std::uint32_t>& slivers) const {
     std::vector<Owned> found;
     for (const std::uint32_t t : slivers) {
@@ -140,7 +140,7 @@ class Owners {
     return dot(m, n) / std::sqrt(dot(m, m) * dot(n, n));
   }
 
-  /// The slivers without a plane beside these, each once, ascending.
+  /// Returns the slivers without a plane beside these, each once, ascending.
   [[nodiscard]] std::vector<std::uint32_t> beside(const std::vector<Owned>& some) const {
     std::vector<std::uint32_t> found;
     for (const Owned& o : some)
@@ -180,8 +180,8 @@ PlaneOwners plane_owners(const Part& part) {
   return Owners(part).take();
 }
 
-// Each corner is off by half a unit along each axis, so the third corner of `other` by no more than
-// two from the plane of `one`, unless that is a sliver.
+// Each corner is off by half a unit along each axis, so the third corner of `other` is off the
+// plane of `one` by no more than two units, unless that is a sliver.
 bool bends(const Part& part, const PlaneOwners& owners, const PartEdge& edge, std::uint32_t one,
            std::uint32_t other) {
   const std::uint32_t owner = owners.owner(one);

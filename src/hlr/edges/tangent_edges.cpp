@@ -20,7 +20,7 @@ using geometry::PartEdge;
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-/// Faces as sets of triangles in one plane, and what their smooth edges turn by.
+/// Faces as sets of triangles in one plane, and the turns at their smooth edges.
 class FlatFaces {
  public:
   FlatFaces(const Part& part, const PlaneOwners& owners, std::span<const FeatureEdge> edges)
@@ -51,7 +51,7 @@ class FlatFaces {
     const double turn = turn_at(edge);
     const double at_f = most_beside(f, turn), at_g = most_beside(g, turn);
     if (at_f < 0 && at_g < 0) return true;
-    // Of the larger face no more corners are looked at than it takes to tell.
+    // No more corners of the larger face are examined than the decision takes.
     const double far = reach(f, edge);
     if (is_wider(g, edge, clearly_wider(far, turn))) return is_like(turn, at_f);
     if (reaches_beyond(g, edge, far / kWider)) return false;
@@ -60,27 +60,27 @@ class FlatFaces {
 
  private:
   static constexpr double kWider = 2;
-  /// Facets of one skin of which one is that much wider turn by half as much again, which is more
-  /// than twice in the measure of turn_at().
+  /// Where one of two facets of a skin is that much wider, the turn is half as much again, which is
+  /// more than twice in the measure of turn_at().
   static constexpr double kLike = 1.5;
 
-  /// Grid units that a flat face may be off its plane by.
+  /// The grid units by which a flat face may be off its plane.
   static constexpr double kEven = 4;
 
-  /// The least width of a face that is no facet of the skin that one of this width, turned by this
-  /// at its edge, belongs to. Facets that bend by less than rounding are one face, as wide as the
-  /// chord that stands so far off the skin.
+  /// Returns the width from which on a face is no facet of the skin that a face of this width, with
+  /// this turn at its edge, belongs to. Facets that bend by less than rounding are one face, as
+  /// wide as the chord that stands so far off the skin.
   static double clearly_wider(double width, double turn) {
     const double radius = width / std::sqrt(2 * turn);
     return std::max(kWider * width, width + 2 * std::sqrt(8 * radius * kEven));
   }
 
-  /// Whether a face reaches so far and is flat, or has a triangle that is so wide: a row of narrow
-  /// facets, each in one plane with the next but for rounding, is neither.
+  /// Returns whether a face reaches that far and is flat, or has a triangle that is so wide. A row
+  /// of narrow facets, each in one plane with the next but for rounding, is neither.
   [[nodiscard]] bool is_wider(std::uint32_t face, std::uint32_t edge, double than) const {
     return reaches_beyond(face, edge, than) && (even_[face] != 0 || widest_[face] > than);
   }
-  /// One that the source made one face is what it says, however that bends.
+  /// Returns whether a face is flat. A face of the source counts as flat, however it bends.
   [[nodiscard]] bool is_even(std::uint32_t face) const {
     if (is_of_source(face)) return true;
     Vec3d normal, on;
@@ -100,7 +100,7 @@ class FlatFaces {
     return std::all_of(members_.begin() + first_[face], members_.begin() + first_[face + 1],
                        [&](std::uint32_t t) { return part_.faces[t] == part_.faces[face]; });
   }
-  /// The least width of the triangle of a face that is widest across.
+  /// Returns the width across of the widest triangle of a face.
   [[nodiscard]] double width_of_widest(std::uint32_t face) const {
     double most = 0;
     for (std::uint32_t m = first_[face]; m < first_[face + 1]; ++m) {
@@ -155,13 +155,13 @@ class FlatFaces {
     for (std::uint32_t t = 0; t < of_.size(); ++t) members_[next[of_[t]]++] = t;
   }
 
-  /// As long as the triangle has area, twice.
+  /// Returns the normal of a triangle, whose length is twice the area.
   [[nodiscard]] Vec3d normal_at(std::uint32_t triangle) const {
     const ExactNormal exact = triangle_normal(part_, triangle);
     return {static_cast<double>(exact[0]), static_cast<double>(exact[1]),
             static_cast<double>(exact[2])};
   }
-  /// A measure that grows with the angle: one less the cosine.
+  /// Returns a measure that grows with the angle: one less the cosine.
   [[nodiscard]] double turn_at(std::uint32_t edge) const {
     const auto round = geometry::incident_triangles(part_, edge);
     std::array<Vec3d, 2> n;
@@ -176,7 +176,8 @@ class FlatFaces {
       of_face.most = std::max(of_face.most, turn);
     }
   }
-  /// The largest turn at a smooth edge of a face other than one with this turn; negative: none.
+  /// Returns the largest turn at a smooth edge of a face other than one with this turn; negative:
+  /// none.
   [[nodiscard]] double most_beside(std::uint32_t face, double turn) const {
     const Turns& of_face = turns_[face];
     return of_face.most > turn ? of_face.most : of_face.second;
@@ -189,7 +190,7 @@ class FlatFaces {
         if (visit(part_.vertices[v])) return true;
     return false;
   }
-  /// How far away from the line of an edge a point is.
+  /// Returns the distance of a point from the line of an edge.
   [[nodiscard]] double distance(const geometry::Vec3i& point, std::uint32_t edge) const {
     const PartEdge& e = part_.edges[edge];
     const Vec3d a = part_.vertices[e.v0].as<double>();

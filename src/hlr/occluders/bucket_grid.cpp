@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The choice of a grid's size, and the grid: filling it and traversing it.
 #include "hlr/occluders/bucket_grid.hpp"
 
 #include <cmath>
@@ -13,9 +14,9 @@
 namespace strake::hlr {
 namespace {
 
-/// Buckets and entries per box that a grid may have, and one that is chosen.
+/// The most buckets and entries per box of any grid, and of a grid whose size is chosen.
 constexpr double kMostPerBox = 64, kChosenPerBox = 8;
-/// What a step to the next bucket costs, in boxes looked at.
+/// The cost of a step to the next bucket, in boxes examined.
 constexpr double kStep = 2;
 
 double length(std::int64_t lo, std::int64_t hi) {
@@ -51,7 +52,7 @@ double BucketPlan::height() const {
   return extent_.empty() ? 0 : length(extent_.lo.v, extent_.hi.v);
 }
 
-// Fewer buckets along the shorter side.
+// There are fewer buckets along the shorter side.
 BucketPlan::Sides BucketPlan::sides(std::uint32_t side) const {
   if (!(longest() > 0)) return {};
   return {std::max(1.0, std::round(side * width() / longest())),
@@ -104,15 +105,16 @@ BucketAxes BucketPlan::axes(std::uint32_t side) const {
 
 namespace {
 
-/// A float no less.
+/// Returns a float that is no less.
 float no_less(std::int64_t x) {
   return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
 }  // namespace
 
-/// Deals boxes to buckets, in a few runs of boxes each with counts of its own: the entries of a
-/// bucket are those of the first run, then those of the second, so in the order of the boxes.
+/// Distributes boxes to buckets, in a few runs of boxes, each with counts of its own: the entries
+/// of a bucket are those of the first run, then those of the second, and so in the order of the
+/// boxes.
 class BucketGrid::Dealer {
  public:
   Dealer(std::span<const ViewBox> boxes, BucketGrid& to, const parallel::Context& context)
@@ -169,7 +171,7 @@ class BucketGrid::Dealer {
     }
   }
 
-  // Of counts the place where each run starts in each bucket.
+  // Turns counts into the place where each run starts in each bucket.
   Status find_places() {
     to_.first_.resize(buckets_ + 1);
     std::uint32_t sum = 0;
@@ -189,7 +191,7 @@ class BucketGrid::Dealer {
   BucketGrid& to_;
   const parallel::Context& context_;
   std::size_t buckets_, runs_;
-  std::vector<std::uint32_t> next_;  ///< by run and bucket
+  std::vector<std::uint32_t> next_;  ///< next entry by run and bucket
 };
 
 Result<BucketGrid> BucketGrid::of(std::span<const ViewBox> boxes, const BucketAxes& axes,
@@ -217,16 +219,16 @@ BucketGrid::Cells BucketGrid::across(const SegmentQuery& s, bool steep, std::uin
   const BucketAxis& to_side = steep ? axes_.u : axes_.v;
   const double lo = steep ? s.u0 : s.v0, hi = steep ? s.u1 : s.v1;
   const double from = steep ? s.av : s.au, step = steep ? s.dv : s.du;
-  // A line that is not known, or a point.
+  // The line is unknown, or a point.
   if (step == 0) return {to_side.cell(lo), to_side.cell(hi)};
   const double at = steep ? s.au : s.av, slope = (steep ? s.du : s.dv) / step;
-  // The first and the last bucket take what is beyond them.
+  // The first and the last bucket extend to infinity.
   const double begin = i == 0 ? -kInfinity : along.lo + along.size * i;
   const double end = i + 1 == along.count ? kInfinity : along.lo + along.size * (i + 1);
   const double least = std::max(begin, steep ? s.v0 : s.u0);
   const double most = std::min(end, steep ? s.v1 : s.u1);
   const double p = at + (least - from) * slope, q = at + (most - from) * slope;
-  // What rounding may have done to the bucket's sides and to the line; |slope| <= 1.
+  // The bound of rounding of the bucket's sides and of the line; |slope| <= 1.
   const double slack = 1e-12 * (std::abs(at) + std::abs(from) + std::abs(least) + std::abs(most) +
                                 std::abs(along.lo) + std::abs(along.hi)) +
                        s.beside / std::abs(step);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Grids over the paper, the buckets of the source thesis, and the choice of their size.
 #pragma once
 
 // Decision 0029 says why parts have buckets, and how many.
@@ -20,7 +21,7 @@ namespace strake::hlr {
 
 /// One side of a grid over the paper.
 struct BucketAxis {
-  double lo = 0, hi = 0, size = 1;  ///< of a bucket
+  double lo = 0, hi = 0, size = 1;  ///< size: of a bucket
   std::uint32_t count = 1;
 
   // Monotone, so that the cell of a point is between those of the ends of a box that holds it.
@@ -34,30 +35,30 @@ struct BucketAxes {
   BucketAxis u, v;
 };
 
-/// The edges that go through a grid.
+/// Number and length of the edges that are looked up in a grid.
 struct EdgeLengths {
   double count = 0;
-  double sum = 0;  ///< of the longer of |u| and |v|
+  double sum = 0;  ///< sum of the longer of |u| and |v|
 };
 
-/// What a grid over some boxes comes to, by the number of its buckets.
+/// The cost of a grid over some boxes, as a function of the number of its buckets.
 class BucketPlan {
  public:
   BucketPlan() = default;
   explicit BucketPlan(std::span<const ViewBox> boxes);
 
-  /// Empty ones are left out.
+  /// Adds a box, unless it is empty.
   void add(const ViewBox& box);
-  /// The boxes of another.
+  /// Adds the boxes of another plan.
   void add(const BucketPlan& more);
 
-  /// How many buckets along the longer side some edges walk with the least cost: in boxes looked
-  /// at, when all buckets are alike. Where there are no edges, others' may come that are about as
-  /// long as the boxes. A power of two for which buckets and entries are not more than eight times
-  /// the boxes. The source thesis asks for such a choice and has none.
+  /// Returns how many buckets along the longer side give the least cost for some edges: in boxes
+  /// examined, when all buckets are alike. Where there are no edges, edges about as long as the
+  /// boxes are assumed. The result is a power of two for which buckets and entries are not more
+  /// than eight times the boxes. The source thesis asks for such a choice and has none.
   [[nodiscard]] std::uint32_t best_side(const EdgeLengths& own) const;
 
-  /// A grid of about square buckets, `side` of them along the longer side: fewer where all of them
+  /// Returns a grid of about square buckets, `side` of them along the longer side: fewer where they
   /// would list much more than there is.
   [[nodiscard]] BucketAxes axes(std::uint32_t side) const;
 
@@ -74,10 +75,10 @@ class BucketPlan {
   [[nodiscard]] bool fits(std::uint32_t side, double per_box) const;
 
   ViewBox extent_;
-  double count_ = 0, sides_sum_ = 0, area_ = 0;  ///< of the boxes
+  double count_ = 0, sides_sum_ = 0, area_ = 0;  ///< sums over the boxes
 };
 
-/// What a walk over buckets has met already, for one worker; it keeps its memory.
+/// Marks of the items that a traversal has met already, for one worker; it keeps its memory.
 class BucketMarks {
  public:
   void begin(std::size_t items) {
@@ -86,7 +87,7 @@ class BucketMarks {
     std::ranges::fill(marks_, 0U);
     walk_ = 1;
   }
-  /// Whether an item is met for the first time in this walk.
+  /// Returns whether an item is met for the first time in this traversal.
   bool first(std::uint32_t item) { return std::exchange(marks_[item], walk_) != walk_; }
 
  private:
@@ -99,16 +100,17 @@ class BucketMarks {
 class BucketGrid {
  public:
   BucketGrid() = default;
-  /// Empty boxes are left out. Errors: cancelled.
+  /// Builds the grid; empty boxes are left out. Errors: cancelled.
   [[nodiscard]] static Result<BucketGrid> of(std::span<const ViewBox> boxes, const BucketAxes& axes,
                                              const parallel::Context& context);
 
   [[nodiscard]] bool empty() const { return first_.empty(); }
-  /// How many entries the bucket of an entry has in the mean: what a walk looks at there.
+  /// Returns how many entries the bucket of an entry has in the mean: what a traversal examines
+  /// there.
   [[nodiscard]] double crowding() const;
 
   /// Calls visit(index) -> bool once for every box that may hide the segment, bucket by bucket;
-  /// visit ends the walk by returning false.
+  /// visit ends the traversal by returning false.
   template <class Visit>
   void traverse(const SegmentQuery& segment, BucketMarks& marks, Visit&& visit) const {
     marks.begin(items_);
@@ -131,7 +133,7 @@ class BucketGrid {
   };
   struct Entry {
     std::uint32_t item = 0;
-    float nearest = 0;  ///< no less than the box's
+    float nearest = 0;  ///< the box's greatest w, rounded up
   };
   class Dealer;
 
@@ -150,7 +152,7 @@ class BucketGrid {
 
   BucketAxes axes_;
   std::size_t items_ = 0;
-  std::vector<std::uint32_t> first_;  ///< by bucket, row by row, and the end
+  std::vector<std::uint32_t> first_;  ///< first entry by bucket, row by row, and the end
   std::vector<Entry> entries_;
 };
 

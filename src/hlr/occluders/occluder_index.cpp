@@ -16,11 +16,11 @@
 namespace strake::hlr {
 namespace {
 
-// An index pays from this many polygons on. The faces of convex parts are seldom asked: their
+// An index pays from this many polygons on. The faces of convex parts are seldom tested: their
 // outline is.
 constexpr std::size_t kIndexFrom = 12, kIndexFromIfConvex = 64;
-// Buckets::crowding() from which on a tree is better: where faces crowd in few buckets, or are much
-// longer than wide. Less is looked at than that: a walk leaves a bucket where nothing nearer is
+// The BucketGrid::crowding() from which on a tree is better: where faces crowd in few buckets, or
+// are much longer than wide. A traversal examines fewer: it leaves a bucket where nothing nearer is
 // left.
 constexpr double kCrowded = 256;
 
@@ -31,10 +31,10 @@ EdgeLengths lengths_of(std::span<const ProjectedEdge> edges) {
   return lengths;
 }
 
-/// A part runs askew where the box of its longest edge takes so much of its own, and is turned
-/// where the box that this makes is so much smaller: areas.
+/// A part runs askew where the box of its longest edge takes this share of its own box, and is
+/// rotated where the new box is smaller by this factor: areas.
 constexpr double kAskew = 0.25, kWorthTurning = 0.5;
-/// Farther out a turned point would be no whole number that a double holds.
+/// Farther out a rotated point would be no whole number that a double holds.
 constexpr std::int64_t kFarthestTurned = std::int64_t{1} << 44;
 
 double area(const ViewBox& box) {
@@ -42,7 +42,7 @@ double area(const ViewBox& box) {
          (static_cast<double>(box.hi.v) - static_cast<double>(box.lo.v));
 }
 
-/// Along the longest edge, if that runs askew.
+/// Returns the rotation along the longest edge, if that runs askew.
 PaperRotation turn_along(std::span<const ProjectedEdge> edges, const ViewBox& box) {
   double longest = 0, du = 0, dv = 0;
   for (const ProjectedEdge& e : edges) {
@@ -72,7 +72,7 @@ std::vector<ViewBox> turned_boxes(const OccluderPolygons& all,
   return boxes;
 }
 
-/// Whether the part is indexed in a frame of its own (decision 0031).
+/// Returns whether the part is indexed in axes of its own (decision 0031).
 bool index_turned(const OccluderPolygons& all, std::span<const OccluderPolygon> polygons,
                   std::span<const ProjectedEdge> edges, std::size_t from, OccluderPart& part) {
   const ViewPoint &lo = part.box.lo, &hi = part.box.hi;
@@ -87,7 +87,7 @@ bool index_turned(const OccluderPolygons& all, std::span<const OccluderPolygon> 
   if (area(box) > kWorthTurning * scale * area(part.box)) return false;
   part.turn = turn;
   part.turned = rounded_outwards(box);
-  // Its facets are long strips along the frame, which buckets do not tell apart.
+  // Its facets are long strips along these axes, which buckets do not separate.
   if (polygons.size() >= from) part.tree = ViewBvh(boxes);
   return true;
 }

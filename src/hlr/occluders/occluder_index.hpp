@@ -8,9 +8,9 @@
 
 namespace strake::hlr {
 
-/// Gives a part of many polygons buckets or a tree over them, as the sight asks, and one that runs
-/// askew on paper a frame that fits. `edges` are the part's own: what frame and number of buckets
-/// are chosen by; `hubs` points on paper round which there are many. Errors: cancelled.
+/// Indexes a part of many polygons by buckets or a tree, as the settings ask, and gives a part that
+/// runs askew on paper a rotation that fits. Rotation and number of buckets are chosen by `edges`,
+/// the part's own; `hubs` are points on paper where many polygons meet. Errors: cancelled.
 [[nodiscard]] Status build_occluder_index(const OccluderPolygons& all,
                                           std::span<const ProjectedEdge> edges,
                                           std::vector<PaperCorner> hubs, bool convex,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Building occluder polygons: by group of triangles, and for a whole part.
 #include "hlr/occluders/occluder_polygons.hpp"
 
 #include <algorithm>
@@ -28,8 +29,8 @@ using geometry::Triangle;
 
 namespace {
 
-/// The first big part of a shape gets its memory from the team; more of them grow it by shares, so
-/// that many do not copy all of it for each.
+/// The first big part of a shape gets its memory from the team; more of them grow it geometrically,
+/// so that many do not copy all of it for each.
 template <class T>
 Status extend(std::vector<T>& values, std::size_t size, const parallel::Context& context) {
   if (!values.empty()) {
@@ -157,14 +158,14 @@ using geometry::Vec3l;
 // Parts up to this size have normals of 62 bits.
 constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
 
-// The sign and value of n · (p - q).
+// Returns n · (p - q).
 Int128 height(const std::array<std::int64_t, 3>& n, const Vec3i& p, const Vec3i& q) {
   return static_cast<Int128>(n[0]) * (std::int64_t{p.x} - q.x) +
          static_cast<Int128>(n[1]) * (std::int64_t{p.y} - q.y) +
          static_cast<Int128>(n[2]) * (std::int64_t{p.z} - q.z);
 }
 
-/// What the triangles at an edge are to each other.
+/// How the triangles at an edge lie to each other.
 enum class Bend : std::uint8_t {
   convex,
   not_convex,  ///< concave, or not two triangles that run through it both ways
@@ -231,7 +232,7 @@ class PartMerger {
     return convex;
   }
 
-  /// Where many triangles meet, on paper.
+  /// Returns the points on paper where many triangles meet.
   [[nodiscard]] std::vector<PaperCorner> hubs() const {
     std::vector<PaperCorner> hubs;
     if (viewer_.eye || part_.triangles.size() < kLeastInFan) return hubs;
@@ -283,7 +284,7 @@ class PartMerger {
     return convex;
   }
 
-  // Of two coplanar triangles: whether they lie upon each other.
+  // Returns whether two coplanar triangles lie upon each other.
   [[nodiscard]] bool is_folded(std::uint32_t s, std::uint32_t t) const {
     const auto &m = seen_.planes[s].n, &n = seen_.planes[t].n;
     for (std::size_t k = 0; k < 3; ++k)
@@ -291,7 +292,7 @@ class PartMerger {
     return true;
   }
 
-  // The outline of a certified convex part, as one polygon.
+  // Adds the outline of a certified convex part, as one polygon.
   void add_outline(OccluderBuilder& maker, OccluderPart& part) {
     if (!maker.make_outline(part.outline, view_)) return;
     double steepest = 0;
@@ -301,14 +302,14 @@ class PartMerger {
           static_cast<double>(viewer_.facing(view_.normal(p), p.at.as<std::int64_t>()));
       steepest = std::max(steepest, (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) / facing);
     }
-    // Rounding of the few operations above is far below the share added.
+    // Rounding of the few operations above is far below the fraction added.
     part.deep_per_contact = steepest * reach() * (1 + 1e-9);
     part.has_outline = true;
   }
 
-  // By this times |n|_1 / facing a point must lie deeper along the direction than the point of a
-  // face that hides it, per contact distance. In perspective the way between the two is the longer
-  // the farther they are from the eye.
+  // Per contact distance, a point must lie deeper along the direction than the point of a face that
+  // hides it by this times |n|_1 / facing. In perspective the distance between the two grows with
+  // that from the eye.
   [[nodiscard]] double reach() const {
     const auto d = viewer_.direction.as<double>();
     if (!viewer_.eye) return dot(d, d);
@@ -318,8 +319,8 @@ class PartMerger {
     return std::sqrt(dot(d, d) * farthest);
   }
 
-  // Triangles that are not seen edge-on, group by group and in their order: by counting, a group
-  // being the number of its first triangle.
+  // Returns the triangles that are not seen edge-on, group by group and in their order. It is a
+  // counting sort: a group is the number of its first triangle.
   [[nodiscard]] Result<std::vector<std::uint32_t>> in_groups() const {
     std::vector<std::uint8_t> shows(group_.size());
     const Status status = parallel::for_each(
@@ -351,7 +352,7 @@ class PartMerger {
       add(maker, 0, order.size(), view_);
       return {};
     }
-    // Runs of whole groups.
+    // The runs hold whole groups.
     constexpr std::size_t kRun = 4096;
     std::vector<std::size_t> cuts{0};
     for (std::size_t i = kRun; i < order.size(); i += kRun) {

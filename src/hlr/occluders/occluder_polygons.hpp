@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The convex polygons by which parts hide, and how they are merged from triangles.
 #pragma once
 
 #include <array>
@@ -19,24 +20,24 @@ struct PaperCorner {
   std::int64_t u = 0, v = 0;
 };
 
-/// A planar convex piece of a surface that hides what lies behind it: a triangle, or exactly
-/// coplanar neighbours whose union is convex on paper. Corners run counter-clockwise to the
-/// viewer. What it hides is the union of what its triangles hide, ends included.
+/// A planar convex polygon that hides what lies behind it: a triangle, or exactly coplanar
+/// neighbours whose union is convex on paper. Corners run counter-clockwise to the viewer. It hides
+/// the union of what its triangles hide, ends included.
 struct OccluderPolygon {
   ViewBox box;
   geometry::Vec3i at;                    ///< a corner
-  bool edge_on = false;                  ///< but for rounding: see may_be_edge_on()
-  std::array<std::int64_t, 3> normal{};  ///< to the viewer's side; unused where wide >= 0
-  std::int32_t wide = -1;                ///< index into Polygons::wide_normals
+  bool edge_on = false;                  ///< edge-on but for rounding: see may_be_edge_on()
+  std::array<std::int64_t, 3> normal{};  ///< points to the viewer's side; unused where wide >= 0
+  std::int32_t wide = -1;                ///< index into OccluderPolygons::wide_normals
   std::uint32_t first_corner = 0, corners = 0;
   std::uint32_t part = 0;
 };
 
-/// Polygons with what they refer to.
+/// Polygons with the corners, rays and normals that they refer to.
 struct OccluderPolygons {
-  std::vector<OccluderPolygon> polygons;  ///< by part
+  std::vector<OccluderPolygon> polygons;  ///< sorted by part
   std::vector<PaperCorner> corners;       ///< orthographic
-  std::vector<geometry::Vec3l> rays;      ///< in perspective: corners relative to the eye
+  std::vector<geometry::Vec3l> rays;      ///< perspective: corners relative to the eye
   std::vector<ExactNormal> wide_normals;
 
   [[nodiscard]] ExactNormal normal(const OccluderPolygon& p) const {
@@ -53,12 +54,12 @@ class OccluderBuilder {
                   const PerspectiveMap* perspective_map)
       : seen_(seen), part_index_(part_index), perspective_map_(perspective_map), loops_(seen) {}
 
-  /// Coplanar triangles that look the same way and all, or none, may be edge-on: one polygon if
-  /// that is convex, or each.
+  /// Adds coplanar triangles that look the same way and of which all, or none, may be edge-on: as
+  /// one polygon if that is convex, or else each.
   void add_group(std::span<const std::uint32_t> triangles, OccluderPolygons& out);
-  /// A triangle of a part that is too wide for narrow normals, unless it is seen edge-on.
+  /// Adds a triangle of a part that is too wide for narrow normals, unless it is seen edge-on.
   void add_wide(std::uint32_t triangle, OccluderPolygons& out);
-  /// The outline of a certified convex part: corners are appended, the polygon is filled. False
+  /// Makes the outline of a certified convex part: appends its corners and fills the polygon. False
   /// where it is not one convex loop.
   [[nodiscard]] bool make_outline(OccluderPolygon& outline, OccluderPolygons& out);
 
@@ -74,7 +75,7 @@ class OccluderBuilder {
   SilhouetteLoops loops_;
 };
 
-/// Appends what was made run by run, none of it by add_wide. Errors: cancelled.
+/// Appends polygons that were made run by run, none of them by add_wide. Errors: cancelled.
 [[nodiscard]] Status append(OccluderPolygons& all, std::span<const OccluderPolygons> runs,
                             const parallel::Context& context);
 

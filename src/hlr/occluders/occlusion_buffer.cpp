@@ -14,10 +14,10 @@ constexpr float kNothing = -std::numeric_limits<float>::infinity();
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostAcross = 4096;
 constexpr std::size_t kBandRows = 64;
-/// Room for rounding: doubles hold view coordinates and what is computed from them to far less than
-/// this share, and a whole unit is added where they are compared.
+/// Relative margin for rounding: doubles hold view coordinates and what is computed from them far
+/// more exactly, and a whole unit is added where they are compared.
 constexpr double kShare = 1e-12;
-/// Room at the sides of tiles, in tiles, for where a point of an edge lies.
+/// Margin at the sides of tiles, in tiles, for the place of a point of an edge.
 constexpr double kBeside = 1e-6;
 
 double as_double(std::int64_t x) { return static_cast<double>(x); }
@@ -33,7 +33,7 @@ struct Slope {
   double by_u = 0, by_v = 0, behind = 0;
 };
 
-/// Solves for the plane's depth with the inverse of the frame's matrix.
+/// Solves for the plane's depth with the inverse of the projection's matrix.
 class Planes {
  public:
   Planes(const ViewProjection& projection, std::int64_t contact) : contact_(as_double(contact)) {
@@ -45,7 +45,7 @@ class Planes {
       m[1][k] = as_double(p.v);
       m[2][k] = as_double(p.w);
     }
-    // Rows of the inverse are cross products of columns; its columns, of rows.
+    // Rows of the inverse are cross products of columns; its columns are those of rows.
     const auto cross = [&](int i, int j, double* out) {
       for (int k = 0; k < 3; ++k)
         out[k] = m[i][(k + 1) % 3] * m[j][(k + 2) % 3] - m[i][(k + 2) % 3] * m[j][(k + 1) % 3];
@@ -68,7 +68,7 @@ class Planes {
     const double w = dot(along_w_);
     const double facing =
         std::fabs(n[0] * direction_.x + n[1] * direction_.y + n[2] * direction_.z);
-    // Nearly edge-on, rounding of the normal would tell in the slope by more than kShare.
+    // Nearly edge-on, rounding of the normal would change the slope by more than kShare.
     const double size = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     if (!(facing * facing > 1e-4 * size * squared_)) return {.behind = kNever};
     return {-dot(along_u_) / w, -dot(along_v_) / w, contact_ * sum * squared_ / facing};
@@ -92,7 +92,7 @@ class OcclusionBuffer::Painter {
         projection_(projection),
         planes_(projection, contact) {}
 
-  /// The polygons of a body whose box holds a tile.
+  /// Lists the polygons of a body whose box holds a tile.
   void list(std::uint32_t body, std::vector<Large>& out) const {
     const BodyInstance& placed = placed_[body];
     if (placed.view == nullptr || !placed.opaque || placed.cut || placed.repeated ||
@@ -149,7 +149,7 @@ class OcclusionBuffer::Painter {
     }
   }
 
-  /// The open stretch of a polygon at height v, shortened by what rounding may make of it.
+  /// Returns the open interval of a polygon at height v, shortened by the bound of rounding.
   static Span chord(std::span<const PaperCorner> corners, const ViewPoint& at, double v) {
     Span span{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -182,7 +182,7 @@ class OcclusionBuffer::Painter {
     const auto from = static_cast<std::size_t>(std::max(first, 0.0));
     const auto to =
         static_cast<std::size_t>(std::clamp(last, 0.0, static_cast<double>(c.columns_)));
-    // The farthest corner of the first tile, and from there by steps.
+    // Start at the farthest corner of the first tile, and go on by steps.
     const double v = c.v0_ + c.height_ * static_cast<double>(row + (slope.by_v < 0 ? 1 : 0));
     const double u = c.u0_ + (slope.by_u < 0 ? c.width_ : 0);
     const double rise_v = slope.by_v * (v - as_double(at.v));
@@ -243,7 +243,7 @@ Result<OcclusionBuffer> OcclusionBuffer::of(std::span<const BodyInstance> placed
   return occlusion_buffer;
 }
 
-/// A segment in units of tiles, along whichever side of the paper it runs.
+/// A segment in units of tiles, along the side of the paper along which it runs.
 class OcclusionBuffer::Walk {
  public:
   Walk(const OcclusionBuffer& occlusion_buffer, const ViewPoint& a, const ViewPoint& b)
@@ -264,7 +264,7 @@ class OcclusionBuffer::Walk {
     along_ = static_cast<double>(by_column_ ? occlusion_buffer.columns_ : occlusion_buffer.rows_);
   }
 
-  /// How far from parameter `start` towards `end` the segment is covered.
+  /// Returns how far from parameter `start` towards `end` the segment is covered.
   [[nodiscard]] double covered_from(double start, double end) const {
     const double sign = (end > start) == (dx_ > 0) ? 1 : -1;
     const double last = x_ + dx_ * end;
@@ -283,13 +283,13 @@ class OcclusionBuffer::Walk {
   }
 
  private:
-  /// A little less far than t, lest rounding has put that into the next column.
+  /// Returns a parameter a little before t, lest rounding has put t into the next column.
   [[nodiscard]] double short_of(double start, double t) const {
     const double step = kBeside / std::fabs(dx_);
     return start < t ? std::max(start, t - step) : std::min(start, t + step);
   }
 
-  /// The stretch from t to u, in one column of tiles.
+  /// Returns whether the interval from t to u, in one column of tiles, is covered.
   [[nodiscard]] bool covered(double tile, double t, double u) const {
     const double w = std::max(w_ + dw_ * t, w_ + dw_ * u) + slack_;
     const double y0 = y_ + dy_ * t, y1 = y_ + dy_ * u;

@@ -14,22 +14,24 @@
 
 namespace strake::hlr {
 
-/// What of a segment, by parameters, is certainly hidden on both sides: [lo, from] and [to, hi];
-/// all of it where from >= to.
+/// The parts of a segment [lo, hi] that are certainly hidden on both sides: [lo, from] and [to,
+/// hi]; all of it where from >= to.
 struct CoveredEnds {
   double from = 0, to = 1;
 };
 
-/// For each tile of the paper how near to the viewer it is wholly covered: one polygon's open
-/// inside holds the closed tile, and all of the polygon over the tile is nearer than that by more
-/// than any contact distance. A bound from below, so that what lies deeper is hidden without a look
-/// at what hides it (the farthest-depth map of Greene, Kass and Miller, 1993, with exact coverage).
+/// A conservative tile z-buffer: for each tile of the paper a depth at which it is wholly covered.
+/// One polygon's open inside holds the closed tile, and all of the polygon over the tile is nearer
+/// than that by more than any contact distance. As the depth is a lower bound, what lies deeper is
+/// hidden with no test of its occluders (the farthest-depth map of Greene, Kass and Miller, 1993,
+/// with exact coverage).
 class OcclusionBuffer {
  public:
-  /// Covers nothing.
+  /// A buffer that covers nothing.
   OcclusionBuffer() = default;
 
-  /// Of the bodies that may hide and that no limits cut. `tiles`: about how many of them.
+  /// Builds the buffer from the bodies that may hide and that no limits cut. `tiles`: the
+  /// approximate number of tiles.
   /// Errors: cancelled.
   [[nodiscard]] static Result<OcclusionBuffer> of(std::span<const BodyInstance> placed,
                                                   const ViewProjection& projection,
@@ -38,7 +40,7 @@ class OcclusionBuffer {
 
   [[nodiscard]] bool empty() const { return depth_.empty(); }
 
-  /// The ends, or all, of the part [lo, hi] of a segment that lie deeper than what covers them.
+  /// Returns the ends, or all, of the part [lo, hi] of a segment that lie deeper than the buffer.
   [[nodiscard]] CoveredEnds covered_ends(const ViewPoint& a, const ViewPoint& b, double lo,
                                          double hi) const;
 
@@ -47,9 +49,9 @@ class OcclusionBuffer {
   class Walk;
 
   double u0_ = 0, v0_ = 0;         ///< corner of the first tile
-  double width_ = 1, height_ = 1;  ///< of a tile
+  double width_ = 1, height_ = 1;  ///< size of a tile
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<float> depth_;  ///< by row, then column; minus infinity where nothing covers
+  std::vector<float> depth_;  ///< by row, then column; minus infinity where nothing covers the tile
 };
 
 }  // namespace strake::hlr

@@ -13,7 +13,7 @@ namespace {
 /// Steps of a full turn: far wider than what rounding makes of an angle.
 constexpr double kFullTurn = 0x1p42;
 
-/// Grows with the angle of a direction, from 0 up to a full turn.
+/// Returns a value that grows with the angle of a direction, from 0 up to a full turn.
 double angle_of(const PaperCorner& from, std::int64_t u, std::int64_t v) {
   const double du = static_cast<double>(u - from.u), dv = static_cast<double>(v - from.v);
   const double slope = dv / (std::fabs(du) + std::fabs(dv));
@@ -25,7 +25,7 @@ bool before(const PaperCorner& x, const PaperCorner& y) {
   return std::tie(x.u, x.v) < std::tie(y.u, y.v);
 }
 
-/// A stretch of angles, with room for rounding.
+/// An interval of angles, with a margin for rounding.
 ViewBox angle_interval(double from, double to, std::int64_t nearest) {
   ViewBox box;
   box.include(ViewPoint{static_cast<std::int64_t>(std::floor(from)) - 1, 0, nearest});
@@ -68,7 +68,7 @@ PolygonFan::PolygonFan(const PaperCorner& at, std::vector<std::uint32_t> numbers
 
 std::optional<SegmentQuery> PolygonFan::directions(const ViewPoint& a, const ViewPoint& b,
                                                    double nearest) const {
-  // Beyond that, boxes tell as much; and it is less than half a turn, so that an edge is seen
+  // Beyond that, boxes cull as much; and it is less than half a turn, so that an edge is seen
   // between its ends.
   constexpr double kMost = kFullTurn / 8;
   const bool from_a = a.u == at_.u && a.v == at_.v, from_b = b.u == at_.u && b.v == at_.v;
@@ -97,7 +97,7 @@ std::vector<PolygonFan> extract_fans(std::vector<PaperCorner> hubs,
       const auto hub = std::ranges::lower_bound(hubs, c, before);
       if (hub == hubs.end() || before(c, *hub)) continue;
       round[static_cast<std::size_t>(hub - hubs.begin())].push_back(i);
-      break;  // of one fan
+      break;  // a polygon belongs to one fan
     }
   }
   for (std::size_t h = 0; h < hubs.size(); ++h) {

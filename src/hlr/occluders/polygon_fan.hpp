@@ -13,17 +13,17 @@
 
 namespace strake::hlr {
 
-/// Many polygons of a part round one point on paper. An edge passes under those alone whose angle
-/// at the point holds some of the directions in which it is seen from there: boxes do not tell,
-/// since all hold the point, and those of needles askew much of the others.
+/// Many polygons of a part round one point on paper. An edge can pass only under those whose angle
+/// at the point holds some of the directions in which the edge is seen from there. Boxes do not
+/// separate them: all hold the point, and boxes of needles askew much of the others.
 class PolygonFan {
  public:
-  /// `numbers` of `polygons`, each with a corner at the point; orthographic.
+  /// Makes a fan of the `numbers` of `polygons`, each with a corner at the point; orthographic.
   PolygonFan(const PaperCorner& at, std::vector<std::uint32_t> numbers,
              std::span<const OccluderPolygon> polygons, std::span<const PaperCorner> corners);
 
-  /// Calls visit(number) -> bool for those that may hide the segment, which is part of the edge
-  /// from `a` to `b`, until that returns false.
+  /// Calls visit(number) -> bool for the polygons that may hide the segment, which is part of the
+  /// edge from `a` to `b`, until that returns false.
   template <class Visit>
   void traverse(const SegmentQuery& segment, const ViewPoint& a, const ViewPoint& b,
                 Visit&& visit) const {
@@ -34,25 +34,26 @@ class PolygonFan {
   }
 
  private:
-  /// In which the edge is seen from the point; none where these are many or not known.
+  /// Returns the directions in which the edge is seen from the point; none where they are many or
+  /// unknown.
   [[nodiscard]] std::optional<SegmentQuery> directions(const ViewPoint& a, const ViewPoint& b,
                                                        double nearest) const;
 
   PaperCorner at_;
   std::vector<std::uint32_t> numbers_;
   ViewBvh by_box_;
-  std::vector<std::uint32_t> angles_;  ///< by item of the tree: into the numbers
+  std::vector<std::uint32_t> angles_;  ///< by item of by_angle_: index into numbers_
   ViewBvh by_angle_;                   ///< u: the angle, from 0 to kFullTurn
 };
 
-/// Takes the polygons round points where many meet out of the boxes, which are theirs, into fans.
-/// `hubs`: such points, on paper; any of them may turn out to be none.
+/// Makes fans of the polygons round points where many meet, and empties their boxes. `hubs`:
+/// candidates for such points, on paper.
 [[nodiscard]] std::vector<PolygonFan> extract_fans(std::vector<PaperCorner> hubs,
                                                    std::span<const OccluderPolygon> polygons,
                                                    std::span<const PaperCorner> corners,
                                                    std::vector<ViewBox>& boxes);
 
-/// Polygons round a point from which on they make a fan.
+/// The least number of polygons round a point that make a fan.
 inline constexpr std::size_t kLeastInFan = 64;
 
 }  // namespace strake::hlr

@@ -18,7 +18,7 @@ Int128 facing_of(const geometry::Part& part, std::uint32_t t, const Viewer& view
                        part.vertices[part.triangles[t][0]].as<std::int64_t>());
 }
 
-/// Of an exactly convex part: some face looks towards the viewer.
+/// Returns whether some face of an exactly convex part looks towards the viewer.
 bool is_outside(const geometry::Part& part, const Viewer& viewer) {
   if (!viewer.eye) return true;
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
@@ -28,8 +28,8 @@ bool is_outside(const geometry::Part& part, const Viewer& viewer) {
 
 // The viewer is outside. On the boundary of a convex body an edge of a face towards the viewer lies
 // on the body's upper side, where nothing of the body is nearer; an edge between two faces turned
-// away is behind the body all along. One with a face edge-on lies on the outline and may be behind
-// on one side.
+// away is behind the body all along. An edge with a face edge-on lies on the outline and may be
+// behind on one side.
 void classify_edges(const geometry::Part& part, const Viewer& viewer,
                     std::span<ProjectedEdge> edges) {
   for (ProjectedEdge& e : edges) {
@@ -79,8 +79,8 @@ Result<ProjectedShape> view_of(const SectionedShape& seen, const ProjectionSetti
     if (part.kind == geometry::PartKind::wire) continue;
     const Result<bool> convex = add_polygons(part, p, settings, own, view);
     if (!convex) return convex.error();
-    // What was rounded has a contact distance within the part, which the signs know nothing of, nor
-    // do they of what is edge-on but for rounding.
+    // A part that was rounded has a contact distance within itself, and some facets are edge-on but
+    // for rounding: the signs account for neither.
     const bool exact = seen.within == 0 && (view.parts.empty() || !view.parts.back().edge_on);
     if (*convex && exact && is_outside(part, viewer)) classify_edges(part, viewer, own);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Shapes, parts and edges as a view sees them, and the bodies that place them.
 #pragma once
 
 #include <cstdint>
@@ -19,77 +20,77 @@
 
 namespace strake::hlr {
 
-/// A part of a shape as something that hides.
+/// A part of a shape as an occluder.
 struct OccluderPart {
   ViewBox box;                        ///< of its polygons
   std::int64_t farthest = 0;          ///< least product of a corner with the direction
-  bool edge_on = false;               ///< some of its polygons are, see Polygon::edge_on
+  bool edge_on = false;               ///< some of its polygons are, see OccluderPolygon::edge_on
   std::uint32_t first = 0, last = 0;  ///< its polygons
-  PaperRotation turn;                 ///< where the part runs askew on paper
-  LooseBox turned;                    ///< the box in that frame
-  // Over them, where there are many: either, or neither; in that frame.
+  PaperRotation turn;                 ///< its rotation where the part runs askew on paper
+  LooseBox turned;                    ///< its box after that rotation
+  // Indices over the polygons where there are many: one or neither; after that rotation.
   ViewBvh tree;
   BucketGrid buckets;
-  std::vector<PolygonFan> fans;  ///< with polygons that are in neither
-  /// Exactly convex: the outline, a polygon without a plane. It hides all that lies under it and
-  /// below `farthest` by more than `deep_per_contact` times the contact distance, because that
-  /// lies deep enough under whichever face is above.
+  std::vector<PolygonFan> fans;  ///< of polygons that are in neither index
+  /// For an exactly convex part the outline, a polygon without a plane. It hides all that lies
+  /// under it and below `farthest` by more than `deep_per_contact` times the contact distance,
+  /// because that is deep enough under whichever face is above.
   bool has_outline = false;
   OccluderPolygon outline;
   double deep_per_contact = 0;
 };
 
-/// A feature edge with what the view needs of it.
+/// A feature edge with its projection.
 struct ProjectedEdge {
   FeatureEdge edge;
   ViewPoint a, b;  ///< orthographic
-  /// On a part that is exactly convex: does the part hide its own edge? Neither where unknown.
+  /// For an edge of an exactly convex part: whether the part hides it. Neither where unknown.
   bool surely_clear_of_part = false, surely_behind_part = false;
 };
 
-/// How a shape is seen.
+/// How a shape is projected.
 struct ProjectionSettings {
   const ViewProjection& projection;
   FeatureOptions features;                          ///< in the coordinates of the shape
   const PerspectiveMap* perspective_map = nullptr;  ///< null: orthographic
   std::int32_t bucketing = Options::kBucketsByData;
-  bool find_edge_on = false;       ///< tell polygons that may be edge-on but for rounding
-  parallel::Context context = {};  ///< for big shapes
+  bool find_edge_on = false;       ///< find polygons that may be edge-on but for rounding
+  parallel::Context context = {};  ///< the team for big shapes
 };
 
-/// A shape seen in one direction, shared by all bodies that place it; or in perspective, of one
-/// body. Then boxes are those of the picture and hold for the body where it is.
+/// A shape seen in one direction, shared by all bodies that place it; or in perspective, for one
+/// body, with boxes under the PerspectiveMap that hold for the body where it is.
 struct ProjectedShape : OccluderPolygons {
   Viewer viewer;                    ///< in the coordinates of the shape
-  std::vector<OccluderPart> parts;  ///< those that can hide
-  ViewBox box;                      ///< of the polygons
+  std::vector<OccluderPart> parts;  ///< the parts that can hide
+  ViewBox box;                      ///< box of the polygons
   std::int64_t reach = 0;           ///< largest |u| or |v| of a corner
   std::vector<ProjectedEdge> edges;
 };
 
-/// Errors: cancelled.
+/// Projects a shape and makes its occluders and edges. Errors: cancelled.
 [[nodiscard]] Result<ProjectedShape> view_of(const SectionedShape& seen,
                                              const ProjectionSettings& settings);
 
-/// Polygons of one part, appended; true when the part is exactly convex and closed. `edges` are
-/// those of the part: what its buckets are chosen by.
+/// Appends the polygons of one part; true when the part is exactly convex and closed. `edges` are
+/// those of the part: its buckets are chosen by them.
 [[nodiscard]] Result<bool> add_polygons(const geometry::Part& part, std::uint32_t part_index,
                                         const ProjectionSettings& settings,
                                         std::span<const ProjectedEdge> edges, ProjectedShape& view);
 
-/// A body as the gathering sees it.
+/// A body that places a projected shape, as the solvers use it.
 struct BodyInstance {
-  const ProjectedShape* view = nullptr;  ///< null: not drawn
+  const ProjectedShape* view = nullptr;  ///< null: the body is not drawn
   geometry::Vec3l offset;
   ViewPoint at;
   std::uint32_t object = 0;
   std::int64_t contact = 0;
-  std::int64_t within = 0;             ///< the same among what is one part
-  bool opaque = false;                 ///< and, where there are limits, not wholly outside them
-  bool cut = false;                    ///< by the limits
-  bool forgives_rounding = false;      ///< see Job::forgives_rounding()
-  bool shares_self_occlusion = false;  ///< with the other bodies of its shape
-  bool repeated = false;               ///< others that are equal, at its place, hide what it hides
+  std::int64_t within = 0;             ///< contact distance within a part
+  bool opaque = false;                 ///< hides; where there are limits, not wholly outside them
+  bool cut = false;                    ///< the limits cut it
+  bool forgives_rounding = false;      ///< see ViewJob::forgives_rounding()
+  bool shares_self_occlusion = false;  ///< shares it with the other bodies of its shape
+  bool repeated = false;               ///< equal bodies at its place hide what it hides
 };
 
 }  // namespace strake::hlr

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The certificate of convexity, outlines of coplanar triangles and silhouettes of convex parts.
 #include "hlr/occluders/silhouette_loops.hpp"
 
 #include <algorithm>
@@ -24,8 +25,8 @@ using geometry::Vec3i;
 using geometry::Vec3l;
 
 /// The ray from the middle, the sum of `count` points over their number, through the centre of
-/// triangle 0: the triangle that it leaves by has the ray's direction inside the cone of its
-/// corners.
+/// triangle 0. The cone of the corners of the triangle by which it leaves holds the ray's
+/// direction.
 bool ray_meets_once(const Part& part, const Vec3l& sum, std::int64_t count) {
   const Triangle& first = part.triangles[0];
   const auto from_middle = [&](std::uint32_t v) {
@@ -82,7 +83,7 @@ struct OnPaper {
   LoopPoint operator()(std::uint32_t v) const { return {points[v].u, points[v].v}; }
 };
 
-/// Without one coordinate, so that what runs counter-clockwise to a side does so here.
+/// A projection that drops one coordinate and keeps the orientation to a side.
 struct InPlane {
   const Part& part;
   int u, v;
@@ -157,7 +158,7 @@ void SilhouetteLoops::take_triangle(std::uint32_t t) {
   if (seen_.planes[t].facing < 0) std::swap(loop_[1], loop_[2]);
 }
 
-// The edges between faces towards the viewer and the others, as one loop (certified convex
+// Joins the edges between faces towards the viewer and the others to one loop (certified convex
 // parts: every edge has two triangles).
 bool SilhouetteLoops::close_silhouette() {
   next_.assign(seen_.part.vertices.size(), geometry::kNoIndex);
@@ -181,7 +182,7 @@ bool SilhouetteLoops::close_silhouette() {
   return count >= 3 && loop_.size() == count && next_[loop_.back()] == from;
 }
 
-// As outline(), for two triangles that share an edge: without sorting.
+// Does the work of outline() for two triangles that share an edge, without sorting.
 bool SilhouetteLoops::outline_of_pair(std::uint32_t s, std::uint32_t t) {
   const Triangle &i = seen_.part.triangles[s], &j = seen_.part.triangles[t];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -196,7 +197,7 @@ bool SilhouetteLoops::outline_of_pair(std::uint32_t s, std::uint32_t t) {
   return false;
 }
 
-// The single closed outline of a group, counter-clockwise to the viewer; false if there are
+// Finds the single closed outline of a group, counter-clockwise to the viewer; false if there are
 // more loops or one that touches itself.
 bool SilhouetteLoops::outline(std::span<const std::uint32_t> triangles) {
   directed_.clear();
@@ -265,8 +266,8 @@ bool SilhouetteLoops::is_convex_loop(const At& at) {
   return ascents == 1;
 }
 
-// The same for the contour of a certified convex part, which goes once round the cone from an eye
-// outside it.
+// Tests the silhouette of a certified convex part likewise: it goes once round the cone from an eye
+// outside the part.
 bool SilhouetteLoops::is_convex_cone() {
   return drop_straight_runs([&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     return -along(wide_cross(seen_.rays[i], seen_.rays[j]), seen_.rays[k]);

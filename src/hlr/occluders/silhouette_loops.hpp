@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Outlines of coplanar triangles, silhouettes of convex parts, and the certificate of convexity.
 #pragma once
 
 #include <array>
@@ -19,12 +20,12 @@ namespace strake::hlr {
 struct TrianglePlane {
   std::array<std::int64_t, 3> n{};
   Int128 facing = 0;
-  bool edge_on = false;  ///< see may_be_edge_on(); where it is asked for
+  bool edge_on = false;  ///< see may_be_edge_on(); only where it is asked for
 };
 
-/// Whether a locally convex closed surface of one shell bounds a convex body: it does when some
-/// point lies strictly inside all its planes and a ray from there meets it once (Mehlhorn et al.,
-/// Checking geometric programs, 1996). False where there is doubt.
+/// Returns whether a locally convex closed surface of one shell bounds a convex body: it does when
+/// some point lies strictly inside all its planes and a ray from there meets it once (Mehlhorn et
+/// al., Checking geometric programs, 1996). False where there is doubt.
 [[nodiscard]] bool bounds_convex_body(const geometry::Part& part,
                                       std::span<const TrianglePlane> planes);
 
@@ -32,18 +33,18 @@ struct TrianglePlane {
 struct ProjectedPart {
   const geometry::Part& part;
   const Viewer& viewer;
-  std::vector<ViewPoint> points = {};      ///< of the vertices; orthographic
-  std::vector<geometry::Vec3l> rays = {};  ///< from the eye to the vertices; in perspective
-  std::vector<TrianglePlane> planes = {};  ///< for parts within 2^30
+  std::vector<ViewPoint> points = {};      ///< projected vertices; orthographic
+  std::vector<geometry::Vec3l> rays = {};  ///< from the eye to the vertices; perspective
+  std::vector<TrianglePlane> planes = {};  ///< only for parts within 2^30
   bool find_edge_on = false;               ///< look for triangles that may be edge-on
 
   // Errors: cancelled.
   [[nodiscard]] Status project(const ViewProjection& projection, const parallel::Context& context);
   [[nodiscard]] Status find_planes(const parallel::Context& context);
 
-  /// The least product of a vertex, or its ray, with the direction.
+  /// Returns the least product of a vertex, or its ray, with the direction.
   [[nodiscard]] std::int64_t farthest() const;
-  /// The normal of a triangle's side that looks towards the viewer.
+  /// Returns the normal of the side of a triangle that looks towards the viewer.
   [[nodiscard]] std::array<std::int64_t, 3> towards_viewer(std::uint32_t triangle) const;
 };
 
@@ -52,10 +53,10 @@ class SilhouetteLoops {
  public:
   explicit SilhouetteLoops(const ProjectedPart& seen) : seen_(seen) {}
 
-  /// The outline of coplanar triangles that look the same way; false when it is not one convex
-  /// loop.
+  /// Finds the outline of coplanar triangles that look the same way; false when it is not one
+  /// convex loop.
   [[nodiscard]] bool find_outline(std::span<const std::uint32_t> triangles);
-  /// The outline of a certified convex part from outside it.
+  /// Finds the silhouette of a certified convex part from outside it.
   [[nodiscard]] bool find_silhouette();
   void take_triangle(std::uint32_t triangle);
 

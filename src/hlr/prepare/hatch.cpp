@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The choice of hatches, and the hatch lines of caps.
 #include "hlr/prepare/hatch.hpp"
 
 #include <algorithm>
@@ -24,11 +25,11 @@ namespace {
 using geometry::BoxItem;
 
 constexpr std::array<double, 6> kAngles{45, 135, 30, 120, 60, 150};
-/// In usual spacings.
+/// The spacings to choose from, in usual spacings.
 constexpr std::array<double, 4> kSpacings{1, 1.5, 0.75, 2};
 constexpr std::uint32_t kNotCut = 0xffffffffU;
 
-/// The stretches of outlines that are hatched, as boxes that know their object.
+/// Returns the segments of outlines that are hatched, as boxes with their object.
 std::vector<BoxItem> outlines(const model::Scene& scene, const SectionedShapes& seen,
                               const std::vector<std::int64_t>& contact) {
   std::vector<BoxItem> items;
@@ -47,7 +48,7 @@ std::vector<BoxItem> outlines(const model::Scene& scene, const SectionedShapes& 
   return items;
 }
 
-/// By object: its colour's number among the colours that are cut.
+/// Returns, by object, its colour's number among the colours that are cut.
 std::vector<std::uint32_t> colours(const model::Scene& scene, const SectionedShapes& seen) {
   std::vector<std::uint32_t> of(scene.model->objects.size(), kNotCut);
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
@@ -66,7 +67,7 @@ std::vector<std::uint32_t> colours(const model::Scene& scene, const SectionedSha
   return of;
 }
 
-/// Of the usual angles the first that the fewest neighbours have.
+/// Returns the first of the usual angles that the fewest neighbours have.
 double rarest_angle(const std::vector<std::uint32_t>& neighbours,
                     const std::vector<Hatch>& hatches) {
   std::array<std::size_t, kAngles.size()> had{};
@@ -134,7 +135,7 @@ HatchGrid::HatchGrid(const Vec3l& normal, const View& view, double angle_deg, do
   const Vec3d n = geometry::unit(normal.as<double>());
   const ViewAxes paper = axes_of(view);
   const auto in_plane = [&](const Vec3d& v) { return v - n * dot(v, n); };
-  // A plane that an eye sees may yet be square to the paper's horizontal.
+  // A plane that is seen from an eye may still be square to the paper's horizontal.
   constexpr double kNone = 1e-12;
   const Vec3d right = in_plane(paper.right);
   const Vec3d level = geometry::unit(dot(right, right) > kNone ? right : in_plane(paper.up));
@@ -194,7 +195,7 @@ std::vector<Segment> HatchGrid::within(std::span<const Segment> rim,
   int winding = 0;
   for (std::size_t i = 0; i < meetings.size(); ++i) {
     winding += meetings[i].turn;
-    // What meets at one place counts together.
+    // Meetings at one place count together.
     if (i + 1 < meetings.size() && meetings[i + 1].line == meetings[i].line &&
         order(meetings[i], meetings[i + 1]) == 0)
       continue;
@@ -214,13 +215,14 @@ namespace {
 using geometry::Box3l;
 using geometry::Vec3l;
 
-/// The usual spacing is such a share of the drawing's largest side: 2.5 mm or so of paper.
+/// The usual spacing is this fraction of the drawing's largest side: 2.5 mm or so of paper.
 constexpr double kUsualShare = 150;
-/// Finer than this share of the drawing is a black face, and more lines than anybody wants.
+/// A hatch finer than this fraction of the drawing is a black face, of more lines than anybody
+/// wants.
 constexpr double kFinestShare = 20000;
 constexpr double kFinestMm = 0.01;
 
-/// The largest side of what is left, mm.
+/// Returns the largest side of what the sections leave, mm.
 double largest_side(const ViewJob& job) {
   const model::Scene& scene = *job.scene;
   Box3l box = geometry::empty_box<std::int64_t>();
@@ -236,7 +238,7 @@ double largest_side(const ViewJob& job) {
   return static_cast<double>(std::max({size.x, size.y, size.z})) * geometry::kMmPerGrid;
 }
 
-/// The first of 1, 2, 5, 10 … that is no less.
+/// Returns the first of 1, 2, 5, 10 … that is no less.
 double usual_number(double least) {
   double decade = kFinestMm;
   for (;; decade *= 10)
@@ -271,7 +273,7 @@ bool is_towards(const ViewJob& job, const SectionPlane& plane) {
   return along({plane.normal.x, plane.normal.y, plane.normal.z}, job.direction()) > 0;
 }
 
-/// The hatch of one body.
+/// Appends the hatch of one body.
 void add_body(const ViewJob& job, std::span<const SectionPlane> planes, std::uint32_t b,
               const Hatch& hatch, std::vector<Line>& out) {
   const SectionedShape& seen = job.sectioned_shape_of(b);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Hatches of sections: the choice of angle and spacing, and the clipped hatch lines.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,10 @@
 
 namespace strake::hlr {
 
-/// The hatch of each object, both numbers chosen where they were not given: the spacing tells
-/// colours apart and the angle neighbours, as far as the few usual angles go. Objects are
-/// neighbours where outlines of their sections meet within `contact` (by body). `usual_mm`: the
-/// usual spacing. Objects that are not cut keep what was given. Errors: cancelled.
+/// Returns the hatch of each object, with angle and spacing chosen where they were not given: the
+/// spacing distinguishes colours and the angle neighbours, as far as the few usual angles go.
+/// Objects are neighbours where outlines of their sections meet within `contact` (by body).
+/// `usual_mm`: the usual spacing. Objects that are not cut keep what was given. Errors: cancelled.
 [[nodiscard]] Result<std::vector<Hatch>> choose_hatches(const model::Scene& scene,
                                                         const SectionedShapes& seen,
                                                         const std::vector<std::int64_t>& contact,
@@ -29,18 +30,18 @@ namespace strake::hlr {
                                                         double usual_mm,
                                                         const parallel::Context& context);
 
-/// Lines of a hatch on a plane: all that run one way at one distance, and of these the one that
-/// goes through the model's origin. What is hatched in one pattern so fits together.
+/// The hatch lines of one pattern on a plane: parallels at one distance, one of which goes through
+/// the model's origin, so that areas of one pattern fit together.
 ///
-/// Which line meets which rim is decided in integers; the direction is rounded to 20 bits.
+/// The lines that meet a rim are found in integers; the direction is rounded to 20 bits.
 class HatchGrid {
  public:
-  /// `angle_deg` from the horizontal of the view, seen square to the plane; the spacing in grid
-  /// units. The plane is not seen edge-on, the spacing at least one.
+  /// `angle_deg` is measured from the horizontal of the view, seen square to the plane; the spacing
+  /// is in grid units, at least one. The plane must not be seen edge-on.
   HatchGrid(const geometry::Vec3l& normal, const View& view, double angle_deg, double spacing);
 
-  /// What lies within an oriented rim (geometry::cap_boundary) on a plane, both in the coordinates
-  /// of a body at `origin`: ascending, ends rounded to the grid.
+  /// Returns the hatch lines within an oriented rim (geometry::cap_boundary) on a plane, both in
+  /// the coordinates of a body at `origin`: ascending, with ends rounded to the grid.
   [[nodiscard]] std::vector<geometry::Segment> within(std::span<const geometry::Segment> rim,
                                                       const geometry::CutPlane& plane,
                                                       const geometry::Vec3l& origin) const;
@@ -51,12 +52,12 @@ class HatchGrid {
   }
 
   geometry::PlaneAxes axes_;
-  std::int64_t along_u_ = 0, along_v_ = 0;  ///< a line is where u and v times these is constant
-  std::int64_t step_ = 1;                   ///< of that constant from line to line
+  std::int64_t along_u_ = 0, along_v_ = 0;  ///< along_u_·u + along_v_·v is constant on a line
+  std::int64_t step_ = 1;                   ///< difference of that constant from line to line
 };
 
-/// Hatch lines on the caps that look towards the viewer, by body. Errors: a spacing or an angle
-/// that makes no sense (usage), cancelled.
+/// Returns the hatch lines on the caps that look towards the viewer, by body. Errors: a spacing or
+/// an angle that makes no sense (usage), cancelled.
 [[nodiscard]] Result<std::vector<Line>> hatch_lines(const ViewJob& job,
                                                     std::span<const SectionPlane> planes,
                                                     const parallel::Context& context);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Names of objects and planes in diagnostics, and reports on the sections and the eye of a view.
 #include "hlr/prepare/view_diagnostics.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a user should know of a view: reports on its sections and its eye.
 #pragma once
 
 #include <span>
@@ -14,17 +15,18 @@
 
 namespace strake::hlr {
 
-/// An object as diagnostics name it: its file and its name, or its id where it has none.
+/// Returns an object as diagnostics name it: its file and its name, or its id where it has none.
 [[nodiscard]] std::string object_text(const model::Model& model, model::ObjectId id);
 
-/// What a user should know of the sections of a view: planes with all that is drawn on one side,
-/// and objects that were cut but not closed.
+/// Reports section planes with all that is drawn on one side, and objects that were cut but not
+/// closed.
 [[nodiscard]] Diagnostics report_sections(const model::Scene& scene, const std::vector<bool>& drawn,
                                           const SectionedShapes& seen,
                                           std::span<const SectionPlane> planes);
 
-/// Objects in whose solids the eye of a view in perspective lies, so that they hide all outside,
-/// and those on whose surface it lies, which it does not see. For a job that is otherwise ready.
+/// Reports the objects in whose solids the eye of a view in perspective lies, so that they hide all
+/// outside, and those on whose surface it lies, which it does not see. The job must be otherwise
+/// ready.
 [[nodiscard]] Diagnostics report_eye(const ViewJob& job);
 
 }  // namespace strake::hlr

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The lines of a view that are no edges of parts, and its preparation.
 #include "hlr/prepare/view_job.hpp"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ void add_section(Lines& lines, const model::Scene& scene, std::uint32_t b, const
     lines.all.push_back({line.at[0] + origin, line.at[1] + origin, b, b, EdgeKind::section, false});
 }
 
-/// By object; of one object as they came.
+/// Sorts the lines by object, stably.
 void put_in_order(Lines& lines, const model::Scene& scene) {
   if (lines.all.empty()) return;
   const auto object = [&](const Line& line) {
@@ -137,7 +138,7 @@ void fill_bodies(ViewJob& job) {
   }
 }
 
-// What sections rounded is off by so much.
+// Adds the rounding of sections to the contact distances.
 void widen_contact(ViewJob& job) {
   std::int64_t largest = 0;
   for (std::uint32_t b = 0; b < job.contact.size(); ++b) {
@@ -157,7 +158,8 @@ Box3l drawn_box(const ViewJob& job) {
   return box;
 }
 
-// One unit beyond what is drawn decides nothing and keeps the numbers small.
+// Clips the limits to one unit beyond what is drawn, which keeps the numbers small and changes no
+// result.
 void place_limits(ViewJob& job, const Box3l& box) {
   if (!job.view.limits) return;
   Box3l limits = *job.view.limits;
@@ -238,10 +240,10 @@ Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>&
   job.cos_sharp = cosine_of_degrees(options.sharp_angle_deg);
   job.window = window(view);
   job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
-  // Contours along a direction are no contours from an eye.
+  // Contours for a direction are no contours for an eye.
   const auto towards = view.perspective ? std::nullopt : std::optional(job.direction());
   const ViewVolume shown(view, *planes);
-  // What tessellation and the grid may be off by.
+  // A margin for tessellation and the grid.
   constexpr std::int64_t kRoom = 2000;
   const auto shows = [&](const Box3l& box) { return shown.meets(box.inflated(kRoom)); };
   auto own =

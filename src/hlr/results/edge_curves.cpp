@@ -17,14 +17,14 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 /// The snap moves a vertex by 0.87 µm at most, and the body's origin is snapped too.
 constexpr double kToleranceMm = 0.002;
 
-/// Of a shape: its circles that have edges, and these.
+/// The circles of a shape that have edges, and these edges.
 struct ShapeCurves {
-  std::uint32_t edges = 0;  ///< all there are
+  std::uint32_t edges = 0;  ///< number of all edges
   std::vector<geometry::Ellipse> circles;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> curved;  ///< edge and circle, ascending
 };
 
-/// Of each part of a shape the circles that its lines may run on.
+/// Returns, for each part of a shape, the circles on which its lines may run.
 std::vector<std::vector<geometry::Ellipse>> circles_of_parts(const model::GridShape& shape,
                                                              const geometry::Mat3d& linear,
                                                              const geometry::Vec3d& towards) {
@@ -72,8 +72,8 @@ bool is_round(const SectionedShape& seen) {
   });
 }
 
-/// By seen shape the first body drawn with it, where its edges matter: it is round, or comes before
-/// a round one of its object, whose edges are numbered after its own.
+/// Returns, by sectioned shape, the first body drawn with it, where its edges matter: the shape is
+/// round, or comes before a round one of its object, whose edges are numbered after its own.
 std::vector<std::uint32_t> first_bodies(const ViewJob& job) {
   const model::Scene& scene = *job.scene;
   std::vector<std::uint32_t> first(job.seen.all.size(), kNone);
@@ -92,7 +92,7 @@ std::vector<std::uint32_t> first_bodies(const ViewJob& job) {
 
 Result<Curves> find_curves(const ViewJob& job, const parallel::Context& context) {
   Curves curves;
-  // Where the view has no meshes of its own, as in perspective, nothing is round.
+  // Where the view has no meshes of its own, as in perspective, there are no curves.
   if (!job.own) return curves;
   const model::Scene& scene = *job.scene;
   const std::vector<std::uint32_t> first = first_bodies(job);

@@ -8,7 +8,7 @@
 
 namespace strake::hlr {
 
-/// Which edges of a job are chords of circles of round primitives, and of which. Errors: cancelled.
+/// Finds the edges of a job that are chords of circles of round primitives. Errors: cancelled.
 [[nodiscard]] Result<Curves> find_curves(const ViewJob& job, const parallel::Context& context);
 
 }  // namespace strake::hlr

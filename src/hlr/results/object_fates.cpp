@@ -20,11 +20,11 @@ constexpr std::size_t kObjectsPerItem = 4096;
 
 std::uint32_t object_of(const EdgePiece& piece) { return model::index(piece.object); }
 
-/// Of an object all of whose lines run along the view direction. Every wire of a model may be seen
-/// end-on in some view, so this is told but no defect of the data.
+/// The code of an object all of whose lines run along the view direction. Every wire of a model may
+/// be seen end-on in some view, so this is reported but is no defect of the data.
 constexpr std::string_view kOnlyPoints = "only-points";
 
-/// Of an object that is on the grid, by its lines; advances `next` beyond them.
+/// Returns the fate of an object that is on the grid, by its lines; advances `next` beyond them.
 Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
   const std::span<const EdgePiece> pieces = drawing.pieces;
   bool visible = false, clipped = false, point = false;
@@ -48,7 +48,7 @@ std::span<const model::IncompleteObject> lacking_of(const model::Scene& scene,
   return {found.begin(), found.end()};
 }
 
-/// Of an object that has no body on the grid.
+/// Returns the fate of an object that has no body on the grid.
 Fate fate_without_body(const model::Scene& scene, std::uint32_t object) {
   const auto lacking = lacking_of(scene, object);
   if (lacking.empty())

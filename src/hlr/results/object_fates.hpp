@@ -11,13 +11,13 @@
 
 namespace strake::hlr {
 
-/// What became of every object of a scene: `drawn` by object; pieces and what was left out, of a
-/// drawing that has its lines. Errors: cancelled.
+/// Returns the fate of every object of a scene, from the pieces and the left-out edges of a
+/// drawing. `drawn` is by object. Errors: cancelled.
 [[nodiscard]] Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& drawn,
                                          const Drawing& drawing, const parallel::Context& context);
 
-/// A warning for each object that is degenerate, failed, or drawn without some of its geometry; not
-/// for wires that are seen end-on.
+/// Adds a warning for each object that is degenerate, failed, or drawn without some of its
+/// geometry, but not for wires that are seen end-on.
 void report_defects(const model::Model& model, const Account& account, Diagnostics& diagnostics);
 
 }  // namespace strake::hlr

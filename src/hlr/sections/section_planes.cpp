@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Section planes in world coordinates, and the space that limits, sections and frustum leave.
 #include "hlr/sections/section_planes.hpp"
 
 #include <algorithm>
@@ -80,7 +81,7 @@ Result<std::vector<SectionPlane>> section_planes(std::span<const Section> sectio
 ViewVolume::ViewVolume(const View& view, std::span<const SectionPlane> sections)
     : limits_(view.limits), planes_(sections.begin(), sections.end()) {
   for (const HalfSpace& side : window(view)) {
-    // Kept is what is at least so high over the plane through the eye.
+    // What is at least this high over the plane through the eye is kept.
     const geometry::Int128 of_eye = SectionPlane{side.normal}.height(view.perspective->eye);
     planes_.push_back({-side.normal, -of_eye - side.least});
   }

@@ -20,7 +20,7 @@ using geometry::Segment;
 using geometry::Vec3i;
 using geometry::Vec3l;
 
-/// What the planes are to one body.
+/// The section planes as they concern one body.
 struct BodySections {
   std::uint32_t shape = 0;
   bool away = false;
@@ -54,7 +54,7 @@ std::uint64_t hash_of(const BodySections& body_sections) {
   return h;
 }
 
-/// A part that has nothing, in the place of one.
+/// Returns an empty part that stands in the place of one.
 geometry::Part nothing_of(const geometry::Part& part) {
   geometry::Part nothing;
   nothing.kind = part.kind;
@@ -87,12 +87,12 @@ SectionedShape cut_shape(const model::Scene& scene, const BodySections& body_sec
   }
   cut.shape.shape = source.shape;
   cut.shape.base = source.base;
-  // Of the source: edges may be left where rounding leaves no face.
+  // The box is the source's: edges may be left where rounding leaves no face.
   cut.shape.box = source.box;
   return seen;
 }
 
-/// Part-edge numbers are those of the source: of what is left they are looked up anew.
+/// Looks up an edge of a cut part by its ends: part-edge numbers are those of the source.
 std::uint32_t edge_in(const geometry::Part& part, const Vec3i& a, const Vec3i& b) {
   const auto vertex = [&](const Vec3i& p) {
     const auto found = std::ranges::lower_bound(part.vertices, p);
@@ -136,7 +136,8 @@ class EdgeCutter {
     e.a = std::min(at[0], at[1]).as<std::int32_t>();
     e.b = std::max(at[0], at[1]).as<std::int32_t>();
     e.cut_away = cut_away;
-    // What rounding laid along the direction, or turned a little off it, is a point on paper.
+    // An edge that rounding laid along the direction, or turned a little off it, is a point on
+    // paper.
     e.projecting = e.projecting || options_.viewer.sees_as_point(at[0], at[1]);
     if (e.part_edge != kNoPartEdge && seen_.cut)
       e.part_edge = cut_away ? kNoPartEdge : edge_in(seen_.shape().parts[e.part], e.a, e.b);

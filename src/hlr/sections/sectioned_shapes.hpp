@@ -15,41 +15,41 @@
 
 namespace strake::hlr {
 
-/// What section planes did to a shape: parts, and by part what was drawn and closed.
+/// A shape cut by section planes: its parts, the lines of the cuts and the rims of the caps.
 struct ShapeCut {
-  model::GridShape shape;  ///< parts with the numbers that they have in the source
+  model::GridShape shape;  ///< its parts keep the numbers that they have in the source
   std::vector<geometry::SectionLine> lines;
-  std::vector<std::vector<geometry::Segment>> rims;  ///< by plane: the caps' oriented rims
+  std::vector<std::vector<geometry::Segment>> rims;  ///< the caps' oriented rims, by plane
   std::uint32_t open_ends = 0, not_filled = 0;
 };
 
-/// A shape as a view sees it, shared by all bodies that planes cut alike.
+/// A shape as a view sees it, shared by all bodies that the planes cut alike.
 struct SectionedShape {
-  const model::GridShape* source = nullptr;  ///< whose edges are drawn
-  std::vector<std::uint32_t> numbers;        ///< of the section planes that cut it
-  std::vector<geometry::CutPlane> planes;    ///< these, in its coordinates
-  bool away = false;                         ///< cut away wholly
-  std::unique_ptr<ShapeCut> cut;             ///< null: as the source is
-  /// Contact distance within a part: zero, but for what the planes rounded.
+  const model::GridShape* source = nullptr;  ///< the shape whose edges are drawn
+  std::vector<std::uint32_t> numbers;        ///< numbers of the section planes that cut it
+  std::vector<geometry::CutPlane> planes;    ///< the same planes in its coordinates
+  bool away = false;                         ///< wholly cut away
+  std::unique_ptr<ShapeCut> cut;             ///< null: equal to the source
+  /// Contact distance within a part: zero unless planes rounded its vertices.
   std::int64_t within = 0;
 
-  /// What hides.
+  /// The shape that hides.
   [[nodiscard]] const model::GridShape& shape() const { return cut ? cut->shape : *source; }
 };
 
 struct SectionedShapes {
   std::vector<SectionedShape> all;
-  std::vector<std::uint32_t> of;  ///< by body of the scene
+  std::vector<std::uint32_t> of;  ///< index into `all`, by body of the scene
 };
 
-/// The drawn bodies' shapes, cut. Errors: cancelled.
+/// Cuts the shapes of the drawn bodies. Errors: cancelled.
 [[nodiscard]] Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
                                                             const std::vector<bool>& drawn,
                                                             std::span<const SectionPlane> planes,
                                                             const parallel::Context& context);
 
-/// The feature edges of the source, in two or three where planes cut them: their kind does not
-/// change with a cut. Errors: cancelled.
+/// Returns the feature edges of the source, in two or three pieces where planes cut them: their
+/// kind does not change with a cut. Errors: cancelled.
 [[nodiscard]] Result<std::vector<FeatureEdge>> sectioned_edges(const SectionedShape& seen,
                                                                const FeatureOptions& options,
                                                                const parallel::Context& context);

@@ -11,12 +11,14 @@ namespace {
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-/// Of the products and sums that make a coordinate: a few roundings of 2^-53 each.
+/// The relative error of the products and sums that make a coordinate: a few roundings of 2^-53
+/// each.
 constexpr double kRounding = 2e-15;
-/// Shallower than this share of its distance a point counts as beside the eye, not before it.
+/// A point whose depth is below this fraction of its distance counts as beside the eye, not before
+/// it.
 constexpr double kGrazing = 1e-6;
-/// What is beside the eye must be off its axes by so much of its distance for a side to be known:
-/// kSideways / kGrazing lies far beyond the rim.
+/// A point beside the eye must be off its axes by this fraction of its distance for a side to be
+/// known: kSideways / kGrazing lies far beyond the rim.
 constexpr double kSideways = 1e-3;
 constexpr double kSteep = 1e4;
 
@@ -41,13 +43,13 @@ struct Range {
   }
 };
 
-/// A corner along the paper and before it.
+/// A corner: x and y along the paper, z before the eye.
 struct Ray {
   double x = 0, y = 0, z = 0, size = 0;
 };
 
-/// Where the hull of what is before the eye and what is not passes beside the eye it goes to
-/// infinity: to the side on which it passes.
+/// Opens a range to infinity on the side on which the hull of points before and not before the eye
+/// passes beside the eye.
 void open_towards(double across, double size, Range& range) {
   if (!(across < -kSideways * size)) range.hi = PerspectiveMap::kRim;
   if (!(across > kSideways * size)) range.lo = -PerspectiveMap::kRim;
@@ -64,7 +66,7 @@ PerspectiveSegment::PerspectiveSegment(const PerspectivePoint& a, const Perspect
       std::max(a.error_bound, b.error_bound) + length * kRounding * (1 + ratio) / (to - from);
 }
 
-// At share s of the edge x/z is (x0 + s·dx) / (z0 + s·dz).
+// At fraction s of the edge x/z is (x0 + s·dx) / (z0 + s·dz).
 double PerspectiveSegment::fraction(double t) const {
   const double s = std::clamp((t - from_) / (to_ - from_), 0.0, 1.0);
   const double near_b = s * b_.depth, near_a = (1 - s) * a_.depth;
@@ -160,7 +162,7 @@ ViewBox PerspectiveMap::box_of(std::span<const Vec3l> corners) const {
         open_towards(i.z * j.x + behind * i.x, size, u);
         open_towards(i.z * j.y + behind * i.y, size, v);
       }
-    // Of what is nearly beside the eye the signs above say little.
+    // For points nearly beside the eye the signs above say little.
     if (std::ranges::any_of(beside, [](const Ray& r) { return r.z >= -kGrazing * r.size; }))
       for (const Ray& j : beside) {
         open_towards(j.x, j.size, u);

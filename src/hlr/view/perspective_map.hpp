@@ -11,15 +11,15 @@
 
 namespace strake::hlr {
 
-/// A point as a picture shows it, off by `error_bound` at most in each coordinate.
+/// A point as a PerspectiveMap maps it, off by `error_bound` at most in each coordinate.
 struct PerspectivePoint {
   double u = 0, v = 0, w = 0;
-  double depth = 0;  ///< before the eye, grid units
+  double depth = 0;  ///< distance before the eye, grid units
   double error_bound = 0;
 };
 
-/// The drawn part of an edge in a picture, by the parameters of the edge: a straight line there
-/// too, along which parameters run projectively.
+/// The drawn part of an edge under a PerspectiveMap, by the parameters of the edge: a straight
+/// segment there too, along which parameters run projectively.
 class PerspectiveSegment {
  public:
   PerspectiveSegment() = default;
@@ -27,15 +27,16 @@ class PerspectiveSegment {
 
   [[nodiscard]] const PerspectivePoint& a() const { return a_; }
   [[nodiscard]] const PerspectivePoint& b() const { return b_; }
-  /// How far any point of it is off, at a parameter that is known to the last place.
+  /// Returns the largest error of a point of the segment whose parameter is known to the last
+  /// place.
   [[nodiscard]] double error_bound() const { return error_bound_; }
-  /// Of the line from a to b the share that a parameter of the edge has gone, and back.
+  /// Converts a parameter of the edge to the fraction of the segment from a to b, and back.
   [[nodiscard]] double fraction(double t) const;
   [[nodiscard]] double parameter(double fraction) const;
-  /// Whether one end is so much nearer than the other that parameters lose their digits.
+  /// Returns whether one end is so much nearer than the other that parameters lose their digits.
   [[nodiscard]] bool is_steep() const;
 
-  /// For a query about the part between two parameters.
+  /// Returns a query about the part between two parameters.
   [[nodiscard]] SegmentQuery make_query(double from, double to) const;
   [[nodiscard]] ViewBox box() const;
 
@@ -44,7 +45,7 @@ class PerspectiveSegment {
   double from_ = 0, to_ = 1, error_bound_ = 0;
 };
 
-/// What a view in perspective shows, for leaving out what cannot matter; it decides nothing.
+/// The perspective projection in doubles with error bounds, for culling: exact tests decide.
 ///
 /// Points are relative to the eye. Where (x, y) are along the paper and z is the distance before
 /// the eye, u and v are x/z and y/z times 2^40, and w, which grows towards the viewer, is a
@@ -53,24 +54,24 @@ class PerspectiveMap {
  public:
   /// A unit of x/z.
   static constexpr double kUnit = 1099511627776.0;  // 2^40
-  /// Beyond this lies nothing that is drawn: boxes end there.
+  /// Nothing that is drawn lies beyond this: boxes end there.
   static constexpr double kRim = 64 * kUnit;
 
-  /// `nearest`: about the least depth of what is drawn.
+  /// `nearest` is about the least depth of what is drawn.
   PerspectiveMap(const View& view, double nearest) : axes_(axes_of(view)), nearest_(nearest) {}
 
-  /// Nothing for what is not clearly before the eye. `size` bounds the coordinates that p was
-  /// computed from.
+  /// Maps a point; nothing where it is not clearly before the eye. `size` bounds the coordinates
+  /// that p was computed from.
   [[nodiscard]] std::optional<PerspectivePoint> at(const geometry::Vec3d& p, double size) const;
   [[nodiscard]] std::optional<PerspectivePoint> at(const geometry::Vec3l& p) const;
 
-  /// Of an edge the part between two parameters; nothing where that cannot be told.
+  /// Maps the part of an edge between two parameters; nothing where that is uncertain.
   [[nodiscard]] std::optional<PerspectiveSegment> segment(const geometry::Vec3l& a,
                                                           const geometry::Vec3l& b, double from,
                                                           double to) const;
 
-  /// A box that holds what the convex hull of the corners shows before the eye, out to kRim;
-  /// empty where it is nothing.
+  /// Returns a box that holds the image of that part of the corners' convex hull that lies before
+  /// the eye, out to kRim; empty where there is none.
   [[nodiscard]] ViewBox box_of(std::span<const geometry::Vec3l> corners) const;
 
   [[nodiscard]] const ViewAxes& axes() const { return axes_; }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Coordinates of a view: its exact projection, viewer, axes and rotations on paper.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 
 namespace strake::hlr {
 
-/// A place as the view sees it: (u, v) on paper, w towards the viewer. Linear in the model's
+/// A projected point: (u, v) on paper, w towards the viewer. It is linear in the model's
 /// coordinates and integer, so offsets add and 2D orientations are exact.
 struct ViewPoint {
   std::int64_t u = 0, v = 0, w = 0;
@@ -78,18 +79,18 @@ using geometry::wide_cross;
   return n[0] == 0 && n[1] == 0 && n[2] == 0;
 }
 
-/// From where something is seen: from afar in a direction, or from a point in its coordinates.
+/// The viewer of a shape: at infinity in a direction, or at a point in the shape's coordinates.
 struct Viewer {
   geometry::Vec3l direction;
   std::optional<geometry::Vec3l> eye = std::nullopt;
 
-  /// Positive where a face with this normal through `on` looks towards the viewer; with an eye the
-  /// height of the eye over its plane. For the normal of one triangle.
+  /// Returns a value that is positive where a face with this normal through `on` looks towards the
+  /// viewer; with an eye, the height of the eye over its plane. For the normal of one triangle.
   [[nodiscard]] constexpr Int128 facing(const ExactNormal& normal,
                                         const geometry::Vec3l& on) const {
     return along(normal, eye ? *eye - on : direction);
   }
-  /// Whether that is positive, for the sum of as many normals as may be.
+  /// Returns whether facing() is positive, for the sum of any number of normals.
   [[nodiscard]] constexpr bool is_towards(const ExactNormal& normal,
                                           const geometry::Vec3l& on) const {
     if (!eye) return along(normal, direction) > 0;
@@ -98,12 +99,12 @@ struct Viewer {
                geometry::mul(normal[2], to.z) >
            geometry::Int256(0);
   }
-  /// Whether a segment is a point on paper.
+  /// Returns whether a segment is a point on paper.
   [[nodiscard]] constexpr bool sees_as_point(const geometry::Vec3l& a,
                                              const geometry::Vec3l& b) const {
     return is_zero(wide_cross(b - a, eye ? *eye - a : direction));
   }
-  /// The same in the coordinates of what is placed at an offset.
+  /// Returns the viewer in the coordinates of a body that is placed at an offset.
   [[nodiscard]] constexpr Viewer seen_at(const geometry::Vec3l& offset) const {
     return eye ? Viewer{direction, *eye - offset} : *this;
   }
@@ -114,22 +115,22 @@ struct ViewAxes {
   geometry::Vec3d right, up, toward;
 };
 
-/// Where the upward direction does not show on paper another one is up.
+/// Returns the axes of a view. Where its upward direction does not show on paper another one is up.
 [[nodiscard]] ViewAxes axes_of(const View& view);
 
-/// A direction without common factors.
+/// Returns a direction without common factors.
 [[nodiscard]] geometry::Vec3l in_lowest_terms(const geometry::Vec3l& d);
 
-/// A frame on paper with an axis along (c, s), and as many times larger as that is long: what runs
-/// askew to the paper's own axes, as pipes do in isometric views, has boxes in it that fit.
+/// A rotation of the paper that turns (c, s) into the first axis and scales by its length. Parts
+/// that run askew to the paper's own axes, as pipes do in isometric views, have tight boxes in it.
 struct PaperRotation {
-  /// Of both components.
+  /// The largest |c| and |s|.
   static constexpr std::int64_t kMost = 64;
 
   std::int64_t c = 1, s = 0;
 
   [[nodiscard]] bool is_none() const { return s == 0; }
-  /// For points within 2^54 on paper.
+  /// Turns a point within 2^54 on paper.
   [[nodiscard]] ViewPoint operator()(const ViewPoint& p) const {
     return {c * p.u + s * p.v, c * p.v - s * p.u, p.w};
   }

@@ -30,7 +30,8 @@ LooseBox rounded_outwards(const ViewBox& box) {
   return {below(box.lo.u), above(box.hi.u), below(box.lo.v), above(box.hi.v), above(box.hi.w)};
 }
 
-// Median splits of the longer side on paper: depth at most log2(n), so walk()'s stack suffices.
+// Median splits of the longer side on paper: depth is at most log2(n), so the stack of
+// traverse_boxes() suffices.
 ViewBvh::ViewBvh(std::span<const ViewBox> boxes, std::uint32_t leaf_size) {
   std::vector<LooseBox> loose(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {

@@ -12,18 +12,18 @@ namespace strake::hlr {
 /// A view box in doubles, rounded outwards.
 struct LooseBox {
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-  double w1 = 0;  ///< the nearest that anything in the box comes to the viewer
+  double w1 = 0;  ///< the greatest w of anything in the box, towards the viewer
 };
 
 [[nodiscard]] LooseBox rounded_outwards(const ViewBox& box);
 
-/// Part of an edge as a query sees it.
+/// A query for what may hide part of an edge.
 struct SegmentQuery {
-  double au = 0, av = 0, du = 0, dv = 0;          ///< the line: any point, and its direction
-  double u0 = 0, u1 = 0, v0 = 0, v1 = 0, w0 = 0;  ///< box of the part that is asked about
-  double beside = 0;  ///< room at the line, where it is known roughly: an area
+  double au = 0, av = 0, du = 0, dv = 0;          ///< the line: a point and its direction
+  double u0 = 0, u1 = 0, v0 = 0, v1 = 0, w0 = 0;  ///< box of the queried part
+  double beside = 0;  ///< tolerance at the line where it is known roughly: an area
 
-  /// False only when the box cannot hold anything that hides a point of the segment.
+  /// Returns false only when the box cannot hold anything that hides a point of the segment.
   [[nodiscard]] bool may_be_hidden_by(const LooseBox& b) const {
     if (b.u1 < u0 || b.u0 > u1 || b.v1 < v0 || b.v0 > v1 || b.w1 <= w0) return false;
     const double hu = (b.u1 - b.u0) * 0.5, hv = (b.v1 - b.v0) * 0.5;
@@ -36,7 +36,7 @@ struct SegmentQuery {
   }
 };
 
-/// A bounding-volume hierarchy over view boxes, front to back where that has a meaning.
+/// A bounding-volume hierarchy over view boxes, traversed front to back where that has a meaning.
 class ViewBvh {
  public:
   struct Node {
@@ -46,19 +46,19 @@ class ViewBvh {
   };
 
   ViewBvh() = default;
-  /// Empty boxes are left out.
+  /// Builds the hierarchy. Empty boxes are left out.
   explicit ViewBvh(std::span<const ViewBox> boxes, std::uint32_t leaf_size = 4);
 
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// Calls visit(index) -> bool for every item whose box may hide the segment, nearer nodes
-  /// first; visit may shrink the segment, and ends the walk by returning false.
+  /// Calls visit(index) -> bool for every item whose box may hide the segment, nearer nodes first;
+  /// visit may shrink the segment, and ends the traversal by returning false.
   template <class Visit>
   void traverse(const SegmentQuery& segment, Visit&& visit) const {
     traverse_boxes(segment, [&](std::uint32_t i, const LooseBox&) { return visit(i); });
   }
-  /// The same for visit(index, box) -> bool.
+  /// Traverses likewise with visit(index, box) -> bool.
   template <class Visit>
   void traverse_boxes(const SegmentQuery& segment, Visit&& visit) const {
     if (nodes_.empty()) return;
@@ -82,7 +82,7 @@ class ViewBvh {
  private:
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
-  std::vector<LooseBox> boxes_;  ///< in that order, so that what is rejected is not fetched
+  std::vector<LooseBox> boxes_;  ///< in the order of order_, so that rejected items are not fetched
 };
 
 }  // namespace strake::hlr

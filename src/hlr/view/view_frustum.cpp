@@ -38,7 +38,8 @@ HalfSpace near_plane(const View& view) {
   return {-d, static_cast<std::int64_t>(std::ceil(least))};
 }
 
-/// Through the eye, so wide that `across`, a unit vector on paper, comes to the rim.
+/// A side of the frustum: through the eye, so wide that `across`, a unit vector on paper, reaches
+/// the rim.
 HalfSpace side(const Vec3d& toward, const Vec3d& across, double tangent) {
   const Vec3d inward = toward * -tangent - across;
   const double largest = std::max({std::fabs(inward.x), std::fabs(inward.y), std::fabs(inward.z)});

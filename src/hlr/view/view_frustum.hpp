@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Checks of a view in perspective; view_frustum.cpp also defines window() of hlr.hpp.
 #pragma once
 
 #include <string>
@@ -9,10 +10,10 @@
 
 namespace strake::hlr {
 
-/// The fault of a view that cannot be drawn.
+/// Returns the error of a view that cannot be drawn.
 [[nodiscard]] Error view_error(std::string message, std::string mend);
 
-/// Whether eye, target, near plane and field of view make sense together. Errors: usage.
+/// Checks that eye, target, near plane and field of view make sense together. Errors: usage.
 [[nodiscard]] Status check_perspective(const View& view);
 
 }  // namespace strake::hlr

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The definition of docs/hlr.md, taken literally and kept plain: it is what the engine is judged
-// by, so it shares with the engine nothing but the lists of edges and lines, and what sections
-// leave.
+// The definition of docs/hlr.md, taken literally and kept plain. The engine is checked against it,
+// so it shares with the engine nothing but the lists of edges and lines, and what sections leave.
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -65,7 +64,7 @@ struct Interval {
 };
 using Intervals = std::vector<Interval>;
 
-// What hides an edge, seen a hair to its left and a hair to its right.
+// The intervals that are hidden of an edge, seen a hair to its left and a hair to its right.
 struct Sides {
   Intervals left, right;
 };
@@ -76,8 +75,8 @@ struct Edge {
   bool projecting = false;
   bool cut_away = false;
   bool away = false;
-  std::uint32_t body = 0, other_body = 0;  ///< two of an intersection, otherwise one
-  std::uint32_t part = 0;                  ///< kNoPart of a line that is no edge
+  std::uint32_t body = 0, other_body = 0;  ///< two at an intersection, otherwise one
+  std::uint32_t part = 0;                  ///< kNoPart for a line that is no edge
 };
 constexpr std::uint32_t kNoPart = 0xffffffffU;
 
@@ -87,7 +86,7 @@ struct Facet {
   Int128 facing = 0;  // normal . direction, positive
 };
 
-// An affine function of t that must be positive; `sideways` decides where it is zero throughout.
+// An affine function of t that must be positive. `sideways` decides where it is zero throughout.
 struct Condition {
   Int128 at_a = 0, at_b = 0;
   int sideways = -1;
@@ -127,12 +126,12 @@ class Solver {
   explicit Solver(const ViewJob& job)
       : job_(job), d_(job.direction()), from_eye_(job.viewer.eye.has_value()) {}
 
-  // Whether the edge is a point on paper. The eye is the origin.
+  // Returns whether the edge is a point on paper. The eye is the origin.
   bool is_point(const Vec3l& a, const Vec3l& b) const {
     return is_zero(from_eye_ ? cross(a, b) : cross(b - a, d_));
   }
 
-  // The part of the edge within the window and the limits; false when there is none.
+  // Finds the part of the edge within the frustum and the limits; false when there is none.
   bool clip(const Edge& e, Interval& range) const {
     bool empty = false;
     for (const HalfSpace& h : job_.window) {
@@ -149,7 +148,7 @@ class Solver {
     return true;
   }
 
-  // What the facets of one part hide of an edge.
+  // Adds the intervals that the facets of one part hide of an edge.
   void hide(const Edge& e, std::uint32_t body_index, std::uint32_t part_index,
             const Interval& range, Sides& sides) const {
     const model::GridBody& body = job_.scene->bodies[body_index];
@@ -223,14 +222,14 @@ class Solver {
     if (!empty) out.push_back(range);
   }
 
-  // Positive where x lies to the left of q->r on paper.
+  // Returns a value that is positive where x lies to the left of q->r on paper.
   Int128 turn(const Vec3l& q, const Vec3l& r, const Vec3l& x) const {
     return from_eye_ ? -dot(cross(q, r), x) : orientation(q, r, x, d_);
   }
 
-  // +1 when q->r and a->b, parallel on paper, run the same way there.
+  // Returns +1 when q->r and a->b, parallel on paper, run the same way there.
   int same_way(const Edge& e, const Vec3l& q, const Vec3l& r) const {
-    // Both lie in a plane that holds d, or the eye: these are normals of it.
+    // Both lie in a plane that holds d, or the eye: these vectors are normals of it.
     const ExactNormal s = from_eye_ ? cross(q, r) : cross(r - q, d_);
     const ExactNormal t = from_eye_ ? cross(e.a, e.b) : cross(e.b - e.a, d_);
     for (std::size_t k = 0; k < 3; ++k)
@@ -240,10 +239,10 @@ class Solver {
 
   const ViewJob& job_;
   const Vec3l& d_;
-  bool from_eye_;  // which is then the origin
+  bool from_eye_;  // the eye is then the origin
 };
 
-// The union as disjoint intervals; intervals that share an end are one.
+// Returns the union as disjoint intervals; intervals that share an end are one.
 Intervals united(Intervals list) {
   std::sort(list.begin(), list.end(),
             [](const Interval& x, const Interval& y) { return less(x.lo, y.lo); });
@@ -267,7 +266,8 @@ struct StateInterval {
   State state = State::visible;
 };
 
-// States between all neighbouring ends of all intervals; equal neighbours are one stretch.
+// Returns the states between all neighbouring ends of all intervals; equal neighbours are one
+// interval.
 std::vector<StateInterval> state_intervals(const Sides& self, const Sides& other,
                                            const Interval* kept) {
   Sides all = self;

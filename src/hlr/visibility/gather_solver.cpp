@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The engine: the gatherer, the maker of pieces, and the loops over all edges.
 #include "hlr/visibility/gather_solver.hpp"
 
 #include <algorithm>
@@ -16,13 +17,13 @@
 namespace strake::hlr {
 namespace {
 
-// Up to this many neighbours of an item are looked through for each of its edges: more are found
-// faster by the tree.
+// Up to this many neighbours of an item are searched one by one for each of its edges: more are
+// found faster by the tree.
 constexpr std::size_t kFewNeighbours = 64;
 constexpr std::uint32_t kNoBody = 0xffffffffU;
 // Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
 constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
-// What covered tiles say of an edge is cut at multiples of this share.
+// Intervals from the occlusion buffer end at multiples of 1 / kFine of the edge.
 constexpr std::int64_t kFine = std::int64_t{1} << 30;
 
 }  // namespace
@@ -39,7 +40,8 @@ std::span<const OcclusionInterval> OccluderGatherer::intervals(const EdgeQuery& 
                                                                const RationalParam& lo,
                                                                const RationalParam& hi) {
   begin(edge, lo, hi);
-  // Who hides what is of no interest where hidden pieces are left out: then the cheapest first.
+  // It does not matter who hides what where hidden pieces are left out: then the cheapest test
+  // comes first.
   const bool global = job_.options.stage == Stage::global, any_order = !job_.options.hidden;
   if (global && any_order) apply_occlusion_buffer();
   if (!open_.empty()) gather_own_objects();
@@ -98,7 +100,7 @@ void OccluderGatherer::gather_own_objects() {
   if (edge_.other->object != edge_.own->object) gather_object(edge_.other->object);
 }
 
-// Its bodies, but for the one that has been gathered already.
+// Gathers an object's bodies, except the one that has been gathered already.
 void OccluderGatherer::gather_object(std::uint32_t object) {
   const std::uint32_t known = edge_.feature != nullptr ? edge_.body : kNoBody;
   const auto& first_body = job_.scene->first_body;
@@ -117,8 +119,8 @@ void OccluderGatherer::gather_object(std::uint32_t object) {
   }
 }
 
-/// What other objects hide of either end, by what covers whole tiles. A wire may be seen through
-/// the solids of its own object, which cover them too.
+/// Hides either end as far as the occlusion buffer covers it. Not for wires: they are seen through
+/// the solids of their own object, which are in the buffer, too.
 void OccluderGatherer::apply_occlusion_buffer() {
   if (visibility_.occlusion_buffer.empty() || edge_.kind == EdgeKind::polyline) return;
   const double lo = open_.lo().value, hi = open_.hi().value;
@@ -152,8 +154,8 @@ void OccluderGatherer::gather_others() {
       return;
 }
 
-/// The edges of an item are near each other: one walk finds the bodies that may hide any of them.
-/// False where they are many.
+/// Finds the bodies that may hide any edge of an item by one traversal, as its edges are near each
+/// other. False where they are many.
 bool OccluderGatherer::find_neighbours() {
   if (neighbours_ != Neighbours::not_searched) return neighbours_ == Neighbours::found;
   neighbours_ = Neighbours::too_many;
@@ -195,7 +197,7 @@ void OccluderGatherer::gather_own_body() {
 }
 
 void OccluderGatherer::test_own_body() {
-  // Limits may cut away what hides: then the convex part's short cut does not hold.
+  // Limits may cut away what hides: then the short cut for convex parts does not hold.
   const bool judged =
       !edge_.own->cut && (edge_.feature->surely_behind_part || edge_.feature->surely_clear_of_part);
   if (judged && edge_.feature->surely_behind_part) {
@@ -215,7 +217,7 @@ void OccluderGatherer::test_own_body() {
   }
 }
 
-// False when nothing of the edge is left.
+// Returns false when nothing of the edge is left.
 bool OccluderGatherer::gather_body(std::uint32_t b, bool self) {
   const BodyInstance& other = visibility_.placed[b];
   if (!other.opaque) return true;
@@ -329,7 +331,7 @@ SegmentQuery OccluderGatherer::make_perspective_query() const {
   return everywhere;
 }
 
-// The part of the edge that is still open, for a query.
+// Returns a query for the part of the edge that is still open.
 SegmentQuery OccluderGatherer::make_query(const ViewPoint& a, const ViewPoint& b,
                                           const PaperRotation& turn) const {
   if (visibility_.perspective_map) return make_perspective_query();
@@ -346,7 +348,7 @@ SegmentQuery OccluderGatherer::make_query(const ViewPoint& a, const ViewPoint& b
   s.av = c * av - k * au;
   s.du = exact ? du : 0;
   s.dv = exact ? dv : 0;
-  // What the sums above may have lost is far below this share of their terms.
+  // The rounding of the sums above is far below this fraction of their terms.
   const auto range = [&](double from, double step, double size, double& least, double& most) {
     const double p = from + step * open_.lo().value, q = from + step * open_.hi().value;
     const double slack = 1e-12 * size;
@@ -407,7 +409,7 @@ PieceMaker::Absent PieceMaker::finish(std::uint32_t number,
 namespace strake::hlr {
 namespace {
 
-/// Draws the edges of items; for one worker.
+/// Solves the edges of items; for one worker.
 class Drawer {
  public:
   Drawer(const VisibilityScene& visibility, const SpeckRule& rule)
@@ -439,7 +441,7 @@ class Drawer {
   PieceMaker maker_;
 };
 
-/// What a body's own faces hide of some of its edges.
+/// Appends the intervals that a body's own faces hide of some of its edges.
 void append_self_occlusion(const VisibilityScene& visibility, OccluderGatherer& gatherer,
                            const EdgeRange& item, SelfOcclusion& out) {
   const auto& edges = visibility.placed[item.body].view->edges;
@@ -451,7 +453,7 @@ void append_self_occlusion(const VisibilityScene& visibility, OccluderGatherer& 
   }
 }
 
-/// Works out once what the faces of shared shapes hide of their own edges.
+/// Computes once what the faces of shared shapes hide of their own edges.
 Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Context& context,
                               Counters& counters) {
   const std::vector<EdgeRange> items = self_occlusion_ranges(visibility);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The engine's two steps for one edge: gather what hides it, and make its pieces.
 #pragma once
 
 #include <cstdint>
@@ -20,27 +21,27 @@ struct SolverWork {
 
 void add(Counters& counters, const SolverWork& work);
 
-/// Gathers what hides one edge after another: front to back, until nothing is left to be seen.
-/// For one worker; it keeps its memory from edge to edge.
+/// Gathers the intervals that occluders hide of one edge after another: front to back, until
+/// nothing visible is left. For one worker; it keeps its memory from edge to edge.
 class OccluderGatherer {
  public:
   explicit OccluderGatherer(const VisibilityScene& visibility)
       : visibility_(visibility), job_(visibility.job) {}
 
-  /// The edges that are asked about next are those of an item, which outlives that.
+  /// Announces that the next queries are for the edges of an item, which must outlive them.
   void start(const EdgeRange& item) {
     item_ = &item;
     neighbours_ = Neighbours::not_searched;
   }
 
-  /// What hides an edge between two parameters, as far as the job's stage asks: hits in no
-  /// particular order. The own object's come first and, unless it hides the edge wholly,
+  /// Returns the intervals that are hidden of an edge between two parameters, as far as the job's
+  /// stage asks, unsorted. The own object's come first and, unless it hides the edge wholly,
   /// completely.
   [[nodiscard]] std::span<const OcclusionInterval> intervals(const EdgeQuery& edge,
                                                              const RationalParam& lo,
                                                              const RationalParam& hi);
 
-  /// Of this what the edge's own object hides, or another body: one of another object.
+  /// Return only the intervals that the edge's own object hides, or one body of another object.
   [[nodiscard]] std::span<const OcclusionInterval> self_occlusion(const EdgeQuery& edge,
                                                                   const RationalParam& lo,
                                                                   const RationalParam& hi);
@@ -49,10 +50,10 @@ class OccluderGatherer {
                                                                      const RationalParam& lo,
                                                                      const RationalParam& hi);
 
-  /// Where the edge that was asked about last lies on paper.
+  /// Returns the box on paper of the edge that was queried last.
   [[nodiscard]] ViewBox box() const;
 
-  /// What a body's own faces hide of an edge of it.
+  /// Returns the intervals that a body's own faces hide of its edge.
   [[nodiscard]] std::span<const OcclusionInterval> intervals_of_own_body(const EdgeQuery& edge);
 
   /// The work so far.
@@ -64,7 +65,7 @@ class OccluderGatherer {
     std::int64_t contact = 0;
     std::int64_t lying = 0;  ///< edges no deeper than this at both ends lie in a face's plane
     bool self = false;       ///< a part of the edge's own object
-    bool edge_on = true;     ///< also faces that may be edge-on but for rounding
+    bool edge_on = true;     ///< faces that may be edge-on but for rounding hide, too
   };
 
   void begin(const EdgeQuery& edge, const RationalParam& lo, const RationalParam& hi);
@@ -76,7 +77,7 @@ class OccluderGatherer {
   void gather_own_body();
   void test_own_body();
 
-  // These say false when nothing of the edge is left.
+  // These return false when nothing of the edge is left.
   bool gather_body(std::uint32_t body, bool self);
   bool test_part(const LocalEdge& local, const ProjectedShape& view, const OccluderPart& part,
                  const Rule& rule);
@@ -99,10 +100,10 @@ class OccluderGatherer {
   EdgeQuery edge_;
   OpenRange open_;
   SegmentQuery segment_;
-  // In perspective; nothing where the edge may be anywhere in the picture.
+  // In perspective; nothing where the edge may be anywhere on paper.
   std::optional<PerspectiveSegment> perspective_segment_;
   ViewBox perspective_box_;
-  geometry::Box3l limits_;  ///< in the coordinates of the body that is asked
+  geometry::Box3l limits_;  ///< in the coordinates of the tested body
   std::vector<OcclusionInterval> intervals_;
   BucketMarks marks_;
 
@@ -117,25 +118,25 @@ class OccluderGatherer {
   std::vector<Neighbour> near_;  ///< the nearest to the viewer first
 };
 
-/// Makes the pieces of one edge after another from what hides them. For one worker; it keeps its
-/// memory from edge to edge.
+/// Makes the pieces of one edge after another from its hidden intervals. For one worker; it keeps
+/// its memory from edge to edge.
 class PieceMaker {
  public:
   PieceMaker(const VisibilityScene& visibility, const SpeckRule& rule)
       : visibility_(visibility), rule_(rule) {}
 
-  /// Takes an edge in hand. True when what hides it between lo() and hi() is to be told; else all
-  /// of it is clipped, or a point on paper.
+  /// Begins with an edge. True when finish() needs the intervals that are hidden between lo() and
+  /// hi(); else all of the edge is clipped, or a point on paper.
   [[nodiscard]] bool begin(const EdgeQuery& edge);
   [[nodiscard]] const RationalParam& lo() const { return lo_; }
   [[nodiscard]] const RationalParam& hi() const { return hi_; }
 
-  /// What finish() did not append.
+  /// The pieces that finish() did not append.
   struct Absent {
-    bool left_out = false;   ///< hidden pieces
-    std::size_t specks = 0;  ///< that other pieces took over
+    bool left_out = false;   ///< there were hidden pieces
+    std::size_t specks = 0;  ///< specks that other pieces absorbed
   };
-  /// Appends the pieces of the edge in hand, which has this number within its object.
+  /// Appends the pieces of the current edge, which has this number within its object.
   Absent finish(std::uint32_t number, std::span<const OcclusionInterval> intervals,
                 std::vector<EdgePiece>& out);
 
@@ -143,7 +144,7 @@ class PieceMaker {
   const VisibilityScene& visibility_;
   EdgeQuery edge_;
   RationalParam lo_ = RationalParam::zero(), hi_ = RationalParam::one();
-  State whole_ = State::visible;  ///< or what all of the edge is
+  State whole_ = State::visible;  ///< the state of all of the edge, where it has one
   std::vector<VisibilityInterval> intervals_;
   IntervalSweep maker_;
   const SpeckRule& rule_;

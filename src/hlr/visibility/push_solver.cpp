@@ -26,7 +26,7 @@
 namespace strake::hlr {
 namespace {
 
-/// An edge under others, and what has been published of it.
+/// An edge under occluders, and the intervals published into it.
 struct TargetEdge {
   EdgeQuery edge;
   RationalParam lo = RationalParam::zero(), hi = RationalParam::one();
@@ -44,13 +44,13 @@ struct TargetEdge {
 /// The edges of an object. What its own faces hide of them is known from the start.
 struct TargetObject {
   std::vector<TargetEdge> edges;
-  /// By edge: nothing is left of it to be hidden. Read without the lock: a worker that does not
-  /// know yet tests in vain.
+  /// By edge: whether nothing of it is left to be hidden. It is read without the lock: a worker
+  /// that does not see it yet tests in vain.
   parallel::Marks done;
   ViewBox box;
 };
 
-/// A double no greater.
+/// Returns a double that is no greater.
 double rounded_down(std::int64_t value) {
   const auto near = static_cast<double>(value);
   return near - std::fabs(near) * 1e-15 - 1;
@@ -113,7 +113,7 @@ class Pusher {
   std::vector<std::pair<std::uint32_t, OcclusionInterval>> found_;
 };
 
-/// The edges of an object in their order, with what its own faces hide.
+/// Returns the edges of an object in their order, with the intervals that its own faces hide.
 TargetObject local_step(const VisibilityScene& visibility, std::uint32_t object,
                         OccluderGatherer& gatherer, PieceMaker& maker) {
   TargetObject result;
@@ -146,8 +146,8 @@ TargetObject local_step(const VisibilityScene& visibility, std::uint32_t object,
   return result;
 }
 
-/// Over the objects' boxes turned round: what is farthest comes first, so that a query finds those
-/// that reach down below it.
+/// Builds a hierarchy over the objects' boxes with the depth reversed: the farthest comes first, so
+/// that a query finds the boxes that reach below it.
 ViewBvh tree_of(const std::vector<TargetObject>& objects) {
   std::vector<ViewBox> boxes(objects.size());
   for (std::size_t o = 0; o < objects.size(); ++o) {
@@ -159,8 +159,8 @@ ViewBvh tree_of(const std::vector<TargetObject>& objects) {
   return ViewBvh(boxes);
 }
 
-/// Bodies that may hide, the nearest first; of equal depth the lower number, so that the order is
-/// total.
+/// Returns the bodies that may hide, the nearest first; of equal depth the lower number, so that
+/// the order is total.
 std::vector<std::uint32_t> nearest_first(const VisibilityScene& visibility) {
   std::vector<std::uint32_t> order(visibility.placed.size());
   std::iota(order.begin(), order.end(), 0U);

@@ -16,7 +16,7 @@ namespace {
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-/// A contact distance leaves as much of an edge open as this many of it.
+/// A contact distance leaves at most this many times its length of an edge open.
 constexpr std::int64_t kContactsPerSpeck = 2;
 
 bool has_ink(State state) { return state != State::clipped && state != State::projecting; }
@@ -25,21 +25,22 @@ bool is_hidden(State state) {
   return state == State::hidden_by_self || state == State::hidden_by_other;
 }
 
-/// A stretch of an edge. Of two kinds there may be, the first is preferred.
+/// An interval of an edge, of one of two kinds, of which the first is preferred.
 struct Span {
   Vec3l a, b;
   std::size_t first = 0, last = 0;  ///< pieces
   std::uint8_t kind = 0;
-  bool stays = false;  ///< whatever is beside it: neither a speck nor taken over
+  bool stays = false;  ///< neither a speck nor absorbed, whatever is beside it
 };
 
-/// Makes specks like what is beside them, by kind.
+/// Gives specks the kind of what is beside them.
 class Absorber {
  public:
   Absorber(const SpeckRule& rule, std::int64_t longest, std::vector<Span>& spans)
       : rule_(rule), longest_(longest), spans_(spans) {}
 
-  /// How many specks there were. One that has nothing but what stays beside it comes to stay.
+  /// Returns how many specks there were. A speck with nothing beside it but spans that stay comes
+  /// to stay.
   std::size_t run() {
     std::size_t specks = 0;
     for (std::size_t first = 0; first < spans_.size();) {
@@ -70,7 +71,7 @@ class Absorber {
     }
   }
 
-  /// Of the longer neighbour.
+  /// Returns the kind of the longer neighbour.
   [[nodiscard]] std::uint8_t kind_beside(const Span* before, const Span* after) const {
     if (before == nullptr || before->stays) return after->kind;
     if (after == nullptr || after->stays) return before->kind;
@@ -91,8 +92,7 @@ class Absorber {
   std::vector<Span>& spans_;
 };
 
-/// Of the pieces of one edge: what is seen and what not, first, so that it makes no difference by
-/// whom what is hidden is; then that.
+/// The specks of one edge: first visible or hidden is settled, whoever hides it; then who hides it.
 class EdgeSpecks {
  public:
   EdgeSpecks(const SpeckRule& rule, std::span<EdgePiece> pieces)
@@ -136,7 +136,7 @@ class EdgeSpecks {
     return result;
   }
 
-  /// What is hidden from now on is so by what hides it, or what hides the piece beside it.
+  /// Pieces that become hidden are so by what hides them, or by what hides the piece beside them.
   void show(const Span& span) {
     for (std::size_t i = span.first; i < span.last; ++i) {
       EdgePiece& piece = pieces_[i];
@@ -191,7 +191,7 @@ class Clusters {
     judge();
   }
 
-  /// Whether the cluster of a speck joins nothing.
+  /// Returns whether the cluster of a speck joins nothing.
   [[nodiscard]] bool is_lone(std::size_t speck) const {
     const std::size_t root = root_of(number(pieces_[speck].a));
     return !wide_[root] && held_[root] < 2;
@@ -220,7 +220,7 @@ class Clusters {
     for (std::size_t p = 0; p < points_.size(); ++p)
       if (!rule_.within(points_[root_of(p)], points_[p], longest)) wide_[root_of(p)] = true;
     std::vector<bool> known(points_.size());
-    std::size_t next = 0;  // of the specks
+    std::size_t next = 0;  // index into specks_
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       if (next < specks_.size() && specks_[next] == i) {
         ++next;
@@ -242,7 +242,7 @@ class Clusters {
   std::vector<Vec3l> points_;
   std::vector<std::size_t> root_;
   std::vector<bool> wide_;         ///< by root: the cluster is longer than a speck
-  std::vector<std::size_t> held_;  ///< by root: so many of its points are on other lines
+  std::vector<std::size_t> held_;  ///< by root: how many of its points are on other lines
 };
 
 }  // namespace

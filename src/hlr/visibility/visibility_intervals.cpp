@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The interval of an edge that a polygon or an outline hides, and the sweep over all of them.
 #include "hlr/visibility/visibility_intervals.hpp"
 
 #include <algorithm>
@@ -12,13 +13,13 @@ namespace {
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-// num / den of an end, in the integer type of the orientations.
+// The parameter num / den of an end, in the integer type of the orientations.
 template <class T>
 struct Ratio {
   T num = 0, den = 1;
 };
 
-// x < y for ratios in [0, 1].
+// Returns x < y for ratios in [0, 1].
 inline bool less_ratio(const Ratio<std::int64_t>& x, const Ratio<std::int64_t>& y) {
   return static_cast<Int128>(x.num) * y.den < static_cast<Int128>(y.num) * x.den;
 }
@@ -26,7 +27,7 @@ inline bool less_ratio(const Ratio<Int128>& x, const Ratio<Int128>& y) {
   return less(RationalParam::of(x.num, x.den), RationalParam::of(y.num, y.den));
 }
 
-// Where all orientations of the outline are positive; false when nowhere.
+// Finds the interval where all orientations of the outline are positive; false when there is none.
 template <class T>
 bool clip_outline(const LocalEdge& e, const PaperCorner* corner, std::uint32_t count,
                   OcclusionInterval& interval) {
@@ -62,7 +63,7 @@ bool clip_outline(const LocalEdge& e, const PaperCorner* corner, std::uint32_t c
   return true;
 }
 
-// A value in doubles, and by how much it may be off.
+// A value in doubles, with a bound of its error.
 struct Rough {
   double value = 0, error = 0;
 
@@ -70,13 +71,13 @@ struct Rough {
   [[nodiscard]] bool surely_negative() const { return value < -error; }
 };
 
-// -det(q, r, p). Each product is rounded a few times, by 2^-53 of its size.
+// Returns -det(q, r, p). Each product is rounded a few times, by 2^-53 of its size.
 Rough rough_turn(const Vec3d& q, const Vec3d& r, const Vec3d& p) {
   const auto size = [](const Vec3d& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); };
   return {-dot(cross(q, r), p), 1e-15 * size(q) * size(r) * size(p)};
 }
 
-// The same for a cone from the eye through the corners; all is relative to the eye. The turn of a
+// Clips by the cone from the eye through the corners; all is relative to the eye. The turn of a
 // point, -det(q, r, p), is linear in the point, and so affine along the edge.
 bool clip_cone(const Vec3l& a, const Vec3l& b, std::span<const Vec3l> corner,
                OcclusionInterval& interval) {
@@ -112,7 +113,7 @@ bool clip_cone(const Vec3l& a, const Vec3l& b, std::span<const Vec3l> corner,
   return less(lo, hi);
 }
 
-// Cuts the hit down to where an affine function is positive (closed: or zero throughout).
+// Clips the interval to where an affine function is positive (closed: or zero throughout).
 bool clip_affine(Int128 at_a, Int128 at_b, bool closed, OcclusionInterval& interval) {
   if (at_a >= 0 && at_b >= 0) return closed || at_a > 0 || at_b > 0;
   if (at_a <= 0 && at_b <= 0) return false;
@@ -149,8 +150,8 @@ Depth depth_of(const LocalEdge& e, const ProjectedShape& shape, const OccluderPo
 }
 
 // A hiding point outside the limits does not hide. It is p + (depth / facing)·d; times `facing`
-// everything is integer. With an eye at e it is p + (depth / (facing + depth))·(e - p), and what it
-// is times that positive sum, less the limit, is again affine.
+// everything is integer. With an eye at e it is p + (depth / (facing + depth))·(e - p), and its
+// distance from a limit, times that positive sum, is again affine.
 bool clip_limits(const LocalEdge& e, const Depth& depth, Int128 facing, const Viewer& viewer,
                  OcclusionInterval& interval) {
   for (int k = 0; k < 3; ++k) {
@@ -190,7 +191,7 @@ std::optional<OcclusionInterval> occluded_by_polygon(const LocalEdge& edge,
                                                      const ProjectedShape& shape,
                                                      const OccluderPolygon& polygon,
                                                      std::int64_t contact, std::int64_t lying) {
-  // The plane first: it costs less than the outline, and half of all edges lie above it.
+  // The plane is tested first: it costs less than the outline, and half of all edges lie above it.
   const Depth depth = depth_of(edge, shape, polygon);
   const Int128 least = contact * depth.size;
   const Int128 beside = std::max(least, lying * depth.size);
@@ -208,8 +209,8 @@ std::optional<OcclusionInterval> occluded_by_polygon(const LocalEdge& edge,
 
 namespace {
 
-// With more hits than this, looking back at them all for each new one would cost more than it
-// spares.
+// With more intervals than this, going through them all for each new one would cost more than it
+// saves.
 constexpr std::size_t kLookBack = 48;
 
 void append(std::vector<VisibilityInterval>& out, std::size_t first, const RationalParam& lo,
@@ -253,7 +254,7 @@ State IntervalSweep::state() const {
 void IntervalSweep::run(std::span<const OcclusionInterval> intervals, const RationalParam& lo,
                         const RationalParam& hi, std::vector<VisibilityInterval>& out) {
   const std::size_t first = out.size();
-  bool hidden = false;  // all of it, by others at least
+  bool hidden = false;  // all of it is hidden, by others at least
   for (const OcclusionInterval& interval : intervals) {
     if (interval.sides != kBothSides || less(lo, interval.lo) || less(interval.hi, hi)) continue;
     if (interval.self) return append(out, first, lo, hi, State::hidden_by_self);
@@ -265,11 +266,11 @@ void IntervalSweep::run(std::span<const OcclusionInterval> intervals, const Rati
   }
   events_.clear();
   for (const OcclusionInterval& interval : intervals) {
-    if (hidden && !interval.self) continue;  // what else hides it makes no difference
+    if (hidden && !interval.self) continue;  // what else hides it does not matter
     events_.push_back({&interval.lo, interval.sides, interval.self, true});
     events_.push_back({&interval.hi, interval.sides, interval.self, false});
   }
-  // Ends of one parameter may come in any order: between them lies nothing.
+  // Ends at one parameter may come in any order: nothing lies between them.
   std::sort(events_.begin(), events_.end(),
             [](const Event& x, const Event& y) { return less(*x.at, *y.at); });
   const RationalParam* from = &lo;

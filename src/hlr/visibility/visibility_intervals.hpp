@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Exact parameters on an edge, the intervals that polygons hide, and the sweep that turns them into
+// states.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +17,7 @@
 
 namespace strake::hlr {
 
-/// The nearest double; most are short, and far faster converted as such.
+/// Returns the nearest double. Most values fit 64 bits, which convert far faster.
 [[nodiscard]] inline double rounded(geometry::Int128 x) {
   const auto low = static_cast<std::int64_t>(x);
   return low == x ? static_cast<double>(low) : static_cast<double>(x);
@@ -33,7 +35,8 @@ struct RationalParam {
   [[nodiscard]] static RationalParam one() { return {1, 1, 1}; }
 };
 
-/// -1, 0 or 1, exact. Each double is off by at most 3.1·2^-53, so a difference of 2^-50 decides.
+/// Returns -1, 0 or 1, exactly. Each double is off by at most 3.1·2^-53, so a difference of 2^-50
+/// decides.
 [[nodiscard]] inline int compare(const RationalParam& x, const RationalParam& y) {
   constexpr double kCertain = 8.9e-16;
   const double difference = x.value - y.value;
@@ -47,7 +50,7 @@ struct RationalParam {
   return compare(x, y) < 0;
 }
 
-/// floor(delta·t + 1/2), exact: the same for every fraction that stands for the same t.
+/// Returns floor(delta·t + 1/2), exactly: the same for every fraction that stands for the same t.
 [[nodiscard]] inline std::int64_t rounded_offset(std::int64_t delta, const RationalParam& t) {
   const double guess = t.value * static_cast<double>(delta) + 0.5;
   const double margin = std::fabs(static_cast<double>(delta)) * 1e-15 + 1e-9;
@@ -60,13 +63,13 @@ struct RationalParam {
   return k;
 }
 
-/// Grid units, in the measure of a contact distance: an edge of a part whose ends are no deeper
+/// Grid units, in the measure of a contact distance. An edge of a part whose ends are no deeper
 /// than this under the plane of one of its faces lies in that plane, as both were rounded.
 inline constexpr std::int64_t kLyingInPlane = 2;
 
 enum EdgeSide : std::uint8_t { kLeft = 1, kRight = 2, kBothSides = 3 };
 
-/// A stretch of an edge that something hides, on one side of the edge or on both.
+/// An interval of an edge that something hides, on one side of the edge or on both.
 struct OcclusionInterval {
   RationalParam lo, hi;
   std::uint8_t sides = 0;
@@ -77,38 +80,39 @@ struct OcclusionInterval {
 struct LocalEdge {
   geometry::Vec3l a, b;
   ViewPoint va, vb;                         ///< orthographic
-  ViewBox box;                              ///< on paper, of what is drawn of it
-  std::int64_t nearest = 0;                 ///< of its ends the greater product with the direction
-  const geometry::Box3l* limits = nullptr;  ///< in the same coordinates; null where none cut
+  ViewBox box;                              ///< box on paper of the drawn part
+  std::int64_t nearest = 0;                 ///< the greater product of an end with the direction
+  const geometry::Box3l* limits = nullptr;  ///< limits in the same coordinates; null where none cut
   bool narrow = false;  ///< 64-bit integers suffice for orientations of this edge and shape
 };
 
-/// True when orientations of points within ±reach can be formed in 64 bits.
+/// Returns whether orientations of points within ±reach can be formed in 64 bits.
 [[nodiscard]] constexpr bool fits_narrow(std::int64_t reach) {
   return reach < (std::int64_t{1} << 29);
 }
 
-/// The closed stretch of the edge that a polygon hides, by the two-sided rule: what lies strictly
-/// under its open inside for points a hair left or right of the edge, deeper than `contact` in
-/// the sense of docs/hlr.md. An edge of which neither end is deeper than `lying` lies in the
-/// polygon's plane: nothing. Exact. The caller has found that may_be_hidden_by(edge, polygon.box).
+/// Returns the closed interval of the edge that a polygon hides, by the two-sided rule: where
+/// points a hair left or right of the edge lie strictly under its open inside, deeper than
+/// `contact` in the sense of docs/hlr.md. Nothing for an edge of which neither end is deeper than
+/// `lying`: it lies in the polygon's plane. Exact. Requires may_be_hidden_by(edge, polygon.box).
 [[nodiscard]] std::optional<OcclusionInterval> occluded_by_polygon(const LocalEdge& edge,
                                                                    const ProjectedShape& shape,
                                                                    const OccluderPolygon& polygon,
                                                                    std::int64_t contact,
                                                                    std::int64_t lying);
 
-/// The same for what lies deep under an outline (OccluderPart::outline), planes apart.
+/// Returns the interval of an edge that lies under an outline (OccluderPart::outline), for an edge
+/// deep under it.
 [[nodiscard]] std::optional<OcclusionInterval> occluded_by_silhouette(
     const LocalEdge& edge, const ProjectedShape& shape, const OccluderPolygon& outline);
 
-/// False when the boxes alone show that nothing in `box` hides any of the edge.
+/// Returns false when the boxes alone show that nothing in `box` hides any of the edge.
 [[nodiscard]] inline bool may_be_hidden_by(const LocalEdge& e, const ViewBox& box) {
   return e.box.hi.u >= box.lo.u && e.box.lo.u <= box.hi.u && e.box.hi.v >= box.lo.v &&
          e.box.lo.v <= box.hi.v && e.box.lo.w < box.hi.w;
 }
 
-/// The part of an edge that is still to be decided: everything outside is hidden on both sides.
+/// The part of an edge that is still undecided: everything outside it is hidden on both sides.
 class OpenRange {
  public:
   OpenRange() = default;
@@ -118,7 +122,7 @@ class OpenRange {
   [[nodiscard]] const RationalParam& hi() const { return hi_; }
   [[nodiscard]] bool empty() const { return !less(lo_, hi_); }
 
-  /// Takes away what a hit at either end hides on both sides; true when that changed anything.
+  /// Removes what an interval at either end hides on both sides; true when that changed anything.
   bool shrink(const OcclusionInterval& interval) {
     if (interval.sides != kBothSides) return false;
     bool changed = false;
@@ -132,20 +136,21 @@ class OpenRange {
     }
     return changed;
   }
-  /// The same with the newest hit and then with those before it, until nothing changes.
+  /// Shrinks by the newest interval and then by those before it, until nothing changes.
   bool shrink_all(std::span<const OcclusionInterval> intervals);
 
  private:
   RationalParam lo_ = RationalParam::zero(), hi_ = RationalParam::one();
 };
 
-/// A stretch of an edge in one state.
+/// An interval of an edge in one state.
 struct VisibilityInterval {
   RationalParam lo, hi;
   State state = State::visible;
 };
 
-/// Turns hits into the states of docs/hlr.md along [lo, hi]: neighbours differ, none is empty.
+/// Turns occlusion intervals into the states of docs/hlr.md along [lo, hi]: neighbours differ, none
+/// is empty.
 class IntervalSweep {
  public:
   void run(std::span<const OcclusionInterval> intervals, const RationalParam& lo,

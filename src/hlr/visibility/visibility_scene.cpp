@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Building the scene that the solvers query, and edge queries.
 #include "hlr/visibility/visibility_scene.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace {
 using geometry::Box3l;
 
 constexpr std::uint32_t kEdgesPerItem = 32;
-/// Of what covers tiles: with more tiles painting them costs more than it spares.
+/// For the occlusion buffer: with more tiles painting them costs more than it saves.
 constexpr std::size_t kEdgesPerTile = 16;
 
 bool within(const Box3l& inner, const Box3l& outer) {
@@ -27,7 +28,7 @@ bool within(const Box3l& inner, const Box3l& outer) {
   return true;
 }
 
-/// About the least distance before the eye of what is drawn, its near plane apart.
+/// Returns about the least distance before the eye of what is drawn, regardless of the near plane.
 double nearest_depth(const ViewJob& job) {
   const ViewAxes axes = axes_of(job.view);
   double nearest = std::numeric_limits<double>::infinity();
@@ -44,7 +45,7 @@ double nearest_depth(const ViewJob& job) {
   return std::isfinite(nearest) ? std::max(nearest, near_plane) : near_plane;
 }
 
-/// A view of a body's shape for all bodies that share it; in perspective, of each body.
+/// Projects each shape for all bodies that share it; in perspective, for each body.
 Status make_views(VisibilityScene& visibility, const parallel::Context& context) {
   const ViewJob& job = visibility.job;
   const model::Scene& scene = *job.scene;
@@ -76,10 +77,10 @@ Status make_views(VisibilityScene& visibility, const parallel::Context& context)
       });
 }
 
-/// Leaves those bodies out that hide what others of other objects hide too.
+/// Drops the bodies that hide only what bodies of other objects hide, too.
 Status drop_equal_bodies(VisibilityScene& visibility, std::vector<ViewBox>& boxes,
                          const parallel::Context& context) {
-  // An edge, or a line that two objects have in common, asks the others: one of three is left.
+  // A line may belong to two objects and is tested against the others: of three one is left.
   constexpr std::uint32_t kEnough = 3;
   const auto& first_body = visibility.job.scene->first_body;
   std::vector<std::uint32_t> some;
@@ -144,7 +145,7 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
               job.forgives_rounding(b)};
     if (job.limits && !shape.box.empty()) {
       Box3l box = body.box(shape);
-      // Hatch lines lie on the plane itself, which rounded rims are as much as 1.5 units off.
+      // Hatch lines lie on the plane itself, and rounded rims up to 1.5 units off it.
       const std::int64_t beyond = seen.cut != nullptr ? 2 : 0;
       const geometry::Vec3l more{beyond, beyond, beyond};
       box = {box.lo - job.origin - more, box.hi - job.origin + more};
@@ -159,7 +160,8 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
   return {};
 }
 
-/// Bodies of one shape that hide, whole, and take the same contact distance between their parts.
+/// Marks whole bodies of one shape that hide and have the same contact distance between their
+/// parts.
 void mark_shared_self_occlusion(VisibilityScene& visibility) {
   const SectionedShapes& shapes = visibility.job.seen;
   constexpr std::uint32_t kNoShape = 0xffffffffU;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The scene that the solvers query: projected shapes, bodies, their hierarchy and occlusion buffer,
+// and the edges to solve.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +22,21 @@
 
 namespace strake::hlr {
 
-/// A run of edges of one body, or of the lines that are drawn with its object: the item of work.
+/// A run of edges of one body, or of the lines that are drawn with its object: a work item.
 struct EdgeRange {
   std::uint32_t body = 0, first = 0, last = 0;
-  std::uint32_t number = 0;  ///< of its first edge within the object
+  std::uint32_t number = 0;  ///< number of its first edge within the object
   bool lines = false;
 };
 
-/// Bodies up to which those of an object are looked through for each of its edges: more are found
+/// The most bodies of an object that are searched one by one for each of its edges: more are found
 /// faster by the tree.
 inline constexpr std::uint32_t kFewBodies = 16;
 
-/// What a shape's own faces hide of its edges: the same for all bodies that place it whole.
+/// The intervals that a shape's own faces hide of its edges: the same for all bodies that place it
+/// whole.
 struct SelfOcclusion {
-  std::vector<std::uint32_t> first;  ///< per edge, and the end
+  std::vector<std::uint32_t> first;  ///< first interval per edge, and the end
   std::vector<OcclusionInterval> intervals;
 
   [[nodiscard]] std::span<const OcclusionInterval> of(std::uint32_t edge) const {
@@ -41,7 +44,7 @@ struct SelfOcclusion {
   }
 };
 
-/// What the gathering works on.
+/// A job with everything that the solvers query.
 struct VisibilityScene {
   explicit VisibilityScene(const ViewJob& asked) : job(asked), projection(asked.direction()) {}
   VisibilityScene(const VisibilityScene&) = delete;  // `placed` points into `views`
@@ -54,36 +57,37 @@ struct VisibilityScene {
   ViewProjection projection;
   std::optional<PerspectiveMap> perspective_map;  ///< in perspective
   parallel::Precomputed<ProjectedShape>
-      views;  ///< by seen shape or, in perspective, body; of what is drawn
+      views;  ///< shapes of drawn bodies, by sectioned shape or, in perspective, by body
   std::vector<SelfOcclusion>
-      self_occlusion;                ///< per seen shape; empty where no two bodies share it
+      self_occlusion;                ///< per sectioned shape; empty where no two bodies share it
   std::vector<BodyInstance> placed;  ///< per body
-  /// Over the bodies that may hide. Of equal ones at one place a few are enough, of objects of up
-  /// to kFewBodies: what one hides the others hide.
+  /// The hierarchy over the bodies that may hide. Of equal bodies at one place a few are enough, of
+  /// objects of up to kFewBodies: what one hides the others hide.
   ViewBvh tree;
-  OcclusionBuffer occlusion_buffer;  ///< by them; of nothing where there is no culling
+  OcclusionBuffer occlusion_buffer;  ///< covers those bodies; empty without culling
   std::vector<EdgeRange> items;
 
-  /// The number of a body's view.
+  /// Returns the number of a body's view.
   [[nodiscard]] std::uint32_t view_of(std::uint32_t body) const {
     return perspective_map ? body : job.seen.of[body];
   }
 };
 
-/// Sees the shapes, places the bodies and cuts the edges into work. The job must outlive the
-/// result. Errors: cancelled.
+/// Projects the shapes, places the bodies and divides the edges into work items. The job must
+/// outlive the result. Errors: cancelled.
 [[nodiscard]] Result<VisibilityScene> make_visibility_scene(const ViewJob& job,
                                                             const parallel::Context& context);
 
-/// The edges of one body of each shape whose bodies share what it hides of itself.
+/// Returns the edges of one body of each shape whose bodies share its self-occlusion.
 [[nodiscard]] std::vector<EdgeRange> self_occlusion_ranges(const VisibilityScene& visibility);
 
-/// A feature edge of a body, or a line that is no edge of one, in the coordinates of the job.
+/// An edge to solve: a feature edge of a body, or a line that is no edge of one, in the coordinates
+/// of the job.
 struct EdgeQuery {
   std::uint32_t body = 0;
   const BodyInstance* own = nullptr;
-  const BodyInstance* other = nullptr;     ///< of an intersection the second body, otherwise `own`
-  const ProjectedEdge* feature = nullptr;  ///< null: a line that is no edge
+  const BodyInstance* other = nullptr;     ///< the second body of an intersection, otherwise `own`
+  const ProjectedEdge* feature = nullptr;  ///< null for a line that is no edge
   EdgeKind kind = EdgeKind::sharp;
   bool projecting = false;
   bool cut_away = false;
@@ -95,11 +99,10 @@ struct EdgeQuery {
   EdgeQuery(const VisibilityScene& visibility, std::uint32_t body_index, const ProjectedEdge& e);
   EdgeQuery(const VisibilityScene& visibility, const Line& line);
 
-  /// In the model, rounded to the grid.
+  /// Returns the point at a parameter in the model, rounded to the grid.
   [[nodiscard]] geometry::Vec3l at(const RationalParam& t, const geometry::Vec3l& origin) const;
 
-  /// Cuts [lo, hi] down to what lies within the limits, or the window; false when nothing of any
-  /// length does.
+  /// Clips [lo, hi] to the limits, or the frustum; false when nothing of any length is left.
   [[nodiscard]] bool clip(const geometry::Box3l& limits, RationalParam& lo,
                           RationalParam& hi) const;
   [[nodiscard]] bool clip(std::span<const HalfSpace> window, RationalParam& lo,

@@ -27,13 +27,13 @@ std::size_t OccupancyGrid::column(double x) const {
 
 std::size_t OccupancyGrid::row(double y) const { return clamped(std::floor(y / size_), rows_); }
 
-/// Calls `take` with each square that half-millimetre steps from a to b come to, and the length of
-/// a step.
+/// Calls `take` with each square that half-millimetre steps from a to b reach, and the length of a
+/// step.
 template <class Take>
 void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) const {
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double length = std::sqrt(dx * dx + dy * dy);
-  // A line that runs far off the sheet is not walked to its end.
+  // A line that runs far off the sheet is not followed to its end.
   const double steps = std::min(std::ceil(length * 2 / size_), 1e5);
   for (double i = 0; i < steps; ++i) {
     const double t = (i + 0.5) / steps;

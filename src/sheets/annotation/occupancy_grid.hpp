@@ -9,22 +9,23 @@
 
 namespace strake::sheets {
 
-/// What of a sheet is taken, in squares of about a millimetre: how much ink lies in each, whether
-/// letters do, and how many leaders run through.
+/// The occupied paper of a sheet, in squares of about a millimetre: how much ink lies in each,
+/// whether texts block it, and how many leaders run through.
 class OccupancyGrid {
  public:
   OccupancyGrid(double width_mm, double height_mm);
 
   void add_line(const PaperPoint& a, const PaperPoint& b);
   void add_leader(const PaperPoint& a, const PaperPoint& b);
-  /// Nothing else may be written there.
+  /// Blocks a box: nothing else may be written there.
   void block(const PaperBox& box);
 
-  /// Whether nothing of the box, which lies on the sheet, is blocked.
+  /// Returns whether no square of the box, which must lie on the sheet, is blocked.
   [[nodiscard]] bool is_open(const PaperBox& box) const;
-  /// Millimetres of lines in the box.
+  /// Returns the millimetres of lines in the box.
   [[nodiscard]] double ink(const PaperBox& box) const;
-  /// Squares with leaders that the line runs through; nothing to speak of where it is blocked.
+  /// The path of a leader: the squares with leaders that it crosses, meaningless where it is
+  /// blocked.
   struct LeaderPath {
     bool open = true;
     std::size_t crossed = 0;

@@ -22,10 +22,10 @@ using drawing::rounded_paper;
 
 constexpr std::array<std::string_view, 5> kNames{"name", "id", "path", "file", "type"};
 
-/// Between two texts, and between a text and its line.
+/// The distance between two texts, and between a text and its line.
 constexpr double kClearance = 0.7;
 
-/// Where leaders go: unit vectors, the upper right first.
+/// The directions of leaders: unit vectors, the upper right first.
 constexpr std::array<PaperPoint, 12> kWays{{{0.6, -0.8},
                                             {-0.6, -0.8},
                                             {0.8, -0.6},
@@ -40,7 +40,7 @@ constexpr std::array<PaperPoint, 12> kWays{{{0.6, -0.8},
                                             {-0.28, 0.96}}};
 constexpr std::array<double, 9> kLengths{6, 9, 13, 18, 24, 32, 42, 55, 70};
 
-/// What an object says to a name of a text; nothing where it lacks it.
+/// Returns the value of an object for a name in a text; empty where it has none.
 std::string value_of_name(const model::Model& model, model::ObjectId id, const std::string& name) {
   const model::Object& object = model.object(id);
   if (name == "name") return object.name;
@@ -59,8 +59,8 @@ std::string value_of_name(const model::Model& model, model::ObjectId id, const s
 struct TaggedObject {
   model::ObjectId object{};
   PaperPoint anchor;  ///< the middle of its longest visible line
-  PaperBox box;       ///< of its visible lines
-  double length = 0;  ///< of all of them
+  PaperBox box;       ///< box of its visible lines
+  double length = 0;  ///< length of all of them
   std::string text;
 };
 
@@ -69,7 +69,7 @@ double length_of(const Line& line) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-/// The picked objects that have visible lines, in the order of the model.
+/// Returns the picked objects that have visible lines, in the order of the model.
 std::vector<TaggedObject> seen_objects(const drawing::Ink& ink, const std::vector<bool>& picked) {
   std::vector<TaggedObject> all;
   double longest = 0;
@@ -102,7 +102,7 @@ std::vector<TaggedObject> seen_objects(const drawing::Ink& ink, const std::vecto
   return all;
 }
 
-/// Of objects with one text the one that shows most, in the order of the model.
+/// Returns of objects with equal texts the one that shows most, in the order of the model.
 std::vector<TaggedObject> each_text_once(const std::vector<TaggedObject>& all) {
   std::map<std::string_view, const TaggedObject*> most;
   for (const TaggedObject& seen : all) {
@@ -176,7 +176,7 @@ class Writer {
     std::optional<TagPosition> best;
     double least = 0;
     for (const double length : kLengths) {
-      if (best && length >= least) break;  // nothing farther away can be better
+      if (best && length >= least) break;  // no place farther away can be better
       for (const PaperPoint& way : kWays) {
         const TagPosition p = place(seen, way, length);
         PaperBox box = box_of(p.text);
@@ -200,7 +200,7 @@ class Writer {
     return true;
   }
 
-  /// The head at the object: as long as the letters are high, a third as wide.
+  /// Returns the arrow head at the object: as long as the letters are high, a third as wide.
   [[nodiscard]] Path arrow(const PaperPoint& tip, const PaperPoint& from) const {
     const double dx = from.x - tip.x, dy = from.y - tip.y;
     const double length = std::sqrt(dx * dx + dy * dy);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The built-in frame and title block, and the fields of a sheet.
 #include "sheets/annotation/title_block.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using drawing::rounded_paper;
 
 constexpr double kBinding = 20, kMargin = 10, kBand = 5, kInset = 4;
 constexpr double kBlockWidth = 180, kBlockHeight = 48;
-constexpr double kSmallest = 1.5;  ///< letters that can be read
+constexpr double kSmallest = 1.5;  ///< the smallest legible letters
 
 PaperBox border_of(const SheetSpec& sheet) {
   return {kBinding, kMargin, sheet.width_mm - kMargin, sheet.height_mm - kMargin};
@@ -41,7 +42,7 @@ Path rectangle(LineClass line, const PaperBox& b) {
       false};
 }
 
-/// "A" to "Z" without I and O, then "AA".
+/// Returns "A" to "Z" without I and O, then "AA".
 std::string zone_letter(std::size_t zone) {
   constexpr std::string_view kLetters = "ABCDEFGHJKLMNPQRSTUVWXYZ";
   const std::string last(1, kLetters[zone % kLetters.size()]);
@@ -114,7 +115,7 @@ class Zones {
       marks_.paths.push_back({LineClass::frame, {a, b}, false});
     };
     mark({x, outer.top}, {x, border_.top + kInset});
-    // Not into the title block, which on small sheets is as wide as they are.
+    // The mark does not enter the title block, which on small sheets is as wide as they are.
     mark({x, block_.left < x ? border_.bottom : border_.bottom - kInset}, {x, outer.bottom});
     mark({outer.left, y}, {border_.left + kInset, y});
     mark({block_.top < y ? border_.right : border_.right - kInset, y}, {outer.right, y});
@@ -166,7 +167,8 @@ class TitleBlock {
     marks_.paths.push_back(rectangle(LineClass::frame, block_));
   }
 
-  /// A cone cut off, from the side and from its small end (ISO 5456-2).
+  /// Draws the symbol of the projection: a truncated cone, from the side and from its small end
+  /// (ISO 5456-2).
   void symbol(Projection projection) {
     const double y = (kSymbol.top + kSymbol.bottom) / 2, left = kSymbol.left + 7,
                  right = kSymbol.right - 7;
@@ -269,7 +271,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// What the fields of a sheet hold.
+/// The values of the fields of a sheet.
 class Fields {
  public:
   Fields(const SheetSpec& what, double scale) : values_(what.fields) {
@@ -295,7 +297,7 @@ class Fields {
     return value != nullptr ? on_one_line(*value) : std::string();
   }
 
-  /// Names fields of the frame without a value, and values without a field.
+  /// Reports fields of the frame without a value, and values without a field.
   void compare(const std::vector<std::string>& places, const std::string& frame,
                const SheetSpec& what, Diagnostics& diagnostics) const {
     std::vector<std::string> empty, idle;

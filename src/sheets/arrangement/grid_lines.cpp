@@ -26,7 +26,7 @@ geometry::Vec3l axis_vector(std::uint8_t axis) {
   return v;
 }
 
-/// Lines across one axis in one view.
+/// The grid lines across one axis in one view.
 class AxisLines {
  public:
   AxisLines(const GridSpec& grid, std::uint8_t axis, const hlr::View& view)
@@ -38,11 +38,11 @@ class AxisLines {
       if (plane.axis == axis) widest_ = std::max(widest_, text_width(plane.label) * kLettersMm);
   }
 
-  /// Whether labels stand at the upper ends; otherwise at the left ones.
+  /// Returns whether labels stand at the upper ends; otherwise they stand at the left ones.
   [[nodiscard]] bool upright() const { return std::fabs(along_.x) >= std::fabs(along_.y); }
   [[nodiscard]] double radius() const { return std::max(3.5, widest_ / 2 + 0.5); }
   [[nodiscard]] bool bubbles() const { return radius() <= kWidestBubble; }
-  /// How far a label reaches beyond the end of its line.
+  /// Returns how far a label reaches beyond the end of its line.
   [[nodiscard]] double reach() const {
     if (bubbles()) return 2 * radius();
     return upright() ? kLettersMm + 1 : widest_ + 1;
@@ -77,7 +77,7 @@ class AxisLines {
     std::size_t number = 0;
   };
 
-  /// The part of the line within the box and its overhang; nothing where it passes the box by.
+  /// Returns the part of the line within the box and its overhang; nothing where it misses the box.
   [[nodiscard]] std::optional<Line> line_of(const GridPlane& plane,
                                             const drawing::Placement& placement,
                                             const PaperBox& box) const {
@@ -86,7 +86,7 @@ class AxisLines {
     const auto steps = static_cast<double>(*at - placement.anchor[axis_]);
     const double away = steps / geometry::kGridPerMm / placement.sheet.scale;
     const PaperPoint on{placement.at.x + along_.x * away, placement.at.y + along_.y * away};
-    // From the tail to the head: upwards, or to the left.
+    // The direction from the tail to the head: upwards, or to the left.
     PaperPoint way{along_.y, -along_.x};
     if (upright() ? way.y > 0 : way.x > 0) way = {-way.x, -way.y};
     const double little = 0.01;
@@ -99,7 +99,7 @@ class AxisLines {
     return Line{point(ends->second), point(ends->first), &plane.label, 0};
   }
 
-  /// Where a line enters and leaves a box that is wider by so much.
+  /// Returns where a line enters and leaves a box that is widened by a margin.
   static std::optional<std::pair<double, double>> clipped(const PaperPoint& on,
                                                           const PaperPoint& way,
                                                           const PaperBox& box, double wider) {
@@ -152,7 +152,7 @@ class AxisLines {
     marks.texts.push_back(text_of(line));
   }
 
-  /// Every how manyth label keeps clear of the others.
+  /// Returns the step n for which every nth label keeps clear of the others.
   [[nodiscard]] std::size_t step_of(const std::vector<Line>& lines) const {
     for (std::size_t decade = 1;; decade *= 10)
       for (const std::size_t digit : {1U, 2U, 5U}) {
@@ -163,7 +163,7 @@ class AxisLines {
 
   [[nodiscard]] bool clear(const std::vector<Line>& lines, std::size_t step) const {
     const Line* last = nullptr;
-    // Along the axis, whatever the order of the file.
+    // Sorted along the axis, whatever the order of the file.
     std::vector<const Line*> kept;
     for (const Line& line : lines)
       if (line.number % step == 0) kept.push_back(&line);
@@ -185,7 +185,7 @@ class AxisLines {
 
   const GridSpec& grid_;
   std::uint8_t axis_;
-  PaperPoint along_{1, 0};  ///< of the axis, on paper
+  PaperPoint along_{1, 0};  ///< direction of the axis on paper
   double widest_ = 0;
 };
 

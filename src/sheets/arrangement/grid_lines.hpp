@@ -10,7 +10,7 @@
 
 namespace strake::sheets {
 
-/// Whether a file wants grid lines across this axis in a view, and the view looks along them.
+/// Returns whether a file asks for grid lines across this axis in a view that looks along them.
 [[nodiscard]] bool shows_grid(const GridSpec& grid, const ViewSpec& view, std::uint8_t axis);
 
 /// The paper that grid lines need beside a view, for their ends and labels.
@@ -21,12 +21,12 @@ struct GridMargin {
 
 struct GridMarks {
   Marks marks;
-  std::vector<bool> drawn;     ///< of the planes of the file
+  std::vector<bool> drawn;     ///< whether each plane of the file is drawn
   std::size_t unlabelled = 0;  ///< lines that are drawn without a label, for want of room
 };
 
-/// The grid lines of a view: across its lines and a little beyond, labels at the upper or the left
-/// end. Where labels would touch every second, fifth, tenth … is left.
+/// Returns the grid lines of a view: they run across its lines and a little beyond, with labels at
+/// the upper or the left end. Where labels would touch, every second, fifth, tenth … is kept.
 [[nodiscard]] GridMarks grid_marks(const GridSpec& grid, const ViewSpec& view,
                                    const drawing::Placement& placement, const PaperBox& box);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Arranging projections in columns and rows, and placing all views of a sheet.
 #include "sheets/arrangement/view_arrangement.hpp"
 
 #include <algorithm>
@@ -17,16 +18,17 @@ namespace {
 
 using geometry::Vec3l;
 
-/// Columns and rows of the sheet, the front view in the middle of them.
+/// A cell of the arrangement: its column and row, relative to the front view.
 struct TrackCell {
   int column = 0, row = 0;
   friend bool operator==(const TrackCell&, const TrackCell&) = default;
 };
 constexpr int kLeast = -1, kMost = 2, kTracks = kMost - kLeast + 1;
 
-/// Of all but the pictorial view.
+/// Returns the cell of any view but the pictorial one.
 TrackCell cell_of(ViewSlot slot, Projection projection) {
-  // In the first angle each view stands across from where one looks, in the third where one does.
+  // In first angle each view stands opposite to the side from which one looks, in third angle on
+  // that side.
   const int side = projection == Projection::first_angle ? 1 : -1;
   switch (slot) {
     case ViewSlot::top:
@@ -47,11 +49,11 @@ TrackCell cell_of(ViewSlot slot, Projection projection) {
   return {0, 0};
 }
 
-/// Extents along one direction of paper, of a column or a row.
+/// The extents of a column or a row along one direction of paper.
 struct Track {
   bool used = false, shared = false;
-  double before = 0, after = 0;  ///< of the point that its views share, which may lie beside them
-  double least = 0;              ///< for a view in its middle
+  double before = 0, after = 0;  ///< from the point that its views share, which may lie beside them
+  double least = 0;              ///< the least size, for a view in its middle
   [[nodiscard]] double size() const { return std::max(before + after, least); }
 };
 
@@ -69,8 +71,8 @@ class Grid {
     }
   }
 
-  /// Where the common points fall if the tracks stand in `box`, with the room that is left spread
-  /// between and beside them, or as near to the upper left corner as they can.
+  /// Returns where the common points fall if the tracks stand in `box`, with the remaining space
+  /// spread between and beside them, or as near to the upper left corner as possible.
   [[nodiscard]] std::vector<PaperPoint> spread(const PaperBox& box, double gap, bool packed) const {
     const auto x = starts(columns_, box.left, box.width(), gap, packed);
     const auto y = starts(rows_, box.top, box.height(), gap, packed);
@@ -173,14 +175,14 @@ class Arranger {
     return std::nullopt;
   }
 
-  /// For a scale at which they do not fit.
+  /// Places the views at a scale at which they do not fit.
   [[nodiscard]] Arranged anyhow(double scale) const {
     return {scale, false,
             Grid(views_, projection_, cells_.front(), scale).spread(room_.area, gap_, false)};
   }
 
  private:
-  /// Where the pictorial view may go, in the order in which draughtsmen would take them.
+  /// Returns the cells for the pictorial view, in the order in which draughtsmen would take them.
   [[nodiscard]] std::vector<TrackCell> free_cells() const {
     std::vector<TrackCell> cells;
     for (const TrackCell& cell :
@@ -280,9 +282,9 @@ class Placer {
   Placer(const SheetSpec& what, const SheetArea& room)
       : what_(what), room_(room), places_(what.views.size()) {}
 
-  /// Takes what finished views measure.
+  /// Takes the extents of finished views.
   Status measure(std::span<const hlr::Drawing> drawings, const parallel::Context& context) {
-    // One for all that say none, so that they are aligned.
+    // One anchor for all views that have none, so that they are aligned.
     Vec3l common;
     const auto some = std::find_if(drawings.begin(), drawings.end(), [](const hlr::Drawing& d) {
       return !d.pieces.empty() && !d.view.perspective;
@@ -303,7 +305,7 @@ class Placer {
     return {};
   }
 
-  /// To be done first, view by view.
+  /// Takes the extent of a view: to be called first, view by view.
   void take(std::size_t v, const drawing::PlaneBox& extent) {
     wanted_.push_back(to_place(v));
     wanted_.back().extent = extent;
@@ -360,7 +362,7 @@ class Placer {
     return arranged->scale;
   }
 
-  /// Where the anchor of a view falls that says where it lies.
+  /// Returns where the anchor of a view with a position falls.
   [[nodiscard]] PaperPoint at(std::size_t v, double scale) const {
     const ViewSpec& view = what_.views[v];
     const drawing::PlaneBox& box = wanted_[v].extent;
@@ -384,8 +386,8 @@ class Placer {
     place.lines = lines.at(at, scale);
   }
 
-  /// The largest usual scale at which views that say where they lie cover nothing that is taken; or
-  /// else at which none is larger than the room.
+  /// Returns the largest usual scale at which views with a position cover nothing that is taken; or
+  /// else at which none is larger than the area.
   [[nodiscard]] double scale_for(const std::vector<std::size_t>& views) const {
     double largest = drawing::usual_scales().back();
     for (auto scale = drawing::usual_scales().rbegin(); scale != drawing::usual_scales().rend();

@@ -10,7 +10,7 @@ namespace strake::sheets {
 
 namespace {
 
-/// Hundredths of a millimetre are as fine as any pen.
+/// Rounds to hundredths of a millimetre, which are as fine as any pen.
 double rounded(double mm) { return std::round(mm * 100) / 100; }
 
 std::vector<double> in_widths(std::initializer_list<double> dashes, double width) {
@@ -19,8 +19,8 @@ std::vector<double> in_widths(std::initializer_list<double> dashes, double width
   return lengths;
 }
 
-/// The dashes of a class in widths of its pen, ISO 128-20 types 02 and 04; a dot is as long as it
-/// is wide, or else it is not seen in print.
+/// Returns the dashes of a class in widths of its pen, ISO 128-20 types 02 and 04. A dot is as long
+/// as it is wide, or else it is not seen in print.
 std::vector<double> usual_dashes(LineClass line, double width) {
   if (line == LineClass::hidden) return in_widths({drawing::kDash, drawing::kDashGap}, width);
   if (line == LineClass::grid) return in_widths({24, 3, 1, 3}, width);

@@ -9,11 +9,11 @@
 
 namespace strake::sheets {
 
-/// The styles of a sheet: those of ISO 128 for these pens, and what the file says on top of them.
+/// Returns the styles of a sheet: those of ISO 128 for these pens, overridden by the file.
 [[nodiscard]] LineStyles styles_of(const std::array<StyleSpec, kLineClasses>& specs,
                                    const drawing::Pens& pens);
 
-/// The widths that the lines of views have in these styles.
+/// Returns the widths that the lines of views have in these styles.
 [[nodiscard]] drawing::Pens pens_of(const LineStyles& styles);
 
 [[nodiscard]] inline const LineStyle& style_of(const LineStyles& styles, LineClass line) {

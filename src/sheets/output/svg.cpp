@@ -28,7 +28,7 @@ using drawing::xml_escaped;
 
 std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-/// "h2.5" as the name of a class: "h2_5".
+/// Returns the name of the class of a letter height: "h2_5" for 2.5.
 std::string height_class(double height_mm) {
   std::string name = "h" + shortest(height_mm);
   std::replace(name.begin(), name.end(), '.', '_');
@@ -41,8 +41,8 @@ std::string dashes(const LineStyle& style) {
   return text.empty() ? "none" : text;
 }
 
-/// What a class of lines is called in the style sheet: layers of views by what they hold, marks by
-/// their class.
+/// Returns the selector of a class of lines in the style sheet: layers of views by their contents,
+/// marks by their class.
 std::string selector(LineClass line) {
   std::string list;
   for (const drawing::Layer& layer : drawing::kLayers)
@@ -132,7 +132,7 @@ void write_marks(BufferedWriter& out, const Marks& marks) {
         << xml_escaped(text.text) << "</text>\n";
 }
 
-/// A layer of marks, where there are any.
+/// Writes a layer of marks, where there are any.
 void write_layer(BufferedWriter& out, const Marks& marks, const std::string& id,
                  std::string_view label) {
   if (marks.paths.empty() && marks.circles.empty() && marks.texts.empty()) return;

@@ -51,8 +51,8 @@ constexpr std::array<SlotName, 7> kSlots{{{"front", ViewSlot::front, "FRONT VIEW
                                           {"iso", ViewSlot::iso, "ISOMETRIC VIEW"}}};
 constexpr std::array<std::string_view, 2> kProjections{"first-angle", "third-angle"};
 
-/// Reads the tables of a file one by one. A fault is kept by the reading, and what is read after it
-/// is thrown away with the rest.
+/// Reads the tables of a file one by one. An error is kept by the parse context, and what is read
+/// after it is thrown away with the rest.
 class Parser {
  public:
   Parser(ParseContext& reading, const Value& document, ReadTemplate read_template)
@@ -67,7 +67,7 @@ class Parser {
   SheetSpec run() {
     sheet();
     fields();
-    (void)sets_.all();  // those that nothing names may be wrong as well
+    (void)sets_.all();  // sets that nothing names may be wrong as well
     if (const Value* const value = top_.table("defaults")) {
       TableReader table(reading_, *value, "[defaults]");
       views_.content(table, defaults_);
@@ -300,7 +300,7 @@ class Parser {
       if (table != nullptr) alter(*table, slot);
   }
 
-  /// [arrangement.top] and the like: what is otherwise in one of its views.
+  /// Reads [arrangement.top] and the like: the deviations of one of its views.
   void alter(TableReader& arrangement, const SlotName& slot) {
     const Value* const value = arrangement.table(slot.name);
     if (value == nullptr) return;
@@ -344,7 +344,8 @@ class Parser {
     add(std::move(view), value.at);
   }
 
-  /// Whether a point has a place on paper: it is not behind the eye, nor nearer than what is drawn.
+  /// Returns whether a point has a place on paper: it is not behind the eye, nor before the near
+  /// plane.
   static bool can_be_seen(const geometry::Vec3l& point, const hlr::View& view) {
     const auto axes = drawing::paper_axes(view);
     if (!axes || !axes->eye) return true;
@@ -381,7 +382,7 @@ class Parser {
   ViewReader views_;
   ViewSpec defaults_;
   SheetSpec found_;
-  std::vector<SourcePosition> places_;  ///< of the views
+  std::vector<SourcePosition> places_;  ///< positions of the views in the file
 };
 
 }  // namespace
@@ -395,7 +396,7 @@ Result<SheetSpec> parse_sheet_spec(std::string_view text, std::string_view file,
   {
     Parser parser(reading, *document, read_template);
     found = parser.run();
-  }  // the parser refuses what nobody asked for as it ends
+  }  // as it ends, the parser refuses keys that were not read
   if (found.views.empty())
     reading.fault({1, 1}, "the sheet has no views",
                   "write arrangement = \"first-angle\" at the top, or [[view]] tables");

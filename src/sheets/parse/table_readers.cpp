@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Readers of the tables of views, and of tags, grid lines and styles.
 #include "sheets/parse/table_readers.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ using settings::Array;
 using settings::TableReader;
 using settings::Value;
 
-/// [1, -2.5, 1] as "1,-2.5,1"; nothing where it is anything else.
+/// Returns an array such as [1, -2.5, 1] as "1,-2.5,1"; nothing for anything else.
 std::optional<std::string> joined(const Value& value) {
   const auto* const list = std::get_if<Array>(&value.held);
   if (list == nullptr || list->size() != 3) return std::nullopt;
@@ -212,7 +213,7 @@ void ViewReader::sections(TableReader& table, ViewSpec& view) {
       "write sections = [\"z>4500mm\", \"x<0m\"], with the sign towards what is cut away";
   const auto take = [&](const Value& one) {
     const auto* const text = std::get_if<std::string>(&one.held);
-    // Without a direction: what is nearer to the viewer may be another side in every view.
+    // No direction is given: the side nearer to the viewer may differ from view to view.
     const auto parsed =
         text != nullptr ? std::optional(drawing::parse_section(*text, Vec3l{})) : std::nullopt;
     if (parsed && *parsed)

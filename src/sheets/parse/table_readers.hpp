@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Readers of the tables of a sheet description: of views, and of tags, grid lines and styles.
 #pragma once
 
 #include "settings/named_sets.hpp"
@@ -7,22 +8,23 @@
 
 namespace strake::sheets {
 
-/// Reads what tables say of views. What a table does not say stays as it is.
+/// Reads the tables of views. Settings that a table does not contain stay as they are.
 class ViewReader {
  public:
   ViewReader(settings::ParseContext& reading, settings::NamedSets& sets)
       : reading_(reading), sets_(sets) {}
 
-  /// What may be said of all views at once: what is drawn, and how.
+  /// Reads what may be set for all views at once: what is drawn, and how.
   void content(settings::TableReader& table, ViewSpec& view);
-  /// Direction and up.
+  /// Reads direction and up.
   void direction(settings::TableReader& table, ViewSpec& view);
-  /// The same, or an eye instead of the direction, with its target and what it sees.
+  /// Reads direction and up, or an eye instead of the direction, with target, near plane and field
+  /// of view.
   void seen_from(settings::TableReader& table, ViewSpec& view);
-  /// "1:50".
+  /// Reads a scale such as "1:50".
   static std::optional<double> scale(settings::TableReader& table);
 
-  /// A point of the model, grid units.
+  /// Reads a point of the model, grid units.
   std::optional<geometry::Vec3l> point(settings::TableReader& table, std::string_view key);
 
  private:
@@ -41,8 +43,7 @@ class ViewReader {
   settings::NamedSets& sets_;
 };
 
-/// Reads what is drawn beside the lines of the model: tags, grid lines and styles of lines. The
-/// views that they name must be known.
+/// Reads the tables of tags, grid lines and line styles. The views that they name must be known.
 class MarkReader {
  public:
   MarkReader(settings::ParseContext& reading, settings::NamedSets& sets, SheetSpec& found)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A parsed sheet description: everything that a file says of a sheet and its views.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ namespace strake::sheets {
 
 enum class Projection : std::uint8_t { first_angle, third_angle };
 
-/// What an arrangement has places for; `none` is a view that says its own.
+/// The places of an arrangement; `none` is a view outside of it.
 enum class ViewSlot : std::uint8_t { none, front, top, bottom, left, right, back, iso };
 
 enum class HiddenLines : std::uint8_t { off, dashed, all };
@@ -36,11 +37,11 @@ struct ViewSpec {
   ViewSlot slot = ViewSlot::none;
   hlr::View view;
   hlr::Options options;
-  std::vector<settings::Chooser> select;  ///< empty: everything
+  std::vector<settings::Chooser> select;  ///< empty: all objects
   std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
   HiddenLines hidden = HiddenLines::off;
   std::optional<double> scale;
-  std::optional<PaperPoint> position;  ///< of the anchor, or without one of the middle
+  std::optional<PaperPoint> position;  ///< position of the anchor, or without one of the middle
   std::optional<geometry::Vec3l> anchor;
 };
 
@@ -50,7 +51,7 @@ struct TagSpec {
   std::string text;
   std::vector<std::string> views;  ///< empty: all
   bool leader = true;
-  bool once = false;  ///< of objects with equal texts one is tagged
+  bool once = false;  ///< tag one of the objects with equal texts
   double height_mm = 2.5;
 };
 
@@ -64,7 +65,7 @@ struct GridPlane {
 struct GridSpec {
   std::string where;
   std::vector<GridPlane> planes;
-  std::vector<std::string> views;  ///< empty: all that look along them
+  std::vector<std::string> views;  ///< empty: all views that look along them
 };
 
 struct StyleSpec {
@@ -73,22 +74,22 @@ struct StyleSpec {
   std::optional<model::Color> color;
 };
 
-/// What a file says of a sheet.
+/// The contents of a sheet description.
 struct SheetSpec {
   std::string file;
   double width_mm = 420, height_mm = 297;
   std::string size = "A3";
   bool frame = true;
   std::optional<Template> artwork;
-  std::string template_name;        ///< as the file has it; empty: none
-  std::optional<PaperBox> area;     ///< where views may lie; none: that of the frame
+  std::string template_name;        ///< as written in the file; empty: none
+  std::optional<PaperBox> area;     ///< where views may lie; none: the frame's inside
   std::vector<PaperBox> keep_free;  ///< of views
-  std::optional<double> scale;      ///< of views that say none
+  std::optional<double> scale;      ///< scale of views without their own
   Projection projection = Projection::first_angle;
-  double gap_mm = 15;  ///< between views of the arrangement, at least
+  double gap_mm = 15;  ///< least gap between arranged views
   std::vector<std::pair<std::string, std::string>> fields;
   std::string fields_where;
-  std::vector<ViewSpec> views;  ///< those of the arrangement first
+  std::vector<ViewSpec> views;  ///< views of the arrangement come first
   std::vector<TagSpec> tags;
   GridSpec grid;
   std::array<StyleSpec, kLineClasses> styles;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Placeholders, the check of references, and the parser of templates.
 #include "sheets/spec/template.hpp"
 
 #include <algorithm>
@@ -49,8 +50,8 @@ std::string fill_placeholders(const std::vector<TextPiece>& pieces, Lookup looku
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-/// Elements that are drawn, each as often as it is: far more than a frame and a title block have,
-/// and in proportion to what the template holds.
+/// The most elements that may be drawn, counting repeats: far more than a frame and a title block
+/// have, and in proportion to the template.
 constexpr std::uint64_t kMostDrawn = 100000, kMostTimes = 10;
 
 Error reference_error(std::size_t line, std::string message, std::string mend) {
@@ -94,8 +95,8 @@ void References::refer_in_style(std::string target, std::size_t line) {
   in_style_.push_back({std::move(target), line});
 }
 
-/// Counts what is drawn, element by element, each as often as it is referred to. On a stack of its
-/// own: references lead deeper than elements are nested.
+/// Counts drawn elements, each as often as it is referred to. It has a stack of its own, since
+/// references lead deeper than elements are nested.
 class References::Walk {
  public:
   explicit Walk(const std::vector<Element>& elements)
@@ -113,11 +114,11 @@ class References::Walk {
     return {};
   }
 
-  /// kNone where there is no such element: then nothing is drawn. An error where programs would not
-  /// agree which one it is.
+  /// Finds the element of a reference; kNone where there is none: then nothing is drawn. Error
+  /// where programs would not agree which element it is.
   [[nodiscard]] Result<std::uint32_t> find(const Reference& reference) const {
     const std::string& id = reference.target;
-    // By its number a letter can spell the name of another element, and programs take blanks off.
+    // An escaped character can spell the name of another element, and programs strip blanks.
     if (const std::size_t at = id.find_first_of("% "); at != std::string::npos)
       return reference_error(reference.line,
                              std::string(id[at] == '%' ? "'%' stands" : "a blank stands") +
@@ -137,7 +138,7 @@ class References::Walk {
 
   struct Step {
     std::uint32_t element = 0;
-    std::size_t next = 0;  ///< of its children, then of its references
+    std::size_t next = 0;  ///< index into its children, then into its references
     std::uint64_t drawn = 1;
   };
 
@@ -235,7 +236,7 @@ Error fault(std::size_t line, std::string message, std::string mend) {
   return {ErrorCode::input, std::move(message), "line " + std::to_string(line), std::move(mend)};
 }
 
-/// Why a value or a style sheet is more than drawing; empty where it is none.
+/// Returns why a value or a style sheet is more than drawing; empty where it is not.
 std::string reaches_out(std::string_view text) {
   const std::string lower = lowered(text);
   for (const std::string_view word : {"@import", "javascript:", "expression(", "image-set("})
@@ -248,7 +249,7 @@ std::string reaches_out(std::string_view text) {
   return {};
 }
 
-/// As it will be written.
+/// Returns the id of an element as it will be written.
 std::string id_of(const XmlEvent& event) {
   for (const auto& [key, value] : event.attributes)
     if (key == "id") return on_one_line(value);
@@ -261,7 +262,7 @@ bool is_inside_reference(std::string_view element, std::string_view value) {
                                 value.starts_with("data:image/jpeg;base64,"));
 }
 
-/// Writes the elements of a drawing anew: what is not understood cannot pass.
+/// Writes the elements of a drawing anew: content that is not understood cannot pass.
 class Cleaner {
  public:
   explicit Cleaner(std::string_view svg) : reader_(svg) {}
@@ -335,7 +336,7 @@ class Cleaner {
     return view_box(event);
   }
 
-  /// Four numbers, written anew.
+  /// Writes the four numbers of the viewBox anew.
   Status view_box(const XmlEvent& event) {
     std::string_view text = found_.view_box;
     std::string numbers;
@@ -400,7 +401,8 @@ class Cleaner {
     return {};
   }
 
-  /// All that the element holds: a word may come in pieces, with comments in between.
+  /// Checks all text of a style element at once: a word may come in pieces, with comments in
+  /// between.
   Status style(const XmlEvent& event) {
     const std::string sheet = std::exchange(style_, {});
     if (const std::string what = reaches_out(sheet); !what.empty())
@@ -445,8 +447,8 @@ class Cleaner {
   std::string text_;
   std::vector<std::string> open_;
   References references_;
-  std::string style_;  ///< of the style element that is open
-  int skipped_ = 0;    ///< elements that are open and passed over
+  std::string style_;  ///< text of the style element that is open
+  int skipped_ = 0;    ///< open elements that are skipped
 };
 
 }  // namespace

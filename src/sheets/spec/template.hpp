@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Templates of sheets: placeholders in texts, references between SVG elements, and the parsed
+// template.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +14,38 @@
 
 namespace strake::sheets {
 
-/// A text, and the name of what follows it; the last piece of a text names nothing.
+/// A text and the name of the placeholder that follows it; the last piece names nothing.
 struct TextPiece {
   std::string text, name;
 };
 
-/// "scale {{scale}}" in pieces. Errors: usage, where a {{ is not closed or names nothing.
+/// Splits a text such as "scale {{scale}}" into pieces. Errors: usage, where a {{ is not closed or
+/// names nothing.
 [[nodiscard]] Result<std::vector<TextPiece>> split_placeholders(std::string_view text);
 
-/// What a name stands for.
+/// Returns the value of a name.
 using Lookup = parallel::FunctionRef<std::string(const std::string& name)>;
 
 [[nodiscard]] std::string fill_placeholders(const std::vector<TextPiece>& pieces, Lookup lookup);
 
-/// The names of elements that a value or a style sheet refers to as url(#name).
+/// Returns the names of elements that a value or a style sheet refers to as url(#name).
 [[nodiscard]] std::vector<std::string> url_targets(std::string_view text);
 
-/// Which elements of a template draw which others, by `use`, patterns, markers and the like: a few
-/// lines that draw each other in a circle, or each twice the one before, would keep whoever opens
-/// the sheet busy for ever.
+/// The references by which elements of a template draw others: `use`, patterns, markers and the
+/// like. A few elements that draw each other in a circle, or each twice the one before, would keep
+/// a viewer of the sheet busy for ever.
 class References {
  public:
-  /// An element within the one that is open; `id` is empty where it has none.
+  /// Opens an element within the one that is open; `id` is empty where it has none.
   void open(std::string_view name, std::string_view id);
   void close() { open_.pop_back(); }
-  /// From the element that is open.
+  /// Adds a reference from the element that is open.
   void refer(std::string target, std::size_t line);
-  /// From a style sheet, which may speak for any element.
+  /// Adds a reference from a style sheet, which may apply to any element.
   void refer_in_style(std::string target, std::size_t line);
 
-  /// Once the outermost element is closed. Errors: input, with "line 7" as their place.
+  /// Checks the references, once the outermost element is closed. Errors: input, with "line 7" as
+  /// their place.
   [[nodiscard]] Status check() const;
 
  private:
@@ -51,7 +55,7 @@ class References {
   };
   struct Element {
     std::string id;
-    bool is_gradient = false;  ///< which draws nothing
+    bool is_gradient = false;  ///< gradients draw nothing
     std::vector<std::uint32_t> children;
     std::vector<Reference> references;
   };
@@ -63,22 +67,21 @@ class References {
   std::vector<Reference> in_style_;
 };
 
-/// Frame and title block as a user draws them: the elements of an SVG, written anew, with the
-/// fields that texts name as {{field}}.
+/// Frame and title block that a user has drawn: the elements of an SVG, written anew, with fields
+/// that texts name as {{field}}.
 ///
-/// What is not drawing has no place in it and is an error: scripts, handlers of events, what is
-/// fetched from elsewhere, HTML, animation. Metadata and elements of other namespaces, as editors
-/// leave them, are passed over.
+/// Content that is no drawing is an error: scripts, handlers of events, external resources, HTML,
+/// animation. Metadata and elements of other namespaces, as editors leave them, are skipped.
 struct Template {
   double width_mm = 0, height_mm = 0;
   std::string view_box;           ///< four numbers
-  std::vector<TextPiece> pieces;  ///< XML text, and fields in between
+  std::vector<TextPiece> pieces;  ///< XML text with fields in between
 
-  /// Each once, in the order of the template.
+  /// Returns the fields, each once, in the order of the template.
   [[nodiscard]] std::vector<std::string> fields() const;
 };
 
-/// Errors: input, with "line 7" as their place.
+/// Parses a template. Errors: input, with "line 7" as their place.
 [[nodiscard]] Result<Template> parse_template(std::string_view svg);
 
 }  // namespace strake::sheets

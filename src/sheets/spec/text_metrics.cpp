@@ -23,7 +23,7 @@ constexpr std::array<std::uint16_t, 95> kAdvances{
 
 double advance(const TakenCharacter& c) {
   if (c.length == 1 && c.code >= ' ' && c.code <= '~') return kAdvances.at(c.code - ' ') / 1000.0;
-  return c.code >= 0x1100 ? 1.05 : 0.8;  // scripts of square letters; other ones
+  return c.code >= 0x1100 ? 1.05 : 0.8;  // scripts of square letters; others
 }
 
 }  // namespace

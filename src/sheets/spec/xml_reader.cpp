@@ -13,7 +13,8 @@ constexpr std::size_t kDeepest = 200, kMostAttributes = 1000;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-/// Of names as drawings have them; other letters of XML are not looked for there.
+/// Returns whether a character may be in a name as drawings have them: other letters of XML are not
+/// expected.
 bool in_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
          c == '-' || c == '.' || c == ':';
@@ -24,7 +25,7 @@ bool is_xml_character(std::uint32_t code) {
          (code >= 0xE000 && code <= 0xFFFD) || (code >= 0x10000 && code <= 0x10FFFF);
 }
 
-/// The character that "#65" or "#x41" stands for.
+/// Returns the character that "#65" or "#x41" stands for.
 std::optional<std::uint32_t> character_of(std::string_view reference) {
   if (!reference.starts_with('#')) return std::nullopt;
   const bool hex = reference.starts_with("#x");

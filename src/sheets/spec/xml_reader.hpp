@@ -13,28 +13,28 @@
 
 namespace strake::sheets {
 
-/// What comes next in an XML text.
+/// The next item of an XML text.
 struct XmlEvent {
   enum class Kind : std::uint8_t { start, end, text, finish };
   Kind kind = Kind::finish;
-  std::size_t line = 0;                                         ///< from 1
-  std::string name;                                             ///< of an element, with its prefix
+  std::size_t line = 0;  ///< counted from 1
+  std::string name;      ///< name of an element, with its prefix
   std::vector<std::pair<std::string, std::string>> attributes;  ///< values decoded
   std::string text;                                             ///< decoded
 };
 
-/// Reads the XML of drawings, piece by piece: elements, attributes, text, CDATA; comments are
-/// passed over. It never expands anything but the five entities of XML and numbers of characters,
-/// and a document type, in which others could be declared, is an error. So are a text that is no
-/// UTF-8, elements that are not closed in turn, an attribute given twice, a second root, processing
-/// instructions behind the declaration, and nesting deeper than 200.
+/// A pull parser for the XML of drawings: elements, attributes, text, CDATA; comments are skipped.
+/// It expands only the five entities of XML and numeric character references; a document type, in
+/// which others could be declared, is an error. So are text that is no UTF-8, elements that are not
+/// closed in turn, an attribute given twice, a second root, processing instructions behind the
+/// declaration, and nesting deeper than 200.
 ///
 /// Errors: input, with "line 7" as their place.
 class XmlReader {
  public:
   explicit XmlReader(std::string_view text);
 
-  /// An element that is empty gives a start and an end.
+  /// Returns the next event. An empty element gives a start and an end.
   [[nodiscard]] Result<XmlEvent> next();
 
  private:
@@ -54,7 +54,7 @@ class XmlReader {
   std::string_view rest_;
   std::size_t line_ = 1;
   bool utf8_ = true, begun_ = false;
-  bool close_ = false;  ///< the element begun last was empty
+  bool close_ = false;  ///< the element begun last is empty: its end comes next
   std::vector<std::string> open_;
 };
 
