@@ -31,7 +31,7 @@ void counting_sort(std::vector<std::uint32_t>& numbers, std::size_t keys, Key&& 
   numbers = std::move(sorted);
 }
 
-/// Returns the numbers Returns the numbers 0 to n - 1.
+/// Returns the numbers 0 to n - 1.
 [[nodiscard]] inline std::vector<std::uint32_t> index_sequence(std::size_t n) {
   std::vector<std::uint32_t> numbers(n);
   std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});

@@ -78,7 +78,7 @@ class ProximityBoxes {
   void vertices_near(std::size_t of_b, const Visit& visit) const {
     vertices_.for_each_overlapping(rooms_[of_b], visit);
   }
-  /// Calls Calls `visit(triangle)` for some of facing.triangles_a, likewise.
+  /// Calls `visit(triangle)` for some of facing.triangles_a, likewise.
   template <class Visit>
   void triangles_near(std::size_t of_b, const Visit& visit) const {
     triangles_.for_each_overlapping(rooms_[of_b], visit);

@@ -33,7 +33,7 @@ struct DepthProbe {
   BallConstraint cut;  ///< about the origin
 };
 
-/// Returns Returns {x : n·x + weight·r <= the body's support along n}, about the origin.
+/// Returns {x : n·x + weight·r <= the body's support along n}, about the origin.
 [[nodiscard]] inline BallConstraint half_space(const ConvexBody& body, const Vec3d& n,
                                                double weight) {
   return {n, weight, dot(n, support(body.shape, n)) + body.error};
