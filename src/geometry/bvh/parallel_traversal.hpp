@@ -10,6 +10,8 @@
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/region.hpp"
 
+// Thresholds from which work on a part is shared, and heavy traversals in parallel rounds.
+
 namespace strake::geometry {
 
 /// From this many triangles, vertices or edges on, work on one part is worth a team; below it none

@@ -9,6 +9,8 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/parallel/context.hpp"
 
+// The BVH over the boxes of a scene, and the broad phase over it.
+
 namespace strake::geometry {
 
 /// Bits of BoxItem::sets.

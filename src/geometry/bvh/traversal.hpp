@@ -11,6 +11,8 @@
 
 #include "geometry/bvh/pair_local_part.hpp"
 
+// Traversals of one BVH, and of two at once.
+
 namespace strake::geometry {
 
 /// Calls visit(triangle) for the triangles of a part's tree below the nodes for which `near(node)`

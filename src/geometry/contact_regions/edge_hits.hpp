@@ -12,6 +12,8 @@
 #include "geometry/numeric/triangle_math.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Hits of edges on near triangles, and near pairs grouped by triangle.
+
 namespace strake::geometry {
 
 /// Returns the parameter, from 0 at the start to 1 at the end, at which a segment comes nearest to

@@ -10,6 +10,8 @@
 #include "geometry/contact_regions/edge_hits.hpp"
 #include "geometry/interior_depth/surface_distance/distance_field.hpp"
 
+// Union of near pairs through the interior and through the material of a solid.
+
 namespace strake::geometry {
 
 /// A straight line from one point to another.

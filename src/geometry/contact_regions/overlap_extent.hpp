@@ -9,6 +9,8 @@
 #include "geometry/numeric/vector_math.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Clipping of triangles by slabs, for the extent of an overlap.
+
 namespace strake::geometry {
 
 /// The points with lo <= axis · p <= hi.

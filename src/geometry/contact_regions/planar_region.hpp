@@ -12,6 +12,8 @@
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/vec.hpp"
 
+// The ends of parts at a plane, for contacts in one planar region.
+
 namespace strake::geometry {
 
 /// A point in a plane.

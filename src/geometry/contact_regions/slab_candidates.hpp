@@ -11,6 +11,8 @@
 #include "geometry/distance/slab_proximity.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Candidates for proximity by the slab between two parts, and boxes over them.
+
 namespace strake::geometry {
 
 /// The features of two parts that may be within reach of the other, by a slab between them: few for

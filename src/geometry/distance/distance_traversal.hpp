@@ -18,6 +18,8 @@
 #include "geometry/numeric/vector_math.hpp"
 #include "geometry/obb/rotated_part.hpp"
 
+// Branch-and-bound traversal of two BVHs by distance, sequential and shared with a team.
+
 namespace strake::geometry {
 
 /// Two triangles and certain bounds on their squared distance.

@@ -9,6 +9,8 @@
 #include "geometry/numeric/triangle_math.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Distances of points, segments, triangles and boxes in doubles.
+
 namespace strake::geometry {
 
 /// The parameters s and t in [0, 1] at which the segments p + s·d and q + t·e are nearest to each

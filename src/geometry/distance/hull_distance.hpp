@@ -8,6 +8,8 @@
 #include "geometry/primitive_pairs/shapes/support_mapping.hpp"
 #include "strake/geometry/part.hpp"
 
+// The distance of the convex hulls of two parts.
+
 namespace strake::geometry {
 
 /// Returns the convex hull of a part whose coordinates are relative to `origin`. `tree`: over its

@@ -11,6 +11,8 @@
 #include "geometry/obb/rotated_part.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Location of points in parts: of one, and of many with a tolerance band.
+
 namespace strake::geometry {
 
 /// Locates a point as side_of() of part_pair.hpp does; a rotated frame of the part, if given,

@@ -11,6 +11,8 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Heights over a slab between two parts, the triangles at its ends, and proximity across it.
+
 namespace strake::geometry {
 
 /// Grid units: far above the rounding of a height, far below any length that matters.

@@ -8,6 +8,8 @@
 #include "strake/geometry/rational.hpp"
 #include "strake/geometry/vec.hpp"
 
+// The distance of two triangles: certified bounds in doubles, and exact.
+
 namespace strake::geometry {
 
 /// Certified bounds on the squared distance of two triangles.

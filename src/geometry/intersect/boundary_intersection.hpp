@@ -13,6 +13,8 @@
 #include "strake/geometry/part_pair.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
+// The intersection of two boundaries, and the classification of pairs of triangles.
+
 namespace strake::geometry {
 
 /// A set of shell numbers, fast below 64: parts with more shells are rare.

@@ -10,6 +10,8 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/part.hpp"
 
+// Contact of two parts in coordinate planes: coplanar faces and their boundaries.
+
 namespace strake::geometry {
 
 /// The contact of two parts in a coordinate plane between their boxes.

@@ -12,6 +12,8 @@
 #include "geometry/obb/oriented_box.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// The segments in which the surfaces of two parts cross.
+
 namespace strake::geometry {
 
 /// A segment common to two triangles, one of each part. It lies on the line of an edge (0..2) of

@@ -9,6 +9,8 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Half-planes sorted round an edge, and what their order shows of two parts.
+
 namespace strake::geometry {
 
 /// A half-plane bounded by the axis, given by a point off the axis. Going counter-clockwise round

@@ -3,6 +3,8 @@
 
 #include "geometry/bvh/pair_local_part.hpp"
 
+// Tests whether planes of triangles separate two parts.
+
 namespace strake::geometry {
 
 /// Whether the plane of a triangle has the parts on opposite closed sides, `below` on the negative

@@ -8,6 +8,8 @@
 
 #include "strake/geometry/vec.hpp"
 
+// Search for vertices near a segment, and clusters of vertices within a tolerance.
+
 namespace strake::geometry {
 
 /// The greatest length, in grid units, up to which vertices may be merged.

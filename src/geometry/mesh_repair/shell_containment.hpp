@@ -9,6 +9,8 @@
 #include "geometry/mesh_repair/topology.hpp"
 #include "strake/geometry/part.hpp"
 
+// Which closed shell contains which, and which are back sides of surfaces.
+
 namespace strake::geometry {
 
 inline constexpr std::uint32_t kNoShell = 0xffffffffU;

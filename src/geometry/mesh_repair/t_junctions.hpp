@@ -11,6 +11,8 @@
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "geometry/mesh_repair/topology.hpp"
 
+// Edges that do not balance, and the splitting of triangles at T-junctions.
+
 namespace strake::geometry {
 
 /// An edge that does not balance, with the numbers of triangles that run along it from its lower

@@ -11,6 +11,8 @@
 #include "geometry/mesh_repair/t_junctions.hpp"
 #include "geometry/mesh_repair/topology.hpp"
 
+// Closing of seams up to a tolerance: T-junctions within it, and merged vertices.
+
 namespace strake::geometry {
 
 /// The vertices beside edges that do not balance, at which these are to be split.

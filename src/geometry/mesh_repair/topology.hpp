@@ -11,6 +11,8 @@
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "strake/geometry/part.hpp"
 
+// The scratch memory of mesh repair, and the topology and shells of a welded mesh.
+
 namespace strake::geometry {
 
 /// Returns the first `count` elements of memory that is kept from mesh to mesh; their values are

@@ -10,6 +10,8 @@
 #include "geometry/numeric/vector_math.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Even samples of a list, and the Morton order of points.
+
 namespace strake::geometry {
 
 /// Returns number i of `count` items that are spread evenly over a list.

@@ -9,6 +9,8 @@
 
 #include "strake/geometry/vec.hpp"
 
+// Lengths, unit vectors, projection intervals and boxes of vectors in doubles.
+
 namespace strake::geometry {
 
 [[nodiscard]] inline double squared_length(const Vec3d& v) { return dot(v, v); }

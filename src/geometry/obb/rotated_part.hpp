@@ -7,6 +7,8 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/triangle_bvh.hpp"
 
+// Parts in rotated frames, and frames along the slivers of parts.
+
 namespace strake::geometry {
 
 /// Unit vectors, perpendicular to each other but for rounding.

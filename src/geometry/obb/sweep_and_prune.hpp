@@ -9,6 +9,8 @@
 #include "geometry/obb/rotated_part.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Sweep and prune over the triangles of two parts.
+
 namespace strake::geometry {
 
 /// Returns the axis along which boxes are shortest relative to the swept range. `lengths`: of one

@@ -11,6 +11,8 @@
 #include "strake/geometry/mesh.hpp"
 #include "strake/geometry/wide_int.hpp"
 
+// Rounding of section points, triangulation of caps, and the outline of a section.
+
 namespace strake::geometry::plane_section {
 
 /// A point that may have been rounded to the grid.

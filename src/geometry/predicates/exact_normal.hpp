@@ -8,6 +8,8 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/geometry/wide_int.hpp"
 
+// Exact normals of grid triangles, and the exact test for triangles without area.
+
 namespace strake::geometry {
 
 /// A normal without rounding, in the compiler's 128-bit integers: for a part within ±2^30 units it

@@ -9,6 +9,8 @@
 #include "strake/geometry/rational.hpp"
 #include "strake/geometry/wide_int.hpp"
 
+// Features of triangles, and clipping of a line by half-spaces, in exact arithmetic.
+
 namespace strake::geometry {
 
 [[nodiscard]] inline int sign_of(Int128 v) { return (v > 0) - (v < 0); }

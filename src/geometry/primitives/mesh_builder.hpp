@@ -12,6 +12,8 @@
 #include "geometry/numeric/trig.hpp"
 #include "geometry/primitives/tessellate.hpp"
 
+// What the tessellations of all kinds share: circle points, the mesh builder and revolution sweeps.
+
 namespace strake::geometry::tessellation {
 
 /// The target of a tessellation: the map to the placed frame, and the sag in local length.

@@ -11,6 +11,8 @@
 #include "geometry/numeric/parity_union_find.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Crossings of two sheets that small displacements do not undo.
+
 namespace strake::geometry {
 
 /// A triangle of one sheet that comes within a distance of the other.

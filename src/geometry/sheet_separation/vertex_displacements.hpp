@@ -9,6 +9,8 @@
 #include "geometry/intersect/intersection_segments.hpp"
 #include "strake/geometry/part.hpp"
 
+// Small displacements of the vertices of a sheet.
+
 namespace strake::geometry {
 
 /// A triangle that is to be displaced to one of its sides.
