@@ -161,7 +161,7 @@ class Joiner {
  private:
   static constexpr std::size_t kEnd = std::numeric_limits<std::size_t>::max();
 
-  // The ends of stretch i have the numbers 2i and 2i + 1.
+  // The ends of segment i have the numbers 2i and 2i + 1.
   static std::size_t other(std::size_t end) { return end ^ 1U; }
   [[nodiscard]] const Vec3l& point(std::size_t end) const { return all_[end / 2].at[end % 2]; }
 

@@ -11,7 +11,7 @@ namespace strake::geometry {
 
 /// Displacements that separate two solids which overlap only slightly.
 struct SeparatingDisplacement {
-  double depth = 0;  ///< grid units: no point of both is farther than this from either skin
+  double depth = 0;  ///< grid units: no point of both is farther than this from either surface
   /// The vertices of triangles that come so near to the other part, ascending.
   std::vector<std::uint32_t> corners_a, corners_b;
 };

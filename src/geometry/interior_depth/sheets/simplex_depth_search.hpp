@@ -229,7 +229,7 @@ class SimplexDepthSearch {
     double upper = std::min({ceiling, near.distance + radius, by_face(c, near.triangle) + slack_});
     if (upper <= negligible_depth(best)) return std::nullopt;
     const bool inside = solid_.contains(at, work);
-    const bool one_side = near.distance > radius;  // no skin within that radius
+    const bool one_side = near.distance > radius;  // no surface within that radius
     if (one_side && !inside) return std::nullopt;
     if (one_side && goal_.belongs && !goal_.belongs(at)) return std::nullopt;
     if (inside && near.distance - slack_ > best.value && goal_.counts(at))
