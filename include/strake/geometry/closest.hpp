@@ -13,20 +13,21 @@ namespace strake::geometry {
 struct ClosestPoints {
   SquaredDistance squared;  ///< zero when the shapes share a point
   RationalPoint on_a, on_b;
-  FeatureMask place_a = 1, place_b = 1;  ///< the feature that the point lies in the inside of
+  FeatureMask place_a = 1, place_b = 1;  ///< the feature whose relative interior holds the point
 };
 
-/// Closest points on the integer grid, for the pairs of shapes below.
+/// Returns the closest points of two shapes on the integer grid.
 ///
 ///     const ClosestPoints c = closest_points(Segment{a, b}, TriangleCorners{p, q, r});
 ///     if (c.squared < limit) report(c.on_a.value(), c.squared.distance());
 ///
 /// 1. Exact in the range of grid_shapes.hpp; distances compare exactly by SquaredDistance, also
 ///    against those of other pairs.
-/// 2. Among pairs of features equally near, the first counts: corner and corner, corner and edge,
-///    edge and corner, corner and face, face and corner, edge and edge, edge and face, face and
-///    edge; in each kind by the numbers of a's, then b's. So parallel shapes have an answer of
-///    their own too; the squared distance does not depend on how the shapes are written down.
+/// 2. Among pairs of features equally near, the first counts: vertex and vertex, vertex and edge,
+///    edge and vertex, vertex and face, face and vertex, edge and edge, edge and face, face and
+///    edge; in each kind by the numbers of a's features, then b's. So parallel shapes have an
+///    answer of their own too; the squared distance does not depend on how the shapes are written
+///    down.
 /// 3. Segments of no length and triangles without area count as the sets that they are.
 ///
 /// The candidates are the points where the distance of the features' affine hulls is stationary
@@ -39,10 +40,11 @@ struct ClosestPoints {
 [[nodiscard]] ClosestPoints closest_points(const Segment& a, const Segment& b);
 [[nodiscard]] ClosestPoints closest_points(const Segment& a, const TriangleCorners& b);
 [[nodiscard]] ClosestPoints closest_points(const TriangleCorners& a, const TriangleCorners& b);
-/// Any of these by their corners, one to three each.
+/// Takes either shape by its corners, one to three: a point, a segment or a triangle.
 [[nodiscard]] ClosestPoints closest_points(std::span<const Vec3l> a, std::span<const Vec3l> b);
 
-/// The closest point of a closed solid box that is not empty; a point inside is its own.
+/// The closest point of a closed solid box that is not empty; a point inside is its own closest
+/// point.
 struct ClosestOnBox {
   SquaredDistance squared;
   Vec3l on_box;

@@ -9,16 +9,16 @@
 
 namespace strake::geometry {
 
-/// The fixed absolute grid on which every exact decision is taken: one unit is one micrometre.
-/// It is fixed so that no object's place depends on the other objects of the model.
+/// The fixed absolute grid on which every exact decision is taken: one unit is one micrometre. It
+/// is fixed so that no object's position depends on the other objects of the model.
 inline constexpr double kGridPerMm = 1000.0;
 inline constexpr double kMmPerGrid = 1.0 / kGridPerMm;
 
 /// Largest absolute coordinate that can be placed: 2^50 units, about 1.1 million kilometres.
 inline constexpr double kMaxGridMm = 1125899906842624.0 / kGridPerMm;
 
-/// The grid value nearest to a coordinate in millimetres; ties go away from zero.
-/// Nothing when the coordinate is not finite or lies beyond kMaxGridMm.
+/// Returns the grid value nearest to a coordinate in millimetres, ties away from zero; nothing when
+/// the coordinate is not finite or lies beyond kMaxGridMm.
 [[nodiscard]] inline std::optional<std::int64_t> snap(double mm) {
   if (!(std::fabs(mm) <= kMaxGridMm)) return std::nullopt;
   const double scaled = mm * kGridPerMm;
@@ -39,7 +39,7 @@ inline constexpr double kMaxGridMm = 1125899906842624.0 / kGridPerMm;
           std::nearbyint(p.z * steps) / steps};
 }
 
-/// Back to millimetres (for output only, never for a decision).
+/// Converts back to millimetres (for output only, never for a decision).
 [[nodiscard]] constexpr Vec3d to_mm(const Vec3d& grid) {
   return {grid.x / kGridPerMm, grid.y / kGridPerMm, grid.z / kGridPerMm};
 }

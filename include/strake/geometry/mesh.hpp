@@ -18,8 +18,8 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 struct TriangleMesh {
   std::vector<Vec3d> vertices;
   std::vector<Triangle> triangles;
-  /// The source face (planar polygon) that each triangle is a piece of: edges between two pieces
-  /// of one face are never drawn. Empty, or one entry per triangle (kNoIndex: its own).
+  /// The source face (planar polygon) that each triangle belongs to: edges between two triangles of
+  /// one face are never drawn. Empty, or one entry per triangle (kNoIndex: a face of its own).
   std::vector<std::uint32_t> faces;
   /// Largest distance of the mesh from the surface that it stands for, in mm; negative: unknown.
   double sag_mm = -1;

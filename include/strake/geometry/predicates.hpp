@@ -14,7 +14,7 @@ namespace strake::geometry {
 /// Each evaluates a 3x3 determinant twice: in double, and in 64-bit arithmetic that wraps. The
 /// double is off by less than 32·2^-53·2^93 = 2^45, so where it is below 2^62 the true value fits
 /// 63 bits and the wrapped value *is* the true value; elsewhere the sign of the double is certain.
-/// So no wide arithmetic is ever needed for a sign.
+/// So a sign never needs wide arithmetic.
 
 /// A determinant as a number whose sign is exact; the magnitude is exact below 2^53, else rounded.
 class SignedDet {
@@ -31,8 +31,8 @@ class SignedDet {
   double value_;
 };
 
-/// The plane through three points, prepared for many side tests. Positive is the side towards
-/// which the normal (b-a) x (c-a) points: outside, for a triangle of a solid.
+/// The plane through three points, prepared for many side tests. The normal (b-a) x (c-a) points to
+/// its positive side: outside, for a triangle of a solid.
 class ExactPlane {
  public:
   constexpr ExactPlane(const Vec3l& a, const Vec3l& b, const Vec3l& c) : a_(a) {
@@ -53,7 +53,7 @@ class ExactPlane {
     const auto exact = static_cast<std::int64_t>(dot(wrapped_, d.as<std::uint64_t>()));
     return (exact > 0) - (exact < 0);
   }
-  /// The normal, rounded; components are off by at most 2^-51 of the largest edge product.
+  /// Returns the rounded normal; components are off by at most 2^-51 of the largest edge product.
   [[nodiscard]] constexpr const Vec3d& normal() const { return approximate_; }
 
  private:
@@ -62,29 +62,31 @@ class ExactPlane {
   Vec3<std::uint64_t> wrapped_;
 };
 
-/// Sign of det(b-a, c-a, p-a): +1 when p lies on the side of the normal (b-a) x (c-a).
+/// Returns the sign of det(b-a, c-a, p-a): +1 when p lies on the side of the normal (b-a) x (c-a).
 [[nodiscard]] constexpr int orient3d(const Vec3l& a, const Vec3l& b, const Vec3l& c,
                                      const Vec3l& p) {
   return ExactPlane(a, b, c).side(p);
 }
 
-/// The exact cross product (65 bits a component for differences of 2^31).
+/// Returns the exact cross product (65 bits per component for differences of 2^31).
 [[nodiscard]] constexpr Vec3<Int128> cross_exact(const Vec3l& u, const Vec3l& v) {
   return cross(u.as<Int128>(), v.as<Int128>());
 }
 
-/// The exact determinant det(u, v, w) where a caller needs its value: at most 98 bits for
+/// Returns the exact determinant det(u, v, w), for callers that need its value: at most 98 bits for
 /// components of 2^31.
 [[nodiscard]] constexpr Int128 det_exact(const Vec3l& u, const Vec3l& v, const Vec3l& w) {
   return dot(cross_exact(u, v), w.as<Int128>());
 }
 
-/// The two axes that remain when `axis` is dropped, so that (first, second, axis) is right-handed.
+/// Returns the two coordinates that remain when `axis` is dropped, so that (first, second, axis) is
+/// right-handed.
 [[nodiscard]] constexpr Vec3l drop_axis(const Vec3l& p, int axis) {
   return axis == 0 ? Vec3l{p.y, p.z, 0} : axis == 1 ? Vec3l{p.z, p.x, 0} : Vec3l{p.x, p.y, 0};
 }
 
-/// Sign of the 2D orientation of p, q, r seen along `axis` (0, 1, 2) from its positive end.
+/// Returns the sign of the 2D orientation of p, q, r seen along `axis` (0, 1, 2) from its positive
+/// end.
 [[nodiscard]] constexpr int orient2d(const Vec3l& p, const Vec3l& q, const Vec3l& r, int axis) {
   const Vec3l u = drop_axis(q - p, axis), v = drop_axis(r - p, axis);
   const Int128 d = static_cast<Int128>(u.x) * v.y - static_cast<Int128>(u.y) * v.x;

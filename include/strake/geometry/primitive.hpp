@@ -10,7 +10,7 @@ namespace strake::geometry {
 /// The analytic primitives of plant and ship models, each in its own local frame.
 /// Lengths are millimetres, angles radians. Full definitions: docs/formats/primitives.md.
 
-/// Centred on the origin. A zero length makes a two-sided sheet.
+/// A box centred on the origin. A zero length makes a two-sided sheet.
 struct BoxPrimitive {
   double length_x = 0, length_y = 0, length_z = 0;
 };
@@ -21,7 +21,7 @@ struct PyramidPrimitive {
   double bottom_x = 0, bottom_y = 0, top_x = 0, top_y = 0, offset_x = 0, offset_y = 0, height = 0;
 };
 
-/// Axis Z, centred on the origin.
+/// A cylinder about the Z axis, centred on the origin.
 struct CylinderPrimitive {
   double radius = 0, height = 0;
 };
@@ -53,12 +53,14 @@ struct CircularTorusPrimitive {
   double centre_radius = 0, tube_radius = 0, angle = 0;
 };
 
-/// Rectangle [inner_radius, outer_radius] x [-height/2, height/2] in (radial, z), swept likewise.
+/// Rectangle [inner_radius, outer_radius] x [-height/2, height/2] in (radial, z), swept as a
+/// circular torus.
 struct RectangularTorusPrimitive {
   double inner_radius = 0, outer_radius = 0, height = 0, angle = 0;
 };
 
-/// A centre line along local Z, centred on the origin: drawn, clashed only where asked for.
+/// A centre line along local Z, centred on the origin: drawn, and checked for clashes only on
+/// request.
 struct LinePrimitive {
   double half_width = 0, length = 0;
 };
@@ -68,13 +70,13 @@ using Primitive = std::variant<BoxPrimitive, PyramidPrimitive, CylinderPrimitive
                                CircularTorusPrimitive, RectangularTorusPrimitive, LinePrimitive>;
 
 /// Whether a primitive is curved all round: a cylinder, snout, sphere, dish or circular torus. Its
-/// facets stand for a smooth skin, the outline of which depends on where it is seen from.
+/// facets stand for a smooth surface, whose silhouette depends on the viewpoint.
 [[nodiscard]] bool is_round(const Primitive& primitive);
 
-/// Whether it has a curved side at all, so that its triangles depend on the sag.
+/// Whether a primitive has a curved face at all, so that its triangles depend on the sag.
 [[nodiscard]] bool is_curved(const Primitive& primitive);
 
-/// Stable name of a primitive's kind, as reports and JSON spell it ("circular_torus").
+/// Returns the stable name of a primitive's kind, as reports and JSON spell it ("circular_torus").
 [[nodiscard]] std::string_view kind_name(const Primitive& primitive);
 
 }  // namespace strake::geometry

@@ -15,7 +15,7 @@ namespace strake::geometry {
 struct Rational {
   Int128 num = 0, den = 1;
 
-  /// The nearest double.
+  /// Returns the nearest double.
   [[nodiscard]] double value() const {
     if (den != 0) return ratio_to_double(num, den);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -28,8 +28,8 @@ struct Rational {
   friend constexpr bool operator==(const Rational& x, const Rational& y) { return (x <=> y) == 0; }
 };
 
-/// An exact point in grid units, numerator / denominator, not reduced; the denominator is
-/// positive. Of what the basic tests give, numerators are below 2^182, denominators below 2^128.
+/// An exact point in grid units, numerator / denominator, not reduced; the denominator is positive.
+/// In results of the exact tests, numerators are below 2^182, denominators below 2^128.
 struct RationalPoint {
   Vec3<Int192> numerator;
   Int192 denominator = Int192(Int128{1});
@@ -39,17 +39,17 @@ struct RationalPoint {
   explicit RationalPoint(const Vec3l& p)
       : numerator{Int192(Int128{p.x}), Int192(Int128{p.y}), Int192(Int128{p.z})} {}
 
-  /// Each coordinate rounded to the nearest double.
+  /// Returns each coordinate rounded to the nearest double.
   [[nodiscard]] Vec3d value() const {
     return {ratio_to_double(numerator.x, denominator), ratio_to_double(numerator.y, denominator),
             ratio_to_double(numerator.z, denominator)};
   }
-  /// Each coordinate rounded to the nearest grid unit, ties away from zero.
+  /// Returns each coordinate rounded to the nearest grid unit, ties away from zero.
   [[nodiscard]] Vec3l rounded() const {
     return {round_div(numerator.x, denominator), round_div(numerator.y, denominator),
             round_div(numerator.z, denominator)};
   }
-  /// The same point, whatever the fractions.
+  /// Whether both are the same point, in whatever fractions.
   friend bool operator==(const RationalPoint& p, const RationalPoint& q) {
     for (int k = 0; k < 3; ++k)
       if (compare_fractions(p.numerator[k], p.denominator, q.numerator[k], q.denominator) != 0)
@@ -58,7 +58,7 @@ struct RationalPoint {
   }
 };
 
-/// from + direction · num / den, exactly; den > 0, and the result within the bounds above.
+/// Returns from + direction · num / den, exactly; den > 0, and the result within the bounds above.
 template <std::size_t N, std::size_t M>
 [[nodiscard]] RationalPoint point_along(const Vec3l& from, const Vec3<Int128>& direction,
                                         const WideInt<N>& num, const WideInt<M>& den) {
@@ -76,7 +76,7 @@ struct SquaredDistance {
   Int256 numerator;
   Int192 denominator = Int192(Int128{1});
 
-  /// The distance, rounded to the nearest double.
+  /// Returns the distance, rounded to the nearest double.
   [[nodiscard]] double distance() const { return sqrt_ratio_to_double(numerator, denominator); }
   [[nodiscard]] bool zero() const { return numerator.sign() == 0; }
 

@@ -11,36 +11,37 @@
 
 namespace strake::geometry {
 
-/// From as many vertices on their tree is asked where fewer would all be looked at.
+/// From this many vertices on, supports are found by a tree; of fewer, all vertices are visited.
 inline constexpr std::size_t kManyVertices = 4096;
 
-/// A set of points for "which is farthest this way?": halved again and again along the longest
-/// side of its box. Small sets are only walked.
+/// A tree over points that finds the one farthest in a direction (the support): ranges are split
+/// along the longest side of their box. Small sets have no tree and are scanned.
 ///
 ///     const SupportTree tree(part.vertices);
 ///     const double support = tree.support_along(normal).value;
 ///
-/// 1. The value is the greatest n·v as doubles give it, to the bit what a walk over all would give.
-/// 2. Building costs n log n; a question about points on a round or flat body some tens of boxes.
+/// 1. The value is the greatest n·v in doubles, bit for bit what a scan of all points would give.
+/// 2. Building costs n log n; a query on the points of a round or flat body visits some tens of
+///    boxes.
 class SupportTree {
  public:
   struct SupportPoint {
     double value = 0;  ///< minus infinity for no points
-    Vec3i vertex;      ///< one of those that have it
+    Vec3i vertex;      ///< one of the points that attain it
   };
 
   SupportTree() = default;
-  /// The same tree with any team or none.
+  /// Builds the same tree for any team.
   explicit SupportTree(std::span<const Vec3i> points, const parallel::Context& context = {});
 
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] SupportPoint support_along(const Vec3d& n) const;
 
-  /// The points in a box, up to a number, in an order that depends on the points alone.
+  /// Returns at most `most` of the points in a box, in an order that depends on the points alone.
   [[nodiscard]] std::vector<Vec3i> points_within(const Box3d& box, std::size_t most) const;
 
-  /// Whether n·v <= level for all points. False too where that takes a look at more than `boxes`
-  /// boxes; takes off those that it looked at.
+  /// Whether n·v <= level for all points; also false where that takes visits to more than `boxes`
+  /// boxes. Subtracts the boxes visited.
   [[nodiscard]] bool all_at_or_below(const Vec3d& n, double level, std::uint64_t& boxes) const;
 
  private:

@@ -11,23 +11,23 @@
 namespace strake::geometry {
 
 /// A bounding-volume hierarchy over the triangles of one part, in the part's own coordinates, so
-/// that every body that places the part shares it.
+/// that all bodies of the part share it.
 class TriangleBvh {
  public:
-  /// Most triangles in a leaf.
+  /// Maximum number of triangles in a leaf.
   static constexpr std::uint32_t kLeafSize = 4;
 
   struct Node {
     Box3i box;
-    std::uint32_t first =
-        0;  ///< inner: index of the left child (right = left + 1); leaf: first of order()
+    std::uint32_t first = 0;  ///< inner: left child (right = left + 1); leaf: first of order()
     std::uint32_t count = 0;  ///< 0: inner node; otherwise triangles in the leaf
   };
 
   TriangleBvh() = default;
-  /// The same tree with any team or none. Without nodes where the context's stop token ended it.
+  /// Builds the same tree for any team; it has no nodes where the context's stop token ended the
+  /// work.
   explicit TriangleBvh(const Part& part, const parallel::Context& context = {});
-  /// Over some triangles of a part.
+  /// Builds a tree over some triangles of a part.
   TriangleBvh(const Part& part, std::span<const std::uint32_t> triangles);
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< root first

@@ -33,15 +33,15 @@ enum class Touch : std::uint8_t {
   area,     ///< coplanar, with a common area
 };
 
-/// How two closed triangles meet, decided exactly.
+/// The intersection of two closed triangles, decided exactly.
 struct TriangleContact {
   Touch touch = Touch::none;
   bool coplanar = false;
   bool same_normal = false;  ///< coplanar only: the normals point the same way
   CornerSides side_a{};      ///< corners of a against the plane of b
   CornerSides side_b{};      ///< corners of b against the plane of a
-  /// Not coplanar, segment: the edge in whose line the segment lies, or -1: it runs through the
-  /// relative interior.
+  /// Not coplanar, segment: the edge in whose line the segment lies; -1 where it runs through the
+  /// interior.
   int edge_a = -1, edge_b = -1;
   /// Coplanar: bit i set when edge i shares a segment with the other's open interior.
   unsigned edges_of_a_inside_b = 0, edges_of_b_inside_a = 0;
@@ -49,23 +49,25 @@ struct TriangleContact {
   unsigned shared_edges = 0;
 };
 
-/// Exact for coordinates whose differences are at most 2^31.
+/// Returns the intersection of two triangles; exact for coordinates whose differences are at most
+/// 2^31.
 [[nodiscard]] TriangleContact contact(const ExactTriangle& a, const ExactTriangle& b);
 
-/// Where the edge of a triangle between two of its corners, which lie on either side of the plane
-/// of another or in it (not both), meets that plane.
+/// Where an edge of a triangle meets the plane of another. Its two ends lie on opposite sides of
+/// that plane, or one of them in it.
 struct EdgeAtPlane {
   bool of_b = false;  ///< an edge of b at the plane of a
   int from = 0, to = 0;
 };
 
-/// The two ends of the common segment of triangles in different planes that is their contact; its
-/// direction is (normal of a) x (normal of b).
+/// Returns the two ends of the common segment of triangles in different planes; its direction is
+/// (normal of a) x (normal of b).
 [[nodiscard]] std::array<EdgeAtPlane, 2> segment_ends(const ExactTriangle& a,
                                                       const ExactTriangle& b,
                                                       const TriangleContact& c);
 
-/// A point common to both closed triangles, rounded to double; `c` is their contact, not `none`.
+/// Returns a point common to both closed triangles, rounded to double; `c` is their contact, not
+/// `none`.
 [[nodiscard]] Vec3d common_point(const ExactTriangle& a, const ExactTriangle& b,
                                  const TriangleContact& c);
 

@@ -18,7 +18,7 @@ enum class FaceFault : std::uint8_t {
   crossing,    ///< contours cross themselves or each other: new vertices would be needed
 };
 
-/// In the words of a diagnostic: "contours cross".
+/// Returns the text for a diagnostic: "contours cross".
 [[nodiscard]] std::string_view describe(FaceFault fault);
 
 struct FaceTriangles {
@@ -26,34 +26,34 @@ struct FaceTriangles {
   FaceFault fault = FaceFault::none;
 };
 
-/// Triangles over the vertices of a planar, or nearly planar, face with holes.
+/// Triangulates a planar, or nearly planar, face with holes over its vertices.
 ///
 ///     const std::vector<std::uint32_t> first{0, 4, 8};  // a square and a square hole
 ///     const FaceTriangles t = triangulate_face(points, first);
 ///
 /// Contour i is points[first[i] .. first[i + 1]), closed without repeating its first point. The
-/// inside is what an odd number of contours surround, so the sense of holes does not matter; the
-/// triangles have the sense of the first contour.
+/// interior is what an odd number of contours surround, so the orientation of holes does not
+/// matter; the triangles have the orientation of the first contour.
 ///
-/// 1. Every edge of a contour is an edge of the triangles, in pieces where other vertices lie on
-///    it: neighbouring faces that share an edge stay joined. No vertex is added, none with an edge
+/// 1. Every edge of a contour is an edge of the triangles, split where other vertices lie on it:
+///    neighbouring faces that share an edge stay joined. No vertex is added, and none with an edge
 ///    is lost, collinear ones included.
 /// 2. Repeated points, repeated and opposite edges, contours that touch themselves or each other
 ///    are fine. Contours that cross are a fault.
-/// 3. Decisions are exact, on the points moved to the middle of their box, scaled to 29 bits and
+/// 3. Decisions are exact, on the points moved to the centre of their box, scaled to 29 bits and
 ///    projected along the largest component of the first contour's normal.
 /// 4. The result does not depend on where a contour starts, but for the choice among diagonals of
-///    points on one circle.
+///    cocircular points.
 ///
-/// A constrained Delaunay triangulation: of few points by sweep insertion with Lawson's flips
-/// (C. L. Lawson, 1977), of many by halves (L. Guibas and J. Stolfi, 1985); where an edge is
-/// missing the cells that it crosses are triangulated anew on both sides (M. V. Anglada, 1997). O(n
-/// log n) for combs, stars and grids of holes; slanted teeth, of which every edge crosses many,
-/// cost O(n^2).
+/// The result is a constrained Delaunay triangulation: of few points by sweep insertion with
+/// Lawson's flips (C. L. Lawson, 1977), of many by divide and conquer (L. Guibas and J. Stolfi,
+/// 1985); where an edge is missing, the triangles that it crosses are replaced on both sides (M. V.
+/// Anglada, 1997). The cost is O(n log n) for combs, stars and grids of holes, and O(n^2) for
+/// slanted teeth, every edge of which crosses many.
 [[nodiscard]] FaceTriangles triangulate_face(std::span<const Vec3d> points,
                                              std::span<const std::uint32_t> first);
 
-/// The same for a face of one contour.
+/// Triangulates a face of one contour.
 [[nodiscard]] FaceTriangles triangulate_face(std::span<const Vec3d> contour);
 
 }  // namespace strake::geometry

@@ -84,7 +84,7 @@ struct Placement {
   }
 };
 
-/// Whether each of its twelve numbers is finite.
+/// Whether all twelve numbers of a placement are finite.
 [[nodiscard]] inline bool is_finite(const Placement& p) {
   for (const Vec3d& row : {p.linear.row[0], p.linear.row[1], p.linear.row[2], p.translation})
     if (!std::isfinite(row.x) || !std::isfinite(row.y) || !std::isfinite(row.z)) return false;
@@ -108,7 +108,7 @@ struct Box3 {
     include(b.lo);
     include(b.hi);
   }
-  /// Closed boxes that share at least a point.
+  /// Whether the closed boxes share at least a point.
   [[nodiscard]] constexpr bool meets(const Box3& b) const {
     return lo.x <= b.hi.x && b.lo.x <= hi.x && lo.y <= b.hi.y && b.lo.y <= hi.y && lo.z <= b.hi.z &&
            b.lo.z <= hi.z;
@@ -119,11 +119,11 @@ struct Box3 {
            b.hi.z <= hi.z;
   }
   [[nodiscard]] constexpr Box3 moved(const Vec3<T>& by) const { return {lo + by, hi + by}; }
-  /// With all that is no farther along any axis.
+  /// Returns the box grown by `by` on every side.
   [[nodiscard]] constexpr Box3 inflated(T by) const {
     return {lo - Vec3<T>{by, by, by}, hi + Vec3<T>{by, by, by}};
   }
-  /// What two boxes have in common; empty where they do not meet.
+  /// Returns the intersection of two boxes; empty where they do not meet.
   [[nodiscard]] constexpr Box3 common(const Box3& b) const {
     Box3 both = *this;
     for (int k = 0; k < 3; ++k) {
@@ -143,7 +143,7 @@ using Box3d = Box3<double>;
 using Box3i = Box3<std::int32_t>;
 using Box3l = Box3<std::int64_t>;
 
-/// The box of nothing: including a point makes it that point.
+/// Returns a box that is empty; including a point makes it that point.
 template <class T>
 [[nodiscard]] constexpr Box3<T> empty_box() {
   if constexpr (std::is_floating_point_v<T>) {

@@ -21,8 +21,8 @@ __extension__ typedef unsigned __int128 UInt128;
 ///
 /// 1. mul() of WideInt<N> and WideInt<M> gives WideInt<N + M>: it cannot overflow.
 /// 2. + and - wrap like unsigned integers; the caller chooses N with room for the sum.
-/// 3. A narrower value converts to a wider type by itself, never the other way round: narrow()
-///    drops limbs where the caller knows the value to fit.
+/// 3. A narrower value converts to a wider type implicitly, never the other way round: narrow()
+///    drops limbs where the caller knows that the value fits.
 ///
 /// No allocation, no global state; every function is pure.
 template <std::size_t N>
@@ -53,7 +53,7 @@ class WideInt {
 
   [[nodiscard]] constexpr const Limbs& limbs() const { return limbs_; }
   [[nodiscard]] constexpr bool negative() const { return (limbs_[N - 1] >> 63) != 0; }
-  /// -1, 0 or 1.
+  /// Returns -1, 0 or 1.
   [[nodiscard]] constexpr int sign() const {
     if (negative()) return -1;
     for (const std::uint64_t limb : limbs_)
@@ -98,7 +98,7 @@ class WideInt {
 using Int192 = WideInt<3>;
 using Int256 = WideInt<4>;
 
-/// The exact product.
+/// Returns the exact product.
 template <std::size_t N, std::size_t M>
 [[nodiscard]] constexpr WideInt<N + M> mul(const WideInt<N>& a, const WideInt<M>& b) {
   typename WideInt<N + M>::Limbs r{};
@@ -111,7 +111,7 @@ template <std::size_t N, std::size_t M>
     }
     r[i + M] = carry;
   }
-  // Unsigned product of two's complements: take the high halves off again.
+  // This is the unsigned product of two's complements: subtract the high halves again.
   const auto subtract_high = [&r](std::size_t from, std::span<const std::uint64_t> v) {
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -127,7 +127,7 @@ template <std::size_t N, std::size_t M>
 
 [[nodiscard]] constexpr Int256 mul(Int128 a, Int128 b) { return mul(WideInt<2>(a), WideInt<2>(b)); }
 
-/// The low M limbs; the caller knows that the value fits.
+/// Returns the low M limbs; the caller knows that the value fits.
 template <std::size_t M, std::size_t N>
   requires(M <= N)
 [[nodiscard]] constexpr WideInt<M> narrow(const WideInt<N>& a) {
@@ -136,7 +136,7 @@ template <std::size_t M, std::size_t N>
   return WideInt<M>(r);
 }
 
-/// Orders n1/d1 against n2/d2; both denominators positive.
+/// Compares n1/d1 with n2/d2; both denominators are positive.
 [[nodiscard]] constexpr std::strong_ordering compare_fractions(Int128 n1, Int128 d1, Int128 n2,
                                                                Int128 d2) {
   return mul(n1, d2) <=> mul(n2, d1);
@@ -162,8 +162,8 @@ namespace detail {
                                              std::span<const std::uint64_t> d);
 }  // namespace detail
 
-/// n/d rounded to the nearest integer, ties away from zero: a function of the rational alone, so
-/// unreduced fractions of one rational round alike. d > 0; the quotient fits 63 bits.
+/// Returns n/d rounded to the nearest integer, ties away from zero: a function of the rational
+/// alone, so unreduced fractions of one rational round alike. d > 0; the quotient fits 63 bits.
 template <std::size_t N, std::size_t M>
 [[nodiscard]] std::int64_t round_div(const WideInt<N>& n, const WideInt<M>& d) {
   return detail::round_quotient(n.limbs(), d.limbs());
@@ -172,7 +172,7 @@ template <std::size_t N, std::size_t M>
   return round_div(WideInt<2>(n), WideInt<2>(d));
 }
 
-/// The largest integer not above n/d. d > 0; the quotient fits 63 bits.
+/// Returns the largest integer not above n/d. d > 0; the quotient fits 63 bits.
 template <std::size_t N, std::size_t M>
 [[nodiscard]] std::int64_t floor_div(const WideInt<N>& n, const WideInt<M>& d) {
   return detail::floor_quotient(n.limbs(), d.limbs());
@@ -181,7 +181,8 @@ template <std::size_t N, std::size_t M>
   return floor_div(WideInt<2>(n), WideInt<2>(d));
 }
 
-/// n/d rounded to the nearest double, ties to even (results are normal numbers or zero). d > 0.
+/// Returns n/d rounded to the nearest double, ties to even (results are normal numbers or zero). d
+/// > 0.
 template <std::size_t N, std::size_t M>
 [[nodiscard]] double ratio_to_double(const WideInt<N>& n, const WideInt<M>& d) {
   return detail::quotient_to_double(n.limbs(), d.limbs());
@@ -190,7 +191,7 @@ template <std::size_t N, std::size_t M>
   return ratio_to_double(WideInt<2>(n), WideInt<2>(d));
 }
 
-/// The square root of n/d rounded to the nearest double. n >= 0, d > 0.
+/// Returns the square root of n/d rounded to the nearest double. n >= 0, d > 0.
 template <std::size_t N, std::size_t M>
 [[nodiscard]] double sqrt_ratio_to_double(const WideInt<N>& n, const WideInt<M>& d) {
   return detail::sqrt_quotient_to_double(n.limbs(), d.limbs());

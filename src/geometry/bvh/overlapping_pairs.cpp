@@ -22,8 +22,8 @@ namespace {
 
 using Node = SceneBvh::Node;
 
-/// Pieces of work that the self-join is expanded into before it is shared out: enough for any
-/// team, and the same for every team.
+/// Number of subtasks that the self-join is expanded into before it is shared: enough for any team,
+/// and the same for every team.
 constexpr std::size_t kSubtasks = 1024;
 
 struct JoinTask {
@@ -34,7 +34,7 @@ class SelfJoin {
  public:
   explicit SelfJoin(const SceneBvh& tree) : tree_(tree), nodes_(tree.nodes()) {}
 
-  /// The root pair, expanded breadth first.
+  /// Returns the root pair, expanded breadth first.
   [[nodiscard]] std::vector<JoinTask> subtasks() const {
     std::vector<JoinTask> tasks;
     if (nodes_.empty()) return tasks;
@@ -125,7 +125,7 @@ class SelfJoin {
 };
 
 /// Sorts pairs by counting: first into lots by ranges of their first item, then each lot by first
-/// item, and the few seconds of each. All of it in pieces that do not depend on the team.
+/// item, and the few seconds of each. All blocks are independent of the team.
 class PairSorter {
  public:
   static constexpr std::size_t kPairsPerPiece = 65536;
@@ -140,7 +140,7 @@ class PairSorter {
     auto counts = parallel::transform(context, {.name = "count pairs", .n = pieces_},
                                       [&](std::size_t piece) { return count(piece); });
     if (!counts) return counts.error();
-    // Where each piece's pairs of each lot go: lot by lot, piece by piece.
+    // Compute where each block's pairs of each lot go: lot by lot, block by block.
     std::size_t at = 0;
     for (std::size_t lot = 0; lot < kLots; ++lot) {
       begin_[lot] = at;
@@ -171,7 +171,7 @@ class PairSorter {
   void deal(std::size_t number, std::array<std::size_t, kLots>& next) {
     for (const IndexPair& p : piece(number)) sorted_[next[p.first / range_]++] = p;
   }
-  /// Back from sorted_ into pairs_.
+  /// Sorts a lot from sorted_ back into pairs_.
   void sort(std::size_t lot) {
     const std::size_t base = lot * range_, first = begin_[lot];
     const auto from = std::span(sorted_).subspan(first, begin_[lot + 1] - first);
@@ -245,7 +245,7 @@ namespace {
 
 using Node = SceneBvh::Node;
 
-/// Two frames, and how boxes in the one are parted from boxes in the other.
+/// Two frames, with the separating-axis tests for boxes in the one against boxes in the other.
 class FramePair {
  public:
   FramePair(const Mat3d& x, const Mat3d& y) : same_(x == y) {
@@ -266,7 +266,7 @@ class FramePair {
   }
 
  private:
-  /// What rounding may make of a width, relative.
+  /// Relative rounding error of a width.
   static constexpr double kRounding = 1e-12;
 
   static Vec3d half(const Vec3l& v) { return v.as<double>() * 0.5; }
@@ -293,7 +293,8 @@ class FramePair {
     return false;
   }
 
-  /// Across an edge of each. Where these are parallel nothing is left of any width but rounding.
+  /// Whether the cross product of an edge of each separates them. Where these are parallel every
+  /// width is rounding.
   [[nodiscard]] bool parted_by_edges(const Vec3d& p, const Vec3d& q, const Vec3d& way,
                                      double slack) const {
     for (int i = 0; i < 3; ++i)
@@ -322,7 +323,7 @@ struct FrameNodePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// The pairs of two groups, or those within one.
+/// Finds the pairs of two groups, or those within one.
 class GroupJoin {
  public:
   GroupJoin(std::span<const BoxItem> items, const BoxesInFrames& framed,
@@ -333,7 +334,7 @@ class GroupJoin {
         frames_(framed.frames[x], framed.frames[y]),
         within_(x == y) {}
 
-  /// The root pair, expanded breadth first.
+  /// Returns the root pair, expanded breadth first.
   [[nodiscard]] std::vector<FrameNodePair> subtasks() const {
     constexpr std::size_t kGroupSubtasks = 1024;
     std::vector<FrameNodePair> tasks;
@@ -387,7 +388,7 @@ class GroupJoin {
     if (sets_match(x.sets, y.sets) && (is_one({a, b}) || near(x, y))) out.push_back({a, b});
   }
 
-  /// Of one tree the boxes compare as they are.
+  /// Boxes of one tree compare as they are.
   [[nodiscard]] bool near(const Node& x, const Node& y) const {
     return within_ ? x.box.meets(y.box) : !frames_.parted(x_.tree.box(x), y_.tree.box(y));
   }
@@ -484,7 +485,7 @@ Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(std::span<const
   std::vector<FramePair> frames;
   for (const Mat3d& x : framed.frames)
     for (const Mat3d& y : framed.frames) frames.emplace_back(x, y);
-  // The lower frame first, as between groups: what rounding makes of two boxes is the same then.
+  // The lower frame comes first, as between groups, so that rounding gives the same result.
   const auto parted = [&](std::uint32_t a, std::uint32_t b) {
     return frames[framed.frame[a] * n + framed.frame[b]].parted(framed.box[a], framed.box[b]);
   };

@@ -14,17 +14,18 @@
 
 namespace strake::geometry {
 
-/// Whether one of two belongs to set A and the other to set B.
+/// Whether one of two items belongs to set A and the other to set B.
 [[nodiscard]] inline bool sets_match(std::uint8_t x, std::uint8_t y) {
   return ((x & kSetA) != 0 && (y & kSetB) != 0) || ((x & kSetB) != 0 && (y & kSetA) != 0);
 }
 
 [[nodiscard]] Error too_many(const parallel::Allowance& allowed);
 
-/// Ascending. Errors: cancelled.
+/// Sorts pairs in ascending order. Errors: cancelled.
 [[nodiscard]] Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& context);
 
-/// The pairs of A and B of different owners of which `meet(i, j)` holds, by the nested loop.
+/// Returns the pairs of A and B of different owners for which `meet(i, j)` holds, by the nested
+/// loop.
 template <class Meet>
 [[nodiscard]] Result<std::vector<IndexPair>> all_pairs_that(std::span<const BoxItem> items,
                                                             const Meet& meet,

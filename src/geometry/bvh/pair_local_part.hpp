@@ -45,7 +45,7 @@ struct NodePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// True when the first of two nodes is the one to open: the larger, unless it is a leaf.
+/// Whether the first of two nodes is the one to descend into: the larger, unless it is a leaf.
 [[nodiscard]] inline bool open_first(const TriangleBvh::Node& a, const TriangleBvh::Node& b) {
   if (a.count != 0) return false;
   if (b.count != 0) return true;

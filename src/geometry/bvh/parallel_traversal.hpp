@@ -10,33 +10,38 @@
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/region.hpp"
 
+// Thresholds from which work on a part is shared, and heavy traversals in parallel rounds.
+
 namespace strake::geometry {
 
-/// From as many triangles, vertices or edges on, working on one part is worth a team. Below it
-/// nothing is spent on asking for one.
+/// From this many triangles, vertices or edges on, work on one part is worth a team; below it none
+/// is started.
 inline constexpr std::size_t kParallelThreshold = std::size_t{1} << 16U;
-/// Items of such a loop that a worker takes at once.
+/// Number of items of such a loop that a worker takes at once.
 inline constexpr std::size_t kParallelGrain = std::size_t{1} << 12U;
 
-/// A loop over the triangles, vertices or edges of one part.
+/// Returns the region of a loop over the triangles, vertices or edges of one part.
 [[nodiscard]] inline parallel::Region over_part(std::string_view name, std::size_t n) {
   return {.name = name, .n = n, .grain = kParallelGrain, .alone_below = kParallelThreshold};
 }
 
-/// Node pairs that a walk takes alone before it counts as heavy: about a millisecond.
+/// Number of node pairs that a traversal visits sequentially before it counts as heavy: about a
+/// millisecond.
 inline constexpr std::uint64_t kSequentialNodePairs = std::uint64_t{1} << 15U;
-/// Pieces that what is left of a heavy walk is cut into.
+/// Number of subtasks that the rest of a heavy traversal is split into.
 inline constexpr std::size_t kTraversalPieces = 256;
-/// Fewest pieces of a round, the last one's apart: enough to share among a team.
+/// Minimum number of subtasks in every round but the last: enough to share among a team.
 inline constexpr std::size_t kSmallestRound = 8;
 
-/// Runs the pieces of a heavy walk with a team's help, in rounds, each twice as large as the one
-/// before: late ones start from what early ones found, and what decides is mostly found soon.
+/// Runs the subtasks of a heavy traversal with a team, in rounds, each twice as large as the one
+/// before: late ones start from what early ones found, and the decisive contact is mostly found
+/// soon.
 ///
 /// `begin(i)` makes the state of the i-th piece of a round, `run(state, piece)` is called for all
-/// of a round at once, `take(state)` in the order of the pieces; it tells whether to go on.
-/// `most(done)` limits the next round where what was found tells that less will do. Rounds depend
-/// on the number of pieces and on these answers alone, and so do the states. Errors: cancelled.
+/// of a round at once, `take(state)` in the order of the pieces; it returns whether to go on.
+/// `most(done)` limits the next round where the results so far show that fewer pieces suffice.
+/// Rounds depend on the number of pieces and on these results alone, and so do the states. Errors:
+/// cancelled.
 template <class Piece, class Begin, class Run, class Take, class Most>
 Status run_in_doubling_rounds(const parallel::Context& context, const std::vector<Piece>& pieces,
                               const Begin& begin, const Run& run, const Take& take,

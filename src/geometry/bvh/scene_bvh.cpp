@@ -23,13 +23,13 @@ using Node = SceneBvh::Node;
 
 constexpr std::size_t kLeafSize = 4;
 constexpr std::size_t kBins = 16;
-/// So many items show where to cut a range.
+/// Number of items sampled to find the split of a range.
 constexpr std::size_t kSample = std::size_t{1} << 14U;
 /// Ranges of at most this many items are built as one piece of parallel work; fixed, so that the
 /// tree does not depend on the team.
 constexpr std::size_t kSubtree = 4096;
 
-/// What the build moves about instead of the items: 32-bit boxes relative to the root.
+/// A reference to an item that the build moves instead: its 32-bit box relative to the root.
 struct Ref {
   Box3i box;
   std::uint32_t item = 0;
@@ -79,7 +79,7 @@ struct Bin {
 
 using Bins = std::array<Bin, kBins>;
 
-/// The bin after which a cut costs least: half areas times counts on either side.
+/// Returns the bin after which a split costs least: half areas times counts on either side.
 std::size_t cheapest_cut(const Bins& bins) {
   std::array<double, kBins> right{};
   Bin tail;
@@ -104,7 +104,8 @@ std::size_t cheapest_cut(const Bins& bins) {
   return best;
 }
 
-/// Where to cut, from every n-th item when there are many; nothing when all centres are equal.
+/// Returns the best split, from every n-th item when there are many; nothing when all centres are
+/// equal.
 std::optional<Split> best_split(std::span<const Ref> refs) {
   const std::size_t step = 1 + refs.size() / kSample;
   Box3l centres = empty_box<std::int64_t>();
@@ -141,7 +142,7 @@ std::size_t divide(std::span<Ref> refs) {
   return size == 0 || size == refs.size() ? refs.size() / 2 : size;
 }
 
-/// A range of refs that a node stands for.
+/// The range of refs of a node.
 struct Task {
   std::uint32_t node = 0;
   std::size_t first = 0, count = 0;
@@ -156,7 +157,7 @@ void fill_leaf(Node& node, std::span<const Ref> refs) {
   }
 }
 
-/// Boxes of the inner nodes from those of their children, which stand behind them.
+/// Computes the boxes of the inner nodes from those of their children, which follow them.
 void fill_inner(std::span<Node> nodes) {
   for (std::size_t i = nodes.size(); i-- > 0;) {
     Node& node = nodes[i];
@@ -168,7 +169,7 @@ void fill_inner(std::span<Node> nodes) {
   }
 }
 
-/// Appends two children to the node of a task and tells them to `add`; `left` items go left.
+/// Appends two children to the node of a task and passes them to `add`; `left` items go left.
 template <class Add>
 void grow(std::vector<Node>& nodes, const Task& task, std::size_t left, Add&& add) {
   const auto child = static_cast<std::uint32_t>(nodes.size());
@@ -180,7 +181,8 @@ void grow(std::vector<Node>& nodes, const Task& task, std::size_t left, Add&& ad
   add(Task{child + 1, task.first + left, task.count - left});
 }
 
-/// The subtree over one range: node 0 is its root, leaves point into the whole array of refs.
+/// Builds the subtree over one range: node 0 is its root, leaves point into the whole array of
+/// refs.
 std::vector<Node> subtree(std::span<Ref> refs, const Task& range) {
   std::vector<Node> nodes(1);
   nodes.reserve(range.count);
@@ -201,8 +203,8 @@ std::vector<Node> subtree(std::span<Ref> refs, const Task& range) {
   return nodes;
 }
 
-/// Nodes above the subtrees, a level at a time; the tasks of the subtrees in the order in which
-/// they were found.
+/// Builds the nodes above the subtrees, a level at a time. Returns the tasks of the subtrees in the
+/// order in which they were found.
 Result<std::vector<Task>> top(std::vector<Node>& nodes, std::span<Ref> refs,
                               const parallel::Context& context) {
   std::vector<Task> done, level{{0, 0, refs.size()}};

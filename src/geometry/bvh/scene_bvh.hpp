@@ -9,13 +9,15 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/parallel/context.hpp"
 
+// The BVH over the boxes of a scene, and the broad phase over it.
+
 namespace strake::geometry {
 
 /// Bits of BoxItem::sets.
 inline constexpr std::uint8_t kSetA = 1;
 inline constexpr std::uint8_t kSetB = 2;
 
-/// A box that stands for something, on the 64-bit grid.
+/// The bounding box of an object, on the 64-bit grid.
 struct BoxItem {
   Box3l box;
   std::uint32_t owner = 0;  ///< two items of one owner are never a pair
@@ -29,14 +31,14 @@ struct IndexPair {
   friend auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 
-/// A bounding-volume hierarchy over all boxes of a scene, for finding which of them meet.
+/// A bounding-volume hierarchy over all boxes of a scene, for finding the pairs that overlap.
 ///
 ///     const auto tree = SceneBvh::build(items, context);
 ///     const auto pairs = overlapping_box_pairs(*tree, context);
 ///
-/// Built top down by binned surface-area cost (Wald 2007). Nodes hold their boxes in 32 bits,
-/// rounded outward; what meets is decided on the items' own 64-bit boxes, so the pairs do not
-/// depend on the shape of the tree.
+/// It is built top down by binned surface-area cost (Wald 2007). Nodes hold their boxes in 32 bits,
+/// rounded outward; overlap is decided on the items' own 64-bit boxes, so the pairs do not depend
+/// on the shape of the tree.
 class SceneBvh {
  public:
   struct Node {
@@ -46,12 +48,12 @@ class SceneBvh {
     std::uint8_t sets = 0;
   };
 
-  /// Errors: cancelled. Empty boxes and items of no set belong to no pair.
+  /// Builds the tree. Empty boxes and items of no set belong to no pair. Errors: cancelled.
   [[nodiscard]] static Result<SceneBvh> build(std::span<const BoxItem> items,
                                               const parallel::Context& context);
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< root first
-  /// A node's box in the coordinates of the items, rounded outward.
+  /// Returns a node's box in the coordinates of the items, rounded outward.
   [[nodiscard]] Box3l box(const Node& node) const {
     Box3l box = node.box.as<std::int64_t>();
     for (int k = 0; k < 3; ++k) {
@@ -61,52 +63,52 @@ class SceneBvh {
     return box;
   }
   [[nodiscard]] const std::vector<BoxItem>& items() const { return items_; }  ///< in leaf order
-  /// The index that items()[k] had in the input.
+  /// Element k is the index that items()[k] had in the input.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
-  Vec3l origin_;   ///< of the nodes' boxes,
-  int shift_ = 0;  ///< and how often they are halved
+  Vec3l origin_;   ///< of the nodes' boxes
+  int shift_ = 0;  ///< how often the nodes' coordinates are halved
   std::vector<Node> nodes_;
   std::vector<BoxItem> items_;
   std::vector<std::uint32_t> order_;
 };
 
-/// As many pairs as there may be when nobody says otherwise: 8 bytes each.
+/// Default limit on the number of pairs: 8 bytes each.
 inline constexpr std::uint64_t kMostPairs = std::uint64_t{1} << 32U;
 
-/// Every pair of items of different owners, one of set A and one of set B, whose closed boxes
-/// share a point: each unordered pair once, ascending.
+/// Returns every pair of items of different owners, one of set A and one of set B, whose closed
+/// boxes share a point: each unordered pair once, ascending.
 ///
-/// n boxes at one place are n(n - 1)/2 pairs, more than memory holds long before n is large:
-/// more than `most` are an error (input), found before they are kept.
+/// n boxes at one place make n(n - 1)/2 pairs, which exceeds memory long before n is large: more
+/// than `most` pairs are an error (input), reported before they are stored.
 [[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs(const SceneBvh& tree,
                                                                    const parallel::Context& context,
                                                                    std::uint64_t most = kMostPairs);
 
-/// The same pairs by the nested loop over A x B, flattened into one 64-bit range: the oracle of
-/// the tree, and the baseline that it is measured against.
+/// Returns the same pairs by the nested loop over A x B, flattened into one 64-bit range: the
+/// reference for the tree, and the baseline of its benchmarks.
 [[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(
     std::span<const BoxItem> items, const parallel::Context& context,
     std::uint64_t most = kMostPairs);
 
-/// A second box for each of some items, in one of a few frames: tight for what is long and thin
-/// and stands askew, where boxes along the coordinate axes all meet.
+/// A second box for each item, in one of a few frames: tight for rotated, long and thin objects,
+/// whose boxes along the coordinate axes all overlap.
 struct BoxesInFrames {
-  std::vector<Mat3d> frames;         ///< by rows: unit axes, at right angles but for rounding
-  Vec3l origin;                      ///< where the frames have their zero
+  std::vector<Mat3d> frames;         ///< by rows: unit axes, perpendicular but for rounding
+  Vec3l origin;                      ///< origin of the frames
   std::vector<std::uint32_t> frame;  ///< by item
-  std::vector<Box3l> box;            ///< by item, in its frame, with room for rounding
+  std::vector<Box3l> box;            ///< by item, in its frame, with a margin for rounding
 };
 
-/// Every pair of items as overlapping_box_pairs() of their tree gives it, of which the second boxes
-/// are not parted either, by a face of one of the two or a plane along an edge of each.
+/// Returns the pairs of overlapping_box_pairs() of the items' tree whose second boxes are not
+/// separated either, neither by a face of one nor by a plane along an edge of each.
 [[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs(std::span<const BoxItem> items,
                                                                    const BoxesInFrames& framed,
                                                                    const parallel::Context& context,
                                                                    std::uint64_t most = kMostPairs);
 
-/// The same by the nested loop.
+/// Returns the same pairs by the nested loop.
 [[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(
     std::span<const BoxItem> items, const BoxesInFrames& framed, const parallel::Context& context,
     std::uint64_t most = kMostPairs);

@@ -16,31 +16,31 @@
 
 namespace strake::geometry {
 
-/// What a range of items was cut into: neither half is empty.
+/// The split of a range of items: neither half is empty.
 struct RangeSplit {
-  std::uint32_t first = 0;  ///< items of the first
-  Box3i left, right;        ///< of the items of either
+  std::uint32_t first = 0;  ///< number of items in the first half
+  Box3i left, right;        ///< boxes of the items of either half
 };
 
-/// Items [first, last) below a node, `depth` cuts below the root.
+/// The items [first, last) below a node, `depth` levels below the root.
 struct BuildRange {
   std::uint32_t node = 0, first = 0, last = 0, depth = 0;
 
   [[nodiscard]] std::uint32_t size() const { return last - first; }
 };
 
-/// Grows a binary tree of boxes over items by cutting ranges of them in two, down to leaves.
+/// Builds a binary tree of boxes over items by splitting ranges of them in two, down to leaves.
 ///
-/// Node has a box, `first` and `count`: of an inner node count is 0 and first is its left child
-/// (right = left + 1), of a leaf they are its items. `cut(range, box)` puts the items of a range
-/// in order and says where it was cut; it is called for disjoint ranges at once.
+/// Node has a box, `first` and `count`: in an inner node count is 0 and first is its left child
+/// (right = left + 1), in a leaf they are its items. `cut(range, box)` puts the items of a range in
+/// order and returns where it was split; it is called for disjoint ranges at once.
 template <class Node, class Cut>
 class TopDownBuilder {
  public:
   TopDownBuilder(std::uint32_t leaf_size, const Cut& cut) : leaf_size_(leaf_size), cut_(cut) {}
 
-  /// The nodes over items [0, n), root first: the same for any team. Many items are cut level by
-  /// level with its help, what is left of them one piece to a worker. None where it was cancelled.
+  /// Returns the nodes over items [0, n), root first: the same for any team. A team splits many
+  /// items level by level, then each worker builds whole subtrees. None where it was cancelled.
   [[nodiscard]] std::vector<Node> run(const Box3i& box, std::uint32_t n,
                                       const parallel::Context& context) {
     const BuildRange all{0, 0, n, 0};
@@ -55,7 +55,7 @@ class TopDownBuilder {
   }
 
  private:
-  /// Ranges of at most so many items are one worker's.
+  /// One worker builds the subtree of a range of at most this many items.
   static constexpr std::uint32_t kPiece = std::uint32_t{1} << 13U;
 
   bool ends_at(std::vector<Node>& nodes, const BuildRange& range) const {
@@ -65,7 +65,7 @@ class TopDownBuilder {
     return true;
   }
 
-  /// The two children of a node, the left one first.
+  /// Appends the two children of a node, the left one first.
   std::pair<BuildRange, BuildRange> open(std::vector<Node>& nodes, const BuildRange& range,
                                          const RangeSplit& halves) const {
     const auto left = static_cast<std::uint32_t>(nodes.size());
@@ -108,7 +108,7 @@ class TopDownBuilder {
     return plant(nodes, pieces, context);
   }
 
-  /// Grows the pieces apart and puts them together.
+  /// Builds the subtrees in parallel and joins them.
   Status plant(std::vector<Node>& nodes, const std::vector<BuildRange>& pieces,
                const parallel::Context& context) const {
     const auto order =
@@ -136,7 +136,7 @@ class TopDownBuilder {
           for (std::size_t k = 0; k < own.size(); ++k) {
             Node& node = k == 0 ? nodes[pieces[i].node] : nodes[start[i] + k - 1];
             node = own[k];
-            // The root of a piece stands elsewhere: its children follow from 0 on.
+            // The root of a subtree is stored already: its children follow from 0 on.
             if (node.count == 0) node.first = start[i] + own[k].first - 1;
           }
         });

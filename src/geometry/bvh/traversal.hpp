@@ -11,10 +11,12 @@
 
 #include "geometry/bvh/pair_local_part.hpp"
 
+// Traversals of one BVH, and of two at once.
+
 namespace strake::geometry {
 
-/// Calls visit(triangle) for the triangles of a part's tree below whose nodes `near(node)` lets it
-/// look, until it returns false; depth first, the last child first. Whether it never did.
+/// Calls visit(triangle) for the triangles of a part's tree below the nodes for which `near(node)`
+/// holds, until it returns false; depth first, the last child first. Returns whether it never did.
 template <class Near, class Visit>
 bool traverse_bvh(const TriangleBvh& tree, const Near& near, const Visit& visit) {
   const auto& nodes = tree.nodes();
@@ -35,9 +37,9 @@ bool traverse_bvh(const TriangleBvh& tree, const Near& near, const Visit& visit)
   return true;
 }
 
-/// Calls visit(triangle) by a part's tree, depth first, the nearer of two children first.
-/// `bound(node index)` is how near a node may be; `beyond(bound)` tells whether that is out of
-/// reach by now: then the node is left out.
+/// Calls visit(triangle) for a part's tree, depth first, the nearer of two children first.
+/// `bound(node index)` is a lower bound on the distance of a node; where `beyond(bound)` holds by
+/// now, the node is skipped.
 template <class Bound, class Beyond, class Visit>
 void traverse_nearest_first(const TriangleBvh& tree, const Bound& bound, const Beyond& beyond,
                             const Visit& visit) {
@@ -60,12 +62,12 @@ void traverse_nearest_first(const TriangleBvh& tree, const Bound& bound, const B
   }
 }
 
-/// How a walk ended, or that it was left off.
+/// How a traversal ended, or that it was paused.
 enum class TraversalEnd : std::uint8_t { done, stopped, left_off };
 
-/// What a walk has on its stack, cut finer until there are at least so many entries or nothing is
-/// left to open, in the order in which the walk would take them. `open(entry, out)` appends what is
-/// below an entry in that order; false where there is nothing.
+/// Returns the stack of a traversal, expanded until it has at least `wanted` entries or none can be
+/// expanded, in the order of the traversal. `open(entry, out)` appends the children of an entry in
+/// that order; false where there are none.
 template <class Entry, class Open>
 std::vector<Entry> expand_frontier(std::vector<Entry> entries, std::size_t wanted,
                                    const Open& open) {
@@ -83,21 +85,21 @@ std::vector<Entry> expand_frontier(std::vector<Entry> entries, std::size_t wante
   return entries;
 }
 
-/// Walks two trees at once, depth first, one side a step.
+/// Traverses two trees at once, depth first, descending one side per step.
 class DualTraversal {
  public:
   static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
   DualTraversal(const TriangleBvh& a, const TriangleBvh& b) : a_(a), b_(b) {}
 
-  /// Begins with the roots, or with one of rest().
+  /// Begins at the roots, or at an entry of rest().
   void start() {
     if (!a_.nodes().empty() && !b_.nodes().empty()) start({0, 0});
   }
   void start(const NodePair& pair) { stack_[size_++] = pair; }
 
-  /// `near(node, node)` tells whether to look below the two; `leaves(leaf, leaf)` tells whether to
-  /// go on. Left off after `most` node pairs.
+  /// `near(node, node)` returns whether to descend; `leaves(leaf, leaf)` returns whether to go on.
+  /// The traversal pauses after `most` node pairs.
   template <class Near, class Leaves>
   TraversalEnd run(const Near& near, const Leaves& leaves, std::uint64_t most = kNoLimit) {
     for (; size_ > 0; --most) {
@@ -113,7 +115,7 @@ class DualTraversal {
     return TraversalEnd::done;
   }
 
-  /// What is left, in at least so many pieces where it has as many.
+  /// Returns the remaining entries, split into at least `wanted` where possible.
   template <class Near>
   [[nodiscard]] std::vector<NodePair> rest(const Near& near, std::size_t wanted) {
     std::vector<NodePair> left(std::make_reverse_iterator(stack_.begin() + size_),
@@ -147,7 +149,7 @@ class DualTraversal {
   std::size_t size_ = 0;
 };
 
-/// The whole walk, roots first. Whether it went to the end.
+/// Runs the whole traversal from the roots. Returns whether it went to the end.
 template <class Near, class Leaves>
 bool traverse_both(const TriangleBvh& a, const TriangleBvh& b, const Near& near,
                    const Leaves& leaves) {

@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kTriangleBins = 8;
 /// Ranges up to this size are halved by sorting: binning them costs more than it gains.
 constexpr std::size_t kFewTriangles = 12;
-/// The triangles of parts up to this size stay in their order: sources write down what is close
-/// together one after the other, and a better tree would cost more than all that is asked of it.
+/// The triangles of parts up to this size stay in their order: sources list near triangles one
+/// after the other, and a better tree would cost more than all its queries.
 constexpr std::size_t kSmallPart = 256;
 /// Beyond this depth ranges are halved, so that traversal stacks can have a fixed size.
 constexpr std::uint32_t kMaxSplitDepth = 40;
@@ -42,7 +42,7 @@ struct TriangleBin {
 
 using TriangleBins = std::array<TriangleBin, kTriangleBins>;
 
-/// Twice the centres of the references' boxes.
+/// Returns the box of twice the centres of the references' boxes.
 Box3l centres_of(std::span<const Reference> refs) {
   Box3l box = empty_box<std::int64_t>();
   for (const Reference& ref : refs)
@@ -60,7 +60,7 @@ struct Binning {
   explicit Binning(const Box3i& box)
       : Binning({box.lo.as<std::int64_t>() + box.lo.as<std::int64_t>(),
                  box.hi.as<std::int64_t>() + box.hi.as<std::int64_t>()}) {}
-  /// By twice the coordinates.
+  /// Takes a box of doubled coordinates.
   explicit Binning(const Box3l& twice) {
     const Vec3l d = twice.hi - twice.lo;
     axis = d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
@@ -73,7 +73,7 @@ struct Binning {
   }
 };
 
-/// The bin boundary with the least surface-area cost; 0 when all falls into one bin.
+/// Returns the bin boundary with the least surface-area cost; 0 when all items fall into one bin.
 std::size_t best_boundary(const TriangleBins& bins) {
   std::array<double, kTriangleBins> right_cost{};
   Box3i box = empty_box<std::int32_t>();
@@ -123,8 +123,8 @@ RangeSplit halve(std::span<Reference> refs, int axis) {
   return cut_at(refs, half);
 }
 
-/// The longest axis of a box, unless its triangles lie side by side and all reach along it: then
-/// that along which they lie.
+/// Returns the axis to split: the longest of a box, unless its triangles lie side by side and all
+/// extend along it; then the axis along which they are arranged.
 int parting_axis(std::span<const Reference> refs, const Box3i& box) {
   const int longest = Binning(box).axis;
   const Box3l centres = centres_of(refs);
@@ -176,14 +176,14 @@ Reference reference(const Part& part, std::uint32_t triangle) {
 }
 
 RangeSplit halve_in_order(std::span<const Reference> refs) {
-  // Whole leaves, so that there are as few as can be.
+  // Split between full leaves, so that there are as few as possible.
   const std::size_t leaves = (refs.size() + TriangleBvh::kLeafSize - 1) / TriangleBvh::kLeafSize;
   return cut_at(refs, std::min(leaves / 2 * TriangleBvh::kLeafSize, refs.size() - 1));
 }
 
 }  // namespace
 
-/// Over n triangles, the i-th being pick(i).
+/// Builds a tree over n triangles, the i-th being pick(i).
 template <class Pick>
 void TriangleBvh::build(const Part& part, std::uint32_t n, const Pick& pick,
                         const parallel::Context& context) {

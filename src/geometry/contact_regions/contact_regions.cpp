@@ -21,7 +21,7 @@ namespace strake::geometry {
 namespace {
 
 constexpr std::uint32_t kNoRegion = 0xffffffffU;
-/// Added to the reach, grid units: far above what double arithmetic makes of a touch.
+/// Added to the reach, grid units: far above the rounding of a touch in doubles.
 constexpr double kTouch = 1.0 / 256;
 
 class RegionFinder {
@@ -61,8 +61,8 @@ class RegionFinder {
     return describe(sets, work);
   }
 
-  /// Of those that find() described. Of several places on a triangle it is the one whose other
-  /// triangle is nearest: nothing parts the spot from it.
+  /// Returns the region of a point among those of find(). Of several regions on a triangle it is
+  /// the one whose other triangle is nearest: nothing separates the point from it.
   [[nodiscard]] std::optional<std::uint32_t> region_of(const ContactSurfacePoint& spot) const {
     const RegionSide side = spot.of_a ? side_a() : side_b();
     const std::span<const std::uint32_t> group = pairs_on(side, spot.triangle);
@@ -84,7 +84,7 @@ class RegionFinder {
     return place;
   }
 
-  /// Likewise, for two triangles.
+  /// Returns the region of two triangles.
   [[nodiscard]] std::optional<std::uint32_t> region_of_pair(std::uint32_t a,
                                                             std::uint32_t b) const {
     const auto numbers = [](const NearTrianglePair& p) { return std::pair(p.a, p.b); };
@@ -94,11 +94,11 @@ class RegionFinder {
   }
 
  private:
-  /// Near pairs for each triangle of the two that are joined one by one before a shorter way to a
-  /// single place is tried.
+  /// Number of near pairs per triangle that are united one by one before a shortcut to a single
+  /// region is tried.
   static constexpr std::uint64_t kFewPerTriangle = 1;
 
-  /// Whether what the nearest points leave of the reach is so wide against the smaller part that
+  /// Whether the rest of the reach beyond the distance is so wide relative to the smaller part that
   /// more than a few triangles will be near.
   [[nodiscard]] bool wide() const {
     const auto size = [](const Part& part) {
@@ -181,7 +181,8 @@ class RegionFinder {
     return places;
   }
 
-  /// By place: the first of its pairs that no other is certainly nearer than; sets what is least.
+  /// Returns, by region, the first of its pairs that no other is certainly nearer than; sets
+  /// `least`.
   std::vector<std::uint32_t> find_nearest(std::vector<ContactRegion>& places) {
     const auto box = [](const TriangleCorners& t) { return box_of(as_doubles(t)); };
     std::vector<double> gap(pairs_.size());
@@ -206,7 +207,8 @@ class RegionFinder {
     return nearest;
   }
 
-  /// Those inside the other body that belong to a place; returns which, by vertex.
+  /// Includes the vertices inside the other body that belong to a region; returns the region by
+  /// vertex.
   std::vector<std::uint32_t> include_vertices(const PairLocalPart& view, std::uint32_t first,
                                               UnionFind& sets,
                                               std::vector<ContactRegion>& places) const {
@@ -239,7 +241,7 @@ class RegionFinder {
   double reach_;
   std::vector<NearTrianglePair> pairs_;
   PairsByTriangle of_a_, of_b_;
-  std::vector<std::uint32_t> number_;                   ///< of its place, by pair
+  std::vector<std::uint32_t> number_;                   ///< of its region, by pair
   std::vector<std::uint32_t> vertices_a_, vertices_b_;  ///< likewise, kNoRegion for none
 };
 

@@ -10,8 +10,8 @@
 
 namespace strake::geometry {
 
-/// Puts numbers in the order of their keys, which are below `keys`; equal keys stay as they were.
-/// By counting, unless there are few numbers for so many keys.
+/// Returns numbers sorted by their keys, which are below `keys`; the sort is stable. It counts,
+/// unless there are few numbers for so many keys.
 template <class Key>
 void counting_sort(std::vector<std::uint32_t>& numbers, std::size_t keys, Key&& key) {
   if (numbers.size() < keys / 16) {
@@ -31,7 +31,7 @@ void counting_sort(std::vector<std::uint32_t>& numbers, std::size_t keys, Key&& 
   numbers = std::move(sorted);
 }
 
-/// 0 to n - 1.
+/// Returns the numbers 0 to n - 1.
 [[nodiscard]] inline std::vector<std::uint32_t> index_sequence(std::size_t n) {
   std::vector<std::uint32_t> numbers(n);
   std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});

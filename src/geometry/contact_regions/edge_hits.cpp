@@ -35,7 +35,7 @@ std::optional<double> nearest_parameter(const Vec3d& from, const Vec3d& to, cons
     if (projects_inside(from + d * s, t, n)) return s;
   }
   NearestParameter best;
-  // Of a segment without length only the ends count: what is no number is not less.
+  // For a segment without length only the ends count: a NaN never compares less.
   const auto offer = [&](const NearestParameter& near) {
     if (near.squared < best.squared) best = near;
   };
@@ -66,7 +66,7 @@ struct SharedFeature {
   std::uint32_t id = 0, pair = 0;
 };
 
-/// Joins the pairs of each feature that passes; asks only where they are not joined yet.
+/// Unites the pairs of each feature that passes; tests only pairs not united yet.
 template <class Near>
 std::size_t join_features(std::vector<SharedFeature>& features, UnionFind& sets, const Near& near) {
   std::size_t joins = 0;
@@ -131,7 +131,7 @@ std::size_t join_around_triangles(const RegionSide& side, const PairsByTriangle&
     joins += join_features(features, sets, [&](std::uint32_t edge) {
       return near_along_edge(side.other, edge, t, squared).has_value();
     });
-    // Over edges all triangles round a corner hang together, but where two fans only touch.
+    // Triangles round a vertex are connected over edges, except where two fans only touch.
     if (together()) continue;
     features.clear();
     for (const std::uint32_t i : group)

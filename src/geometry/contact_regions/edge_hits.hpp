@@ -12,11 +12,13 @@
 #include "geometry/numeric/triangle_math.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Hits of edges on near triangles, and near pairs grouped by triangle.
+
 namespace strake::geometry {
 
-/// Where a segment comes nearest to a triangle, from 0 at its start to 1 at its end, if it comes
-/// within reach of it (the square is given). In double arithmetic, off by some roundings of the
-/// coordinates.
+/// Returns the parameter, from 0 at the start to 1 at the end, at which a segment comes nearest to
+/// a triangle, if that is within reach (whose square is given). In double arithmetic, off by some
+/// roundings of the coordinates.
 [[nodiscard]] std::optional<double> nearest_parameter(const Vec3d& from, const Vec3d& to,
                                                       const Corners& t, double squared_reach);
 
@@ -45,23 +47,22 @@ struct PairsByTriangle {
 [[nodiscard]] PairsByTriangle grouped(const RegionSide& side,
                                       std::span<const NearTrianglePair> pairs);
 
-/// Joins pairs that have a triangle of `side` in common and whose other triangles share an edge or
-/// a corner within reach of it. Returns how many sets fewer there are.
+/// Unites pairs that share a triangle of `side` and whose other triangles share an edge or a vertex
+/// within reach of it. Returns by how many the number of sets falls.
 std::size_t join_around_triangles(const RegionSide& side, const PairsByTriangle& own,
                                   const PairsByTriangle& other,
                                   std::span<const NearTrianglePair> pairs, double reach,
                                   UnionFind& sets);
 
-/// An edge of one part near a triangle of the other, as one of the pairs of near triangles round it
-/// has it.
+/// An edge of one part near a triangle of the other, for one of the near pairs at that edge.
 struct EdgeHit {
   std::uint32_t edge = 0;
   std::uint32_t other = 0;  ///< the other part's triangle
   std::uint32_t pair = 0;   ///< index into the pairs
-  double along = 0;         ///< where it is nearest: 0 at the edge's v0, 1 at its v1
+  double along = 0;         ///< where the edge is nearest: 0 at its v0, 1 at its v1
 };
 
-/// All stops within `reach` on the edges of a side, by (edge, other, pair).
+/// Returns all hits within `reach` of the edges of a side, sorted by (edge, other, pair).
 [[nodiscard]] std::vector<EdgeHit> edge_hits(const RegionSide& side, const PairsByTriangle& own,
                                              std::span<const NearTrianglePair> pairs, double reach);
 

@@ -56,12 +56,12 @@ std::uint32_t InteriorSegments::first_seen(const Vec3d& from, std::uint32_t pair
 
 }  // namespace strake::geometry
 
-// The skin inside the other body falls into pieces. What of a piece lies in one triangle has one
-// outer rim and any number of holes. Rims hang together through the edges of the triangles; a hole
-// need not touch any (a tube through a plate leaves a ring in it: both its circles may lie in the
-// middle of one triangle). A line from each hole to a corner of the triangle leaves the hole
+// The surface inside the other body falls into pieces. The part of a piece in one triangle has one
+// outer border and any number of holes. Borders are connected through the edges of the triangles; a
+// hole need not touch any (a tube through a plate leaves a ring in it: both its circles may lie in
+// the middle of one triangle). A line from each hole to a corner of the triangle leaves the hole
 // through the piece round it, so it is joined to whatever bounds the piece there: another hole,
-// whose own line goes on, or the rim.
+// whose own line continues, or the outer border.
 
 namespace strake::geometry {
 namespace {
@@ -107,7 +107,7 @@ class InsideLinks {
     return side_.own.vertex(vertex).as<double>();
   }
 
-  /// Edges far from the other skin: their ends lie on one side of it.
+  /// Unites the ends of edges far from the other surface, which lie on one side of it.
   void join_free_edges(const std::vector<EdgeHit>& stops) {
     const Part& part = side_.own.part();
     std::size_t next = 0;
@@ -118,12 +118,12 @@ class InsideLinks {
     }
   }
 
-  /// A vertex and the stop next to it on a line.
+  /// Unites a vertex and the hit next to it on a line.
   void join_vertex(std::uint32_t vertex, const EdgeHit& stop, const ParamLine& line) {
     const std::uint32_t member = first_vertex_ + vertex;
     if (sets_.joined(member, stop.pair)) return;
     // Vertices are joined with one another and inside the other body with pairs, so that all of a
-    // set without pairs lie on one side; any of them tells.
+    // set without pairs lie on one side; any of them decides.
     const std::uint32_t root = sets_.root(member);
     Known& known = inside_[root >= first_vertex_ && root - first_vertex_ < inside_.size()
                                ? root - first_vertex_
@@ -147,7 +147,8 @@ class InsideLinks {
     for (const std::uint32_t start : starts_) line_to_corner(start, pairs);
   }
 
-  /// From where the two triangles of a pair are nearest to a corner of the side's.
+  /// Follows the line from where the two triangles of a pair are nearest to a corner of the side's
+  /// triangle.
   void line_to_corner(std::uint32_t start, std::span<const std::uint32_t> pairs) {
     const NearTrianglePair& p = near_.pairs[start];
     const auto own = side_.own.corners(side_.own_of(p));
@@ -182,16 +183,16 @@ void unite_through_interior(const NearSolid& near, const InteriorSets& sets, Que
 
 }  // namespace strake::geometry
 
-// Of a point x on the one skin, the points of the other body within reach are what a ball round x
-// has of it. Its skin cuts the ball into pieces, and a straight line between two points in the ball
-// stays in it: along the line pieces of skin follow each other, and those with material between
-// them bound the same piece of the body. Since each piece of skin parts the ball in two, whatever
-// bounds one piece of material is found along lines from any of them to the others.
+// The points of the other body within reach of a point x on the one surface are those in a ball
+// round x. The other surface cuts the ball into pieces, and a segment between two points in the
+// ball stays in it: along it pieces of surface follow each other, and those with material between
+// them bound the same piece of the body. Since each piece of surface divides the ball in two, all
+// boundaries of one piece of material are found along lines from any of them to the others.
 
 namespace strake::geometry {
 namespace {
 
-/// Points tried for each set that a triangle is in.
+/// Number of points tried for each set that a triangle is in.
 constexpr std::size_t kTries = 8;
 
 class MaterialLinks {
@@ -231,7 +232,7 @@ class MaterialLinks {
     return near_.side.other.corners(near_.side.other_of(near_.pairs[pair]));
   }
 
-  /// By set that the pair is not in: the spot nearest to x, within reach of it.
+  /// Returns, for each set that the pair is not in, the spot nearest to x, within reach of it.
   [[nodiscard]] std::vector<Spot> spots_round(const Vec3d& x, std::uint32_t pair,
                                               std::span<const std::uint32_t> group) const {
     std::vector<Spot> spots;
@@ -251,7 +252,7 @@ class MaterialLinks {
     return spots;
   }
 
-  /// Round the point of the own triangle that is nearest to the other one of a pair.
+  /// Unites round the point of the own triangle that is nearest to the other triangle of a pair.
   std::size_t join_round(std::uint32_t pair, std::span<const std::uint32_t> group) {
     ++work_.exact_fallbacks;
     const NearTrianglePair& p = near_.pairs[pair];

@@ -10,6 +10,8 @@
 #include "geometry/contact_regions/edge_hits.hpp"
 #include "geometry/interior_depth/surface_distance/distance_field.hpp"
 
+// Union of near pairs through the interior and through the material of a solid.
+
 namespace strake::geometry {
 
 /// A straight line from one point to another.
@@ -19,7 +21,7 @@ struct ParamLine {
   [[nodiscard]] Vec3d at(double along) const { return from + (to - from) * along; }
 };
 
-/// One of two parts, the near pairs as it sees them, and the other one, a solid.
+/// One of two parts, the near pairs grouped by its triangles, and the other part, a solid.
 struct NearSolid {
   const RegionSide& side;
   const PairsByTriangle& own;
@@ -30,9 +32,9 @@ struct NearSolid {
   [[nodiscard]] double squared_reach() const { return reach * reach; }
 };
 
-/// Joins near pairs between which a line runs inside the other part, a solid. Between two stops
-/// that follow each other a line stays on one side of the skin, so that each stretch asks for the
-/// side of one point, and only where its ends are not joined yet.
+/// Unites near pairs between which a line runs inside the other part, a solid. Between consecutive
+/// hits a line stays on one side of the surface, so that one point decides each segment, and only
+/// where its ends are not united yet.
 class InteriorSegments {
  public:
   InteriorSegments(const NearSolid& near, UnionFind& sets, QueryContext& work)
@@ -41,24 +43,24 @@ class InteriorSegments {
         sets_(sets),
         work_(work) {}
 
-  /// Where a line comes within reach, of which the square is given, of the other triangles of those
-  /// pairs that are listed: by (along, pair).
+  /// Returns where a line comes within reach, whose square is given, of the other triangles of the
+  /// listed pairs, sorted by (along, pair).
   [[nodiscard]] std::vector<EdgeHit> hits_on(const ParamLine& line,
                                              std::span<const std::uint32_t> listed,
                                              double squared) const;
 
-  /// Returns how many sets fewer there are.
+  /// Unites along a line. Returns by how many the number of sets falls.
   std::size_t join(const ParamLine& line, std::span<const EdgeHit> stops);
 
-  /// The pair of an own triangle and of what a point of it sees first on the way to the other
-  /// triangle of a pair.
+  /// Returns the pair of an own triangle and the first triangle that a ray from a point of it to
+  /// the other triangle of a pair meets.
   [[nodiscard]] std::uint32_t first_seen(const Vec3d& from, std::uint32_t pair) const;
 
   [[nodiscard]] bool is_inside(const Vec3d& p) const {
     return solid_.side(on_field_grid(p), work_) == PointSide::inside;
   }
 
-  /// How near a line is to what it meets, grid units.
+  /// Grid units: up to this distance a line meets a triangle.
   static constexpr double kMeets = 1.0 / 256;
 
  private:
@@ -68,21 +70,21 @@ class InteriorSegments {
   QueryContext& work_;
 };
 
-/// The sets of near pairs, and of the vertices of the side beside them: pair i is number i, vertex
-/// v number first_vertex + v.
+/// The sets of near pairs and of the side's vertices: pair i is number i, vertex v number
+/// first_vertex + v.
 struct InteriorSets {
   UnionFind& sets;
   std::uint32_t first_vertex = 0;
 };
 
-/// Joins what the skin of one part joins inside the other, a solid: near pairs between which a
-/// stretch of an edge, or of a line across a triangle, runs through the inside, and the vertices
-/// in there.
+/// Unites what the surface of one part connects inside the other, a solid: near pairs between which
+/// a segment of an edge, or of a line across a triangle, runs through the interior, and the
+/// vertices in there.
 void unite_through_interior(const NearSolid& near, const InteriorSets& sets, QueryContext& work);
 
-/// Joins near pairs of one triangle of a part and two places on the skin of the other, a solid,
-/// between which its material lies within reach of the triangle: the outer and the inner skin of a
-/// pipe, the two faces of a plate. Returns how many sets fewer there are.
+/// Unites near pairs of one triangle and two spots on the surface of the other part, a solid,
+/// between which its material lies within reach of the triangle: the outer and the inner surface of
+/// a pipe, the two faces of a plate. Returns by how many the number of sets falls.
 std::size_t unite_through_material(const NearSolid& near, UnionFind& sets, QueryContext& work);
 
 }  // namespace strake::geometry

@@ -19,7 +19,7 @@
 namespace strake::geometry {
 namespace {
 
-/// Of two parts, those triangles of the one that come near the other's box.
+/// The triangles of each of two parts that come near the other's box.
 struct CandidateTriangles {
   std::vector<std::uint32_t> id;
   std::vector<DoubleTriangle> triangle;
@@ -46,11 +46,11 @@ struct CandidateTriangles {
   }
 };
 
-/// Pairs of listed triangles, for each triangle of the two parts, beyond which these are first
-/// looked at across the slab between them.
+/// Number of pairs of candidates per triangle of the two parts beyond which they are first filtered
+/// by the slab between the parts.
 constexpr std::size_t kManyListed = 4;
 
-/// Small parts are walked triangle by triangle.
+/// Small parts are scanned triangle by triangle.
 template <class Visit>
 void walk_lists(const PairLocalPart& a, const PairLocalPart& b, double reach, QueryContext& work,
                 Visit&& visit) {
@@ -110,10 +110,9 @@ struct NearTriangleCollector {
   }
 };
 
-/// Triangles that tell for all the others of their part, and how many of them have to say the same
-/// at least.
+/// Number of triangles sampled for a part, and how many of them have to agree.
 constexpr std::size_t kSampledTriangles = 64, kAgree = 8;
-/// Triangles below which a walk over all of them costs little more.
+/// Number of triangles below which a scan of all costs little more.
 constexpr std::size_t kLeastSampled = 4 * kSampledTriangles;
 /// Factor by which the pairs that they stand for have to be too many.
 constexpr std::uint64_t kFarTooMany = 2;
@@ -139,9 +138,9 @@ std::uint64_t count_near(const PairLocalPart& a, std::uint32_t triangle, const P
   return near;
 }
 
-/// Whether some triangles of the first part, taken from all over it, show that there are far too
-/// many pairs. Needles that cross each other are near by the square of their number, and a walk
-/// finds that out late: most of their boxes meet where they do not.
+/// Whether a sample of triangles from all over the first part shows that there are far too many
+/// pairs. Slivers that cross each other make as many near pairs as the square of their number,
+/// which a traversal notices late: most of their boxes overlap where they do not.
 bool too_many_by_samples(const PairLocalPart& a, const PairLocalPart& b,
                          const NearTriangleOptions& question, QueryContext& work) {
   const std::vector<std::uint32_t>& order = a.tree().order();
@@ -176,8 +175,8 @@ void gather_from(const PairLocalPart& a, const PairLocalPart& b, NearTriangleCol
       });
 }
 
-/// Of a walk that has turned out heavy only what the heights of flat faces leave open is walked:
-/// boxes of needles tell nothing of it.
+/// A heavy traversal is restricted to pairs that the heights of flat faces leave open, which boxes
+/// of slivers cannot separate.
 void gather_by_trees(const NearTriangleOptions& question, NearTriangleCollector& all,
                      QueryContext& work) {
   const PairLocalPart &a = all.a, &b = all.b;
@@ -188,7 +187,7 @@ void gather_by_trees(const NearTriangleOptions& question, NearTriangleCollector&
   };
   gather_from(a, b, all, work, [&](NearTriangleCollector& first) {
     if (give_up(a, b, first)) return true;
-    // A little more than the reach: what lies exactly at it is near.
+    // Slightly more than the reach: triangles exactly at it are near.
     const auto pieces = partition_by_height(a, b, {.apart = question.reach * (1 + 0x1p-40)});
     if (!pieces) return false;
     first.pairs.clear();

@@ -14,22 +14,21 @@ struct NearTriangleOptions {
   std::uint64_t most = 0;  ///< pairs
 };
 
-/// Whether two prepared triangles, with their numbers, are no farther apart than the reach, of
-/// which the square is given.
+/// Whether two prepared triangles, given with their numbers, are no farther apart than the reach,
+/// whose square is given.
 [[nodiscard]] bool triangles_within(const PairLocalPart& a, const PairLocalPart& b,
                                     const DoubleTriangle& of_a, const DoubleTriangle& of_b,
                                     const NodePair& numbers, double squared, QueryContext& work);
 
-/// All pairs of triangles no farther apart than the reach, by (a, b), with certain bounds on their
-/// distances, which say no more than that. Nothing where there are too many, or where a sample of
-/// the first part's triangles, taken of heavy walks, shows that there are about twice too many:
-/// the same for any team. Parts without trees, which should be small, are walked triangle by
-/// triangle.
+/// Returns all pairs of triangles no farther apart than the reach, sorted by (a, b), with certain
+/// but loose bounds on their distances. Nothing where there are too many, or where a sample of the
+/// first part's triangles, taken in heavy traversals, shows about twice too many: the same for any
+/// team. Parts without trees, which should be small, are scanned triangle by triangle.
 [[nodiscard]] std::optional<std::vector<NearTrianglePair>> near_triangles(
     const PairLocalPart& a, const PairLocalPart& b, const NearTriangleOptions& question,
     QueryContext& work);
 
-/// Makes the bounds of a pair as tight as doubles give them.
+/// Tightens the bounds of a pair to the precision of doubles.
 void tighten_bounds(const PairLocalPart& a, const PairLocalPart& b, NearTrianglePair& pair);
 
 }  // namespace strake::geometry

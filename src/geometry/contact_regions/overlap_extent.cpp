@@ -44,8 +44,8 @@ bool reaches_into(const Box3d& box, const std::array<Slab, 3>& room) {
   });
 }
 
-/// What of a part's skin lies in the box along another's faces; `shift` takes the part's
-/// coordinates to the other's. In the part's own coordinates.
+/// Returns the box of the part's surface within the other's oriented box, in the part's own
+/// coordinates; `shift` takes these to the other's.
 Box3d skin_within(const PartWithObb& framed, const OrientedBox& of_other, const Vec3d& shift,
                   double reach) {
   const Part& part = *framed.placed.part;
@@ -77,7 +77,7 @@ Box3d skin_within(const PartWithObb& framed, const OrientedBox& of_other, const 
 }  // namespace
 
 Box3d overlap_extent(const PartWithObb& a, const PartWithObb& b, double reach) {
-  // The extreme points of the common part lie on the skin of one within the other.
+  // The extreme points of the intersection lie on the surface of one within the other.
   const double margin = reach + 1;
   const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();
   Box3d box = skin_within(a, *b.frame, -shift, margin);

@@ -9,6 +9,8 @@
 #include "geometry/numeric/vector_math.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Clipping of triangles by slabs, for the extent of an overlap.
+
 namespace strake::geometry {
 
 /// The points with lo <= axis · p <= hi.
@@ -17,11 +19,11 @@ struct Slab {
   double lo = 0, hi = 0;
 };
 
-/// The box of what of a triangle lies in three slabs: cut by one side of each after the other.
-/// Empty where nothing does.
+/// Returns the box of the part of a triangle in three slabs, clipped by one plane after the other.
+/// Empty where nothing lies in them.
 [[nodiscard]] inline Box3d box_of_clipped(const Corners& t, const std::array<Slab, 3>& room) {
   struct ClippedPolygon {
-    std::array<Vec3d, 9> corner;  // a cut adds one at most
+    std::array<Vec3d, 9> corner;  // a plane adds one at most
     std::size_t size = 0;
     void add(const Vec3d& p) { corner[size++] = p; }
   };
@@ -44,12 +46,12 @@ struct Slab {
   return box_of(std::span(polygon.corner).first(polygon.size));
 }
 
-/// What rounding may cut off where triangles are cut, grid units: boxes of what is common reach
-/// that much farther.
+/// Grid units: rounding may clip off this much of a triangle, so boxes of the overlap are grown by
+/// it.
 inline constexpr double kCutMargin = 1;
 
-/// Adds what of two triangles lies within reach of the other to a box: at most what the boxes of
-/// the two, each wider by reach and margin, have in common.
+/// Adds what of either of two triangles lies within reach of the other to a box: at most the
+/// intersection of their boxes, each grown by reach and margin.
 void include_overlap(const TriangleCorners& a, const TriangleCorners& b, double reach,
                      Box3d& extent);
 

@@ -34,7 +34,7 @@ struct ConvexOutline {
   double rim = 0;
 };
 
-/// Of the convex hull, by Andrew's monotone chain.
+/// Returns the convex hull by Andrew's monotone chain.
 template <std::size_t kMost>
 ConvexOutline convex_hull_of(std::span<const PointInPlane> corners) {
   std::array<PointInPlane, kMost> sorted;
@@ -105,9 +105,9 @@ bool PlanarEnd::add_faces(const Vec3d& way) {
 
 bool PlanarEnd::is_convex() const {
   const ConvexOutline hull = convex_hull_of<kMostCorners>(std::span(corners_).first(count_));
-  // Neither area nor rim alone tells: a hole is small beside what the rim of a large plate leaves
-  // open, and a notch adds little to the rim. Nor do both of two feet: of small ones that stand
-  // near each other the rim of the two is that of one.
+  // Neither area nor border alone decides: a hole is small beside the tolerance along the border of
+  // a large plate, and a notch adds little to the border. Two small feet near each other have about
+  // the border of one.
   const double open = hull.area - area_;
   if (open > 2 * plane_.band * hull.rim) return false;
   if (open > 2 * PlanarReach::kSnap * hull.rim && !is_one_face()) return false;
@@ -173,18 +173,18 @@ bool PlanarEnd::is_one_face() const {
 
 }  // namespace strake::geometry
 
-// Of two faces whose rims run along each other, each point of the one has its like in the other
-// within reach. Whatever else is near hangs together with that: up the walls to the rims, and from
-// a point of one rim to a point of the other through the face between them. Only across a gap in
-// the face, a notch or a hole narrower than the reach, there is no such way, so that there must be
-// none.
+// If the borders of two faces run along each other, each point of one face has a counterpart in the
+// other within reach. Whatever else is near is connected with that: along the walls to the borders,
+// and from a point of one border to a point of the other through the face between them. Only across
+// a gap in the face, a notch or a hole narrower than the reach, there is no such path, so there
+// must be none.
 
 namespace strake::geometry {
 namespace {
 
 using OutlineEdge = PlanarEnd::OutlineEdge;
 
-/// Of rims with more pairs of edges near each other, for each edge, nothing is said.
+/// Borders with more near pairs of edges, per edge, are not decided.
 constexpr std::size_t kMostNearTriangles = 16;
 
 struct RimCorner {
@@ -206,7 +206,7 @@ std::vector<RimCorner> outline_corners(std::span<const OutlineEdge> rim) {
   return corners;
 }
 
-/// By vertex of the first part: the vertex of the second that stands there, the only one.
+/// By vertex of the first part: the only vertex of the second at the same point.
 using MatchingVertices = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 std::optional<MatchingVertices> matching_vertices(std::span<const RimCorner> a,
@@ -233,7 +233,7 @@ std::optional<MatchingVertices> matching_vertices(std::span<const RimCorner> a,
   return likes;
 }
 
-/// Whether each edge of the one rim has its like in the other.
+/// Whether each edge of the one border has a counterpart in the other.
 bool run_along_each_other(std::span<const OutlineEdge> a, std::span<const OutlineEdge> b,
                           double room) {
   const auto likes = matching_vertices(outline_corners(a), outline_corners(b), room);
@@ -250,8 +250,8 @@ bool run_along_each_other(std::span<const OutlineEdge> a, std::span<const Outlin
   });
 }
 
-/// Whether two edges of a rim that have no corner in common are near each other, and what lies
-/// between them there is not their face.
+/// Whether two border edges without a common vertex are near each other and not their face, but a
+/// gap, lies between them.
 struct RimGap {
   bool near = false, open = false;
 };
@@ -305,13 +305,14 @@ bool outlines_coincide(const PlanarEnd& a, const PlanarEnd& b, const PlaneFrame&
 }  // namespace strake::geometry
 
 // Two convex faces in one plane have one convex polygon in common, and two of one outline that
-// outline. What else of either body comes within reach of the plane is a collar round its face; it
-// leaves the plane steeply, so that it adds no more than a rim about as wide as the reach.
+// outline. The rest of either body within reach of the plane is a collar round its face; it leaves
+// the plane steeply, so that it adds no more than a strip about as wide as the reach.
 
 namespace strake::geometry {
 namespace {
 
-/// Whether the plane between two sides, square to the first one's way, has one place of both.
+/// Whether the plane between two sides, perpendicular to the first one's direction, holds one
+/// region of both.
 bool face_to_face(const DirectedPart& x, const DirectedPart& y, const PlanarReach& near) {
   const double gap = dot(x.way, y.shift - x.shift) - y.top - x.top;
   if (!(gap >= -near.band && gap <= near.reach)) return false;
@@ -330,7 +331,8 @@ double top_along(const Part& part, const Vec3d& way) {
   return top;
 }
 
-/// By the axes of the first one's frame; `shift` takes the other's coordinates to the first one's.
+/// Tries the axes of the first part's oriented box; `shift` takes the other's coordinates to the
+/// first one's.
 bool along_frame(const PartWithObb& of, const Part& other, const Vec3d& shift,
                  const PlanarReach& near) {
   if (of.frame == nullptr) return false;
@@ -351,7 +353,7 @@ bool along_frame(const PartWithObb& of, const Part& other, const Vec3d& shift,
 
 bool meet_in_one_planar_region(const PartWithObb& a, const PartWithObb& b, double reach) {
   const Part &x = *a.placed.part, &y = *b.placed.part;
-  // Looking at each vertex would cost more than telling the places by a tree.
+  // Visiting each vertex would cost more than finding the regions by a tree.
   if (std::max(x.vertices.size(), y.vertices.size()) >= kManyVertices) return false;
   const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();
   const PlanarReach near(reach);

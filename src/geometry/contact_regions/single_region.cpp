@@ -26,7 +26,7 @@
 namespace strake::geometry {
 namespace {
 
-/// Most pairs of triangles, for each triangle of the two: each takes some nanoseconds.
+/// Maximum number of pairs of triangles per triangle of the two: each takes some nanoseconds.
 constexpr std::size_t kPairsPerTriangle = 512;
 
 using Word = std::uint64_t;
@@ -96,8 +96,8 @@ using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;
 
 double squared_distance(const Vec3d& p, const Vec3d& q) { return dot(p - q, p - q); }
 
-/// The corners of the first part that are within reach of each triangle of the second, and in which
-/// pieces these hang together: the points of an edge within reach of a triangle are a stretch.
+/// The vertices of the first part within reach of each triangle of the second, and their connected
+/// pieces: the points of an edge within reach of a triangle form an interval.
 class NearCorners {
  public:
   NearCorners(const PairLocalPart& a, const PairLocalPart& b, const SlabCandidates& facing,

@@ -40,8 +40,8 @@ SlabCandidates facing(const PairLocalPart& a, const PairLocalPart& b, double rea
 
 namespace {
 
-/// Pairs of triangles that face each other, for each triangle of the two parts, above which a frame
-/// costs less than what boxes along the coordinate axes may leave.
+/// Number of facing pairs per triangle of the two parts above which a rotated frame costs less than
+/// the pairs left by boxes along the coordinate axes.
 constexpr std::size_t kManyFacing = 32;
 
 std::optional<Axes> axes_that_fit(const PairLocalPart& a, const PairLocalPart& b,
@@ -70,7 +70,7 @@ std::vector<Box3d> boxes_of_vertices(const std::vector<Vec3d>& at,
   return boxes;
 }
 
-/// A part in a frame, as high as it matters.
+/// A part in a frame, up to the level of its slab.
 struct BoxStart {
   const Part& part;
   std::vector<Vec3d> at;  ///< by vertex

@@ -11,10 +11,12 @@
 #include "geometry/distance/slab_proximity.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Candidates for proximity by the slab between two parts, and boxes over them.
+
 namespace strake::geometry {
 
-/// What of two parts may be within reach of the other, by a slab between them: of bodies that lie
-/// flush on each other little, of others all.
+/// The features of two parts that may be within reach of the other, by a slab between them: few for
+/// bodies that touch along flat faces, all for others.
 struct SlabCandidates {
   SlabHeights heights;
   std::vector<std::uint32_t> triangles_a = {}, triangles_b = {};  ///< ascending
@@ -22,22 +24,22 @@ struct SlabCandidates {
   std::vector<std::uint32_t> edges_a = {};  ///< between two of these, ascending
 };
 
-/// By the slab between the hulls of two parts. `reach`: grid units.
+/// Returns the heights of two parts over the slab between their hulls. `reach`: grid units.
 [[nodiscard]] SlabHeights project_on_slab_axis(const PairLocalPart& a, const PairLocalPart& b,
                                                double reach);
 
-/// `reach`: grid units. Costs a walk over all vertices and triangles.
+/// Returns the candidates within `reach` grid units. Scans all vertices and triangles.
 [[nodiscard]] SlabCandidates facing(const PairLocalPart& a, const PairLocalPart& b, double reach);
 
-/// Boxes with numbers, sorted by where they begin: each along the axis that parts it best from the
+/// Numbered boxes, sorted by their lower ends: each along the axis that separates it best from the
 /// others.
 class IntervalSortedBoxes {
  public:
-  /// Box i has number ids[i]; what they are asked for is wider by a margin on each side.
+  /// Box i has number ids[i]; query boxes are wider by a margin on each side.
   IntervalSortedBoxes(const std::vector<Box3d>& boxes, const std::vector<std::uint32_t>& ids,
                       double margin);
 
-  /// `visit(id)` for those that meet a box, in no order.
+  /// Calls `visit(id)` for the boxes that overlap a box, in no order.
   template <class Visit>
   void for_each_overlapping(const Box3d& box, const Visit& visit) const {
     for (int axis = 0; axis < 3; ++axis) {
@@ -63,22 +65,22 @@ class IntervalSortedBoxes {
   std::array<Sorted, 3> by_axis_;
 };
 
-/// What of the first of two parts may be within reach of a triangle of the second, by boxes of what
-/// of either lies in the slab between the two: along the needles that the parts are made of where
-/// many triangles face each other, else along the coordinate axes.
+/// Finds the features of the first part that may be within reach of a triangle of the second, by
+/// the boxes of the candidates: along the parts' slivers where many triangles face each other, else
+/// along the coordinate axes.
 class ProximityBoxes {
  public:
   /// `reach`: grid units.
   ProximityBoxes(const PairLocalPart& a, const PairLocalPart& b, const SlabCandidates& facing,
                  double reach);
 
-  /// `visit(vertex)` for some of facing.vertices_a, in no order, among them those within reach of
-  /// a triangle by its place in facing.triangles_b.
+  /// Calls `visit(vertex)` for some of facing.vertices_a, in no order, among them those within
+  /// reach of the triangle at position `of_b` of facing.triangles_b.
   template <class Visit>
   void vertices_near(std::size_t of_b, const Visit& visit) const {
     vertices_.for_each_overlapping(rooms_[of_b], visit);
   }
-  /// `visit(triangle)` for some of facing.triangles_a, likewise.
+  /// Calls `visit(triangle)` for some of facing.triangles_a, likewise.
   template <class Visit>
   void triangles_near(std::size_t of_b, const Visit& visit) const {
     triangles_.for_each_overlapping(rooms_[of_b], visit);
@@ -89,7 +91,7 @@ class ProximityBoxes {
   struct Framed;
   ProximityBoxes(const Framed& framed, const SlabCandidates& facing, double margin);
 
-  std::vector<Box3d> rooms_;  ///< by place in facing.triangles_b
+  std::vector<Box3d> rooms_;  ///< by position in facing.triangles_b
   IntervalSortedBoxes vertices_, triangles_;
 };
 

@@ -11,7 +11,7 @@
 
 namespace strake::geometry {
 
-/// A tree with the boxes of its nodes in a frame that a walk goes by: the pair's, or a turned one.
+/// A BVH whose boxes are given in the frame of a traversal: the pair's, or a rotated one.
 class BvhInFrame {
  public:
   explicit BvhInFrame(const PairLocalPart& view)
@@ -20,17 +20,17 @@ class BvhInFrame {
       : tree_(&turned.tree), turned_(&turned.part), margin_(kRotationRounding) {}
 
   [[nodiscard]] const TriangleBvh& tree() const { return *tree_; }
-  /// Exact for a part's own tree.
+  /// Returns the box of a node; exact for a part's own tree.
   [[nodiscard]] Box3d box(const TriangleBvh::Node& node) const {
     return node.box.as<double>().moved(shift_).inflated(margin_);
   }
   [[nodiscard]] Box3d box(std::uint32_t node) const { return box(tree_->nodes()[node]); }
-  /// Of a triangle, which is given in the part's own frame too.
+  /// Returns the box of a triangle, which is given in the part's own frame too.
   [[nodiscard]] Box3d box(std::uint32_t number, const DoubleTriangle& triangle) const {
     return turned_ == nullptr ? triangle.box : turned_box(number);
   }
 
-  /// Of a triangle of a turned part.
+  /// Returns the box of a triangle of a rotated part.
   [[nodiscard]] Box3d turned_box(std::uint32_t number) const {
     const Triangle& t = turned_->triangles[number];
     const auto& v = turned_->vertices;

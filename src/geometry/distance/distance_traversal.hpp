@@ -18,6 +18,8 @@
 #include "geometry/numeric/vector_math.hpp"
 #include "geometry/obb/rotated_part.hpp"
 
+// Branch-and-bound traversal of two BVHs by distance, sequential and shared with a team.
+
 namespace strake::geometry {
 
 /// Two triangles and certain bounds on their squared distance.
@@ -26,11 +28,12 @@ struct NearTrianglePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// Pairs of triangles of two parts that may be no farther apart than a reach, which may shrink on
-/// the way: depth first, the nearer of two children first.
+/// Visits the pairs of triangles of two parts that may be no farther apart than a reach, which may
+/// shrink on the way: depth first, the nearer of two children first.
 class DistanceTraversal {
  public:
-  /// `near_enough`: see triangle_distance_bounds(). `aligned`: instead of the views' own trees.
+  /// `near_enough`: see triangle_distance_bounds(). `aligned`: trees to use instead of the views'
+  /// own.
   DistanceTraversal(const PairLocalPart& a, const PairLocalPart& b, QueryContext& work,
                     double near_enough = -1, const RotatedParts* aligned = nullptr)
       : a_(a),
@@ -46,14 +49,14 @@ class DistanceTraversal {
     double squared = 0;  ///< distance of the nodes' boxes
   };
 
-  /// Begins with everything, or with one of rest(). `reach` is a square here and below.
+  /// Begins at the roots, or at an entry of rest(). `reach` is squared here and below.
   void start(double reach) {
     if (!tree_a().nodes().empty() && !tree_b().nodes().empty()) push(0, 0, reach);
   }
   void start(const Entry& entry) { stack_[size_++] = entry; }
 
-  /// `visit(NearTrianglePair)` tells whether to go on. `reach` is read anew before each step. Left
-  /// off after `most` node pairs.
+  /// `visit(NearTrianglePair)` returns whether to go on. `reach` is read anew before each step. The
+  /// traversal pauses after `most` node pairs.
   template <class Visit>
   TraversalEnd run(const double& reach, Visit&& visit,
                    std::uint64_t most = DualTraversal::kNoLimit) {
@@ -70,7 +73,7 @@ class DistanceTraversal {
     return TraversalEnd::done;
   }
 
-  /// What is left, in at least so many pieces where it has as many.
+  /// Returns the remaining entries, split into at least `wanted` where possible.
   [[nodiscard]] std::vector<Entry> rest(double reach, std::size_t wanted) {
     std::vector<Entry> left(std::make_reverse_iterator(stack_.begin() + size_),
                             std::make_reverse_iterator(stack_.begin()));
@@ -94,7 +97,7 @@ class DistanceTraversal {
     std::uint32_t count = 0;
     std::array<std::uint32_t, TriangleBvh::kLeafSize> id{};
     std::array<DoubleTriangle, TriangleBvh::kLeafSize> triangle;
-    std::array<Box3d, TriangleBvh::kLeafSize> box;  ///< in the frame of the walk
+    std::array<Box3d, TriangleBvh::kLeafSize> box;  ///< in the frame of the traversal
 
     void load(const PairLocalPart& view, const BvhInFrame& boxes, std::uint32_t index) {
       if (node == index) return;
@@ -162,32 +165,34 @@ class DistanceTraversal {
   LoadedLeaf leaf_a_, leaf_b_;
 };
 
-/// Triangles of two parts up to which they are turned after node_pairs_before_rotation() node
-/// pairs; of more it is first asked whether flat faces settle it.
+/// Parts with up to so many triangles together are rotated after node_pairs_before_rotation() node
+/// pairs; for larger ones flat faces are tried first.
 inline constexpr std::size_t kRotatedEarly = 2048;
 
-/// Node pairs, of up to 16 pairs of triangles each, that take about as long as turning the parts.
+/// Returns the number of node pairs, of up to 16 pairs of triangles each, that take about as long
+/// as rotating the parts.
 [[nodiscard]] inline std::uint64_t node_pairs_before_rotation(const PairLocalPart& a,
                                                               const PairLocalPart& b) {
   return 32 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
 }
 
-/// Node pairs after which flat faces of needles may be why a walk takes so long.
+/// Returns the number of node pairs after which flat faces of slivers may be why a traversal takes
+/// so long.
 [[nodiscard]] inline std::uint64_t node_pairs_before_slabs(const PairLocalPart& a,
                                                            const PairLocalPart& b) {
   return 512 + (a.part().triangles.size() + b.part().triangles.size()) / 4;
 }
 
-/// A DistanceTraversal that asks a team for help once it has turned out to be heavy. After
-/// node_pairs_before_rotation() or node_pairs_before_slabs() node pairs it begins anew in a frame
-/// along the parts' needles, if there are such.
+/// Runs a DistanceTraversal that is shared with a team once it has proved heavy. After
+/// node_pairs_before_rotation() or node_pairs_before_slabs() node pairs it starts again in a frame
+/// along the parts' slivers, if there are such.
 ///
-/// `begin()` makes the state of a piece from what is known so far: `reach`, a square that may
+/// `begin()` makes the state of a subtask from what is known so far: `reach`, squared, which may
 /// shrink, `work`, and operator()(NearTrianglePair) as DistanceTraversal's visitor. `take(state)`
-/// gets the states in the order of a single walk and tells whether to go on. Where the team was
-/// stopped some are missing. `settled(state)` is asked while the walk is still alone, after
-/// node_pairs_before_slabs() node pairs and then each time that the number has grown fourfold: true
-/// ends the walk. `most`: see run_in_doubling_rounds().
+/// gets the states in the order of a sequential traversal and returns whether to go on. Where the
+/// team was stopped some are missing. `settled(state)` is called while the traversal is still
+/// sequential, after node_pairs_before_slabs() node pairs and then each time that the number has
+/// grown fourfold: true ends the walk. `most`: see run_in_doubling_rounds().
 template <class Begin, class Take, class Settled, class Most>
 void adaptive_distance_traversal(const PairLocalPart& a, const PairLocalPart& b, double near_enough,
                                  QueryContext& work, const Begin& begin, const Take& take,
@@ -205,7 +210,7 @@ void adaptive_distance_traversal(const PairLocalPart& a, const PairLocalPart& b,
   const auto turn = [&] {
     aligned = rotate_along_slivers(a, b, work.context());
     if (!aligned) return;
-    // Once more from the start: little is lost.
+    // Start again: little is lost.
     work += first->work;
     first.emplace(begin());
     walk.emplace(a, b, first->work, near_enough, &*aligned);

@@ -9,16 +9,19 @@
 #include "geometry/numeric/triangle_math.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Distances of points, segments, triangles and boxes in doubles.
+
 namespace strake::geometry {
 
-/// Where two segments p + s·d and q + t·e are nearest to each other, s and t in [0, 1].
+/// The parameters s and t in [0, 1] at which the segments p + s·d and q + t·e are nearest to each
+/// other.
 struct SegmentParameters {
   double s = 0, t = 0;
 };
 
-/// By clamped minimisation in double arithmetic. Rounding may miss the nearest points, but any s
-/// and t give points of the segments: an upper bound of their distance. Where d or e is zero they
-/// may be no numbers.
+/// Returns the nearest points by clamped minimisation in double arithmetic. Rounding may miss them,
+/// but any s and t give points of the segments, hence an upper bound of their distance. Where d or
+/// e is zero, s and t may be NaN.
 [[nodiscard]] inline SegmentParameters closest_on_segments(const Vec3d& p, const Vec3d& d,
                                                            const Vec3d& q, const Vec3d& e) {
   const auto clamp01 = [](double x) { return x < 0 ? 0 : x > 1 ? 1 : x; };
@@ -32,8 +35,8 @@ struct SegmentParameters {
   return {s, t};
 }
 
-/// Whether a segment may meet a box; false is certain. By the slabs of the box and the axes square
-/// to the segment and one of its sides (separating axes).
+/// Whether a segment may meet a box; false is certain. The separating axes are those of the box and
+/// their cross products with the segment.
 [[nodiscard]] inline bool may_meet(const Vec3d& from, const Vec3d& to, const Box3d& box) {
   const Vec3d centre = (box.lo + box.hi) * 0.5, half = (box.hi - box.lo) * 0.5;
   const Vec3d middle = (from + to) * 0.5 - centre, along = (to - from) * 0.5;
@@ -51,7 +54,7 @@ struct SegmentParameters {
   return true;
 }
 
-/// Squared distance of a point to a triangle, in doubles.
+/// Returns the squared distance of a point to a triangle, in doubles.
 [[nodiscard]] inline double squared_distance(const Vec3d& p, const Corners& t) {
   const Vec3d u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
   double least = std::numeric_limits<double>::infinity();

@@ -10,10 +10,12 @@
 #include "geometry/primitive_pairs/shapes/support_mapping.hpp"
 #include "strake/geometry/part.hpp"
 
+// The distance of the convex hulls of two parts.
+
 namespace strake::geometry {
 
-/// The convex hull of a part whose coordinates are relative to `origin`. `tree`: over its vertices,
-/// or empty.
+/// Returns the convex hull of a part whose coordinates are relative to `origin`. `tree`: over its
+/// vertices, or empty.
 [[nodiscard]] inline primitive_pairs::ConvexBody convex_hull_body(const Part& part,
                                                                   const SupportTree& tree,
                                                                   const Vec3d& origin) {
@@ -27,9 +29,9 @@ namespace strake::geometry {
   return body;
 }
 
-/// The distance of the hulls of two parts that have vertices, by Gilbert, Johnson and Keerthi
-/// (1988). Ends at a lower bound of `enough` grid units; where it is not positive nothing is known.
-/// Costs some ten looks at the vertices of either.
+/// Returns the separation of the convex hulls of two parts with vertices, by Gilbert, Johnson and
+/// Keerthi (1988). Stops at a lower bound of `enough` grid units; a bound that is not positive
+/// means nothing. Costs about ten support queries on either.
 [[nodiscard]] SeparationBound convex_hull_separation(const PartWithObb& a, const PartWithObb& b,
                                                      double enough);
 

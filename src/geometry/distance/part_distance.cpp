@@ -21,16 +21,16 @@
 namespace strake::geometry {
 namespace {
 
-/// Factor by which a double squared distance is enlarged before it may cut anything off: far above
-/// the roundings of a box distance.
+/// Factor by which a squared distance in doubles is enlarged before it may prune: far above the
+/// roundings of a box distance.
 constexpr double kOutward = 1 + 0x1p-48;
 
-/// Triangles of either of two flat pieces at which it is tried whether they lie over each other,
-/// and by how much farther apart than their heights they may be found, grid units.
+/// Number of triangles of either of two flat pieces that are probed for whether the pieces lie over
+/// each other, and how much farther apart than their heights they may then be, grid units.
 constexpr std::size_t kProbes = 64;
 constexpr double kProbeSlack = 4;
 
-/// Triangles at an end of a slab between two parts up to which all pairs of them are tried.
+/// Maximum number of triangles at an end of a slab between two parts for which all pairs are tried.
 constexpr std::size_t kSlabFaces = 32;
 
 class ClosestSearch {
@@ -44,7 +44,7 @@ class ClosestSearch {
         work_(work),
         found_{.reach = limit * limit * kOutward} {}
 
-  /// `parting`: see closest().
+  /// `parting`: see find_closest_pair().
   std::optional<ClosestPair> run(const std::optional<Vec3d>& parting);
   /// Ends at the first pair of triangles that is certainly not farther apart than the limit.
   std::optional<ClosestPair> run_until_near();
@@ -63,7 +63,7 @@ class ClosestSearch {
   void take(std::vector<NearTrianglePair>&& candidates, double reach);
   bool settle(Found& found);
   double distance_so_far(Found& found, std::optional<Vec3d>& across);
-  /// Triangles that are certainly so far apart or farther may be left out.
+  /// Returns the distance from which on triangles may be left out.
   [[nodiscard]] double least_of_interest(double distance) const {
     return distance < limit_ ? distance - slack_ : limit_;
   }
@@ -74,13 +74,13 @@ class ClosestSearch {
   void walk_pair(const SlabPartition::Pair& pair);
   std::optional<ClosestPair> decide();
 
-  /// What a walk, or a piece of one, has found.
+  /// The result of a traversal, or of a subtask of one.
   struct Found {
-    double reach = 0;    ///< squared distances strictly above this are of no interest
-    double enough = -1;  ///< a squared distance that is near enough to look no further
-    bool near = false;   ///< one was found, and is the only candidate
+    double reach = 0;    ///< squared distances strictly above this are pruned
+    double enough = -1;  ///< a squared distance that ends the search
+    bool near = false;   ///< such a pair was found, and is the only candidate
     QueryContext work = {};
-    std::vector<NearTrianglePair> candidates = {};  ///< that may be the nearest
+    std::vector<NearTrianglePair> candidates = {};  ///< pairs that may be the nearest
 
     bool operator()(const NearTrianglePair& t) {
       near = t.squared.upper <= enough;
@@ -121,12 +121,12 @@ void ClosestSearch::walk() {
       [this](Found& found) { return settle(found); });
 }
 
-/// The distance of the nearest triangles of a walk so far; the limit where they are not nearer.
-/// `across` is set from one to the other.
+/// Returns the distance of the nearest triangles of a traversal so far; the limit where they are
+/// not nearer. `across` is set from one to the other.
 double ClosestSearch::distance_so_far(Found& found, std::optional<Vec3d>& across) {
   auto& candidates = found.candidates;
   if (candidates.empty()) return limit_;
-  // One stands for all that are as near.
+  // One represents all that are as near.
   const auto least = std::ranges::min_element(
       candidates, [](const auto& x, const auto& y) { return x.squared.upper < y.squared.upper; });
   std::iter_swap(candidates.begin(), least);
@@ -138,9 +138,9 @@ double ClosestSearch::distance_so_far(Found& found, std::optional<Vec3d>& across
   return std::min(limit_, sqrt_ratio_to_double(p.squared.numerator, p.squared.denominator));
 }
 
-/// Of a walk that has turned out heavy, whether nothing is left that could be nearer than what it
-/// has found by more than the slack: so it is for faces of many needles that lie a constant
-/// distance apart. What the heights of the faces leave open is walked.
+/// Whether a heavy traversal has nothing left that could be nearer than what it has found by more
+/// than the slack, as for faces of many slivers at a constant distance. Pairs that the heights of
+/// the faces leave open are traversed.
 bool ClosestSearch::settle(Found& found) {
   if (found.enough >= 0) return settle_near(found);
   std::optional<Vec3d> across;
@@ -148,7 +148,7 @@ bool ClosestSearch::settle(Found& found) {
   SlabOptions question{.apart = least_of_interest(distance), .hint = across};
   auto pieces = partition_by_height(a_, b_, question);
   if (!pieces && found.candidates.empty()) {
-    // So long a walk that has come upon nothing: faces of needles may all be within the limit.
+    // So long a traversal without a result: faces of slivers may all be within the limit.
     question.whatever_is_left = true;
     pieces = partition_by_height(a_, b_, question);
   }
@@ -156,15 +156,15 @@ bool ClosestSearch::settle(Found& found) {
   leave_out(pieces->gap, found);
   found_.reach = found.reach;
   if (!found.candidates.empty()) found_.candidates.assign(1, found.candidates.front());
-  // What the nearest ones find parts most of the others.
+  // The result of the nearest ones separates most of the others.
   for (const SlabPartition::Pair& pair : pieces->open) walk_pair(pair);
   work_ += found_.work;
   found_.work = {};
   return true;
 }
 
-/// The same of a walk that looks for any pair near enough: there is none, or it is found where flat
-/// faces lie over each other.
+/// The same for a traversal that seeks any pair near enough: there is none, or it is found where
+/// flat faces lie over each other.
 bool ClosestSearch::settle_near(Found& found) {
   const auto pieces = partition_by_height(a_, b_, {.apart = limit_ * kOutward});
   if (!pieces) return false;
@@ -175,8 +175,8 @@ bool ClosestSearch::settle_near(Found& found) {
   return pieces->open.empty();
 }
 
-/// Looks whether two flat pieces come within a limit of each other at some points of either; what
-/// is found is offered. Boxes of needles lead a walk astray there.
+/// Probes whether two flat pieces come within a limit of each other at some points of either, and
+/// offers what it finds. Boxes of slivers mislead a traversal there.
 void ClosestSearch::probe(const SlabPartition::Pair& pair, double limit, Found& found) const {
   const PairLocalPart a = pair.a->view(a_.shift()), b = pair.b->view(b_.shift());
   for (std::size_t i = 0; i < kProbes; ++i) {
@@ -240,13 +240,13 @@ void ClosestSearch::walk_pair(const SlabPartition::Pair& pair) {
       parted);
 }
 
-/// Nothing that is left out is nearer than the gap, so that the nearest found stands for all.
+/// Leaves pairs out: none is nearer than the gap, so that the nearest found represents them.
 void ClosestSearch::leave_out(double gap, Found& found) {
   left_out_ = std::min(left_out_, gap);
   if (!found.candidates.empty()) found.candidates.resize(1);
 }
 
-/// The exact least among the candidates whose certified bounds overlap.
+/// Returns the exact minimum among the candidates whose certified bounds overlap.
 std::optional<ClosestPair> ClosestSearch::decide() {
   auto& candidates = found_.candidates;
   std::erase_if(candidates,
@@ -293,7 +293,7 @@ std::optional<ClosestPair> ClosestSearch::run(const std::optional<Vec3d>& partin
     offer(*faces);
     const auto near = decide();
     if ((near ? near->distance : limit_) < faces->beyond) return near;
-    // The walk comes upon them again.
+    // The traversal will find them again.
     found_.candidates.clear();
   }
   walk();

@@ -44,8 +44,8 @@ Ray shortest_ray(const Box3i& box, const ScaledPoint& p) {
   return best;
 }
 
-/// Counts what of a part a ray passes through, looking at every triangle where there is no tree;
-/// false where the point is on the skin.
+/// Counts the crossings of a ray with a part, visiting every triangle where there is no tree; false
+/// where the point is on the surface.
 bool pass_all(const PairLocalPart& view, RayCrossings& ray, QueryContext& work) {
   const auto pass = [&](std::uint32_t triangle) { return ray.pass(view.corners(triangle)); };
   if (!view.has_bvh()) {
@@ -62,7 +62,7 @@ bool pass_all(const PairLocalPart& view, RayCrossings& ray, QueryContext& work) 
   return traverse_bvh(view.tree(), meets, pass);
 }
 
-/// The same by the boxes of a turned frame, as far as the ray goes.
+/// Does the same by the boxes of a rotated frame, up to the end of the ray.
 bool pass_in_frame(const PairLocalPart& view, const RotatedFrame& frame, const Ray& way,
                    const ScaledPoint& p, RayCrossings& ray, QueryContext& work) {
   const double scale = 1 / static_cast<double>(p.denominator);
@@ -113,7 +113,8 @@ PointSide side_of(const PartWithBvh& part, const Vec3l& numerator, std::int64_t 
 
 namespace {
 
-/// Triangles that are walked over from one that had a point near, in search of the next point's.
+/// Maximum number of steps from triangle to triangle, from one that had a point near, towards the
+/// next point.
 constexpr int kSteps = 64;
 
 }  // namespace
@@ -149,7 +150,7 @@ bool PointLocator::is_near(const Vec3d& p, std::uint32_t triangle) const {
   return std::sqrt(squared_distance(p, corners_of(view_.part(), triangle))) <= band_;
 }
 
-/// At the last triangles that had a point near, or round them.
+/// Whether a point is near the last triangles that had one near, or those round them.
 bool PointLocator::is_near_known(const Vec3d& p, QueryContext& work) {
   const std::size_t known = std::min(near_count_, kRemembered);
   for (std::size_t i = 1; i <= known; ++i) {
@@ -166,8 +167,8 @@ bool PointLocator::is_near_known(const Vec3d& p, QueryContext& work) {
   return false;
 }
 
-/// The neighbour of a triangle over the side that a point lies farthest beyond; none over the rim
-/// of a sheet, or where it lies beyond no side.
+/// Returns the neighbour of a triangle over the edge that a point lies farthest beyond; none over
+/// the boundary of a sheet, or where the point lies beyond no edge.
 std::uint32_t PointLocator::towards(const Vec3d& p, std::uint32_t triangle) const {
   const Part& part = view_.part();
   const Corners c = corners_of(part, triangle);
@@ -223,7 +224,7 @@ bool PointLocator::near_surface(const Vec3d& p, const Vec3d& in_frame, QueryCont
   });
 }
 
-/// The nearest of the last points, if there is certainly no skin between.
+/// Returns the nearest of the last points, if there is certainly no surface between.
 const PointLocator::Sided* PointLocator::same_side(const Vec3d& in_frame,
                                                    QueryContext& work) const {
   const auto last =
@@ -251,18 +252,18 @@ void PointLocator::remember(std::uint32_t triangle) {
 
 namespace {
 
-/// Vertices that tell what one costs, and nodes of the tree that all of the others may look at each
-/// before a frame for them is worth its while.
+/// Number of vertices sampled for the cost of one, and nodes of the tree per vertex from which on a
+/// rotated frame pays.
 constexpr std::size_t kSamplePoints = 32, kManyNodes = 256;
 /// Fewer vertices are not worth a frame.
 constexpr std::size_t kWorthAFrame = 1024;
 
-/// What some vertices say, up to the first that is outside.
+/// The locations of some vertices, up to the first that is outside.
 struct Vertices {
   ToleranceContainment cover{.within = true, .on_surface = true};
   QueryStats cost;
 
-  /// Whether to look at the next one.
+  /// Adds a location; returns whether to go on.
   bool add(BandLocation location) {
     cover.on_surface = cover.on_surface && location == BandLocation::near_surface;
     cover.within = location != BandLocation::outside;
@@ -301,7 +302,7 @@ class CoverSearch {
     return vertices_[vertex].as<std::int64_t>() + shift_;
   }
 
-  /// For points that cost too much one by one.
+  /// Prepares the locator for points that cost too much one by one.
   void prepare(const parallel::Context& context) {
     frame_ = frame_along_faces(b_, context);
     if (!frame_) return;
@@ -310,7 +311,7 @@ class CoverSearch {
   }
 
   ToleranceContainment look_at_blocks(QueryContext& work) const {
-    // Up to the first that lies outside: so the cost is the same for any team.
+    // Stops at the first that lies outside, so that the cost is the same for any team.
     const auto looks = parallel::transform_until(
         work.context(), {.name = "vertices in a band", .n = blocks()},
         [&](std::size_t block) {

@@ -13,42 +13,45 @@
 #include "geometry/obb/rotated_part.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Location of points in parts: of one, and of many with a tolerance band.
+
 namespace strake::geometry {
 
-/// As side_of() of the header beside the part pairs; by the boxes of a frame of the part's own, if
-/// there is one, which changes only the work.
+/// Locates a point as side_of() of part_pair.hpp does; a rotated frame of the part, if given,
+/// changes only the work.
 [[nodiscard]] PointSide side_of(const PartWithBvh& part, const Vec3l& numerator,
                                 std::int64_t denominator, QueryContext& work,
                                 const RotatedFrame* frame);
 
 enum class BandLocation : std::uint8_t { near_surface, inside, outside };
 
-/// Along the largest faces of a part; nothing where the part is too large to be turned.
+/// Returns a frame along the largest faces of a part; nothing where the part is too large to be
+/// rotated.
 [[nodiscard]] std::optional<RotatedFrame> frame_along_faces(const PartWithBvh& part,
                                                             const parallel::Context& context);
 
-/// Tells of many points, one after the other, where they lie in a part: within a band of its skin
-/// (distances are floating point, relative error about 1e-12), else on which side of it (exactly).
+/// Locates many points, one after the other, in a part: within a band of its surface (distances are
+/// floating point, relative error about 1e-12), else on which side of it (exactly).
 ///
-/// Where a flat face is a fan of needles, the boxes of half of them hold any point of it, and those
-/// of needles that lie askew any point of the body. For such a part the placer goes by the turned
-/// frame, and by what it found last: points near the skin are looked for at the last triangles that
-/// had one near, and round them; and a point that no triangle can part from one before lies on the
-/// same side. Points that come in an order with near ones after each other then cost little; any
-/// order gives the same places.
+/// Where a flat face is a fan of slivers, the boxes of half of them hold any point of it, and those
+/// of rotated slivers any point of the body. For such a part the locator uses the rotated frame and
+/// caches its last results: points near the surface are tried at the triangles that were near last,
+/// and round them; and a point that no triangle can separate from an earlier one lies on the same
+/// side. Points ordered so that near ones follow each other then cost little; any order gives the
+/// same locations.
 class PointLocator {
  public:
-  /// `band`: grid units. `frame`: null, or of this part; kept by reference.
+  /// `band`: grid units. `frame`: null, or a frame of this part; kept by reference.
   PointLocator(const PartWithBvh& part, double band, const RotatedFrame* frame);
 
-  /// `at`: relative to the part's origin.
+  /// `at` is relative to the part's origin.
   [[nodiscard]] BandLocation location(const Vec3l& at, QueryContext& work);
 
  private:
   static constexpr std::size_t kRemembered = 8;
 
   struct Sided {
-    Vec3d at;  ///< in the turned frame
+    Vec3d at;  ///< in the rotated frame
     BandLocation side = BandLocation::outside;
   };
 
@@ -67,7 +70,7 @@ class PointLocator {
   double band_;
   const RotatedFrame* frame_;
   BvhInFrame boxes_;
-  /// The last, in rings.
+  /// The latest results, as ring buffers.
   std::array<std::uint32_t, kRemembered> near_{};
   std::array<Sided, kRemembered> sided_{};
   std::size_t near_count_ = 0, sided_count_ = 0;

@@ -14,20 +14,20 @@
 namespace strake::geometry {
 namespace {
 
-/// Angle by which a triangle may be turned from a rough direction besides what the snap has turned
-/// it by, and the most of both together; half of either for each of two triangles. Radians.
+/// Radians: the angle by which a triangle may differ from a rough direction besides the error of
+/// the snap, and the most of both together; half of either for each of two triangles.
 constexpr double kAlike = 0.0224, kMostAlike = 0.25;
 /// Grid units that the triangles of one level may lie apart: each corner is snapped by up to
 /// sqrt(3)/2.
 constexpr double kLevel = 4;
-/// Levels of fewer triangles are not worth a piece.
+/// Levels of fewer triangles get no piece of their own.
 constexpr std::size_t kFewestPieces = 32;
-/// Triangles that are looked at for a direction, and how many of them have to be alike.
+/// Number of triangles sampled for a direction, and how many of them have to be alike.
 constexpr std::size_t kSlabSamples = 32, kAlikeSamples = 4;
-/// Least share of all pairs of triangles that has to be parted, as a divisor.
+/// The least share of all pairs of triangles that has to be separated, as a divisor.
 constexpr std::size_t kSlabShare = 4;
 
-/// A unit normal, and by how much it may be off.
+/// A unit normal and its error.
 struct Facing {
   Vec3d normal;
   double angle = kAlike;
@@ -58,7 +58,7 @@ std::size_t count_alike(const std::vector<Facing>& facings, const Facing& x) {
       std::ranges::count_if(facings, [&](const Facing& y) { return alike(x, y); }));
 }
 
-/// The one with the most others like it.
+/// Returns the facing with the most others like it.
 std::optional<Facing> commonest(const std::vector<Facing>& facings) {
   std::optional<Facing> best;
   std::size_t most = 0;
@@ -70,7 +70,7 @@ std::optional<Facing> commonest(const std::vector<Facing>& facings) {
   return best;
 }
 
-/// Directions that both parts have many triangles square to.
+/// Returns the directions to which both parts have many perpendicular triangles.
 std::vector<Facing> rough_directions(const Part& a, const Part& b,
                                      const std::optional<Vec3d>& hint) {
   const std::vector<Facing> of_a = sample_facings(a), of_b = sample_facings(b);
@@ -89,7 +89,7 @@ std::vector<Facing> rough_directions(const Part& a, const Part& b,
 /// A unit vector but for rounding.
 struct Direction {
   Vec3d normal;
-  double rounding = 0;  ///< bound on what a difference of heights may be off by; 0 along an axis
+  double rounding = 0;  ///< error bound of a difference of heights; 0 along an axis
 };
 
 void add_alike(const Part& part, const Facing& rough, Vec3d& sum) {
@@ -124,12 +124,12 @@ std::optional<Direction> mean_direction(const PairLocalPart& a, const PairLocalP
                    16 * std::numeric_limits<double>::epsilon() * reach};
 }
 
-/// A triangle and the heights that it lies between.
+/// A triangle and its interval of heights.
 struct Height : ProjectionInterval {
   std::uint32_t triangle = 0;
 };
 
-/// The flat levels of a part, and what lies in none.
+/// The flat levels of a part, and the triangles in none.
 struct Levels {
   std::vector<std::vector<Height>> flat;
   std::vector<Height> rest;
@@ -187,7 +187,7 @@ std::vector<CountedRange> ranges_of(const Levels& levels) {
   return ranges;
 }
 
-/// A certain lower bound on the distance of what lies between these heights.
+/// Returns a certain lower bound on the distance of triangles in these intervals of heights.
 double gap_of(const ProjectionInterval& a, const ProjectionInterval& b,
               const Direction& direction) {
   const double gap = std::max(b.lo - a.hi, a.lo - b.hi);
@@ -212,7 +212,7 @@ std::optional<SlabPartition> parted_along(const PairLocalPart& a, const PairLoca
                                           const SlabOptions& question, const Direction& direction) {
   const Levels levels_a = levels_of(a, direction.normal), levels_b = levels_of(b, direction.normal);
   if (levels_a.flat.empty() || levels_b.flat.empty()) return std::nullopt;
-  // Stairs of very many steps: telling each pair of steps would take longer than it saves.
+  // Stairs of very many steps: testing each pair of steps would take longer than it saves.
   if (levels_a.flat.size() * levels_b.flat.size() >
       a.part().triangles.size() + b.part().triangles.size())
     return std::nullopt;

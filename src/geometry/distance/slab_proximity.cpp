@@ -19,13 +19,13 @@
 namespace strake::geometry {
 namespace {
 
-/// Grid units: how rough the snap may leave a flat face that stands askew.
+/// Grid units: the roughness that the snap may give to a rotated flat face.
 constexpr double kRough = 4;
 
 double height(const Vec3d& n, const Vec3l& v) { return dot(n, v.as<double>()); }
 
-/// Of the lowest corner: summed in the same order, and rounding never changes the order of two
-/// numbers.
+/// Returns the height of a box's lowest corner: summed in the same order as those of vertices, and
+/// rounding is monotonic.
 double height(const Vec3d& n, const Box3l& box) {
   return height(n, Vec3l{n.x < 0 ? box.hi.x : box.lo.x, n.y < 0 ? box.hi.y : box.lo.y,
                          n.z < 0 ? box.hi.z : box.lo.z});
@@ -36,7 +36,7 @@ double height(const Vec3d& n, const PairLocalPart& view, std::uint32_t triangle)
   return std::min({height(n, corners[0]), height(n, corners[1]), height(n, corners[2])});
 }
 
-/// What of a part is lowest along a direction.
+/// The lowest end of a part along a direction.
 struct LowEnd {
   double least = std::numeric_limits<double>::infinity();
   std::vector<std::uint32_t> triangles;  ///< those that come within kRough of it
@@ -86,7 +86,7 @@ std::optional<SlabFaces> slab_faces(const PairLocalPart& a, const PairLocalPart&
 
 namespace {
 
-/// Of larger ones a tree asks less than all.
+/// For larger parts a tree visits fewer.
 constexpr std::size_t kMostSlabTriangles = 1024;
 /// Most pairs of triangles.
 constexpr std::size_t kMostSlabPairs = 4096;
@@ -100,7 +100,7 @@ struct EndTriangle {
 
 using EndTriangles = std::vector<EndTriangle>;
 
-/// Axes in the plane of the slab: boxes along the coordinate axes would overlap where faces askew
+/// Axes in the plane of the slab: boxes along the coordinate axes would overlap where rotated faces
 /// do not.
 class SlabPlane {
  public:
@@ -141,7 +141,7 @@ class SlabSearch {
   SlabSearch(const PairLocalPart& a, const PairLocalPart& b, double distance, QueryContext& work)
       : a_(a), b_(b), distance_(distance), squared_(distance * distance), work_(work) {}
 
-  /// The first two that are near; nothing where none are.
+  /// Returns the first two triangles that are near; nothing where none are.
   [[nodiscard]] std::optional<ClosestPair> first(const EndTriangles& a, const EndTriangles& b) {
     for (const EndTriangle& x : a)
       for (const EndTriangle& y : b) {
@@ -165,7 +165,8 @@ class SlabSearch {
   QueryContext& work_;
 };
 
-/// The triangles of a part that reach down to a level, those that lie below it as a whole apart.
+/// The triangles of a part that reach down to a level, those wholly below it in a list of their
+/// own.
 struct Ends {
   std::vector<std::uint32_t> lying, others;
 

@@ -13,12 +13,14 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Heights over a slab between two parts, the triangles at its ends, and proximity across it.
+
 namespace strake::geometry {
 
-/// Grid units: far above the rounding of a height, far below what matters.
+/// Grid units: far above the rounding of a height, far below any length that matters.
 inline constexpr double kHeightMargin = 1.0 / 16;
 
-/// How high the vertices of a small part stand along a direction.
+/// The heights of a small part's vertices along a direction.
 class Heights {
  public:
   Heights(const PairLocalPart& view, const Vec3d& up) : part_(view.part()) {
@@ -32,7 +34,7 @@ class Heights {
   [[nodiscard]] double least() const { return least_; }
   [[nodiscard]] double at(std::uint32_t vertex) const { return all_[vertex]; }
 
-  /// The triangles with a corner no higher than a level, ascending.
+  /// Returns the triangles with a corner no higher than a level, ascending.
   [[nodiscard]] std::vector<std::uint32_t> below(double level) const {
     std::vector<std::uint32_t> low;
     for (std::uint32_t t = 0; t < part_.triangles.size(); ++t)
@@ -55,8 +57,8 @@ class Heights {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
-/// The heights of two parts over the slab between them: how far up a triangle may reach and still
-/// be near the other part.
+/// The heights of two parts over the slab between them: up to which level a triangle may be near
+/// the other part.
 struct SlabHeights {
   Heights a, b;
   double level_a = 0, level_b = 0;
@@ -72,27 +74,27 @@ struct SlabHeights {
   }
 };
 
-/// The triangles of two parts that a slab between the two ends at.
+/// The triangles of two parts at either end of a slab between them.
 struct SlabFaces {
   std::vector<std::uint32_t> a, b;
   double beyond = 0;  ///< grid units: a pair with a triangle not listed is farther apart, certainly
 };
 
-/// `normal`: unit, from b to a. Nothing where one of the parts has more than `most` such triangles.
-/// Follows the trees: the cost is that of the triangles found.
+/// Returns the triangles at the ends of a slab; nothing where one of the parts has more than `most`
+/// of them. `normal`: unit, from b to a. The cost is that of the triangles found in the trees.
 [[nodiscard]] std::optional<SlabFaces> slab_faces(const PairLocalPart& a, const PairLocalPart& b,
                                                   const Vec3d& normal, std::size_t most);
 
-/// What two parts have near each other across a slab.
+/// The proximity of two parts across a slab.
 struct SlabProximity {
   std::optional<ClosestPair> near;  ///< as find_pair_within() gives it
-  bool asked = false;               ///< false: it was too much to look at, and nothing is known
+  bool asked = false;               ///< false: too many triangles, and nothing is known
 };
 
 /// find_pair_within() of small parts that lie face to face, without trees. `normal`, a unit vector
-/// from b to a, is across the widest slab between them (part_frame.hpp), which may be a little less
-/// than nothing: only triangles that come within `distance` grid units of its other end are looked
-/// at, those that lie at its ends first.
+/// from b to a, is across the widest slab between them (oriented_box.hpp), whose width may be
+/// slightly negative: only triangles that come within `distance` grid units of its other end are
+/// tested, those at its ends first.
 [[nodiscard]] SlabProximity slab_proximity(const PlacedPart& a, const PlacedPart& b,
                                            const Vec3d& normal, double distance,
                                            QueryContext& work);

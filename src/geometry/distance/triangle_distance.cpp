@@ -25,8 +25,8 @@ Corners relative(const TriangleCorners& t, const Vec3l& base) {
   return {(t[0] - base).as<double>(), (t[1] - base).as<double>(), (t[2] - base).as<double>()};
 }
 
-/// Squared distance across a slab of direction w and width `gap`, rounded down. The products with
-/// corners no larger than `size` are each off by less than 2^-50·|w|·size.
+/// Returns the squared distance across a slab of direction w and width `gap`, rounded down. The
+/// products with corners no larger than `size` are each off by less than 2^-50·|w|·size.
 double slab_distance(double gap, const Vec3d& w, double w_squared, double size) {
   const double sure = gap - 0x1p-47 * largest_magnitude(w) * size;
   return sure > 0 ? square(sure) / w_squared * (1 - 0x1p-48) : 0;
@@ -45,20 +45,20 @@ double gap_between(const Extent& x, const Extent& y) {
   return std::max(x.low - y.high, y.low - x.high);
 }
 
-/// Lower bound of the squared distance from the slab across direction w; any w will do.
+/// Returns a lower bound of the squared distance from the slab across direction w; any w is valid.
 double slab(const Vec3d& w, const DoubleTriangle& a, const DoubleTriangle& b) {
   return slab_distance(gap_between(extent(w, a.corner), extent(w, b.corner)), w, squared_length(w),
                        std::max(a.size, b.size));
 }
 
-/// The same across the first triangle's normal.
+/// Returns the same bound across the first triangle's normal.
 double normal_slab(const DoubleTriangle& a, const DoubleTriangle& b) {
   return slab_distance(gap_between({a.low, a.high}, extent(a.normal, b.corner)), a.normal,
                        a.normal_squared, std::max(a.size, b.size));
 }
 
-/// The greatest of the slabs square to the first triangle's sides, in its plane; that of two
-/// triangles in one plane is among these. Stops at the first that is more than `enough`.
+/// Returns the greatest bound by slabs perpendicular to the first triangle's edges, in its plane;
+/// that of two coplanar triangles is among these. Stops at the first above `enough`.
 double side_slabs(const DoubleTriangle& a, const DoubleTriangle& b, double enough) {
   double widest = 0;
   for (std::size_t i = 0; i < 3 && widest <= enough; ++i)
@@ -82,8 +82,8 @@ void offer_segments(const Vec3d& p, const Vec3d& d, const Vec3d& q, const Vec3d&
   near.offer(p + d * s, q + e * t);
 }
 
-/// The foot of a corner on a triangle, where it falls inside: a convex combination of the corners,
-/// so that it lies in the triangle even where a sliver's normal is mostly rounding.
+/// Offers the foot of a vertex on a triangle, where it falls inside: a convex combination of the
+/// corners, so that it lies in the triangle even where a sliver's normal is mostly rounding.
 template <class Offer>
 void offer_foot(const Vec3d& corner, const Corners& t, const Vec3d& n, const Offer& offer) {
   const double w2 = dot(cross(t[1] - t[0], corner - t[0]), n);
@@ -94,8 +94,8 @@ void offer_foot(const Vec3d& corner, const Corners& t, const Vec3d& n, const Off
   offer(t[0] * (w0 / sum) + t[1] * (w1 / sum) + t[2] * (w2 / sum));
 }
 
-/// Where sides of the first triangle pass through the second's plane: triangles that cross have no
-/// nearest features, but a side of one of them meets the other.
+/// Offers the points where edges of the first triangle cross the second's plane: triangles that
+/// cross have no nearest features, but an edge of one of them meets the other.
 template <class Offer>
 void offer_crossings(const DoubleTriangle& a, const DoubleTriangle& b, const Offer& offer) {
   const Vec3d& on_b = b.corner[0];
@@ -109,7 +109,7 @@ void offer_crossings(const DoubleTriangle& a, const DoubleTriangle& b, const Off
   }
 }
 
-/// How far the triangles lie apart across a direction, exactly (times its length).
+/// Returns the exact width between the triangles across a direction (times its length).
 Int128 width_across(const Vec3<Int128>& direction, const TriangleCorners& a,
                     const TriangleCorners& b) {
   const auto reach = [&](const TriangleCorners& t) {
@@ -122,8 +122,8 @@ Int128 width_across(const Vec3<Int128>& direction, const TriangleCorners& a,
   return std::max(low_b - high_a, low_a - high_b);
 }
 
-/// Collects the least exact distance over the pairs of features whose value, as far as doubles can
-/// tell, may be as small as the upper bound.
+/// Finds the least exact distance over the pairs of features whose value in doubles may be as small
+/// as the upper bound.
 class ExactSearch {
  public:
   ExactSearch(const TriangleCorners& a, const TriangleCorners& b, double upper)
@@ -177,7 +177,7 @@ void ExactSearch::corners() {
     }
 }
 
-/// Foot of a point on the line of an edge.
+/// Returns the foot of a point on the line of an edge.
 Vec3d foot_on_edge(const Vec3d& p, const Vec3d& from, const Vec3d& to) {
   const Vec3d e = to - from;
   return from + e * (dot(e, p - from) / dot(e, e));
@@ -238,7 +238,7 @@ void ExactSearch::edges() {
     }
 }
 
-/// Between parallel faces a corner may happen to stand over an edge: a normal serves as well.
+/// Between parallel faces a vertex may project onto an edge: a normal serves as well.
 void ExactSearch::find_direction() {
   for (const TriangleCorners* t : {&a_, &b_}) {
     const Vec3<Int128> n = cross_exact((*t)[1] - (*t)[0], (*t)[2] - (*t)[0]);
@@ -291,7 +291,7 @@ DistanceBounds triangle_distance_bounds(const DoubleTriangle& a, const DoubleTri
   };
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   const Corners &p = a.corner, &q = b.corner;
-  if (near_enough >= 0)  // most of those who ask so are near at their corners
+  if (near_enough >= 0)  // most such pairs are near at their vertices
     for (const Vec3d& from : p)
       for (const Vec3d& to : q)
         if (const double squared = squared_length(to - from);

@@ -8,6 +8,8 @@
 #include "strake/geometry/rational.hpp"
 #include "strake/geometry/vec.hpp"
 
+// The distance of two triangles: certified bounds in doubles, and exact.
+
 namespace strake::geometry {
 
 /// Certified bounds on the squared distance of two triangles.
@@ -28,36 +30,37 @@ struct DoubleTriangle {
   explicit DoubleTriangle(const TriangleCorners& t);
 };
 
-/// Bounds in double arithmetic. The lower one comes from a slab between the triangles, so it holds
-/// however wrongly the nearest features were guessed. Once the lower bound is above `enough` the
-/// upper one is not worked out and is infinite; once the upper one is at most `near_enough`,
-/// neither is sharpened.
+/// Returns bounds in double arithmetic. The lower one comes from a slab between the triangles, so
+/// it holds however wrong the guess of the nearest features. Once the lower bound is above
+/// `enough`, the upper one is not computed and is infinite; once the upper one is at most
+/// `near_enough`, neither is improved.
 [[nodiscard]] DistanceBounds triangle_distance_bounds(const DoubleTriangle& a,
                                                       const DoubleTriangle& b, double enough,
                                                       double near_enough = -1);
 
 /// The nearest points of two triangles; among equal distances the pair of features that comes
-/// first: corner-corner, corner-edge, edge-corner, corner-face, face-corner, edge-edge.
+/// first: vertex-vertex, vertex-edge, edge-vertex, vertex-face, face-vertex, edge-edge.
 struct NearestTrianglePoints {
   SquaredDistance squared;
   Vec3d on_a, on_b;
   /// A direction w across which the triangles lie `width` apart, width²/w² being the squared
-  /// distance; zero where its numbers are too large (a corner nearest to an edge, far apart).
+  /// distance; zero where its numbers are too large (a vertex nearest to an edge, far apart).
   Vec3<Int128> direction;
   Int128 width = 0;
 };
 
-/// True when the triangles are certainly not nearer than a pair with this direction and width:
-/// cheap and exact, and all that is needed for the many equal distances of parallel faces.
+/// Whether the triangles are certainly not nearer than a pair with this direction and width: cheap
+/// and exact, and all that is needed for the many equal distances of parallel faces.
 [[nodiscard]] bool not_nearer(const TriangleCorners& a, const TriangleCorners& b,
                               const NearestTrianglePoints& than);
 
-/// Exact for coordinates whose differences are at most 2^31; zero when the triangles meet.
-/// `upper` bounds the squared distance from above, as triangle_distance_bounds() gives it.
+/// Returns the exact distance for coordinates whose differences are at most 2^31; zero when the
+/// triangles meet. `upper` bounds the squared distance from above, as triangle_distance_bounds()
+/// gives it.
 [[nodiscard]] NearestTrianglePoints exact_triangle_distance(const TriangleCorners& a,
                                                             const TriangleCorners& b, double upper);
 
-/// Of two triangles by their numbers.
+/// Returns the nearest points of two triangles, given by their numbers, as a ClosestPair.
 [[nodiscard]] inline ClosestPair as_closest_pair(const NearestTrianglePoints& nearest,
                                                  const NodePair& triangles) {
   ClosestPair close;

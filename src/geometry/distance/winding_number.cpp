@@ -12,21 +12,21 @@ namespace strake::geometry {
 namespace {
 
 constexpr std::size_t kDeepest = 64;
-/// Farther than any ray goes.
+/// A parameter beyond the end of any ray.
 constexpr double kNoHit = 1e300;
 
-/// Of the directions from a point within, those that meet an odd number of triangles: what stands
-/// in a body or parts it makes the others even, as they all are in a bore.
+/// The least share of odd directions (those that meet an odd number of triangles) from a point
+/// inside: objects in a body or walls across it make some of them even, as in a bore all are.
 constexpr double kLeastOdd = 0.25;
 
-/// Half the solid angle of a triangle as seen from the origin (A. van Oosterom and J. Strackee,
-/// 1983).
+/// Returns half the solid angle of a triangle as seen from the origin (A. van Oosterom and J.
+/// Strackee, 1983).
 double half_solid_angle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const double x = length(a), y = length(b), z = length(c);
   return arc_tan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
 }
 
-/// Whether a ray meets a box before it has gone so far.
+/// Whether a ray meets a box before parameter `far`.
 bool meets(const Box3d& box, const Vec3d& from, const Vec3d& way, double far) {
   double first = 0, last = far;
   for (int k = 0; k < 3; ++k) {
@@ -41,7 +41,7 @@ bool meets(const Box3d& box, const Vec3d& from, const Vec3d& way, double far) {
   return first <= last;
 }
 
-/// Where a ray meets a triangle, in lengths of `way` (T. Möller and B. Trumbore, 1997).
+/// Returns where a ray meets a triangle, in lengths of `way` (T. Möller and B. Trumbore, 1997).
 std::optional<double> meet(const Vec3d& from, const Vec3d& way, const Vec3d& a, const Vec3d& b,
                            const Vec3d& c) {
   const Vec3d u = b - a, v = c - a, across = cross(way, v), off = from - a;
@@ -139,7 +139,7 @@ void WindingNumber::split(std::size_t n) {
 }
 
 double WindingNumber::at(const Vec3d& at) const {
-  constexpr double kFar = 2;  // a node counts as one where it is so many of its radii away
+  constexpr double kFar = 2;  // a node counts as a whole from so many of its radii away
   constexpr double kFull = 4 * 3.14159265358979323846;
   double filled = 0;
   std::array<std::uint32_t, kDeepest> waiting{};
@@ -161,8 +161,8 @@ double WindingNumber::at(const Vec3d& at) const {
   return filled / kFull;
 }
 
-/// Calls visit(where it is met, in lengths of `way`) for triangles that a ray meets; `far`, which
-/// may fall meanwhile, is how far it goes.
+/// Calls visit(parameter of the hit, in lengths of `way`) for the triangles that a ray meets;
+/// `far`, which may fall meanwhile, is its end.
 template <class Visit>
 void WindingNumber::along(const Vec3d& from, const Vec3d& way, const double& far,
                           const Visit& visit) const {
@@ -196,7 +196,7 @@ int WindingNumber::crossings(const Vec3d& from, const Vec3d& way) const {
 }
 
 WindingNumber::Look WindingNumber::look_round(const Vec3d& from, int rays) const {
-  // The same in three dimensions: directions of points in a ball lie evenly.
+  // The same in three dimensions, for evenly distributed directions of points in a ball.
   constexpr double kStepX = 0.8191725133961645, kStepY = 0.6710436067037893,
                    kStepZ = 0.5497004779019703;
   int out = 0, odd = 0, looked = 0;
@@ -213,11 +213,12 @@ WindingNumber::Look WindingNumber::look_round(const Vec3d& from, int rays) const
   return {static_cast<double>(out) / rays, static_cast<double>(odd) / rays};
 }
 
-/// The part of all directions that lead out from a point; nothing where that is not within.
+/// Returns the share of directions that lead out from a point; nothing where the point is not
+/// inside.
 std::optional<double> WindingNumber::out_of(const Vec3d& at) const {
   constexpr double kHalf = 0.5;
   if (one_way_) {
-    // A little less than none is rounding, which so cancels on average.
+    // Slightly negative values are rounding and kept, so that it cancels on average.
     const double winding = std::fabs(this->at(at));
     if (winding <= kHalf) return std::nullopt;
     return winding > 1 + kHalf ? winding - 1 : 1 - winding;
@@ -230,7 +231,7 @@ std::optional<double> WindingNumber::out_of(const Vec3d& at) const {
 bool WindingNumber::surrounds(const Vec3d& at) const {
   if (one_way_) return out_of(at).has_value();
   constexpr int kRays = 256;
-  // Between a fin and the skin that it stands on a quarter leads out.
+  // Between a fin and the surface that it stands on a quarter of the directions leads out.
   constexpr double kMostOut = 0.2;
   const Look look = look_round(at, kRays);
   return look.out < kMostOut && look.odd >= kLeastOdd;
@@ -239,11 +240,12 @@ bool WindingNumber::surrounds(const Vec3d& at) const {
 double WindingNumber::openness(double most) const {
   constexpr int kSamples = 48;
   constexpr double kHalf = 0.5;
-  // Numbers whose multiples lie evenly in 0 to 1, and do together (R. Kronecker).
+  // Multiples of these numbers are evenly distributed in 0 to 1, also jointly (R. Kronecker).
   constexpr double kStepS = 0.7548776662466927, kStepT = 0.5698402909980532;
   if (nodes_.empty()) return 1;
   const Node& all = nodes_.front();
-  // Where so much of the area does not cancel, as much is missing, and half of that leads out.
+  // Where so much of the area does not cancel, as much is missing, and half of its directions lead
+  // out.
   if (one_way_ && length(all.area) > 2 * most * all.size) return 1;
   double out = 0, passed = 0;
   int inside = 0, sample = 0;

@@ -10,40 +10,40 @@
 
 namespace strake::geometry {
 
-/// How often a surface, closed or not, winds round a point: the solid angle that its triangles
-/// fill, by that of all directions (A. Jacobson, L. Kavan, O. Sorkine-Hornung, Robust
-/// Inside-Outside Segmentation using Generalized Winding Numbers, 2013). 1 within a closed surface
-/// and 0 outside, and nearly so where little of it is missing.
+/// How often a surface, closed or not, winds round a point: the solid angle of its triangles over
+/// that of all directions (A. Jacobson, L. Kavan, O. Sorkine-Hornung, Robust Inside-Outside
+/// Segmentation using Generalized Winding Numbers, 2013). It is 1 within a closed surface and 0
+/// outside, and nearly so where little of the surface is missing.
 ///
 ///     const WindingNumber winding(part);
 ///     if (winding.openness(0.05) < 0.05 && winding.surrounds(point)) ...
 ///
-/// 1. Floating point, the same on every machine: far triangles count together as what a small flat
-///    one would fill (G. Barill et al., Fast Winding Numbers for Soups and Clouds, 2018), which is
-///    off by about a hundredth. For what is to be told, not for what is to be decided.
+/// 1. Floating point, the same on every machine: far triangles count together as a small flat one
+///    (G. Barill et al., Fast Winding Numbers for Soups and Clouds, 2018), which is off by about a
+///    hundredth. Use it for reports, not for decisions.
 /// 2. Where triangles do not all face the same way, more than two meet at an edge, or there are
-///    several surfaces, as with a shelf within or a fin without, the sum says nothing. Then rays
-///    tell: the directions that lead out meet no triangle, and from within a good part of the
+///    several surfaces, as with a shelf inside or a fin outside, the sum is meaningless. Then rays
+///    decide: the directions that lead out meet no triangle, and from inside a good part of the
 ///    others meets an odd number of them.
-/// 3. Building costs n log n, a question some hundred boxes and triangles.
+/// 3. Building costs n log n; a query visits some hundred boxes and triangles.
 class WindingNumber {
  public:
   explicit WindingNumber(const Part& part);
 
-  /// `at`: grid units, relative to the part's origin.
+  /// Returns the winding number at a point in grid units, relative to the part's origin.
   [[nodiscard]] double at(const Vec3d& at) const;
 
-  /// How far a ray goes to the surface, in lengths of `way`; nothing where it does not meet it.
-  /// What is nearer than a millionth of `way` does not count.
+  /// Returns the distance along a ray to the surface, in lengths of `way`; nothing where it misses.
+  /// Hits nearer than a millionth of `way` do not count.
   [[nodiscard]] std::optional<double> first_hit(const Vec3d& from, const Vec3d& way) const;
 
-  /// The part of all directions that lead out of what the surface surrounds, on average over its
-  /// inside: little for a body with a gap in a seam or a face too few, an eighth and more for a
-  /// tank without its lid. 1 where it surrounds nothing much, as a deck and a shallow tray, and
-  /// where it is certainly more than `most`.
+  /// Returns the share of directions that lead out of the surface, on average over its interior:
+  /// little for a body with a gap in a seam or a missing face, an eighth and more for a tank
+  /// without its lid. 1 where it surrounds almost nothing, as a deck or a shallow tray, and where
+  /// the share is certainly more than `most`.
   [[nodiscard]] double openness(double most) const;
 
-  /// Whether a point is within, of a surface that is not very open.
+  /// Whether a surface that is not very open surrounds a point.
   [[nodiscard]] bool surrounds(const Vec3d& at) const;
 
  private:
@@ -53,10 +53,10 @@ class WindingNumber {
     Vec3d centre;                        ///< of their areas
     double size = 0;                     ///< sum of their areas
     std::uint32_t first = 0, count = 0;  ///< of triangles_
-    std::uint32_t left = 0;              ///< child, the right one behind it; 0: a leaf
+    std::uint32_t left = 0;              ///< left child, the right one follows it; 0: a leaf
   };
 
-  /// Of the directions from a point, those that lead out and those that meet an odd number of
+  /// The shares of the directions from a point that lead out, and that meet an odd number of
   /// triangles.
   struct Look {
     double out = 0, odd = 0;
@@ -74,7 +74,7 @@ class WindingNumber {
   std::vector<Vec3d> vertices_;
   std::vector<Triangle> triangles_;  ///< leaf by leaf
   std::vector<Node> nodes_;
-  bool one_way_ = false;  ///< one surface of which all triangles face the same way
+  bool one_way_ = false;  ///< one surface, all of whose triangles face the same way
 };
 
 }  // namespace strake::geometry

@@ -24,20 +24,20 @@ namespace strake::geometry {
 namespace {
 
 constexpr std::size_t kMaxVerticesTried = 128;
-/// How wide a bracket may be at most, relative to the depth: as little as a turn may change it.
+/// Greatest width of a bracket relative to the depth: no more than a rotation may change it.
 constexpr double kFinely = 1e-3;
-/// Of a body with more edges none is tried.
+/// The edges of a body with more of them are not tried.
 constexpr std::size_t kMostEdgesTried = 2048;
-/// Points from where a search goes uphill.
+/// Maximum number of points from which a search climbs.
 constexpr std::size_t kMostDeepest = 16;
-/// A step off a skin that the exact test of a side can see.
+/// Grid units: a step off a surface that the exact point location can resolve.
 constexpr double kLeastMove = 1.0 / 64;
-/// Moves of corners no longer than this part what the snap pushed into each other: it moves either
-/// face by less than one unit, and the corner where three are square to each other goes off each by
-/// half of its way. Narrow enough for a bracket.
+/// Vertex displacements no longer than this separate bodies that the snap pushed into each other:
+/// it moves either face by less than one unit, and the corner of three perpendicular faces moves
+/// off each by about half of its displacement. Narrow enough for a bracket.
 constexpr double kSnapApart = 5;
 
-/// Points tried for the lower bound, each judged exactly.
+/// Points tried for the lower bound, each located exactly.
 class Candidates {
  public:
   Candidates(const DistanceField& a, const DistanceField& b, double extent,
@@ -46,7 +46,7 @@ class Candidates {
 
   /// The depth at a point, or nothing when it is not in both.
   std::optional<double> depth_at(const Vec3d& p) { return depth_at(p, a_, b_); }
-  /// Of the two, the point is likely in the first.
+  /// Returns the depth at a point; of the two, the point is likely in the first.
   std::optional<double> depth_at(const Vec3d& p, const DistanceField& of, const DistanceField& in) {
     const Vec3d q = on_field_grid(p);
     if (goal_.within && !goal_.within->contains({q, q})) return std::nullopt;
@@ -78,7 +78,8 @@ class Candidates {
     return deepest;
   }
 
-  /// All but as deep as the best, and a better place to point at: it counts, as depth_at() found.
+  /// Prefers a point almost as deep as the best, at a better position, with the depth that
+  /// depth_at() found.
   void prefer(const Vec3d& p, double depth) {
     if (depth >= best_ * (1 - 1e-6) - 4 * kLeastMove) point_ = on_field_grid(p);
   }
@@ -117,7 +118,7 @@ void bracket_by_programs(const HalfSpaceProgram& spaces, Candidates& candidates,
   const auto at_corner = candidates.depth_at((a_deeper ? in_a : in_b).x);
   if (at_middle) candidates.prefer(middle.x, *at_middle);
   if (at_corner && at_middle && middle.r > kLeastMove) return;
-  // Where the deepest points lie on the skin of the other body, as on the flat of a pipe that
+  // Where the deepest points lie on the surface of the other body, as on the flat of a pipe that
   // stands into a box, their middle does too: then aim for the middle of the whole common part.
   constexpr std::array<double, 5> kMoves{kLeastMove, 1, 4, 16, 64};
   const InscribedBall aim =
@@ -152,7 +153,7 @@ void try_vertices(const DistanceField& of, const DistanceField& in, Candidates& 
   }
 }
 
-/// A depth that means nothing: all that it is told apart from is what the snap made of a touch.
+/// Returns the depth that counts as a tie: it is within what the snap makes of a touch.
 double tie_depth(const DepthOptions& goal) {
   return std::min(std::max(kTieDepth, std::min(goal.apart_within, goal.tolerance)), goal.threshold);
 }
@@ -166,8 +167,8 @@ std::optional<Vec3d> outward(const Part& part, std::uint32_t triangle) {
   return n * (1 / size);
 }
 
-/// The middles of what the edges of one body have in the box of the other: where a body that passes
-/// through the other is out of step with it, it has no corner there.
+/// Tries the middles of the edges of one body clipped to the box of the other: a body that passes
+/// through the other may have no vertex there.
 void try_edges(const DistanceField& of, const DistanceField& in, Candidates& candidates) {
   const auto& edges = of.part().edges;
   if (edges.size() > kMostEdgesTried) return;
@@ -195,7 +196,7 @@ void try_edges(const DistanceField& of, const DistanceField& in, Candidates& can
   }
 }
 
-/// From a point of both skins into both bodies, farther and farther.
+/// Tries points from a point of both surfaces into both bodies, farther and farther.
 void try_points_inwards(const DepthOperand& a, const DepthOperand& b, const DepthOptions& goal,
                         Candidates& candidates) {
   const auto na = outward(*a.treed.placed.part, goal.triangle_a);
@@ -218,7 +219,7 @@ bool settle_tie(const DepthOperand& a, const DistanceField& fa, const DepthOpera
     try_vertices(fa, fb, candidates);
     try_vertices(fb, fa, candidates);
   } else {
-    // Where the half-spaces tell as much as the goal asks for, they do so sooner.
+    // Where the half-spaces give what the goal needs, they do so faster.
     if (goal.known_upper <= goal.tolerance) return false;
     if (a.planes->nearly_convex && b.planes->nearly_convex) return false;
     if (tie < 1 || goal.triangle_a == kNoIndex || goal.triangle_b == kNoIndex) return false;
@@ -240,8 +241,8 @@ bool settle_tie(const DepthOperand& a, const DistanceField& fa, const DepthOpera
   return true;
 }
 
-/// Moves that take b out of a: once no interior point is shared, the depth was at most the way
-/// moved.
+/// Translations that take b out of a: once no interior point is shared, the depth was at most their
+/// length.
 class SeparatingMoves {
  public:
   SeparatingMoves(const DepthOperand& a, const DepthOperand& b, const DepthOptions& goal,
@@ -251,7 +252,8 @@ class SeparatingMoves {
     add(outward(*b.treed.placed.part, goal.triangle_b), -1);
   }
 
-  /// A little way along the normals where they meet. Ties of a model that stands askew end here.
+  /// Bounds a tie by short translations along the normals where they meet. Ties of a rotated model
+  /// end here.
   void bound_tie(Depth& depth) {
     for (const double distance : {4.0, 32.0, 256.0, goal_.threshold}) {
       if (distance > goal_.threshold || distance >= depth.upper || distance < depth.lower) continue;
@@ -259,8 +261,9 @@ class SeparatingMoves {
     }
   }
 
-  /// As far as the depth that is known, out of the skins nearest to its point and along the
-  /// normals: what stands a little way in a body's cavity leaves it so, and its hull tells nothing.
+  /// Bounds the depth by translations as long as the known depth, out of the surfaces nearest to
+  /// its point and along the normals: a body slightly inside a cavity's wall leaves it so, where
+  /// hulls are no bound.
   void bound_hit(Depth& depth) {
     // Where the two bounds are near each other, they are so for a cause: a search ends soon.
     if (!(depth.value > 0 && depth.upper > kApart * depth.value)) return;
@@ -329,10 +332,10 @@ class Centring {
   }
 
  private:
-  /// Grid units that a point may be less deep: what the snap makes of faces that stand askew.
+  /// Grid units that a point may be less deep: what the snap makes of rotated faces.
   static constexpr double kAsDeep = 4;
-  /// That much less deep are the points of which the middle is taken: of all of a face, although it
-  /// may be a little askew.
+  /// The centre is taken of the points up to this much less deep: of all of a face, although it may
+  /// be slightly rotated.
   static constexpr double kSlack = 16;
   /// Grid units: a way not worth going.
   static constexpr double kShort = 16;
@@ -385,7 +388,7 @@ Depth solid_depth(const DepthOperand& a, const DepthOperand& b, const DepthOptio
                   QueryContext& work) {
   DepthOptions goal = asked;
   goal.relative = std::min(asked.relative, kFinely);
-  // Flush faces of a model that stands askew: what the snap made of a touch.
+  // Coplanar faces of a rotated model: what the snap made of a touch.
   if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};
   DistanceField fa(a.treed, {}, a.planes);
@@ -405,7 +408,8 @@ Depth solid_depth(const DepthOperand& a, const DepthOperand& b, const DepthOptio
   }
   SeparatingMoves parting(a, b, goal, work);
   if (depth.lower <= goal.threshold && depth.upper > goal.threshold) parting.bound_tie(depth);
-  // That a part of the common region is left by a move of the whole is known of the whole.
+  // A translation that leaves the whole is known for the whole only, not for a part of the
+  // intersection.
   if (!bracket_suffices(depth, goal) && !goal.within) parting.bound_hit(depth);
   if (!bracket_suffices(depth, goal)) {
     fa.prepare();

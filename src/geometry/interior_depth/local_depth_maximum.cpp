@@ -17,12 +17,12 @@ namespace strake::geometry {
 namespace {
 
 constexpr int kMostClimbSteps = 24;
-/// Triangles within reach of a step, of one part, that are all asked at once.
+/// Maximum number of triangles of one part within reach of a step that enter the program at once.
 constexpr std::size_t kMostNear = 64;
-/// Of more, those that stop a step are asked one by one, up to this many.
+/// If there are more, those that stop a step are added one by one, up to this many.
 constexpr int kMostCuts = 48;
-/// Grid units that a point keeps off the skin that it must not leave: it is still inside when it is
-/// put on the field grid.
+/// Grid units that a point keeps off the surface that it must not leave: it is still inside when it
+/// is rounded to the field grid.
 constexpr double kInset = 1.0 / 1024;
 /// Grid units: a shorter reach is not worth a step.
 constexpr double kShortest = 0.25;
@@ -36,13 +36,13 @@ struct NearPlane {
   double distance = 0;
 };
 
-/// What a triangle says of the surroundings of a point in the part's own coordinates; nothing where
-/// it has no area and the point lies on it.
+/// Returns the plane that bounds the distance to a triangle round a point, in the part's own
+/// coordinates; nothing where it has no area and the point lies on it.
 std::optional<NearPlane> near_of(const PreparedTriangle& triangle, const Vec3d& at) {
   const Vec3d way = at - triangle.nearest(at);
   const double distance = length(way);
   if (distance > kOnSkin) return NearPlane{way * (1 / distance), distance};
-  // On the skin, inwards is away from it.
+  // On the surface, inwards is away from it.
   if (triangle.size > 0) return NearPlane{-triangle.unit, distance};
   return std::nullopt;
 }
@@ -143,7 +143,7 @@ class LocalAscent {
       }
       // No triangle farther than this can stop a ball whose centre moves by `reach` at most.
       const bool all = find_near(of_, at, depth + 2 * reach, above_);
-      // Within the depth there is no skin that a step could cross unasked.
+      // Within the depth there is no surface that a step could cross untested.
       if (!all) reach = std::min(reach, depth);
       const InscribedBall next = all ? solve(at, depth, reach) : solve_by_cuts(at, depth, reach);
       if (next.r > depth * (1 + kGain) + kInset) {

@@ -16,18 +16,18 @@
 namespace strake::geometry {
 namespace {
 
-/// The first level that is asked for, above the deepest point known and relative to its depth.
+/// Distance of the first level searched above the deepest point known, relative to its depth.
 constexpr double kNearestLevel = 5e-4;
-/// Of shallow ones up to twice that, since a level is the easier the farther it is; but no farther
+/// For shallow depths up to twice that, since a level is easier the farther it is; but no farther
 /// than this, relative to the goal's tolerance.
 constexpr double kFarStep = 0.5;
-/// The least that a level is above the deepest point known: relative to the goal's tolerance, and
-/// whatever the goal, grid units.
+/// Least distance of a level above the deepest point known: relative to the goal's tolerance, and
+/// in any case, grid units.
 constexpr double kLeastStep = 0.15, kFinestStep = 1.0 / 64;
-/// The next one is farther above it by a factor, where it took too much work, or where a place was
-/// too near to the level to be told from it.
+/// Factors by which the next level is farther above it, where it took too much work, or where a
+/// point was too near to the level to be distinguished from it.
 constexpr double kAfterWork = 8, kAfterPlace = 2;
-/// A bracket that is no wider than this, relative to the depth, says all that anybody acts on.
+/// A bracket no wider than this, relative to the depth, counts as complete.
 constexpr double kComplete = 0.01;
 /// Cells of a level that count as one of the goal's.
 constexpr std::uint64_t kPerCell = 16;
@@ -62,7 +62,7 @@ class SolidDepthSearch {
       const double step = std::max({least, near, std::min(kFarStep * goal_.tolerance, 2 * near)});
       const double level = depth_.value + farther * step;
       if (level >= depth_.upper) return;
-      // Most of it for the nearest level: those farther off are the easier and the less worth.
+      // Most of the work goes to the nearest level: those farther off are easier and gain less.
       switch (search_level(level, left - left / 4)) {
         case LevelOutcome::none:
           depth_.upper = level;
@@ -110,7 +110,7 @@ class SolidDepthSearch {
     return most - std::min(most, cells_);
   }
 
-  /// Whether that leads to a deeper point.
+  /// Climbs from a point; returns whether that leads to a deeper one.
   bool climb(const Vec3d& from) {
     const double known = depth_.value;
     deepens(from);
@@ -119,7 +119,7 @@ class SolidDepthSearch {
     return depth_.value > known;
   }
 
-  /// A point that is deeper than what is known is so from then on.
+  /// Whether a point is deeper than the known one, which it then replaces.
   void deepens(const Vec3d& p) {
     const Vec3d q = on_field_grid(p);
     const double depth = greater_distance(a_, b_, q);

@@ -12,7 +12,7 @@ namespace strake::geometry {
   return d.lower > goal.threshold || d.upper <= goal.threshold;
 }
 
-/// Whether the bracket is no wider than this relative to the depth, or than the goal's tolerance.
+/// Whether the bracket is no wider than `relative` times the depth, or than the goal's tolerance.
 [[nodiscard]] inline bool is_tight(const Depth& d, const DepthOptions& goal, double relative) {
   return d.upper - d.lower <= std::max(goal.tolerance, relative * d.upper);
 }
@@ -21,10 +21,9 @@ namespace strake::geometry {
   return is_decided(d, goal) && is_tight(d, goal, goal.relative);
 }
 
-/// Narrows the bracket of two solids: points climb to where they are deepest nearby, from `seeds`
-/// and from each deeper point found, and levels above it are asked for until none is left that may
-/// be deeper. Coordinates are relative to a's
-/// origin; the fields are prepared for many questions.
+/// Narrows the bracket of two solids: points climb to local maxima, from `seeds` and from each
+/// deeper point found, and levels above these are searched until none may be deeper. Coordinates
+/// are relative to a's origin; the fields are prepared for many queries.
 void search_solid_depth(const DistanceField& a, const DistanceField& b, const DepthOptions& goal,
                         std::span<const Vec3d> seeds, Depth& depth, QueryContext& work);
 

@@ -22,12 +22,13 @@
 namespace strake::geometry {
 namespace {
 
-/// Planes of triangles in contact, and of triangles apart, that are tried for separating the parts.
+/// Number of planes of triangles in contact, and of triangles apart, that are tried for separating
+/// the parts.
 constexpr int kSeparationTries = 4;
 constexpr int kPartingTries = 16;
 
-/// Adds what a triangle's corners off the other's plane say, where the triangles meet along a
-/// segment through the other's interior: there the other part is a half-space, or itself.
+/// Adds what follows from a triangle's corners off the other's plane, where the triangles meet
+/// along a segment through the other's interior: there the other part is a half-space, or itself.
 void judge_corners(const CornerSides& sides, bool crosser_solid, bool face_solid, bool& interiors,
                    bool& crosser_leaves, bool& face_leaves) {
   const bool below = sides[0] < 0 || sides[1] < 0 || sides[2] < 0;
@@ -37,7 +38,7 @@ void judge_corners(const CornerSides& sides, bool crosser_solid, bool face_solid
     crosser_leaves |= above;
     face_leaves |= below && crosser_solid;
   } else {
-    // A sheet: the crossing triangle leaves it on either side.
+    // The face is of a sheet: the crossing triangle leaves it on either side.
     crosser_leaves = true;
   }
 }
@@ -78,7 +79,7 @@ bool ContactClassifier::touching(std::uint32_t ta, std::uint32_t tb, const Exact
   }
   const bool had_interiors = found_.overlap.interiors;
   judge(ta, tb, c);
-  // The point of a crossing says more than the point of a touch found before it.
+  // The point of a crossing is preferred to that of an earlier touch.
   if (found_.overlap.interiors && !had_interiors) stand_at(ta, tb, common_point(a, b, c));
   return !found_.overlap.complete();
 }
@@ -168,7 +169,7 @@ void ContactClassifier::edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t
   sectors_.judge(a_.solid(), b_.solid(), found_.overlap);
 }
 
-/// A side whose neighbourhood in either part is given by half-planes round it.
+/// Classifies an edge whose neighbourhood in either part is given by half-planes round it.
 template <class AddRays>
 void ContactClassifier::judge_rim(std::uint32_t ta, std::uint32_t tb, const Vec3d& point,
                                   const AddRays& add_rays) {
@@ -219,7 +220,7 @@ void ContactClassifier::take(const BoundaryIntersection& more) {
 
 namespace {
 
-/// Of so many pairs of triangles one that touches is often.
+/// One touching pair among so many pairs of triangles counts as often.
 constexpr std::uint64_t kOften = 8;
 
 /// Some triangles of a part, or none.
@@ -229,11 +230,11 @@ SlabPiece piece_of(const PairLocalPart& view, std::span<const std::uint32_t> tri
 
 class BoundaryTraversal {
  public:
-  /// `whole`: the views hold all of the parts, and a plane between those may be looked for.
+  /// `whole`: the views hold all of the parts, so that separating planes may be sought.
   BoundaryTraversal(const PairLocalPart& a, const PairLocalPart& b, bool whole)
       : a_(a), b_(b), whole_(whole), judge_(a, b, whole) {}
 
-  /// Everything, with the team's help where it is heavy.
+  /// Traverses everything, with the team where it is heavy.
   BoundaryIntersection run(QueryContext& work);
 
  private:
@@ -278,20 +279,20 @@ BoundaryIntersection BoundaryTraversal::run(QueryContext& work) {
   return judge_.found();
 }
 
-/// The rest of a walk of which so many node pairs are behind it.
+/// Finishes a traversal after so many node pairs.
 void BoundaryTraversal::finish(DualTraversal& walk, std::uint64_t walked, QueryContext& work) {
-  // Turning the parts costs as much as a walk of some node pairs a triangle.
+  // Rotating the parts costs as much as a traversal of some node pairs per triangle.
   const std::uint64_t before_turned =
       std::min(8 * node_pairs_before_slabs(a_, b_), kSequentialNodePairs);
   if (go_on(walk, before_turned - walked) != TraversalEnd::left_off) return;
-  // Where one pair of triangles in a few touches, other boxes would meet nearly as often.
+  // Where every few pairs of triangles touch, other boxes would overlap nearly as often.
   if ((kOften * judge_.touches() > cost_.triangle_pairs || !walk_aligned(work)) &&
       go_on(walk, kSequentialNodePairs - before_turned) == TraversalEnd::left_off)
     share(walk, work);
 }
 
-/// Everything once more in a frame along the parts' needles, if there are such: what has been found
-/// so far stays found.
+/// Traverses everything again in a frame along the parts' slivers, if there are such; what has been
+/// found so far is kept.
 bool BoundaryTraversal::walk_aligned(QueryContext& work) {
   const auto aligned = rotate_along_slivers(a_, b_, work.context());
   if (!aligned) return false;
@@ -301,7 +302,7 @@ bool BoundaryTraversal::walk_aligned(QueryContext& work) {
         [&](const NearTrianglePair& pair) { return piece.judge_.classify_pair(pair.a, pair.b); },
         most);
   };
-  // Boxes that meet are reason enough to judge a pair: bounds on its distance take longer.
+  // Overlapping boxes suffice to classify a pair: bounds on its distance take longer.
   constexpr double kAny = std::numeric_limits<double>::infinity();
   QueryContext own;
   DistanceTraversal walk(a_, b_, own, kAny, &*aligned);
@@ -320,8 +321,8 @@ bool BoundaryTraversal::walk_aligned(QueryContext& work) {
   return true;
 }
 
-/// Whether the heights of flat faces part what they can of two surfaces that have not met so far;
-/// what they leave open is walked.
+/// Whether the heights of flat faces separate most of two surfaces that have not met so far; pairs
+/// that they leave open are traversed.
 bool BoundaryTraversal::settle_by_heights(QueryContext& work) {
   if (judge_.found().boundaries_meet) return false;
   const auto pieces = partition_by_height(a_, b_, {.apart = std::numeric_limits<double>::min()});
@@ -333,7 +334,7 @@ bool BoundaryTraversal::settle_by_heights(QueryContext& work) {
   return true;
 }
 
-/// Some triangles of either part.
+/// Traverses some triangles of either part.
 void BoundaryTraversal::walk_piece(const PairLocalPart& a, const PairLocalPart& b,
                                    QueryContext& work) {
   BoundaryTraversal piece(a, b, false);
@@ -343,9 +344,9 @@ void BoundaryTraversal::walk_piece(const PairLocalPart& a, const PairLocalPart& 
   take(piece);
 }
 
-/// Faces of two solids in one coordinate plane whose triangles fan out from a corner of each touch
-/// in all pairs of them. What these say of the parts is said by the rims of the faces: round any
-/// other side of their triangles either part is but a half-space.
+/// Handles coplanar faces of two solids in a coordinate plane. If their triangles fan out from a
+/// corner of each, all pairs of them touch. The boundaries of the faces already give the result:
+/// round any other edge of their triangles either part is just a half-space.
 bool BoundaryTraversal::settle_flush(QueryContext& work) {
   if (!a_.solid() || !b_.solid()) return false;
   const std::vector<CoplanarFaces> planes = find_coplanar_faces(a_, b_);
@@ -367,7 +368,7 @@ bool BoundaryTraversal::settle_flush(QueryContext& work) {
     return left;
   };
   walk_some(piece_of(a_, rest(done_a)), piece_of(b_, rest(done_b)), work);
-  // Contacts in single points have not been looked at; where there are no others, one is a touch.
+  // Contacts in single points have not been visited; where there are no others, one is a touch.
   return judge_.found().boundaries_meet;
 }
 
@@ -380,7 +381,7 @@ void BoundaryTraversal::walk_some(const SlabPiece& of_a, const SlabPiece& of_b,
 void BoundaryTraversal::judge_rims(const CoplanarFaces& plane, const TriangleBvh& tree_a,
                                    const TriangleBvh& tree_b) {
   const FaceBoundary rim_a(a_, plane.a, plane.axis), rim_b(b_, plane.b, plane.axis);
-  // Near the other rim the triangles there are looked at, elsewhere a side lies in one face as a
+  // Near the other boundary its triangles are tested; elsewhere an edge lies in one face as a
   // whole, or in none.
   const auto judge = [&](const FaceBoundary& rim, const FaceBoundary& other,
                          const PairLocalPart& view, const TriangleBvh& tree,
@@ -422,7 +423,8 @@ TraversalEnd BoundaryTraversal::go_on(DualTraversal& walk, std::uint64_t most) {
       most);
 }
 
-/// What is left, in pieces that are judged apart and taken in the order of a single walk.
+/// Shares the rest: subtasks are classified independently and merged in the order of a sequential
+/// traversal.
 void BoundaryTraversal::share(DualTraversal& walk, const QueryContext& work) {
   const std::vector<NodePair> pieces = walk.rest(
       [&](const TriangleBvh::Node& na, const TriangleBvh::Node& nb) { return near(na, nb); },
@@ -440,7 +442,7 @@ void BoundaryTraversal::share_out(const std::vector<Entry>& pieces, const QueryC
   (void)run_in_doubling_rounds(
       work.context(), pieces,
       [&](std::size_t i) {
-        // A plane that separates is looked for over a whole part: one piece of a round may.
+        // A separating plane is tested on a whole part, so only one subtask of a round may.
         return BoundaryTraversal(a_, b_, whole_ && i == 0);
       },
       run,

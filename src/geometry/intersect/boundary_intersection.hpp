@@ -13,9 +13,11 @@
 #include "strake/geometry/part_pair.hpp"
 #include "strake/geometry/triangle_contact.hpp"
 
+// The intersection of two boundaries, and the classification of pairs of triangles.
+
 namespace strake::geometry {
 
-/// A set of shell numbers; parts with more than 64 shells are rare.
+/// A set of shell numbers, fast below 64: parts with more shells are rare.
 class ShellSet {
  public:
   void insert(std::uint32_t shell) {
@@ -46,55 +48,56 @@ class ShellSet {
   return part.shells.empty() ? 0 : part.shells[triangle];
 }
 
-/// What the contacts of two surfaces say of how the parts meet.
+/// The intersection of two parts' boundaries, and what follows from it for the parts.
 struct BoundaryIntersection {
   Overlap overlap;
   bool boundaries_meet = false;
-  std::uint32_t triangle_a = kNoIndex, triangle_b = kNoIndex;  ///< where, and at which point
+  std::uint32_t triangle_a = kNoIndex, triangle_b = kNoIndex;  ///< where they meet, if they do
   Vec3d point;
-  bool flush = false;           ///< some triangles lie on each other
-  bool separated = false;       ///< a plane decided: neither part has a point inside the other
-  ShellSet linear_a, linear_b;  ///< shells with contact along a segment or an area
+  bool flush = false;      ///< some triangles are coplanar and overlap
+  bool separated = false;  ///< a plane separates the parts: neither has a point inside the other
+  ShellSet linear_a, linear_b;  ///< shells that meet the other part along a segment or an area
 
-  /// Nothing that is still to come can change the answer.
+  /// Whether no further contact can change the result.
   [[nodiscard]] bool decided() const { return separated || overlap.complete(); }
 };
 
-/// Boxes of two nodes or parts that have a point in common, in the pair's coordinates.
+/// Whether the boxes of two nodes or parts have a point in common, in the pair's coordinates.
 [[nodiscard]] inline bool boxes_meet(const PairLocalPart& a, const Box3i& box_a,
                                      const PairLocalPart& b, const Box3i& box_b) {
   return a.box(box_a).meets(b.box(box_b));
 }
 
-/// Walks over the contacts of two planted parts until they have decided or there are no more. What
-/// is heavy is shared with the team of `work`.
+/// Visits the contacts of two parts with BVHs until they decide the result or there are no more.
+/// The team of `work` shares a heavy traversal.
 [[nodiscard]] BoundaryIntersection intersect_boundaries(const PairLocalPart& a,
                                                         const PairLocalPart& b, QueryContext& work);
 
-/// Says of pairs of triangles of two parts, one after the other, what their contacts mean for the
-/// parts: what each touch adds, and whether a plane parts them all.
+/// Classifies pairs of triangles of two parts, one after the other: what each contact adds to the
+/// result for the parts, and whether a plane separates the parts.
 class ContactClassifier {
  public:
-  /// `whole`: to try whether a plane parts all of a from all of b, of which there is nothing but
-  /// what the views show.
+  /// `whole`: the views show all of both parts, so that separating planes are tried.
   ContactClassifier(const PairLocalPart& a, const PairLocalPart& b, bool whole)
       : a_(a), b_(b), whole_(whole) {}
 
   [[nodiscard]] const BoundaryIntersection& found() const { return found_; }
-  /// How many of the pairs of triangles had a point in common.
+  /// Returns how many of the pairs of triangles had a point in common.
   [[nodiscard]] std::uint64_t touches() const { return touches_; }
 
-  /// A triangle of each part, ready or not. Tells whether to go on: nothing has decided so far.
+  /// Classifies a triangle of each part, prepared or not. Returns whether to go on: the result is
+  /// still undecided.
   bool classify_pair(std::uint32_t ta, std::uint32_t tb);
   bool classify_pair(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a,
                      const ExactTriangle& b);
 
-  /// A side at the rim of a's faces in a coordinate plane, or of b's, that runs inside a face of
-  /// the other part in that plane, of which a triangle is given. `point`: some point of the side.
+  /// Adds a boundary edge of a's faces in a coordinate plane, or of b's, that runs inside a
+  /// coplanar face of the other part, of which a triangle is given. `point`: some point of the
+  /// edge.
   void rim_in_face_of_b(const TriangleEdge& side, std::uint32_t tb, const Vec3d& point);
   void rim_in_face_of_a(const TriangleEdge& side, std::uint32_t ta, const Vec3d& point);
 
-  /// Adds what other pairs of triangles of the same parts have said.
+  /// Adds the result of other pairs of triangles of the same parts.
   void take(const BoundaryIntersection& more);
 
  private:

@@ -10,21 +10,21 @@
 #include "geometry/numeric/triangle_math.hpp"
 #include "strake/geometry/part_pair.hpp"
 
-// How the meeting is decided. Write int, ext for the open inside and outside of a body, bd for its
-// boundary. If int A meets int B then bd A has a point in int B, or bd B one in int A, or the
-// bodies share a component and so two coplanar triangles with equal normals overlap. A piece of
-// bd A between contacts with bd B lies in int B or in ext B as a whole. Either its rim holds a
-// segment of contact, and then the half-planes round that segment show on which side it lies
-// (Sectors); or it is a whole shell, connected through edges, and one probe off bd B tells.
-// Contacts in single points need nothing else. `a leaves b` is the same question with the inside
-// and outside of b exchanged, so one walk over the contacts answers all three. A crossing answers
-// all at once.
+// How the relation of two parts is decided. Write int, ext for the open interior and exterior of a
+// body, bd for its boundary. If int A meets int B then bd A has a point in int B, or bd B one in
+// int A, or the bodies share a component and so two coplanar triangles with equal normals overlap.
+// A piece of bd A between contacts with bd B lies in int B or in ext B as a whole. Either its
+// border holds a segment of contact, and then the half-planes round that segment show on which side
+// it lies (RadialSort); or it is a whole shell, connected through edges, and one probe off bd B
+// decides. Contacts in single points need nothing else. `a leaves b` is the same question with int
+// B and ext B exchanged, so one traversal of the contacts answers all three. A crossing answers all
+// at once.
 
 namespace strake::geometry {
 namespace {
 
-/// Triangles tried on a shell that already has contact along a segment: only meshes that overlap
-/// themselves can still surprise there.
+/// Number of triangles probed on a shell that already has contact along a segment: only meshes that
+/// overlap themselves can change the result there.
 constexpr int kExtraProbes = 3;
 
 class Meeter {
@@ -51,7 +51,7 @@ class Meeter {
 };
 
 /// Probes a rational point of one part's surface against the other part; false when it lies on the
-/// other's surface and so says nothing.
+/// other's surface and so decides nothing.
 bool Meeter::probe(bool of_b, const Vec3l& numerator, std::int64_t denominator) {
   const PartWithBvh& other = of_b ? treed_a_ : treed_b_;
   const Vec3l shift = of_b ? a_.shift() : b_.shift();
@@ -70,8 +70,8 @@ bool Meeter::probe(bool of_b, const Vec3l& numerator, std::int64_t denominator) 
   return true;
 }
 
-/// Tries points of a triangle until one is off the other surface: corners and the middle, then,
-/// where asked, the middles of the edges and points of the inside with ever larger denominators.
+/// Tries points of a triangle until one is off the other surface: vertices and the centroid, then,
+/// if thorough, the edge midpoints and interior points with ever larger denominators.
 bool Meeter::probe_triangle(bool of_b, std::uint32_t triangle, bool thorough) {
   const std::array<Vec3l, 3> t = (of_b ? b_ : a_).corners(triangle);
   for (const Vec3l& p : t)
@@ -86,8 +86,7 @@ bool Meeter::probe_triangle(bool of_b, std::uint32_t triangle, bool thorough) {
   return false;
 }
 
-/// Probes every shell without contact along a segment, and for good measure a few triangles of the
-/// others.
+/// Probes every shell without contact along a segment, and a few triangles of the others.
 void Meeter::probe_shells(bool of_b) {
   const PairLocalPart& view = of_b ? b_ : a_;
   const PairLocalPart& other = of_b ? a_ : b_;
@@ -135,7 +134,7 @@ MeetingResult Meeter::run() {
   contacts_ = intersect_boundaries(a_, b_, work_);
   Overlap& overlap = contacts_.overlap;
   if (!contacts_.decided()) {
-    // Where they lie on each other, one may go on to the other side elsewhere.
+    // Where they overlap in a common area, one may continue to the other side elsewhere.
     if (contacts_.flush && !overlap.interiors && !a_.solid() && !b_.solid())
       overlap.interiors = !find_intersection_segments(treed_a_, treed_b_, 1, work_).all.empty();
     if (!overlap.complete()) probe_shells(false);

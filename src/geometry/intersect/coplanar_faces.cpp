@@ -73,7 +73,7 @@ Point2d as_double(const FacePoint& p) {
   return {static_cast<double>(p.u), static_cast<double>(p.v)};
 }
 
-/// Where two segments cross at interior points, if they do.
+/// Returns where two segments cross at interior points, if they do.
 std::optional<Point2d> crossing(const FacePoint& a, const FacePoint& b, const FacePoint& c,
                                 const FacePoint& d) {
   if (turn(a, b, c) * turn(a, b, d) >= 0 || turn(c, d, a) * turn(c, d, b) >= 0) return std::nullopt;
@@ -83,7 +83,8 @@ std::optional<Point2d> crossing(const FacePoint& a, const FacePoint& b, const Fa
   return Point2d{p[0] + (q[0] - p[0]) * (num / den), p[1] + (q[1] - p[1]) * (num / den)};
 }
 
-/// A point that two patches share: decided exactly, by corners in the other and edges that cross.
+/// Returns a point that two patches share: decided exactly, by corners in the other and edges that
+/// cross.
 std::optional<Point2d> common_point(const Patch& x, const Patch& y) {
   for (std::size_t i = 0; i < x.count; ++i)
     if (contains(y, x.point[i])) return as_double(x.point[i]);
@@ -113,12 +114,12 @@ std::int32_t Vec3i::* coordinate(int axis) {
   return axis == 0 ? &Vec3i::x : axis == 1 ? &Vec3i::y : &Vec3i::z;
 }
 
-/// What of a part lies in the plane: `whole`: its triangles there, which are what bodies rest on;
+/// Returns the patches of a part in the plane. `whole`: its triangles there, on which bodies rest;
 /// otherwise the edges and corners of the others.
 std::vector<Patch> patches_in(const Part& part, const Vec3l& shift, const Plane& plane,
                               bool whole) {
   std::vector<Patch> patches;
-  // The plane touches the part's box, so that its place there fits the part's coordinates.
+  // The plane touches the part's box, so that its position fits the part's coordinates.
   const auto at = static_cast<std::int32_t>(plane.at - shift[plane.axis]);
   std::int32_t Vec3i::* const along = coordinate(plane.axis);
   const auto on = [&](std::uint32_t v) { return part.vertices[v].*along == at; };
@@ -139,14 +140,14 @@ std::vector<Patch> patches_in(const Part& part, const Vec3l& shift, const Plane&
   return sorted;
 }
 
-/// The plane in which two boxes meet, with what of the two bodies lies in it.
+/// The plane in which two boxes meet, with the patches of the two bodies in it.
 class ContactPlane {
  public:
   ContactPlane(const PlacedPart& a, const PlacedPart& b, const Plane& plane)
       : a_(*a.part), b_(*b.part), shift_(b.origin - a.origin), plane_(plane) {}
 
-  /// A point that both have there: of two whole triangles, if there is one, or else of any two
-  /// patches; nothing also when there are too many to look at.
+  /// Returns a common point in the plane: of two whole triangles, if there is one, or else of any
+  /// two patches; nothing also when there are too many.
   [[nodiscard]] std::optional<Point2d> find() const {
     const std::vector<Patch> whole_a = patches_in(a_, {}, plane_, true);
     std::vector<Patch> whole_b;
@@ -209,9 +210,9 @@ CoplanarContact find_coplanar_contact(const PlacedPart& a, const PlacedPart& b) 
 
 namespace {
 
-/// Fewer triangles in a plane are walked as quickly, and more planes are not looked at.
+/// Planes with fewer triangles are traversed as quickly; at most so many planes are handled.
 constexpr std::size_t kFewestTriangles = 16, kMostPlanes = 8;
-/// Least share of all pairs of triangles that has to lie in the planes, as a divisor.
+/// The least share of all pairs of triangles that has to lie in the planes, as a divisor.
 constexpr std::size_t kShare = 64;
 
 /// A triangle in a coordinate plane.
@@ -219,7 +220,7 @@ struct Lying {
   int axis = 0;
   std::int64_t height = 0;
   std::uint32_t triangle = 0;
-  bool along = false;  ///< it looks along the axis
+  bool along = false;  ///< its normal points along the axis
 
   [[nodiscard]] auto plane() const { return std::tie(axis, height); }
 };
@@ -239,7 +240,7 @@ std::vector<Lying> lying(const PairLocalPart& view) {
   return all;
 }
 
-/// Of a part: the triangles of each plane, if many and all facing one way.
+/// The triangles of a part in each plane, if many and all facing one way.
 struct PlaneFaces {
   const Lying* first = nullptr;
   std::vector<std::uint32_t> triangles;
@@ -319,7 +320,7 @@ std::vector<CoplanarFaces> find_coplanar_faces(const PairLocalPart& a, const Pai
   return planes;
 }
 
-/// Of two segments whose boxes meet: where all lies in one line these have told.
+/// The boxes of the two segments meet: for collinear segments that decides.
 bool FaceBoundary::share_point(const std::array<Vec3l, 2>& s, const std::array<Vec3l, 2>& t) const {
   const auto parted_by = [&](const std::array<Vec3l, 2>& x, const std::array<Vec3l, 2>& y) {
     return orient2d(x[0], x[1], y[0], axis_) * orient2d(x[0], x[1], y[1], axis_) > 0;
@@ -375,7 +376,7 @@ std::optional<std::uint32_t> FaceBoundary::face_containing(const Vec3l& p) const
     const Box3l box = view_.box(node.box);
     return box.hi[along] >= p[along] && box.lo[across] <= p[across] && box.hi[across] >= p[across];
   };
-  // A ray along the first coordinate; a side has its lower end, not its upper one.
+  // Cast a ray along the first coordinate; an edge includes its lower end, not its upper one.
   int winding = 0;
   std::optional<std::uint32_t> nearest;
   Int128 first = 0, first_rise = 0;
@@ -387,7 +388,7 @@ std::optional<std::uint32_t> FaceBoundary::face_containing(const Vec3l& p) const
     if (orient2d(low, high, p, axis_) < 0) return true;  // the ray starts beyond it
     winding += up;
     if (up != facing_) return true;  // the face lies on the far side
-    // Where it is met, from p on: a ratio.
+    // The hit's distance from p as a ratio.
     const Int128 rise = high[across] - low[across];
     const Int128 way = (low[along] - p[along]) * rise +
                        Int128{p[across] - low[across]} * (high[along] - low[along]);

@@ -34,7 +34,7 @@ GridLine line_end_edge(const PairLocalPart& view, std::uint32_t triangle, int ed
   return {c[at(edge)], c[at(next_corner(edge))], LineKind::segment};
 }
 
-/// Where an edge of a triangle meets the plane of another.
+/// Returns where an edge of a triangle meets the plane of another.
 Vec3l end_at(const TriangleCorners& of, const EdgeAtPlane& end, const TriangleCorners& plane) {
   const GridLine edge{of[at(end.from)], of[at(end.to)], LineKind::segment};
   const Vec3<Int128> normal = cross_exact(plane[1] - plane[0], plane[2] - plane[0]);
@@ -43,7 +43,7 @@ Vec3l end_at(const TriangleCorners& of, const EdgeAtPlane& end, const TriangleCo
   return rounded_at(edge, {below, below + above});
 }
 
-/// What two triangles have in common that cross with their insides.
+/// Returns the common segment of two triangles whose interiors cross.
 Segment within_both(const ExactTriangle& a, const ExactTriangle& b) {
   Segment ends;
   std::ranges::transform(
@@ -57,7 +57,7 @@ Segment rounded(const GridLine& line, const Rational& from, const Rational& to) 
   return {rounded_at(line, from), rounded_at(line, to)};
 }
 
-/// Of a stretch in the line of an edge.
+/// Returns the common segment on the line of an edge.
 std::optional<Segment> along_edge(const PairLocalPart& a, const PairLocalPart& b,
                                   const IntersectionSegment& p) {
   if (p.edge_a >= 0 && p.edge_b >= 0) {
@@ -82,7 +82,8 @@ bool lies_along(const ExactTriangle& t, const ExactTriangle& other, double dista
   });
 }
 
-/// The ends of a piece; nothing where it is no line, or one of faces that are meant to touch.
+/// Returns the ends of a segment; nothing where it is a point, or one of faces that are meant to
+/// touch.
 std::optional<Segment> ends_of(const PairLocalPart& a, const PairLocalPart& b, double flush,
                                const IntersectionSegment& piece) {
   if (piece.edge_a >= 0 || piece.edge_b >= 0) return along_edge(a, b, piece);
@@ -91,7 +92,7 @@ std::optional<Segment> ends_of(const PairLocalPart& a, const PairLocalPart& b, d
   return within_both(x, y);
 }
 
-/// Each stretch once, ascending.
+/// Returns the segments, sorted and without duplicates.
 std::vector<Stretch> stretches_of(const PairLocalPart& a, const PairLocalPart& b, double flush,
                                   const std::vector<IntersectionSegment>& pieces) {
   std::vector<Stretch> all;
@@ -115,14 +116,14 @@ bool lies_in(const TriangleCorners& t, const ExactTriangle& plane) {
   return std::ranges::all_of(t, [&](const Vec3l& p) { return plane.plane.side(p) == 0; });
 }
 
-/// A triangle, or all that are round an edge of it.
+/// Returns a triangle, or all triangles at an edge of it.
 std::span<const std::uint32_t> triangles_at(const PairLocalPart& view,
                                             const std::uint32_t& triangle, int edge) {
   if (edge < 0) return {&triangle, 1};
   return edge_star(view.part(), triangle, edge);
 }
 
-/// The planes of a part that two pieces share, each as one of its triangles.
+/// Returns the planes of a part that two segments share, each as one of its triangles.
 std::vector<ExactTriangle> shared_planes(const PairLocalPart& view,
                                          std::span<const std::uint32_t> x,
                                          std::span<const std::uint32_t> y) {
@@ -136,7 +137,7 @@ std::vector<ExactTriangle> shared_planes(const PairLocalPart& view,
   return shared;
 }
 
-/// Stretches joined end to end where just two meet that share both planes: these are one line.
+/// Joins segments end to end where just two meet that share both planes: these are one line.
 class Joiner {
  public:
   Joiner(const PairLocalPart& a, const PairLocalPart& b, std::vector<Stretch> stretches)
@@ -160,7 +161,7 @@ class Joiner {
  private:
   static constexpr std::size_t kEnd = std::numeric_limits<std::size_t>::max();
 
-  // The ends of stretch i have the numbers 2i and 2i + 1.
+  // The ends of segment i have the numbers 2i and 2i + 1.
   static std::size_t other(std::size_t end) { return end ^ 1U; }
   [[nodiscard]] const Vec3l& point(std::size_t end) const { return all_[end / 2].at[end % 2]; }
 
@@ -184,8 +185,8 @@ class Joiner {
         shared_planes(a_, triangles_at(a_, s.a, s.edge_a), triangles_at(a_, t.a, t.edge_a));
     const auto of_b =
         shared_planes(b_, triangles_at(b_, s.b, s.edge_b), triangles_at(b_, t.b, t.edge_b));
-    // Where the planes are two they have one line in common; where the skins lie on each other they
-    // may be one.
+    // Two different planes have one line in common; where the surfaces overlap they may be one
+    // plane.
     const bool collinear = std::ranges::any_of(of_a, [&](const ExactTriangle& plane) {
       return std::ranges::any_of(
           of_b, [&](const ExactTriangle& other) { return !lies_in(other.corner, plane); });
@@ -197,7 +198,7 @@ class Joiner {
 
   const PairLocalPart &a_, &b_;
   std::vector<Stretch> all_;
-  std::vector<std::size_t> next_;  ///< by end: the end that goes on from there
+  std::vector<std::size_t> next_;  ///< by end: the end that continues from there
 };
 
 std::vector<Segment> lines_of(const PairLocalPart& a, const PairLocalPart& b, std::int64_t flush,

@@ -27,9 +27,9 @@ namespace {
 
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-/// Pairs of triangles that lie on each other, joined to areas over the lines where one goes on into
-/// the next. Each pair says by b's triangle which side is the outer one; along a join the two may
-/// call the same side differently.
+/// Pairs of coplanar, overlapping triangles, united to areas over the lines where one continues
+/// into the next. In each pair b's triangle defines the outer side; two united pairs may define it
+/// differently.
 class CommonAreas {
  public:
   using Key = std::uint64_t;
@@ -43,7 +43,7 @@ class CommonAreas {
     if (f.outer || f.inner) leaves_.push_back({key(f), f.outer, f.inner, piece});
   }
 
-  /// Adds where one sheet leaves the other along areas that it leaves on both sides.
+  /// Adds the segments where one sheet leaves the other, for areas that it leaves on both sides.
   void cross(std::vector<IntersectionSegment>& pieces) {
     if (leaves_.empty()) return;
     number();
@@ -93,8 +93,8 @@ class SegmentFinder {
                 std::function<bool(const IntersectionSegment&)> enough = {})
       : a_(a), b_(b), most_(most), enough_(std::move(enough)) {}
 
-  /// Looks at a pair of triangles; each pair that has more than a point in common must come once.
-  /// Whether to go on.
+  /// Processes a pair of triangles; each pair that has more than a point in common must be passed
+  /// once. Returns whether to go on.
   bool look(std::uint32_t ta, const ExactTriangle& s, std::uint32_t tb, const ExactTriangle& t) {
     ++triangle_pairs_;
     judge(ta, tb, contact(s, t));
@@ -129,7 +129,8 @@ class SegmentFinder {
     }
   }
 
-  /// Every triangle round an edge meets what the edge meets: one of them is enough.
+  /// Whether a triangle represents an edge: each triangle at an edge meets what the edge meets, so
+  /// one is enough.
   static bool speaks_for(const PairLocalPart& view, std::uint32_t triangle, int edge) {
     return edge_star(view.part(), triangle, edge).front() == triangle;
   }
@@ -159,7 +160,7 @@ class SegmentFinder {
       add(piece);
       return;
     }
-    // Over two directions the common area goes on; where there are more it forks.
+    // With two directions the common area continues; with more it forks.
     const bool goes_on = sectors_.find_coincident(flush_) == 2;
     for (std::size_t i = 0; i < flush_.size(); ++i) {
       areas_.leave(flush_[i], piece);
@@ -215,7 +216,7 @@ class LoadedLeaf {
   std::array<std::optional<ExactTriangle>, TriangleBvh::kLeafSize> triangle_;
 };
 
-/// Shows a finder what the trees of two parts do not keep apart, until it has enough.
+/// Passes a finder the pairs that the trees of two parts do not separate, until it has enough.
 void walk_trees(const PairLocalPart& a, const PairLocalPart& b, SegmentFinder& finder,
                 QueryContext& work) {
   if (!a.has_bvh() || !b.has_bvh()) return;
@@ -238,15 +239,15 @@ void walk_trees(const PairLocalPart& a, const PairLocalPart& b, SegmentFinder& f
       });
 }
 
-/// Whether axes are those of the coordinates in some order, but for rounding.
+/// Whether axes are the coordinate axes in some order, but for rounding.
 bool along_coordinates(const Axes& axes) {
   return std::ranges::all_of(axes, [](const Vec3d& axis) {
     return std::max({std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)}) > 1 - 1e-12;
   });
 }
 
-/// Along the coordinate axes, or those along the faces of the part of more triangles, or of the
-/// other, where that makes many pairs fewer.
+/// Returns a sweep along the coordinate axes, or along the faces of the part of more triangles, or
+/// of the other, where that makes far fewer pairs.
 SweepAndPrune sweep_of(const PairLocalPart& a, const OrientedBox& frame_a, const PairLocalPart& b,
                        const OrientedBox& frame_b) {
   const std::size_t most = a.part().triangles.size() + b.part().triangles.size();
@@ -300,7 +301,7 @@ std::vector<IntersectionSegment> find_intersection_segments_brute_force(const Pl
 
 namespace {
 
-/// Where segment p-q pierces a triangle or ends on it.
+/// Returns where segment p-q pierces a triangle or ends on it.
 std::optional<Vec3d> pierce(const Vec3d& p, const Vec3d& q, const Corners& t) {
   const Vec3d n = normal_of(t);
   const double sp = dot(n, p - t[0]), sq = dot(n, q - t[0]);
@@ -312,7 +313,7 @@ std::optional<Vec3d> pierce(const Vec3d& p, const Vec3d& q, const Corners& t) {
   return x;
 }
 
-/// What two triangles that cross have in common.
+/// Returns the common segment of two triangles that cross.
 std::optional<DoubleSegment> common_segment(const Corners& x, const Corners& y) {
   std::array<Vec3d, 6> points;
   std::size_t count = 0;
@@ -328,14 +329,14 @@ std::optional<DoubleSegment> common_segment(const Corners& x, const Corners& y) 
   return best;
 }
 
-/// The part of a segment from `low` to `high` of its length.
+/// Returns the part of a segment from `low` to `high` of its length.
 std::optional<DoubleSegment> part_of(const DoubleSegment& s, double low, double high) {
   if (!(low < high)) return std::nullopt;
   const Vec3d along = s[1] - s[0];
   return DoubleSegment{s[0] + along * low, s[0] + along * high};
 }
 
-/// What a segment in a triangle's plane has in common with it.
+/// Returns the part of a segment in a triangle's plane that lies in the triangle.
 std::optional<DoubleSegment> clipped(const DoubleSegment& s, const Corners& t) {
   const Vec3d n = normal_of(t);
   double low = 0, high = 1;
@@ -349,7 +350,7 @@ std::optional<DoubleSegment> clipped(const DoubleSegment& s, const Corners& t) {
   return part_of(s, low, high);
 }
 
-/// What two segments of one line have in common.
+/// Returns the common part of two collinear segments.
 std::optional<DoubleSegment> common_stretch(const DoubleSegment& s, const DoubleSegment& t) {
   const Vec3d along = s[1] - s[0];
   const double scale = 1 / dot(along, along);

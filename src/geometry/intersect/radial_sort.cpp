@@ -34,7 +34,7 @@ void RadialSort::sort() {
   const auto turn = [this](const Sorted& x, const Sorted& y) {
     return orient3d(from_, to_, x.ray.point, y.ray.point);
   };
-  // Insertion sort: nearly always four rays.
+  // Insertion sort: there are nearly always four half-planes.
   for (std::size_t i = 1; i < sorted_.size(); ++i)
     for (std::size_t j = i; j > 0; --j) {
       const Sorted &x = sorted_[j - 1], &y = sorted_[j];
@@ -61,7 +61,7 @@ void RadialSort::gather() {
     d.after_a = a;
     d.after_b = b;
   }
-  // Only differences are known here; somewhere round an edge of the boundary is outside.
+  // Only differences are known here; some angle round an edge of the boundary is outside.
   int lowest_a = directions_.front().after_a, lowest_b = directions_.front().after_b;
   for (const Direction& d : directions_) {
     lowest_a = std::min(lowest_a, d.after_a);
@@ -74,7 +74,7 @@ void RadialSort::gather() {
 }
 
 void RadialSort::judge_sheets(Overlap& overlap) const {
-  // Along the pure directions a, b, a, b in turn: each passes through the other.
+  // If the pure directions alternate a, b, a, b, each passes through the other.
   int changes = 0;
   const Direction* previous = nullptr;
   const Direction* first = nullptr;
@@ -90,8 +90,8 @@ void RadialSort::judge_sheets(Overlap& overlap) const {
   if (changes >= 4) overlap.interiors = true;
 }
 
-/// Whether one sheet has a half-plane of its own between direction `from` and the next of the
-/// other, going on by `step`; -1 where the other has no next one: there it ends.
+/// Returns whether one sheet has a half-plane of its own between direction `from` and the next of
+/// the other, stepping by `step`; -1 where the other has no next one: there it ends.
 int RadialSort::other_leaves(std::size_t from, std::size_t step, bool b_leaves) const {
   const std::size_t count = directions_.size();
   bool leaves = false;

@@ -9,6 +9,8 @@
 #include "geometry/bvh/pair_local_part.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Half-planes sorted round an edge, and what their order shows of two parts.
+
 namespace strake::geometry {
 
 /// A half-plane bounded by the axis, given by a point off the axis. Going counter-clockwise round
@@ -20,18 +22,18 @@ struct HalfPlane {
   std::uint32_t triangle = 0;  ///< whose half-plane it is
 };
 
-/// Two triangles of two sheets that lie on each other beside the axis.
+/// Two triangles of two sheets whose half-planes beside the axis coincide.
 struct CoincidentTriangles {
   std::uint32_t a = 0, b = 0;
-  int direction = 0;  ///< a number for each direction in which there are such
+  int direction = 0;  ///< number of the direction that they share
   int step = 0;       ///< that of b's half-plane
-  /// The sheets part at the axis, and a goes on along the outer side of b's triangle, or along the
+  /// The sheets separate at the axis, and a continues on the outer side of b's triangle, or on the
   /// inner one.
   bool outer = false, inner = false;
 };
 
-/// What two parts' point sets have in common, gathered from places where their surfaces meet.
-/// For a sheet "interior" is the sheet itself.
+/// How two parts' point sets overlap, gathered where their surfaces meet. For a sheet the
+/// "interior" is the sheet itself.
 struct Overlap {
   bool interiors = false;   ///< int a meets int b (sheets: crosses it properly)
   bool a_leaves_b = false;  ///< a has a point outside b
@@ -40,7 +42,8 @@ struct Overlap {
   [[nodiscard]] constexpr bool complete() const { return interiors && a_leaves_b && b_leaves_a; }
 };
 
-/// The half-planes of two parts round a common line, and what they say of the sets near it.
+/// Sorts the half-planes of two parts round a common line, and derives how the sets overlap near
+/// it.
 class RadialSort {
  public:
   void start(const Vec3l& axis_from, const Vec3l& axis_to) {
@@ -56,15 +59,16 @@ class RadialSort {
   /// are compared by orientation signs only.
   void judge(bool a_solid, bool b_solid, Overlap& overlap);
 
-  /// After judge() of two sheets: those of their triangles that lie on each other, by direction;
-  /// `flush` is emptied before. Returns in how many directions that is.
+  /// After judge() of two sheets, fills `flush` with the triangles whose half-planes coincide, by
+  /// direction. Returns the number of such directions.
   int find_coincident(std::vector<CoincidentTriangles>& flush) const;
 
  private:
   struct Sorted {
     HalfPlane ray;
-    int half = 0;  ///< 0 the first ray's direction, 1 up to half a turn on, 2 opposite, 3 beyond
-    bool opens = false;  ///< the first of its direction
+    int half =
+        0;  ///< 0 first half-plane's direction, 1 less than half a turn on, 2 opposite, 3 beyond
+    bool opens = false;  ///< it is the first of its direction
   };
   struct Direction {
     bool has_a = false, has_b = false;
@@ -83,22 +87,22 @@ class RadialSort {
   std::vector<Direction> directions_;
 };
 
-/// The triangles round an edge (0..2) of a triangle, ascending.
+/// Returns the triangles that share an edge (0..2) of a triangle, ascending.
 [[nodiscard]] std::span<const std::uint32_t> edge_star(const Part& part, std::uint32_t triangle,
                                                        int edge);
 
 /// Makes an edge of a triangle the axis.
 void set_axis(RadialSort& sectors, const PairLocalPart& view, std::uint32_t triangle, int edge);
 
-/// Adds the half-planes of the triangles round an edge that lies on the axis.
+/// Adds the half-planes of the triangles at an edge that lies on the axis.
 void add_edge_star(RadialSort& sectors, const PairLocalPart& view, std::uint32_t triangle, int edge,
                    bool of_b);
 
 /// Adds the two half-planes of a triangle through whose interior the axis runs.
 void add_face(RadialSort& sectors, const PairLocalPart& view, std::uint32_t triangle, bool of_b);
 
-/// The same for an axis through the interior of a face in a coordinate plane, of which a triangle
-/// is given.
+/// Adds the two half-planes of a face in a coordinate plane, through whose interior the axis runs;
+/// one of its triangles is given.
 void add_coordinate_face(RadialSort& sectors, const PairLocalPart& view, std::uint32_t triangle,
                          bool of_b);
 

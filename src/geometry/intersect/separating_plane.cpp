@@ -14,7 +14,7 @@
 namespace strake::geometry {
 namespace {
 
-/// Parts with fewer vertices are tested one by one: cheaper than walking the tree.
+/// Parts with fewer vertices are tested vertex by vertex: cheaper than traversing the tree.
 constexpr std::size_t kFewPlaneVertices = 48;
 
 Vec3d absolute(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
@@ -31,7 +31,7 @@ class SideWalk {
              largest_component(absolute((t.corner[2] - t.corner[0]).as<double>()));
   }
 
-  /// False at the first vertex on the wrong side.
+  /// Whether all vertices are on the wanted side; stops at the first that is not.
   [[nodiscard]] bool all_on_side(const PairLocalPart& view);
   [[nodiscard]] bool leaves_plane() const { return leaves_plane_; }
 
@@ -41,7 +41,7 @@ class SideWalk {
     leaves_plane_ |= side > 0;
     return side >= least_;
   }
-  /// Certain that all of the box lies strictly on the wanted side.
+  /// Whether all of the box certainly lies strictly on the wanted side.
   [[nodiscard]] bool clear(const Box3l& box) const {
     const Vec3d centre = (box.lo + box.hi).as<double>() * 0.5 - anchor_;
     const Vec3d half = (box.hi - box.lo).as<double>() * 0.5;
@@ -103,10 +103,10 @@ namespace {
 /// Most vertices of a times triangles of b.
 constexpr std::size_t kMostSides = std::size_t{1} << 16U;
 
-/// The planes that were last found to have a on one side: files write faces in turns.
+/// The planes last found to have a on one side: files often alternate between faces.
 class RecentPlanes {
  public:
-  /// Whether a triangle lies in one of them, which then is the last.
+  /// Whether a triangle lies in one of them, which then becomes the latest.
   bool holds(const ExactTriangle& t) {
     for (std::size_t i = 0; i < planes_.size() && planes_[i]; ++i) {
       const ExactPlane& plane = *planes_[i];

@@ -8,32 +8,31 @@
 
 namespace strake::geometry {
 
-/// The volume of the part common to two solids, cubic grid units.
+/// The volume of the intersection of two solids, cubic grid units.
 struct IntersectionVolume {
   double volume = 0;
   double lower = 0, upper = 0;  ///< certain: the arithmetic is off by no more than this
   std::uint64_t triangle_pairs = 0;
 };
 
-/// Volume of the intersection of two solids as they are on the grid: a body with a primitive counts
-/// as its tessellation. Nothing when the answer would take more than `most_work` pairs of triangles
-/// or nodes, and for parts that are no solids.
+/// Returns the volume of the intersection of two solids as they are on the grid: a body with a
+/// primitive counts as its tessellation. Nothing when this would take more than `most_work` pairs
+/// of triangles or nodes, and for parts that are no solids.
 ///
 ///     const auto common = intersection_volume(pipe, wall, 1000000);
 ///     if (common) use(common->volume);
 ///
 /// Along a coordinate axis w a solid is a sum over its triangles, +1 below those that face up, -1
-/// below those that face down. So the volume is the sum over pairs of triangles of
-/// ±∫ max(min(w_a, w_b), bottom) - bottom over the common part of their projections: a convex
-/// polygon cut where the two planes meet. Triangles parallel to the axis drop out, and with them
-/// every degenerate case: flush faces, shared edges, copies and bodies inside bodies are sums like
-/// any other.
+/// below those that face down. So the volume is the sum over pairs of triangles of ±∫ max(min(w_a,
+/// w_b), bottom) - bottom over the common part of their projections: a convex polygon cut where the
+/// two planes meet. Triangles parallel to the axis drop out, and with them every degenerate case:
+/// coplanar faces, shared edges, copies and bodies inside bodies are sums like any other.
 ///
 /// 1. The bracket is certain: rounding is bounded term by term.
-/// 2. A function of the two parts and how they stand to each other; same bits for any place.
-/// 3. Not promised: the same bits for swapped or turned parts (brackets then overlap).
-/// Exact for parts as analyse() makes them, winding number 0 or 1; what a mesh that crosses itself
-/// covers twice counts twice.
+/// 2. The result depends on the two parts and their relative position only; the same bits anywhere.
+/// 3. Swapped or rotated parts may give other bits (the brackets then overlap). The result holds
+///    for parts as repair_mesh() makes them, with winding numbers 0 or 1; what a self-intersecting
+///    mesh covers twice counts twice.
 [[nodiscard]] std::optional<IntersectionVolume> intersection_volume(const PartWithBvh& a,
                                                                     const PartWithBvh& b,
                                                                     std::uint64_t most_work);

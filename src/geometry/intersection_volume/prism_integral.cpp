@@ -34,7 +34,7 @@ PrismCorner between(const PrismCorner& p, const PrismCorner& q, double t) {
           p.zb + t * (q.zb - p.zb)};
 }
 
-/// What of a convex polygon lies where `height` of a corner is not negative.
+/// Returns the part of a convex polygon where `height` is not negative.
 template <class Height>
 PrismBase cut(const PrismBase& polygon, Height&& height) {
   std::array<double, kMostCorners> at{};

@@ -10,7 +10,7 @@
 namespace strake::geometry {
 
 /// A triangle seen along the axis of integration: x and y span its projection, z is the height
-/// above the floor. Coordinates are whole grid units about the corner of the pair's common box.
+/// above the floor. Coordinates are whole grid units about a corner of the pair's common box.
 struct ProjectedTriangle {
   std::array<Vec3d, 3> corner;  ///< counter-clockwise as projected
   Vec3d lo, hi;
@@ -18,7 +18,7 @@ struct ProjectedTriangle {
   double sign = 0;                  ///< +1 faces up, -1 faces down, 0 is parallel to the axis
 
   ProjectedTriangle() = default;
-  /// Corners in the order of the part, which decides the sign; whole numbers below 2^33.
+  /// Takes the corners in the order of the part, which decides the sign; whole numbers below 2^33.
   explicit ProjectedTriangle(const std::array<Vec3l, 3>& corners);
 };
 
@@ -27,7 +27,7 @@ struct PrismIntegral {
   double value = 0, error = 0;
 };
 
-/// Neither facet is parallel to the axis.
+/// Returns the integral over two triangles, neither parallel to the axis.
 [[nodiscard]] PrismIntegral prism_integral(const ProjectedTriangle& a, const ProjectedTriangle& b);
 
 }  // namespace strake::geometry

@@ -24,7 +24,7 @@ struct BodySimplex {
   Box3d box;
 
   [[nodiscard]] std::span<const Vec3l> corners() const { return {corner.data(), count}; }
-  /// As a flat convex body: the last corner over again.
+  /// Returns the simplex as a flat convex body: the last corner is repeated.
   [[nodiscard]] primitive_pairs::PrimitiveOperand side() const {
     std::array<Vec3d, 3> c;
     for (std::size_t i = 0; i < 3; ++i) c[i] = corner[std::min(i, count - 1)].as<double>();
@@ -58,10 +58,11 @@ struct BodySimplices {
   }
 };
 
-/// The least of exact squared distances; the first among equals.
+/// The minimum of exact squared distances; the first among equals.
 class ExactMinDistance {
  public:
-  /// Whether what is so far apart cannot be nearer: a margin for the rounding of squares.
+  /// Whether a squared distance is certainly above the minimum: a margin covers the rounding of
+  /// squares.
   [[nodiscard]] bool beyond(double squared) const { return squared > reach_; }
   [[nodiscard]] bool touching() const { return any_ && best_.squared.zero(); }
 
@@ -82,7 +83,7 @@ class ExactMinDistance {
   double reach_ = std::numeric_limits<double>::infinity();
 };
 
-/// The least of several distances, each within a bracket.
+/// The minimum of several distances, each within a bracket.
 struct MinDistanceBracket {
   double lower = std::numeric_limits<double>::infinity(), upper = lower;
   Vec3d on_a, on_b;

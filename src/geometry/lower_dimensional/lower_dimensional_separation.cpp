@@ -30,7 +30,7 @@ using primitive_pairs::DeepestPoint;
 using primitive_pairs::GjkResult;
 using primitive_pairs::PrimitiveOperand;
 
-/// Adds the distance of two sides unless it is certainly not the least.
+/// Adds the distance of two operands unless it is certainly not the least.
 void add_gap(const PrimitiveOperand& a, const PrimitiveOperand& b, double enough,
              MinDistanceBracket& least) {
   const GjkResult gap =
@@ -48,7 +48,8 @@ LowerDimensionalSeparation apart(const MinDistanceBracket& gap, double lower, do
   return s;
 }
 
-/// The deepest point of a thin body in a primitive, over the pieces that may meet it.
+/// The deepest point of a body without thickness in a primitive, over the simplices that may meet
+/// it.
 struct DeepestOfSimplices {
   double lower = 0, upper = 0;
   Vec3d point;
@@ -149,9 +150,9 @@ using lower_dimensional::MinDistanceBracket;
 using primitive_pairs::PrimitiveOperand;
 using primitive_pairs::Torus;
 
-/// Grid units: farther from the skin than this, the grid point next to a point is on its side.
+/// Grid units: farther from the surface than this, the grid point next to a point is on its side.
 constexpr double kSnap = 2;
-/// Chords of a quarter turn, at most.
+/// Maximum number of chords of a quarter circle.
 constexpr int kMostChords = 1024;
 
 /// The decisions are exact.
@@ -193,7 +194,7 @@ struct Chords {
   }
 };
 
-/// What of a thin body may lie in a solid, measured by the search over pieces.
+/// The simplices of a body without thickness that may lie in a solid, measured by the depth search.
 class SimplexDepths {
  public:
   SimplexDepths(const PartWithBvh& mesh, const DepthOptions& goal, QueryContext& work)
@@ -247,7 +248,7 @@ class SimplexDepths {
   Depth best_;
 };
 
-/// The answer about a solid, from the distance to its skin and the depth.
+/// Returns the separation from a solid, from the distance to its surface and the depth.
 LowerDimensionalSeparation in_solid(const MinDistanceBracket& gap, const Depth& depth,
                                     const PartWithBvh& mesh) {
   LowerDimensionalSeparation s;
@@ -326,7 +327,7 @@ LowerDimensionalSeparation lower_dimensional_separation(const LowerDimensionalBo
     s = through_sheet(crossing);
   } else if (meets) {
     s = in_solid(least, depth.result(), mesh);
-    // What lies farther from the skin than anybody asked is no less inside.
+    // A body farther from the surface than the limit is no less inside.
     if (s.inside && all_within) s.wholly_inside = std::min(least.lower, -s.d);
   } else {
     s.lower = std::max(0.0, std::min(least.lower, enough));

@@ -6,16 +6,16 @@
 
 namespace strake::geometry::lower_dimensional {
 
-/// Where a line passes through a sheet from one side to the other, farthest from the sheet's rim
-/// and the line's own ends.
+/// The point where a line pierces a sheet from one side to the other, farthest from the sheet's
+/// border and the line's own ends.
 struct SheetPiercing {
-  double depth = 0;  ///< the smaller of the two distances, grid units; 0: it does not pass through
+  double depth = 0;  ///< the smaller of the two distances, grid units; 0: it does not pierce
   Vec3d point;       ///< relative to the sheet's origin
 };
 
-/// Exact but for the rounding of the point and the distances. A corner of the line that lies in the
-/// sheet counts as passing through where its neighbours lie on opposite sides; what runs along the
-/// sheet does not. Only segments count.
+/// Returns the deepest piercing, exact but for the rounding of the point and the distances. A
+/// vertex of the line in the sheet counts as piercing where its neighbours lie on opposite sides; a
+/// line along the sheet does not. Only segments count.
 [[nodiscard]] SheetPiercing deepest_piercing(const LowerDimensionalBody& line,
                                              const PartWithBvh& sheet);
 

@@ -14,37 +14,38 @@
 
 namespace strake::geometry {
 
-/// What the connectivity of a welded mesh follows from: the mesh as it came but for coordinates,
-/// and the number of each of its vertices in the order of coordinates.
+/// What determines the connectivity of a welded mesh: the source mesh without coordinates, and the
+/// rank of each of its vertices in the order of coordinates.
 struct MeshKey {
   std::span<const Triangle> triangles;
   std::span<const std::uint32_t> faces;
   std::span<const std::uint32_t> renumbered;
 };
 
-/// The connectivity of a mesh that is one shell without anything to mend, as its part holds it.
+/// The connectivity of a mesh that is one shell without anything to repair, as its part holds it.
 struct Connectivity {
   SharedArray<Triangle> triangles;
   SharedArray<std::uint32_t> faces;
   SharedArray<PartEdge> edges;
   SharedArray<std::uint32_t> edge_triangles;
-  /// Whether there are T-junctions among these hangs on coordinates.
+  /// Edges that may be T-junctions, which depends on coordinates.
   SharedArray<std::uint32_t> uneven, folded;
   bool closed = false;
-  bool inverted = false;  ///< the triangles are turned over from how they came
+  bool inverted = false;  ///< the triangles are flipped against the source
 };
 
-/// Connectivities that came more than once. Plants and ships hold the same few pipes, elbows and
-/// profiles in all sizes: each of them needs its edges found only once, and held only once, which
-/// is what counts (decision 0013). Bounded; what is not remembered is
-/// worked out again.
+/// A cache of connectivities that occur more than once. Plants and ships hold the same few pipes,
+/// elbows and profiles in all sizes: the edges of each need to be found only once and, above all,
+/// stored only once (decision 0013). It is bounded; what it lacks is
+/// computed again.
 class ConnectivityCache {
  public:
-  /// Null where it is not known.
+  /// Returns the connectivity for a key; null where it is not stored.
   [[nodiscard]] const Connectivity* find(const MeshKey& key);
-  /// Whether it should be remembered: the last find() was not the first one with this key.
+  /// Whether the connectivity should be stored: the last find() was not the first one with this
+  /// key.
   [[nodiscard]] bool should_store_last() const { return wants_last_; }
-  /// Remembers what the last find() asked for.
+  /// Stores the connectivity for the key of the last find().
   void store(const MeshKey& key, Connectivity connectivity);
 
  private:

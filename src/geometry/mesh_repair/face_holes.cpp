@@ -33,7 +33,7 @@ std::vector<RimEdge> rim_edges(const Part& part) {
   return rim;
 }
 
-/// The two rim edges at each vertex; nothing where some vertex has another number of them.
+/// The two boundary edges at each vertex; nothing where some vertex has another number of them.
 struct EdgeEnds {
   std::uint32_t first = kNoHole, second = kNoHole;
 };
@@ -59,8 +59,8 @@ Vec3d rounded_normal(const Part& part, std::uint32_t t) {
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
 
-/// Whether all these vertices lie in the plane of a triangle, as far as rounding tells: each was
-/// moved by less than a unit, and the triangle turned by as much over its height.
+/// Whether all these vertices lie in the plane of a triangle, up to rounding: each was moved by
+/// less than a unit, and the triangle rotated by as much over its height.
 bool lie_in_plane(const Part& part, std::uint32_t triangle, std::span<const std::uint32_t> some) {
   constexpr double kOff = 4;
   const ExactNormal n = triangle_normal(part, triangle);
@@ -73,7 +73,7 @@ bool lie_in_plane(const Part& part, std::uint32_t triangle, std::span<const std:
   });
 }
 
-/// Twice what a rim surrounds.
+/// Returns twice the area that a boundary loop surrounds.
 double area_within(const Part& part, std::span<const std::uint32_t> rim) {
   const Vec3l from = part.vertices[rim[0]].as<std::int64_t>();
   Vec3d sum{};
@@ -83,7 +83,8 @@ double area_within(const Part& part, std::span<const std::uint32_t> rim) {
   return std::sqrt(dot(sum, sum));
 }
 
-/// Whether as much of the part lies in the plane of a triangle as a rim in it surrounds.
+/// Whether at least as much of the part lies in the plane of a triangle as a boundary loop in it
+/// surrounds.
 bool holds_half(const Part& part, std::uint32_t triangle, std::span<const std::uint32_t> rim) {
   constexpr double kRounded = 0.99;
   double area = 0;

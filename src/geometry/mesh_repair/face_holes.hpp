@@ -5,11 +5,11 @@
 
 namespace strake::geometry {
 
-/// Whether a sheet lacks pieces of its flat faces and nothing else: each rim of it runs round in a
-/// plane, up to rounding to the grid, in which a triangle at that rim lies too, and with it as much
-/// of the sheet or more as the rim surrounds. So runs the rim of a triangle that a box or a prism
-/// has too few, or of a window in a wall; that of a tank without a lid does not, with a flange or
-/// without. False where there is no rim, where rims meet at a vertex, and for more than 16 of them.
+/// Whether a sheet lacks only pieces of its flat faces: each boundary loop lies in a plane, up to
+/// rounding to the grid, that also holds a triangle at that loop, and with it at least as much of
+/// the sheet as the loop surrounds. This holds for a missing triangle of a box or a prism and for a
+/// window in a wall; it does not for a tank without a lid, with or without a flange. False where
+/// there is no boundary, where loops meet at a vertex, and for more than 16 loops.
 ///
 /// O(n) for a part of n edges.
 [[nodiscard]] bool has_incomplete_faces(const Part& part);

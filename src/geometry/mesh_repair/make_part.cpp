@@ -158,7 +158,7 @@ void flip(std::span<Triangle> triangles) {
 
 std::vector<std::uint32_t> drop_duplicate_layer(const GridMesh& mesh,
                                                 std::span<const std::uint32_t> triangles) {
-  // Opposites are neighbours in the order of weld().
+  // Opposites are neighbours in the order of weld_triangles().
   std::vector<std::uint32_t> layer;
   for (std::size_t i = 0; i + 1 < triangles.size(); i += 2) {
     const Triangle &a = mesh.triangles[triangles[i]], &b = mesh.triangles[triangles[i + 1]];

@@ -12,8 +12,8 @@
 
 namespace strake::geometry {
 
-/// Six times the exact signed volume under triangles whose edges balance.
-/// Fits: |coordinate| <= 2^30 makes a term at most 2^93, and there are below 2^32 of them.
+/// Returns six times the exact signed volume under triangles whose edges balance. It fits:
+/// |coordinate| <= 2^30 makes a term at most 2^93, and there are below 2^32 of them.
 [[nodiscard]] __int128 signed_volume_6(std::span<const Vec3i> vertices,
                                        std::span<const Triangle> triangles);
 
@@ -23,7 +23,7 @@ namespace strake::geometry {
 /// use.
 void extract_submesh(std::span<const std::uint32_t> triangles, RepairScratch& scratch);
 
-/// What a part is made of: a welded mesh whose vertices are all used, its topology and its shells,
+/// The source of a part: a welded mesh whose vertices are all used, its topology and its shells,
 /// and six times the volume (0 for sheets).
 struct PartSource {
   const GridMesh& mesh;
@@ -33,12 +33,12 @@ struct PartSource {
 };
 [[nodiscard]] Part make_part(PartKind kind, PartSource source);
 
-/// The part made of scratch.piece.
+/// Makes the part of scratch.piece.
 [[nodiscard]] Part make_part(PartKind kind, __int128 volume_6, RepairScratch& scratch);
 
-/// The part of a welded mesh in this box that hangs together like one before, if it is as plain as
-/// that one: no triangle is degenerate, a closed one is as outward, and an open one has no edges to
-/// match, exactly or within `weld`.
+/// Makes the part of a welded mesh in this box with a known connectivity, if that applies
+/// unchanged: no triangle is degenerate, a closed mesh has the same orientation, and an open one
+/// has no edges to match, exactly or within `weld`.
 [[nodiscard]] std::optional<Part> make_known_part(const Connectivity& known, const Box3i& box,
                                                   const std::vector<Vec3i>& vertices,
                                                   std::int64_t weld);
@@ -46,10 +46,10 @@ struct PartSource {
 /// Whether an edge has more than two triangles.
 [[nodiscard]] bool has_nonmanifold_edge(const Topology& topology);
 
-/// Turns every triangle over.
+/// Flips every triangle.
 void flip(std::span<Triangle> triangles);
 
-/// The given triangles of a welded mesh; of a surface that is covered twice throughout, once from
+/// Returns the given triangles of a welded mesh; of a surface covered twice throughout, once from
 /// each side, only one layer.
 [[nodiscard]] std::vector<std::uint32_t> drop_duplicate_layer(
     const GridMesh& mesh, std::span<const std::uint32_t> triangles);

@@ -37,7 +37,7 @@ Grouped group_by_shell(const ShellLabels& labels) {
   return grouped;
 }
 
-/// For each shell whether it bounds {winding number >= 1} of its nest, the nest having been turned
+/// For each shell whether it bounds {winding number >= 1} of its nest, the nest having been flipped
 /// so that its outermost shell counts +1.
 std::vector<bool> bounding(const std::vector<ClosedShell>& shells,
                            const std::vector<std::uint32_t>& parents,
@@ -77,7 +77,7 @@ Part merge_nest(const Grouped& grouped, const std::vector<ClosedShell>& shells,
                    signed_volume_6(scratch.piece.vertices, scratch.piece.triangles), scratch);
 }
 
-/// Whether the shells of a nest leave nothing of it but its skin.
+/// Whether the shells of a nest cancel to a body without thickness.
 bool cancel(const std::vector<ClosedShell>& shells, const std::vector<Part>& parts,
             std::uint32_t root, const std::vector<std::uint32_t>& members) {
   double volume = 0;
@@ -85,7 +85,7 @@ bool cancel(const std::vector<ClosedShell>& shells, const std::vector<Part>& par
   return members.size() > 1 && is_hollow(std::fabs(volume), parts[root].area);
 }
 
-/// Leaves far sides out of the nests, their fins to the sheet.
+/// Removes back sides from the nests and adds their fins to the sheet.
 std::vector<bool> take_off_far_sides(const ShellLabels& labels, const RepairScratch& scratch,
                                      const std::vector<ClosedShell>& shells,
                                      const std::vector<Part>& parts,
@@ -98,7 +98,7 @@ std::vector<bool> take_off_far_sides(const ShellLabels& labels, const RepairScra
   return std::move(far.shells);
 }
 
-/// Solids from the closed shells: one part per nest, in the order of their outermost shells.
+/// Makes solids from the closed shells: one part per nest, in the order of their outermost shells.
 /// Adds triangles that belong to none to the open ones.
 void add_solids(const ShellLabels& labels, const Grouped& grouped,
                 const std::vector<ClosedShell>& shells, std::vector<Part> shell_parts,
@@ -131,7 +131,7 @@ void add_solids(const ShellLabels& labels, const Grouped& grouped,
   }
 }
 
-/// The whole mesh is one shell: no splitting.
+/// Makes the part of a mesh that is one shell: no splitting.
 Part whole(const Topology& topology, ShellLabels labels, RepairScratch& scratch) {
   GridMesh& mesh = scratch.welded;
   const bool closed = labels.closed[0] != 0;
@@ -204,7 +204,7 @@ RepairedMesh MeshRepairer::repair_mesh(const GridMesh& mesh, const Seams& seams)
     split(labels, scratch, analysis);
     return analysis;
   }
-  // Only what does not depend on coordinates may be said of other meshes with this key.
+  // Only what does not depend on coordinates applies to other meshes with this key.
   const bool plain =
       welded.vertices.size() == vertices && welded.triangles.size() == mesh.triangles.size() &&
       analysis.findings.degenerate_triangles == 0 && analysis.findings.cut_triangles == 0 &&

@@ -8,32 +8,34 @@
 
 #include "strake/geometry/vec.hpp"
 
+// Search for vertices near a segment, and clusters of vertices within a tolerance.
+
 namespace strake::geometry {
 
-/// A length in grid units up to which corners count as one; at most this.
+/// The greatest length, in grid units, up to which vertices may be merged.
 inline constexpr std::int64_t kMostWeld = std::int64_t{1} << 20U;
 
-/// The squared distance of two points on the grid, exact.
+/// Returns the exact squared distance of two points on the grid.
 [[nodiscard]] __int128 squared_distance(const Vec3i& p, const Vec3i& q);
 
 /// Whether a point lies no farther from a segment than `within` (up to kMostWeld): exact.
 [[nodiscard]] bool is_near_segment(const Vec3i& p, const Vec3i& a, const Vec3i& b,
                                    std::int64_t within);
 
-/// Some of the vertices of a mesh, for "which of them are near this segment?": a tree of boxes,
-/// halved along their longest sides (J. L. Bentley, 1975). The answer is exact, whatever the tree.
+/// A k-d tree over some of the vertices of a mesh, for those near a segment: boxes are halved along
+/// their longest sides (J. L. Bentley, 1975). The result is exact and does not depend on the tree.
 class NearPoints {
  public:
   NearPoints(std::span<const Vec3i> vertices, std::vector<std::uint32_t> some);
 
-  /// Appends those no farther from the segment a-b than `within`, in no particular order. The two
-  /// ends may be one. False where that takes a look at more than `boxes` boxes; takes off those
-  /// that it looked at, which hang on differences of coordinates alone.
+  /// Appends the vertices no farther from the segment a-b than `within`, in no particular order.
+  /// The two ends may be equal. False where that takes visits to more than `boxes` boxes; subtracts
+  /// the boxes visited, which depend on differences of coordinates alone.
   [[nodiscard]] bool near(const Vec3i& a, const Vec3i& b, std::int64_t within, std::uint64_t& boxes,
                           std::vector<std::uint32_t>& found) const;
 
-  /// Boxes enough for this many segments, some of which run along all points: soup of long edges
-  /// that cross each other everywhere takes more.
+  /// Returns a number of boxes sufficient for this many segments, some of which run along all
+  /// points: a soup of long edges that cross each other everywhere takes more.
   [[nodiscard]] static constexpr std::uint64_t boxes_for(std::size_t segments) {
     constexpr std::uint64_t kEach = 64, kAlways = std::uint64_t{1} << 22U;
     return kAlways + kEach * segments;
@@ -43,7 +45,7 @@ class NearPoints {
   struct Node {
     Box3i box;
     std::uint32_t first = 0, count = 0;  ///< of points_
-    std::uint32_t left = 0;              ///< child, the right one behind it; 0: a leaf
+    std::uint32_t left = 0;              ///< left child, the right one follows it; 0: a leaf
   };
 
   void split(std::size_t node);
@@ -53,15 +55,16 @@ class NearPoints {
   std::vector<Node> nodes_;
 };
 
-/// Corners that count as one, and where: the corner nearest to the middle of their box.
+/// Vertices that are merged, and their common position: the vertex nearest to the middle of their
+/// box.
 struct VertexCluster {
   std::uint32_t at = 0;
   std::vector<std::uint32_t> members;  ///< ascending, `at` among them
 };
 
-/// Of some vertices, those that hang together with each no farther than `within` from the next, as
-/// far as none is farther than that from where they are to be. `some` ascending, and the points of
-/// `points`. Nothing where very many are near each other, more than corners of solids can be.
+/// Returns the clusters of some vertices connected by distances of at most `within`, except those
+/// with a vertex farther than that from their common position. `some` is ascending and holds the
+/// points of `points`. Nothing where more are near each other than vertices of solids can be.
 [[nodiscard]] std::vector<VertexCluster> cluster_near_vertices(std::span<const Vec3i> vertices,
                                                                std::span<const std::uint32_t> some,
                                                                const NearPoints& points,

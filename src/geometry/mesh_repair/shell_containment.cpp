@@ -82,7 +82,7 @@ bool same_corners(const Triangle& a, const Triangle& b) {
   return a[0] == b[0] && ((a[1] == b[1] && a[2] == b[2]) || (a[1] == b[2] && a[2] == b[1]));
 }
 
-/// What runs back along a shell.
+/// The surfaces of opposite orientation along a shell.
 struct Lining {
   bool complete = true;               ///< each of its triangles comes back somewhere
   std::vector<std::uint32_t> shells;  ///< of the other sign, ascending

@@ -11,13 +11,13 @@
 
 namespace strake::geometry {
 
-/// A mesh or polylines under the linear part of a placement, on the grid: the place of a vertex
-/// is base + vertex = snap(linear · local).
+/// A mesh under the linear part of a placement, on the grid: the position of a vertex is base +
+/// vertex = snap(linear · local).
 struct SnappedMesh {
   GridMesh mesh;
   Vec3l base;  ///< the middle of its box
   std::uint64_t bad_triangles =
-      0;  ///< left out: an index out of range, or a vertex that has no place
+      0;  ///< left out: an index out of range, or a vertex beyond the grid
 };
 
 /// Snaps every vertex that a triangle uses. A mirroring map flips the winding.
@@ -25,10 +25,10 @@ struct SnappedMesh {
 [[nodiscard]] std::optional<SnappedMesh> snap_to_grid(const TriangleMesh& mesh,
                                                       const Mat3d& linear);
 
-/// Places meshes one after another in memory that it keeps: one per worker.
+/// Snaps meshes one after another in memory that it keeps: one per worker.
 class GridSnapper {
  public:
-  /// As place(), null for nothing; stands until the next call.
+  /// Returns snap_to_grid() of a mesh, null for nothing; valid until the next call.
   [[nodiscard]] const SnappedMesh* snap_to_grid(const TriangleMesh& mesh, const Mat3d& linear);
 
  private:
@@ -43,8 +43,8 @@ class GridSnapper {
   SnappedMesh placed_;
 };
 
-/// Chains on the grid as a wire part; `bad_points` counts points left out because they have no
-/// place.
+/// Chains on the grid as a wire part; `bad_points` counts points left out because they lie beyond
+/// the grid.
 struct SnappedWire {
   Part part;
   Vec3l base;
@@ -54,8 +54,8 @@ struct SnappedWire {
 /// Consecutive equal points become one; chains of fewer than two points are dropped.
 [[nodiscard]] std::optional<SnappedWire> snap_to_grid(const Polylines& lines, const Mat3d& linear);
 
-/// Largest factor by which a map lengthens a vector, rounded up by less than one part in 10^9 for
-/// similarities (an upper bound for others).
+/// Returns the largest factor by which a map lengthens a vector, rounded up by less than one part
+/// in 10^9 for similarities (an upper bound for others).
 [[nodiscard]] double largest_scale(const Mat3d& linear);
 
 }  // namespace strake::geometry

@@ -35,7 +35,7 @@ std::uint64_t hash_of(const Line& line) {
   return hash_bytes(std::as_bytes(std::span(words))).low;
 }
 
-/// Calls take() for each stretch of equal neighbours.
+/// Calls take() for each run of equal neighbours.
 template <class T, class Same, class Take>
 void each_run(std::span<const T> all, const Same& same, const Take& take) {
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
@@ -48,7 +48,7 @@ void each_run(std::span<const T> all, const Same& same, const Take& take) {
 
 TJunctions::TJunctions(std::span<const Vec3i> vertices, std::span<const Triangle> triangles,
                        const Topology& topology) {
-  // Of very many edges that do not balance few lie on one line: that is told by a hash first.
+  // Of very many edges that do not balance few lie on one line: a hash filters the others first.
   struct Hashed {
     std::uint64_t hash = 0;
     OpenEdge edge;
@@ -107,8 +107,8 @@ void TJunctions::look_at_line(std::span<const OpenEdge> edges) {
   const std::size_t first_point = cuts_.points(), first_edge = cuts_.edges();
   for (std::size_t i = 1; i + 1 < ends.size(); ++i)
     if (matches(i - 1) || matches(i)) cuts_.add_point(ends[i]);
-  // Skins match in pairs: each is cut at no more points than the others have, unless they run to
-  // and fro.
+  // Surfaces match in pairs: each is split at no more points than the others have, unless they run
+  // to and fro.
   constexpr std::size_t kMostCuts = 8;
   const std::size_t most = kMostCuts * edges.size() + 64;
   std::size_t cuts = 0;

@@ -13,9 +13,12 @@
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "geometry/mesh_repair/topology.hpp"
 
+// Edges that do not balance, and the splitting of triangles at T-junctions.
+
 namespace strake::geometry {
 
-/// The triangles that run along an edge, from its lower vertex to the higher one, and back.
+/// An edge that does not balance, with the numbers of triangles that run along it from its lower
+/// vertex to the higher one, and back.
 struct OpenEdge {
   std::uint32_t low = 0, high = 0;
   std::uint32_t along = 0, back = 0;
@@ -31,7 +34,7 @@ struct OpenEdge {
   return counted;
 }
 
-/// Those that do not balance, by their vertices.
+/// Returns the edges that do not balance, sorted by their vertices.
 [[nodiscard]] inline std::vector<OpenEdge> open_edges(std::span<const Triangle> triangles,
                                                       const Topology& topology) {
   std::vector<OpenEdge> open;
@@ -42,7 +45,7 @@ struct OpenEdge {
   return open;
 }
 
-/// The ends of edges, ascending.
+/// Returns the ends of edges, ascending.
 [[nodiscard]] inline std::vector<std::uint32_t> ends_of(std::span<const OpenEdge> edges) {
   std::vector<std::uint32_t> ends;
   for (const OpenEdge& e : edges) ends.insert(ends.end(), {e.low, e.high});
@@ -51,26 +54,27 @@ struct OpenEdge {
   return ends;
 }
 
-/// Where edges of a mesh are to be cut.
+/// The vertices at which edges of a mesh are to be split.
 class EdgeCuts {
  public:
   [[nodiscard]] bool none() const { return edges_.empty(); }
   [[nodiscard]] std::size_t points() const { return points_.size(); }
 
-  /// Points for edges to be cut at; add() names stretches of them.
+  /// Adds a point for edges to be split at; add() refers to ranges of them.
   std::size_t add_point(std::uint32_t vertex);
-  /// The edge low-high is cut at these points, in their order along it.
+  /// Splits the edge low-high at these points, in their order along it.
   void add(std::uint32_t low, std::uint32_t high, std::size_t first, std::size_t count);
-  /// Takes back what was added since there were so many points and edges.
+  /// Removes what was added since there were so many points and edges.
   void drop(std::size_t points, std::size_t edges);
   [[nodiscard]] std::size_t edges() const { return edges_.size(); }
   [[nodiscard]] std::span<const std::uint32_t> points_from(std::size_t first) const {
     return std::span(points_).subspan(first);
   }
-  /// To be called before points_on().
+  /// Sorts the edges; call it before points_on().
   void settle(std::size_t vertices);
 
-  /// Where the edge between two vertices, the lower first, is to be cut, from the lower on.
+  /// Returns the points at which the edge between two vertices, the lower first, is to be split,
+  /// from the lower on.
   [[nodiscard]] std::span<const std::uint32_t> points_on(std::uint32_t low,
                                                          std::uint32_t high) const;
 
@@ -85,17 +89,17 @@ class EdgeCuts {
   std::vector<std::uint8_t> on_edge_;  ///< per vertex: whether one of these ends there
 };
 
-/// The T-junctions of a welded mesh: where an edge a-c does not balance, and another of the same
-/// line that does not either ends within it and runs back along a piece of it, a-c is to be cut at
-/// that end, so that the two match there. An edge that only a triangle and its opposite have is
-/// balanced by nothing. Incidence is exact: a corner that the snap has taken a micrometre off an
-/// edge is none on it.
+/// The T-junctions of a welded mesh: where an edge a-c does not balance, and another such edge on
+/// the same line ends within it and runs back along a piece of it, a-c is to be split at that end,
+/// so that the two match there. An edge that only a triangle and its opposite share counts as
+/// unbalanced. Incidence is exact: a vertex that the snap has moved a micrometre off an edge is not
+/// on it.
 ///
-/// Nothing moves and no point is added to the surface: only the ends of such edges are places to
-/// cut at. Lines on which everybody is to be cut at everybody else's ends (zigzags) are left alone.
+/// Nothing moves and no point is added to the surface: edges are only split at the ends of such
+/// edges. Lines on which each edge would be split at all others' ends (zigzags) are left alone.
 ///
-/// O(k log k) for k edges that do not balance, and nothing where all do. Source of the algorithm: a
-/// sweep over the intervals of each line; lines are told by their primitive direction and moment
+/// O(k log k) for k edges that do not balance, and nothing where all do. The algorithm sweeps over
+/// the intervals of each line; lines are identified by their primitive direction and moment
 /// (Plücker coordinates).
 class TJunctions {
  public:
@@ -115,19 +119,20 @@ class TJunctions {
   std::vector<std::int64_t> along_, back_;
 };
 
-/// A welded mesh with some of its triangles cut.
+/// A welded mesh with some of its triangles split.
 struct CutMesh {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> faces;  ///< empty, or one per triangle
-  std::uint64_t cut = 0;             ///< triangles that became several
+  std::uint64_t cut = 0;             ///< number of triangles that were split
 };
 
-/// The mesh with its triangles cut where their edges are to be, in fans. Depends neither on the
-/// order of the triangles nor on their corners', and a triangle is cut like its opposite.
+/// Returns the mesh with its triangles split where their edges are, into fans. The result depends
+/// neither on the order of the triangles nor on that of their corners, and a triangle is split like
+/// its opposite.
 [[nodiscard]] CutMesh cut_edges(const GridMesh& welded, const EdgeCuts& cuts);
 
-/// The mesh with its triangles cut at its T-junctions, in fans that have an area each; nothing
-/// where it has none.
+/// Returns the mesh with its triangles split at its T-junctions, into fans of triangles with an
+/// area; nothing where it has none.
 [[nodiscard]] std::optional<CutMesh> split_at_t_junctions(const GridMesh& welded,
                                                           const Topology& topology);
 

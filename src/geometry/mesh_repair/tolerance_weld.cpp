@@ -19,7 +19,7 @@
 namespace strake::geometry {
 namespace {
 
-/// An edge with the corners beside it, in order along it.
+/// An edge with the vertices beside it, in order along it.
 struct Beside {
   OpenEdge edge;
   std::vector<std::uint32_t> corners;
@@ -94,7 +94,7 @@ class Pieces {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Counts> all_;
 };
 
-/// The corners beside an edge: no corner of its own triangles, and near neither end.
+/// Finds the vertices beside an edge: none of its own triangles, and near neither end.
 class NearCornerFinder {
  public:
   NearCornerFinder(const GridMesh& welded, const Topology& topology, const NearPoints& points,
@@ -261,7 +261,7 @@ class Welder {
     for (const std::uint32_t v : corners_) may_move_[v] = 1;
   }
 
-  /// To be asked first.
+  /// Whether any vertices are near; call it first.
   [[nodiscard]] bool any_near() {
     const Nearness found = nearness(whole_.vertices, open_, points_, within_);
     junctions_.tangled = found == Nearness::tangled;
@@ -314,7 +314,7 @@ class Welder {
     result_.largest = std::max(result_.largest, junctions_.largest);
   }
 
-  /// Of the corners that may move; those that were found to close nothing stay apart.
+  /// Finds clusters of the vertices that may move; those found to close nothing stay apart.
   void find_clusters() {
     std::vector<std::uint32_t> some;
     for (const std::uint32_t v : corners_)

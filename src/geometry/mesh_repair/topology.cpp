@@ -130,8 +130,8 @@ class Fan {
     });
   }
 
-  /// Whether two half-planes are one but for what the snap has made of it: two triangles of one
-  /// flat face, cut along different diagonals.
+  /// Whether two half-planes coincide up to the snap: those of two triangles of one flat face,
+  /// triangulated along different diagonals.
   [[nodiscard]] static bool coincide(const Vec3d& axis, const Vec3d& a, const Vec3d& b) {
     constexpr double kSnapUnits = 4;     // grid units
     constexpr double kSmall = 1.0 / 64;  // of an angle
@@ -142,8 +142,8 @@ class Fan {
             off_b * off_b <= kSnapUnits * kSnapUnits * nn);
   }
 
-  /// Skins drawn from both sides: where material begins and ends at one angle but for the snap, it
-  /// ends first, or else each face would be a sliver of its own.
+  /// For surfaces drawn from both sides: where material begins and ends at one angle up to the
+  /// snap, it ends first, or each face would be a thin body of its own.
   void end_before_beginning(std::size_t edge) {
     const PartEdge& e = topology_.edges[edge];
     const Vec3d axis = vertices_[e.v1].as<double>() - vertices_[e.v0].as<double>();
@@ -173,7 +173,7 @@ bool are_opposite(const Triangle& a, const Triangle& b) {
   return (a[0] ^ a[1] ^ a[2]) == (b[0] ^ b[1] ^ b[2]);
 }
 
-/// Half-edges by (lower vertex, higher vertex, triangle); scratch.first tells the buckets.
+/// Half-edges by (lower vertex, higher vertex, triangle); scratch.first holds the bucket starts.
 std::span<const std::uint64_t> sorted_halves(std::size_t vertices,
                                              std::span<const Triangle> triangles,
                                              TopologyScratch& scratch) {

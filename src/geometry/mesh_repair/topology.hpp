@@ -13,9 +13,12 @@
 #include "geometry/mesh_repair/mesh_repair.hpp"
 #include "strake/geometry/part.hpp"
 
+// The scratch memory of mesh repair, and the topology and shells of a welded mesh.
+
 namespace strake::geometry {
 
-/// The first `count` places of memory that is kept from mesh to mesh; what they hold is stale.
+/// Returns the first `count` elements of memory that is kept from mesh to mesh; their values are
+/// stale.
 template <class T>
 [[nodiscard]] std::span<T> first_n(std::vector<T>& memory, std::size_t count) {
   if (memory.size() < count) memory.resize(count);
@@ -29,7 +32,7 @@ struct VertexKey {
   std::uint32_t index = 0;
 };
 
-/// A triangle on its way to its place: all but its lowest vertex, which its bucket stands for.
+/// A triangle in a bucket sort: all but its lowest vertex, which its bucket implies.
 struct TriangleKey {
   std::uint64_t mid_high = 0;  ///< the other two vertices, the lower one in the upper half
   std::uint32_t side = 0;      ///< 0: low, mid, high is its orientation; 1: low, high, mid
@@ -56,7 +59,7 @@ struct TopologyScratch {
   UnionFind sets;  ///< of triangles
 };
 
-/// What analysing a mesh needs besides its result.
+/// The memory that repairing a mesh needs besides its result.
 struct RepairScratch {
   WeldScratch weld;
   TopologyScratch topology;
@@ -72,41 +75,43 @@ struct RepairScratch {
 struct Topology {
   std::span<const PartEdge> edges;  ///< by (v0, v1), a sentinel at the end
   std::span<const std::uint32_t> edge_triangles;
-  /// Edges, ascending, that do not have just two triangles, one along and one back.
+  /// Edges, ascending, other than those with just two triangles, one along and one back.
   std::span<const std::uint32_t> uneven;
-  /// Edges, ascending, of one triangle and its opposite: the rims of what is drawn from both sides.
+  /// Edges, ascending, of one triangle and its opposite: the borders of surfaces drawn from both
+  /// sides.
   std::span<const std::uint32_t> folded;
 
   [[nodiscard]] std::span<const std::uint32_t> triangles_of(std::size_t edge) const {
     const std::uint32_t first = edges[edge].first_triangle;
     return edge_triangles.subspan(first, edges[edge + 1].first_triangle - first);
   }
-  /// +1 when the triangle runs from v0 to v1 of the edge, -1 when it runs back.
+  /// Returns +1 when the triangle runs from v0 to v1 of the edge, -1 when it runs back.
   [[nodiscard]] int sense(std::size_t edge, const Triangle& t) const {
     return has_directed_edge(t, edges[edge].v0, edges[edge].v1) ? 1 : -1;
   }
 };
 
-/// Linear in the number of triangles (edges are bucketed by their lower vertex).
+/// Makes the topology of a mesh, in time linear in the number of triangles (edges are bucketed by
+/// their lower vertex).
 [[nodiscard]] Topology make_topology(std::size_t vertices, std::span<const Triangle> triangles,
                                      TopologyScratch& scratch);
 
-/// The connected shells of a mesh (see analyse()).
+/// The connected shells of a mesh (see repair_mesh()).
 struct ShellLabels {
   std::vector<std::uint32_t> shell;  ///< of each triangle, numbered by lowest; empty: all in one
   std::uint32_t count = 0;
   std::vector<std::uint8_t> closed;  ///< per shell: 1 when its directed edges cancel
 };
 
-/// `topology` is of this mesh and in `scratch`.
+/// Labels the shells of a mesh; `topology` is of this mesh and in `scratch`.
 [[nodiscard]] ShellLabels label_shells(std::span<const Vec3i> vertices,
                                        std::span<const Triangle> triangles,
                                        const Topology& topology, TopologyScratch& scratch);
 
-/// Closed surfaces of which some triangles face the other way than the rest: turns those, the fewer
-/// ones, and returns how many. Only surfaces of which each edge has two triangles and that have two
-/// sides; of as many either way the lowest stays. The order of weld_triangles() holds, the topology
-/// has to be made anew. Linear.
+/// Flips the triangles of closed surfaces that face the other way than the rest, the fewer ones,
+/// and returns how many. This applies to surfaces with two triangles at each edge and two sides;
+/// where both ways are equally many, the lowest triangle stays. The order of weld_triangles() is
+/// kept, the topology has to be made anew. Linear.
 [[nodiscard]] std::uint64_t orient_consistently(GridMesh& welded, const Topology& topology);
 
 }  // namespace strake::geometry

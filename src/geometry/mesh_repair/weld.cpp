@@ -133,7 +133,7 @@ std::size_t list_rows(const GridMesh& mesh, std::span<const std::uint32_t> renum
     if (collinear<Wide>(vertices[a], vertices[b], vertices[c])) continue;
     const std::uint32_t low = std::min({a, b, c}), high = std::max({a, b, c});
     const std::uint32_t mid = a ^ b ^ c ^ low ^ high;
-    // Turning a triangle round keeps its side: it runs low, mid, high when one of its steps is
+    // Rotating a triangle's corners keeps its side: it runs low, mid, high when one of its steps is
     // from mid to high.
     const bool along =
         (a == mid && b == high) || (b == mid && c == high) || (c == mid && a == high);
@@ -255,9 +255,9 @@ void close_within(std::int64_t within, Closing closing, Topology& topology, Repa
   if (near->repeated) topology = drop_duplicates(topology, scratch, findings);
 }
 
-/// At a large distance corners may run together along fine rims. Where that leaves something open,
-/// shells that close within a small one are closed first. No corner moves farther than by all that
-/// is done together.
+/// At a large distance vertices may cluster along fine borders. Where that leaves something open,
+/// shells that close within a small distance are closed first. The sum of all displacements bounds
+/// that of any vertex.
 void close_seams(const Seams& seams, Topology& topology, RepairScratch& scratch,
                  RepairCounts& findings) {
   const bool wide = seams.first < seams.within;

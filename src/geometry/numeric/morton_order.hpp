@@ -10,15 +10,17 @@
 #include "geometry/numeric/vector_math.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Even samples of a list, and the Morton order of points.
+
 namespace strake::geometry {
 
-/// Number i of `count` items that are spread evenly over a list.
+/// Returns number i of `count` items that are spread evenly over a list.
 template <class List>
 [[nodiscard]] const auto& sample(const List& list, std::size_t i, std::size_t count) {
   return list[i * list.size() / count];
 }
 
-/// The lowest 21 bits of a number, each three places from the next.
+/// Returns the lowest 21 bits of a number, each three positions from the next.
 [[nodiscard]] constexpr std::uint64_t spread_bits_by_three(std::uint64_t x) {
   x &= 0x1fffffU;
   x = (x | x << 32U) & 0x1f00000000ffffU;
@@ -29,8 +31,9 @@ template <class List>
   return x;
 }
 
-/// Numbers 0 to n - 1 in an order in which points near each other mostly come one after the other:
-/// along a curve through all cells of a grid (Z-order, G. M. Morton 1966). `point(i)`: finite.
+/// Returns the numbers 0 to n - 1 in an order in which points near each other mostly follow each
+/// other: along a curve through all cells of a grid (Z-order, G. M. Morton 1966). `point(i)`:
+/// finite.
 template <class Point>
 [[nodiscard]] std::vector<std::uint32_t> morton_order(std::size_t n, const Point& point) {
   auto box = empty_box<double>();

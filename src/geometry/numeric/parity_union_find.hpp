@@ -9,7 +9,7 @@
 
 namespace strake::geometry {
 
-/// The numbers 0 … n-1 in sets that can only be joined, each member with two sides: a join tells
+/// A union-find with parity over the numbers 0 … n-1: each member has two sides, and a join says
 /// whether the first side of one is the first or the second of the other. The lowest member of a
 /// set is its root.
 class ParityUnionFind {
@@ -27,7 +27,7 @@ class ParityUnionFind {
     Root r{i, false};
     while (up_[r.root] != r.root) {
       const std::uint32_t next = up_[r.root];
-      // Halves the way; the root itself is never swapped.
+      // Path halving; the root itself is never swapped.
       swapped_[r.root] = swapped_[r.root] != swapped_[next];
       up_[r.root] = up_[next];
       r.swapped = r.swapped != swapped_[r.root];
@@ -36,7 +36,7 @@ class ParityUnionFind {
     return r;
   }
 
-  /// False where the two were together already, the other way round.
+  /// Joins two members; false where they were in one set already, with the other parity.
   bool join(std::uint32_t i, std::uint32_t j, bool swapped) {
     const Root x = find(i), y = find(j);
     const bool turned = (x.swapped != y.swapped) != swapped;

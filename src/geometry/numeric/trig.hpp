@@ -14,32 +14,33 @@ struct SinCos {
   double sin = 0, cos = 1;
 };
 
-/// Sine and cosine of an angle in radians. Not a number beyond ±10^6 or for what is not finite.
+/// Returns sine and cosine of an angle in radians; NaN beyond ±10^6 or for what is not finite.
 [[nodiscard]] SinCos sin_cos(double angle);
 
-/// The angle of (x, y) from the x axis, in (-pi, pi]; 0 for the origin.
+/// Returns the angle of (x, y) from the x axis, in (-pi, pi]; 0 for the origin.
 [[nodiscard]] double arc_tan2(double y, double x);
 
-/// Not a number outside [-1, 1].
+/// Returns the arc cosine; NaN outside [-1, 1].
 [[nodiscard]] double arc_cos(double x);
 [[nodiscard]] double arc_sin(double x);
 
-/// Cosine and sine of 2·pi·k/n for k in [0, n). For n a multiple of 4 the values are exactly
-/// symmetric in both axes and in the diagonals' exchange of sine and cosine, and the quadrant
-/// points are exact.
+/// Returns cosine and sine of 2·pi·k/n for k in [0, n). For n a multiple of 4 the values are
+/// exactly symmetric in both axes and in the diagonals' exchange of sine and cosine, and the
+/// quadrant points are exact.
 [[nodiscard]] std::vector<SinCos> unit_circle(int n);
 
-/// Smallest multiple of 4, at least 8 and at most `limit`, of chords of a circle of the given
-/// radius that keeps each chord within `sag` of its arc.
+/// Returns the smallest number of chords of a circle of the given radius, a multiple of 4, at least
+/// 8 and at most `limit`, that keeps each chord within `sag` of its arc.
 [[nodiscard]] int circle_segments(double radius, double sag, int limit = 4096);
 
-/// Smallest number of equal chords (at least 1, at most `limit`) of an arc that does the same.
+/// Returns the smallest number of equal chords (at least 1, at most `limit`) of an arc that does
+/// the same.
 [[nodiscard]] int arc_segments(double radius, double angle, double sag, int limit = 4096);
 
-/// Height of an arc of the given angle over its chord.
+/// Returns the height of an arc of the given angle over its chord.
 [[nodiscard]] double sagitta(double radius, double angle);
 
-/// Whether an angle, radians, is all of a turn: float32 sources write 2·pi a little short or long.
+/// Whether an angle, radians, is a full circle: float32 sources write 2·pi a little short or long.
 [[nodiscard]] inline bool is_full_turn(double angle) { return angle >= 2 * kPi * (1 - 1e-6); }
 
 }  // namespace strake::geometry

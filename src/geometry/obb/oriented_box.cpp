@@ -12,14 +12,14 @@
 namespace strake::geometry {
 namespace {
 
-/// The cosine below which two faces count as square to each other.
+/// The cosine below which two faces count as perpendicular.
 constexpr double kSquare = 0.1;
 
-/// The most that needles may be turned by, radians: of thinner ones nothing is known.
+/// The greatest angle error of slivers, radians: thinner ones have no usable normal.
 constexpr double kMostTilt = 0.25;
 
-/// The mean normal of the needles that the snap alone may have turned from one of them: that is the
-/// face's, which none of them has. The needle's own where they are few.
+/// Returns the mean normal of the slivers that the snap alone may have rotated from one of them:
+/// the face's normal, which none of them has. The sliver's own where they are few.
 Vec3d mean_of_needles(const Part& part, const Vec3d& normal, double tilt) {
   Vec3d sum;
   std::size_t count = 0;
@@ -34,7 +34,8 @@ Vec3d mean_of_needles(const Part& part, const Vec3d& normal, double tilt) {
   return count < kFewestSlivers ? normal : sum * (1 / length(sum));
 }
 
-/// The normal of the largest triangle among those that pass, or of the face that it is a needle of.
+/// Returns the normal of the largest triangle among those that pass, or of the face whose sliver it
+/// is.
 template <class Pass>
 Vec3d largest_face(const Part& part, Pass&& pass) {
   Vec3d best;
@@ -52,12 +53,13 @@ Vec3d largest_face(const Part& part, Pass&& pass) {
   if (of == nullptr) return {};
   const Vec3d normal = best * (1 / std::sqrt(most));
   const double tilt = std::min(kMostTilt, snap_angle_error(corners_of(part, *of), best));
-  // Small parts have no such faces, and are too many to look.
+  // Small parts have no such faces, and there are too many of them to test.
   if (part.vertices.size() < kManyVertices || tilt <= kSliverAngle) return normal;
   return mean_of_needles(part, normal, tilt);
 }
 
-/// The normals of the largest face, of the largest about square to it, and one square to both.
+/// Returns the normals of the largest face, of the largest about perpendicular to it, and one
+/// perpendicular to both.
 std::array<Vec3d, 3> largest_faces(const Part& part) {
   std::array<Vec3d, 3> axis;
   const Vec3d x = largest_face(part, [](const Vec3d&, double) { return true; });
@@ -93,17 +95,17 @@ double magnitude(const Box3i& box) {
   return sum;
 }
 
-/// One of two parts as seen from the other's frame.
+/// One of two parts in the other's frame.
 struct FaceBeside {
   const PartWithObb& of;
   const PartWithObb& other;
   Vec3d shift;          ///< takes the other's coordinates into those of `of`
   double out = 1;       ///< -1: the normal of the gap goes from the other to `of`
-  double rounding = 0;  ///< bound on what the arithmetic of a gap may be off by
+  double rounding = 0;  ///< error bound of the arithmetic of a gap
 };
 
-/// The gap along an axis of the frame, by the extent of the other along it, kept where it is wider.
-/// Axes are unit vectors but for rounding, for which the gap gives way a little.
+/// Keeps the gap along an axis of the frame, by the extent of the other part along it, where it is
+/// wider. Axes are unit vectors but for rounding, so the gap is reduced slightly.
 void widen(SeparationBound& widest, const FaceBeside& pair, std::size_t axis, double lo,
            double hi) {
   const OrientedBox& f = *pair.of.frame;
@@ -114,7 +116,7 @@ void widen(SeparationBound& widest, const FaceBeside& pair, std::size_t axis, do
   widest = {certain, f.axis[axis] * (above >= below ? pair.out : -pair.out)};
 }
 
-/// By the box of the other.
+/// Widens by the box of the other part.
 void widen_by_box(SeparationBound& widest, const FaceBeside& pair) {
   const OrientedBox &f = *pair.of.frame, &g = *pair.other.frame;
   const Vec3d centre = g.centre + pair.shift;
@@ -126,7 +128,7 @@ void widen_by_box(SeparationBound& widest, const FaceBeside& pair) {
   }
 }
 
-/// By the vertices of the other.
+/// Widens by the vertices of the other part.
 void widen_by_vertices(SeparationBound& widest, const FaceBeside& pair, double enough) {
   for (std::size_t i = 0; i < 3 && widest.lower < enough; ++i) {
     const Vec3d& n = pair.of.frame->axis[i];
@@ -171,7 +173,7 @@ SeparationBound oriented_box_separation(const PartWithObb& a, const PartWithObb&
                        magnitude(a.placed.part->box) + magnitude(b.placed.part->box);
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
   const FaceBeside from_a{a, b, shift, -1, rounding}, from_b{b, a, -shift, 1, rounding};
-  // The boxes' own rounding is far less than the part of a unit that they are asked to be wider.
+  // The boxes' own rounding is far below the fraction of a unit that they must gain.
   SeparationBound boxes;
   for (const FaceBeside* pair : {&from_a, &from_b}) {
     widen_by_box(boxes, *pair);

@@ -14,29 +14,28 @@
 
 namespace strake::geometry {
 
-/// A box round a part that lies along the part's own faces: tight for what stands askew, where the
-/// box along the coordinate axes is not.
+/// A box round a part along the part's own faces: tight for rotated parts, where the box along the
+/// coordinate axes is not.
 ///
 ///     const OrientedBox f = make_oriented_box(x), g = make_oriented_box(y);
 ///     if (oriented_box_separation({{&x, at_x}, &f}, {{&y, at_y}, &g}, reach) >= reach) ...  //
 ///     apart for certain
 struct OrientedBox {
-  std::array<Vec3d, 3> axis;     ///< unit normals of the largest faces; not quite square
+  std::array<Vec3d, 3> axis;     ///< unit normals of the largest faces; not quite perpendicular
   std::array<double, 3> lo, hi;  ///< extent of the vertices along each, grid units
-  std::array<Vec3d, 3> edge;     ///< half the edges of a box with right angles round the vertices,
-  Vec3d centre;                  ///< and its centre
-  SupportTree vertices;          ///< of many, see kManyVertices; else empty
+  std::array<Vec3d, 3> edge;     ///< half the edges of a rectangular box round the vertices
+  Vec3d centre;                  ///< centre of that box
+  SupportTree vertices;          ///< where there are kManyVertices or more; else empty
 };
 
-/// One pass over the triangles, one over the vertices; of many vertices, a tree. The same with any
-/// team or none; of no use where the context's stop token ended it.
+/// Makes the box by one pass over the triangles and one over the vertices, plus a tree over many
+/// vertices. The same for any team; unusable where the context's stop token ended the work.
 [[nodiscard]] OrientedBox make_oriented_box(const Part& part,
                                             const parallel::Context& context = {});
 
-/// Unit vectors at right angles to each other along the axes of a frame, or as near to them as that
-/// allows.
+/// Returns perpendicular unit vectors along the axes of a box, or as near to them as that allows.
 [[nodiscard]] std::array<Vec3d, 3> orthonormal_axes(const OrientedBox& frame);
-/// Those of a part's frame, of which nothing else is asked.
+/// Returns the orthonormal axes of a part's oriented box without making the rest of it.
 [[nodiscard]] std::array<Vec3d, 3> orthonormal_axes(const Part& part);
 
 struct PartWithObb {
@@ -48,14 +47,14 @@ struct PartWithObb {
 /// A slab between two parts.
 struct SeparationBound {
   /// Grid units, certain: no two points of the parts are nearer. Negative where no slab was found:
-  /// moving one by that much parts them.
+  /// moving one part by that much separates them.
   double lower = -std::numeric_limits<double>::infinity();
   Vec3d normal;  ///< unit, from b to a: the direction across the slab
 };
 
-/// The widest gap between two parts along the axes of either frame. Tells boxes first and looks at
-/// vertices only where these leave the gap below `enough` grid units; stops at the first gap of at
-/// least that.
+/// Returns the widest gap between two parts along the axes of either box. Tests boxes first and
+/// visits vertices only where the boxes leave the gap below `enough` grid units; stops at the first
+/// gap of at least that.
 [[nodiscard]] SeparationBound oriented_box_separation(const PartWithObb& a, const PartWithObb& b,
                                                       double enough);
 

@@ -15,7 +15,7 @@
 namespace strake::geometry {
 namespace {
 
-/// Turned coordinates may not be larger: they are kept in 32 bits.
+/// The largest rotated coordinate: they are stored in 32 bits.
 constexpr double kFarthest = 2147483000;
 
 }  // namespace
@@ -41,15 +41,16 @@ std::optional<RotatedPart> rotate_part(const PairLocalPart& view, const Axes& ax
 
 namespace {
 
-/// Triangles that are looked at, and how many of their edges have to run one way.
+/// Number of triangles sampled, and how many of their edges have to be parallel.
 constexpr std::size_t kSampledEdges = 32;
 constexpr std::ptrdiff_t kLeastAlike = 8;
-/// An edge of a needle is as many times longer than the triangle is high over it.
+/// The ratio from which on an edge is so much longer than the height over it that the triangle is a
+/// sliver.
 constexpr double kElongation = 3;
-/// Cosine of the angle within which edges run one way.
+/// Cosine of the angle within which edges count as parallel.
 constexpr double kOneWay = 0.9999;
 
-/// A long edge of a needle.
+/// A long edge of a sliver.
 struct LongEdge {
   Vec3d way, normal;   ///< units
   double squared = 0;  ///< its length
@@ -61,7 +62,8 @@ bool along_an_axis(const Vec3d& way) {
   return std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)}) >= kOneWay;
 }
 
-/// Those that run along no axis. A needle has two; facets of a pipe share the way of but one.
+/// Returns the long edges along no axis. A sliver has two; facets of a pipe share the direction of
+/// only one.
 std::vector<LongEdge> long_edges(const PairLocalPart& view) {
   const std::vector<std::uint32_t>& triangles = view.tree().order();
   const std::size_t count = std::min(triangles.size(), kSampledEdges);
@@ -80,8 +82,8 @@ std::vector<LongEdge> long_edges(const PairLocalPart& view) {
   return edges;
 }
 
-/// Of some edges the one of which most others have the same direction, of several the longest, if
-/// at least so many have.
+/// Returns the edge whose direction most others share, of several the longest, if at least so many
+/// do.
 const LongEdge* most_common(const std::vector<LongEdge>& edges, Vec3d LongEdge::* direction,
                             std::ptrdiff_t least) {
   const LongEdge* best = nullptr;
@@ -97,7 +99,8 @@ const LongEdge* most_common(const std::vector<LongEdge>& edges, Vec3d LongEdge::
   return best;
 }
 
-/// Along the way that most long edges run, and square to the plane that most of those lie in.
+/// Returns axes along the direction of most long edges, and perpendicular to the plane that most of
+/// those lie in.
 std::optional<Axes> axes_of(std::vector<LongEdge> edges) {
   const LongEdge* const best = most_common(edges, &LongEdge::way, kLeastAlike);
   if (best == nullptr) return std::nullopt;

@@ -11,7 +11,7 @@
 namespace strake::geometry {
 namespace {
 
-/// The corners of a part along some axes.
+/// The vertices of a part in some axes.
 struct Along {
   std::vector<Vec3d> at;
   Box3d box;

@@ -9,10 +9,12 @@
 #include "geometry/obb/rotated_part.hpp"
 #include "strake/geometry/vec.hpp"
 
+// Sweep and prune over the triangles of two parts.
+
 namespace strake::geometry {
 
-/// The axis along which boxes are shortest in relation to all that is swept. `lengths`: of one box,
-/// or the sums of several.
+/// Returns the axis along which boxes are shortest relative to the swept range. `lengths`: of one
+/// box, or the sums of several.
 [[nodiscard]] inline int sweep_axis(const Vec3d& lengths, const Box3d& within) {
   int best = 0;
   for (int k = 1; k < 3; ++k)
@@ -22,15 +24,16 @@ namespace strake::geometry {
   return best;
 }
 
-/// Pairs of triangles of two parts whose boxes meet, along the coordinate axes or others: by
-/// sorting the boxes along one axis, with no tree. What does not meet the box of the other part is
-/// left out first.
+/// Finds the pairs of triangles of two parts whose boxes overlap, along the coordinate axes or
+/// others, by sorting the boxes along one axis, without a tree. Triangles off the box of the other
+/// part are dropped first.
 class SweepAndPrune {
  public:
-  /// `axes`: null for those of the coordinates.
+  /// `axes`: null for the coordinate axes.
   SweepAndPrune(const PairLocalPart& a, const PairLocalPart& b, const Axes* axes);
 
-  /// `visit(a, b)` for each pair tells whether to go on; whether it went to the end.
+  /// Calls `visit(a, b)` for each pair, which returns whether to go on. Returns whether it went to
+  /// the end.
   template <class Visit>
   bool run(const Visit& visit) const {
     std::size_t i = 0, j = 0;

@@ -248,7 +248,7 @@ Directed ascending(const Directed& ends) {
   return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
 }
 
-/// What meets at a vertex: the stretches that end and begin there, where they are one each.
+/// The links at a vertex: the segments that end and begin there, where they are one each.
 struct VertexLinks {
   std::uint32_t in = kNone, out = kNone;
   std::uint32_t count = 0;

@@ -11,15 +11,18 @@
 #include "strake/geometry/mesh.hpp"
 #include "strake/geometry/wide_int.hpp"
 
+// Rounding of section points, triangulation of caps, and the outline of a section.
+
 namespace strake::geometry::plane_section {
 
-/// A point that may have been moved to the grid.
+/// A point that may have been rounded to the grid.
 struct RoundedPoint {
   Vec3l at;
   bool exact = true;
 };
 
-/// num/den to the nearest integer, ties away from zero; den > 0. Notes whether it was one.
+/// Returns num/den rounded to the nearest integer, ties away from zero; den > 0. Clears `exact`
+/// where that rounds.
 [[nodiscard]] constexpr std::int64_t rounded(Int128 num, Int128 den, bool& exact) {
   Int128 quotient = num / den;
   const Int128 rest = num % den;
@@ -29,8 +32,9 @@ struct RoundedPoint {
   return static_cast<std::int64_t>(quotient);
 }
 
-/// Where the segment between a point below the plane and one that is not meets it. Does not depend
-/// on which end is named first: the rational point is one, and so is what it rounds to.
+/// Returns where the segment between a point below the plane and one that is not meets it. The
+/// result does not depend on which end is given first: the rational point is unique, and so is its
+/// rounding.
 [[nodiscard]] constexpr RoundedPoint meeting_point(const CutPlane& plane, const Vec3l& below,
                                                    const Vec3l& other) {
   const std::int64_t under = -plane.height(below), span = plane.height(other) + under;
@@ -42,7 +46,7 @@ struct RoundedPoint {
   return p;
 }
 
-/// The point of the plane at (u, v), its third coordinate rounded.
+/// Returns the point of the plane at (u, v), its third coordinate rounded.
 [[nodiscard]] constexpr Vec3l on_plane(const CutPlane& plane, const PlaneAxes& axes, std::int64_t u,
                                        std::int64_t v) {
   Vec3l p;
@@ -57,16 +61,16 @@ struct RoundedPoint {
   return p;
 }
 
-/// From one vertex to another.
+/// A directed edge from one vertex to another.
 using Directed = std::array<std::uint32_t, 2>;
 
-/// Appends to `triangles` what the oriented outline surrounds with a winding number that is not
-/// zero, and to `vertices` those that had to be made where lines cross. False, and nothing
-/// appended, where the outline is not closed or too crooked to be triangulated on the grid.
+/// Appends to `triangles` the area that the oriented outline surrounds with a winding number that
+/// is not zero, and to `vertices` the new ones where lines cross. Returns false, and appends
+/// nothing, where the outline is not closed or too crooked to be triangulated on the grid.
 [[nodiscard]] bool triangulate_cap(const CutPlane& plane, std::span<const Directed> outline,
                                    std::vector<Vec3l>& vertices, std::vector<Triangle>& triangles);
 
-/// The rim that a cut leaves of one triangle, in the triangle's sense.
+/// The edge at which a plane cuts one triangle, in the triangle's orientation.
 struct OutlineSegment {
   Directed ends{};
   std::uint32_t triangle = 0;
@@ -74,12 +78,12 @@ struct OutlineSegment {
 
 struct SectionOutline {
   std::vector<Segment> lines;   ///< each once, ascending ends, in no order
-  std::uint32_t open_ends = 0;  ///< vertices where an odd number of stretches meet
+  std::uint32_t open_ends = 0;  ///< vertices where an odd number of segments meet
 };
 
-/// The lines of a cut: stretches that follow each other in one plane are one. Of stretches that
-/// lie on each other one is kept. `coplanar(s, t)` says whether two triangles lie in one plane and
-/// face one way.
+/// Returns the lines of a section: collinear segments in one plane are merged, and of coincident
+/// segments one is kept. `coplanar(s, t)` says whether two triangles lie in one plane and face one
+/// way.
 [[nodiscard]] SectionOutline find_outline(
     std::vector<OutlineSegment> stretches, std::span<const Vec3l> vertices,
     const std::function<bool(std::uint32_t, std::uint32_t)>& coplanar);

@@ -12,15 +12,14 @@
 
 namespace strake::geometry {
 
-/// The exact distance of two features, with where their nearest points are.
+/// The exact distance of two features, with the positions of their nearest points.
 struct FeatureDistance {
   SquaredDistance squared;
-  /// The direction across which the distance stands, where it is short enough (else zero), and the
-  /// width across it.
+  /// The direction of the distance, where it is short enough (else zero), and the width along it.
   Vec3<Int128> direction{};
   Int128 width = 0;
   /// Parameters of the nearest points along the edges, over the distance's denominator; for a face,
-  /// how far along its normal (vertex_face: `direction`) the other's point is off.
+  /// the offset of the other's point along its normal (vertex_face: `direction`).
   Int256 at_a, at_b;
 };
 
@@ -39,8 +38,8 @@ namespace feature {
   return {{Int256(dot(d, d)), Int192(Int128{1})}, d, dot(d, d), {}, {}};
 }
 
-/// Coordinates of two vectors up to which what is left of the one without its part along the other
-/// is short enough to be multiplied with any difference of corners of a pair: 2^87 · 3 · 2^32.
+/// Whether the coordinates of two vectors are so small that the component of the one perpendicular
+/// to the other can be multiplied with any difference of vertices of a pair: 2^87 · 3 · 2^32.
 [[nodiscard]] constexpr bool both_short(const Vec3l& d, const Vec3l& e) {
   constexpr std::int64_t kShort = std::int64_t{1} << 28;
   for (int k = 0; k < 3; ++k)
@@ -85,7 +84,7 @@ namespace feature {
   return true;
 }
 
-/// An edge that pierces a face from one side to the other.
+/// Whether an edge pierces a face from one side to the other.
 [[nodiscard]] inline bool edge_face(const Vec3l& from, const Vec3l& to, const TriangleCorners& t,
                                     FeatureDistance& r) {
   const Vec3<Int128> n = cross_exact(t[1] - t[0], t[2] - t[0]);

@@ -15,7 +15,7 @@
 namespace strake::geometry {
 namespace {
 
-/// How far the line's points are off a plane, times the length of its normal.
+/// Returns the height of the line's points over a plane, times the length of its normal.
 AffineFunction height(const GridLine& line, const Vec3<Int128>& normal, const Vec3l& on_plane) {
   return {dot(normal, (line.from - on_plane).as<Int128>()),
           dot(normal, (line.to - on_plane).as<Int128>())};
@@ -88,7 +88,7 @@ Rational carried(const GridLine& of, const Rational& at, const GridLine& onto, i
   return fraction(from * at.den + at.num * e, at.den * f);
 }
 
-/// Lines on one line: the common stretch is found on the one that has a length.
+/// Intersects collinear lines: the common interval is found on the one that has a length.
 void overlap(const GridLine& a, const GridLine& b, int axis, LineMeeting& r) {
   HalfSpaceClip clip(a);
   const auto keep = [&](std::int64_t bound, int way) {

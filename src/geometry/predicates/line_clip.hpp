@@ -9,17 +9,19 @@
 #include "strake/geometry/rational.hpp"
 #include "strake/geometry/wide_int.hpp"
 
+// Features of triangles, and clipping of a line by half-spaces, in exact arithmetic.
+
 namespace strake::geometry {
 
 [[nodiscard]] inline int sign_of(Int128 v) { return (v > 0) - (v < 0); }
 
-/// An axis along which a vector does not vanish, or -1.
+/// Returns an axis along which a vector does not vanish, or -1.
 [[nodiscard]] inline int any_axis(const Vec3<Int128>& v) {
   return v.x != 0 ? 0 : v.y != 0 ? 1 : v.z != 0 ? 2 : -1;
 }
 
-/// The corner or edge of a triangle on whose lines a point of it lies, or its inside: bit i of
-/// `on_edges` is set when it is on edge i.
+/// Returns the feature of a triangle that a point of it lies on: bit i of `on_edges` is set when it
+/// is on edge i.
 [[nodiscard]] inline FeatureMask place_of(unsigned on_edges) {
   FeatureMask place = 7;
   for (unsigned i = 0; i < 3; ++i)
@@ -28,17 +30,17 @@ namespace strake::geometry {
   return place;
 }
 
-/// A function that is linear along a line, by its values at the parameters 0 and 1.
+/// A function that is linear along a line, given by its values at the parameters 0 and 1.
 struct AffineFunction {
   Int128 at_0 = 0, at_1 = 0;
 
-  /// Its sign at a finite parameter.
+  /// Returns its sign at a finite parameter.
   [[nodiscard]] int sign_at(const Rational& t) const {
     return (mul(at_0, t.den - t.num) + mul(at_1, t.num)).sign();
   }
 };
 
-/// The stretch of a line that half-spaces leave of it.
+/// Clips a line by half-spaces to an interval of parameters.
 class HalfSpaceClip {
  public:
   explicit HalfSpaceClip(const GridLine& line) {
@@ -48,7 +50,7 @@ class HalfSpaceClip {
     if (line.reach == LineKind::segment && !point) last_ = {1, 1};
   }
 
-  /// Keeps where the function is not negative.
+  /// Keeps the parameters where the function is not negative.
   void keep(const AffineFunction& f) {
     const Int128 slope = f.at_1 - f.at_0;
     if (slope == 0) {

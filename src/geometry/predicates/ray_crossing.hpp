@@ -6,18 +6,18 @@
 
 namespace strake::geometry {
 
-/// Counts how often a surface winds round a point, by the triangles that a ray along an axis
-/// meets; each triangle of the surface is to be shown once, but for those that the ray misses.
+/// Counts how often a surface winds round a point, by the triangles that a ray along an axis meets;
+/// pass each triangle of the surface once, except those that the ray misses.
 class RayCrossings {
  public:
   RayCrossings() = default;
   RayCrossings(const ScaledPoint& point, int axis, bool upward)
       : point_(point), axis_(axis), upward_(upward) {}
 
-  /// False when the point lies on the triangle: then nothing else matters.
+  /// Counts a triangle; false when the point lies on it: then nothing else matters.
   [[nodiscard]] bool pass(const TriangleCorners& t);
 
-  /// False where the ray certainly misses all from one corner of a box to the other.
+  /// Whether the ray may meet a box; false is certain.
   template <class T>
   [[nodiscard]] bool may_meet(const Vec3<T>& lo, const Vec3<T>& hi) const {
     for (int k = 0; k < 3; ++k) {

@@ -16,7 +16,7 @@ namespace {
 
 using Axis = Vec3<Int128>;
 
-/// What of a convex shape makes axes.
+/// The features of a convex shape that define candidate axes.
 struct Hull {
   std::vector<Vec3l> points;
   std::vector<Axis> normals;
@@ -182,7 +182,7 @@ void AxisSearch::offer_flat() {
     offer_edges_seen_along(normal);
     return;
   }
-  // All on one line: along it, and square to it, where there is no gap.
+  // All on one line: try the axis along it, and one perpendicular to it, where there is no gap.
   const int main = std::max(any_axis(way.as<Int128>()), 0);
   Axis unit, other;
   unit[main] = 1;

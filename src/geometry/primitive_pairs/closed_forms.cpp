@@ -39,7 +39,7 @@ struct ClosedFormDepth {
 
 Vec3d unit_or_zero(const Vec3d& v, double size) { return size > 0 ? v * (1 / size) : Vec3d{}; }
 
-/// About a common centre every way out of a ball is as short.
+/// Concentric: every direction out of a ball is equally short.
 Vec3d unit_or_x(const Vec3d& v) {
   const double size = norm(v);
   return size > 0 ? v * (1 / size) : Vec3d{1, 0, 0};

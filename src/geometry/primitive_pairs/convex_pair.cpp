@@ -66,7 +66,7 @@ class OverlappingPair {
   }
 
  private:
-  /// What touches flat meets no better parting plane than a face of either.
+  /// For bodies that touch along a flat face no separating plane is better than a face of either.
   void look_along_faces(GjkResult& gap, const std::optional<InteriorDistance>& field,
                         double side) const {
     for (std::size_t i = 0; field && i < field->planes(); ++i) {

@@ -6,7 +6,7 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// The distance of one body, read about the mesh's origin, and the mesh's triangles: see
+/// Returns the distance of one body, read about the mesh's origin, to the mesh's triangles: see
 /// primitive_mesh_distance().
 [[nodiscard]] PrimitiveMeshDistance operand_mesh_distance(const PrimitiveOperand& side,
                                                           const PartWithBvh& mesh, double enough);

@@ -11,8 +11,8 @@
 namespace strake::geometry::primitive_pairs {
 namespace {
 
-/// Nearest points to and fro: each step can only bring the two nearer, and of two that touch it
-/// takes them onto the skins.
+/// Alternates nearest points: each step can only bring the two nearer, and where the bodies touch
+/// it takes them onto the surfaces.
 void draw_together(const PrimitiveOperand& a, const PrimitiveOperand& b, GjkResult& gap) {
   constexpr int kMaxSteps = 8;
   for (int step = 0; step < kMaxSteps; ++step) {

@@ -9,13 +9,13 @@
 
 #include "geometry/primitives/mesh_builder.hpp"
 
-// Spherical dishes in a view. The rim is no great circle of the ball, so there is no net of degrees
-// in which it and the contour are both meridians. But all planes through the two points where they
-// meet cut the ball in circles through these, rim and contour among them: their arcs over the dish
-// are the rows of the net. The columns are circles at right angles to them (the circles of
-// Apollonius), on each of which the distances from the two points are in one ratio. Such a net is
-// the image of one of degrees under a map that takes circles to circles: its quads are planar, and
-// those along the contour look the right way.
+// Spherical dishes in a view. The base circle is no great circle of the ball, so no net of
+// meridians contains both it and the silhouette. But all planes through the two points where they
+// meet cut the ball in circles through these, base circle and silhouette among them: their arcs
+// over the dish are the rows of the net. The columns are circles at right angles to them (the
+// circles of Apollonius), on each of which the distances from the two points are in one ratio. Such
+// a net is the image of one of meridians and parallels under a map that takes circles to circles:
+// its quads are planar, and those along the silhouette face the right way.
 
 namespace strake::geometry::tessellation {
 namespace {

@@ -12,66 +12,71 @@
 #include "geometry/numeric/trig.hpp"
 #include "geometry/primitives/tessellate.hpp"
 
+// What the tessellations of all kinds share: circle points, the mesh builder and revolution sweeps.
+
 namespace strake::geometry::tessellation {
 
-/// What every kind is tessellated for: the map to the placed frame, and the sag in local length.
+/// The target of a tessellation: the map to the placed frame, and the sag in local length.
 struct TessellationTarget {
   Mat3d linear;
   double sag = 0;
-  /// Unit local direction to the viewer whose contours are edges; none: no view.
+  /// Unit local direction to the viewer whose silhouettes are edges; none: no view.
   std::optional<Vec3d> towards;
 };
 
-/// The share of the sag that the chords of a rim may take. The rest is for the other direction of
-/// doubly curved faces, so that an elbow has the same rim as the pipe that it continues.
+/// The share of the sag that the chords of an end circle may take. The rest is for the other
+/// direction of doubly curved faces, so that an elbow has the same end polygon as the pipe that it
+/// continues.
 inline constexpr double kRimShare = 0.75;
 
 [[nodiscard]] Tessellation fault(std::string_view why);
 
-/// Where a rim starts in its own plane: the direction (cos, sin) between the two plane axes whose
-/// images are given, chosen from the image's normal (up to sign) alone: the projection of Z on the
-/// plane, or of X when the normal is within 26 degrees of Z.
+/// Returns where an end circle starts in its own plane: the direction (cos, sin) between the two
+/// plane axes whose images are given, chosen from the image's normal (up to sign) alone: the
+/// projection of Z on the plane, or of X when the normal is within 26 degrees of Z.
 [[nodiscard]] SinCos canonical_phase(const Vec3d& image_x, const Vec3d& image_y);
 
-/// The unit direction that a map takes to the given one, up to its length: what has its local
-/// normal at right angles to it has its placed one so to the given one. None where the map flattens
+/// Returns the unit direction that a map takes to the given one, up to its length: a local normal
+/// perpendicular to it has a placed one perpendicular to the given one. None where the map flattens
 /// it.
 [[nodiscard]] std::optional<Vec3d> local_direction(const Mat3d& linear, const Vec3d& placed);
 
-/// Where the contour of a pipe lies in its section: at right angles to the direction to the viewer,
-/// given along two axes of the section and along the pipe. None where that is along the pipe.
+/// Returns where the silhouette of a pipe lies in its section: perpendicular to the direction to
+/// the viewer, given along two axes of the section and along the pipe. None where that is along the
+/// pipe.
 [[nodiscard]] std::optional<SinCos> contour_phase(double x, double y, double along);
 
-/// Where a rim about local Z starts: at the contour in a view, else at the canonical phase.
+/// Returns where a circle about local Z starts: at the silhouette in a view, else at the canonical
+/// phase.
 [[nodiscard]] SinCos rim_phase(const TessellationTarget& target);
 
-/// The images of the local axes.
+/// Returns the image of a local axis.
 [[nodiscard]] Vec3d column(const Mat3d& m, int axis);
 
-/// Points of a unit circle with a vertex at `phase`.
+/// Returns points of a unit circle with a vertex at `phase`.
 [[nodiscard]] std::vector<SinCos> rim(int segments, const SinCos& phase);
 
-/// The same with two more that lie anywhere: regular points within a quarter of a step of one are
-/// dropped, and the two are left out where they lie so near to each other.
+/// Returns the same with two more points anywhere: regular points within a quarter of a step of one
+/// are dropped, and the two are left out where they lie so near to each other.
 [[nodiscard]] std::vector<SinCos> rim_with(int segments, const SinCos& phase,
                                            const std::array<SinCos, 2>& contours);
 
-/// The widest angle between neighbours of a rim, which run counter-clockwise.
+/// Returns the widest angle between consecutive points, which run counter-clockwise.
 [[nodiscard]] double widest_step(std::span<const SinCos> rim);
 
 /// Triangles in local coordinates, gathered face by face.
 class MeshBuilder {
  public:
-  /// For a view: the diagonal of a quad that is not planar is the one of which no triangle looks
-  /// the other way than the whole quad.
+  /// In a view, a quad that is not planar gets the diagonal whose triangles both face the same way
+  /// as the whole quad.
   explicit MeshBuilder(const std::optional<Vec3d>& towards = std::nullopt) : towards_(towards) {}
 
   std::uint32_t vertex(const Vec3d& v);
-  /// A planar convex polygon, counter-clockwise seen from outside; `reversed` turns it.
+  /// Adds a planar convex polygon, counter-clockwise seen from outside; `reversed` flips it.
   void polygon(std::span<const std::uint32_t> ring, bool reversed = false);
-  /// A planar quad as a face of its own.
+  /// Adds a planar quad as a face of its own.
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
-  /// The same as one more piece of the face that `face()` returned.
+  /// Adds a planar quad to the face that `face()` returned.
   void quad_of(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c,
                std::uint32_t d);
   [[nodiscard]] std::uint32_t face() { return faces_++; }
@@ -87,7 +92,7 @@ class MeshBuilder {
   std::uint32_t faces_ = 0;
 };
 
-/// True when every length is finite and not negative.
+/// Whether every length is finite and not negative.
 [[nodiscard]] bool are_lengths(std::initializer_list<double> lengths);
 
 [[nodiscard]] Tessellation make(const BoxPrimitive& p, const TessellationTarget& target);
@@ -107,7 +112,7 @@ struct ProfilePoint {
   double radius = 0, z = 0;
 };
 
-/// How a profile is swept about the local Z axis.
+/// The directions in which a profile is swept about the local Z axis.
 struct RevolutionSweep {
   std::vector<SinCos> directions;  ///< one more than there are steps, unless full
   bool full = false;               ///< the last direction is followed by the first again

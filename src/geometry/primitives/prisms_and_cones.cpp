@@ -122,8 +122,8 @@ struct Snout {
     return {p.offset_x * (cut - 0.5) + r * a.cos, p.offset_y * (cut - 0.5) + r * a.sin,
             p.height * (cut - 0.5)};
   }
-  /// The two generators along which the skin turns away from a viewer. The normal is the same all
-  /// along a generator: (h cos a, h sin a, -(offset_x cos a + offset_y sin a + growth)).
+  /// Returns the two generators along which the surface turns away from a viewer. The normal is the
+  /// same all along a generator: (h cos a, h sin a, -(offset_x cos a + offset_y sin a + growth)).
   [[nodiscard]] std::optional<std::array<SinCos, 2>> contours(const Vec3d& towards) const {
     const double x = p.height * towards.x - towards.z * p.offset_x;
     const double y = p.height * towards.y - towards.z * p.offset_y;
@@ -137,9 +137,10 @@ struct Snout {
   }
   static constexpr double kNever = 1e300;
 
-  /// How far the true skin is from the facet between two generators, at most; infinite where an end
-  /// plane runs too much along the skin. A section of the facet across the axis is a chord of the
-  /// skin's circle; beyond those the outline of an end is what is farthest.
+  /// Returns the greatest distance of the true surface from the facet between two generators;
+  /// infinite where an end plane runs too much along the surface. A section of the facet across the
+  /// axis is a chord of the surface's circle; beyond those the outline of an end is what is
+  /// farthest.
   [[nodiscard]] double sag_between(const SinCos& a, const SinCos& b) const {
     const double cosine = a.cos * b.cos + a.sin * b.sin;
     // In it the tangents of a unit circle meet.

@@ -20,24 +20,24 @@ struct Tessellation {
 };
 
 /// Triangulates a primitive under the linear part of its placement, so that no triangle lies
-/// farther than `sag_mm` from the true surface and the reverse, both measured after the map.
+/// farther than `sag_mm` from the true surface, nor the reverse, both measured after the map.
 ///
 /// 1. The mesh is closed and oriented outward whatever the sign of the map's determinant, unless
-///    the primitive has no thickness: then it is a surface.
-/// 2. Where the rims of round primitives start depends on the axis and the radius in the placed
-///    frame only, never on the local frame: a pipe and the elbow or flange at its end meet vertex
-///    to vertex (up to the snap).
+///    the primitive has no thickness: then it is an open surface.
+/// 2. Where the end circles of round primitives start depends on the axis and the radius in the
+///    placed frame only, never on the local frame: a pipe and the elbow or flange at its end meet
+///    vertex to vertex (up to the snap).
 /// 3. Triangles of one planar face share a face id; a curved side has one id per planar quad.
 ///
 /// Definitions of the kinds: docs/formats/primitives.md.
 ///
-/// For a view, `towards` points to the viewer in the placed frame, its length does not matter. The
-/// contours of round primitives in that direction then are edges of the mesh: on one side of them
-/// facets look towards the viewer, on the other away. Rims start at the contour of the pipe that
-/// they are the rim of, so that 2. holds in each view too; where that is along the direction, as
-/// above. Contours that run within a quarter of a step of each other or of a rim are left out. A
-/// regular vertex within a quarter of a step of a contour makes way for it, so that chords may be
-/// a quarter longer: `sag_mm` of the mesh says what that comes to.
+/// For a view, `towards` points to the viewer in the placed frame; its length does not matter. The
+/// silhouettes of round primitives in that direction then are edges of the mesh: on one side of
+/// them facets face the viewer, on the other away. End circles start at the silhouette of their
+/// pipe, so that 2. holds in each view too; where the pipe is along the direction, as above.
+/// Silhouettes within a quarter of a step of each other or of an end circle are left out. A
+/// silhouette replaces a regular vertex within a quarter of a step of it, so that chords may be a
+/// quarter longer: `sag_mm` of the mesh includes that.
 [[nodiscard]] Tessellation tessellate(const Primitive& primitive, const Mat3d& linear,
                                       double sag_mm,
                                       const std::optional<Vec3d>& towards = std::nullopt);

@@ -24,7 +24,7 @@
 namespace strake::geometry {
 namespace {
 
-/// Steps of the walk for each triangle. Sheets that lie on each other all over take about 20.
+/// Work limit: steps of the traversal per triangle. Sheets that coincide everywhere take about 20.
 constexpr std::uint64_t kLeastSteps = 4096, kStepsPerTriangle = 256;
 
 /// Whether a triangle lies within a distance of another's plane.
@@ -127,13 +127,13 @@ std::optional<ProximityPatches> find_proximity_patches(const PairLocalPart& a,
 
 namespace {
 
-/// Work limits: pieces that are looked at, and attempts for the areas of one sheet. Each area may
+/// Work limits: segments that are tested, and attempts for the areas of one sheet. Each area may
 /// fail on either side, at first and when its ends are held back, and where it stays may keep its
 /// neighbours from moving. A heavy pair, of which not all pieces are known at first, has one
 /// attempt for either side, and one more.
 constexpr std::size_t kMostPieces = std::size_t{1} << 18U;
 constexpr int kMostAttempts = 8, kMostAttemptsIfHeavy = 3;
-/// Moves longer than this, grid units, are of sheets whose numbers say nothing.
+/// Longest displacement, grid units: sheets that need longer ones have meaningless numbers.
 constexpr double kLongestMove = 1 << 20;
 
 /// One of two sheets: that which is moved.
@@ -168,9 +168,10 @@ double distance_to_edges(const Vec3d& p, const Corners& t) {
   return least;
 }
 
-/// Whether the triangles of a piece pass through each other so far round a point of it that no
-/// moves part them. Each holds a disc round the point; the rim of one stays linked with the rim of
-/// the other as long as no point moves by half of what either reaches off the other's plane.
+/// Whether the triangles of a segment pass through each other so far round a point of it that no
+/// displacements separate them. Each holds a disc round the point; the circle of one stays linked
+/// with the circle of the other as long as no point moves by half of what either reaches off the
+/// other's plane.
 bool certainly_lasts(const PairLocalPart& a, const PairLocalPart& b,
                      const IntersectionSegment& piece, double within) {
   if (piece.edge_a >= 0 || piece.edge_b >= 0) return false;
@@ -184,7 +185,7 @@ bool certainly_lasts(const PairLocalPart& a, const PairLocalPart& b,
   return radius * sine > 3 * within + 3;
 }
 
-/// A sheet with some of its corners moved.
+/// A sheet with some of its vertices displaced.
 struct MovedSheet {
   Part part;
   std::vector<bool> moved;  ///< by vertex
@@ -212,7 +213,7 @@ struct MovedSheet {
   }
 };
 
-/// Moves corners of one of two sheets, area by area.
+/// Displaces vertices of one of two sheets, area by area.
 class Parting {
  public:
   Parting(const PartWithBvh& a, const PartWithBvh& b, Mover mover, double within,
@@ -227,7 +228,7 @@ class Parting {
         within_(within),
         work_(work) {}
 
-  /// The sheet as it is when it crosses less, and what is left of the pieces.
+  /// Returns the displaced sheet if it crosses less, and reduces the segments to those left.
   std::optional<MovedSheet> run(IntersectionSegments& pieces) {
     if (!choose(pieces)) return std::nullopt;
     const int most = pieces.truncated ? kMostAttemptsIfHeavy : kMostAttempts;

@@ -13,50 +13,52 @@
 #include "geometry/numeric/parity_union_find.hpp"
 #include "strake/geometry/part_pair.hpp"
 
+// Crossings of two sheets that small displacements do not undo.
+
 namespace strake::geometry {
 
 /// A triangle of one sheet that comes within a distance of the other.
 struct PatchTriangle {
   std::uint32_t triangle = 0;
-  bool along = false;  ///< it lies along one of the other's, or one of them along it
+  bool along = false;  ///< it lies along a triangle of the other sheet, or the reverse
   std::uint32_t area = 0;
-  bool swapped = false;  ///< its outer side is the inner side of the first triangle of its area
+  bool swapped = false;  ///< oriented against the first triangle of its area
 };
 
-/// The areas of one of two sheets that come within a distance of the other: near triangles, joined
-/// over edges.
+/// The areas of one of two sheets that come within a distance of the other: near triangles,
+/// connected over edges.
 struct ProximityPatches {
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
   std::vector<PatchTriangle> triangles;  ///< ascending
-  std::vector<std::uint32_t> number;  ///< by triangle of the sheet: place in `triangles`, or kNone
-  /// By area: has two sides. What closes to a Möbius strip has one.
+  std::vector<std::uint32_t> number;  ///< by triangle of the sheet: index in `triangles`, or kNone
+  /// By area: whether it has two sides. A Möbius strip has one.
   std::vector<bool> two_sided;
 
-  /// Null where the triangle is not near.
+  /// Returns the near triangle with this number; null where it is not near.
   [[nodiscard]] const PatchTriangle* find(std::uint32_t triangle) const {
     const std::uint32_t i = number[triangle];
     return i == kNone ? nullptr : &triangles[i];
   }
 };
 
-/// Those of b, or of a. None where the triangles that are near each other are too many to look at:
-/// the work is bounded by a multiple of the number of triangles of the two.
+/// Returns the patches of b, or of a. None where too many triangles are near each other: the work
+/// is bounded by a multiple of the number of triangles of the two.
 [[nodiscard]] std::optional<ProximityPatches> find_proximity_patches(const PairLocalPart& a,
                                                                      const PairLocalPart& b,
                                                                      bool of_b, double distance,
                                                                      QueryContext& work);
 
-/// The crossing pieces of two sheets but for those that small moves undo: moves of the corners of
-/// one of the sheets, none longer than `within` grid units, after which no triangle with a corner
-/// that was moved crosses the other sheet. (The other way round for what is left then.) Such moves
-/// are looked for by area that one sheet has within that distance of the other, to either side of
-/// it. Whether they part the sheets is decided exactly, so that what crosses by more than `within`
-/// is always kept; of what does not, some may be.
+/// Returns the intersection segments of two sheets without those that small displacements undo:
+/// displacements of the vertices of one sheet, none longer than `within` grid units, after which no
+/// triangle with a displaced vertex crosses the other sheet. (The sheets then swap roles for the
+/// rest.) They are sought by area of one sheet within that distance of the other, to either side of
+/// it. Whether they separate the sheets is decided exactly, so that crossings by more than `within`
+/// are always kept; some others may be.
 ///
-/// `pieces` are find_intersection_segments(a, b, most). The cost is that of some walks over the
-/// contacts where there are areas of which no piece certainly lasts, nothing worth mentioning where
-/// there are none.
+/// `pieces` are find_intersection_segments(a, b, most). The cost is that of some traversals of the
+/// contacts where there are areas without a certainly robust segment, and negligible where there
+/// are none.
 [[nodiscard]] IntersectionSegments keep_robust_segments(const PartWithBvh& a, const PartWithBvh& b,
                                                         IntersectionSegments pieces, double within,
                                                         std::size_t most, QueryContext& work);
@@ -64,13 +66,14 @@ struct ProximityPatches {
 /// Where two sheets cross: segments in grid units relative to a's origin.
 struct SheetIntersection {
   std::vector<DoubleSegment> segments;
-  std::vector<IntersectionSegment> pieces;  ///< by segment: what it is part of
-  bool crosses = false;                     ///< though it may be in segments too short to tell
-  bool truncated = false;                   ///< there may be more
+  std::vector<IntersectionSegment>
+      pieces;              ///< by segment: the intersection segment that it is part of
+  bool crosses = false;    ///< true even where all segments are too short to list
+  bool truncated = false;  ///< the lists may be incomplete
 };
 
-/// The segments of find_intersection_segments() that moves of up to `within` grid units do not undo
-/// (keep_robust_segments()): which these are is exact, where they lie is rounded.
+/// Returns the segments of find_intersection_segments() that displacements of up to `within` grid
+/// units do not undo (keep_robust_segments()): the set is exact, the positions are rounded.
 [[nodiscard]] SheetIntersection find_sheet_intersection(const PartWithBvh& a, const PartWithBvh& b,
                                                         double within, std::size_t most,
                                                         QueryContext& work);

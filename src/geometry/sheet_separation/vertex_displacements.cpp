@@ -15,7 +15,7 @@
 namespace strake::geometry {
 namespace {
 
-/// What a triangle says of a corner, or is said of it besides.
+/// A constraint on the displacement of a vertex, by a triangle or a further direction.
 struct Say {
   std::uint32_t vertex = 0;
   bool leads = false;
@@ -23,7 +23,7 @@ struct Say {
   Vec3d way;  ///< unit
 };
 
-/// Moves in all directions, each as long as allowed or a little shorter.
+/// Returns displacements in all directions, each as long as allowed or slightly shorter.
 std::vector<Vec3i> moves_up_to(double most) {
   // Of the contact distance of sound numbers, 3, these are all the moves there are.
   const int r = std::clamp(static_cast<int>(most), 1, 4);
@@ -89,7 +89,7 @@ bool is_near(const DoubleSegment& s, const Vec3d& corner, double distance) {
   return std::ranges::all_of(s, [&](const Vec3d& p) { return length(p - corner) <= distance; });
 }
 
-/// To the line through two points.
+/// Whether a segment is near the line through two points.
 bool is_near(const DoubleSegment& s, const Vec3d& from, const Vec3d& to, double distance) {
   const Vec3d along = to - from;
   const double most = distance * length(along);

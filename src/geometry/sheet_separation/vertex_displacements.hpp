@@ -9,16 +9,18 @@
 #include "geometry/intersect/intersection_segments.hpp"
 #include "strake/geometry/part.hpp"
 
+// Small displacements of the vertices of a sheet.
+
 namespace strake::geometry {
 
-/// A triangle that is to move to one of its sides.
+/// A triangle that is to be displaced to one of its sides.
 struct MovingTriangle {
   std::uint32_t triangle = 0;
-  bool outward = true;  ///< along its normal, seen from where it runs counter-clockwise
-  bool leads = false;   ///< at its corners only triangles that lead have a say
+  bool outward = true;  ///< along its normal, else against it
+  bool leads = false;   ///< at its vertices only leading triangles count
 };
 
-/// Where else a corner is to move.
+/// A further direction in which a vertex is to be displaced.
 struct VertexDirection {
   std::uint32_t vertex = 0;
   Vec3d way;  ///< unit
@@ -29,18 +31,18 @@ struct VertexDisplacement {
   Vec3i by;
 };
 
-/// For each corner of the triangles, ascending: of the whole moves no longer than `most` grid units
-/// (at least 1) one that takes it farthest off all the planes that have a say there, each to its
-/// side, and along all its `ways`, of corners of the triangles: that which makes the least of these
-/// the greatest. The same however the triangles are numbered and their corners ordered.
+/// Returns for each vertex of the triangles, ascending, an integer displacement no longer than
+/// `most` grid units (at least 1) that takes it farthest off all the planes that count there, each
+/// to its side, and along all its `ways`: the one that maximises the minimum of these. The result
+/// does not depend on the numbering of the triangles or the order of their corners.
 [[nodiscard]] std::vector<VertexDisplacement> vertex_displacements(
     const Part& part, std::span<const MovingTriangle> triangles,
     std::span<const VertexDirection> ways, double most);
 
-/// Where a triangle that holds a crossing piece, of b or of a, reaches through the other triangle
-/// with a corner or an edge by little: those corners, each with the way back. Little is what lies
-/// within `reach` grid units off the plane of the other. None where it passes through by more, or
-/// lies in that plane.
+/// Returns the vertices with which a triangle of an intersection segment, of b or of a, reaches
+/// slightly through the other triangle, by a corner or an edge, each with the direction back.
+/// Slightly means within `reach` grid units of the other's plane. None where it passes through by
+/// more, or lies in that plane.
 [[nodiscard]] std::vector<VertexDirection> retraction_directions(const PairLocalPart& a,
                                                                  const PairLocalPart& b,
                                                                  const IntersectionSegment& piece,

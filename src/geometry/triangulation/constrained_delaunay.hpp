@@ -13,17 +13,18 @@
 
 namespace strake::geometry::triangulation {
 
-/// A triangulation of the convex hull of points in which chosen segments are edges.
+/// A constrained Delaunay triangulation of the convex hull of points: chosen segments are edges.
 class ConstrainedDelaunay {
  public:
-  /// The points must be distinct and ascending. No triangles when all are collinear.
+  /// Triangulates points, which must be distinct and ascending; no triangles when all are
+  /// collinear.
   explicit ConstrainedDelaunay(std::vector<Point2> points);
 
-  /// Forces the segment between two points; false when it crosses one forced before.
+  /// Makes the segment between two points an edge; false when it crosses an earlier one.
   [[nodiscard]] bool insert_constraint(std::uint32_t a, std::uint32_t b);
   /// Restores the Delaunay property between the segments.
   void restore_delaunay();
-  /// For each triangle whether an odd number of closed loops of segments surround it.
+  /// Returns, for each triangle, whether an odd number of closed loops of segments surround it.
   [[nodiscard]] std::vector<bool> inside() const;
 
   [[nodiscard]] const std::vector<TriangulationFace>& cells() const { return cells_.all(); }
@@ -35,7 +36,7 @@ class ConstrainedDelaunay {
     std::uint32_t from = kNone, to = kNone, neighbour = kNone;
     bool constrained = false, odd = false;
   };
-  /// The cells that a segment runs through, and the vertices on either side of it, in its sense.
+  /// The triangles that a segment runs through, and the vertices on either side of it, along it.
   struct Cavity {
     std::vector<std::uint32_t> cells, left, right;
     std::vector<RimEdge> rim;

@@ -9,18 +9,18 @@
 
 namespace strake::geometry::triangulation {
 
-/// The Delaunay triangulation of distinct points in ascending order, as cells that know their
-/// neighbours; none when all points are collinear. O(n log n) whatever the points: by halves
-/// (L. Guibas and J. Stolfi, 1985).
+/// Returns the Delaunay triangulation of distinct points in ascending order, as triangles with
+/// their neighbours; none when all points are collinear. O(n log n) for any points: by divide and
+/// conquer (L. Guibas and J. Stolfi, 1985).
 [[nodiscard]] std::vector<TriangulationFace> delaunay(std::span<const Point2> points);
 
 }  // namespace strake::geometry::triangulation
 
 namespace strake::geometry::triangulation {
 
-/// The Delaunay triangulation of distinct points in ascending order; no triangles when all are
-/// collinear. Point by point: quick for the few of most faces, and quadratic where the front is
-/// long, as in a comb that is swept along its teeth.
+/// Returns the Delaunay triangulation of distinct points in ascending order; no triangles when all
+/// are collinear. Points are inserted one by one: fast for the few of most faces, and quadratic
+/// where the front is long, as in a comb swept along its teeth.
 [[nodiscard]] TriangulationMesh sweep_delaunay(std::vector<Point2> points);
 
 }  // namespace strake::geometry::triangulation

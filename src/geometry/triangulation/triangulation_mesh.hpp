@@ -19,7 +19,7 @@ struct Point2 {
 
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// The side of the line through p and q on which r lies: 1 left, -1 right, 0 on it.
+/// Returns the side of the line through p and q on which r lies: 1 left, -1 right, 0 on it.
 [[nodiscard]] constexpr int side_of(const Point2& p, const Point2& q, const Point2& r) {
   const std::int64_t area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
   return area > 0 ? 1 : area < 0 ? -1 : 0;
@@ -29,7 +29,7 @@ inline constexpr std::uint32_t kNone = 0xffffffffU;
 [[nodiscard]] bool inside_circle(const Point2& a, const Point2& b, const Point2& c,
                                  const Point2& d);
 
-/// The corners of a triangle in a round.
+/// Corner numbers of a triangle in cyclic order.
 constexpr std::uint32_t after(std::uint32_t i) { return i == 2 ? 0 : i + 1; }
 constexpr std::uint32_t before(std::uint32_t i) { return i == 0 ? 2 : i - 1; }
 
@@ -41,16 +41,16 @@ struct TriangulationFace {
   std::array<bool, 3> odd{};          ///< lies on an odd number of segments
 };
 
-/// Vertex `index` of a triangle, or the edge opposite.
+/// Vertex `index` of a triangle, or the edge opposite it.
 struct FaceCorner {
   std::uint32_t cell = kNone;
   std::uint32_t index = 0;
 };
 
-/// Triangles over points that know their neighbours, and how one is changed for another.
+/// A triangle mesh over points with neighbours, which edge flips transform.
 class TriangulationMesh {
  public:
-  /// No triangles yet.
+  /// Makes a mesh without triangles.
   explicit TriangulationMesh(std::vector<Point2> points)
       : points_(std::move(points)), cell_of_(points_.size(), kNone) {}
   TriangulationMesh(std::vector<Point2> points, std::vector<TriangulationFace> cells);
@@ -69,29 +69,29 @@ class TriangulationMesh {
     return cell.vertex[0] == vertex ? 0 : cell.vertex[1] == vertex ? 1 : 2;
   }
 
-  /// Calls visit(corner of the vertex) for the triangles round it until it returns true.
+  /// Calls visit(corner of the vertex) for the triangles round a vertex until it returns true.
   template <class Visit>
   void visit_star(std::uint32_t vertex, const Visit& visit) const;
 
   void reserve(std::size_t cells) { cells_.reserve(cells); }
-  /// A new triangle without neighbours.
+  /// Adds a triangle without neighbours.
   std::uint32_t add(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  /// The same in the place of another.
+  /// Replaces a triangle by one without neighbours.
   void set(std::uint32_t cell, const std::array<std::uint32_t, 3>& vertices);
   /// Makes two triangles neighbours over the edge that runs from -> to in s.
   void join(std::uint32_t s, std::uint32_t t, std::uint32_t from, std::uint32_t to);
-  /// Says what lies beyond an edge, which may be nothing, and lets that know.
+  /// Sets the neighbour beyond an edge, which may be none, and the neighbour's link back.
   void attach(const FaceCorner& edge, std::uint32_t neighbour, bool constrained, bool odd);
 
-  /// An edge that may not be Delaunay.
+  /// Notes an edge that may not be Delaunay.
   void doubt(const FaceCorner& edge) { doubtful_.push_back(edge); }
-  /// Flips doubtful edges that lie on no segment until all are Delaunay: flipped(cell) is told of
-  /// the two triangles each time.
+  /// Flips doubtful edges that lie on no segment until all are Delaunay: flipped(cell) is called
+  /// for both triangles each time.
   template <class Flipped>
   void legalise(const Flipped& flipped);
 
  private:
-  /// Of an edge with a neighbour.
+  /// Whether an edge with a neighbour is Delaunay.
   [[nodiscard]] bool is_delaunay(const FaceCorner& edge) const;
   /// Replaces an edge by the other diagonal of its quadrilateral.
   void flip(const FaceCorner& edge);
@@ -112,7 +112,7 @@ void TriangulationMesh::visit_star(std::uint32_t vertex, const Visit& visit) con
     cell = cells_[cell].neighbour[after(index)];
   } while (cell != kNone && cell != start);
   if (cell == start) return;
-  // Met the hull: the rest lies the other way.
+  // The hull is reached: the rest lies in the other direction.
   cell = cells_[start].neighbour[before(index_of(cells_[start], vertex))];
   while (cell != kNone) {
     const std::uint32_t index = index_of(cells_[cell], vertex);

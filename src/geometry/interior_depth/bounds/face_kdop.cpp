@@ -22,14 +22,14 @@
 namespace strake::geometry {
 namespace {
 
-/// Planes kept of a part that is not convex: its hull is only a bound there.
+/// Maximum number of planes kept for a part that is not convex: its hull is only a bound.
 constexpr std::size_t kMaxHullPlanes = 48;
 constexpr std::size_t kMaxConvexPlanes = 1024;
 /// How far, in grid units, a neighbour may stand above a face of a part called nearly convex:
 /// snapping moves a vertex by less than one, and a face's short side magnifies that.
 constexpr double kConvexSlack = 4;
 
-/// Flat faces that are looked for among the needles of a part with more faces than are kept at all.
+/// Number of flat faces sought among the slivers of a part with more faces than are kept.
 constexpr int kNeedleFaces = 16;
 
 /// Beyond this many triangles coplanar faces are found by their hashes: sorting would cost more.
@@ -39,7 +39,7 @@ struct DistinctFace {
   std::array<std::int64_t, 3> key{};  ///< the normal in steps of 2^-40: equal for coplanar faces
   Vec3d normal;
   double area = 0;  ///< twice
-  double tilt = 0;  ///< of a needle: how far the snap may have turned it; otherwise 0
+  double tilt = 0;  ///< angle error of a sliver by the snap; otherwise 0
 
   /// Of length 0 for no face.
   explicit DistinctFace(const Vec3d& n) : area(length(n)) {
@@ -108,8 +108,8 @@ void merge_by_sorting(std::vector<DistinctFace>& faces) {
   faces.resize(kept);
 }
 
-/// Makes one face, with their mean normal, of the needles that are turned from their largest one by
-/// no more than the snap may have turned either. False where these are few.
+/// Merges the slivers that differ from the largest one by no more than the angle errors of the snap
+/// into one face with their mean normal. False where these are few.
 bool merge_needles_of_largest(std::vector<DistinctFace>& faces) {
   const auto less = [](const DistinctFace& x, const DistinctFace& y) {
     const double of_x = x.tilt > 0 ? x.area : 0, of_y = y.tilt > 0 ? y.area : 0;
@@ -219,7 +219,7 @@ bool below_its_faces(const Part& part, double slack) {
   return true;
 }
 
-/// Convex however it is placed, whatever its measures.
+/// Whether a kind is convex under any placement, whatever its dimensions.
 bool of_convex_kind(const Primitive& primitive) {
   return std::holds_alternative<BoxPrimitive>(primitive) ||
          std::holds_alternative<CylinderPrimitive>(primitive) ||
@@ -228,7 +228,7 @@ bool of_convex_kind(const Primitive& primitive) {
          std::holds_alternative<SphericalDishPrimitive>(primitive);
 }
 
-/// What rounding may leave out of a support.
+/// Returns the rounding error of a support.
 double rounding_of(const Part& part) {
   double reach = 0;
   for (int k = 0; k < 3; ++k)
@@ -285,7 +285,7 @@ double widest_gap(const FaceKdop& from, const SupportTree& to, const Vec3d& shif
                   double rounding) {
   double widest = -std::numeric_limits<double>::infinity();
   if (to.empty()) return widest;
-  // The vertex that came nearest last: most normals are done with at a look at it.
+  // The vertex that came nearest last: it settles most normals.
   Vec3d vertex = to.support_along({0, 0, 1}).vertex.as<double>();
   for (const FaceKdop::Plane& plane : from.planes) {
     const double base = dot(plane.normal, shift) - plane.support;

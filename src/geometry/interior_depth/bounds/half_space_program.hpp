@@ -13,7 +13,7 @@
 
 namespace strake::geometry {
 
-/// The half-spaces of both parts about a centre in their common box.
+/// Linear programs over the half-spaces of both parts about a centre in their common box.
 class HalfSpaceProgram {
  public:
   HalfSpaceProgram(const DepthOperand& a, const DistanceField& fa, const DepthOperand& b,
@@ -32,8 +32,8 @@ class HalfSpaceProgram {
   [[nodiscard]] const Vec3d& centre() const { return centre_; }
   [[nodiscard]] double extent() const { return extent_; }
 
-  /// The largest ball in `ball`'s half-spaces with its centre in `room`'s. The answer's x is
-  /// relative to the common origin.
+  /// Returns the largest ball in one part's half-spaces (a's where `ball_is_a`) with its centre in
+  /// the other's. The result's x is relative to the common origin.
   [[nodiscard]] InscribedBall largest_ball(bool ball_is_a) const {
     std::vector<BallConstraint> rows;
     start(rows, ball_is_a ? a_ : b_, ball_is_a ? fa_ : fb_, 0);
@@ -41,13 +41,13 @@ class HalfSpaceProgram {
     append(rows, a_, fa_, ball_is_a ? 1 : 0, 0);
     append(rows, b_, fb_, ball_is_a ? 0 : 1, 0);
     // A body that is not convex may face the other with none of its own planes: the other's planes,
-    // turned round, stand for what of it lies against them, be it the ball's body or the room.
+    // reversed, then stand for its faces against them, whichever body holds the ball.
     if (!a_.planes->nearly_convex) append_opposite(rows, a_, b_, fa_, ball_is_a ? 1 : 0);
     if (!b_.planes->nearly_convex) append_opposite(rows, b_, a_, fb_, ball_is_a ? 0 : 1);
     return solve(rows);
   }
 
-  /// The point farthest from both boundaries among those at least `depth` deep in one body.
+  /// Returns the point farthest from both boundaries among those at least `depth` deep in one body.
   [[nodiscard]] InscribedBall centre_of_deepest_ball(bool deep_in_a, double depth) const {
     std::vector<BallConstraint> rows = deep_rows(deep_in_a, depth);
     append(rows, a_, fa_, 1, 0);
@@ -55,8 +55,8 @@ class HalfSpaceProgram {
     return solve(rows);
   }
 
-  /// The same where all points so deep lie on a skin of the other, as between walls whose faces are
-  /// parallel: then only the boundaries that they can be away from count.
+  /// Returns the same where all points so deep lie on the other's surface, as between walls with
+  /// parallel faces: then only the boundaries that they can be away from count.
   [[nodiscard]] InscribedBall centre_on_surface(bool deep_in_a, double depth) const {
     std::vector<BallConstraint> rows = deep_rows(deep_in_a, depth);
     const std::vector<Vec3d> across = skin_normals(deep_in_a, depth);
@@ -65,7 +65,8 @@ class HalfSpaceProgram {
     return solve(rows);
   }
 
-  /// From a point of the common part to the middle of those about as deep in one body.
+  /// Returns the centre of the points of the intersection that are about as deep in one body as
+  /// `from`.
   [[nodiscard]] Vec3d centre_of_deep_points(const Vec3d& from, bool deep_in_a, double depth) const {
     std::vector<BallConstraint> rows = deep_rows(deep_in_a, depth);
     append(rows, deep_in_a ? b_ : a_, deep_in_a ? fb_ : fa_, 0, 0);
@@ -90,7 +91,8 @@ class HalfSpaceProgram {
     return dot(c, c) < kSquare;
   }
 
-  /// Normals of the one body's planes that lie `depth` within a plane of the other turned round.
+  /// Returns the normals of the one body's planes that lie `depth` inside a reversed plane of the
+  /// other.
   [[nodiscard]] std::vector<Vec3d> skin_normals(bool deep_in_a, double depth) const {
     constexpr double kWidth = 4;
     const DepthOperand &ball = deep_in_a ? a_ : b_, &room = deep_in_a ? b_ : a_;
@@ -104,7 +106,7 @@ class HalfSpaceProgram {
     return normals;
   }
 
-  /// Planes that a point may be away from; those along the given normals only hold it.
+  /// Appends planes that a point may be away from; those along the given normals only contain it.
   void append_beside(std::vector<BallConstraint>& rows, const DepthOperand& part,
                      const DistanceField& f, const std::vector<Vec3d>& across) const {
     for (const FaceKdop::Plane& p : part.planes->planes) {
@@ -135,7 +137,7 @@ class HalfSpaceProgram {
     }
   }
 
-  /// The centre is in the box that counts.
+  /// Keeps the centre in the box that counts.
   void stay_within(std::vector<BallConstraint>& rows) const {
     if (!within_) return;
     for (int k = 0; k < 3; ++k) {

@@ -154,8 +154,8 @@ namespace {
 
 constexpr int kMaxPivots = 500;
 /// Steps without gain after which only certain violations count: of constraints along nearly the
-/// same planes, as those of equal or flush bodies, each may else be off by the rounding of a vertex
-/// of the others, so that they take each other's place for ever.
+/// same planes, as those of equal or touching bodies, each may otherwise be violated by the
+/// rounding of a vertex of the others, so that they replace each other for ever.
 constexpr int kDoubtSteps = 3;
 /// Steps without gain after which the first violated constraint is taken, not the most.
 constexpr int kStallSteps = 24;
@@ -206,10 +206,11 @@ InscribedBall largest_inscribed_ball(const InscribedBallProblem& problem) {
 
 namespace {
 
-/// A direction with no more than this of another counts as square to it: more than what the snap
-/// turns a face by, so that two faces on each other hold a point across them only.
+/// A direction whose cosine with another is no more than this counts as perpendicular to it: more
+/// than the angle error of a face by the snap, so that two coplanar faces hold a point only across
+/// them.
 constexpr double kPerpendicular = 1e-3;
-/// A boundary that a way runs along but for this is not met by it.
+/// A boundary that is parallel to a direction but for this is not met along it.
 constexpr double kAlong = 1e-9;
 /// A boundary whose multiplier is less hardly holds the ball: it gives way to a move of the ball
 /// that costs a thousandth of the move.

@@ -17,28 +17,27 @@
 namespace strake::geometry {
 namespace {
 
-/// Near pairs of triangles and pairs of nodes, for each triangle of the two, beyond which it would
-/// take too long.
+/// Maximum numbers of near pairs of triangles and of pairs of nodes per triangle of the two.
 constexpr std::size_t kNearPerTriangle = 2, kNodesPerTriangle = 8;
 constexpr std::size_t kAlwaysNear = 128;
-/// Points of a skin that are looked at for one that is clear of the other.
+/// Number of surface points tried for one that is clear of the other body.
 constexpr std::size_t kMostProbes = 16;
-/// What moves may add to coordinates that fit the exact arithmetic.
+/// Room that displacements may need beyond coordinates that fit the exact arithmetic.
 constexpr std::int64_t kRoom = 64;
 
 using ExactCorners = std::array<Vec3l, 3>;
 
-/// How two triangles stand to each other.
+/// The relation of two triangles.
 enum class TriangleRelation : std::uint8_t {
   apart,     ///< farther than the reach
   near,      ///< as far as is known
-  crossing,  ///< moves within the reach do not part them
+  crossing,  ///< displacements within the reach do not separate them
 };
 
 constexpr double kCoplanar = 1 - 1e-4;  ///< squares of cosines
 constexpr double kParallel = 1e-12;     ///< squares of sines
 
-/// Along the directions in which planes that part triangles may lie. Rounding is far below a unit.
+/// Tests the normals of possible separating planes of two triangles. Rounding is far below a unit.
 class SeparatingAxisTest {
  public:
   SeparatingAxisTest(const DoubleTriangle& a, const DoubleTriangle& b, double reach)
@@ -88,7 +87,7 @@ class SeparatingAxisTest {
   bool crossing_ = true;
 };
 
-/// The triangles of one body that come near the other, as they are and with moved corners.
+/// The triangles of one body that come near the other, with their original and displaced vertices.
 class MovingSurface {
  public:
   explicit MovingSurface(const PairLocalPart& view) : view_(view) {}
@@ -162,7 +161,7 @@ class MovingSurface {
   double longest_ = 0;
 };
 
-/// Whether some point of a skin is outside the other body and farther from it than `most`.
+/// Whether some surface point is outside the other body and farther from it than `most`.
 bool is_clear_somewhere(const PairLocalPart& view, const PartWithBvh& other, const Vec3l& shift,
                         double most, QueryContext& work) {
   const Part& part = view.part();
@@ -202,8 +201,8 @@ class DisplacementSearch {
     if (!applies() || !find_near()) return std::nullopt;
     for (const double most : {first, most_}) {
       if (most > most_ || !parts(most)) continue;
-      // One point speaks for all of a skin that does not meet the other, and it does so wherever
-      // the skins move by no more than that it is clear of them.
+      // One point decides for all of a surface that does not meet the other, also after
+      // displacements no longer than its distance from the other.
       if (!is_clear_somewhere(a_, treed_b_, shift_, most, work_) ||
           !is_clear_somewhere(b_, treed_a_, Vec3l{} - shift_, most, work_))
         return std::nullopt;
@@ -227,7 +226,7 @@ class DisplacementSearch {
     return true;
   }
 
-  /// Whether moves are found after which no triangle of one meets any of the other.
+  /// Whether displacements are found after which no triangle of one meets any of the other.
   bool parts(double most) {
     if (!skin_a_.shrink(most) || !skin_b_.shrink(most)) return false;
     return std::ranges::none_of(near_, [&](const NodePair& pair) {

@@ -13,10 +13,10 @@
 namespace strake::geometry {
 namespace {
 
-/// Up to this many points a walk over all is quicker.
+/// Up to this many points a scan of all is faster.
 constexpr std::size_t kFewVertices = 48;
 constexpr std::uint32_t kVerticesPerLeaf = 8;
-/// Halving 2^32 points takes 29 levels down to the leaves; a walk keeps one node a level.
+/// Halving 2^32 points takes 29 levels down to the leaves; a traversal keeps one node per level.
 constexpr std::size_t kDepth = 40;
 
 double along(const Vec3d& n, const Vec3i& v) {

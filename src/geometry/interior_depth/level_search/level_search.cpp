@@ -16,14 +16,14 @@ namespace strake::geometry {
 namespace {
 
 /// Nodes of a tree, visited on the way to the nearest triangle, that count as one cell. In the
-/// middle of a round body all of its skin is about equally near.
+/// middle of a round body all of its surface is about equally near.
 constexpr std::uint64_t kVisitedPerCell = 256;
-/// And what making a piece of a surface counts as.
+/// Number of such nodes that making a piece of a surface counts as.
 constexpr std::uint64_t kVisitedPerPiece = 4;
 /// The least difference of the ways to two triangles that a cut goes between.
 constexpr double kLeastTurn = 0.1;
 
-/// Half-spaces of a part that are looked at: more of a round one cost more than they cut off.
+/// Maximum number of half-spaces used of a part: more of a round one cost more than they cut off.
 constexpr std::size_t kMostLevelPlanes = 64;
 
 class LevelSearch {
@@ -64,7 +64,7 @@ class LevelSearch {
     return near;
   }
 
-  /// The skin of the second.
+  /// Returns the surface of the second part.
   [[nodiscard]] std::optional<std::vector<OffsetCell>> skin() const {
     const auto near = triangles_near(in_, room_, 0);
     if (!near) return std::nullopt;
@@ -155,7 +155,7 @@ class LevelSearch {
       answer_.deeper = middle_;
       return false;
     }
-    // What of the cell is in the second is next to the skin, in one piece.
+    // The part of the cell in the second is next to the surface, in one piece.
     const bool one_piece = cell.on_skin || open.in.side != CellCuller::CellSide::both;
     if (one_piece && open.of.side != CellCuller::CellSide::both && goal_.belongs &&
         !goal_.belongs(middle_))
@@ -174,8 +174,9 @@ class LevelSearch {
   }
 
   /// Whether a move shorter than the level, out of the triangle that is nearest to its middle or to
-  /// a corner, takes all of a cell out of the first part: no point of it is farther from the skin.
-  /// As deep as the level, its middle is not taken out: then only these triangles are found.
+  /// a corner, takes all of a cell out of the first part: no point of it is farther from the
+  /// surface. As deep as the level, its middle is not taken out: then only these triangles are
+  /// found.
   bool leads_out(const OffsetCell& cell, std::uint32_t nearest, bool as_deep) {
     near_ = {nearest};
     if (!as_deep && leads_out(cell, middle_, nearest)) return true;
@@ -326,7 +327,7 @@ std::vector<HalfSpace> half_spaces_of(const DistanceField& part) {
   std::vector<HalfSpace> hull;
   if (part.planes() == nullptr) return hull;
   const std::vector<FaceKdop::Plane>& planes = part.planes()->planes;
-  // They stand by their normals: any share looks to all sides.
+  // They are sorted by their normals: any share faces all directions.
   const std::size_t step =
       std::max<std::size_t>(1, (planes.size() + kMostLevelPlanes - 1) / kMostLevelPlanes);
   const Vec3d shift = part.local({});

@@ -18,7 +18,7 @@
 namespace strake::geometry {
 namespace {
 
-/// Triangles beyond which a surface is not made.
+/// Maximum number of triangles for which a surface is made.
 constexpr std::size_t kMostTriangles = 16384;
 /// Rounding of heights over a triangle's plane, grid units, and of unit vectors.
 constexpr double kHeightError = 1e-3, kUnitError = 1e-9;
@@ -95,7 +95,7 @@ class OffsetSurfaceBuilder {
 
  private:
   using Ends = std::array<std::uint32_t, 2>;
-  /// How far the skin bends in, in all, at the edges of a corner.
+  /// The total inward bend of the surface at the edges of a vertex.
   struct Bend {
     std::uint32_t corner = 0;
     double angle = 0;
@@ -188,7 +188,7 @@ class OffsetSurfaceBuilder {
     cells_.push_back(round_edge({at(ends[0]), at(ends[1])}, {from, to}, distance_));
   }
 
-  /// All round an edge.
+  /// Adds cells all round an edge.
   void add_turn(const Ends& ends, const Vec3d& across, const Vec3d& along) {
     const Vec3d up = cross(along, across);
     const std::array<Vec3d, 4> ways{across, up, -across, -up};
@@ -221,7 +221,7 @@ class OffsetSurfaceBuilder {
     }
   }
 
-  /// All round a corner.
+  /// Adds cells all round a vertex.
   void add_ball(const Vec3d& corner) {
     for (const double x : {1.0, -1.0})
       for (const double y : {1.0, -1.0})

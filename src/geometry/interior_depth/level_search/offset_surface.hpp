@@ -10,22 +10,23 @@
 
 namespace strake::geometry {
 
-/// Where a surface is asked for: a box and half-spaces with unit normals.
+/// The region in which a surface is needed: a box and half-spaces with unit normals.
 struct SearchRegion {
   const Box3d& box;
   std::span<const HalfSpace> hull;
 };
 
-/// All points of a part at some distance from its skin that lie in a room, or more: its triangles
-/// moved inwards, and round edges and corners that stand in; to both sides and all round where the
-/// part overlaps itself. What bends by less than `flat` grid units there is left out: it is so near
-/// to what is not. Nothing where there is too much of it.
+/// Returns cells that cover all points of a part at some distance from its surface in a region: its
+/// triangles moved inwards, and rounded reflex edges and vertices; on both sides and all round
+/// where the part overlaps itself. Cells that bend by less than `flat` grid units are left out:
+/// they are that near to the rest. Nothing where there are too many cells.
 [[nodiscard]] std::optional<std::vector<OffsetCell>> offset_surface(const DistanceField& of,
                                                                     const SearchRegion& room,
                                                                     double distance, double flat,
                                                                     QueryContext& work);
 
-/// The triangles whose boxes come within a distance of a box; nothing where these are too many.
+/// Returns the triangles whose boxes come within a distance of a box; nothing where these are too
+/// many.
 [[nodiscard]] std::optional<std::vector<std::uint32_t>> triangles_near(const DistanceField& of,
                                                                        const Box3d& box,
                                                                        double distance);

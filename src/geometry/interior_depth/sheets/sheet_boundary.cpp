@@ -16,7 +16,7 @@
 namespace strake::geometry {
 namespace {
 
-/// Whether two triangles with a common edge lie on different sides of it, and not on each other.
+/// Whether two triangles with a common edge lie on different sides of it and do not overlap.
 bool go_on(const Part& part, const PartEdge& edge, std::uint32_t t, std::uint32_t u) {
   const auto at = [&](std::uint32_t v) { return part.vertices[v].as<std::int64_t>(); };
   const Vec3l from = at(edge.v0), to = at(edge.v1);
@@ -54,11 +54,11 @@ namespace {
 constexpr std::uint32_t kLeaf = 4;
 /// Levels of a tree over as many segments as a number has room for.
 constexpr std::size_t kMostLevels = 33;
-/// What rounding may make of the distance to a box, relative: a node is left out only beyond that.
+/// Relative rounding error of the distance to a box: a node is pruned only beyond that.
 constexpr double kBoundaryRounding = 0x1p-40;
-/// Pieces for each segment at most, on the average and besides itself.
+/// Maximum average number of additional pieces per segment.
 constexpr double kMostBoundaryPieces = 8;
-/// What rounding may make of where a segment is cut, grid units.
+/// Grid units: rounding error of where a segment is split.
 constexpr double kMargin = 1.0 / 1024;
 
 }  // namespace

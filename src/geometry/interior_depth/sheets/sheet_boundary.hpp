@@ -13,21 +13,21 @@
 
 namespace strake::geometry {
 
-/// The edges of a sheet at which it ends: those whose triangles do not cancel in direction, but for
-/// those between two triangles of which one goes on where the other ends, wound to and fro.
-/// Grid units, in the part's own coordinates.
+/// Returns the boundary edges of a sheet: those whose triangles do not cancel in direction, except
+/// between two triangles that continue each other with opposite orientation. Grid units, in the
+/// part's own coordinates.
 [[nodiscard]] std::vector<std::array<Vec3d, 2>> boundary_edges(const Part& part);
 
-/// Segments for "how far is the nearest of them": cut where they are long against the room that
-/// each has, and halved again and again along the longest side of their box, so that a question
-/// costs the logarithm of their number.
+/// A tree over segments for the distance to the nearest: long segments are split relative to the
+/// space that each has, and ranges along the longest side of their box, so that a query costs the
+/// logarithm of their number.
 class SegmentBvh {
  public:
   using Segment = std::array<Vec3d, 2>;
 
   struct NearestSegment {
     double distance = std::numeric_limits<double>::infinity();
-    std::uint32_t segment = 0;  ///< of several as near, any
+    std::uint32_t segment = 0;  ///< any of those equally near
   };
 
   explicit SegmentBvh(std::vector<Segment> segments);
@@ -35,8 +35,8 @@ class SegmentBvh {
   [[nodiscard]] bool empty() const { return segments_.empty(); }
   [[nodiscard]] const Segment& operator[](std::uint32_t i) const { return segments_[i]; }
 
-  /// The segment nearest to a point, if nearer than `limit`; the distance is to the bit what a look
-  /// at all of them would give. The first that is no farther than `enough` will do.
+  /// The segment nearest to a point, if nearer than `limit`; the distance is bit for bit what a
+  /// scan of all would give. The first that is no farther than `enough` suffices.
   [[nodiscard]] NearestSegment nearest(const Vec3d& p, double limit, double enough) const;
 
  private:
@@ -45,7 +45,7 @@ class SegmentBvh {
     std::uint32_t first = 0;  ///< inner: left child (right = first + 1); leaf: first of order_
     std::uint32_t count = 0;  ///< 0: inner node; otherwise pieces in the leaf
   };
-  /// Of a segment, that has more if it is long.
+  /// A piece of a segment; long segments have several.
   struct SegmentPiece {
     Box3d box;
     std::uint32_t segment = 0;

@@ -17,12 +17,13 @@
 namespace strake::geometry {
 namespace {
 
-/// Stretches beyond which the rest is not looked for: two sheets that cross all over have about one
-/// a triangle, two that are all needles through each other the square of their number.
+/// Maximum number of segments searched for: two sheets that cross all over have about one per
+/// triangle, two of slivers through each other the square of their number.
 constexpr std::size_t kStretchesPerTriangle = 2, kLeastStretches = 20000;
 /// Far above what double arithmetic makes of a distance within a pair, grid units.
 constexpr double kSlack = 1.0 / 256;
-/// A bracket this narrow relative to the depth costs a curve a few halvings more than a wide one.
+/// Relative width of a bracket: this narrow, it costs a curve only a few halvings more than a wide
+/// one.
 constexpr double kRelative = 1e-4;
 
 double size_of(const Part& p) { return length(p.box.hi.as<double>() - p.box.lo.as<double>()); }
@@ -56,7 +57,7 @@ struct SheetCrossing::Curves {
 
 namespace {
 
-/// A piece of the common curve.
+/// A piece of the intersection curve.
 struct CurvePiece {
   std::array<Vec3d, 2> end;
   double upper = 0;
@@ -69,7 +70,8 @@ struct LessPromising {
   }
 };
 
-/// The deepest point of some pieces of the common curve: branch and bound, by halves.
+/// Finds the deepest point of some pieces of the intersection curve by branch and bound with
+/// bisection.
 class CurveSearch {
  public:
   CurveSearch(const SegmentBvh& rim_a, const SegmentBvh& rim_b, const Vec3d& shift, double ceiling,

@@ -12,27 +12,27 @@
 
 namespace strake::geometry {
 
-/// Where two sheets cross, found once for all that is asked about it: how deep they cross as a
-/// whole, or in each of the places where they do. The parts and their trees must live.
+/// The crossing of two sheets, found once for all queries: how deep they cross as a whole, or in
+/// each contact region. The parts and their trees must outlive it.
 ///
-/// Building costs what the contacts cost; a question a logarithm for each stretch that it is about.
+/// Building costs as much as the contacts; a query costs a logarithm for each of its segments.
 class SheetCrossing {
  public:
-  /// The two triangles that have a stretch of the common curve.
+  /// The two triangles that share a segment of the intersection curve.
   struct Stretch {
     std::uint32_t triangle_a = 0, triangle_b = 0;
   };
 
-  /// What moves of corners of up to `apart_within` grid units undo is no crossing.
+  /// Finds the crossing, without what vertex displacements of up to `apart_within` grid units undo.
   SheetCrossing(const PartWithBvh& a, const PartWithBvh& b, double apart_within,
                 QueryContext& work);
 
   [[nodiscard]] const std::vector<Stretch>& stretches() const;
 
-  /// As sheet_crossing_depth(), of which the goal's `apart_within` is known here.
+  /// Returns sheet_crossing_depth(); the goal's `apart_within` is the one given to the constructor.
   [[nodiscard]] Depth depth(const DepthOptions& goal, QueryContext& work) const;
-  /// Of some of the stretches, by number. Their list may lack some where there are very many: the
-  /// upper bound says so.
+  /// Returns the depth along some of the segments, by number. Their list may be incomplete where
+  /// there are very many: the upper bound accounts for it.
   [[nodiscard]] Depth depth_along(std::span<const std::uint32_t> some, const DepthOptions& goal,
                                   QueryContext& work) const;
 

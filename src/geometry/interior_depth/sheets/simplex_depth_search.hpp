@@ -21,27 +21,28 @@
 
 namespace strake::geometry {
 
-/// Work limit: pieces are cheaper than the cells of two solids.
+/// Work limit: simplices per cell of the limit for two solids, since they are cheaper.
 inline constexpr std::uint32_t kSimplicesPerCell = 2;
-/// Brackets are to be as narrow as this, relative to the depth, whatever the goal allows: for the
-/// cells of two solids that would take too long.
+/// Brackets get as narrow as this, relative to the depth, whatever the goal allows: for two solids
+/// that would take too long.
 inline constexpr double kSheetRelative = 0.01;
 
-/// Steps from piece to piece, at most, of a point that climbs, and what is worth one.
+/// Maximum number of steps from simplex to simplex of a climbing point, and the least relative gain
+/// of one.
 inline constexpr int kMostSteps = 8;
 inline constexpr double kLeastGain = 1e-3;
 
-/// The deepest point in a solid of what has no thickness: triangles (N = 3) or segments (N = 2) in
-/// the coordinates of the field. Branch and bound, halved at the longest edges; where the work
-/// limit ends it, the deepest point found climbs to where it is deepest nearby.
+/// Finds the deepest point in a solid of triangles (N = 3) or segments (N = 2) in the coordinates
+/// of the field. The branch and bound halves simplices at their longest edges; where the work limit
+/// ends it, the deepest point found climbs to a local maximum.
 template <std::size_t N>
 class SimplexDepthSearch {
  public:
   using Shape = std::array<Vec3d, N>;
 
-  /// Raises `depth` where the pieces are deeper; its upper bound is a ceiling. `whole`: the pieces
-  /// that there are, if these are only those near the solid; the work limit goes by them, or by
-  /// those in the goal's box.
+  /// Raises `depth` where the simplices are deeper; its upper bound is a ceiling. `whole`: the
+  /// number of all simplices, if these are only those near the solid; the work limit depends on it,
+  /// or on those in the goal's box.
   SimplexDepthSearch(std::span<const Shape> pieces, const DistanceField& solid,
                      const DepthOptions& goal, Depth& depth, double margin, QueryContext& work,
                      std::size_t whole = 0)
@@ -86,7 +87,7 @@ class SimplexDepthSearch {
       return x.upper != y.upper ? x.upper < y.upper : x.id > y.id;
     }
   };
-  /// What some of the pieces have to say.
+  /// The result of a block of simplices.
   struct BlockResult {
     Depth depth;
     std::vector<OpenSimplex> open;  ///< what may be deeper, as they came
@@ -107,7 +108,7 @@ class SimplexDepthSearch {
     evaluate_in_blocks(ceiling);
   }
 
-  /// By blocks that do not depend on the team, each as if it were alone.
+  /// Evaluates blocks that do not depend on the team, each independently.
   void evaluate_in_blocks(double ceiling) {
     const Box3d room = solid_.box();
     const auto found = parallel::reduce(
@@ -145,7 +146,7 @@ class SimplexDepthSearch {
     std::ranges::push_heap(open_, LessPromising());
   }
 
-  /// No deeper than what is known already.
+  /// Returns the depth up to which nothing deeper than the known point is gained.
   [[nodiscard]] double negligible_depth(const Depth& known) const {
     return std::max(known.value + margin_, goal_.negligible_depth);
   }
@@ -161,8 +162,8 @@ class SimplexDepthSearch {
     return depth_.cells >= std::uint64_t{kSimplicesPerCell} * cells + whole_;
   }
 
-  /// From the deepest point found along the pieces that have it to where it is deepest nearby, and
-  /// on from there.
+  /// Climbs from the deepest point found, along the simplices that contain it, to a local maximum,
+  /// and on from there.
   void climb() {
     if (goal_.negligible_depth > 0) return;  // nobody needs the deepest point
     const Shape* climbed = nullptr;
@@ -210,13 +211,13 @@ class SimplexDepthSearch {
     }
   }
 
-  /// Raises `best` if the piece's middle is deeper; the piece, if some of it may be deeper still.
-  /// `nearest`: a face that may be the nearest, then the one that is.
+  /// Raises `best` if the simplex's middle is deeper. Returns the simplex if some of it may be
+  /// deeper still. `nearest`: a hint for the nearest face, then the nearest one.
   std::optional<OpenSimplex> evaluate(const Shape& c, std::uint32_t& nearest, double ceiling,
                                       Depth& best, QueryContext& work) const {
     if (goal_.within && !box_of(c).meets(*goal_.within)) return std::nullopt;
     ++best.cells;
-    // A point of the field grid, within slack_ of the sheet: its side is exact, and it speaks for
+    // A point of the field grid, within slack_ of the sheet: its side is exact, and it represents
     // the point of the sheet next to it.
     Vec3d sum;
     for (const Vec3d& v : c) sum = sum + v;
@@ -226,11 +227,11 @@ class SimplexDepthSearch {
     radius += slack_;
     const NearestTriangle near = solid_.nearest(at, nearest);
     nearest = near.triangle;
-    // Whatever side it is on: asking for that takes longest.
+    // This bound holds on either side: locating the point takes longest.
     double upper = std::min({ceiling, near.distance + radius, by_face(c, near.triangle) + slack_});
     if (upper <= negligible_depth(best)) return std::nullopt;
     const bool inside = solid_.contains(at, work);
-    const bool one_side = near.distance > radius;  // no skin within that radius
+    const bool one_side = near.distance > radius;  // no surface within that radius
     if (one_side && !inside) return std::nullopt;
     if (one_side && goal_.belongs && !goal_.belongs(at)) return std::nullopt;
     if (inside && near.distance - slack_ > best.value && goal_.counts(at))
@@ -240,7 +241,8 @@ class SimplexDepthSearch {
     return OpenSimplex{c, upper, near.triangle};
   }
 
-  /// The greatest distance of a corner from a face of the solid: no point is farther from its skin.
+  /// Returns the greatest distance of a corner from a face of the solid: no point is farther from
+  /// its surface.
   [[nodiscard]] double by_face(const Shape& c, std::uint32_t triangle) const {
     const Corners face = corners_of(solid_.part(), triangle);
     double most = 0;

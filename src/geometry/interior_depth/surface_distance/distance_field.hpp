@@ -20,28 +20,27 @@
 
 namespace strake::geometry {
 
-/// Points whose side is asked for lie on this fraction of the grid, so that the question is exact.
+/// Points to be located lie on this fraction of the grid, so that the location is exact.
 inline constexpr std::int64_t kFieldDenominator = 4096;
 
-/// What double arithmetic may be off by in a distance of this size or between bodies this large,
-/// relative: far above the rounding of nearest_triangle, far below a grid unit for a kilometre.
+/// Relative error bound of a distance in double arithmetic: far above the rounding of
+/// nearest_triangle, far below a grid unit for a kilometre.
 inline constexpr double kFieldError = 1e-12;
 
 [[nodiscard]] inline Vec3d on_field_grid(const Vec3d& p) {
   return in_steps(p, static_cast<double>(kFieldDenominator));
 }
 
-/// A part as a function of a point that is given relative to a common origin.
+/// The distance to a part's surface, and the side, of points relative to a common origin.
 class DistanceField {
  public:
-  /// `shift` = common origin minus the part's origin, grid units. `planes`: the part's, for those
-  /// who ask for them or for vertices.
+  /// `shift` = common origin minus the part's origin, grid units. `planes`: the part's, for callers
+  /// of planes() and vertices().
   DistanceField(const PartWithBvh& part, const Vec3l& shift, const FaceKdop* planes = nullptr)
       : part_(&part), shift_(shift), planes_(planes) {}
 
-  /// Makes a small part ready for many questions: its triangles and, where these are needles that
-  /// lie askew, of which boxes along the axes tell nothing, a frame along them. Answers stay the
-  /// same.
+  /// Prepares a small part for many queries: its triangles and, where these are rotated slivers,
+  /// whose boxes along the axes are useless, a frame along them. Results stay the same.
   void prepare();
 
   /// In the part's own coordinates.
@@ -51,8 +50,8 @@ class DistanceField {
   [[nodiscard]] Corners corners(std::uint32_t t) const {
     return prepared_.empty() ? corners_of(part(), t) : prepared_[t].corners;
   }
-  /// Relative to the common origin. No copy before the shift: reading back what was just written,
-  /// in other widths, is what most of the time would go into.
+  /// Returns the corners relative to the common origin. They are not copied before the shift:
+  /// reading back in other widths what was just written would take most of the time.
   [[nodiscard]] Corners placed(std::uint32_t t) const {
     const auto moved = [this](const Corners& c) {
       return Corners{common(c[0]), common(c[1]), common(c[2])};
@@ -65,7 +64,7 @@ class DistanceField {
                              : prepared_[t].moved(-shift_.as<double>());
   }
 
-  /// Exact for points of on_field_grid().
+  /// Returns the location of a point; exact for points of on_field_grid().
   [[nodiscard]] PointSide side(const Vec3d& p, QueryContext& work) const {
     constexpr double kSteps = static_cast<double>(kFieldDenominator);
     const Vec3l numerator{std::llround(p.x * kSteps) + shift_.x * kFieldDenominator,
@@ -74,7 +73,7 @@ class DistanceField {
     return side_of(*part_, numerator, kFieldDenominator, work, frame_.get());
   }
 
-  /// Closed solid: inside or on the boundary.
+  /// Whether the closed solid contains a point, on its boundary too.
   [[nodiscard]] bool contains(const Vec3d& p, QueryContext& work) const {
     return side(p, work) != PointSide::outside;
   }
@@ -85,14 +84,14 @@ class DistanceField {
     return nearest_triangle({part(), *part_->tree, frame_.get(), prepared_}, local(p), hint, limit);
   }
 
-  /// No less than nearest().distance.
+  /// Returns an upper bound of nearest().distance.
   [[nodiscard]] double distance_upper_bound(const Vec3d& p) const {
     return geometry::distance_upper_bound({part(), *part_->tree, frame_.get(), prepared_},
                                           local(p));
   }
 
-  /// Calls visit(triangle) for those whose boxes may be within `slack` of the box of some points,
-  /// until it returns false; whether it never did.
+  /// Calls visit(triangle) for the triangles whose boxes may be within `slack` of the box of some
+  /// points, until it returns false. Returns whether it never did.
   template <class Visit>
   bool for_each_near(std::span<const Vec3d> points, double slack, const Visit& visit) const {
     Box3d box = empty_box<double>();
@@ -100,7 +99,7 @@ class DistanceField {
     box = box.inflated(slack + tree_margin());
     return walk([&](const Box3d& other) { return other.meets(box); }, visit);
   }
-  /// And whose boxes may be as near to a point.
+  /// Does the same for the triangles whose boxes may be within `distance` of a point.
   template <class Visit>
   bool for_each_near(const Vec3d& p, double distance, const Visit& visit) const {
     const Vec3d at = in_tree(p);
@@ -113,7 +112,7 @@ class DistanceField {
   [[nodiscard]] PairLocalPart view() const { return {*part_, Vec3l{} - shift_}; }
   [[nodiscard]] const Part& part() const { return *part_->placed.part; }
   [[nodiscard]] Box3d box() const { return part().box.as<double>().moved(-shift_.as<double>()); }
-  /// Of the part as it is.
+  /// Returns the tree in the part's own frame.
   [[nodiscard]] const TriangleBvh& tree() const { return *part_->tree; }
   /// In the part's own coordinates.
   [[nodiscard]] const SupportTree& vertices() const { return planes_->vertices; }
@@ -135,12 +134,12 @@ class DistanceField {
   [[nodiscard]] Vec3d in_tree(const Vec3d& p) const {
     return frame_ ? turned(frame_->axes, local(p)) : local(p);
   }
-  /// What boxes may be off by.
+  /// Returns the error bound of boxes.
   [[nodiscard]] double tree_margin() const {
     return frame_ ? kRotationRounding + kFrameRounding : 0;
   }
 
-  /// Calls visit(triangle) for those whose boxes are near.
+  /// Calls visit(triangle) for the triangles whose boxes are near.
   template <class Near, class Visit>
   bool walk(const Near& near, const Visit& visit) const {
     const auto of_node = [&](const TriangleBvh::Node& node) { return near(node.box.as<double>()); };
@@ -158,8 +157,9 @@ class DistanceField {
   std::shared_ptr<const RotatedFrame> frame_;
 };
 
-/// How far a point is from the skin that is farther from it. In the middle of a round body its
-/// whole skin is about equally near: that of the other is searched only where it could be farther.
+/// Returns the distance of a point to the farther of two surfaces. In the middle of a round body
+/// its whole surface is about equally near: the nearer one is searched only where it could be the
+/// farther.
 [[nodiscard]] inline double greater_distance(const DistanceField& a, const DistanceField& b,
                                              const Vec3d& p) {
   const double some_a = a.distance_upper_bound(p), some_b = b.distance_upper_bound(p);

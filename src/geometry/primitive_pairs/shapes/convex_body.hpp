@@ -9,25 +9,26 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// A primitive under its placement as a convex set about `origin`, with every rounding on the way
-/// in ConvexBody::error. Nothing for tori, for lines, for lengths that make no body, for end planes
-/// of a snout that meet in it, and for maps that flatten.
+/// Returns a placed primitive as a convex set about `origin`, with every rounding on the way in
+/// ConvexBody::error. Nothing for tori, for lines, for lengths that make no body, for a snout whose
+/// end planes intersect inside it, and for maps that flatten.
 [[nodiscard]] std::optional<ConvexBody> convex_body(const PlacedPrimitive& p, const Vec3l& origin);
 
-/// The triangle with these corners, and the box about a middle.
+/// Returns the triangle with these corners, or the box about a centre.
 [[nodiscard]] ConvexBody triangle_body(const std::array<Vec3d, 3>& corners);
 [[nodiscard]] ConvexBody block_body(const Vec3d& centre, const Vec3d& half);
 
-/// One point as a set.
+/// Returns one point as a set.
 [[nodiscard]] inline ConvexBody point_body(const Vec3d& p) { return block_body(p, {}); }
 
-/// The largest absolute coordinate.
+/// Returns the largest absolute coordinate.
 [[nodiscard]] inline double size_of(const Vec3d& v) {
   const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
   return x > y ? (x > z ? x : z) : (y > z ? y : z);
 }
 
-/// A map and a snapped place, both in grid units; nothing for a map that flattens or is not finite.
+/// A linear map and a snapped centre, both in grid units; none for a map that flattens or is not
+/// finite.
 struct GridFrame {
   Vec3d x, y, z;  ///< images of a local millimetre along each axis
   Vec3d centre;

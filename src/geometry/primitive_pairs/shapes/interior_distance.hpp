@@ -10,12 +10,13 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// How deep points lie in a convex primitive: it is what its planes and at most one quadric have in
-/// common, so a ball lies in it when it lies in each of them.
+/// The depth of points in a convex primitive: the primitive is the intersection of half-spaces and
+/// at most one quadric, so a ball lies in it when it lies in each of them.
 class InteriorDistance {
  public:
-  /// `body` is convex_body(p, origin). Nothing for bodies without thickness and for shapes so
-  /// slender that a face has no normal to working precision.
+  /// Prepares a primitive; Prepares a primitive; `body` is convex_body(p, origin). Nothing for
+  /// bodies without thickness and for shapes so slender that a face has no normal to working
+  /// precision.
   [[nodiscard]] static std::optional<InteriorDistance> of(const PlacedPrimitive& p,
                                                           const ConvexBody& body,
                                                           const Vec3l& origin);
@@ -39,7 +40,7 @@ class InteriorDistance {
     double offset = 0;  ///< of the body's support
     double error = 0;   ///< of the depth under the face
   };
-  /// The face spanned by two directions; false when they are parallel to working precision.
+  /// Adds the face spanned by two directions; false when they are parallel to working precision.
   bool add_face(const ConvexBody& body, const Vec3d& u, const Vec3d& v, const Vec3d& through);
   bool add_faces(const ConvexBody& body, const Prismoid& s);
   bool add_apex(const ConvexBody& body, const Prismoid& s);

@@ -8,8 +8,8 @@
 namespace strake::geometry::primitive_pairs {
 
 /// The body q(y) <= 0 of a quadric, q(y) = sum of m·y² + 2·b·y over three axes, + c, with the
-/// largest m equal to 1: an ellipsoid, the room round the axis of a cylinder or, where one m is
-/// negative, that in the two halves of a cone, in each case under any affine map.
+/// largest m equal to 1: an ellipsoid, an infinite cylinder or, where one m is negative, a double
+/// cone, each under any affine map.
 struct Quadric {
   Vec3d centre;               ///< y is measured from here, grid units
   std::array<Vec3d, 3> axes;  ///< orthonormal
@@ -33,8 +33,9 @@ struct QuadricDepth {
   Vec3d normal;        ///< unit, outward
 };
 
-/// By the root of the secular equation. Inside, weak duality makes every multiplier a certain bound
-/// (Pólik and Terlaky, A survey of the S-lemma, 2007). `reach` bounds the lengths that matter.
+/// Returns the depth by the root of the secular equation. Inside, weak duality makes every
+/// multiplier a certain bound (Pólik and Terlaky, A survey of the S-lemma, 2007). `reach` bounds
+/// the lengths that matter.
 [[nodiscard]] QuadricDepth quadric_depth(const Quadric& quadric, const Vec3d& point, double reach);
 
 }  // namespace strake::geometry::primitive_pairs

@@ -18,7 +18,7 @@ struct ScaledAxes {
 
 Vec3d column(const Mat3d& m, int k) { return {m.row[0][k], m.row[1][k], m.row[2][k]}; }
 
-/// Z first, which is what cylinders stand along; then y, made to stand square on it.
+/// Takes Z first, the axis of cylinders; then y, made perpendicular to it.
 std::optional<ScaledAxes> frame_of(const Mat3d& m) {
   const Vec3d x = column(m, 0), y = column(m, 1), z = column(m, 2);
   ScaledAxes f;

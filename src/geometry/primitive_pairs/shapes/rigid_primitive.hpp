@@ -20,12 +20,13 @@ struct RigidPrimitive {
   std::array<double, 3> half{};
   std::array<Vec3d, 3> axes;  ///< orthonormal
   Vec3l centre;
-  double error = 0;  ///< how far a point of the placed primitive may lie from where this puts it
+  double error = 0;  ///< how far this may displace a point of the placed primitive
 };
 
-/// Nothing for other kinds, for lengths of zero, and for placements that do not leave the kind as
-/// it is. Axes that are off the right angle by the rounding of a source's numbers are put right,
-/// and what that moves is `error`; beyond kMaxOrthonormalError it is a different body.
+/// Returns a primitive that has closed forms. Nothing for other kinds, for lengths of zero, and for
+/// placements that do not preserve the kind. Axes that the source's rounding has taken off the
+/// right angle are made orthonormal, and the displacement is `error`; beyond kMaxOrthonormalError
+/// it is a different body.
 [[nodiscard]] std::optional<RigidPrimitive> rigid_primitive(const PlacedPrimitive& p);
 
 /// Grid units: well below the sag of a tessellation, well above single-precision matrices at ten
@@ -33,12 +34,12 @@ struct RigidPrimitive {
 inline constexpr double kMaxOrthonormalError = 10;
 
 /// Orthonormal axes and one scale for a map that is a similarity but for rounding; `moved` (the
-/// unit of `reach`) is how far it takes a point within `reach` of the centre from where these do.
+/// unit of `reach`) bounds the displacement of points within `reach` of the centre.
 struct OrthonormalFrame {
   std::array<Vec3d, 3> axes;
   double scale = 1, moved = 0;
 };
-/// Nothing where that is more than kMaxOrthonormalError; lengths are millimetres.
+/// Returns such axes; nothing where `moved` exceeds kMaxOrthonormalError. Lengths are millimetres.
 [[nodiscard]] std::optional<OrthonormalFrame> orthonormalised(const Mat3d& linear, double reach);
 
 }  // namespace strake::geometry::primitive_pairs

@@ -13,9 +13,10 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// Convex point sets known by their supports: the point of the set that lies farthest along a
-/// direction, from + - * / and sqrt alone. All coordinates are grid units about the pair's origin.
-/// An affine map of such a set is one again, so a shear or an uneven scale costs nothing.
+/// Convex point sets given by their support mapping: the point of the set farthest along a
+/// direction, computed from + - * / and sqrt alone. All coordinates are grid units about the pair's
+/// origin. The affine image of such a set is one again, so a shear or an uneven scale costs
+/// nothing.
 
 inline double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
@@ -30,7 +31,7 @@ struct Prismoid {
   bool round = false;
 };
 
-/// What lies at or above `floor` of the unit sphere's third axis, mapped to centre + x, y, z.
+/// The unit ball's cap at or above `floor` on the third axis, mapped to centre + x, y, z.
 struct EllipsoidCap {
   Vec3d centre, x, y, z;
   double floor = -1;
@@ -40,8 +41,8 @@ struct EllipsoidCap {
 /// A section in (distance from the axis, height), at or beyond the axis.
 struct Profile {
   bool round = false;
-  double centre = 0, radius = 0;  ///< round: a disc, without what lies beyond the axis,
-  double pole = 0;                ///< which it then meets at this height
+  double centre = 0, radius = 0;                 ///< round: a disc, clipped at the axis
+  double pole = 0;                               ///< height at which the disc then meets the axis
   double inner = 0, outer = 0, half_height = 0;  ///< otherwise a rectangle
 };
 
@@ -114,7 +115,7 @@ inline ProfileSupport support(const Profile& p, double out, double up) {
 inline Vec3d support(const ArcSweep& s, const Vec3d& n) {
   const Vec3d m{dot(n, s.x), dot(n, s.y), dot(n, s.z)};
   const double across = std::sqrt(m.x * m.x + m.y * m.y);
-  // The profile lies on one side of the axis, so it reaches farthest where its plane turns most
+  // The profile lies on one side of the axis, so it reaches farthest where its plane points most
   // towards the direction: there, or else at the nearer end of the arc.
   const bool within = across > 0 && s.from.cos * m.y - s.from.sin * m.x >= 0 &&
                       m.x * s.to.sin - m.y * s.to.cos >= 0;
@@ -160,7 +161,7 @@ inline Vec3d support(const VertexHull& s, const Vec3d& n) {
 
 }  // namespace detail
 
-/// A point of the set that lies farthest along a direction, which need not be of unit length.
+/// Returns a point of the set farthest along a direction, which need not be of unit length.
 [[nodiscard]] inline Vec3d support(const SupportShape& shape, const Vec3d& n) {
   return std::visit([&](const auto& s) { return detail::support(s, n); }, shape);
 }
@@ -171,13 +172,13 @@ struct ConvexBody {
   Vec3d middle;       ///< some point in it
   double radius = 0;  ///< no point of it lies farther from the middle
   double reach = 0;   ///< no coordinate that the arithmetic passes through is larger
-  /// How far the set, as computed, may lie from the one that is meant; a support's own rounding
-  /// included.
+  /// Bound on the distance of the computed set from the intended one, including a support's own
+  /// rounding.
   double error = 0;
   bool flat = false;  ///< without thickness
 };
 
-/// Roundings on the way from a coordinate to a support, with a wide margin, times the unit.
+/// Relative rounding error from a coordinate to a support, with a wide margin.
 inline constexpr double kSupportRounding = 128 * std::numeric_limits<double>::epsilon();
 
 }  // namespace strake::geometry::primitive_pairs

@@ -10,7 +10,7 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// A part of a sweep, at most a quarter turn.
+/// A part of a sweep, at most a quarter circle.
 struct SweptArc {
   double from = 0, to = 0;  ///< angles from the start of the sweep
   SinCos first, last;
@@ -21,36 +21,38 @@ struct SweptArc {
   [[nodiscard]] double middle() const { return (from + to) / 2; }
 };
 
-/// A circular or rectangular torus, grid units about the pair's origin. Not convex: it is cut into
-/// arcs, whose convex hulls have supports, and its distances to points are closed forms.
+/// A circular or rectangular torus, grid units about the pair's origin. It is not convex: it is
+/// split into arcs, whose convex hulls have supports, and its distances to points are closed forms.
 class Torus {
  public:
-  /// Nothing for other kinds, for tubes that reach beyond the axis, for lengths that make no body,
-  /// and for placements that are no similarity to within kMaxOrthonormalError.
+  /// Returns a placed torus. Returns a placed torus. Nothing for other kinds, for tubes that reach
+  /// beyond the axis, for lengths that make no body, and for placements that are no similarity to
+  /// within kMaxOrthonormalError.
   [[nodiscard]] static std::optional<Torus> of(const PlacedPrimitive& p, const Vec3l& origin);
-  /// The centre line alone: a torus whose tube has no radius.
+  /// Returns an arc as a torus whose tube has no radius.
   [[nodiscard]] static std::optional<Torus> of(const CircularArc& arc, const Vec3l& origin);
 
   [[nodiscard]] std::vector<SweptArc> arcs() const;
-  /// The convex hull of what is swept through an arc, and of the tube's centre line there.
+  /// Returns the convex hull of the profile swept through an arc, or of the tube's centre line
+  /// there.
   [[nodiscard]] ConvexBody hull(const SweptArc& arc) const;
   [[nodiscard]] ConvexBody spine(const SweptArc& arc) const;
-  /// The axis, as far as the torus reaches.
+  /// Returns the axis, as far as the torus reaches.
   [[nodiscard]] ConvexBody axis() const;
-  /// Whether a sweep of more than half a turn leaves a notch, which then is convex.
+  /// Whether a sweep of more than half a circle leaves a notch, which then is convex.
   [[nodiscard]] bool notched() const { return !full_ && angle_ > kPi; }
-  /// The notch as far as the torus reaches, moved by `shift` away from the axis.
+  /// Returns the notch as far as the torus reaches, moved by `shift` away from the axis.
   [[nodiscard]] ConvexBody notch(double shift) const;
 
-  /// A point of the body, the nearest one up to rounding for points that are not far beyond both
-  /// ends of the sweep.
+  /// Returns a point of the body: the nearest one up to rounding, unless p is far beyond both ends
+  /// of the sweep.
   [[nodiscard]] Vec3d nearest(const Vec3d& p) const;
-  /// How deep a point lies, minus the distance outside; off by at most error().
+  /// Returns the depth of a point, minus the distance outside; off by at most error().
   [[nodiscard]] double depth(const Vec3d& p) const;
-  /// The way out from a point in the body to the skin nearest to it, unit.
+  /// Returns the unit direction from a point in the body to the nearest surface point.
   [[nodiscard]] Vec3d way_out(const Vec3d& p) const;
 
-  /// A point about the centre along the orthonormal axes.
+  /// Returns a point in coordinates about the centre along the orthonormal axes.
   [[nodiscard]] Vec3d local(const Vec3d& p) const;
   [[nodiscard]] Vec3d turned(const Vec3d& local) const {
     return axes_[0] * local.x + axes_[1] * local.y + axes_[2] * local.z;
@@ -62,7 +64,7 @@ class Torus {
   [[nodiscard]] const Profile& profile() const { return profile_; }
   [[nodiscard]] const Vec3d& centre() const { return centre_; }
   [[nodiscard]] double radius() const { return radius_; }
-  /// What the axes' and the arithmetic's rounding may move a point by.
+  /// Returns a bound on the displacement of a point by the rounding of axes and arithmetic.
   [[nodiscard]] double error() const { return error_; }
 
  private:

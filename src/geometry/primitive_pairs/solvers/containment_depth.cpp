@@ -86,8 +86,9 @@ class LeastDepthInTorus {
     }
   }
 
-  /// The skin towards the hole is a saddle, so the least depth may be at no extreme and no middle:
-  /// from the best place on towards extremes, each time as far as pays (Frank and Wolfe 1956).
+  /// The surface towards the hole is a saddle, so the least depth may be at no extreme and no
+  /// middle: step from the best point towards extremes, each time as far as it gains (Frank and
+  /// Wolfe 1956).
   void slide() {
     constexpr int kMaxSlides = 32, kStops = 16;
     constexpr double kPays = 1e-4;

@@ -11,7 +11,7 @@ namespace strake::geometry::primitive_pairs {
 DepthProbe ConvexDepthOracle::probe(const Vec3d& x, double /*r*/) const {
   const InteriorDistance::NearestFace near = field_.nearest(x);
   if (!(near.certain > 0)) {
-    // Outside the nearest face may not be the one to look at: what parts the two is.
+    // Outside, the nearest face may not be the relevant one: the separating plane is.
     const GjkResult gap = gjk_distance(point_body(x), body_);
     if (gap.lower > 0) return {0, half_space(body_, gap.normal, 1)};
   }

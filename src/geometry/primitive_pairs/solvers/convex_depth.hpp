@@ -14,10 +14,10 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// Grid units: the bracket of a depth is narrow enough.
+/// Grid units: a bracket of a depth this narrow ends the search.
 inline constexpr double kDepthTolerance = 1.0 / 16;
 
-/// How deep a body is at the deepest of the points that lie in another: lower <= depth <= upper is
+/// The depth of a body at the deepest of the points that lie in another: lower <= depth <= upper is
 /// certain. Negative `upper`: the two are apart.
 struct DeepestPoint {
   double lower = 0, upper = std::numeric_limits<double>::infinity();
@@ -26,35 +26,37 @@ struct DeepestPoint {
   bool complete = true;  ///< no work limit ended the search
 };
 
-/// What a measured body shows at a point: how deep it certainly is there, and of its half-spaces
-/// (or what stands for one) the one that the point with a ball of radius r about it violates most.
+/// The probe of a measured body at a point: its certain depth there, and the half-space (or its
+/// substitute) that the ball of radius r about the point violates most.
 struct DepthProbe {
   double certain = 0;
   BallConstraint cut;  ///< about the origin
 };
 
-/// {x : n·x + weight·r <= the body's support along n}, about the origin.
+/// Returns {x : n·x + weight·r <= the body's support along n}, about the origin.
 [[nodiscard]] inline BallConstraint half_space(const ConvexBody& body, const Vec3d& n,
                                                double weight) {
   return {n, weight, dot(n, support(body.shape, n)) + body.error};
 }
 
-/// The same constraint for x measured from elsewhere. What that rounds is in the supports' errors.
+/// Returns the same constraint for x measured from elsewhere. The supports' errors cover its
+/// rounding.
 [[nodiscard]] inline BallConstraint moved(BallConstraint c, const Vec3d& from) {
   c.offset -= dot(c.normal, from);
   return c;
 }
 
-/// The greatest r for which a ball of that radius lies in `measured` with its centre in `room`: a
-/// linear program in four variables over all half-spaces of both, whose cuts (Kelley 1960) are
-/// found as they are needed and taken in by the dual simplex method. Multipliers prove the upper
-/// bound, a point of the room with its certain depth the lower one. Ends when they agree to
+/// Returns the greatest r for which a ball of that radius lies in `measured` with its centre in
+/// `room`: a linear program in four variables over all half-spaces of both, whose cuts (Kelley
+/// 1960) are generated as needed and added by the dual simplex method. Multipliers prove the upper
+/// bound, a point of the domain with its certain depth the lower one. Ends when they agree to
 /// kDepthTolerance, when the upper one falls to `enough`, or when nothing is violated by more than
 /// a part of that.
 ///
 /// Measured: middle(), extent() and bound(n) give a point, a bound on coordinates about it, and a
-/// bound on n·x + r; look(x, r) is a DepthProbe; certain(x) the depth at a point that is there.
-/// Room: hull() is a convex set; real(x) takes one of its points into the body that it stands for.
+/// bound on n·x + r; probe(x, r) is a DepthProbe; certain(x) is the depth at a point of the body.
+/// Room: hull() is a convex set; point_in_body(x) maps one of its points into the body that it
+/// stands for.
 template <class Measured, class Room>
 [[nodiscard]] DeepestPoint maximise_depth(const Measured& measured, const Room& room,
                                           double enough) {
@@ -79,7 +81,7 @@ template <class Measured, class Room>
     const DepthProbe probe = measured.probe(at, simplex.r());
     const Vec3d point_in_body =
         room.point_in_body(to_room.upper > kGapTolerance ? to_room.on_b : at);
-    // Within the tolerance of the room: there is a point of it that near.
+    // Within the tolerance of the domain: it has a point that near.
     if (point_in_body == at)
       try_point(at, probe.certain - to_room.upper - room.hull().error);
     else
@@ -90,7 +92,7 @@ template <class Measured, class Room>
       cut = moved(half_space(room.hull(), to_room.normal, 0), from);
     if (!(simplex.excess(cut) > kDepthTolerance / 8)) break;
     if (simplex.exchange(cut, static_cast<std::size_t>(result.steps) + 4)) continue;
-    // No point of the room lies where the measured body is measured: an arc beside it.
+    // No point of the domain lies where the measured body is measured: an arc beside it.
     if (simplex.proves_empty(cut)) result.upper = std::min(result.upper, 0.0);
     break;
   }
@@ -98,7 +100,7 @@ template <class Measured, class Room>
   return result;
 }
 
-/// A convex body with what is known of its inside, as deepest() wants it.
+/// A convex body with its interior distance, as maximise_depth() takes it.
 class ConvexDepthOracle {
  public:
   ConvexDepthOracle(const ConvexBody& body, const InteriorDistance& field)
@@ -115,7 +117,7 @@ class ConvexDepthOracle {
   const InteriorDistance& field_;
 };
 
-/// A convex body as the room of the deepest point.
+/// A convex body as the domain of the deepest point.
 struct ConvexDomain {
   const ConvexBody& body;
 
@@ -123,16 +125,15 @@ struct ConvexDomain {
   [[nodiscard]] Vec3d point_in_body(const Vec3d& x) const { return x; }
 };
 
-/// A convex body and its inside.
+/// A convex body and its interior distance.
 struct ConvexInterior {
   const ConvexBody& body;
   const InteriorDistance& field;
 };
 
-/// From a point in both, `depth` deep in the first, towards the middle of the points that are and
-/// as deep: along one direction after another that either body is measured along, square to the
-/// skin nearest to the point. The answer is in both and as deep but for a thousandth of a grid
-/// unit.
+/// Moves a point in both, `depth` deep in the first, towards the centre of the points in both that
+/// are as deep: along one direction after another in which either body is measured, perpendicular
+/// to the nearest surface. The result is in both and as deep but for a thousandth of a grid unit.
 [[nodiscard]] Vec3d centre_of_deep_points(const ConvexInterior& deep, const ConvexInterior& room,
                                           const Vec3d& from, double depth);
 

@@ -9,7 +9,7 @@ namespace strake::geometry::primitive_pairs {
 namespace {
 
 constexpr int kMaxIterations = 96;
-/// Grid units: mixtures nearer than this need no better one.
+/// Grid units: a convex combination nearer than this to the origin needs no better one.
 constexpr double kGjkTouch = 1e-3;
 
 /// A point of a - b and the one of a that it came from.
@@ -17,7 +17,7 @@ struct MinkowskiDifference {
   Vec3d w, on_a;
 };
 
-/// Up to four differences, and the weights of the mixture nearest to the origin.
+/// Up to four differences, and the weights of their convex combination nearest to the origin.
 class GjkSimplex {
  public:
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -29,7 +29,7 @@ class GjkSimplex {
 
   void add(const MinkowskiDifference& d) { points_[size_++] = d; }
 
-  /// Keeps the points that the nearest mixture needs, and gives that mixture.
+  /// Keeps the points that the nearest combination needs, and returns that combination.
   Vec3d reduce() {
     if (size_ == 1) set({0}, {1});
     if (size_ == 2) segment(0, 1);

@@ -10,13 +10,13 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// One body of a pair: convex, or a torus that is cut into arcs. A convex body counts as one arc.
+/// One body of a pair: convex, or a torus that is split into arcs. A convex body counts as one arc.
 struct PrimitiveOperand {
   std::optional<ConvexBody> convex;
   std::optional<InteriorDistance> field;  ///< of a convex body with thickness
   std::optional<Torus> torus;
 
-  /// False for what is neither.
+  /// Reads a primitive; false for what is neither.
   bool read(const PlacedPrimitive& p, const Vec3l& origin) {
     torus = Torus::of(p, origin);
     if (torus) return true;
@@ -24,7 +24,7 @@ struct PrimitiveOperand {
     if (convex) field = InteriorDistance::of(p, *convex, origin);
     return convex.has_value();
   }
-  /// A flat convex body, and the centre line of an arc.
+  /// Makes an operand of a flat convex body, or of the centre line of an arc.
   [[nodiscard]] static PrimitiveOperand of(const ConvexBody& flat) {
     PrimitiveOperand side;
     side.convex = flat;
@@ -41,15 +41,15 @@ struct PrimitiveOperand {
   [[nodiscard]] ConvexBody hull(const SweptArc& arc) const {
     return torus ? torus->hull(arc) : *convex;
   }
-  /// A point of a hull taken into the body.
+  /// Maps a point of a hull into the body.
   [[nodiscard]] Vec3d point_in_body(const Vec3d& p) const { return torus ? torus->nearest(p) : p; }
-  /// Of the body's points the nearest one, as Torus::nearest() and gjk_distance() tell it.
+  /// Returns the body's point nearest to p, as by Torus::nearest() and gjk_distance().
   [[nodiscard]] Vec3d nearest(const Vec3d& p) const {
     return torus ? torus->nearest(p) : gjk_distance(point_body(p), *convex).on_b;
   }
   [[nodiscard]] double error() const { return torus ? torus->error() : convex->error; }
   [[nodiscard]] bool flat() const { return torus ? torus->flat() : convex->flat; }
-  /// How far the hull of an arc may stand off the body, at most: what splitting it lessens.
+  /// Returns how far the hull of an arc may lie off the body at most; splitting the arc reduces it.
   [[nodiscard]] double hull_error(const SweptArc& arc) const {
     const double angle = arc.to - arc.from;
     return torus ? torus->radius() * angle * angle : 0;

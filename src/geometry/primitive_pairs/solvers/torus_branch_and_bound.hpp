@@ -15,14 +15,14 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// Work limit of a distance: the bracket is certain wherever it stops the search.
+/// Work limit of a distance search, in arc pairs: the bracket is certain wherever the search stops.
 inline constexpr std::size_t kMaxDistanceCells = 600;
-/// Grid units: brackets this narrow are narrow enough.
+/// Grid units: a bracket this narrow ends the search.
 inline constexpr double kTorusDistanceTolerance = 0.1;
-/// Grid units: see Meeting in convex_pair.cpp.
+/// Grid units: see OverlappingPair in convex_pair.cpp.
 inline constexpr double kTouch = 1;
 
-/// An arc of either body, and what is proved about the two.
+/// An arc of either body, and the bound proved for the two.
 struct ArcPair {
   SweptArc a, b;
   double bound = 0;
@@ -35,7 +35,7 @@ struct LowerDistanceFirst {
     return x.bound != y.bound ? x.bound > y.bound : x.id > y.id;
   }
 };
-/// The two halves of a cell, cut where its hulls stand off the most.
+/// Returns the two halves of an arc pair, split where its hulls lie off the bodies most.
 inline std::array<ArcPair, 2> split_arc_pair(const PrimitiveOperand& a, const PrimitiveOperand& b,
                                              const ArcPair& cell) {
   std::array<ArcPair, 2> parts{cell, cell};
@@ -46,7 +46,8 @@ inline std::array<ArcPair, 2> split_arc_pair(const PrimitiveOperand& a, const Pr
   return parts;
 }
 
-/// Best first over pairs of arcs: the hulls' distance from below, points of the bodies from above.
+/// Best-first search over pairs of arcs: the hulls' distance bounds from below, points of the
+/// bodies from above.
 class TorusDistanceSearch {
  public:
   TorusDistanceSearch(const PrimitiveOperand& a, const PrimitiveOperand& b, double enough)
@@ -69,7 +70,8 @@ class TorusDistanceSearch {
     return best_;
   }
 
-  /// Two that touch face to face: no cell's hulls overlap by more than a touch along some face.
+  /// Returns a bound for two bodies that touch face to face: no pair's hulls overlap by more than
+  /// kTouch along some face.
   [[nodiscard]] double touch_bound() {
     double least = best_.upper;
     for (; !open_.empty(); open_.pop()) {
@@ -146,9 +148,9 @@ class TorusDistanceSearch {
   std::priority_queue<ArcPair, std::vector<ArcPair>, LowerDistanceFirst> open_;
 };
 
-/// Work limit: the bracket is certain wherever it stops the search.
+/// Work limit of a depth search, in arc pairs: the bracket is certain wherever the search stops.
 inline constexpr std::size_t kMaxDepthCells = 300;
-/// Grid units: brackets this narrow are narrow enough.
+/// Grid units: a bracket this narrow ends the search.
 inline constexpr double kTorusDepthTolerance = 0.25;
 
 struct GreaterDepthFirst {
@@ -157,7 +159,7 @@ struct GreaterDepthFirst {
   }
 };
 
-/// Best first over pairs of arcs and both bodies: cutting planes bound each.
+/// Best-first search over pairs of arcs and both bodies: cutting planes bound each.
 class TorusDepthSearch {
  public:
   TorusDepthSearch(const PrimitiveOperand& a, const PrimitiveOperand& b) : a_(a), b_(b) {}
@@ -208,7 +210,7 @@ class TorusDepthSearch {
     }
     cell.bound = std::min(cell.bound, found.upper);
     cell.id = count_;
-    // What is no deeper than the tolerance allows, and what cannot be cut, is done with.
+    // A pair no deeper than the tolerance allows, or that cannot be split, is settled.
     if (cell.bound > best_.lower + kTorusDepthTolerance &&
         a_.hull_error(cell.a) + b_.hull_error(cell.b) > 0)
       open_.push(cell);
@@ -219,7 +221,7 @@ class TorusDepthSearch {
   const PrimitiveOperand &a_, &b_;
   DeepestPoint best_;
   bool deep_in_a_ = true;
-  double settled_ = 0;  ///< the greatest bound of what is done with
+  double settled_ = 0;  ///< the greatest bound of settled pairs
   std::size_t count_ = 0;
   std::priority_queue<ArcPair, std::vector<ArcPair>, GreaterDepthFirst> open_;
 };

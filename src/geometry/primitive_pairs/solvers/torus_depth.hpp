@@ -9,17 +9,17 @@
 
 namespace strake::geometry::primitive_pairs {
 
-/// The points of a torus over one arc of its sweep, as deepest() wants them. How deep they lie in
-/// the torus is bounded by constraints that are convex over the arc, and exact as the arc shrinks:
-/// the distance to the centre line by that to its hull, the distance from the axis by that along
-/// the arc's middle.
+/// The points of a torus over one arc of its sweep, as maximise_depth() takes them. How deep they
+/// lie in the torus is bounded by constraints that are convex over the arc, and exact as the arc
+/// shrinks: the distance to the centre line by that to its hull, the distance from the axis by that
+/// along the arc's middle.
 class TorusArcInterior {
  public:
   TorusArcInterior(const Torus& torus, const SweptArc& arc);
 
   [[nodiscard]] const Vec3d& middle() const { return torus_.centre(); }
   [[nodiscard]] double extent() const { return 4 * torus_.radius() + torus_.error(); }
-  /// No ball in the torus reaches beyond the one round all of it.
+  /// Returns a bound on n·x + r: no ball in the torus reaches beyond the one round all of it.
   [[nodiscard]] double bound(const Vec3d& n) const {
     return dot(n, torus_.centre()) + torus_.radius() + torus_.error();
   }
@@ -40,11 +40,11 @@ class TorusArcInterior {
   std::size_t count_ = 0;
 };
 
-/// The hull of an arc as the room of the deepest point; its points are taken into the torus.
+/// The hull of an arc as the domain of the deepest point; its points are mapped into the torus.
 class TorusArcDomain {
  public:
   TorusArcDomain(const Torus& torus, const SweptArc& arc) : torus_(torus), hull_(torus.hull(arc)) {
-    // A point taken into the torus lies in it but for what its axes are off.
+    // A point mapped into the torus lies in it but for the error of its axes.
     hull_.error += torus.error();
   }
   [[nodiscard]] const ConvexBody& hull() const { return hull_; }
