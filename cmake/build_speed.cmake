@@ -15,7 +15,8 @@ set(STRAKE_STANDARD_HEADERS
 # Precompiles the standard headers and those named for TARGET. Targets of one GROUP have the same
 # flags and share what the first of them compiled.
 function(strake_precompile target group)
-  if(NOT STRAKE_PRECOMPILE)
+  # A shared library has a macro of its own, so that none could share what another compiled.
+  if(NOT STRAKE_PRECOMPILE OR BUILD_SHARED_LIBS)
     return()
   endif()
   cmake_parse_arguments(arg "" "" "HEADERS" ${ARGN})
