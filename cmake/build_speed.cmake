@@ -11,7 +11,7 @@ set(STRAKE_STANDARD_HEADERS
   <memory> <numeric> <optional> <span> <stop_token> <string> <string_view> <tuple> <unordered_map>
   <utility> <variant> <vector>)
 
-# strake_precompile(TARGET GROUP [HEADERS header...] [LIBS library...])
+# strake_precompile(TARGET GROUP [HEADERS header...])
 # Precompiles the standard headers and those named for TARGET. Targets of one GROUP have the same
 # flags and share what the first of them compiled.
 function(strake_precompile target group)
@@ -36,6 +36,13 @@ function(strake_precompile target group)
     set_property(GLOBAL PROPERTY strake_precompiled_${group} ${target})
     target_precompile_headers(${target} PRIVATE ${STRAKE_STANDARD_HEADERS} ${arg_HEADERS})
   endif()
+endfunction()
+
+# strake_compile_quickly(TARGET): in a release build, for what no loop of which is hot.
+function(strake_compile_quickly target)
+  # GCC follows values less far at -O1, and suspects some that are set.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()
 
 option(STRAKE_UNITY "Compile a dozen sources at once: fastest from nothing, slowest after a change" OFF)

@@ -18,8 +18,6 @@
 
 namespace strake::sheets {
 
-namespace {}  // namespace
-
 Result<std::vector<TextPiece>> split_placeholders(std::string_view text) {
   std::vector<TextPiece> pieces;
   for (;;) {
