@@ -12,6 +12,7 @@
 #include "core/seeded_hash.hpp"
 #include "core/text_encoding.hpp"
 #include "io/source/input_file.hpp"
+#include "io/source/text_number.hpp"
 
 namespace strake::io::rvm {
 
