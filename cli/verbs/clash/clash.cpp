@@ -15,6 +15,8 @@
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/clash/clash_sets.hpp"
 #include "cli/verbs/verb.hpp"
+#include "core/output_format.hpp"
+#include "report/report_writers.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/rules/rules.hpp"
 
@@ -99,11 +101,10 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
 Status write_report(Session& session, const ClashOptions& given,
                     const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
-    const Status status = session.write(file, [&](Session::Sink sink) {
-      return suffix_of(file) == ".csv"
-                 ? report::write_clash_csv(contents, sink, session.context())
-                 : report::write_clash_json(contents, sink, session.context());
-    });
+    const Result<report::ClashWriter> writer = report::find_clash_writer(file);
+    if (!writer) return writer.error();
+    const Status status = session.write(
+        file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });
     if (!status) return status;
   }
   if (!given.result.log_pairs.empty()) {
@@ -206,10 +207,12 @@ Status check_files(const ClashOptions& given) {
         ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
   std::vector<std::string> others = given.input.files;
   if (!given.rules.empty()) others.push_back(given.rules);
-  if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, others); !status)
+  if (const Status status =
+          check_outputs(given.outputs, formats_of(report::clash_writers()), others);
+      !status)
     return status;
   if (given.result.log_pairs.empty()) return {};
-  return check_other_output("--log-pairs", given.result.log_pairs, ".csv", others, given.outputs);
+  return check_other_output("--log-pairs", given.result.log_pairs, {".csv"}, others, given.outputs);
 }
 
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
@@ -258,7 +261,8 @@ void add_rules_file(CLI::App& command, ClashOptions& options) {
     rules->excludes(command.get_option(name));
   command
       .add_flag("--list-exempted", options.list_exempted,
-                "List the pairs that rules exempt, in .json and .csv")
+                "List the pairs that rules exempt, in " +
+                    list_suffixes(formats_of(report::clash_writers()), "and"))
       ->group("Rules")
       ->needs(rules);
 }
@@ -323,7 +327,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
                                clash::Options{}.most_pairs))
       ->type_name("N")
       ->group("Running");
-  add_output_option(*command, options->outputs, "Result as .json or .csv; may be repeated");
+  add_output_option(*command, options->outputs, "Result", formats_of(report::clash_writers()));
   add_common_options(*command, common);
   command->footer(R"(
 One file is checked against itself, several each against the others. With --a and --b it is what
