@@ -17,7 +17,7 @@ strake::Status find_clashes(const std::vector<std::filesystem::path>& files) {
 
   const Result<model::Model> model = io::read_models(files, {}, context);
   if (!model) return model.error();
-  const clash::Options options{.clearance_mm = 25};
+  const clash::Options options{.tolerances = {.clearance_mm = 25}};
   const Result<model::Scene> scene =
       model::make_scene(*model, clash::scene_options(options), context);
   if (!scene) return scene.error();

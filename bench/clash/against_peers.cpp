@@ -36,7 +36,7 @@ constexpr int kRuns = 3;
 /// Above this the slow peers run once.
 constexpr double kLongRun_s = 20;
 
-const clash::Options kOptions{.clearance_mm = generate::Truth::kClearanceMm};
+const clash::Options kOptions{.tolerances = {.clearance_mm = generate::Truth::kClearanceMm}};
 constexpr double kPeerReach_mm = 20;
 
 template <class Number>
@@ -225,7 +225,7 @@ bool measure(const Wanted& wanted) {
       "  {:<18}{:>8.2f} s CPU {:>29.2f} s wall; {} pairs: {} hits, {} contacts, {} nearer than {} "
       "mm; classes as in the truth\n",
       "Strake, all", bench.strake_cpu_s, bench.strake_wall_s, report.pairs.size(), report.count_hit,
-      report.count_contact, report.count_clearance, kOptions.clearance_mm);
+      report.count_contact, report.count_clearance, kOptions.tolerances.clearance_mm);
   std::fflush(stdout);
   const auto scene = model::make_scene(model, clash::scene_options(kOptions), context).value();
   const std::vector<Peer> peers{

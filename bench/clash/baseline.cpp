@@ -47,7 +47,8 @@ std::pair<std::size_t, std::size_t> agreement(const clash::Report& x, const clas
 bool measure(std::uint64_t objects) {
   const auto ship = generate::generate_ship({objects, 1, false}, {});
   if (!ship) return false;
-  clash::Options options{.clearance_mm = generate::Truth::kClearanceMm, .most_regions = 0};
+  clash::Options options{.tolerances = {.clearance_mm = generate::Truth::kClearanceMm},
+                         .engine = {.most_regions = 0}};
   const auto exact = run(ship->model, options);
   if (!exact || bench::wrong_pairs(exact->report, ship->truth) > 0) {
     fmt::print("ERROR: the exact classes are not those of the ship\n");
@@ -55,9 +56,9 @@ bool measure(std::uint64_t objects) {
   }
   fmt::print("{} objects, {} pairs\n{:<34}{:>10.4f} s\n", objects, exact->report.pairs.size(),
              "exact", exact->seconds);
-  options.narrow_phase = clash::NarrowPhase::sphere_subdivision;
+  options.engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
   for (const std::uint64_t budget : {100U, 1'000U, 10'000U}) {
-    options.most_spheres = budget;
+    options.engine.most_spheres = budget;
     const auto spheres = run(ship->model, options);
     if (!spheres) return false;
     const auto [equal, all] = agreement(exact->report, spheres->report);

@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
     return argc > 1 ? 2 : 0;  // without any there is nothing to measure
   }
   strake::clash::Options options;
-  options.clearance_mm = std::atof(argv[2]);
+  options.tolerances.clearance_mm = std::atof(argv[2]);
   const std::vector<std::filesystem::path> paths(argv + 3, argv + argc);
   const auto run = strake::bench::timed_run(
       paths, options, static_cast<unsigned>(std::atoi(argv[1])),

@@ -99,7 +99,7 @@ std::vector<Series> all_series() {
        {1250, 2500, 5000, 10'000, 20'000},
        all_rods,
        [](const Report& r, std::uint32_t /*n*/) { return r.pairs.empty(); },
-       {.clearance_mm = 5}},
+       {.tolerances = {.clearance_mm = 5}}},
   };
 }
 

@@ -40,7 +40,7 @@ void bench(const std::string& title, TriangleMesh a, TriangleMesh b, const Vec3d
   ClashModel m;
   m.object("a").body(std::move(a));
   m.object("b").body(std::move(b), {{}, shift});
-  const strake::clash::Options options{.clearance_mm = 25};
+  const strake::clash::Options options{.tolerances = {.clearance_mm = 25}};
   strake::parallel::Team team(2);
   const double start = cpu_seconds();
   const auto scene =

@@ -27,8 +27,8 @@ std::uint64_t number_of(const std::string& name) {
 }
 
 Class class_at(double gap_mm, const strake::clash::Options& o) {
-  if (gap_mm <= o.touch_gap_mm) return Class::contact;
-  return gap_mm < o.clearance_mm ? Class::clearance_violation : Class::no_hit;
+  if (gap_mm <= o.tolerances.touch_gap_mm) return Class::contact;
+  return gap_mm < o.tolerances.clearance_mm ? Class::clearance_violation : Class::no_hit;
 }
 
 /// The classes that are right: two where a gap is planted at a threshold, which the numbers in the
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   const unsigned threads =
       argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : strake::parallel::default_workers();
   strake::clash::Options options;
-  options.clearance_mm = argc > 4 ? std::atof(argv[4]) : 0;
+  options.tolerances.clearance_mm = argc > 4 ? std::atof(argv[4]) : 0;
   const auto run = strake::bench::timed_run({argv[1]}, options, threads, strake::clash::one_set);
   if (!run) {
     std::fprintf(stderr, "%s\n", run.error().text().c_str());

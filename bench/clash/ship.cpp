@@ -91,7 +91,7 @@ bool measure(std::uint64_t objects, bool turned, double clearance_mm) {
   const parallel::Context context{.team = &team, .stop = {}};
   const auto ship = generate::generate_ship({objects, 1, turned}, context);
   if (!ship) return false;
-  const clash::Options options{.clearance_mm = clearance_mm};
+  const clash::Options options{.tolerances = {.clearance_mm = clearance_mm}};
   bench::Lap lap;
   const auto scene = model::make_scene(ship->model, clash::scene_options(options), context);
   if (!scene) return false;

@@ -103,9 +103,9 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->group("Input");
 }
 
-void add_output_option(CLI::App& command, std::vector<std::string>& files,
-                       const std::string& what) {
-  command.add_option("-o,--output", files, what)
+void add_output_option(CLI::App& command, std::vector<std::string>& files, std::string_view what,
+                       std::span<const OutputFormat> formats) {
+  command.add_option("-o,--output", files, describe_formats(what, formats) + "; may be repeated")
       ->type_name("FILE")
       ->expected(1)
       ->allow_extra_args(false)  // what follows the file is the next model
@@ -252,22 +252,15 @@ Result<std::vector<double>> number_list(const std::string& text, std::size_t cou
   return numbers;
 }
 
-std::string suffix_of(const std::string& file) {
-  std::string suffix = std::filesystem::path(file).extension().string();
-  for (char& c : suffix)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return suffix;
-}
-
 namespace {
 
 Status check_output(const std::string& option, const std::string& file,
-                    const std::vector<std::string>& suffixes,
-                    const std::vector<std::string>& inputs) {
-  std::string list;
-  for (const std::string& suffix : suffixes) list += (list.empty() ? "" : " or ") + suffix;
-  if (std::find(suffixes.begin(), suffixes.end(), suffix_of(file)) == suffixes.end())
-    return usage("the format of '" + file + "' is not known", option, "end its name in " + list);
+                    std::span<const OutputFormat> formats, const std::vector<std::string>& inputs) {
+  if (const auto number = format_number(formats, file); !number) {
+    Error error = number.error();
+    error.where = option;
+    return error;
+  }
   for (const std::string& input : inputs)
     if (same_file(file, input))
       return usage("'" + file + "' is one of the inputs and would be overwritten", option,
@@ -277,12 +270,11 @@ Status check_output(const std::string& option, const std::string& file,
 
 }  // namespace
 
-Status check_outputs(const std::vector<std::string>& files,
-                     const std::vector<std::string>& suffixes,
+Status check_outputs(const std::vector<std::string>& files, std::span<const OutputFormat> formats,
                      const std::vector<std::string>& inputs) {
   for (std::size_t f = 0; f < files.size(); ++f) {
     const std::string& file = files[f];
-    if (Status status = check_output("-o", file, suffixes, inputs); !status) return status;
+    if (Status status = check_output("-o", file, formats, inputs); !status) return status;
     for (std::size_t g = 0; g < f; ++g)
       if (same_file(file, files[g]))
         return usage("'" + file + "' is given twice", "-o", "give each output its own name");
@@ -292,9 +284,10 @@ Status check_outputs(const std::vector<std::string>& files,
 }
 
 Status check_other_output(const std::string& option, const std::string& file,
-                          const std::string& suffix, const std::vector<std::string>& inputs,
+                          const OutputFormat& format, const std::vector<std::string>& inputs,
                           const std::vector<std::string>& outputs) {
-  if (Status status = check_output(option, file, {suffix}, inputs); !status) return status;
+  if (Status status = check_output(option, file, std::span(&format, 1), inputs); !status)
+    return status;
   for (const std::string& output : outputs)
     if (same_file(file, output))
       return usage("'" + file + "' is the output of -o already", option,

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/output_format.hpp"
 #include "strake/core/result.hpp"
 #include "strake/io/reader.hpp"
 
@@ -30,8 +33,9 @@ struct InputOptions {
 
 void add_common_options(CLI::App& command, CommonOptions& options);
 void add_input_options(CLI::App& command, InputOptions& options);
-/// Adds -o FILE, which may be given several times; `what` names the suffixes and what they mean.
-void add_output_option(CLI::App& command, std::vector<std::string>& files, const std::string& what);
+/// Adds -o FILE, which may be given several times: "`what` as .json or .csv; may be repeated".
+void add_output_option(CLI::App& command, std::vector<std::string>& files, std::string_view what,
+                       std::span<const OutputFormat> formats);
 /// Adds an option whose value is one of a few words.
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                         const std::vector<std::string>& words, const std::string& help);
@@ -49,16 +53,14 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
 [[nodiscard]] Result<std::vector<double>> number_list(const std::string& text, std::size_t count,
                                                       const std::string& option,
                                                       const std::string& example);
-/// Returns the suffix of a file name in lower case, ".svg".
-[[nodiscard]] std::string suffix_of(const std::string& file);
-/// Checks that every file of -o ends in one of the suffixes and can be written where it is to be,
-/// and is neither one of `inputs` nor named twice.
+/// Checks that every file of -o is of one of the formats and can be written where it is to be, and
+/// is neither one of `inputs` nor named twice.
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& files,
-                                   const std::vector<std::string>& suffixes,
+                                   std::span<const OutputFormat> formats,
                                    const std::vector<std::string>& inputs);
 /// Checks a file that another option names in the same way: it is none of those of -o either.
 [[nodiscard]] Status check_other_output(const std::string& option, const std::string& file,
-                                        const std::string& suffix,
+                                        const OutputFormat& format,
                                         const std::vector<std::string>& inputs,
                                         const std::vector<std::string>& outputs);
 /// Parses a length that is an option of the command line; overwrites `value` where it was given.

@@ -8,8 +8,9 @@
 #include <string>
 
 #include "cli/verbs/verb.hpp"
+#include "core/output_format.hpp"
+#include "io/model_writers.hpp"
 #include "strake/generate/ship.hpp"
-#include "strake/io/writer.hpp"
 
 namespace strake::cli {
 
@@ -42,11 +43,11 @@ class SinkBuffer : public std::streambuf {
 };
 
 Status write_model(Session& session, const model::Model& model, const std::string& file) {
+  const Result<io::ModelWriter> writer = io::find_model_writer(file);
+  if (!writer) return writer.error();
   session.will_write(file);
   const auto timer = session.step("write " + file);
-  const Status status = suffix_of(file) == ".obj"
-                            ? io::write_obj(model, file, {}, session.context())
-                            : io::write_glb(model, file, {}, session.context());
+  const Status status = writer->write(model, file, {}, session.context());
   if (status) session.console().say("wrote " + file);
   return status;
 }
@@ -65,9 +66,10 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
                                     "--imported-triangles");
       !s)
     return s.error();
-  if (const Status s = check_outputs({given.output}, {".glb", ".obj"}, {}); !s) return s.error();
+  if (const Status s = check_outputs({given.output}, formats_of(io::model_writers()), {}); !s)
+    return s.error();
   if (!given.truth.empty())
-    if (const Status s = check_other_output("--truth", given.truth, ".json", {}, {given.output});
+    if (const Status s = check_other_output("--truth", given.truth, {".json"}, {}, {given.output});
         !s)
       return s.error();
   const Result<generate::Ship> ship = [&] {
@@ -124,7 +126,9 @@ Verb add_generate(CLI::App& program, CommonOptions& common) {
                                defaults.imported_triangles))
       ->needs(imported)
       ->type_name("N");
-  command->add_option("-o,--output", options->output, "The model, as .glb or .obj")
+  command
+      ->add_option("-o,--output", options->output,
+                   describe_formats("The model,", formats_of(io::model_writers())))
       ->type_name("FILE")
       ->required();
   command

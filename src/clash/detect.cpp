@@ -52,7 +52,7 @@ class Engine {
   }
 
  private:
-  [[nodiscard]] bool exact() const { return options_.narrow_phase == NarrowPhase::exact; }
+  [[nodiscard]] bool exact() const { return options_.engine.narrow_phase == NarrowPhase::exact; }
 
   [[nodiscard]] Report begin() const {
     Report report;
@@ -60,7 +60,7 @@ class Engine {
     report.set_b = sets_.name_b;
     report.options = options_;
     // The baseline has no triangles to tell regions by.
-    if (!exact()) report.options.most_regions = 0;
+    if (!exact()) report.options.engine.most_regions = 0;
     report.in_a = sets_.in_a;
     report.in_b = sets_.in_b;
     report.within_files = sets_.group.empty();
@@ -72,7 +72,7 @@ class Engine {
   /// equal.
   Status run_broad_phase(Report& report) {
     const parallel::StageTimer timer(context_.report, "stage 1: pairs by boxes");
-    auto parts = collect_scene_parts(scene_, sets_, options_.curves, context_);
+    auto parts = collect_scene_parts(scene_, sets_, options_.engine.curves, context_);
     if (!parts) return parts.error();
     list_ = std::move(*parts);
     if (const Status s = set_source_errors(scene_, options_, list_, context_); !s) return s;
@@ -153,9 +153,10 @@ class Engine {
     auto joined = aggregate_by_object(findings, context_);
     if (!joined) return joined.error();
     report.pairs = std::move(*joined);
-    if (report.options.most_regions > 0 || !report.allowed.empty())
+    if (report.options.engine.most_regions > 0 || !report.allowed.empty())
       if (const Status s = aggregate_regions(findings, context_, report); !s) return s;
-    if (options_.volumes == Volumes::on) return measure_volumes(findings, cache_, context_, report);
+    if (options_.engine.volumes == Volumes::on)
+      return measure_volumes(findings, cache_, context_, report);
     return {};
   }
 
@@ -175,8 +176,8 @@ class Engine {
     if (const Status s = warn_of_unknown_sag(list_, *scene_.model, context_, report.diagnostics);
         !s)
       return s.error();
-    return options_.log_pairs ? log_pairs(evaluated(), objects_, rules_, context_, report)
-                              : Status{};
+    return options_.engine.log_pairs ? log_pairs(evaluated(), objects_, rules_, context_, report)
+                                     : Status{};
   }
 
   void describe_sets(Report& report) const {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "clash/rules/tolerance_lengths.hpp"
 #include "rules/rule_file.hpp"
 #include "settings/named_sets.hpp"
 #include "settings/table_reader.hpp"
@@ -88,14 +89,11 @@ class RulesParser {
   /// Reads the tolerances of a table, on top of others.
   bool tolerances(TableReader& table, Tolerances& t) {
     bool some = false;
-    const auto read = [&](std::string_view key, double& value) {
-      const auto length = table.tolerance_mm(key);
-      if (length) value = *length;
-      some = some || length;
-    };
-    read("clearance", t.clearance_mm);
-    read("touch_gap", t.touch_gap_mm);
-    read("touch_overlap", t.touch_overlap_mm);
+    for (const clash::ToleranceLength& length : clash::kToleranceLengths)
+      if (const auto value = table.tolerance_mm(length.name)) {
+        t.*length.value_mm = *value;
+        some = true;
+      }
     if (const auto cap = table.flag("thickness_cap")) {
       t.thickness_cap = *cap ? clash::ThicknessCap::on : clash::ThicknessCap::off;
       some = true;

@@ -188,10 +188,7 @@ class PlanMaker {
   PlannedTest planned(const TestRule& test) {
     PlannedTest planned;
     planned.name = test.name;
-    planned.options.clearance_mm = test.tolerances.clearance_mm;
-    planned.options.touch_gap_mm = test.tolerances.touch_gap_mm;
-    planned.options.touch_overlap_mm = test.tolerances.touch_overlap_mm;
-    planned.options.thickness_cap = test.tolerances.thickness_cap;
+    planned.options.tolerances = test.tolerances;
     planned.options.contact_distance_mm = test.contact_distance_mm;
     planned.policy = policy(test);
     if (test.matrix) {
@@ -282,10 +279,7 @@ model::SceneOptions Rules::scene_options() const {
   model::SceneOptions options;
   bool first = true;
   const auto refine = [&](const clash::Tolerances& t) {
-    const double sag = clash::scene_options(clash::Options{.clearance_mm = t.clearance_mm,
-                                                           .touch_gap_mm = t.touch_gap_mm,
-                                                           .touch_overlap_mm = t.touch_overlap_mm})
-                           .sag_mm;
+    const double sag = clash::scene_options({.tolerances = t}).sag_mm;
     options.sag_mm = first ? sag : std::min(options.sag_mm, sag);
     first = false;
   };

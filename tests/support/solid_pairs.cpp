@@ -176,7 +176,8 @@ geometry::TriangleMesh in_mm(const IndexedMesh& mesh) {
 }
 
 clash::Options exact_options() {
-  return {.clearance_mm = 1e6, .touch_gap_mm = 0, .touch_overlap_mm = 0, .contact_distance_mm = 0};
+  return {.tolerances = {.clearance_mm = 1e6, .touch_gap_mm = 0, .touch_overlap_mm = 0},
+          .contact_distance_mm = 0};
 }
 
 double SolidPair::size_mm() const {

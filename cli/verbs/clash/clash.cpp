@@ -4,17 +4,23 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "clash/rules/tolerance_lengths.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/clash/clash_sets.hpp"
 #include "cli/verbs/verb.hpp"
+#include "core/output_format.hpp"
+#include "report/report_writers.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/rules/rules.hpp"
 
@@ -26,43 +32,50 @@ struct ClashOptions {
   InputOptions input;
   SceneInput scene;
   SetInput sets;
-  std::string clearance, touch_gap, touch_overlap, contact_distance;
+  std::array<std::string, clash::kToleranceLengths.size()> tolerances;
+  std::string contact_distance;
   std::string broad_phase, narrow_phase, thickness_cap, fail_on, most_pairs, most_spheres, rules;
   bool list_exempted = false, curves = false;
   ClashResultInput result;
   std::vector<std::string> outputs;
 };
 
-Result<clash::Options> engine_options(const ClashOptions& given) {
-  clash::Options options;
-  struct Length {
-    double& value;
-    const std::string& text;
-    const char* option;
-  };
-  for (const Length& length :
-       {Length{options.clearance_mm, given.clearance, "--clearance"},
-        Length{options.touch_gap_mm, given.touch_gap, "--touch-gap"},
-        Length{options.touch_overlap_mm, given.touch_overlap, "--touch-overlap"},
-        Length{options.contact_distance_mm, given.contact_distance, "--contact-distance"}})
-    if (const Status status = length_option(length.value, length.text, length.option); !status)
-      return status.error();
-  if (const Status status = whole_number(options.most_pairs, given.most_pairs, "--most-pairs");
+Result<clash::EngineOptions> engine_options(const ClashOptions& given) {
+  clash::EngineOptions engine;
+  if (const Status status = whole_number(engine.most_pairs, given.most_pairs, "--most-pairs");
       !status)
     return status.error();
-  if (const Status status =
-          whole_number(options.most_spheres, given.most_spheres, "--most-spheres");
+  if (const Status status = whole_number(engine.most_spheres, given.most_spheres, "--most-spheres");
       !status)
     return status.error();
-  if (const Status status = whole_number(options.most_regions, given.result.regions, "--regions");
+  if (const Status status = whole_number(engine.most_regions, given.result.regions, "--regions");
       !status)
     return status.error();
-  if (given.broad_phase == "all-pairs") options.broad_phase = clash::BroadPhase::all_pairs;
+  if (given.broad_phase == "all-pairs") engine.broad_phase = clash::BroadPhase::all_pairs;
   if (given.narrow_phase == "sphere-subdivision")
-    options.narrow_phase = clash::NarrowPhase::sphere_subdivision;
-  if (given.result.wants_volumes()) options.volumes = clash::Volumes::on;
-  if (given.curves) options.curves = clash::Curves::on;
-  if (given.thickness_cap == "off") options.thickness_cap = clash::ThicknessCap::off;
+    engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
+  if (given.result.wants_volumes()) engine.volumes = clash::Volumes::on;
+  if (given.curves) engine.curves = clash::Curves::on;
+  return engine;
+}
+
+Result<clash::Options> test_options(const ClashOptions& given) {
+  clash::Options options;
+  for (std::size_t i = 0; i < given.tolerances.size(); ++i) {
+    const clash::ToleranceLength& length = clash::kToleranceLengths[i];
+    if (const Status status = length_option(options.tolerances.*length.value_mm,
+                                            given.tolerances[i], "--" + length.name_with('-'));
+        !status)
+      return status.error();
+  }
+  if (const Status status =
+          length_option(options.contact_distance_mm, given.contact_distance, "--contact-distance");
+      !status)
+    return status.error();
+  if (given.thickness_cap == "off") options.tolerances.thickness_cap = clash::ThicknessCap::off;
+  const Result<clash::EngineOptions> engine = engine_options(given);
+  if (!engine) return engine.error();
+  options.engine = *engine;
   return options;
 }
 
@@ -99,11 +112,10 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
 Status write_report(Session& session, const ClashOptions& given,
                     const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
-    const Status status = session.write(file, [&](Session::Sink sink) {
-      return suffix_of(file) == ".csv"
-                 ? report::write_clash_csv(contents, sink, session.context())
-                 : report::write_clash_json(contents, sink, session.context());
-    });
+    const Result<report::ClashWriter> writer = report::find_clash_writer(file);
+    if (!writer) return writer.error();
+    const Status status = session.write(
+        file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });
     if (!status) return status;
   }
   if (!given.result.log_pairs.empty()) {
@@ -130,7 +142,7 @@ struct ClashRequest {
 
 Result<ClashRequest> request_of(const ClashOptions& given) {
   ClashRequest request;
-  const Result<clash::Options> options = engine_options(given);
+  const Result<clash::Options> options = test_options(given);
   if (!options) return options.error();
   request.options = *options;
   Result<SetRequest> sets = set_request(given.sets);
@@ -157,16 +169,7 @@ Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const ClashR
   if (request.rules) {
     Result<rules::Plan> plan = request.rules->plan(loaded.scene, session.context());
     if (!plan) return plan;
-    for (rules::PlannedTest& test : plan->tests) {
-      test.options.broad_phase = request.options.broad_phase;
-      test.options.narrow_phase = request.options.narrow_phase;
-      test.options.most_spheres = request.options.most_spheres;
-      test.options.most_pairs = request.options.most_pairs;
-      test.options.volumes = request.options.volumes;
-      test.options.most_regions = request.options.most_regions;
-      test.options.log_pairs = request.options.log_pairs;
-      test.options.curves = request.options.curves;
-    }
+    for (rules::PlannedTest& test : plan->tests) test.options.engine = request.options.engine;
     return plan;
   }
   Result<ChosenSets> chosen = choose_sets(session, loaded, request.sets);
@@ -206,16 +209,18 @@ Status check_files(const ClashOptions& given) {
         ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
   std::vector<std::string> others = given.input.files;
   if (!given.rules.empty()) others.push_back(given.rules);
-  if (const Status status = check_outputs(given.outputs, {".json", ".csv"}, others); !status)
+  if (const Status status =
+          check_outputs(given.outputs, formats_of(report::clash_writers()), others);
+      !status)
     return status;
   if (given.result.log_pairs.empty()) return {};
-  return check_other_output("--log-pairs", given.result.log_pairs, ".csv", others, given.outputs);
+  return check_other_output("--log-pairs", given.result.log_pairs, {".csv"}, others, given.outputs);
 }
 
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   Result<ClashRequest> request = request_of(given);
   if (!request) return request.error();
-  request->options.log_pairs = !given.result.log_pairs.empty() || session.wants_stats();
+  request->options.engine.log_pairs = !given.result.log_pairs.empty() || session.wants_stats();
   if (const Status status = check(given.result); !status) return status.error();
   if (const Status status = check_files(given); !status) return status.error();
   const Result<Loaded> loaded = load(session, given.input, request->scene);
@@ -253,26 +258,29 @@ void add_rules_file(CLI::App& command, ClashOptions& options) {
                       "Tests, exemptions and allowances of a rules file (TOML, docs/rules.md)")
           ->type_name("FILE")
           ->group("Rules");
-  for (const char* const name : {"--clearance", "--touch-gap", "--touch-overlap", "--thickness-cap",
-                                 "--contact-distance", "--a", "--b", "--self"})
+  for (const clash::ToleranceLength& length : clash::kToleranceLengths)
+    rules->excludes(command.get_option("--" + length.name_with('-')));
+  for (const char* const name : {"--thickness-cap", "--contact-distance", "--a", "--b", "--self"})
     rules->excludes(command.get_option(name));
   command
       .add_flag("--list-exempted", options.list_exempted,
-                "List the pairs that rules exempt, in .json and .csv")
+                "List the pairs that rules exempt, in " +
+                    list_suffixes(formats_of(report::clash_writers()), "and"))
       ->group("Rules")
       ->needs(rules);
 }
 
 void add_rules(CLI::App& command, ClashOptions& options) {
-  const auto length = [&](const char* name, std::string& value, const char* help) {
-    command.add_option(name, value, help)->type_name("LENGTH")->group("Rules");
+  const auto add_length = [&](const std::string& name, std::string& value, std::string_view help) {
+    command.add_option(name, value, std::string(help))->type_name("LENGTH")->group("Rules");
   };
-  length("--clearance", options.clearance, "Pairs nearer than this violate it (default 0)");
-  length("--touch-gap", options.touch_gap, "Up to this far apart is a contact (default 1mm)");
-  length("--touch-overlap", options.touch_overlap, "Up to this deep is a contact (default 1mm)");
-  length("--contact-distance", options.contact_distance,
-         "Nearer than this counts as touching in the relation of a pair (default: from the "
-         "precision of the files)");
+  for (std::size_t i = 0; i < options.tolerances.size(); ++i) {
+    const clash::ToleranceLength& length = clash::kToleranceLengths[i];
+    add_length("--" + length.name_with('-'), options.tolerances[i], length.help);
+  }
+  add_length("--contact-distance", options.contact_distance,
+             "Nearer than this counts as touching in the relation of a pair (default: from the "
+             "precision of the files)");
   add_choice(command, "--thickness-cap", options.thickness_cap, {"on", "off"},
              "Allow no more overlap than a quarter of the thinner part (default on)")
       ->group("Rules");
@@ -313,17 +321,17 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
       ->add_option("--most-spheres", options->most_spheres,
                    fmt::format("Spheres that sphere-subdivision tests for one pair of parts before "
                                "it gives up and says so (default {})",
-                               clash::Options{}.most_spheres))
+                               clash::EngineOptions{}.most_spheres))
       ->type_name("N")
       ->group("Running");
   command
       ->add_option("--most-pairs", options->most_pairs,
                    fmt::format("Most pairs of parts that may be within reach of each other, some "
                                "300 bytes each (default {})",
-                               clash::Options{}.most_pairs))
+                               clash::EngineOptions{}.most_pairs))
       ->type_name("N")
       ->group("Running");
-  add_output_option(*command, options->outputs, "Result as .json or .csv; may be repeated");
+  add_output_option(*command, options->outputs, "Result", formats_of(report::clash_writers()));
   add_common_options(*command, common);
   command->footer(R"(
 One file is checked against itself, several each against the others. With --a and --b it is what

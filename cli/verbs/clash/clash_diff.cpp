@@ -11,6 +11,8 @@
 
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/verb.hpp"
+#include "core/output_format.hpp"
+#include "report/report_writers.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::cli {
@@ -50,7 +52,8 @@ Result<std::vector<report::ClashDocument>> read(Session& session, const ClashDif
 }
 
 Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
-  if (const Status status = check_outputs(given.outputs, {".json"}, {given.before, given.after});
+  if (const Status status = check_outputs(given.outputs, formats_of(report::clash_diff_writers()),
+                                          {given.before, given.after});
       !status)
     return status.error();
   const Result<std::vector<report::ClashDocument>> documents = read(session, given);
@@ -64,7 +67,12 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
     return Status{};
   };
   for (const std::string& file : given.outputs) {
-    const Status status = session.write(file, as_json);
+    const Result<report::ClashDiffWriter> writer = report::find_clash_diff_writer(file);
+    if (!writer) return writer.error();
+    const Status status = session.write(file, [&](Session::Sink sink) {
+      writer->write(diff, sink);
+      return Status{};
+    });
     if (!status) return status.error();
   }
   const Status told =
@@ -92,7 +100,8 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
       *command, "--fail-on", options->fail_on, {"new-hit", "new", "worse", "cannot-tell"},
       "Exit code 1 where there is a new hit, any new result, a new or worse one, or one that "
       "cannot be told; one that may be new counts as new, what a rule allows does not count");
-  add_output_option(*command, options->outputs, "Comparison as .json; may be repeated");
+  add_output_option(*command, options->outputs, "Comparison",
+                    formats_of(report::clash_diff_writers()));
   add_common_options(*command, common);
   command->footer(R"(
 A clash is the same in both runs when its test, files and durable ids are. It is gone only where the

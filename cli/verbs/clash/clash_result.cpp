@@ -67,7 +67,7 @@ void add_result_options(CLI::App& command, ClashResultInput& options) {
       .add_option("--regions", options.regions,
                   fmt::format("Places of a pair that meets in several that are listed, the worst "
                               "first; all are counted (default {}; 0: not told apart)",
-                              clash::Options{}.most_regions))
+                              clash::EngineOptions{}.most_regions))
       ->type_name("N")
       ->group(kGroup);
 }

@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +17,9 @@
 #include "cli/verbs/draw/draw_sheet.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
 #include "cli/verbs/verb.hpp"
+#include "core/output_format.hpp"
 #include "core/units.hpp"
+#include "drawing/drawing_writers.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
@@ -40,6 +44,14 @@ struct DrawOptions {
   std::vector<std::string> select, outputs, sections, hatches;
   bool visible_only = false;
 };
+
+/// Those that hold the whole drawing, whatever of it is shown.
+std::vector<OutputFormat> formats_without_ink() {
+  std::vector<OutputFormat> formats;
+  for (const drawing::DrawingWriter& writer : drawing::drawing_writers())
+    if (!writer.needs_ink) formats.push_back(writer.format);
+  return formats;
+}
 
 Result<geometry::Vec3l> direction_of(const std::string& text, const std::string& option,
                                      Console& console) {
@@ -217,33 +229,30 @@ Status write_drawing(Session& session, const DrawOptions& given,
                      const drawing::NeutralDrawing& drawing, const model::Model& model) {
   const drawing::InkOptions options{.hidden = given.hidden != "off" && !given.hidden.empty(),
                                     .clean_up = given.hidden != "all"};
-  const bool svg = std::any_of(given.outputs.begin(), given.outputs.end(),
-                               [](const std::string& file) { return suffix_of(file) == ".svg"; });
+  std::vector<drawing::DrawingWriter> writers;
+  for (const std::string& file : given.outputs) {
+    const Result<drawing::DrawingWriter> writer = drawing::find_drawing_writer(file);
+    if (!writer) return writer.error();
+    writers.push_back(*writer);
+  }
   drawing::Ink ink;
-  if (svg) {
+  if (std::any_of(writers.begin(), writers.end(),
+                  std::mem_fn(&drawing::DrawingWriter::needs_ink))) {
     const auto timer = session.step("ink");
     Result<drawing::Ink> chosen = drawing::choose_ink(drawing, options, session.context());
     if (!chosen) return chosen.error();
     ink = std::move(*chosen);
   }
-  const auto as_json = [&](Session::Sink sink) {
-    return drawing::write_view_json(drawing, model, sink, session.context());
-  };
-  const auto as_rows = [&](Session::Sink sink) {
-    return drawing::write_view_rows(drawing, model, sink, session.context());
-  };
-  const auto as_svg = [&](Session::Sink sink) {
-    drawing::write_svg(drawing, ink, model, sink);
-    return Status{};
-  };
-  for (const std::string& file : given.outputs) {
-    const std::string suffix = suffix_of(file);
-    const Status status = suffix == ".json"   ? session.write(file, as_json)
-                          : suffix == ".view" ? session.write(file, as_rows)
-                                              : session.write(file, as_svg);
+  for (std::size_t i = 0; i < writers.size(); ++i) {
+    const Status status = session.write(given.outputs[i], [&](Session::Sink sink) {
+      return writers[i].write({drawing, ink, model}, sink, session.context());
+    });
     if (!status) return status;
   }
-  return session.json() ? session.write_stdout(as_json) : Status{};
+  if (!session.json()) return {};
+  return session.write_stdout([&](Session::Sink sink) {
+    return drawing::write_view_json(drawing, model, sink, session.context());
+  });
 }
 
 /// What the options ask for, after parsing.
@@ -311,9 +320,11 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
          {.solver = request->options.solver, .sag_for_paper = request->sag_for_paper}},
         given.input, request->scene);
   if (given.outputs.empty() && !session.json())
-    return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg, or --json"};
+    return Error{ErrorCode::usage, "nowhere to draw to", "-o",
+                 fmt::format("write -o FILE{}, or --json",
+                             formats_of(drawing::drawing_writers()).front().suffix)};
   if (const Status status =
-          check_outputs(given.outputs, {".svg", ".json", ".view"}, given.input.files);
+          check_outputs(given.outputs, formats_of(drawing::drawing_writers()), given.input.files);
       !status)
     return status.error();
   const Result<Loaded> loaded = load(session, given.input, request->scene);
@@ -386,9 +397,9 @@ void add_lines(CLI::App& command, DrawOptions& options) {
              "(default off)")
       ->group("Lines");
   command
-      .add_flag(
-          "--visible-only", options.visible_only,
-          "Leave hidden lines out of everything, of .json and .view too: less time and memory")
+      .add_flag("--visible-only", options.visible_only,
+                fmt::format("Leave hidden lines out of everything, of {} too: less time and memory",
+                            list_suffixes(formats_without_ink(), "and")))
       ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")
@@ -468,10 +479,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->type_name("1:N")
       ->group("Output");
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");
-  add_output_option(
-      *command, options->outputs,
-      "Drawing as .svg, or its neutral form as .json, or .view for millions of lines; may be "
-      "repeated");
+  add_output_option(*command, options->outputs, "Drawing", formats_of(drawing::drawing_writers()));
   add_sheet(*command, *options);
   add_common_options(*command, common);
   command->footer(R"(

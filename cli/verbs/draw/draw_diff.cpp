@@ -6,7 +6,9 @@
 
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/verb.hpp"
+#include "core/output_format.hpp"
 #include "core/units.hpp"
+#include "report/report_writers.hpp"
 #include "strake/parallel/transform.hpp"
 #include "strake/report/view_diff.hpp"
 
@@ -33,27 +35,26 @@ Result<std::vector<report::ViewDocument>> read(Session& session, const DrawDiffO
 }
 
 Status write(Session& session, const DrawDiffOptions& given, const report::ViewDiff& diff) {
-  const auto as_json = [&](Session::Sink sink) {
-    report::write_view_diff_json(diff, sink);
-    return Status{};
-  };
-  const auto as_svg = [&](Session::Sink sink) {
-    report::write_view_diff_svg(diff, sink);
-    return Status{};
-  };
   for (const std::string& file : given.outputs) {
-    const Status status =
-        suffix_of(file) == ".svg" ? session.write(file, as_svg) : session.write(file, as_json);
+    const Result<report::ViewDiffWriter> writer = report::find_view_diff_writer(file);
+    if (!writer) return writer.error();
+    const Status status = session.write(file, [&](Session::Sink sink) {
+      writer->write(diff, sink);
+      return Status{};
+    });
     if (!status) return status;
   }
-  return session.json()
-             ? session.write_stdout(as_json)
-             : session.write_stdout(report::view_diff_table(diff, {.width = terminal_width()}));
+  if (!session.json())
+    return session.write_stdout(report::view_diff_table(diff, {.width = terminal_width()}));
+  return session.write_stdout([&](Session::Sink sink) {
+    report::write_view_diff_json(diff, sink);
+    return Status{};
+  });
 }
 
 Result<ExitCode> run_diff(Session& session, const DrawDiffOptions& given) {
-  if (const Status status =
-          check_outputs(given.outputs, {".json", ".svg"}, {given.before, given.after});
+  if (const Status status = check_outputs(given.outputs, formats_of(report::view_diff_writers()),
+                                          {given.before, given.after});
       !status)
     return status.error();
   report::ViewDiffOptions options;
@@ -92,8 +93,8 @@ Verb add_draw_diff(CLI::App& draw, CommonOptions& common) {
       ->add_option("--tolerance", options->tolerance,
                    "Lines no farther apart than this lie on each other (default 2um)")
       ->type_name("LENGTH");
-  add_output_option(*command, options->outputs,
-                    "Comparison as .json, or a picture of it as .svg; may be repeated");
+  add_output_option(*command, options->outputs, "Comparison",
+                    formats_of(report::view_diff_writers()));
   add_common_options(*command, common);
   command->footer(R"(
 Lines are compared in the model, place by place: a line that is cut into other pieces is the same, and so is

@@ -6,11 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/verbs/draw/draw_summary.hpp"
+#include "core/output_format.hpp"
+#include "sheets/output/sheet_writers.hpp"
 #include "strake/drawing/drawing.hpp"
-#include "strake/sheets/write.hpp"
 
 namespace strake::cli {
 
@@ -42,24 +45,33 @@ void tell_sheet(Session& session, const sheets::Sheet& sheet, const model::Model
        "tag-attribute-missing", "tag-attribute-partly-missing"});
 }
 
+/// "SVG": the formats of sheets in a sentence.
+std::string format_names() {
+  std::string names;
+  for (const sheets::SheetWriter& writer : sheets::sheet_writers())
+    names.append(names.empty() ? "" : " or ").append(writer.name);
+  return names;
+}
+
 }  // namespace
 
 Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
                             const InputOptions& input, const model::SceneOptions& scene) {
+  const std::vector<OutputFormat> formats = formats_of(sheets::sheet_writers());
+  const std::string mend = fmt::format("write -o FILE{}", formats.front().suffix);
   if (session.json())
-    return Error{ErrorCode::usage, "a sheet is written as SVG only", "--json",
-                 "leave --json out, and write -o FILE.svg"};
-  if (request.outputs.empty())
-    return Error{ErrorCode::usage, "nowhere to draw to", "-o", "write -o FILE.svg"};
+    return Error{ErrorCode::usage, fmt::format("a sheet is written as {} only", format_names()),
+                 "--json", "leave --json out, and " + mend};
+  if (request.outputs.empty()) return Error{ErrorCode::usage, "nowhere to draw to", "-o", mend};
   std::vector<std::string> inputs = input.files;
   inputs.push_back(request.file);
-  if (const Status status = check_outputs(request.outputs, {".svg"}, inputs); !status)
+  if (const Status status = check_outputs(request.outputs, formats, inputs); !status)
     return status.error();
   const Result<sheets::SheetFile> file = sheets::SheetFile::read(request.file);
   if (!file) return file.error();
   if (!file->template_name().empty()) {
     const auto beside = std::filesystem::path(request.file).parent_path() / file->template_name();
-    if (const Status status = check_outputs(request.outputs, {".svg"}, {beside.string()}); !status)
+    if (const Status status = check_outputs(request.outputs, formats, {beside.string()}); !status)
       return status.error();
   }
   const Result<Loaded> loaded = load(session, input, scene);
@@ -71,10 +83,10 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
   if (!sheet) return sheet.error();
   tell_sheet(session, *sheet, *loaded->model);
   for (const std::string& output : request.outputs) {
-    const Status written = session.write(output, [&](Session::Sink sink) {
-      sheets::write_svg(*sheet, *loaded->model, sink);
-      return Status{};
-    });
+    const Result<sheets::SheetWriter> writer = sheets::find_sheet_writer(output);
+    if (!writer) return writer.error();
+    const Status written = session.write(
+        output, [&](Session::Sink sink) { return writer->write(*sheet, *loaded->model, sink); });
     if (!written) return written.error();
   }
   const Diagnostics& noticed = sheet->diagnostics;

@@ -104,10 +104,10 @@ struct Pair {
   std::uint32_t allowed_regions = 0;
 
   [[nodiscard]] std::uint32_t regions_listed(const Options& options) const {
-    return regions < 2 ? 0 : options.regions_listed_of(regions);
+    return regions < 2 ? 0 : options.engine.regions_listed_of(regions);
   }
   [[nodiscard]] std::uint32_t allowed_regions_listed(const Options& options) const {
-    return options.regions_listed_of(allowed_regions);
+    return options.engine.regions_listed_of(allowed_regions);
   }
   /// The nearest point of the surface that d is measured to, for d < 0.
   [[nodiscard]] const geometry::Vec3d& surface_mm() const { return deep_in_a ? on_a_mm : on_b_mm; }
@@ -272,7 +272,7 @@ struct Sets {
 ///
 /// 1. A pair's result is a function of the pair alone: neither the team, nor the broad phase, nor
 ///    other objects, nor the order of the sets show in it.
-/// 2. Parts of one object are no pair; wires (polylines) only with Options::curves.
+/// 2. Parts of one object are no pair; wires (polylines) only with EngineOptions::curves.
 ///
 /// Errors: usage for a tolerance that is negative, infinite or not a number and for sets of the
 /// wrong size; input for more pairs than most_pairs; cancelled.
@@ -285,8 +285,6 @@ struct Sets {
 
 /// Returns the hexadecimal hash of the names and hashes of all tests.
 [[nodiscard]] std::string hash_of(const Findings& findings);
-
-[[nodiscard]] Tolerances tolerances_of(const Options& options);
 
 /// Returns "HIT", "CONTACT", "CLEARANCE_VIOLATION" or "NO_HIT".
 [[nodiscard]] std::string_view name(Class cls);

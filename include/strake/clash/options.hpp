@@ -11,28 +11,24 @@ enum class ThicknessCap : std::uint8_t { on, off };
 enum class Volumes : std::uint8_t { off, on };
 enum class Curves : std::uint8_t { off, on };
 
-/// What the classes of a pair depend on: the fields of Options of the same names.
+/// What the classes of a pair depend on.
 struct Tolerances {
-  double clearance_mm = 0, touch_gap_mm = 1, touch_overlap_mm = 1;
-  ThicknessCap thickness_cap = ThicknessCap::on;
-  friend bool operator==(const Tolerances&, const Tolerances&) = default;
-};
-
-struct Options {
   double clearance_mm = 0;      ///< c: pairs nearer than this and farther than touch_gap violate it
   double touch_gap_mm = 1;      ///< t_g: up to this far apart is a contact
   double touch_overlap_mm = 1;  ///< t_o: up to this deep is a contact
   /// When on, t_o is at most a quarter of the smaller thickness of the two parts.
   ThicknessCap thickness_cap = ThicknessCap::on;
+  friend bool operator==(const Tolerances&, const Tolerances&) = default;
+};
+
+/// How the engine works and what it keeps, whatever a test asks: the same for all tests of a run.
+struct EngineOptions {
   BroadPhase broad_phase = BroadPhase::tree;
   /// `sphere_subdivision` is the baseline that benchmarks compare with, see docs/clash.md.
   NarrowPhase narrow_phase = NarrowPhase::exact;
   /// How many spheres sphere_subdivision may test for one pair of parts before it gives up,
   /// flagged.
   std::uint64_t most_spheres = 1'000'000;
-  /// Contact distance δ for the relation, mm; a negative one is derived from the sources'
-  /// precision.
-  double contact_distance_mm = -1;
   /// Whether to measure the volume of the part common to two solids that hit.
   Volumes volumes = Volumes::off;
   /// Whether lines and polylines are checked, as bodies without thickness; with the exact narrow
@@ -49,6 +45,14 @@ struct Options {
   [[nodiscard]] std::uint32_t regions_listed_of(std::uint32_t places) const {
     return places < most_regions ? places : static_cast<std::uint32_t>(most_regions);
   }
+};
+
+/// What one test asks, and how it is worked out.
+struct Options {
+  Tolerances tolerances = {};  ///< of all pairs that a matrix has no others for
+  /// Contact distance δ for the relation, mm; negative: derived from the sources' precision.
+  double contact_distance_mm = -1;
+  EngineOptions engine = {};
 };
 
 }  // namespace strake::clash

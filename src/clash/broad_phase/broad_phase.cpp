@@ -53,12 +53,13 @@ class BoxPairs {
   [[nodiscard]] Result<std::vector<geometry::IndexPair>> find(
       const geometry::BoxesInFrames& framed) const {
     return all() ? geometry::overlapping_box_pairs_brute_force(items_, framed, context_,
-                                                               options_.most_pairs)
-                 : geometry::overlapping_box_pairs(items_, framed, context_, options_.most_pairs);
+                                                               options_.engine.most_pairs)
+                 : geometry::overlapping_box_pairs(items_, framed, context_,
+                                                   options_.engine.most_pairs);
   }
 
  private:
-  [[nodiscard]] bool all() const { return options_.broad_phase == BroadPhase::all_pairs; }
+  [[nodiscard]] bool all() const { return options_.engine.broad_phase == BroadPhase::all_pairs; }
 
   const std::vector<geometry::BoxItem>& items_;
   const Options& options_;
@@ -73,11 +74,12 @@ Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::B
                                                    const Options& options,
                                                    const parallel::Context& context) {
   BoxPairs by_boxes(items, options, context);
-  auto pairs = by_boxes.find(std::min(options.most_pairs, kManyPairs * items.size()));
+  auto pairs = by_boxes.find(std::min(options.engine.most_pairs, kManyPairs * items.size()));
   if (pairs || pairs.error().code != ErrorCode::input) return pairs;
   const auto framed = make_oriented_boxes(list, reach, context);
   if (!framed) return framed.error();
-  return framed->frames.size() > 1 ? by_boxes.find(*framed) : by_boxes.find(options.most_pairs);
+  return framed->frames.size() > 1 ? by_boxes.find(*framed)
+                                   : by_boxes.find(options.engine.most_pairs);
 }
 
 /// Returns the pairs that lie in different groups.
@@ -117,7 +119,7 @@ Status gather_by_objects(std::vector<geometry::IndexPair>& pairs, const ScenePar
 
 Error too_many(const Options& options) {
   return {ErrorCode::input,
-          "more than " + std::to_string(options.most_pairs) +
+          "more than " + std::to_string(options.engine.most_pairs) +
               " pairs of parts are within reach of each other",
           "clash",
           "give a smaller clearance, or raise the limit with --most-pairs; or the model holds many "

@@ -218,8 +218,8 @@ Status run_sphere_narrow_phase(const StageInputs& stage, std::vector<Candidate>&
         Candidate& c = candidates[i];
         c.evaluation.answer = with_cost(c, stage.work.context(), [&](NarrowWork& work) {
           return evaluate_by_spheres(stage.cache.treed(a), stage.cache.treed(b),
-                                     stage.pair_tolerances.of(a, b), stage.options.most_spheres,
-                                     work);
+                                     stage.pair_tolerances.of(a, b),
+                                     stage.options.engine.most_spheres, work);
         });
       });
 }

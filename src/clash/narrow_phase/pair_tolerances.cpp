@@ -62,9 +62,10 @@ PairToleranceTable::PairToleranceTable(const RuleMatcher& rules, const Options& 
 }
 
 PairTolerances PairToleranceTable::of(const ScenePart& a, const ScenePart& b) const {
-  PairTolerances options = narrow_[rules_.tolerances(a.object, b.object)];
-  options.contact_distance = std::max(band(a), band(b));
-  options.snap = snap(a, b);
+  const PairToleranceKey key = settings(a, b);
+  PairTolerances options = narrow_[key.tolerances];
+  options.contact_distance = key.contact_distance;
+  options.snap = key.snap;
   options.step = static_cast<double>(std::max(a.step, b.step));
   return options;
 }

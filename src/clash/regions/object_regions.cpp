@@ -181,8 +181,8 @@ class RegionsOfPairs {
 Status aggregate_regions(const PartResults& findings, const parallel::Context& context,
                          Report& report) {
   constexpr std::size_t kGrain = 256;
-  const bool told = report.options.most_regions > 0;
-  const RegionsOfPairs regions(findings, report.options.most_regions);
+  const bool told = report.options.engine.most_regions > 0;
+  const RegionsOfPairs regions(findings, report.options.engine.most_regions);
   const auto others = parallel::collect<NotOne>(
       context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<NotOne>& out) {

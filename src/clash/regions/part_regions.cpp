@@ -63,7 +63,7 @@ Result<std::vector<RegionDetail>> region_detail_of(const EvaluatedPairs& evaluat
       [&](std::size_t k, std::vector<DetailRequest>& out) {
         const std::size_t i = objects.begin(k);
         const bool may_allow = rules.may_allow(evaluated.a(i).object, evaluated.b(i).object);
-        if (may_allow || options.most_regions > 0)
+        if (may_allow || options.engine.most_regions > 0)
           request_detail(evaluated, objects, k, may_allow, out);
       });
   if (!all) return all.error();

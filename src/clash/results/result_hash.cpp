@@ -40,7 +40,7 @@ void add_pair(Hasher& hasher, const Pair& pair, const Report& report, const mode
   hasher.add(pair.d_mm);
   for (const geometry::Vec3d& p : {pair.point_mm, pair.on_a_mm, pair.on_b_mm, pair.away})
     for (int k = 0; k < 3; ++k) hasher.add(p[k]);
-  if (report.options.most_regions > 0) {
+  if (report.options.engine.most_regions > 0) {
     hasher.add(pair.regions);
     const std::uint32_t listed = pair.regions_listed(report.options);
     for (std::uint32_t r = pair.first_region; r < pair.first_region + listed; ++r)

@@ -2,11 +2,10 @@
 #include "clash/rules/options.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 
+#include "clash/rules/tolerance_lengths.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::clash {
@@ -19,18 +18,16 @@ constexpr double kMaxToleranceMm = 1e6;
 /// The finest tessellation, used when a tolerance is zero.
 constexpr double kFinestSagMm = 0.02;
 
-Error bad(const char* option, const char* what) {
-  return {ErrorCode::usage, std::string("the ") + option + " " + what, option,
-          "give a length from 0 to 1 km"};
+Error bad(const std::string& option, const char* what) {
+  return {ErrorCode::usage, "the " + option + " " + what, option, "give a length from 0 to 1 km"};
 }
 
 }  // namespace
 
 Status check(const Tolerances& t) {
-  const std::array<std::pair<const char*, double>, 3> tolerances{
-      std::pair{"clearance", t.clearance_mm}, std::pair{"touch gap", t.touch_gap_mm},
-      std::pair{"touch overlap", t.touch_overlap_mm}};
-  for (const auto& [option, value] : tolerances) {
+  for (const ToleranceLength& length : kToleranceLengths) {
+    const std::string option = length.name_with(' ');
+    const double value = t.*length.value_mm;
     if (std::isnan(value)) return bad(option, "is not a number");
     if (value < 0) return bad(option, "is negative");
     if (!(value <= kMaxToleranceMm)) return bad(option, "is larger than a kilometre");
@@ -38,19 +35,15 @@ Status check(const Tolerances& t) {
   return {};
 }
 
-Tolerances tolerances_of(const Options& o) {
-  return {o.clearance_mm, o.touch_gap_mm, o.touch_overlap_mm, o.thickness_cap};
-}
-
 Status check(const Options& o, const Sets& sets, std::size_t objects) {
-  if (Status s = check(tolerances_of(o)); !s) return s;
+  if (Status s = check(o.tolerances); !s) return s;
   if (std::isnan(o.contact_distance_mm) || o.contact_distance_mm > kMaxToleranceMm)
     return bad("contact distance", "is not a length");
   if (sets.in_a.size() != objects || sets.in_b.size() != objects ||
       (!sets.group.empty() && sets.group.size() != objects))
     return Error{ErrorCode::usage, "the sets do not have one entry per object of the scene", "sets",
                  "build them from the same scene"};
-  if (o.curves == Curves::on && o.narrow_phase != NarrowPhase::exact)
+  if (o.engine.curves == Curves::on && o.engine.narrow_phase != NarrowPhase::exact)
     return Error{ErrorCode::usage, "lines are judged by the exact narrow phase only", "curves",
                  "leave out --curves or --narrow-phase"};
   return {};
@@ -77,8 +70,8 @@ Sets one_set(const model::Scene& scene) {
 
 model::SceneOptions scene_options(const Options& options) {
   model::SceneOptions scene;
-  scene.sag_mm =
-      std::max(kFinestSagMm, std::min(options.touch_gap_mm, options.touch_overlap_mm) / 4);
+  const Tolerances& t = options.tolerances;
+  scene.sag_mm = std::max(kFinestSagMm, std::min(t.touch_gap_mm, t.touch_overlap_mm) / 4);
   if (!(scene.sag_mm <= 0.25)) scene.sag_mm = 0.25;
   return scene;
 }

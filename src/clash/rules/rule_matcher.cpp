@@ -101,7 +101,7 @@ using geometry::IndexPair;
 constexpr std::size_t kMatchesPerBlock = 65536;
 
 std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options) {
-  std::vector<Tolerances> all{tolerances_of(options)};
+  std::vector<Tolerances> all{options.tolerances};
   all.insert(all.end(), policy.tolerances.begin(), policy.tolerances.end());
   return all;
 }

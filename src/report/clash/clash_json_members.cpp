@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
+#include "clash/rules/tolerance_lengths.hpp"
 #include "core/text_encoding.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
@@ -171,7 +172,7 @@ void region_list(std::string& out, const Report& test, std::string_view name, st
 /// Appends how many separate regions the two meet in, and the worst of several; those that a rule
 /// allows apart.
 void regions(std::string& out, const Report& test, const Pair& p) {
-  if (test.options.most_regions > 0) {
+  if (test.options.engine.most_regions > 0) {
     out += ", \"region_count\": ";
     out += p.regions == 0 ? "null" : std::to_string(p.regions);
   }
@@ -218,7 +219,8 @@ void append_result(std::string& out, const ClashContents& contents, std::size_t 
   out += '"';
   measured(out, p);
   witness(out, p);
-  if (p.cls == clash::Class::hit && report.options.volumes == clash::Volumes::on) volume(out, p);
+  if (p.cls == clash::Class::hit && report.options.engine.volumes == clash::Volumes::on)
+    volume(out, p);
   regions(out, report, p);
   flags(out, p.flags);
   out += '}';
@@ -271,19 +273,18 @@ namespace {
 using clash::Report;
 
 void tolerances(std::string& out, const clash::Tolerances& t) {
-  out += "\"clearance_mm\": ";
-  append_mm(out, t.clearance_mm);
-  out += ", \"touch_gap_mm\": ";
-  append_mm(out, t.touch_gap_mm);
-  out += ", \"touch_overlap_mm\": ";
-  append_mm(out, t.touch_overlap_mm);
-  out += ", \"thickness_cap\": ";
+  for (const clash::ToleranceLength& length : clash::kToleranceLengths) {
+    out.append("\"").append(length.name).append("_mm\": ");
+    append_mm(out, t.*length.value_mm);
+    out += ", ";
+  }
+  out += "\"thickness_cap\": ";
   out += t.thickness_cap == clash::ThicknessCap::on ? "true" : "false";
 }
 
 void settings(std::string& out, const Report& report) {
   out += "\"settings\": {";
-  tolerances(out, clash::tolerances_of(report.options));
+  tolerances(out, report.options.tolerances);
   out += ", \"contact_distance_mm\": ";
   append_mm(out, report.contact_distance_mm);
   if (report.weld_mm >= 0) {
@@ -291,7 +292,7 @@ void settings(std::string& out, const Report& report) {
     append_mm(out, report.weld_mm);
   }
   out += ", \"curves\": ";
-  out += report.options.curves == clash::Curves::on ? "true}" : "false}";
+  out += report.options.engine.curves == clash::Curves::on ? "true}" : "false}";
 }
 
 void sets(std::string& out, const Report& report) {

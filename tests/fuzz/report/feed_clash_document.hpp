@@ -22,7 +22,7 @@ namespace strake::test {
     m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {90, 0, 0}, {200, 100, 100});
     m.box("c", {from, 10, 10}, {300, 90, 90});
     std::string text;
-    const clash::Findings findings{{m.detect({.clearance_mm = 25})}, {}};
+    const clash::Findings findings{{m.detect({.tolerances = {.clearance_mm = 25}})}, {}};
     const Status status = report::write_clash_json({findings, m.model},
                                                    [&](std::string_view piece) { text += piece; });
     if (!status) std::abort();

@@ -33,7 +33,7 @@ class GoldenClash : public testing::TestWithParam<Golden> {
     return std::move(made->model);
   }
 
-  static Options options() { return {.clearance_mm = 25}; }
+  static Options options() { return {.tolerances = {.clearance_mm = 25}}; }
 
   static model::Scene scene_of(const model::Model& model) {
     return model::make_scene(model, scene_options(options()), {}).value();
@@ -49,7 +49,7 @@ TEST_P(GoldenClash, IsThisOnEveryCompiler) {
   EXPECT_EQ(report.hash, GetParam().hash);
   EXPECT_GT(report.regions.size(), 10U);
   Options without = options();
-  without.most_regions = 0;
+  without.engine.most_regions = 0;
   EXPECT_EQ(detect(scene, one_set(scene), without, {})->hash, GetParam().without_regions);
 }
 
@@ -64,7 +64,7 @@ TEST_P(GoldenClash, IsTheSameForAnyTeamAndBroadPhase) {
     EXPECT_EQ(detect(same, one_set(same), options(), context)->hash, GetParam().hash) << workers;
   }
   Options all_pairs = options();
-  all_pairs.broad_phase = BroadPhase::all_pairs;
+  all_pairs.engine.broad_phase = BroadPhase::all_pairs;
   EXPECT_EQ(detect(scene, one_set(scene), all_pairs, {})->hash, GetParam().hash);
 }
 

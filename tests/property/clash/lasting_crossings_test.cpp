@@ -167,8 +167,8 @@ void judge(const Drawn& a, const Drawn& b, Scene& scene, Tally& tally) {
   m.object("a").body(test::placed(swap ? b.mesh : a.mesh, turn, move));
   m.object("b").body(test::placed(swap ? a.mesh : b.mesh, turn, move));
   Options options;
-  options.touch_overlap_mm = kOverlap;
-  options.most_regions = 0;
+  options.tolerances.touch_overlap_mm = kOverlap;
+  options.engine.most_regions = 0;
   const Report report = m.detect(options);
   if (report.pairs.size() == 1) {
     const Pair& p = report.pairs.front();

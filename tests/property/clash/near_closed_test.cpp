@@ -186,7 +186,7 @@ TEST_P(NearClosed, TheBracketHoldsWhereTheLidWas) {
   for (const double gap : {0.002, 0.0031, 0.4, 4.9}) {
     const double d = draw.between(-3, 8);
     SCOPED_TRACE(std::to_string(gap) + ' ' + std::to_string(d));
-    const clash::Report report = lid_and_block(gap, d, draw, {.clearance_mm = 30});
+    const clash::Report report = lid_and_block(gap, d, draw, {.tolerances = {.clearance_mm = 30}});
     ASSERT_EQ(report.pairs.size(), 1U);
     EXPECT_LE(report.pairs[0].d_lower_mm, d);
     EXPECT_GE(report.pairs[0].d_upper_mm, d);
@@ -201,7 +201,7 @@ TEST_P(NearClosed, WhatTheLidWasNearerThanIsTold) {
     for (const double d : {0.0, 7.9}) {
       SCOPED_TRACE(std::to_string(gap) + ' ' + std::to_string(d));
       const clash::Options options{
-          .clearance_mm = d + 0.0001, .touch_gap_mm = 0, .touch_overlap_mm = 0};
+          .tolerances = {.clearance_mm = d + 0.0001, .touch_gap_mm = 0, .touch_overlap_mm = 0}};
       const clash::Report report = lid_and_block(gap, d, draw, options);
       ASSERT_EQ(report.pairs.size(), 1U);
       EXPECT_GE(report.pairs[0].severest, clash::Class::clearance_violation);

@@ -333,7 +333,7 @@ TEST(PairLaws, ALargerPrimitiveNeverRaisesTheSeparation) {
       ClashModel m;
       m.object("a").body(first, at);
       m.object("b").body(b, beside);
-      return m.detect({.clearance_mm = 1e6, .most_regions = 0});
+      return m.detect({.tolerances = {.clearance_mm = 1e6}, .engine = {.most_regions = 0}});
     };
     const Report before = of(a), after = of(large);
     if (before.pairs.size() != 1 || after.pairs.size() != 1) continue;

@@ -199,7 +199,9 @@ TEST(PrimitiveCertificates, HoldTheTruthAndShowIt) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(of.a.primitive)) +
                  " and " + std::string(kind_name(of.b.primitive)));
     constexpr std::array kDistances{-1.0, -1.0, 0.05, 0.5};
-    check(of, {.clearance_mm = kClearance, .contact_distance_mm = kDistances[seed % 4]}, seen);
+    check(of,
+          {.tolerances = {.clearance_mm = kClearance}, .contact_distance_mm = kDistances[seed % 4]},
+          seen);
   }
   EXPECT_GT(seen.held, kPairs / 3);
   EXPECT_GT(seen.apart, kPairs / 8);

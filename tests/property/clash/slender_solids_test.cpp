@@ -43,8 +43,8 @@ constexpr double kSlack = 2e-3;
 
 Options options_of(bool zero_tolerances) {
   Options options;
-  options.clearance_mm = 1;
-  if (zero_tolerances) options.touch_gap_mm = options.touch_overlap_mm = 0;
+  options.tolerances.clearance_mm = 1;
+  if (zero_tolerances) options.tolerances.touch_gap_mm = options.tolerances.touch_overlap_mm = 0;
   return options;
 }
 
@@ -216,7 +216,7 @@ TEST(SlenderSolids, MeshesWithTrianglesOfNoArea) {
       ClashModel m;
       m.object("body").body(in_mm(i == 0 ? plain : slivers));
       m.box("probe", at - half, at + half);
-      pairs[i] = m.detect({.clearance_mm = 1e4}).pairs;
+      pairs[i] = m.detect({.tolerances = {.clearance_mm = 1e4}}).pairs;
     }
     ASSERT_EQ(pairs[0].size(), pairs[1].size());
     for (std::size_t i = 0; i < pairs[0].size(); ++i) {

@@ -202,7 +202,7 @@ Report detected(const Format& format, const Cubes& cubes) {
   if (!model) return {};
   EXPECT_EQ(model->objects.size(), cubes.size());
   model::finish(*model);
-  const Options options{.clearance_mm = 70};
+  const Options options{.tolerances = {.clearance_mm = 70}};
   const model::Scene scene = make_scene(*model, scene_options(options), {}).value();
   return detect(scene, one_set(scene), options, {}).value();
 }

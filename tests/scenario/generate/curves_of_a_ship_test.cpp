@@ -97,7 +97,7 @@ TEST_P(CurvesOfAShip, PointsAlongThemAgree) {
   ASSERT_GT(wires_.size(), 20U);
   sample();
   const Result<clash::Report> report =
-      clash::detect(scene_, clash::one_set(scene_), {.curves = clash::Curves::on}, {});
+      clash::detect(scene_, clash::one_set(scene_), {.engine = {.curves = clash::Curves::on}}, {});
   ASSERT_TRUE(report.has_value());
   std::map<std::pair<std::uint32_t, std::uint32_t>, clash::Pair> found;
   for (const clash::Pair& p : report->pairs) found.emplace(std::pair{index(p.a), index(p.b)}, p);

@@ -77,7 +77,7 @@ TEST_P(OverlapsOfAShip, AreThoseOfTheExactTest) {
       SCOPED_TRACE(threads);
       parallel::Team team(threads);
       const parallel::Context context{.team = &team, .stop = {}};
-      const Options options{.broad_phase = broad};
+      const Options options{.engine = {.broad_phase = broad}};
       const auto found = overlapping_pairs(scene_, one_set(scene_), options, context);
       ASSERT_TRUE(found.has_value());
       EXPECT_EQ(*found, expected);

@@ -68,7 +68,7 @@ class TruthAgainstEngine : public testing::TestWithParam<Case> {
     parallel::Team team(2);
     parallel::Context context;
     context.team = &team;
-    const clash::Options options{.clearance_mm = Truth::kClearanceMm};
+    const clash::Options options{.tolerances = {.clearance_mm = Truth::kClearanceMm}};
     const Result<model::Scene> scene =
         model::make_scene(ship_.model, clash::scene_options(options), context);
     EXPECT_TRUE(scene.has_value());

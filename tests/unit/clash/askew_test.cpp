@@ -32,7 +32,7 @@ ClashModel rods(std::uint32_t side, const Mat3d& turn = {}) {
 
 TEST(ClashAskew, MembersSideBySideAreNoCandidates) {
   for (const std::uint32_t side : {16U, 32U}) {
-    const Report report = rods(side).detect({.clearance_mm = 5});
+    const Report report = rods(side).detect({.tolerances = {.clearance_mm = 5}});
     EXPECT_TRUE(report.pairs.empty());
     EXPECT_EQ(report.counters.candidate_pairs, 0U);
   }
@@ -48,7 +48,7 @@ TEST(ClashAskew, NeighboursWithinTheClearanceAreFoundInAnyTurn) {
     const ClashModel m = rods(kSide, draw.rotation());
     // 30 mm from side to side, 42 from edge to edge.
     for (const double clearance : {25.0, 35.0, 45.0}) {
-      const Report report = m.detect({.clearance_mm = clearance});
+      const Report report = m.detect({.tolerances = {.clearance_mm = clearance}});
       const std::size_t square = clearance > 30 ? 2 * kSide * (kSide - 1) : 0;
       const std::size_t across = clearance > 42.5 ? 2 * (kSide - 1) * (kSide - 1) : 0;
       EXPECT_EQ(report.pairs.size(), square + across);
@@ -73,11 +73,11 @@ TEST(ClashAskew, EitherBroadPhaseAndAnyTeamFindTheSame) {
                              draw.between(-6000, 6000)};
     m.box("b" + std::to_string(i), at, at + geometry::Vec3d{300, 400, 500});
   }
-  Options options{.clearance_mm = 20};
-  options.broad_phase = BroadPhase::all_pairs;
+  Options options{.tolerances = {.clearance_mm = 20}};
+  options.engine.broad_phase = BroadPhase::all_pairs;
   const Report oracle = m.detect(options);
   EXPECT_GT(oracle.pairs.size(), 50U);
-  options.broad_phase = BroadPhase::tree;
+  options.engine.broad_phase = BroadPhase::tree;
   for (const unsigned threads : {1U, 3U}) {
     parallel::Team team(threads);
     const Report report = m.detect(options, {.team = &team, .stop = {}});

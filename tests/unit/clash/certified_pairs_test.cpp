@@ -56,7 +56,7 @@ struct Body {
   Placement at;
 };
 
-const Options kOptions{.clearance_mm = 25};
+const Options kOptions{.tolerances = {.clearance_mm = 25}};
 
 Class class_of(double d) {
   if (d < -1) return Class::hit;

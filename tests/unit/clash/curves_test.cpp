@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines as bodies without thickness, in the whole engine: with Options::curves only.
+// Lines as bodies without thickness, in the whole engine: with EngineOptions::curves only.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using geometry::Vec3d;
 using test::ClashModel;
 using test::expect;
 
-constexpr Options kCurves{.curves = Curves::on};
+constexpr Options kCurves{.engine = {.curves = Curves::on}};
 
 geometry::Polylines chain(const std::vector<Vec3d>& points) {
   geometry::Polylines lines;
@@ -62,7 +62,7 @@ TEST(Curves, ClassesFollowTheThresholds) {
   const ClashModel near = cube_and_line({{200, 200, 1020}, {800, 200, 1020}});
   EXPECT_EQ(judged(near).cls, Class::no_hit);
   Options clearance = kCurves;
-  clearance.clearance_mm = 25;
+  clearance.tolerances.clearance_mm = 25;
   const Pair p = test::only(near, clearance);
   expect(p, Class::clearance_violation, Relation::separate, 20);
   EXPECT_NEAR(p.on_a_mm.z, 1000, 1e-6);
@@ -161,7 +161,7 @@ TEST(Curves, ChangeNothingElseAndDependOnNothing) {
       same += p.a == q.a && p.b == q.b && p.d_mm == q.d_mm && p.cls == q.cls ? 1 : 0;
   EXPECT_EQ(same, without.pairs.size());
   Options all = kCurves;
-  all.broad_phase = BroadPhase::all_pairs;
+  all.engine.broad_phase = BroadPhase::all_pairs;
   EXPECT_EQ(m.detect(all).hash, with.hash);
   for (const unsigned workers : {2U, 3U, 8U}) {
     parallel::Team team(workers);
@@ -189,7 +189,7 @@ TEST(Curves, TheBaselineKnowsNoLines) {
   const ClashModel m = cube_and_line({{-500, 500, 500}, {1500, 500, 500}});
   const model::Scene scene = make_scene(m.model, {}, {}).value();
   Options options = kCurves;
-  options.narrow_phase = NarrowPhase::sphere_subdivision;
+  options.engine.narrow_phase = NarrowPhase::sphere_subdivision;
   const auto report = detect(scene, one_set(scene), options, {});
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().code, ErrorCode::usage);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "clash/rules/tolerance_lengths.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
@@ -85,7 +86,7 @@ TEST(Detect, MorePairsThanAllowedAreAnErrorThatSaysWhy) {
   for (int i = 0; i < 30; ++i) m.box("b" + std::to_string(i), {0, 0, 0}, {10, 10, 10});
   const model::Scene scene = make_scene(m.model, {}, {}).value();
   for (const BroadPhase broad_phase : {BroadPhase::tree, BroadPhase::all_pairs}) {
-    const Options options{.broad_phase = broad_phase, .most_pairs = 30 * 29 / 2 - 1};
+    const Options options{.engine = {.broad_phase = broad_phase, .most_pairs = 30 * 29 / 2 - 1}};
     const auto report = detect(scene, one_set(scene), options, {});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::input);
@@ -94,7 +95,7 @@ TEST(Detect, MorePairsThanAllowedAreAnErrorThatSaysWhy) {
 }
 
 TEST(Detect, Clearance) {
-  const Options options{.clearance_mm = 25};
+  const Options options{.tolerances = {.clearance_mm = 25}};
   expect(only(walls(24.9, 0), options), Class::clearance_violation, Relation::separate, 24.9);
   EXPECT_EQ(only(walls(25.1, 0), options).cls, Class::no_hit);
   EXPECT_EQ(only(walls(25.1, 0), options).d_mm, 0) << "NO_HIT pairs are not kept";
@@ -106,7 +107,7 @@ TEST(Detect, ThinCrossingPlatesAreAHit) {
   const auto plates = two({0, 0, 0}, {1000, 2, 500}, {499, -500, 0}, {501, 500, 500});
   expect(only(plates), Class::hit, Relation::interfere, -1);
   Options plain;
-  plain.thickness_cap = ThicknessCap::off;
+  plain.tolerances.thickness_cap = ThicknessCap::off;
   // Exactly at the threshold of the plain rule: the severer class, and said so.
   const Pair p = only(plates, plain);
   EXPECT_EQ(p.cls, Class::hit);
@@ -130,7 +131,7 @@ TEST(Detect, NestedAndDuplicate) {
 }
 
 TEST(Detect, AToleranceOfZeroIsTheStrictDefinition) {
-  const Options strict{.touch_gap_mm = 0, .touch_overlap_mm = 0};
+  const Options strict{.tolerances = {.touch_gap_mm = 0, .touch_overlap_mm = 0}};
   EXPECT_EQ(only(walls(0, 0), strict).cls, Class::contact);
   EXPECT_EQ(only(walls(-0.001, 0), strict).cls, Class::hit);
   EXPECT_EQ(only(walls(0.001, 0), strict).cls, Class::no_hit);
@@ -237,7 +238,7 @@ TEST(Detect, PrimitivesWithAClosedFormHaveNoSag) {
   m.object("c").body(geometry::SpherePrimitive{300}, {{}, {5000, 0, 0}});
   m.object("d").body(geometry::SpherePrimitive{100}, {{}, {5030, 0, 0}});
   m.object("e").body(geometry::SpherePrimitive{100}, {{}, {5208, 0, 0}});
-  const Report report = m.detect({.clearance_mm = 20});
+  const Report report = m.detect({.tolerances = {.clearance_mm = 20}});
   ASSERT_EQ(report.pairs.size(), 3U);
   expect(report.pairs[0], Class::hit, Relation::interfere, -1.5);
   expect(report.pairs[1], Class::hit, Relation::b_in_a, -150);
@@ -299,16 +300,24 @@ TEST(Detect, NeitherLiesInTheOtherWhereEachHoldsAPartOfTheOther) {
   expect(only(m), Class::hit, Relation::interfere, -50);
 }
 
+TEST(Detect, EachLengthOfTheTolerancesHasItsRowInTheTable) {
+  Tolerances t;
+  double next = 0;
+  for (const ToleranceLength& length : kToleranceLengths) t.*length.value_mm = ++next;
+  const auto& [clearance, touch_gap, touch_overlap, cap] = t;  // all members: a new one wants a row
+  EXPECT_EQ(std::vector({clearance, touch_gap, touch_overlap}), std::vector({1.0, 2.0, 3.0}));
+  EXPECT_EQ(cap, ThicknessCap::on);
+}
+
 TEST(Detect, TolerancesThatMakeNoSenseAreErrors) {
   const ClashModel m = walls(0, 0);
   const model::Scene scene = make_scene(m.model, {}, {}).value();
   const double bad[] = {-1, std::numeric_limits<double>::quiet_NaN(),
                         std::numeric_limits<double>::infinity()};
   for (const double v : bad)
-    for (double Options::* const field :
-         {&Options::clearance_mm, &Options::touch_gap_mm, &Options::touch_overlap_mm}) {
+    for (const ToleranceLength& length : kToleranceLengths) {
       Options options;
-      options.*field = v;
+      options.tolerances.*length.value_mm = v;
       const auto report = detect(scene, one_set(scene), options, {});
       ASSERT_FALSE(report);
       EXPECT_EQ(report.error().code, ErrorCode::usage);
@@ -378,7 +387,7 @@ ClashModel crowd(std::uint64_t seed, int count, const Vec3d& offset = {}) {
 
 TEST(Detect, SameBytesForAnyTeamAndEitherBroadPhase) {
   const ClashModel m = crowd(3, 200);
-  Options options{.clearance_mm = 5};
+  Options options{.tolerances = {.clearance_mm = 5}};
   const Report base = m.detect(options);
   EXPECT_GT(base.count_hit, 50U);
   EXPECT_GT(base.count_contact, 50U);
@@ -386,7 +395,7 @@ TEST(Detect, SameBytesForAnyTeamAndEitherBroadPhase) {
     parallel::Team team(threads);
     EXPECT_EQ(m.detect(options, {.team = &team, .stop = {}}).hash, base.hash);
   }
-  options.broad_phase = BroadPhase::all_pairs;
+  options.engine.broad_phase = BroadPhase::all_pairs;
   const Report all = m.detect(options);
   EXPECT_EQ(all.hash, base.hash);
   EXPECT_EQ(all.counters.part_pairs, base.counters.part_pairs);
@@ -437,7 +446,7 @@ TEST(Detect, MovedByGridStepsNothingChanges) {
 }
 
 TEST(Detect, SeparationChangesByNoMoreThanTheMove) {
-  const Options options{.clearance_mm = 1000};
+  const Options options{.tolerances = {.clearance_mm = 1000}};
   double before = 0;
   for (int i = 0; i <= 60; ++i) {
     ClashModel m;

@@ -69,7 +69,7 @@ void check(Scene scene) {
   ClashModel m;
   m.object("a").body(std::move(scene.a));
   m.object("b").body(std::move(scene.b), {{}, scene.shift});
-  scene.options.log_pairs = true;
+  scene.options.engine.log_pairs = true;
   const Report alone = m.detect(scene.options);
   expect_truth(scene, alone);
   const std::vector<std::uint64_t> expected = bits_of(alone);
@@ -121,7 +121,7 @@ TEST(HeavyPairs, beside_each_other_within_the_clearance) {
          .a = cylinder_mesh(500, 2000, 2, 600),
          .b = cylinder_mesh(510, 2000, 190, 380),
          .shift = {1012, 0, 0},
-         .options = {.clearance_mm = 25},
+         .options = {.tolerances = {.clearance_mm = 25}},
          .cls = Class::clearance_violation,
          .relation = Relation::separate,
          .d_mm = 2,
@@ -142,7 +142,7 @@ TEST(HeavyPairs, fans_of_needles_aside_of_each_other) {
            .a = stand(cylinder_mesh(500, 10, 1, 25000), {}),
            .b = stand(cylinder_mesh(400, 10, 1, 6000), {100, 170, 10 + gap}),
            .shift = {},
-           .options = {.clearance_mm = 25},
+           .options = {.tolerances = {.clearance_mm = 25}},
            .cls = gap > 0 ? Class::clearance_violation : Class::contact,
            .relation = gap > 0 ? Relation::separate : Relation::abut_outside,
            .d_mm = gap,

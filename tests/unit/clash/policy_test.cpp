@@ -188,7 +188,7 @@ TEST(ClashPolicy, AMatrixInOnePassIsTheSameAsATestPerCell) {
     const ClashModel m = crowd(seed, 90);
     const Policy policy = matrix_policy(90);
     const Matrix& matrix = *policy.matrix;
-    const Options options{.clearance_mm = 5};
+    const Options options{.tolerances = {.clearance_mm = 5}};
     const Report whole = report_of(m, {{}, options, policy});
     std::vector<Pair> expected;
     std::uint64_t unchecked = 0;
@@ -197,10 +197,7 @@ TEST(ClashPolicy, AMatrixInOnePassIsTheSameAsATestPerCell) {
         const auto cell =
             row == 3 || column == 3 ? Matrix::kDefault : matrix.cells[row * 3 + column];
         Options own = options;
-        if (cell < Matrix::kDefault) {
-          const Tolerances& t = policy.tolerances[cell];
-          own = {t.clearance_mm, t.touch_gap_mm, t.touch_overlap_mm, t.thickness_cap};
-        }
+        if (cell < Matrix::kDefault) own.tolerances = policy.tolerances[cell];
         Task run{{}, own, {}};
         for (const std::uint32_t d : matrix.discipline) {
           run.sets.in_a.push_back(std::min(d, 3U) == row);
@@ -246,7 +243,7 @@ TEST(ClashPolicy, AnyTeamAndSwappedSetsGiveTheSame) {
   }
   policy.exemptions = {{"units", SameLabel{units}}, {"pairs", Between{some, others}}};
   policy.allowed = {{"meant", others, others, geometry::Box3d{{0, 0, 0}, {200, 200, 200}}, {}, 12}};
-  Task run{{}, {.clearance_mm = 5}, policy};
+  Task run{{}, {.tolerances = {.clearance_mm = 5}}, policy};
   run.sets.in_a.assign(120, true);
   run.sets.in_b = others;
   const Report first = report_of(m, run);
@@ -259,7 +256,7 @@ TEST(ClashPolicy, AnyTeamAndSwappedSetsGiveTheSame) {
     parallel::Team team(workers);
     run.context.team = &team;
     for (const BroadPhase phase : {BroadPhase::tree, BroadPhase::all_pairs}) {
-      run.options.broad_phase = phase;
+      run.options.engine.broad_phase = phase;
       const Report again = report_of(m, run);
       EXPECT_EQ(again.hash, first.hash);
       EXPECT_EQ(exempted(again), exempted(first));
@@ -275,7 +272,7 @@ TEST(ClashPolicy, AnyTeamAndSwappedSetsGiveTheSame) {
 
 TEST(ClashPolicy, RulesThatConcernNothingChangeNothing) {
   const ClashModel m = crowd(3, 80);
-  const Report plain = report_of(m, {{}, {.clearance_mm = 25}, {}});
+  const Report plain = report_of(m, {{}, {.tolerances = {.clearance_mm = 25}}, {}});
   Policy policy;
   const std::vector<bool> nobody(80), everybody(80, true);
   policy.exemptions = {{"units", SameLabel{std::vector<std::uint32_t>(80, kNoLabel)}},
@@ -283,7 +280,7 @@ TEST(ClashPolicy, RulesThatConcernNothingChangeNothing) {
   policy.levels = levels(std::vector<Level>(80, Level::hard));
   policy.allowed = {
       {"meant", everybody, everybody, geometry::Box3d{{-9, -9, -9}, {-8, -8, -8}}, {}, 1e9}};
-  const Report ruled = report_of(m, {{}, {.clearance_mm = 25}, policy});
+  const Report ruled = report_of(m, {{}, {.tolerances = {.clearance_mm = 25}}, policy});
   EXPECT_EQ(ruled.hash, plain.hash);
   EXPECT_EQ(ruled.pairs.size(), plain.pairs.size());
   EXPECT_EQ(ruled.counters.allowed_pairs, ruled.counters.candidate_pairs);
@@ -400,7 +397,7 @@ TEST(ClashPolicy, ContactsAndClearancesAreMeantWithoutADepth) {
   m.box("c", {210, 0, 0}, {300, 100, 100});
   Policy policy;
   policy.allowed = {meant(3)};
-  EXPECT_EQ(told(m, report_of(m, {{}, {.clearance_mm = 25}, policy})),
+  EXPECT_EQ(told(m, report_of(m, {{}, {.tolerances = {.clearance_mm = 25}}, policy})),
             (Told{"a-b CONTACT by meant", "b-c CLEARANCE_VIOLATION by meant"}));
 }
 
@@ -448,7 +445,7 @@ TEST(ClashPolicy, WhatIsMeantHidesNothingElseOfThePair) {
   policy.allowed = {meant(2)};
   policy.allowed[0].max_depth_mm = 50;
   policy.allowed[0].region_mm = {{0, 0, -100}, {200, 200, 100}};
-  const Options options{.clearance_mm = 25};
+  const Options options{.tolerances = {.clearance_mm = 25}};
   const auto run = [&](const Vec3d& lo, const Vec3d& hi) {
     const ClashModel m = sleeve(lo, hi);
     const Report report = report_of(m, {{}, options, policy});
@@ -468,7 +465,7 @@ TEST(ClashPolicy, WhatIsMeantInOnePlaceHidesNoOther) {
   policy.allowed = {meant(2)};
   policy.allowed[0].max_depth_mm = 50;
   policy.allowed[0].region_mm = {{0, 0, -100}, {60, 200, 100}};
-  const Options options{.clearance_mm = 5};
+  const Options options{.tolerances = {.clearance_mm = 5}};
   const auto run = [&](double end) {
     std::vector<geometry::Vec3i> u{{1, 0, 0}, {2, 0, 0}};
     for (int y = 0; y < 4; ++y) u.insert(u.end(), {{0, y, 0}, {3, y, 0}});

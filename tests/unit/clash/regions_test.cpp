@@ -77,7 +77,7 @@ TEST(RegionsTest, FourFeetAreFourContacts) {
 
 TEST(RegionsTest, TheWorstComesFirstAndListsEndWhileCountsDoNot) {
   Options options;
-  options.most_regions = 2;
+  options.engine.most_regions = 2;
   const Report report = table_on_deck(5).detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_EQ(report.pairs[0].cls, Class::hit);
@@ -88,7 +88,7 @@ TEST(RegionsTest, TheWorstComesFirstAndListsEndWhileCountsDoNot) {
   EXPECT_EQ(report.regions[0].d_mm, report.pairs[0].d_mm);
   EXPECT_EQ(report.regions[0].point_mm, report.pairs[0].point_mm);
   EXPECT_EQ(report.regions[1].cls, Class::contact);
-  options.most_regions = 0;
+  options.engine.most_regions = 0;
   const Report without = table_on_deck(5).detect(options);
   EXPECT_EQ(without.pairs[0].regions, 0U);
   EXPECT_TRUE(without.regions.empty());
@@ -98,11 +98,11 @@ TEST(RegionsTest, TheWorstComesFirstAndListsEndWhileCountsDoNot) {
 /// A count that is no count would be worse than none.
 TEST(RegionsTest, TheBaselineTellsNoPlacesApart) {
   Options options;
-  options.narrow_phase = NarrowPhase::sphere_subdivision;
+  options.engine.narrow_phase = NarrowPhase::sphere_subdivision;
   const Report report = table_on_deck(5).detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_EQ(report.pairs[0].regions, 0U);
-  EXPECT_EQ(report.options.most_regions, 0U);
+  EXPECT_EQ(report.options.engine.most_regions, 0U);
 }
 
 TEST(RegionsTest, OneMeshThatMeetsTwoBarsHasADepthAtEach) {
@@ -163,7 +163,7 @@ TEST(RegionsTest, ClearanceHasPlacesToo) {
   made.body(box_mesh({700, 100, 25}, {750, 150, 500}));
   model::finish(made.model);
   Options options;
-  options.clearance_mm = 30;
+  options.tolerances.clearance_mm = 30;
   const Report report = made.detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_EQ(report.pairs[0].cls, Class::clearance_violation);
@@ -240,7 +240,7 @@ TEST(RegionsTest, PlacesThatRulesAllowAreCountedByRule) {
   EXPECT_EQ(all.pairs[0].allowed_regions_listed(options), 2U);
   // The count does not depend on what is listed, nor on whether places are.
   for (const std::uint64_t most : {1U, 0U}) {
-    options.most_regions = most;
+    options.engine.most_regions = most;
     const Report some = detect(scene, one_set(scene), options, policy, {}).value();
     EXPECT_EQ(some.pairs[0].allowed_regions, 2U);
     EXPECT_EQ(some.pairs[0].regions, most);
@@ -249,7 +249,7 @@ TEST(RegionsTest, PlacesThatRulesAllowAreCountedByRule) {
   }
   // The hash covers them: another rule, another hash.
   policy.allowed[0].rule = "renamed";
-  options.most_regions = 8;
+  options.engine.most_regions = 8;
   const Report renamed = detect(scene, one_set(scene), options, policy, {}).value();
   EXPECT_NE(renamed.hash, all.hash);
   // An allowed hit besides a gap that is none: the result is the gap, the hit is counted.
@@ -260,7 +260,7 @@ TEST(RegionsTest, PlacesThatRulesAllowAreCountedByRule) {
   model::finish(gap.model);
   const model::Scene near =
       make_scene(gap.model, scene_options(Options{}), parallel::Context{}).value();
-  options.clearance_mm = 25;
+  options.tolerances.clearance_mm = 25;
   const Report open = detect(near, one_set(near), options, policy, {}).value();
   ASSERT_EQ(open.pairs.size(), 1U);
   EXPECT_EQ(open.pairs[0].cls, Class::clearance_violation);
@@ -311,7 +311,7 @@ TEST(RegionsTest, AHoleInALargePlatePartsAContact) {
 // Both faces of a plate and both skins of a tube lie within the clearance, one behind the other.
 TEST(RegionsTest, WhatLiesBehindTheSkinWithinTheClearanceIsNoOtherPlace) {
   Options options;
-  options.clearance_mm = 30;
+  options.tolerances.clearance_mm = 30;
   ClashModel over;
   over.object("deck").body(holed_plate(2500, 10));
   over.box("crate", {100, 100, 15}, {600, 600, 400});
@@ -334,7 +334,7 @@ TEST(RegionsTest, WhatLiesBehindTheSkinWithinTheClearanceIsNoOtherPlace) {
   through.object("plate").body(holed_plate(200, 35));
   through.object("tube").body(tube);
   model::finish(through.model);
-  options.clearance_mm = 18;
+  options.tolerances.clearance_mm = 18;
   report = through.detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_EQ(report.pairs[0].cls, Class::clearance_violation);
@@ -356,7 +356,7 @@ TEST(RegionsTest, AGapAcrossFromAHitIsAPlaceOfItsOwn) {
   const model::Scene scene =
       make_scene(made.model, scene_options(Options{}), parallel::Context{}).value();
   Options options;
-  options.clearance_mm = 25;
+  options.tolerances.clearance_mm = 25;
   Policy policy;
   policy.allowed = {
       {"sleeve", {true, true}, {true, true}, Box3d{{-30, -10, 50}, {12, 20, 90}}, {}, 100}};
@@ -377,7 +377,7 @@ auto answers(const Report& report) {
 
 TEST(RegionsTest, ListingPlacesChangesNoAnswer) {
   Options without;
-  without.most_regions = 0;
+  without.engine.most_regions = 0;
   for (const double sunk : {0.0, 5.0}) {
     const ClashModel table = table_on_deck(sunk);
     EXPECT_EQ(answers(table.detect()), answers(table.detect(without)));

@@ -44,7 +44,7 @@ Pair beside(double gap, const Mat3d& turn, bool primitive, std::uint64_t seed) {
   ClashModel m;
   add_box(m, "a", {}, a, turn, primitive);
   add_box(m, "b", {a.x + gap, a.y / 4, a.z / 4}, b, turn, primitive);
-  return only(m, {.clearance_mm = 25});
+  return only(m, {.tolerances = {.clearance_mm = 25}});
 }
 
 TEST(SourceErrors, AnExactThresholdIsBorderlineHoweverTheModelStands) {
@@ -89,7 +89,7 @@ TEST(SourceErrors, WhatTheSnapDidNotMoveKeepsItsBracket) {
     ClashModel m;
     m.box("a", at, at + Vec3d{100, 100, 100});
     m.box("b", at + Vec3d{110.123, 0, 0}, at + Vec3d{200, 100, 100});
-    return only(m, {.clearance_mm = 25});
+    return only(m, {.tolerances = {.clearance_mm = 25}});
   };
   for (const Vec3d& at : {Vec3d{}, Vec3d{0.001, 1234.567, -98765.432}, Vec3d{5e8, -3e8, 1e8}}) {
     EXPECT_LT(p(at).d_upper_mm - p(at).d_lower_mm, 1e-9);
@@ -103,7 +103,7 @@ TEST(SourceErrors, TolerancesOfZeroAreAskedOfTheGrid) {
     ClashModel m;
     m.box("a", {0, 0, 0.0001}, {100, 100, 100});
     m.box("b", {100 + gap, 0, 0.0001}, {200, 100, 100});
-    return only(m, {.touch_gap_mm = 0, .touch_overlap_mm = 0});
+    return only(m, {.tolerances = {.touch_gap_mm = 0, .touch_overlap_mm = 0}});
   };
   EXPECT_EQ(p(0.001).cls, Class::no_hit);
   EXPECT_EQ(p(0).cls, Class::contact);
@@ -167,7 +167,8 @@ TEST(SourceErrors, ASagThatIsKnownIsNoWeld) {
     TriangleMesh mesh = test::box_mesh({100 + gap, 0, 0}, {200, 100, 100});
     mesh.sag_mm = 1;
     m.object("b").body(std::move(mesh));
-    EXPECT_TRUE(m.detect({.clearance_mm = 0.2, .touch_gap_mm = 0}).pairs.empty()) << gap;
+    EXPECT_TRUE(m.detect({.tolerances = {.clearance_mm = 0.2, .touch_gap_mm = 0}}).pairs.empty())
+        << gap;
   }
 }
 

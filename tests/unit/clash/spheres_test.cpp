@@ -39,9 +39,9 @@ ClashModel pairs_of_bodies(int count) {
 
 TEST(SphereSubdivision, AgreesWithTheExactNarrowPhaseWhereItIsSure) {
   const ClashModel m = pairs_of_bodies(60);
-  const Options exact{.clearance_mm = 5};
+  const Options exact{.tolerances = {.clearance_mm = 5}};
   Options spheres = exact;
-  spheres.narrow_phase = NarrowPhase::sphere_subdivision;
+  spheres.engine.narrow_phase = NarrowPhase::sphere_subdivision;
   const Report e = m.detect(exact), s = m.detect(spheres);
   std::map<std::pair<model::ObjectId, model::ObjectId>, Pair> found;
   for (const Pair& p : s.pairs) found[{p.a, p.b}] = p;
@@ -67,16 +67,16 @@ TEST(SphereSubdivision, GivesUpWithAFlagAndNeverInSilence) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {10'000, 10'000, 10}).box("b", {0, 0, 12}, {10'000, 10'000, 22});
   Options options;
-  options.narrow_phase = NarrowPhase::sphere_subdivision;
-  options.most_spheres = 5'000;
-  options.clearance_mm = 3;
+  options.engine.narrow_phase = NarrowPhase::sphere_subdivision;
+  options.engine.most_spheres = 5'000;
+  options.tolerances.clearance_mm = 3;
   const Report report = m.detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_NE(report.pairs[0].flags & kUncertain, 0);
   EXPECT_EQ(report.pairs[0].severest, Class::hit) << "it has not looked into them";
   EXPECT_LE(report.pairs[0].d_lower_mm, 2);
   EXPECT_GE(report.pairs[0].d_upper_mm, 2);
-  EXPECT_EQ(m.detect({.clearance_mm = 3}).pairs.at(0).d_mm, 2);
+  EXPECT_EQ(m.detect({.tolerances = {.clearance_mm = 3}}).pairs.at(0).d_mm, 2);
 }
 
 }  // namespace

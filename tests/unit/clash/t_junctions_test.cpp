@@ -52,7 +52,7 @@ GridMesh cube() { return test::grid_box({0, 0, 0}, {1'200'000, 1'200'000, 1'200'
 Report clash(const GridMesh& a, const GridMesh& b, const Vec3d& at) {
   ClashModel m;
   m.object("a").body(in_mm(a)).object("b").body(in_mm(b), {{}, at});
-  return m.detect({.clearance_mm = 300});
+  return m.detect({.tolerances = {.clearance_mm = 300}});
 }
 
 TEST(TJunctionClashes, ABodyBuriedInOneIsFound) {

@@ -54,7 +54,7 @@ void expect_sound(const Pair& p, double askew = 0) {
 TEST(Witness, OfWallsApartTouchingAndOverlapping) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {200, 3000, 3000}).box("b", {210, 0, 0}, {400, 3000, 3000});
-  const Report apart = m.detect({.clearance_mm = 25});
+  const Report apart = m.detect({.tolerances = {.clearance_mm = 25}});
   ASSERT_EQ(apart.pairs.size(), 1U);
   expect_sound(apart.pairs[0]);
   EXPECT_EQ(apart.pairs[0].on_a_mm.x, 200);
@@ -296,7 +296,7 @@ bool meets_ball(const ClashModel& m, std::size_t object, const Vec3d& at) {
   probe.model.objects.push_back(body);
   probe.model.bodies.push_back(placed);
   probe.object("probe").body(geometry::Primitive{geometry::SpherePrimitive{0.02}}, {{}, at});
-  return !probe.detect({.touch_gap_mm = 0, .touch_overlap_mm = 0}).pairs.empty();
+  return !probe.detect({.tolerances = {.touch_gap_mm = 0, .touch_overlap_mm = 0}}).pairs.empty();
 }
 
 /// Every kind against every kind, turned, in every relation: moved away by d and a little more, the
@@ -314,7 +314,7 @@ TEST(Witness, LeadsOutOfTheBody) {
     ClashModel m;
     m.object("a").body(any_shape(random, draw), place_a);
     m.object("b").body(any_shape(random, draw), place_b);
-    const Report report = m.detect({.clearance_mm = 60});
+    const Report report = m.detect({.tolerances = {.clearance_mm = 60}});
     if (report.pairs.empty()) continue;
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Pair& p = report.pairs[0];
@@ -347,7 +347,8 @@ TEST(Witness, SwappedNamesMirrorIt) {
     ClashModel m, n;
     m.box("a", lo_a, hi_a).box("b", lo_b, hi_b);
     n.box("a", lo_b, hi_b).box("b", lo_a, hi_a);
-    const Report x = m.detect({.clearance_mm = 50}), y = n.detect({.clearance_mm = 50});
+    const Report x = m.detect({.tolerances = {.clearance_mm = 50}}),
+                 y = n.detect({.tolerances = {.clearance_mm = 50}});
     ASSERT_EQ(x.pairs.size(), y.pairs.size());
     if (x.pairs.empty()) continue;
     SCOPED_TRACE("seed " + std::to_string(seed));

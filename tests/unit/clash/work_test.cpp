@@ -98,7 +98,7 @@ TEST(ClashWork, RotatedPlatesCostTheSameAtEveryGap) {
     m.object("a").body(test::box_mesh({-5000, -5000, -13}, {5000, 5000, 0}), {kTurn, {}});
     m.object("b").body(test::box_mesh({-5000, -5000, gap}, {5000, 5000, gap + 13}),
                        {kTurn * kTwist, {}});
-    const Report report = m.detect({.clearance_mm = 200});
+    const Report report = m.detect({.tolerances = {.clearance_mm = 200}});
     ASSERT_EQ(report.pairs.size(), 1U) << gap;
     EXPECT_EQ(report.pairs[0].cls, Class::clearance_violation) << gap;
     EXPECT_NEAR(report.pairs[0].d_mm, gap, 0.003);
@@ -114,7 +114,7 @@ TEST(ClashWork, RotatedPlatesCostTheSameAtEveryGap) {
 TEST(ClashWork, ConcentricSpheresCostAFewTrianglePairsATriangle) {
   for (const double inner : {995.0, 999.0, 500.0}) {
     const Looked l = look(test::sphere_mesh(1000, 50), test::sphere_mesh(inner, 50), {kTurn, {}},
-                          {.clearance_mm = 25});
+                          {.tolerances = {.clearance_mm = 25}});
     EXPECT_EQ(l.pair.cls, Class::hit);
     EXPECT_EQ(l.pair.relation, Relation::b_in_a);
     EXPECT_LE(l.work.triangle_pairs, 10 * l.triangles) << inner;
@@ -127,7 +127,7 @@ TEST(ClashWork, ConcentricSpheresCostAFewTrianglePairsATriangle) {
 TEST(ClashWork, ConcentricCylindersCostAFewTrianglePairsATriangle) {
   const Looked l =
       look(test::cylinder_mesh(500, 2000, 40, 80), test::cylinder_mesh(499, 1998, 40, 80),
-           {kTurn, kTurn * Vec3d{0, 0, 1}}, {.clearance_mm = 25});
+           {kTurn, kTurn * Vec3d{0, 0, 1}}, {.tolerances = {.clearance_mm = 25}});
   EXPECT_EQ(l.pair.relation, Relation::b_in_a);
   EXPECT_LE(l.work.triangle_pairs, 10 * l.triangles);
   EXPECT_EQ(l.work.depth_cells, 0U);
@@ -144,7 +144,7 @@ TEST(ClashWork, TubesInTubesCostAFewTrianglePairsATriangle) {
   for (const std::uint32_t sectors : {360U, 1000U, 2000U}) {
     const double slack = 102 * (1 - std::cos(std::numbers::pi / sectors)) + 0.003;
     const Looked l = look(tube_mesh(100, 90, 1000, sectors), tube_mesh(120, 102, 1000, sectors - 1),
-                          {kTurn, kTurn * Vec3d{0, 0, 1}}, {.clearance_mm = 10});
+                          {kTurn, kTurn * Vec3d{0, 0, 1}}, {.tolerances = {.clearance_mm = 10}});
     EXPECT_EQ(l.pair.cls, Class::clearance_violation) << sectors;
     EXPECT_NEAR(l.pair.d_mm, 2, slack) << sectors;
     EXPECT_LE(l.work.triangle_pairs, 32 * l.triangles) << sectors;
@@ -154,8 +154,8 @@ TEST(ClashWork, TubesInTubesCostAFewTrianglePairsATriangle) {
 TEST(ClashWork, AWideClearanceCostsAFewTrianglePairsATriangle) {
   const TriangleMesh hills = test::bumpy_mesh(100, 12, 4, 10);
   for (const double clearance : {110.0, 200.0, 300.0, 1000.0}) {
-    const Looked l =
-        look(hills, hills, {kTurn, kTurn * Vec3d{318, 11, 0}}, {.clearance_mm = clearance});
+    const Looked l = look(hills, hills, {kTurn, kTurn * Vec3d{318, 11, 0}},
+                          {.tolerances = {.clearance_mm = clearance}});
     EXPECT_EQ(l.pair.cls, Class::clearance_violation) << clearance;
     EXPECT_EQ(l.pair.regions, 1U) << clearance;
     EXPECT_LE(l.work.triangle_pairs, 16 * l.triangles) << clearance;
@@ -184,7 +184,7 @@ TEST(ClashWork, FansOfNeedlesCostAFewTrianglePairsATriangle) {
         for (Vec3d& v : a.vertices) v = turn * v;
         TriangleMesh b = test::cylinder_mesh(400, fans.d_mm < 0 ? 6 : 10, 1, sectors);
         for (Vec3d& v : b.vertices) v = turn * (v + fans.at);
-        const Looked l = look(std::move(a), std::move(b), {}, {.clearance_mm = 25});
+        const Looked l = look(std::move(a), std::move(b), {}, {.tolerances = {.clearance_mm = 25}});
         EXPECT_EQ(l.pair.cls, fans.cls);
         EXPECT_LE(l.pair.d_lower_mm, fans.d_mm + 0.002);
         EXPECT_GE(l.pair.d_upper_mm, fans.d_mm - 0.002);
@@ -195,7 +195,7 @@ TEST(ClashWork, FansOfNeedlesCostAFewTrianglePairsATriangle) {
 
 TEST(ClashWork, CopiesOfABodyNeedNoWalk) {
   const TriangleMesh hills = test::bumpy_mesh(1000, 60, 12, 40);
-  const Looked l = look(hills, hills, {}, {.clearance_mm = 25});
+  const Looked l = look(hills, hills, {}, {.tolerances = {.clearance_mm = 25}});
   EXPECT_EQ(l.pair.relation, Relation::duplicate);
   EXPECT_EQ(l.work.triangle_pairs, 0U);
   // The work limit, and what the last surface comes in.
@@ -207,7 +207,7 @@ TEST(ClashWork, CopiesOfABodyNeedNoWalk) {
 TEST(ClashWork, TheSearchForTheDepthEnds) {
   const TriangleMesh hills = test::bumpy_mesh(1000, 60, 12, 40);
   for (const Vec3d& at : {Vec3d{900, 300, 100}, Vec3d{1992, 20, 10}, Vec3d{2050, 0, 0}}) {
-    const Looked l = look(hills, hills, {kTurn, at}, {.clearance_mm = 25});
+    const Looked l = look(hills, hills, {kTurn, at}, {.tolerances = {.clearance_mm = 25}});
     EXPECT_LE(l.work.depth_cells, 3001U);
     EXPECT_LE(l.work.triangle_pairs, 8 * l.triangles);
   }

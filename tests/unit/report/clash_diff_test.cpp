@@ -91,7 +91,8 @@ using Names = std::vector<std::string>;
 TEST(ClashDiff, TheSameRunTwice) {
   Folder folder;
   const ClashModel m = row();
-  const ClashDocument& x = document(folder, "x.json", run(m, {.clearance_mm = 25}), m.model);
+  const ClashDocument& x =
+      document(folder, "x.json", run(m, {.tolerances = {.clearance_mm = 25}}), m.model);
   const ClashDiff diff = compare(x, x);
   EXPECT_EQ(diff.same.size(), 3U);
   EXPECT_TRUE(diff.added.empty() && diff.changed.empty() && diff.gone.empty() &&
@@ -157,7 +158,7 @@ TEST(ClashDiff, MoreOrFewerPlacesAreAChange) {
   EXPECT_EQ(entry["region_count"], 3);
   EXPECT_EQ(entry["was"]["region_count"], 2);
   const ClashDocument& uncounted =
-      document(folder, "z.json", run(after, {.most_regions = 0}), after.model);
+      document(folder, "z.json", run(after, {.engine = {.most_regions = 0}}), after.model);
   EXPECT_EQ(compare(x, uncounted).same.size(), 1U) << "what was not counted is no change";
 }
 
@@ -241,8 +242,10 @@ TEST(ClashDiff, WhatIsNotTestedAnyMore) {
 TEST(ClashDiff, SettingsThatWouldNotReportIt) {
   Folder folder;
   const ClashModel m = row();
-  const ClashDocument& wide = document(folder, "w.json", run(m, {.clearance_mm = 25}), m.model);
-  const ClashDocument& tight = document(folder, "t.json", run(m, {.clearance_mm = 5}), m.model);
+  const ClashDocument& wide =
+      document(folder, "w.json", run(m, {.tolerances = {.clearance_mm = 25}}), m.model);
+  const ClashDocument& tight =
+      document(folder, "t.json", run(m, {.tolerances = {.clearance_mm = 5}}), m.model);
   const ClashDiff diff = compare(wide, tight);
   ASSERT_EQ(diff.settings.size(), 1U);
   EXPECT_EQ(diff.settings[0].setting, "clearance_mm");
@@ -439,7 +442,7 @@ TEST(ClashDocument, SaysWhatIsWrongAndWhere) {
 TEST(ClashDocument, SurvivesDamage) {
   const Folder folder;
   const ClashModel m = row();
-  const std::string good = text_of(run(m, {.clearance_mm = 25}), m.model);
+  const std::string good = text_of(run(m, {.tolerances = {.clearance_mm = 25}}), m.model);
   for (std::size_t size = 0; size + 2 < good.size(); size += 1 + size / 40) {
     const auto read = read_clash_document(folder.write("cut.json", good.substr(0, size)));
     ASSERT_FALSE(read) << size;

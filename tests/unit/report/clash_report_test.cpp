@@ -49,7 +49,7 @@ ClashModel row_of_boxes() {
 
 TEST(ClashJson, HasTheKeysThatScriptsRelyOn) {
   const ClashModel m = row_of_boxes();
-  const clash::Report report = m.detect({.clearance_mm = 25});
+  const clash::Report report = m.detect({.tolerances = {.clearance_mm = 25}});
   const json doc = json::parse(as_json(report, m.model));
   EXPECT_EQ(doc["schema_version"], 2);
   ASSERT_EQ(doc["tests"].size(), 1U);
@@ -104,12 +104,13 @@ TEST(ClashJson, NothingFoundIsAValidDocument) {
 /// Written for the next test of the suite, which holds it against schemas/clash.schema.json.
 TEST(ClashJson, LeavesADocumentForTheSchemaTest) {
   const ClashModel m = row_of_boxes();
-  ASSERT_TRUE(write_file(STRAKE_CLASH_DOCUMENT, as_json(m.detect({.clearance_mm = 25}), m.model)));
+  ASSERT_TRUE(write_file(STRAKE_CLASH_DOCUMENT,
+                         as_json(m.detect({.tolerances = {.clearance_mm = 25}}), m.model)));
 }
 
 /// A hit whose search for the depth a work limit ended, as is that of one of its two places.
 clash::Report unfinished_report(const ClashModel& m) {
-  clash::Report report = m.detect({.clearance_mm = 25});
+  clash::Report report = m.detect({.tolerances = {.clearance_mm = 25}});
   clash::Pair& hit = report.pairs[1];
   hit.d_lower_mm = -31.25;
   hit.depth_complete = false;
@@ -158,7 +159,7 @@ TEST(ClashJson, LeavesAnUnfinishedDocumentForTheSchemaTest) {
 
 TEST(ClashReports, NameTheTestOfEachResult) {
   const ClashModel m = row_of_boxes();
-  clash::Findings findings{{m.detect(), m.detect({.clearance_mm = 25})}, {}};
+  clash::Findings findings{{m.detect(), m.detect({.tolerances = {.clearance_mm = 25}})}, {}};
   findings.tests[0].name = "as built";
   findings.tests[1].name = "with, room";
   findings.tests[1].exempted = {{"one skid", 3}, {"idle", 0}};
@@ -202,7 +203,7 @@ clash::Report ruled_report(const ClashModel& m) {
   allowed.a = allowed.b = {false, true, true, false};
   allowed.max_depth_mm = 25;
   policy.list_exempted = true;
-  const clash::Options options{.clearance_mm = 25};
+  const clash::Options options{.tolerances = {.clearance_mm = 25}};
   const model::Scene scene = make_scene(m.model, clash::scene_options(options), {}).value();
   return clash::detect(scene, clash::one_set(scene), options, policy, {}).value();
 }
@@ -280,7 +281,7 @@ TEST(ClashReports, BytesAreThoseOfOneThread) {
   for (int i = 0; i < 900; ++i)
     m.box("box number " + std::to_string(i), {i * 10.0, 0, 0}, {i * 10.0 + 10 + i * 1e-3, 10, 10});
   clash::Findings findings;
-  findings.tests = {m.detect({.log_pairs = true}), clash::Report(), m.detect()};
+  findings.tests = {m.detect({.engine = {.log_pairs = true}}), clash::Report(), m.detect()};
   const auto written = [&](auto&& write, const parallel::Context& context) {
     std::string text;
     EXPECT_TRUE(write(
@@ -338,7 +339,7 @@ TEST(ClashReports, LengthsAreThoseOfExactRounding) {
 
 TEST(ClashCsv, OneLineAPairQuotedWhereNeeded) {
   const ClashModel m = row_of_boxes();
-  const std::string text = as_csv(m.detect({.clearance_mm = 25}), m.model);
+  const std::string text = as_csv(m.detect({.tolerances = {.clearance_mm = 25}}), m.model);
   EXPECT_TRUE(text.starts_with("a_id,a_name,a_file,b_id"));
   EXPECT_NE(text.find("\"deck \"\"1\"\", port\n\""), std::string::npos);
   EXPECT_NE(text.find(",CLEARANCE_VIOLATION,SEPARATE,10,"), std::string::npos);
@@ -420,7 +421,8 @@ TEST(ClashCsv, NoNameBecomesAFormulaBehindBlanks) {
 
 TEST(ClashJson, WitnessesKeysAndVolumes) {
   const ClashModel m = row_of_boxes();
-  const clash::Report report = m.detect({.clearance_mm = 25, .volumes = clash::Volumes::on});
+  const clash::Report report =
+      m.detect({.tolerances = {.clearance_mm = 25}, .engine = {.volumes = clash::Volumes::on}});
   const json results = json::parse(as_json(report, m.model))["results"];
   const json &touch = results[0], &hit = results[1], &near = results[2];
   EXPECT_EQ(touch["on_a_mm"], touch["on_b_mm"]);
@@ -434,7 +436,8 @@ TEST(ClashJson, WitnessesKeysAndVolumes) {
   EXPECT_EQ(hit["key"].get<std::string>().size(), 26U);
   EXPECT_NE(hit["key"], touch["key"]);
   // Neither the class nor anything else that may change shows in the key.
-  const clash::Options plain{.touch_overlap_mm = 30, .thickness_cap = clash::ThicknessCap::off};
+  const clash::Options plain{
+      .tolerances = {.touch_overlap_mm = 30, .thickness_cap = clash::ThicknessCap::off}};
   const json later = json::parse(as_json(m.detect(plain), m.model))["results"];
   EXPECT_EQ(later[1]["class"], "CONTACT");
   EXPECT_EQ(later[1]["key"], hit["key"]);
@@ -442,14 +445,14 @@ TEST(ClashJson, WitnessesKeysAndVolumes) {
 
 TEST(ClashCsv, HoldsNothingThatIsNoUtf8) {
   const ClashModel m = row_of_boxes();
-  const std::string text = as_csv(m.detect({.clearance_mm = 25}), m.model);
+  const std::string text = as_csv(m.detect({.tolerances = {.clearance_mm = 25}}), m.model);
   EXPECT_EQ(text.find('\xFF'), std::string::npos);
   EXPECT_NE(text.find(",Büro 🚢 \xEF\xBF\xBD,"), std::string::npos);
 }
 
 TEST(ClashTable, WorstFirstClippedAndCounted) {
   const ClashModel m = row_of_boxes();
-  const clash::Report report = m.detect({.clearance_mm = 25});
+  const clash::Report report = m.detect({.tolerances = {.clearance_mm = 25}});
   const std::string text = clash_table({{{report}, {}}, m.model}, {.width = 72, .rows = 2});
   EXPECT_LT(text.find("HIT"), text.find("CONTACT"));
   EXPECT_NE(text.find("… and 1 clearance violation more"), std::string::npos);
@@ -468,7 +471,7 @@ TEST(ClashTable, WorstFirstClippedAndCounted) {
 
 TEST(ClashTable, ShowsABracketThatIsWiderThanItsDigits) {
   const ClashModel m = row_of_boxes();
-  clash::Report report = m.detect({.clearance_mm = 25});
+  clash::Report report = m.detect({.tolerances = {.clearance_mm = 25}});
   const auto shown = [&] { return clash_table({{{report}, {}}, m.model}, {.width = 100}); };
   const std::string narrow = shown();
   EXPECT_EQ(narrow.find("d range mm"), std::string::npos) << narrow;
@@ -499,7 +502,7 @@ TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
   }
   m.box("deep", {3990, 0, 0}, {4500, 100, 100});
   m.box("near", {4510, 0, 0}, {4600, 100, 100});
-  const clash::Report report = m.detect({.clearance_mm = 25});
+  const clash::Report report = m.detect({.tolerances = {.clearance_mm = 25}});
   const std::string text = clash_table({{{report}, {}}, m.model}, {.rows = 10});
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 10 + 1 + 1 + 1) << text;
   EXPECT_NE(text.find("deep"), std::string::npos);
@@ -511,7 +514,7 @@ TEST(ClashTable, ManyContactsHideNeitherHitsNorClearanceViolations) {
 TEST(ClashTable, ShowsTheVolumeThatItSortsBy) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {90, 0, 0}, {200, 100, 100});
-  const clash::Report report = m.detect({.volumes = clash::Volumes::on});
+  const clash::Report report = m.detect({.engine = {.volumes = clash::Volumes::on}});
   const std::string by_volume =
       clash_table({{{report}, {}}, m.model}, {.sort = clash::SortBy::volume});
   EXPECT_NE(by_volume.find("volume mm3"), std::string::npos);

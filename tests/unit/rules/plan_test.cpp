@@ -46,7 +46,7 @@ thickness_cap = false
   EXPECT_EQ(outcome.reports[0].set_a, "set(first)");
   EXPECT_EQ(outcome.told[0], (Told{"a-b HIT"}));
   EXPECT_EQ(outcome.told[1], (Told{"a-b CONTACT", "b-c CONTACT"}));
-  EXPECT_EQ(outcome.reports[1].options.touch_overlap_mm, 10.5);
+  EXPECT_EQ(outcome.reports[1].options.tolerances.touch_overlap_mm, 10.5);
   EXPECT_TRUE(outcome.diagnostics.kept().empty());
 }
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/output_format.hpp"
+
+#include <filesystem>
+
+namespace strake {
+
+std::string suffix_of(const std::string& file) {
+  std::string suffix = std::filesystem::path(file).extension().string();
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return suffix;
+}
+
+Result<std::size_t> format_number(std::span<const OutputFormat> formats, const std::string& file) {
+  const std::string suffix = suffix_of(file);
+  for (std::size_t i = 0; i < formats.size(); ++i)
+    if (formats[i].suffix == suffix) return i;
+  return Error{ErrorCode::usage,
+               "the format of '" + file + "' is not known",
+               {},
+               "end its name in " + list_suffixes(formats, "or")};
+}
+
+std::string list_suffixes(std::span<const OutputFormat> formats, std::string_view word) {
+  std::string list;
+  for (const OutputFormat& format : formats) {
+    if (!list.empty()) list.append(" ").append(word).append(" ");
+    list += format.suffix;
+  }
+  return list;
+}
+
+std::string describe_formats(std::string_view what, std::span<const OutputFormat> formats) {
+  constexpr std::string_view kPlace = "{}";
+  std::string text(what);
+  for (const OutputFormat& format : formats) {
+    std::string help(format.help);
+    if (const std::size_t at = help.find(kPlace); at != std::string::npos)
+      help.replace(at, kPlace.size(), format.suffix);
+    text += help;
+  }
+  return text;
+}
+
+}  // namespace strake

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drawing/drawing_writers.hpp"
+
+#include <array>
+
+namespace strake::drawing {
+namespace {
+
+Status as_svg(const DrawingContents& contents, Sink sink, const parallel::Context& /*context*/) {
+  write_svg(contents.drawing, contents.ink, contents.model, sink);
+  return {};
+}
+
+Status as_json(const DrawingContents& contents, Sink sink, const parallel::Context& context) {
+  return write_view_json(contents.drawing, contents.model, sink, context);
+}
+
+Status as_rows(const DrawingContents& contents, Sink sink, const parallel::Context& context) {
+  return write_view_rows(contents.drawing, contents.model, sink, context);
+}
+
+constexpr std::array kWriters{
+    DrawingWriter{{".svg", " as {}"}, true, as_svg},
+    DrawingWriter{{".json", ", or its neutral form as {}"}, false, as_json},
+    DrawingWriter{{".view", ", or {} for millions of lines"}, false, as_rows},
+};
+
+}  // namespace
+
+std::span<const DrawingWriter> drawing_writers() { return kWriters; }
+
+Result<DrawingWriter> find_drawing_writer(const std::string& file) {
+  return find_writer(drawing_writers(), file);
+}
+
+}  // namespace strake::drawing

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/output_format.hpp"
+#include "strake/core/result.hpp"
+#include "strake/drawing/write.hpp"
+
+namespace strake::drawing {
+
+/// What a drawing is written from.
+struct DrawingContents {
+  const NeutralDrawing& drawing;
+  const Ink& ink;  ///< empty where no writer in use needs it
+  const model::Model& model;
+};
+
+/// One format that drawings are written in.
+struct DrawingWriter {
+  OutputFormat format;
+  bool needs_ink = false;  ///< whether it shows what choose_ink() chose, not the whole drawing
+  /// Errors: cancelled, out of memory.
+  Status (*write)(const DrawingContents& contents, Sink sink, const parallel::Context& context);
+};
+
+/// All of them, in the order of help and errors.
+[[nodiscard]] std::span<const DrawingWriter> drawing_writers();
+
+/// The one that a file's name asks for. Errors: usage, for a suffix that none has.
+[[nodiscard]] Result<DrawingWriter> find_drawing_writer(const std::string& file);
+
+}  // namespace strake::drawing

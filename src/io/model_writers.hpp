@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/output_format.hpp"
+#include "strake/core/result.hpp"
+#include "strake/io/writer.hpp"
+
+namespace strake::io {
+
+/// One format that models are written in.
+struct ModelWriter {
+  OutputFormat format;
+  /// Errors: output, cancelled.
+  Status (*write)(const model::Model& model, const std::filesystem::path& path,
+                  const WriteOptions& options, const parallel::Context& context);
+};
+
+/// All of them, in the order of help and errors.
+[[nodiscard]] std::span<const ModelWriter> model_writers();
+
+/// The one that a file's name asks for. Errors: usage, for a suffix that none has.
+[[nodiscard]] Result<ModelWriter> find_model_writer(const std::string& file);
+
+}  // namespace strake::io

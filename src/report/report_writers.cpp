@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/report_writers.hpp"
+
+#include <array>
+
+namespace strake::report {
+namespace {
+
+constexpr std::array kClashWriters{
+    ClashWriter{{".json", " as {}"}, write_clash_json},
+    ClashWriter{{".csv", " or {}"}, write_clash_csv},
+};
+
+constexpr std::array kClashDiffWriters{
+    ClashDiffWriter{{".json", " as {}"}, write_clash_diff_json},
+};
+
+constexpr std::array kViewDiffWriters{
+    ViewDiffWriter{{".json", " as {}"}, write_view_diff_json},
+    ViewDiffWriter{{".svg", ", or a picture of it as {}"}, write_view_diff_svg},
+};
+
+}  // namespace
+
+std::span<const ClashWriter> clash_writers() { return kClashWriters; }
+
+std::span<const ClashDiffWriter> clash_diff_writers() { return kClashDiffWriters; }
+
+std::span<const ViewDiffWriter> view_diff_writers() { return kViewDiffWriters; }
+
+Result<ClashWriter> find_clash_writer(const std::string& file) {
+  return find_writer(clash_writers(), file);
+}
+
+Result<ClashDiffWriter> find_clash_diff_writer(const std::string& file) {
+  return find_writer(clash_diff_writers(), file);
+}
+
+Result<ViewDiffWriter> find_view_diff_writer(const std::string& file) {
+  return find_writer(view_diff_writers(), file);
+}
+
+}  // namespace strake::report
