@@ -18,6 +18,7 @@ namespace strake::cli {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
+  // A ship of a million objects takes a tenth to a fifth less CPU time so (decision 0010).
   constexpr int kMapFrom = 1 << 30;  // bytes: smaller blocks come from the heap
   constexpr int kNeverTrim = -1;
   // Where either is refused the run is slower, nothing else.

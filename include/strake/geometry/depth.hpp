@@ -52,7 +52,8 @@ struct DepthOperand {
 /// whole answer.
 inline constexpr double kTieDepth = 2;
 
-/// When a search for the depth may stop. All lengths are grid units.
+/// When a search for the depth may stop. All lengths are grid units. With these limits of work none
+/// of 4,704 pairs of the kinds of bench deep_pairs keeps a wide bracket (decision 0055).
 struct DepthOptions {
   double threshold = 0;                  ///< the depth that decides the class
   double tolerance = 8;                  ///< a bracket this narrow is narrow enough

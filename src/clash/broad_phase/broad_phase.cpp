@@ -31,7 +31,8 @@ geometry::BoxItem item_of(const ScenePart& ref, const Sets& sets, double reach) 
 }
 
 /// The number of pairs of boxes per part above which it is checked whether boxes along the
-/// coordinate axes are why there are so many.
+/// coordinate axes are why there are so many. 10,000 rods along 1,1,1 have 5,000 a part; with boxes
+/// along the rods they take 0.014 CPU s instead of being refused (decision 0041).
 constexpr std::uint64_t kManyPairs = 32;
 
 /// Finds the pairs of boxes by one of the two broad phases.

@@ -83,7 +83,8 @@ using geometry::Vec3d;
 
 /// The most pairs of near triangles for which regions are told apart. Parts of some thousand
 /// triangles may have them all near each other; of finer parts no pair of parts may take more than
-/// microseconds a triangle, and parts that lie face to face have a dozen a triangle.
+/// microseconds a triangle, and parts that lie face to face have a dozen a triangle. With 32 a pipe
+/// of 100,000 triangles in a sleeve took 6 µs a triangle, and was given up then.
 constexpr std::uint64_t kPairsPerTriangle = 2, kLeastPairs = 1U << 14U;
 /// The least number of cells of space that a region may cut, however many regions there are.
 constexpr std::uint32_t kLeastCells = 400;

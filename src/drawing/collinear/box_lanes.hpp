@@ -31,7 +31,7 @@ struct TurnedBox2 {
 
 /// Eight boxes in SIMD lanes, padded with empty ones, tested four at a time: vector extensions of
 /// GCC and Clang, which both compile to whatever the processor has. GCC does not vectorise a loop
-/// over floats.
+/// over floats: one box after the other, a search of 2.2 CPU s took 3.7 (decision 0025).
 class BoxLanes {
  public:
   static constexpr std::size_t kCount = 8;

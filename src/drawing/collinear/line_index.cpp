@@ -75,7 +75,8 @@ namespace {
 /// how many more bits of a key the distance across has than that along.
 ///
 /// A sector is about four times as wide as the angle within which lines of the class can lie on
-/// each other: mostly one or two are queried.
+/// each other: mostly one or two are queried. In the isometric view of a ship of 100,000 objects,
+/// 4.4 million lines, finding overlaps takes 2.2 CPU s; in a grid it took 25 (decision 0025).
 struct LengthClass {
   double shortest;
   std::uint32_t sectors, first;

@@ -18,7 +18,8 @@ constexpr std::size_t kTriangleBins = 8;
 /// Ranges up to this size are halved by sorting: binning them costs more than it gains.
 constexpr std::size_t kFewTriangles = 12;
 /// The triangles of parts up to this size stay in their order: sources list near triangles one
-/// after the other, and a better tree would cost more than all its queries.
+/// after the other. In a turned plant of 100,000 objects sorting them cost more than all queries
+/// (decision 0007).
 constexpr std::size_t kSmallPart = 256;
 /// Beyond this depth ranges are halved, so that traversal stacks can have a fixed size.
 constexpr std::uint32_t kMaxSplitDepth = 40;

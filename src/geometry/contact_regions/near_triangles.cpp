@@ -110,7 +110,8 @@ struct NearTriangleCollector {
   }
 };
 
-/// Number of triangles sampled for a part, and how many of them have to agree.
+/// Number of triangles sampled for a part, and how many of them have to agree. part_distance.cpp
+/// says what samples and probes gain.
 constexpr std::size_t kSampledTriangles = 64, kAgree = 8;
 /// Number of triangles below which a scan of all costs little more.
 constexpr std::size_t kLeastSampled = 4 * kSampledTriangles;

@@ -184,7 +184,8 @@ namespace {
 
 using OutlineEdge = PlanarEnd::OutlineEdge;
 
-/// Borders with more near pairs of edges, per edge, are not decided.
+/// Borders with more near pairs of edges, per edge, are not decided. Two corrugated boxes of 524
+/// triangles end to end take 0.2 ms so, 9 triangle by triangle (decision 0012).
 constexpr std::size_t kMostNearTriangles = 16;
 
 struct RimCorner {

@@ -41,7 +41,8 @@ SlabCandidates facing(const PairLocalPart& a, const PairLocalPart& b, double rea
 namespace {
 
 /// Number of facing pairs per triangle of the two parts above which a rotated frame costs less than
-/// the pairs left by boxes along the coordinate axes.
+/// the pairs left by boxes along the coordinate axes. Two corrugated boxes on each other, askew, of
+/// 2,040 triangles take 2.6 CPU ms with sorted boxes in such a frame, 9.0 before (decision 0012).
 constexpr std::size_t kManyFacing = 32;
 
 std::optional<Axes> axes_that_fit(const PairLocalPart& a, const PairLocalPart& b,

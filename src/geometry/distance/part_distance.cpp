@@ -27,10 +27,14 @@ constexpr double kOutward = 1 + 0x1p-48;
 
 /// Number of triangles of either of two flat pieces that are probed for whether the pieces lie over
 /// each other, and how much farther apart than their heights they may then be, grid units.
+/// Together with samples of near triangles the probes bring fans of 200,000 triangles aside of each
+/// other's hubs from up to 320 µs a triangle to 1.4 at most (bench clash_pairs).
 constexpr std::size_t kProbes = 64;
 constexpr double kProbeSlack = 4;
 
 /// Maximum number of triangles at an end of a slab between two parts for which all pairs are tried.
+/// The slab of the hulls brings the distances of a turned plant of 100,000 objects from 1.2 to 0.06
+/// CPU s (decision 0022).
 constexpr std::size_t kSlabFaces = 32;
 
 class ClosestSearch {

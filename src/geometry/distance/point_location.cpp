@@ -253,7 +253,8 @@ void PointLocator::remember(std::uint32_t triangle) {
 namespace {
 
 /// Number of vertices sampled for the cost of one, and nodes of the tree per vertex from which on a
-/// rotated frame pays.
+/// rotated frame pays. A fan flush inside a fan, askew, takes 0.04 CPU s with 20,000 triangles and
+/// 0.50 with 200,000; vertex by vertex it took 0.17 and 17.7 (decision 0026).
 constexpr std::size_t kSamplePoints = 32, kManyNodes = 256;
 /// Fewer vertices are not worth a frame.
 constexpr std::size_t kWorthAFrame = 1024;

@@ -24,7 +24,8 @@ constexpr double kLevel = 4;
 constexpr std::size_t kFewestPieces = 32;
 /// Number of triangles sampled for a direction, and how many of them have to be alike.
 constexpr std::size_t kSlabSamples = 32, kAlikeSamples = 4;
-/// The least share of all pairs of triangles that has to be separated, as a divisor.
+/// The least share of all pairs of triangles that has to be separated, as a divisor. Caps that are
+/// fans of slivers cost the square of their number without slabs.
 constexpr std::size_t kSlabShare = 4;
 
 /// A unit normal and its error.

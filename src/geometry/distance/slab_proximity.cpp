@@ -86,7 +86,8 @@ std::optional<SlabFaces> slab_faces(const PairLocalPart& a, const PairLocalPart&
 
 namespace {
 
-/// For larger parts a tree visits fewer.
+/// For larger parts a tree visits fewer. With these two limits a turned plant of 100,000 objects
+/// takes 4.7 to 5.1 CPU s; with trees instead it took 5.8 to 6.1 (decision 0023).
 constexpr std::size_t kMostSlabTriangles = 1024;
 /// Most pairs of triangles.
 constexpr std::size_t kMostSlabPairs = 4096;

@@ -16,6 +16,8 @@
 namespace strake::geometry {
 namespace {
 
+/// With this limit and the next two no pair of geometry_deep_pairs_property_test comes out short by
+/// more than 1 % or 0.05 mm (decision 0037).
 constexpr int kMostClimbSteps = 24;
 /// Maximum number of triangles of one part within reach of a step that enter the program at once.
 constexpr std::size_t kMostNear = 64;

@@ -19,13 +19,15 @@ namespace {
 /// Distance of the first level searched above the deepest point known, relative to its depth.
 constexpr double kNearestLevel = 5e-4;
 /// For shallow depths up to twice that, since a level is easier the farther it is; but no farther
-/// than this, relative to the goal's tolerance.
+/// than this, relative to the goal's tolerance. With a first level 4 µm away whatever the depth,
+/// two of 800 pipes in line differed by 3.2 µm when turned (decision 0055).
 constexpr double kFarStep = 0.5;
 /// Least distance of a level above the deepest point known: relative to the goal's tolerance, and
 /// in any case, grid units.
 constexpr double kLeastStep = 0.15, kFinestStep = 1.0 / 64;
 /// Factors by which the next level is farther above it, where it took too much work, or where a
-/// point was too near to the level to be distinguished from it.
+/// point was too near to the level to be distinguished from it. With 16 for the former the second
+/// level was beyond what a bracket may be wide.
 constexpr double kAfterWork = 8, kAfterPlace = 2;
 /// A bracket no wider than this, relative to the depth, counts as complete.
 constexpr double kComplete = 0.01;

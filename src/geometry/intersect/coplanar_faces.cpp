@@ -210,7 +210,9 @@ CoplanarContact find_coplanar_contact(const PlacedPart& a, const PlacedPart& b) 
 
 namespace {
 
-/// Planes with fewer triangles are traversed as quickly; at most so many planes are handled.
+/// Planes with fewer triangles are traversed as quickly; at most so many planes are handled. A
+/// cylinder in another of 128,000 triangles in all, flush at one end, takes 0.28 CPU s; by a
+/// traversal of everything it took 87 (decision 0024).
 constexpr std::size_t kFewestTriangles = 16, kMostPlanes = 8;
 /// The least share of all pairs of triangles that has to lie in the planes, as a divisor.
 constexpr std::size_t kShare = 64;

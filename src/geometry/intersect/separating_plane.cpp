@@ -100,7 +100,8 @@ bool is_strictly_separating_plane(const ExactTriangle& triangle, const PairLocal
 
 namespace {
 
-/// Most vertices of a times triangles of b.
+/// Most vertices of a times triangles of b. Two tubes of 192 triangles, one in the other, take
+/// 25 µs; a pair that crosses fails at the first few planes (decision 0030).
 constexpr std::size_t kMostSides = std::size_t{1} << 16U;
 
 /// The planes last found to have a on one side: files often alternate between faces.

@@ -54,6 +54,8 @@ class ConnectivityCache {
     std::vector<std::uint32_t> faces, renumbered;
     Connectivity connectivity;
   };
+  // A few dozen connectivities make up a plant of 100,000 meshes, of which 99 % repeat one. With
+  // them its mesh checks take 0.55 of their time, its run 0.7 of the memory (decision 0013).
   static constexpr std::size_t kMostBytes = std::size_t{32} << 20U;
   static constexpr std::size_t kSeen = 4096;
 

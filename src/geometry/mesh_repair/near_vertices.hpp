@@ -37,6 +37,8 @@ class NearPoints {
   /// Returns a number of boxes sufficient for this many segments, some of which run along all
   /// points: a soup of long edges that cross each other everywhere takes more.
   [[nodiscard]] static constexpr std::uint64_t boxes_for(std::size_t segments) {
+    // Four times what points of one place each take. Where 100,000 large triangles all cross each
+    // other the search ends here: the stage takes 4 s, and 0.3 without the search (decision 0034).
     constexpr std::uint64_t kEach = 64, kAlways = std::uint64_t{1} << 22U;
     return kAlways + kEach * segments;
   }

@@ -269,7 +269,7 @@ class Welder {
   }
 
   std::optional<ToleranceWeld> weld(Topology& topology) {
-    constexpr int kMostAttempts = 4;
+    constexpr int kMostAttempts = 4;  // two are usual (decision 0034)
     find_clusters();
     bool settled = false;
     for (int i = 0; i < kMostAttempts && !settled; ++i) {

@@ -130,7 +130,8 @@ namespace {
 /// Work limits: segments that are tested, and attempts for the areas of one sheet. Each area may
 /// fail on either side, at first and when its ends are held back, and where it stays may keep its
 /// neighbours from moving. A heavy pair, of which not all pieces are known at first, has one
-/// attempt for either side, and one more.
+/// attempt for either side, and one more. Sheets of 100,000 and 400,000 triangles that lie on each
+/// other all over take 6.0 CPU s, and 1.7 where no attempt is made (decision 0019).
 constexpr std::size_t kMostPieces = std::size_t{1} << 18U;
 constexpr int kMostAttempts = 8, kMostAttemptsIfHeavy = 3;
 /// Longest displacement, grid units: sheets that need longer ones have meaningless numbers.

@@ -9,7 +9,8 @@
 namespace strake::geometry::triangulation {
 namespace {
 
-/// Up to so many points the sweep is the quicker of the two.
+/// Up to so many points the sweep is the quicker of the two. A comb of 50,000 points, swept along
+/// its teeth, takes it 66 s; halves take 0.1 s (decision 0005).
 constexpr std::size_t kMostSwept = 128;
 
 TriangulationMesh triangulated(std::vector<Point2> points) {

@@ -8,7 +8,9 @@
 
 namespace strake::hlr {
 
-/// The number of triangles, edges or vertices of one shape that is worth a team.
+/// The number of triangles, edges or vertices of one shape that is worth a team. With this and the
+/// next, loops of more than 50 ms over a mesh of a million triangles among 20,000 bodies keep two
+/// workers busy to 0.94 to 1.00 (docs/patterns/pieces.md).
 inline constexpr std::size_t kBigShape = std::size_t{1} << 15U;
 /// The number of elements that a worker takes at a time.
 inline constexpr std::size_t kElements = 2048;

@@ -14,7 +14,10 @@
 namespace strake::hlr {
 namespace {
 
-/// The most buckets and entries per box of any grid, and of a grid whose size is chosen.
+/// The most buckets and entries per box of any grid, and of a grid whose size is chosen. For
+/// an imported machine of a million faces gathering takes 3.2, 1.6 and 1.3 CPU s with 64, 256 and
+/// 1,024 buckets along a side; 256 are chosen, since making a million takes longer than they spare
+/// (decision 0029).
 constexpr double kMostPerBox = 64, kChosenPerBox = 8;
 /// The cost of a step to the next bucket, in boxes examined.
 constexpr double kStep = 2;

@@ -21,7 +21,8 @@ namespace {
 constexpr std::size_t kIndexFrom = 12, kIndexFromIfConvex = 64;
 // The BucketGrid::crowding() from which on a tree is better: where faces crowd in few buckets, or
 // are much longer than wide. A traversal examines fewer: it leaves a bucket where nothing nearer is
-// left.
+// left. A knob of 45,000 faces on a plate of 900 wide ones takes more than 25 s in buckets and 0.2
+// in a tree, 24,000 strips 7.1 and 0.05 (decision 0029).
 constexpr double kCrowded = 256;
 
 EdgeLengths lengths_of(std::span<const ProjectedEdge> edges) {
@@ -32,7 +33,9 @@ EdgeLengths lengths_of(std::span<const ProjectedEdge> edges) {
 }
 
 /// A part runs askew where the box of its longest edge takes this share of its own box, and is
-/// rotated where the new box is smaller by this factor: areas.
+/// rotated where the new box is smaller by this factor: areas. With both, the isometric view of a
+/// rack of 900 pipes takes 0.5 CPU s, and 6.5 without; that of a ship of 100,000 objects takes 3.1,
+/// and 3.3 to 4.2 without (decision 0031).
 constexpr double kAskew = 0.25, kWorthTurning = 0.5;
 /// Farther out a rotated point would be no whole number that a double holds.
 constexpr std::int64_t kFarthestTurned = std::int64_t{1} << 44;

@@ -53,7 +53,8 @@ class PolygonFan {
                                                    std::span<const PaperCorner> corners,
                                                    std::vector<ViewBox>& boxes);
 
-/// The least number of polygons round a point that make a fan.
+/// The least number of polygons round a point that make a fan. 12,500 creases from one point take
+/// 0.3 s with fans, and took 10 without (decision 0042, bench hlr_growth).
 inline constexpr std::size_t kLeastInFan = 64;
 
 }  // namespace strake::hlr

@@ -155,7 +155,8 @@ namespace {
 constexpr int kMaxPivots = 500;
 /// Steps without gain after which only certain violations count: of constraints along nearly the
 /// same planes, as those of equal or touching bodies, each may otherwise be violated by the
-/// rounding of a vertex of the others, so that they replace each other for ever.
+/// rounding of a vertex of the others, so that they replace each other for ever. Without this limit
+/// 440 of 600 problems of copies took all of kMaxPivots steps (decision 0021).
 constexpr int kDoubtSteps = 3;
 /// Steps without gain after which the first violated constraint is taken, not the most.
 constexpr int kStallSteps = 24;

@@ -17,7 +17,9 @@
 namespace strake::geometry {
 namespace {
 
-/// Maximum numbers of near pairs of triangles and of pairs of nodes per triangle of the two.
+/// Maximum numbers of near pairs of triangles and of pairs of nodes per triangle of the two. Within
+/// them a bilge strake on a floor, 388 triangles, takes 950 µs; by a search it took 92,000. Flush
+/// bodies of some hundred slivers exceed them (decision 0021).
 constexpr std::size_t kNearPerTriangle = 2, kNodesPerTriangle = 8;
 constexpr std::size_t kAlwaysNear = 128;
 /// Number of surface points tried for one that is clear of the other body.

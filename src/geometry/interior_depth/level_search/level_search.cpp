@@ -16,9 +16,11 @@ namespace strake::geometry {
 namespace {
 
 /// Nodes of a tree, visited on the way to the nearest triangle, that count as one cell. In the
-/// middle of a round body all of its surface is about equally near.
+/// middle of a round body all of its surface is about equally near: a copy of a bumpy ball of 6,240
+/// triangles took 3 s before nodes counted, and ends after 0.3 s since (decision 0055).
 constexpr std::uint64_t kVisitedPerCell = 256;
-/// Number of such nodes that making a piece of a surface counts as.
+/// Number of such nodes that making a piece of a surface counts as. With 16 the bracket of one
+/// spring (a kind of bench deep_pairs) stayed wide.
 constexpr std::uint64_t kVisitedPerPiece = 4;
 /// The least difference of the ways to two triangles that a cut goes between.
 constexpr double kLeastTurn = 0.1;

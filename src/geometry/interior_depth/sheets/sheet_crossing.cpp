@@ -18,12 +18,13 @@ namespace strake::geometry {
 namespace {
 
 /// Maximum number of segments searched for: two sheets that cross all over have about one per
-/// triangle, two of slivers through each other the square of their number.
+/// triangle (two surveys of 180,000 triangles each have 290,000, decision 0040), two of slivers
+/// through each other the square of their number.
 constexpr std::size_t kStretchesPerTriangle = 2, kLeastStretches = 20000;
 /// Far above what double arithmetic makes of a distance within a pair, grid units.
 constexpr double kSlack = 1.0 / 256;
 /// Relative width of a bracket: this narrow, it costs a curve only a few halvings more than a wide
-/// one.
+/// one. It is as cheap as 0.02 was before segments had a convex bound (decision 0040).
 constexpr double kRelative = 1e-4;
 
 double size_of(const Part& p) { return length(p.box.hi.as<double>() - p.box.lo.as<double>()); }

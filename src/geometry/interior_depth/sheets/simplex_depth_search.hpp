@@ -24,11 +24,12 @@ namespace strake::geometry {
 /// Work limit: simplices per cell of the limit for two solids, since they are cheaper.
 inline constexpr std::uint32_t kSimplicesPerCell = 2;
 /// Brackets get as narrow as this, relative to the depth, whatever the goal allows: for two solids
-/// that would take too long.
+/// that would take too long. With 0.02 depths came out 1 to 2 % short.
 inline constexpr double kSheetRelative = 0.01;
 
 /// Maximum number of steps from simplex to simplex of a climbing point, and the least relative gain
-/// of one.
+/// of one. In an engine whose parts are sheets such steps made a depth of 93.9 mm 101.3 in the same
+/// time (decision 0037).
 inline constexpr int kMostSteps = 8;
 inline constexpr double kLeastGain = 1e-3;
 

@@ -8,6 +8,8 @@
 namespace strake::geometry::primitive_pairs {
 namespace {
 
+/// Of 100,000 seeded pairs of convex primitives, apart or meeting, 99.9 % get a bracket within
+/// 0.04 µm to either side; the widest seen is 1.1 µm (decision 0008).
 constexpr int kMaxIterations = 96;
 /// Grid units: a convex combination nearer than this to the origin needs no better one.
 constexpr double kGjkTouch = 1e-3;
