@@ -45,16 +45,22 @@ function(strake_compile_quickly target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()
 
-option(STRAKE_UNITY "Compile a dozen sources at once: fastest from nothing, slowest after a change" OFF)
+option(STRAKE_UNITY "Compile up to twenty sources at once: fastest from nothing, slowest after a change" OFF)
 
-# strake_unite(TARGET): one compiler run for a dozen sources. What is hidden in a source must have a
-# name of its own in its module therefore.
+# strake_unite(TARGET): one compiler run for up to twenty sources, each for as many, so that none is
+# waited for. What is hidden in a source must have a name of its own in its module therefore.
 function(strake_unite target)
+  get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources n)
+  math(EXPR units "(${n} + 19) / 20")
+  math(EXPR batch "(${n} + ${units} - 1) / ${units}")
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${STRAKE_UNITY}
-    UNITY_BUILD_BATCH_SIZE 12)
+    UNITY_BUILD_BATCH_SIZE ${batch})
   if(STRAKE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # A source's hidden types in its own classes are warned of in what a source includes alone.
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    # GCC collects garbage from 128 MB on; a run needs a gigabyte at most without.
+    target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-heapsize=2097152")
   endif()
 endfunction()

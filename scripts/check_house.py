@@ -82,7 +82,7 @@ OWN_CONCURRENCY = {
     'cli/output/console.hpp': 'lines of several threads on one terminal, one of them the progress of a run',
     'cli/run/interrupts.cpp': 'waits for signals',
     'cli/run/interrupts.hpp': 'waits for signals',
-    'cli/main.cpp': 'a file beyond the limit is an error of writing, no signal',
+    'cli/program.cpp': 'a file beyond the limit is an error of writing, no signal',
     'cli/run/session.cpp': 'the step that the progress line names',
     'cli/run/session.hpp': 'the step that the progress line names',
 }

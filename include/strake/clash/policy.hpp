@@ -102,7 +102,8 @@ struct Policy {
 /// 4. A hard part decides before a soft one, and a soft one before insulation, where the class is
 ///    equal.
 ///
-/// Errors: those of detect(); usage for lists of the wrong size.
+/// Errors: those of detect(); usage for lists of the wrong size, and for limits of a rule that are
+/// not numbers.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const Policy& policy,
                                     const parallel::Context& context);

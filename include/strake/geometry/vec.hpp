@@ -84,11 +84,13 @@ struct Placement {
   }
 };
 
-/// Whether all twelve numbers of a placement are finite.
+/// Whether all numbers are finite: the three of a vector, the twelve of a placement.
+[[nodiscard]] inline bool is_finite(const Vec3d& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 [[nodiscard]] inline bool is_finite(const Placement& p) {
-  for (const Vec3d& row : {p.linear.row[0], p.linear.row[1], p.linear.row[2], p.translation})
-    if (!std::isfinite(row.x) || !std::isfinite(row.y) || !std::isfinite(row.z)) return false;
-  return true;
+  return is_finite(p.linear.row[0]) && is_finite(p.linear.row[1]) && is_finite(p.linear.row[2]) &&
+         is_finite(p.translation);
 }
 
 /// A closed axis-aligned box; empty when lo > hi on any axis.

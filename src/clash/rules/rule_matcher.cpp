@@ -2,6 +2,7 @@
 #include "clash/rules/rule_matcher.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -25,6 +26,21 @@ bool share(const Linked::Lists& x, std::uint32_t a, const Linked::Lists& y, std:
 
 bool within(const HalfSpace& side, const geometry::Vec3d& p) {
   return dot(p - side.point_mm, side.normal) >= 0;
+}
+
+/// Whether the limits of a rule can be compared with: nothing is greater than what is not a number,
+/// so that such a depth would allow all. An infinite region or depth is none.
+bool has_meaning(const Allowed& rule) {
+  const auto is_number = [](const geometry::Vec3d& v) {
+    return !std::isnan(v.x) && !std::isnan(v.y) && !std::isnan(v.z);
+  };
+  if (rule.max_depth_mm && std::isnan(*rule.max_depth_mm)) return false;
+  if (rule.region_mm && !(is_number(rule.region_mm->lo) && is_number(rule.region_mm->hi)))
+    return false;
+  return std::all_of(rule.cavity.begin(), rule.cavity.end(), [](const HalfSpace& side) {
+    return geometry::is_finite(side.point_mm) && geometry::is_finite(side.normal) &&
+           side.normal != geometry::Vec3d{};
+  });
 }
 
 }  // namespace
@@ -51,11 +67,17 @@ Status check(const Policy& policy, std::size_t objects) {
   }
   if (policy.levels) good &= fits(policy.levels->object);
   for (const Allowed& a : policy.allowed) good &= fits(a.a, a.b);
-  if (good) return {};
-  return Error{
-      ErrorCode::usage,
-      "the rules do not have one entry per object of the scene, or refer to what is not there",
-      "rules", "build them from the same scene"};
+  if (!good)
+    return Error{
+        ErrorCode::usage,
+        "the rules do not have one entry per object of the scene, or refer to what is not there",
+        "rules", "build them from the same scene"};
+  for (const Allowed& a : policy.allowed)
+    if (!has_meaning(a))
+      return Error{ErrorCode::usage,
+                   "a depth, a region or a plane is not a number, or a normal is 0",
+                   "rule '" + a.rule + "'", "state finite lengths and directions"};
+  return {};
 }
 
 bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b) {

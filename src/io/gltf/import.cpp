@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -354,7 +353,7 @@ bool Importer::add_bodies(const MeshShapes& mesh, const MeshPlacement& place) {
     const Vec3d p = placement * Vec3d{(corner & 1U) != 0 ? mesh.box.hi.x : mesh.box.lo.x,
                                       (corner & 2U) != 0 ? mesh.box.hi.y : mesh.box.lo.y,
                                       (corner & 4U) != 0 ? mesh.box.hi.z : mesh.box.lo.z};
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+    if (!geometry::is_finite(p)) return false;
   }
   const float precision = precision_um(
       std::max(mesh.half_spacing_mm * scale_of(placement.linear), place.half_spacing_mm));

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -44,7 +43,7 @@ bool ObjText::vertices(const std::vector<geometry::Vec3d>& points,
                        const geometry::Placement& placement, std::string& out) {
   for (const geometry::Vec3d& point : points) {
     const geometry::Vec3d v = placement * point;
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
+    if (!geometry::is_finite(v)) return false;
     fmt::format_to(std::back_inserter(out), "v {} {} {}\n", v.x, v.y, v.z);
   }
   return true;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -81,9 +80,8 @@ LeftOut leave_out_bad_facets(const FileBytes& file, geometry::TriangleMesh& mesh
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) {
     const std::span corners = std::span(mesh.vertices).subspan(i, 3);
-    const auto bad = std::ranges::find_if(corners, [](const Vec3d& p) {
-      return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z);
-    });
+    const auto bad =
+        std::ranges::find_if_not(corners, [](const Vec3d& p) { return geometry::is_finite(p); });
     if (bad == corners.end()) {
       if (kept != i) std::ranges::copy(corners, mesh.vertices.data() + kept);
       kept += 3;

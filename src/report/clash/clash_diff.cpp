@@ -151,8 +151,9 @@ class Looks {
     };
     if (!curves(here) && curves(other)) return "settings differ: curves";
     if (r.d_mm <= here.touch_gap_mm || r.d_mm < here.clearance_mm) return {};
-    const bool clearance = here.clearance_mm != other.clearance_mm;
-    return std::string("settings differ: ") + (clearance ? "clearance_mm" : "touch_gap_mm");
+    if (here.clearance_mm < other.clearance_mm) return "settings differ: clearance_mm";
+    if (here.touch_gap_mm < other.touch_gap_mm) return "settings differ: touch_gap_mm";
+    return {};
   }
 
   const ClashDocument& run_;

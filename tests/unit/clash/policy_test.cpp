@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <string>
 #include <utility>
@@ -529,6 +530,35 @@ TEST(ClashPolicy, ListsOfTheWrongSizeAreErrors) {
   refuse([](Policy& p) { p.levels->object.clear(); });
   refuse([](Policy& p) { p.allowed[0].b.push_back(true); });
   refuse([](Policy& p) { p.tolerances[1].touch_gap_mm = -1; });
+}
+
+TEST(ClashPolicy, LimitsThatAreNoNumbersAreErrors) {
+  const ClashModel m = chain();
+  const model::Scene scene = scene_of(m);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double far = std::numeric_limits<double>::infinity();
+  const auto answer = [&](auto&& change) {
+    Policy policy;
+    policy.allowed = {meant(4)};
+    policy.allowed[0].rule = "sleeves";
+    change(policy.allowed[0]);
+    return detect(scene, one_set(scene), {}, policy, {});
+  };
+  const auto refuse = [&](auto&& change) {
+    const auto report = answer(change);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::usage);
+    EXPECT_EQ(report.error().where, "rule 'sleeves'");
+  };
+  refuse([&](Allowed& a) { a.max_depth_mm = nan; });
+  refuse([&](Allowed& a) { a.region_mm = {{nan, 0, 0}, {1, 1, 1}}; });
+  refuse([&](Allowed& a) { a.region_mm = {{0, 0, 0}, {1, 1, nan}}; });
+  refuse([&](Allowed& a) { a.cavity = {{{0, nan, 0}, {0, 0, 1}}}; });
+  refuse([&](Allowed& a) { a.cavity = {{{0, 0, 0}, {0, 0, 0}}}; });
+  refuse([&](Allowed& a) { a.cavity = {{{0, 0, 0}, {0, far, 0}}}; });
+  EXPECT_TRUE(answer([&](Allowed& a) { a.max_depth_mm = far; }).has_value());
+  EXPECT_TRUE(answer([&](Allowed& a) { a.region_mm = {{-far, 0, 0}, {far, 1, 1}}; }).has_value());
+  EXPECT_TRUE(answer([](Allowed& a) { a.cavity = {{{0, 0, 0}, {1e-200, 0, 0}}}; }).has_value());
 }
 
 }  // namespace

@@ -256,6 +256,26 @@ TEST(ClashDiff, SettingsThatWouldNotReportIt) {
   EXPECT_EQ(compare(tight, wide).added[0].why, "settings differ: clearance_mm");
 }
 
+TEST(ClashDiff, OnlySettingsThatDifferAreBlamed) {
+  Folder folder;
+  const ClashModel m = row();
+  const clash::Findings here = run(m, {.tolerances = {.clearance_mm = 5}});
+  clash::Findings other = here;
+  // A pair farther apart than the settings of both report, as after a change of the engine.
+  clash::Pair stray = other.tests[0].pairs[0];
+  stray.a = model::ObjectId{2};
+  stray.b = model::ObjectId{3};
+  stray.cls = clash::Class::clearance_violation;
+  stray.d_mm = 20;
+  other.tests[0].pairs.push_back(stray);
+  const ClashDocument& with = document(folder, "s.json", other, m.model);
+  const ClashDocument& without = document(folder, "h.json", here, m.model);
+  const ClashDiff diff = compare(with, without);
+  EXPECT_TRUE(diff.settings.empty());
+  EXPECT_EQ(names(diff, diff.gone), Names{"c-d"});
+  EXPECT_TRUE(diff.cannot_tell.empty());
+}
+
 TEST(ClashDiff, RulesThatAreNotTheSameAreTold) {
   Folder folder;
   const ClashModel m = row();
