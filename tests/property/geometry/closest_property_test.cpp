@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "strake/geometry/closest.hpp"
-#include "support/exact_place.hpp"
+#include "support/exact_membership.hpp"
 #include "support/rounds.hpp"
 
 namespace strake::geometry {

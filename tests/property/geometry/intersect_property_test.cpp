@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "strake/geometry/intersect.hpp"
-#include "support/exact_place.hpp"
+#include "support/exact_membership.hpp"
 #include "support/rounds.hpp"
 
 namespace strake::geometry {
