@@ -27,8 +27,8 @@ Cut cut(std::vector<PlaneSegment> lines, std::size_t count, const parallel::Cont
   const auto overlaps = drawing::cut_overlaps(lines, {.shortest = kApart_mm}, context).value();
   std::vector<double> open(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
-    open[i] = overlaps.wholly.is_set(i) ? 0 : lines[i].length();
-  for (const drawing::LineInterval& s : overlaps.stretches)
+    open[i] = overlaps.fully_covered.is_set(i) ? 0 : lines[i].length();
+  for (const drawing::LineInterval& s : overlaps.cut_intervals)
     if (s.covered) open[s.line] -= (s.to - s.from) * lines[s.line].length();
   Cut result;
   for (std::size_t i = 0; i < lines.size(); ++i)

@@ -77,7 +77,7 @@ void Console::show_status(std::string_view line) {
   (void)write_all(STDERR_FILENO, text);
 }
 
-void say_out_of_memory() noexcept {
+void print_out_of_memory() noexcept {
   if (::isatty(STDERR_FILENO) == 1) (void)write_all(STDERR_FILENO, kEraseLine);
   (void)write_all(STDERR_FILENO,
                   "strake: error: out of memory (use a machine with more memory, or a part of the "

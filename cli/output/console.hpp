@@ -46,7 +46,7 @@ class Console {
 
 /// Prints the line about ErrorCode::memory on standard error. It takes neither memory nor a lock,
 /// so that it can be called wherever memory runs out.
-void say_out_of_memory() noexcept;
+void print_out_of_memory() noexcept;
 
 /// Writes data to standard output. Errors: output, with the reason (a full disk).
 [[nodiscard]] Status write_stdout(std::string_view text);

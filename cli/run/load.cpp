@@ -41,16 +41,16 @@ constexpr std::array<Mistake, 4> kMistakes{{{1000, "m", "mm", kAlike},
 /// and along two at least by extents that the grid has not made of nothing: two parts seldom are
 /// alike along all axes, and objects in a row often are.
 bool is_alike(const Vec3d& small, const Vec3d& large, const Mistake& mistake) {
-  constexpr double kTelling = 8;
+  constexpr double kSignificant = 8;
   const auto& [factor, small_unit, large_unit, alike] = mistake;
-  int telling = 0;
+  int significant_axes = 0;
   for (int k = 0; k < 3; ++k) {
     // The grid moves each of two ends by half a unit.
     if (large[k] > (small[k] + 1) * factor * alike || large[k] < (small[k] - 1) * factor / alike)
       return false;
-    if (small[k] >= kTelling) ++telling;
+    if (small[k] >= kSignificant) ++significant_axes;
   }
-  return telling >= 2;
+  return significant_axes >= 2;
 }
 
 struct FileExtent {

@@ -33,7 +33,7 @@ bool fails(const report::ClashDiff& diff, const std::string& fail_on) {
   return fail_on == "cannot-tell" && !diff.cannot_tell.empty();
 }
 
-void tell_maybe_new(Session& session, const report::ClashDiff& diff, const std::string& fail_on) {
+void print_maybe_new(Session& session, const report::ClashDiff& diff, const std::string& fail_on) {
   if (fail_on.empty() || fail_on == "cannot-tell") return;
   const bool hits_only = fail_on == "new-hit";
   if (const std::size_t count = diff.maybe_new(hits_only); count > 0)
@@ -75,12 +75,12 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
     });
     if (!status) return status.error();
   }
-  const Status told =
+  const Status written =
       session.json()
           ? session.write_stdout(as_json)
           : session.write_stdout(report::clash_diff_table(diff, {.width = terminal_width()}));
-  if (!told) return told.error();
-  tell_maybe_new(session, diff, given.fail_on);
+  if (!written) return written.error();
+  print_maybe_new(session, diff, given.fail_on);
   return fails(diff, given.fail_on) ? ExitCode::clashes : ExitCode::done;
 }
 

@@ -208,8 +208,8 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
                 drawing.count[s]);
 }
 
-void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing,
-                  const model::Model& model) {
+void print_drawing_summary(Console& console, const drawing::NeutralDrawing& drawing,
+                           const model::Model& model) {
   const auto of = [&](drawing::LineState state) {
     return drawing.count[static_cast<std::size_t>(state)];
   };
@@ -332,7 +332,7 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   const Result<drawing::NeutralDrawing> drawing = compute(session, *request, loaded->scene);
   if (!drawing) return drawing.error();
   count_work(session.stats(), *drawing);
-  tell_drawing(session.console(), *drawing, *loaded->model);
+  print_drawing_summary(session.console(), *drawing, *loaded->model);
   if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
     return status.error();
   return strict_exit_code(given.input, *loaded);

@@ -19,7 +19,7 @@ namespace strake::cli {
 
 namespace {
 
-void tell_sheet(Session& session, const sheets::Sheet& sheet, const model::Model& model) {
+void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const model::Model& model) {
   Console& console = session.console();
   for (const sheets::PlacedView& view : sheet.views) {
     std::uint64_t lines = 0;
@@ -81,7 +81,7 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
     return file->compose(loaded->scene, request.options, session.context());
   }();
   if (!sheet) return sheet.error();
-  tell_sheet(session, *sheet, *loaded->model);
+  print_sheet_summary(session, *sheet, *loaded->model);
   for (const std::string& output : request.outputs) {
     const Result<sheets::SheetWriter> writer = sheets::find_sheet_writer(output);
     if (!writer) return writer.error();

@@ -77,7 +77,7 @@ class SphereSearch {
     while (!stack_.empty() && !done_) {
       const Box3d cell = stack_.back();
       stack_.pop_back();
-      look(cell);
+      visit_cell(cell);
     }
     return concluded();
   }
@@ -85,7 +85,7 @@ class SphereSearch {
  private:
   [[nodiscard]] double reach() const { return reach_of(options_) + thresholds_.weld; }
 
-  void look(const Box3d& cell) {
+  void visit_cell(const Box3d& cell) {
     if (++cells_ > most_cells_) {
       exhausted_ = done_ = true;
       return;

@@ -80,7 +80,7 @@ class LaidLines {
   void add(const PlaneSegment& flat) {
     const auto number = static_cast<std::uint32_t>(stretches_.size());
     stretches_.push_back(flat);
-    asked_by_.push_back(kNone);
+    last_query_.push_back(kNone);
     cells_.along(flat, 0, [&](std::size_t cell) {
       entries_.push_back({number, first_[cell]});
       first_[cell] = static_cast<std::uint32_t>(entries_.size() - 1);
@@ -93,8 +93,8 @@ class LaidLines {
     cells_.along(line.flat, line.flat.reach + reach_, [&](std::size_t cell) {
       for (std::uint32_t e = first_[cell]; e != kNone; e = entries_[e].next) {
         const std::uint32_t number = entries_[e].stretch;
-        if (asked_by_[number] == query) continue;
-        asked_by_[number] = query;
+        if (last_query_[number] == query) continue;
+        last_query_[number] = query;
         if (const auto interval = covered(line.flat, stretches_[number], rule_))
           covers.push_back(*interval);
       }
@@ -111,8 +111,8 @@ class LaidLines {
   const OverlapRule& rule_;
   double reach_ = 0;
   std::vector<PlaneSegment> stretches_;
-  std::vector<std::uint32_t> asked_by_;  ///< by entry: the last query that met it
-  std::vector<std::uint32_t> first_;     ///< by cell: the last of its entries
+  std::vector<std::uint32_t> last_query_;  ///< by entry: the last query that met it
+  std::vector<std::uint32_t> first_;       ///< by cell: the last of its entries
   std::vector<LaidEntry> entries_;
 };
 

@@ -187,21 +187,21 @@ using OutlineEdge = PlanarEnd::OutlineEdge;
 /// Borders with more near pairs of edges, per edge, are not decided.
 constexpr std::size_t kMostNearTriangles = 16;
 
-struct RimCorner {
+struct OutlineVertex {
   PointInPlane at;
   std::uint32_t vertex = 0;
 };
 
-std::vector<RimCorner> outline_corners(std::span<const OutlineEdge> rim) {
-  std::vector<RimCorner> corners;
+std::vector<OutlineVertex> outline_corners(std::span<const OutlineEdge> rim) {
+  std::vector<OutlineVertex> corners;
   for (const OutlineEdge& e : rim) {
     corners.push_back({e.at_from, e.from});
     corners.push_back({e.at_to, e.to});
   }
-  std::ranges::sort(corners, [](const RimCorner& p, const RimCorner& q) {
+  std::ranges::sort(corners, [](const OutlineVertex& p, const OutlineVertex& q) {
     return std::tie(p.at.x, p.at.y, p.vertex) < std::tie(q.at.x, q.at.y, q.vertex);
   });
-  const auto rest = std::ranges::unique(corners, {}, &RimCorner::vertex);
+  const auto rest = std::ranges::unique(corners, {}, &OutlineVertex::vertex);
   corners.erase(rest.begin(), rest.end());
   return corners;
 }
@@ -209,14 +209,14 @@ std::vector<RimCorner> outline_corners(std::span<const OutlineEdge> rim) {
 /// By vertex of the first part: the only vertex of the second at the same point.
 using MatchingVertices = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-std::optional<MatchingVertices> matching_vertices(std::span<const RimCorner> a,
-                                                  std::span<const RimCorner> b, double room) {
+std::optional<MatchingVertices> matching_vertices(std::span<const OutlineVertex> a,
+                                                  std::span<const OutlineVertex> b, double room) {
   if (a.size() != b.size()) return std::nullopt;
   MatchingVertices likes;
   std::vector<std::uint32_t> taken;
-  for (const RimCorner& p : a) {
-    const auto first =
-        std::ranges::lower_bound(b, p.at.x - room, {}, [](const RimCorner& q) { return q.at.x; });
+  for (const OutlineVertex& p : a) {
+    const auto first = std::ranges::lower_bound(b, p.at.x - room, {},
+                                                [](const OutlineVertex& q) { return q.at.x; });
     std::optional<std::uint32_t> like;
     for (auto q = first; q != b.end() && q->at.x <= p.at.x + room; ++q) {
       if (std::hypot(q->at.x - p.at.x, q->at.y - p.at.y) > room) continue;
@@ -252,11 +252,11 @@ bool run_along_each_other(std::span<const OutlineEdge> a, std::span<const Outlin
 
 /// Whether two border edges without a common vertex are near each other and not their face, but a
 /// gap, lies between them.
-struct RimGap {
+struct OutlineGap {
   bool near = false, open = false;
 };
 
-RimGap outline_gap(const OutlineEdge& e, const OutlineEdge& f, double reach) {
+OutlineGap outline_gap(const OutlineEdge& e, const OutlineEdge& f, double reach) {
   const auto raised = [](const PointInPlane& p) { return Vec3d{p.x, p.y, 0}; };
   const Vec3d p = raised(e.at_from), d = raised(e.at_to) - p;
   const Vec3d q = raised(f.at_from), g = raised(f.at_to) - q;
@@ -283,7 +283,7 @@ bool has_narrow_gap(std::vector<OutlineEdge> rim, double reach) {
   for (std::size_t i = 0; i < rim.size(); ++i)
     for (std::size_t j = i + 1; j < rim.size() && low(rim[j]) <= high(rim[i]) + reach; ++j) {
       if (apart_in_y(rim[i], rim[j]) || share_corner(rim[i], rim[j])) continue;
-      const RimGap gap = outline_gap(rim[i], rim[j], reach);
+      const OutlineGap gap = outline_gap(rim[i], rim[j], reach);
       if (gap.open || (gap.near && left-- == 0)) return true;
     }
   return false;

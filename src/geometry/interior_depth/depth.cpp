@@ -384,10 +384,10 @@ class Centring {
 
 }  // namespace
 
-Depth solid_depth(const DepthOperand& a, const DepthOperand& b, const DepthOptions& asked,
+Depth solid_depth(const DepthOperand& a, const DepthOperand& b, const DepthOptions& options,
                   QueryContext& work) {
-  DepthOptions goal = asked;
-  goal.relative = std::min(asked.relative, kFinely);
+  DepthOptions goal = options;
+  goal.relative = std::min(options.relative, kFinely);
   // Coplanar faces of a rotated model: what the snap made of a touch.
   if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};

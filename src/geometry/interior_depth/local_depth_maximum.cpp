@@ -68,7 +68,9 @@ class InPart {
   explicit InPart(const DistanceField& part) : part_(part) {}
 
   /// Looks round a point; false where there is too much to say.
-  bool look(const Vec3d& at, double reach) { return find_near(part_, at, reach, beside_); }
+  bool find_planes_near(const Vec3d& at, double reach) {
+    return find_near(part_, at, reach, beside_);
+  }
   void add(const Vec3d&, std::vector<BallConstraint>& rows) const {
     for (const NearPlane& near : beside_) rows.push_back({-near.away, 0, near.distance - kInset});
   }
@@ -100,7 +102,7 @@ class OnFlat {
     }
   }
 
-  static bool look(const Vec3d&, double) { return true; }
+  static bool find_planes_near(const Vec3d&, double) { return true; }
   void add(const Vec3d& at, std::vector<BallConstraint>& rows) const {
     for (const BallConstraint& side : sides_)
       rows.push_back({side.normal, 0, side.offset - dot(side.normal, at)});
@@ -137,7 +139,7 @@ class LocalAscent {
     double depth = of_.nearest(at).distance;
     double reach = std::max(depth, 64 * kShortest);
     for (int step = 0; step < kMostClimbSteps && reach > kShortest; ++step) {
-      if (!room_.look(at, reach)) {
+      if (!room_.find_planes_near(at, reach)) {
         reach /= 2;
         continue;
       }
@@ -171,11 +173,11 @@ class LocalAscent {
   InscribedBall solve_by_cuts(const Vec3d& at, double depth, double reach) {
     above_.clear();
     InscribedBall next;
-    std::vector<std::uint32_t> asked;
+    std::vector<std::uint32_t> tried;
     std::uint32_t triangle = of_.nearest(at).triangle;
     for (int cut = 0; cut < kMostCuts; ++cut) {
-      if (std::ranges::find(asked, triangle) != asked.end()) break;
-      asked.push_back(triangle);
+      if (std::ranges::find(tried, triangle) != tried.end()) break;
+      tried.push_back(triangle);
       if (const auto near = near_of(of_.triangle(triangle), of_.local(at))) above_.push_back(*near);
       next = solve(at, depth, reach);
       const NearestTriangle there = of_.nearest(at + next.x, triangle);

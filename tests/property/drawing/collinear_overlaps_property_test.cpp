@@ -22,9 +22,9 @@ using drawing::PlaneSegment;
 
 using Row = std::tuple<std::uint32_t, bool, double, double>;
 
-std::vector<Row> rows(const LineIntervals& stretches) {
+std::vector<Row> rows(const LineIntervals& cut_intervals) {
   std::vector<Row> out;
-  for (const LineInterval& s : stretches) out.emplace_back(s.line, s.covered, s.from, s.to);
+  for (const LineInterval& s : cut_intervals) out.emplace_back(s.line, s.covered, s.from, s.to);
   return out;
 }
 
@@ -32,9 +32,9 @@ std::vector<Row> found(const std::vector<PlaneSegment>& lines, const OverlapRule
                        const parallel::Context& context = {}) {
   const auto overlaps = drawing::cut_overlaps(lines, rule, context);
   EXPECT_TRUE(overlaps);
-  std::vector<Row> all = rows(overlaps->stretches);
+  std::vector<Row> all = rows(overlaps->cut_intervals);
   for (std::uint32_t i = 0; i < lines.size(); ++i)
-    if (overlaps->wholly.is_set(i)) all.emplace_back(i, true, 0, 1);
+    if (overlaps->fully_covered.is_set(i)) all.emplace_back(i, true, 0, 1);
   std::sort(all.begin(), all.end(),
             [](const Row& a, const Row& b) {  // of a line cut in parts by place
               return std::pair(std::get<0>(a), std::get<2>(a)) <

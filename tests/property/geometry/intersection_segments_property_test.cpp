@@ -172,7 +172,7 @@ TEST(IntersectionSegmentsTest, LargePartsAreWalked) {
       if (askew) mesh = turned(std::move(mesh), test::Draw(1).rotation());
     }
     const Subject a(meshes[0]), b(meshes[1]);
-    ASSERT_TRUE(want_trees(a.part, b.part));
+    ASSERT_TRUE(needs_bvhs(a.part, b.part));
     const Asked asked(a, b);
     QueryContext quick, slow;
     const Lines expected = asked.of_all(3, slow);

@@ -125,7 +125,7 @@ TEST_P(SheetDepths, AreAsDeepAsTheirStretches) {
     QueryContext work;
     const SheetIntersection curve = find_sheet_intersection(a.treed(), b.treed(), 0, 100'000, work);
     const SheetCrossing crossing(a.treed(), b.treed(), 0, work);
-    ASSERT_EQ(crossing.stretches().size(), curve.segments.size());
+    ASSERT_EQ(crossing.crossing_segments().size(), curve.segments.size());
     const auto places =
         find_contact_regions(a.treed(), b.treed(), {.reach = 10, .interiors_meet = true}, work);
     ASSERT_TRUE(places);
@@ -139,7 +139,7 @@ TEST_P(SheetDepths, AreAsDeepAsTheirStretches) {
       ASSERT_GE(d.upper, brute.most - 1);
       ASSERT_LE(d.upper - d.lower, std::max(8.1, 0.0002 * d.upper));
       deepest = std::max(deepest, d.value);
-      const auto [ta, tb] = crossing.stretches()[i];
+      const auto [ta, tb] = crossing.crossing_segments()[i];
       const auto place = places->region_of_pair(ta, tb);
       ASSERT_TRUE(place);
       by_place[*place] = std::max(by_place[*place], d.value);

@@ -164,7 +164,7 @@ TEST(SlabProximity, LooksAtNothingButTheFacesThatMeet) {
   const Subject pipe(askew(disc(50'000, 3'002, 900'000, 24, {300'000, 200'000, 0})));
   QueryContext work;
   const SlabProximity found = across(deck, pipe, 8, work);
-  ASSERT_TRUE(found.asked && found.near);
+  ASSERT_TRUE(found.decided && found.near);
   EXPECT_LE(found.near->distance, 8);
   EXPECT_LE(work.triangle_pairs, 2U * 22U);
   const Vec3d off = found.near->on_b - found.near->on_a;
@@ -177,12 +177,12 @@ TEST(SlabProximity, SaysThatThereIsNothing) {
   const Subject beside(askew(box_mesh({900'100, 0, 3'000}, {990'000, 600'000, 9'000})));
   QueryContext work;
   const SlabProximity none = across(deck, beside, 8, work);
-  EXPECT_TRUE(none.asked);
+  EXPECT_TRUE(none.decided);
   EXPECT_FALSE(none.near);
   // Of many needles nothing is known: trees tell.
   const Subject plate(askew(disc(500'000, 3'001, 10'000, 600)));
   const SlabProximity unknown = across(deck, plate, 8, work);
-  EXPECT_FALSE(unknown.asked);
+  EXPECT_FALSE(unknown.decided);
   EXPECT_FALSE(unknown.near);
 }
 
@@ -204,7 +204,7 @@ TEST(SlabProximity, FindsWhatAWalkFinds) {
     const SeparationBound slab = parting(a, b);
     const SlabProximity quick =
         slab_proximity(a.treed().placed, b.treed().placed, slab.normal, 8, work);
-    ASSERT_TRUE(quick.asked) << "seed " << seed;
+    ASSERT_TRUE(quick.decided) << "seed " << seed;
     const auto walked = find_pair_within(a.treed(), b.treed(), 8, work);
     EXPECT_EQ(quick.near.has_value(), walked.has_value()) << "seed " << seed;
     ++(quick.near ? found : none);

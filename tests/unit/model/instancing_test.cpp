@@ -18,7 +18,7 @@ using geometry::TriangleMesh;
 using geometry::Vec3d;
 
 GridShape on_grid(TriangleMesh mesh) {
-  return GridShapeMaker().make(Shape(std::move(mesh)), {}, {}).shape;
+  return GridShapeBuilder().make(Shape(std::move(mesh)), {}, {}).shape;
 }
 
 /// A box of which each face is split along the other diagonal where `diagonals` has its bit.

@@ -248,9 +248,9 @@ class DisplacementSearch {
     const auto leaves = [&](const TriangleBvh::Node& x, const TriangleBvh::Node& y) {
       return add_near(x, y, reach) && near_.size() <= kAlwaysNear + kNearPerTriangle * triangles;
     };
-    DualTraversal walk(a_.tree(), b_.tree());
-    walk.start();
-    return walk.run(near, leaves, kNodesPerTriangle * triangles) == TraversalEnd::done;
+    DualTraversal traversal(a_.tree(), b_.tree());
+    traversal.start();
+    return traversal.run(near, leaves, kNodesPerTriangle * triangles) == TraversalEnd::done;
   }
 
   /// False where some cross.

@@ -191,13 +191,13 @@ class LevelSearch {
 
   /// Cells that are cut from one have most of its corners.
   std::uint32_t nearest_to_corner(const Vec3d& p, std::uint32_t hint) {
-    const auto known = std::ranges::find(asked_, p, &AskedCorner::at);
-    if (known != asked_.end()) return known->nearest;
+    const auto known = std::ranges::find(queried_, p, &QueryCorner::at);
+    if (known != queried_.end()) return known->nearest;
     const std::uint32_t t = nearest(p, hint, q_.level).triangle;
-    if (asked_.size() < kRemembered) {
-      asked_.push_back({p, t});
+    if (queried_.size() < kRemembered) {
+      queried_.push_back({p, t});
     } else {
-      asked_[oldest_] = {p, t};
+      queried_[oldest_] = {p, t};
       oldest_ = (oldest_ + 1) % kRemembered;
     }
     return t;
@@ -246,7 +246,7 @@ class LevelSearch {
         best = plane;
       }
     if (best) return best;
-    for (const Way& way : ways_from(near_)) {
+    for (const DirectionToCell& way : directions_from(near_)) {
       const HalfSpace plane{-way.unit, dot(-way.unit, middle_) + way.distance + clear - q_.level};
       if (goes_through(cell, plane)) return plane;
     }
@@ -254,32 +254,33 @@ class LevelSearch {
   }
 
   /// From a triangle to the middle of the cell.
-  struct Way {
+  struct DirectionToCell {
     Vec3d unit;
     double distance = 0;
   };
 
-  [[nodiscard]] std::vector<Way> ways_from(const std::vector<std::uint32_t>& triangles) const {
-    std::vector<Way> ways;
+  [[nodiscard]] std::vector<DirectionToCell> directions_from(
+      const std::vector<std::uint32_t>& triangles) const {
+    std::vector<DirectionToCell> directions;
     for (const std::uint32_t t : triangles) {
       const Vec3d p = of_.local(middle_);
       const Vec3d way = p - nearest_on_triangle(p, of_.corners(t));
-      if (const double size = length(way); size > 0) ways.push_back({way * (1 / size), size});
+      if (const double size = length(way); size > 0) directions.push_back({way * (1 / size), size});
     }
-    return ways;
+    return directions;
   }
 
   /// Where two triangles are equally near, as it is about the middle: the plane nearest to that.
   [[nodiscard]] std::optional<HalfSpace> plane_between(const OffsetCell& cell) const {
-    const std::vector<Way> ways = ways_from(near_);
+    const std::vector<DirectionToCell> directions = directions_from(near_);
     std::optional<HalfSpace> best;
     double least = radius_;
-    for (std::size_t i = 0; i < ways.size(); ++i)
+    for (std::size_t i = 0; i < directions.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        const Vec3d n = ways[i].unit - ways[j].unit;
+        const Vec3d n = directions[i].unit - directions[j].unit;
         const double size = length(n);
         if (!(size > kLeastTurn)) continue;
-        const double off = (ways[j].distance - ways[i].distance) / size;
+        const double off = (directions[j].distance - directions[i].distance) / size;
         if (!(std::fabs(off) < least)) continue;
         const Vec3d normal = n * (1 / size);
         const HalfSpace plane{normal, dot(normal, middle_) + off};
@@ -312,11 +313,11 @@ class LevelSearch {
   std::vector<Corners> crossing_;
   std::uint32_t hint_ = kNoIndex;
   static constexpr std::size_t kRemembered = 32;
-  struct AskedCorner {
+  struct QueryCorner {
     Vec3d at;
     std::uint32_t nearest = kNoIndex;  ///< none within the level
   };
-  std::vector<AskedCorner> asked_;  ///< the last
+  std::vector<QueryCorner> queried_;  ///< the last
   std::size_t oldest_ = 0;
   std::vector<std::uint32_t> near_;
 };

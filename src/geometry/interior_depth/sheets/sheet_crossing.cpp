@@ -19,7 +19,7 @@ namespace {
 
 /// Maximum number of segments searched for: two sheets that cross all over have about one per
 /// triangle, two of slivers through each other the square of their number.
-constexpr std::size_t kStretchesPerTriangle = 2, kLeastStretches = 20000;
+constexpr std::size_t kSegmentsPerTriangle = 2, kLeastSegments = 20000;
 /// Far above what double arithmetic makes of a distance within a pair, grid units.
 constexpr double kSlack = 1.0 / 256;
 /// Relative width of a bracket: this narrow, it costs a curve only a few halvings more than a wide
@@ -28,30 +28,29 @@ constexpr double kRelative = 1e-4;
 
 double size_of(const Part& p) { return length(p.box.hi.as<double>() - p.box.lo.as<double>()); }
 
-std::size_t most_stretches(const Part& a, const Part& b) {
-  return std::max(kLeastStretches,
-                  kStretchesPerTriangle * (a.triangles.size() + b.triangles.size()));
+std::size_t most_segments(const Part& a, const Part& b) {
+  return std::max(kLeastSegments, kSegmentsPerTriangle * (a.triangles.size() + b.triangles.size()));
 }
 
 }  // namespace
 
 struct SheetCrossing::Curves {
   SheetIntersection crossing;
-  std::vector<Stretch> stretches;  ///< by segment of the crossing
-  Vec3d shift;                     ///< of b's origin off a's
-  SegmentBvh rim_a, rim_b;         ///< the boundary curves, in the parts' own coordinates
-  double ceiling = 0;              ///< no deeper, whatever the curves
+  std::vector<CrossingSegment> crossing_segments;  ///< by segment of the crossing
+  Vec3d shift;                                     ///< of b's origin off a's
+  SegmentBvh rim_a, rim_b;  ///< the boundary curves, in the parts' own coordinates
+  double ceiling = 0;       ///< no deeper, whatever the curves
 
   Curves(const PartWithBvh& a, const PartWithBvh& b, double apart_within, QueryContext& work)
       : crossing(find_sheet_intersection(a, b, apart_within,
-                                         most_stretches(*a.placed.part, *b.placed.part), work)),
+                                         most_segments(*a.placed.part, *b.placed.part), work)),
         shift((b.placed.origin - a.placed.origin).as<double>()),
         rim_a(boundary_edges(*a.placed.part)),
         rim_b(boundary_edges(*b.placed.part)),
         ceiling(std::min(size_of(*a.placed.part), size_of(*b.placed.part))) {
-    stretches.reserve(crossing.pieces.size());
+    crossing_segments.reserve(crossing.pieces.size());
     for (const IntersectionSegment& piece : crossing.pieces)
-      stretches.push_back({piece.a, piece.b});
+      crossing_segments.push_back({piece.a, piece.b});
   }
 };
 
@@ -161,8 +160,8 @@ SheetCrossing::SheetCrossing(const PartWithBvh& a, const PartWithBvh& b, double 
                              QueryContext& work)
     : curves_(std::make_shared<const Curves>(a, b, apart_within, work)) {}
 
-const std::vector<SheetCrossing::Stretch>& SheetCrossing::stretches() const {
-  return curves_->stretches;
+const std::vector<SheetCrossing::CrossingSegment>& SheetCrossing::crossing_segments() const {
+  return curves_->crossing_segments;
 }
 
 Depth SheetCrossing::depth_along(std::span<const std::uint32_t> some, const DepthOptions& goal,
@@ -178,7 +177,7 @@ Depth SheetCrossing::depth_along(std::span<const std::uint32_t> some, const Dept
 }
 
 Depth SheetCrossing::depth(const DepthOptions& goal, QueryContext& work) const {
-  std::vector<std::uint32_t> all(stretches().size());
+  std::vector<std::uint32_t> all(crossing_segments().size());
   std::iota(all.begin(), all.end(), 0U);
   return depth_along(all, goal, work);
 }
