@@ -25,7 +25,7 @@ class Console {
   [[nodiscard]] bool is_terminal() const { return terminal_; }
 
   /// Prints a line of narration; silent under --quiet.
-  void say(std::string_view line);
+  void note(std::string_view line);
   /// Prints "strake: ...", for what makes the exit code one of failure and standard output does not
   /// show, and for what makes the whole result doubtful; never silent.
   void warn(std::string_view line);

@@ -83,8 +83,9 @@ class OverlapSearch {
   }
 
   template <class StateOf>
-  Status decide(std::span<const std::size_t> some, std::string_view name, const StateOf& state_of) {
-    return work_.for_each_of(some, name, PairTasks::kGrain,
+  Status decide(std::span<const std::size_t> subset, std::string_view name,
+                const StateOf& state_of) {
+    return work_.for_each_of(subset, name, PairTasks::kGrain,
                              [&](std::size_t i, const ScenePart& x, const ScenePart& y) {
                                states_[i] = state_of(x, y);
                              });

@@ -11,7 +11,7 @@ namespace {
 /// How often a worker looks at a word before sleeping on it: some 30 microseconds, about what it
 /// takes to wake up. So a wait costs at most twice the better of the two, and one worker's last
 /// block or the caller's few lines between two regions put nobody to sleep.
-constexpr int kLooks = 1000;
+constexpr int kSpins = 1000;
 
 /// Tells the core that this is a loop that waits: its other thread may go first.
 void breathe() noexcept {
@@ -22,8 +22,8 @@ void breathe() noexcept {
 #endif
 }
 
-void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value, int looks) noexcept {
-  for (int i = 0; i < looks; ++i) {
+void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value, int spins) noexcept {
+  for (int i = 0; i < spins; ++i) {
     if (word.load(std::memory_order_acquire) != value) return;
     breathe();
   }
@@ -34,7 +34,7 @@ void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value, int
 
 Team::Team(unsigned workers) : Executor(1) {
   // With more workers than processors the one that looks may keep the other from coming.
-  looks_ = workers <= default_workers() ? kLooks : 0;
+  spins_ = workers <= default_workers() ? kSpins : 0;
   const unsigned wanted = std::clamp(workers, 1U, kMaxWorkers) - 1;
   threads_.reserve(wanted);
   for (unsigned i = 0; i < wanted; ++i) {
@@ -62,14 +62,14 @@ void Team::call_all(FunctionRef<void(Seat)> body) noexcept {
   body(Seat{0, size()});
   for (std::uint32_t left = pending_.load(std::memory_order_acquire); left != 0;
        left = pending_.load(std::memory_order_acquire))
-    wait_while(pending_, left, looks_);
+    wait_while(pending_, left, spins_);
 }
 
 void Team::serve(unsigned index) noexcept {
   // Every worker sees every generation: run() starts the next only when all have reported back.
   std::uint32_t seen = 0;
   for (;;) {
-    wait_while(generation_, seen, looks_);
+    wait_while(generation_, seen, spins_);
     seen = generation_.load(std::memory_order_acquire);
     if (closing_.load(std::memory_order_relaxed)) return;
     (*body_)(Seat{index, size()});

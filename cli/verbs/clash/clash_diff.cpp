@@ -37,7 +37,7 @@ void print_maybe_new(Session& session, const report::ClashDiff& diff, const std:
   if (fail_on.empty() || fail_on == "cannot-tell") return;
   const bool hits_only = fail_on == "new-hit";
   if (const std::size_t count = diff.maybe_new(hits_only); count > 0)
-    session.console().say(
+    session.console().note(
         fmt::format("--fail-on {}: {} among 'cannot tell' that may be new, and count as such: {}",
                     fail_on, hits_only ? "hits" : "results", count));
 }

@@ -169,15 +169,15 @@ bool has_failing_pair(const clash::Findings& findings, const std::string& fail_o
         ++perhaps;
     }
   if (perhaps > 0)
-    console.say(
+    console.note(
         fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "
                     "besides {} that are",
                     fail_on, perhaps, surely));
   if (lacks.pairs > 0)
-    console.say(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
-                            fail_on, lacks.pairs));
+    console.note(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
+                             fail_on, lacks.pairs));
   if (lacks.objects > 0)
-    console.say(
+    console.note(
         fmt::format("--fail-on {}: does not go by objects that could not be compared whole "
                     "(--strict does): {}",
                     fail_on, lacks.objects));

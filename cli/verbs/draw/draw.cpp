@@ -63,8 +63,8 @@ Result<geometry::Vec3l> direction_of(const std::string& text, const std::string&
   }
   const geometry::Vec3l& v = parsed->vector;
   if (parsed->rounded && parsed->rounding_error > 0)
-    console.say(fmt::format("{} {} is taken as {},{},{}, off by {:.1e} rad", option, text, v.x, v.y,
-                            v.z, parsed->rounding_error));
+    console.note(fmt::format("{} {} is taken as {},{},{}, off by {:.1e} rad", option, text, v.x,
+                             v.y, v.z, parsed->rounding_error));
   return v;
 }
 
@@ -92,8 +92,8 @@ Result<hlr::Section> section_of(const std::string& text, const hlr::View& view, 
   }
   const geometry::Vec3l& n = parsed->section.normal;
   if (parsed->rounded && parsed->rounding_error > 0)
-    console.say(fmt::format("--section {} is taken as normal {},{},{}, off by {:.1e} rad", text,
-                            n.x, n.y, n.z, parsed->rounding_error));
+    console.note(fmt::format("--section {} is taken as normal {},{},{}, off by {:.1e} rad", text,
+                             n.x, n.y, n.z, parsed->rounding_error));
   return parsed->section;
 }
 
@@ -214,15 +214,15 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
     return drawing.count[static_cast<std::size_t>(state)];
   };
   const std::uint64_t visible = of(drawing::LineState::visible);
-  console.say(object_summary_line(drawing.account, model));
-  console.say(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
-                          drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
-                          drawing.sheet.height_mm));
+  console.note(object_summary_line(drawing.account, model));
+  console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
+                           drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
+                           drawing.sheet.height_mm));
   if (visible > 0) return;
-  console.say(of(drawing::LineState::clipped) > 0
-                  ? "warning empty-sheet: nothing lies within the limits, the field of view and "
-                    "before the sections"
-                  : "warning empty-sheet: the model has nothing to draw");
+  console.note(of(drawing::LineState::clipped) > 0
+                   ? "warning empty-sheet: nothing lies within the limits, the field of view and "
+                     "before the sections"
+                   : "warning empty-sheet: the model has nothing to draw");
 }
 
 Status write_drawing(Session& session, const DrawOptions& given,

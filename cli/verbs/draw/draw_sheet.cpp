@@ -27,9 +27,10 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
     const auto of = [&](drawing::LineState state) {
       return view.drawing.count[static_cast<std::size_t>(state)];
     };
-    console.say(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
-                            of(drawing::LineState::visible), lines, view.drawing.sheet.scale_text));
-    console.say(
+    console.note(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
+                             of(drawing::LineState::visible), lines,
+                             view.drawing.sheet.scale_text));
+    console.note(
         fmt::format("view '{}': {}", view.name, object_summary_line(view.drawing.account, model)));
     count_objects(session.stats(), view.drawing.account, view.name + ": ");
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)

@@ -92,11 +92,11 @@ class SphereSearch {
     }
     const Vec3d centre = (cell.lo + cell.hi) * 0.5, half = (cell.hi - cell.lo) * 0.5;
     const double radius = std::sqrt(dot(half, half));
-    const double room = radius + reach() / 2;
+    const double margin = radius + reach() / 2;
     const double in_a = a_.signed_distance(centre, work_.pair);
-    if (in_a > room) return;
+    if (in_a > margin) return;
     const double in_b = b_.signed_distance(centre, work_.pair);
-    if (in_b > room) return;
+    if (in_b > margin) return;
     const double separation =
         in_a < 0 && in_b < 0 ? std::min(in_a, in_b) : std::max(in_a, 0.0) + std::max(in_b, 0.0);
     if (separation < best_) {

@@ -210,16 +210,16 @@ std::vector<OutlineVertex> outline_corners(std::span<const OutlineEdge> rim) {
 using MatchingVertices = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 std::optional<MatchingVertices> matching_vertices(std::span<const OutlineVertex> a,
-                                                  std::span<const OutlineVertex> b, double room) {
+                                                  std::span<const OutlineVertex> b, double margin) {
   if (a.size() != b.size()) return std::nullopt;
   MatchingVertices likes;
   std::vector<std::uint32_t> taken;
   for (const OutlineVertex& p : a) {
-    const auto first = std::ranges::lower_bound(b, p.at.x - room, {},
+    const auto first = std::ranges::lower_bound(b, p.at.x - margin, {},
                                                 [](const OutlineVertex& q) { return q.at.x; });
     std::optional<std::uint32_t> like;
-    for (auto q = first; q != b.end() && q->at.x <= p.at.x + room; ++q) {
-      if (std::hypot(q->at.x - p.at.x, q->at.y - p.at.y) > room) continue;
+    for (auto q = first; q != b.end() && q->at.x <= p.at.x + margin; ++q) {
+      if (std::hypot(q->at.x - p.at.x, q->at.y - p.at.y) > margin) continue;
       if (like) return std::nullopt;
       like = q->vertex;
     }
@@ -235,8 +235,8 @@ std::optional<MatchingVertices> matching_vertices(std::span<const OutlineVertex>
 
 /// Whether each edge of the one border has a counterpart in the other.
 bool run_along_each_other(std::span<const OutlineEdge> a, std::span<const OutlineEdge> b,
-                          double room) {
-  const auto likes = matching_vertices(outline_corners(a), outline_corners(b), room);
+                          double margin) {
+  const auto likes = matching_vertices(outline_corners(a), outline_corners(b), margin);
   if (!likes) return false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const OutlineEdge& e : b) edges.emplace_back(e.from, e.to);
@@ -296,10 +296,12 @@ bool outlines_coincide(const PlanarEnd& a, const PlanarEnd& b, const PlaneFrame&
   // Points of the two faces may be farther apart than their planes.
   const double across = std::fabs(gap) + 2 * plane.band;
   if (!(across < plane.reach)) return false;
-  const double room = std::min(plane.band, std::sqrt(plane.reach * plane.reach - across * across));
-  const std::vector<OutlineEdge> rim_a = a.rim(), rim_b = b.rim();
-  return rim_a.size() == rim_b.size() && run_along_each_other(rim_a, rim_b, room) &&
-         a.is_one_face() && b.is_one_face() && !has_narrow_gap(rim_a, plane.reach + 2 * room);
+  const double margin =
+      std::min(plane.band, std::sqrt(plane.reach * plane.reach - across * across));
+  const std::vector<OutlineEdge> outline_a = a.rim(), outline_b = b.rim();
+  return outline_a.size() == outline_b.size() &&
+         run_along_each_other(outline_a, outline_b, margin) && a.is_one_face() && b.is_one_face() &&
+         !has_narrow_gap(outline_a, plane.reach + 2 * margin);
 }
 
 }  // namespace strake::geometry

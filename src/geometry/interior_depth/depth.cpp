@@ -342,13 +342,14 @@ class Centring {
 
   /// To a place or, from there, into the body as deep as the deepest, where that is in the other.
   bool move_deep(const Vec3d& to, const DistanceField& body, Depth& depth) const {
-    const NearestTriangle skin = body.nearest(to);
+    const NearestTriangle closest = body.nearest(to);
     const Vec3d out =
-        nearest_on_triangle(body.local(to), body.corners(skin.triangle)) - body.local(to);
-    const double missing = depth.value - skin.distance;
-    if (!(skin.distance > 0 && missing > 0 && missing < 2 * kSlack)) return move_to(to, depth);
+        nearest_on_triangle(body.local(to), body.corners(closest.triangle)) - body.local(to);
+    const double missing = depth.value - closest.distance;
+    if (!(closest.distance > 0 && missing > 0 && missing < 2 * kSlack)) return move_to(to, depth);
     for (const double less : {0.0, 1.0 / 64, 1.0, 2.0, 3.0})
-      if (move_to(to - out * (std::max(missing - less, 0.0) / skin.distance), depth)) return true;
+      if (move_to(to - out * (std::max(missing - less, 0.0) / closest.distance), depth))
+        return true;
     return move_to(to, depth);
   }
 

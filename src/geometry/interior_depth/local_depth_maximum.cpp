@@ -29,7 +29,7 @@ constexpr double kShortest = 0.25;
 /// A step that gains less, relative to the depth, was the last of its reach.
 constexpr double kGain = 1e-4;
 /// A point nearer to a triangle, grid units, lies on it.
-constexpr double kOnSkin = 1e-6;
+constexpr double kOnSurface = 1e-6;
 
 struct NearPlane {
   Vec3d away;  ///< unit, from the triangle's nearest point
@@ -41,7 +41,7 @@ struct NearPlane {
 std::optional<NearPlane> near_of(const PreparedTriangle& triangle, const Vec3d& at) {
   const Vec3d way = at - triangle.nearest(at);
   const double distance = length(way);
-  if (distance > kOnSkin) return NearPlane{way * (1 / distance), distance};
+  if (distance > kOnSurface) return NearPlane{way * (1 / distance), distance};
   // On the surface, inwards is away from it.
   if (triangle.size > 0) return NearPlane{-triangle.unit, distance};
   return std::nullopt;
@@ -128,18 +128,18 @@ class OnFlat {
   std::vector<BallConstraint> sides_;
 };
 
-/// `Room`: what the centre must not leave.
-template <class Room>
+/// `Domain`: what the centre must not leave.
+template <class Domain>
 class LocalAscent {
  public:
-  LocalAscent(const DistanceField& of, Room room, const std::optional<Box3d>& within)
-      : of_(of), room_(std::move(room)), within_(within) {}
+  LocalAscent(const DistanceField& of, Domain domain, const std::optional<Box3d>& within)
+      : of_(of), domain_(std::move(domain)), within_(within) {}
 
   Vec3d run(Vec3d at) {
     double depth = of_.nearest(at).distance;
     double reach = std::max(depth, 64 * kShortest);
     for (int step = 0; step < kMostClimbSteps && reach > kShortest; ++step) {
-      if (!room_.find_planes_near(at, reach)) {
+      if (!domain_.find_planes_near(at, reach)) {
         reach /= 2;
         continue;
       }
@@ -149,7 +149,7 @@ class LocalAscent {
       if (!all) reach = std::min(reach, depth);
       const InscribedBall next = all ? solve(at, depth, reach) : solve_by_cuts(at, depth, reach);
       if (next.r > depth * (1 + kGain) + kInset) {
-        const Vec3d there = room_.kept(at + next.x);
+        const Vec3d there = domain_.kept(at + next.x);
         const double found = of_.nearest(there).distance;
         if (!(found > depth)) {
           if (all) return at;
@@ -202,12 +202,12 @@ class LocalAscent {
           rows.push_back({n, 0, sign > 0 ? within_->hi[k] - at[k] : at[k] - within_->lo[k]});
       }
     for (const NearPlane& near : above_) rows.push_back({-near.away, 1, near.distance});
-    room_.add(at, rows);
+    domain_.add(at, rows);
     return largest_inscribed_ball({rows, depth + 4 * reach});
   }
 
   const DistanceField& of_;
-  Room room_;
+  Domain domain_;
   const std::optional<Box3d>& within_;
   std::vector<NearPlane> above_;
 };

@@ -157,14 +157,14 @@ class OcclusionBuffer::Painter {
       const PaperCorner& q = corners[i + 1 < corners.size() ? i + 1 : 0];
       const double up = as_double(q.v - p.v), right = as_double(q.u - p.u);
       const double above = v - as_double(p.v + at.v);
-      const double room = 1 + kShare * (std::fabs(v) + std::fabs(as_double(p.u + at.u)));
+      const double margin = 1 + kShare * (std::fabs(v) + std::fabs(as_double(p.u + at.u)));
       if (up == 0) {
-        if (right > 0 ? above <= room : -above <= room) return {1, -1};
+        if (right > 0 ? above <= margin : -above <= margin) return {1, -1};
         continue;
       }
       const double across = right / up * above;
       const double u = as_double(p.u + at.u) + across;
-      const double slack = room * (1 + std::fabs(right / up)) + kShare * std::fabs(across);
+      const double slack = margin * (1 + std::fabs(right / up)) + kShare * std::fabs(across);
       if (up > 0)
         span.hi = std::min(span.hi, u - slack);
       else

@@ -166,12 +166,12 @@ bool OccluderGatherer::find_neighbours() {
     box.include(own.view->edges[i].a);
     box.include(own.view->edges[i].b);
   }
-  const LooseBox room = rounded_outwards(box.moved(own.at));
+  const LooseBox own_box = rounded_outwards(box.moved(own.at));
   SegmentQuery any;
-  any.u0 = room.u0;
-  any.u1 = room.u1;
-  any.v0 = room.v0;
-  any.v1 = room.v1;
+  any.u0 = own_box.u0;
+  any.u1 = own_box.u1;
+  any.v0 = own_box.v0;
+  any.v1 = own_box.v1;
   const auto deepest = static_cast<double>(box.lo.w + own.at.w);
   any.w0 = deepest - 1e-12 * std::abs(deepest);
   near_.clear();

@@ -231,10 +231,10 @@ Result<std::vector<PieceCoverage>> find_coverage(std::span<const ClassedPiece> p
         const auto [first, second] = (*pairs)[i];
         for (const auto& [of, by] : {std::pair(first, second), std::pair(second, first)}) {
           if (has_equal[of] != 0) continue;
-          const auto stretch = common_interval(*pieces[of].piece, *pieces[by].piece, tolerance_mm);
-          if (stretch)
+          const auto interval = common_interval(*pieces[of].piece, *pieces[by].piece, tolerance_mm);
+          if (interval)
             out.push_back(
-                {of, {stretch->first, stretch->second, pieces[by].cls, pieces[by].after}});
+                {of, {interval->first, interval->second, pieces[by].cls, pieces[by].after}});
         }
       });
   if (!covers) return covers.error();

@@ -48,8 +48,8 @@ class LevelSearch {
   }
 
   LevelResult run() {
-    answer_.none =
-        clears(skin()) && clears(offset_surface(of_, {room_, q_.hull_in}, q_.level, flat_, work_));
+    answer_.none = clears(boundary_cells()) &&
+                   clears(offset_surface(of_, {room_, q_.hull_in}, q_.level, flat_, work_));
     answer_.cells = cells();
     return answer_;
   }
@@ -65,14 +65,14 @@ class LevelSearch {
   }
 
   /// Returns the surface of the second part.
-  [[nodiscard]] std::optional<std::vector<OffsetCell>> skin() const {
+  [[nodiscard]] std::optional<std::vector<OffsetCell>> boundary_cells() const {
     const auto near = triangles_near(in_, room_, 0);
     if (!near) return std::nullopt;
     std::vector<OffsetCell> cells;
     cells.reserve(near->size());
     for (const std::uint32_t t : *near) {
       cells.push_back(flat_cell(in_.placed(t), {}));
-      cells.back().on_skin = true;
+      cells.back().on_surface = true;
     }
     return cells;
   }
@@ -108,7 +108,7 @@ class LevelSearch {
   /// What of a cell is in the hulls of both, and as deep as the level in that of the first: a ball
   /// so large about any point that is looked for is in the first part.
   [[nodiscard]] std::optional<OffsetCell> part_in_hulls(OffsetCell cell) const {
-    const double slack = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
+    const double slack = cell.slack + q_.slack + (cell.on_surface ? 0 : flat_);
     // A ball round the cell tells for most half-spaces that all of it is inside.
     const Vec3d middle = middle_of(cell);
     const double radius = radius_of(cell, middle);
@@ -130,7 +130,7 @@ class LevelSearch {
   /// Also tells what is known of the parts about the cell, for those that it is cut into.
   bool is_clear(OpenCell& open) {
     const OffsetCell& cell = open.cell;
-    slack_ = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
+    slack_ = cell.slack + q_.slack + (cell.on_surface ? 0 : flat_);
     const CellHull hull(cell, slack_);
     if (!hull.box().meets(room_)) return true;
     middle_ = on_field_grid(middle_of(cell));
@@ -142,7 +142,7 @@ class LevelSearch {
     if (near.triangle != kNoIndex) hint_ = near.triangle;
     if (near.distance + radius_ < q_.level) return true;
     if (near.triangle != kNoIndex && is_near_triangle(cell, near.triangle)) return true;
-    if (!cell.on_skin) {
+    if (!cell.on_surface) {
       open.in = about_in_.classify(hull, open.in, middle_, crossing_, work_);
       if (open.in.side == CellCuller::CellSide::outside) return true;
     }
@@ -156,7 +156,7 @@ class LevelSearch {
       return false;
     }
     // The part of the cell in the second is next to the surface, in one piece.
-    const bool one_piece = cell.on_skin || open.in.side != CellCuller::CellSide::both;
+    const bool one_piece = cell.on_surface || open.in.side != CellCuller::CellSide::both;
     if (one_piece && open.of.side != CellCuller::CellSide::both && goal_.belongs &&
         !goal_.belongs(middle_))
       return true;

@@ -191,13 +191,13 @@ class TorusDepthSearch {
   [[nodiscard]] DeepestPoint measure(const ArcPair& cell) const {
     const PrimitiveOperand &in = cell.in_a ? a_ : b_, &other = cell.in_a ? b_ : a_;
     const SweptArc &arc = cell.in_a ? cell.a : cell.b, &beside = cell.in_a ? cell.b : cell.a;
-    const auto from_room = [&](const auto& measured) {
+    const auto from_domain = [&](const auto& measured) {
       if (other.torus)
         return maximise_depth(measured, TorusArcDomain(*other.torus, beside), best_.lower);
       return maximise_depth(measured, ConvexDomain{*other.convex}, best_.lower);
     };
-    if (in.torus) return from_room(TorusArcInterior(*in.torus, arc));
-    return from_room(ConvexDepthOracle(*in.convex, *in.field));
+    if (in.torus) return from_domain(TorusArcInterior(*in.torus, arc));
+    return from_domain(ConvexDepthOracle(*in.convex, *in.field));
   }
 
   void evaluate(ArcPair cell) {
