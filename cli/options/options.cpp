@@ -79,8 +79,8 @@ void add_input_options(CLI::App& command, InputOptions& options) {
   command
       .add_option(
           "--unit", options.units,
-          "Length unit of the files, whatever they say themselves: mm, m, in ...; of one of "
-          "them as part.stl=m; may be repeated")
+          "Length unit of the files, instead of the one that they state: mm, m, in ...; of one "
+          "of them as part.stl=m; may be repeated")
       ->type_name("[FILE=]UNIT")
       ->expected(1)
       ->allow_extra_args(false)
@@ -88,8 +88,8 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->group("Input");
   command
       .add_option("--up-axis", options.up_axes,
-                  "Axis that points up in the files, whatever they say themselves; of one of them "
-                  "as part.stl=y; may be repeated")
+                  "Axis that points up in the files, instead of the one that they state; of one of "
+                  "them as part.stl=y; may be repeated")
       ->type_name("[FILE=]x|y|z")
       ->expected(1)
       ->allow_extra_args(false)

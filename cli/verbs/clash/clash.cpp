@@ -314,7 +314,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
              "How near pairs are found; the result is the same (default tree)")
       ->group("Running");
   add_choice(*command, "--narrow-phase", options->narrow_phase, {"exact", "sphere-subdivision"},
-             "How pairs are judged: exactly, or by the baseline that benchmarks compare with "
+             "How pairs are evaluated: exactly, or by the baseline that benchmarks compare with "
              "(default exact)")
       ->group("Running");
   command

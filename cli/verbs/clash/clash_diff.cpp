@@ -89,7 +89,7 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
 Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
   const auto options = std::make_shared<ClashDiffOptions>();
   CLI::App* const command = clash.add_subcommand(
-      "diff", "What changed between two results: new, still there, gone, and what cannot be told");
+      "diff", "What changed between two results: new, still there, gone, and what is undecided");
   command->add_option("old", options->before, "Result of the older run, .json")
       ->type_name("OLD")
       ->required();
@@ -99,7 +99,7 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
   add_choice(
       *command, "--fail-on", options->fail_on, {"new-hit", "new", "worse", "cannot-tell"},
       "Exit code 1 where there is a new hit, any new result, a new or worse one, or one that "
-      "cannot be told; one that may be new counts as new, what a rule allows does not count");
+      "is undecided; one that may be new counts as new, what a rule allows does not count");
   add_output_option(*command, options->outputs, "Comparison",
                     formats_of(report::clash_diff_writers()));
   add_common_options(*command, common);

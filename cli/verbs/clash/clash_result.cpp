@@ -40,9 +40,10 @@ Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
 
 void add_result_options(CLI::App& command, ClashResultInput& options) {
   constexpr const char* kGroup = "Result";
-  add_choice(command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
-             "Put results together: by the object that most of them share, by place, by test or by "
-             "the files of the two")
+  add_choice(
+      command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
+      "Group results: by the object that most of them share, by proximity, by test or by the "
+      "files of the two")
       ->group(kGroup);
   command
       .add_option("--group-distance", options.group_distance,
@@ -65,8 +66,8 @@ void add_result_options(CLI::App& command, ClashResultInput& options) {
       ->group(kGroup);
   command
       .add_option("--regions", options.regions,
-                  fmt::format("Places of a pair that meets in several that are listed, the worst "
-                              "first; all are counted (default {}; 0: not told apart)",
+                  fmt::format("Contact regions that are listed of a pair with several, the worst "
+                              "first; all are counted (default {}; 0: none are searched for)",
                               clash::EngineOptions{}.most_regions))
       ->type_name("N")
       ->group(kGroup);

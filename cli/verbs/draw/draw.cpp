@@ -411,7 +411,7 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->group("Lines");
   add_choice(command, "--smooth", options.smooth, {"off", "tangent", "on"},
              "Edges where faces turn by less than the sharp angle, as thin lines: none, where a "
-             "curved skin begins or ends, or all (default off)")
+             "curved surface begins or ends, or all (default off)")
       ->group("Lines");
   command
       .add_option("--sharp-angle", options.sharp_angle,
@@ -469,8 +469,8 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->add_option(
           "--bucketing", options->bucketing,
           "How the faces of complex objects are found: in a grid of at most N by N buckets, "
-          "in as many as suit the faces (auto), or each is asked (off); the result is the "
-          "same (default auto)")
+          "in as many as suit the faces (auto), or by testing each face (off); the result is "
+          "the same (default auto)")
       ->type_name("off|N|auto")
       ->group("Running");
   command
