@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   try {
     return strake::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    strake::cli::say_out_of_memory();
+    strake::cli::print_out_of_memory();
     return static_cast<int>(strake::cli::ExitCode::memory);
   } catch (const std::exception& error) {
     strake::cli::Console().error(std::string("internal fault: ") + error.what() +

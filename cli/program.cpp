@@ -38,7 +38,7 @@ memory, 130 cancelled.)";
 /// Prints why the program ends, and returns the exit code.
 int ended_by(const Error& error, Console& console) {
   if (error.code == ErrorCode::memory)
-    say_out_of_memory();
+    print_out_of_memory();
   else
     console.error(error.text());
   return static_cast<int>(exit_code_of(error.code));
@@ -57,20 +57,20 @@ int run_verb(const Verb& verb, const CommonOptions& common, Console& console) {
 /// Returns what is wrong with the command line, in the words of this program rather than its
 /// parser's.
 std::string in_words(const CLI::App& program, const CLI::ParseError& error) {
-  const std::string said = error.what();
+  const std::string message = error.what();
   const std::vector<std::string> strange = program.remaining();
   if (program.get_subcommands().empty() && !strange.empty())
     return "there is no verb '" + strange.front() + "'";
-  const std::string option = said.substr(0, said.find(": "));
+  const std::string option = message.substr(0, message.find(": "));
   if (error.get_name() == "RequiredError") {
-    if (said.starts_with("A subcommand")) return "no verb is given";
-    if (said.starts_with("files")) return "no model file is given";
+    if (message.starts_with("A subcommand")) return "no verb is given";
+    if (message.starts_with("files")) return "no model file is given";
   }
-  if (error.get_name() == "ArgumentMismatch" && option != said) {
-    if (said.find("missing") != std::string::npos) return option + " wants a value";
+  if (error.get_name() == "ArgumentMismatch" && option != message) {
+    if (message.find("missing") != std::string::npos) return option + " wants a value";
     return option + " is given more than once";
   }
-  return said;
+  return message;
 }
 
 int usage_error(const CLI::App& program, const CLI::ParseError& error, Console& console) {

@@ -20,12 +20,12 @@ bool rays() {
   const TriangleCorners wall{{{500, -300, -300}, {500, 600, -300}, {500, -300, 600}}};
   const Vec3l eye{0, 0, 0};
   const LineInTriangle through = intersect({eye, {1, 0, 0}, LineKind::ray}, wall);
-  const bool inside = through.at.touch == Touch::point && through.place_first == 7;
+  const bool inside = through.at.touch == Touch::point && through.feature_first == 7;
   const LineInTriangle corner = intersect({eye, {500, 600, -300}, LineKind::ray}, wall);
   const LineInTriangle along = intersect({{500, -900, 0}, {500, 900, 0}, LineKind::segment}, wall);
   const Vec3d where = point_at({eye, {1, 0, 0}, LineKind::ray}, through.at.first).value();
   std::printf("the ray meets the wall at x = %g\n", where.x);
-  return inside && where == Vec3d{500, 0, 0} && corner.place_first == 2 && along.coplanar &&
+  return inside && where == Vec3d{500, 0, 0} && corner.feature_first == 2 && along.coplanar &&
          along.at.touch == Touch::segment;
 }
 
@@ -46,7 +46,7 @@ bool distances() {
   const Segment edge{{{300, 400, 500}, {600, 400, 100}}};
   const ClosestPoints c = closest_points(axis, edge);
   std::printf("axis to edge: %g\n", c.squared.distance());
-  return c.squared.distance() == 500 && c.place_a == 3 && c.place_b == 1;
+  return c.squared.distance() == 500 && c.feature_a == 3 && c.feature_b == 1;
 }
 
 bool axes() {

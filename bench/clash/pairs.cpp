@@ -17,7 +17,7 @@
 #include "clocks.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
-#include "support/revolved.hpp"
+#include "support/revolved_meshes.hpp"
 
 namespace {
 

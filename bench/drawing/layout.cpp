@@ -89,14 +89,14 @@ std::size_t wrong(std::span<const drawing::PlaneSegment> lines, const drawing::O
     drawing::LineIntervals expected;
     if (!covers.empty())
       drawing::append_intervals(expected, i, covers, rule.shortest / lines[i].length());
-    const drawing::LineIntervals& stretches = found.stretches;
+    const drawing::LineIntervals& cut_intervals = found.cut_intervals;
     const auto first =
-        std::partition_point(stretches.begin(), stretches.end(),
+        std::partition_point(cut_intervals.begin(), cut_intervals.end(),
                              [&](const drawing::LineInterval& s) { return s.line < i; });
     const auto last = std::partition_point(
-        first, stretches.end(), [&](const drawing::LineInterval& s) { return s.line == i; });
+        first, cut_intervals.end(), [&](const drawing::LineInterval& s) { return s.line == i; });
     drawing::LineIntervals got(first, last);
-    if (found.wholly.is_set(i)) got.push_back({i, true, 0, 1});
+    if (found.fully_covered.is_set(i)) got.push_back({i, true, 0, 1});
     if (!std::equal(got.begin(), got.end(), expected.begin(), expected.end(), same)) ++wrong;
   }
   return wrong;
@@ -124,8 +124,8 @@ int run(const Arguments& a) {
     const drawing::OverlapRule rule = drawing::duplicate_rule(distance);
     const auto cut = drawing::cut_overlaps(*flat, rule, context);
     if (!cut) return 3;
-    fmt::print("overlap {}: {} lines wholly, {} stretches\n", clock.text(), cut->wholly.count(),
-               cut->stretches.size());
+    fmt::print("overlap {}: {} lines wholly, {} stretches\n", clock.text(),
+               cut->fully_covered.count(), cut->cut_intervals.size());
     if (i + 1 < a.repeat) continue;
     const std::size_t faults = wrong(*flat, rule, *cut, a.sample);
     fmt::print("  {} lines against all: {} wrong\n", a.sample, faults);

@@ -26,9 +26,9 @@
 #include <vector>
 
 #include "clocks.hpp"
-#include "hlr/made_scenes.hpp"
+#include "hlr/line_coverage.hpp"
 #include "hlr/peers/peer.hpp"
-#include "hlr/same_lines.hpp"
+#include "hlr/synthetic_scenes.hpp"
 #include "hlr/view/projection.hpp"
 #include "strake/generate/ship.hpp"
 #include "strake/geometry/grid.hpp"

@@ -24,7 +24,6 @@
 #include <string>
 #include <vector>
 
-#include "made_plant.hpp"
 #include "repeat_rvm.hpp"
 #include "strake/generate/ship.hpp"
 #include "strake/io/reader.hpp"
@@ -32,6 +31,7 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/io_files.hpp"
+#include "synthetic_plant.hpp"
 
 namespace {
 

@@ -79,8 +79,8 @@ void add_input_options(CLI::App& command, InputOptions& options) {
   command
       .add_option(
           "--unit", options.units,
-          "Length unit of the files, whatever they say themselves: mm, m, in ...; of one of "
-          "them as part.stl=m; may be repeated")
+          "Length unit of the files, instead of the one that they state: mm, m, in ...; of one "
+          "of them as part.stl=m; may be repeated")
       ->type_name("[FILE=]UNIT")
       ->expected(1)
       ->allow_extra_args(false)
@@ -88,8 +88,8 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->group("Input");
   command
       .add_option("--up-axis", options.up_axes,
-                  "Axis that points up in the files, whatever they say themselves; of one of them "
-                  "as part.stl=y; may be repeated")
+                  "Axis that points up in the files, instead of the one that they state; of one of "
+                  "them as part.stl=y; may be repeated")
       ->type_name("[FILE=]x|y|z")
       ->expected(1)
       ->allow_extra_args(false)
@@ -139,11 +139,11 @@ namespace {
 
 /// A value with the file that it is given for: "part.stl=m" is for that file, "m" for all. The last
 /// '=' counts, as names of files may hold some.
-struct Said {
+struct FileValue {
   std::string text, file, value;
   bool of_all;
 
-  explicit Said(std::string all_of_it) : text(std::move(all_of_it)) {
+  explicit FileValue(std::string all_of_it) : text(std::move(all_of_it)) {
     const std::size_t at = text.rfind('=');
     of_all = at == std::string::npos;
     if (!of_all) file = text.substr(0, at);
@@ -161,27 +161,27 @@ bool ends_in(const std::filesystem::path& path, const std::filesystem::path& end
 
 /// Returns the files that a value is given for: those of its path, or else the one whose path ends
 /// in it, as the labels of results do.
-Result<std::vector<std::size_t>> files_meant(const Said& said,
+Result<std::vector<std::size_t>> files_meant(const FileValue& given_value,
                                              const std::vector<io::FileToRead>& files,
                                              const std::string& option) {
   std::vector<std::size_t> same, ending;
-  const std::filesystem::path meant = std::filesystem::path(said.file).lexically_normal();
+  const std::filesystem::path meant = std::filesystem::path(given_value.file).lexically_normal();
   std::error_code ignored;
   for (std::size_t f = 0; f < files.size(); ++f) {
     const std::filesystem::path path = files[f].path.lexically_normal();
     const std::filesystem::path whole =
         std::filesystem::absolute(files[f].path, ignored).lexically_normal();
-    if (said.of_all || path == meant || whole == meant) same.push_back(f);
-    if (!said.file.empty() && ends_in(path, meant)) ending.push_back(f);
+    if (given_value.of_all || path == meant || whole == meant) same.push_back(f);
+    if (!given_value.file.empty() && ends_in(path, meant)) ending.push_back(f);
   }
   if (!same.empty()) return same;
   if (ending.empty())
-    return usage("'" + said.file + "' is none of the files", option,
-                 "write the path or the name of one, as part.stl=" + said.value);
+    return usage("'" + given_value.file + "' is none of the files", option,
+                 "write the path or the name of one, as part.stl=" + given_value.value);
   for (const std::size_t f : ending)
     if (files[f].path.lexically_normal() != files[ending.front()].path.lexically_normal())
-      return usage("'" + said.file + "' may be " + files[ending.front()].path.string() + " or " +
-                       files[f].path.string(),
+      return usage("'" + given_value.file + "' may be " + files[ending.front()].path.string() +
+                       " or " + files[f].path.string(),
                    option, "write more of the path");
   return ending;
 }
@@ -189,22 +189,22 @@ Result<std::vector<std::size_t>> files_meant(const Said& said,
 /// Calls take(options, value) for every file that a value is given for; a value for one file takes
 /// precedence over one for all.
 template <class Take>
-Status take_said(const std::vector<std::string>& values, const std::string& option,
-                 std::vector<io::FileToRead>& files, const Take& take) {
+Status apply_file_values(const std::vector<std::string>& values, const std::string& option,
+                         std::vector<io::FileToRead>& files, const Take& take) {
   for (const bool of_all : {true, false}) {
     std::vector<bool> taken(files.size());
     for (const std::string& text : values) {
-      const Said said(text);
-      if (said.of_all != of_all) continue;
-      const auto meant = files_meant(said, files, option);
+      const FileValue given_value(text);
+      if (given_value.of_all != of_all) continue;
+      const auto meant = files_meant(given_value, files, option);
       if (!meant) return meant.error();
       for (const std::size_t f : *meant) {
         if (taken[f])
           return usage(of_all ? "is given more than once for all files"
                               : "is given more than once for " + files[f].path.string(),
-                       option, "give it once; FILE=" + said.value + " is of one file");
+                       option, "give it once; FILE=" + given_value.value + " is of one file");
         taken[f] = true;
-        if (Status status = take(files[f].options, said.value); !status) return status;
+        if (Status status = take(files[f].options, given_value.value); !status) return status;
       }
     }
   }
@@ -216,7 +216,7 @@ Status take_said(const std::vector<std::string>& values, const std::string& opti
 Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options) {
   std::vector<io::FileToRead> files;
   for (const std::string& file : options.files) files.push_back({file, {}});
-  Status status = take_said(
+  Status status = apply_file_values(
       options.units, "--unit", files, [](io::ReadOptions& read, const std::string& text) -> Status {
         const Result<double> unit = quantity_option(text, "--unit", parse_unit_mm);
         if (!unit) return unit.error();
@@ -224,7 +224,7 @@ Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options) {
         return {};
       });
   if (!status) return status.error();
-  status = take_said(
+  status = apply_file_values(
       options.up_axes, "--up-axis", files,
       [](io::ReadOptions& read, const std::string& text) -> Status {
         if (text != "x" && text != "y" && text != "z")

@@ -48,7 +48,7 @@ void Console::put(std::string_view line) {
   (void)write_all(STDERR_FILENO, text);  // there is nowhere to report that errors cannot be shown
 }
 
-void Console::say(std::string_view line) {
+void Console::note(std::string_view line) {
   const std::lock_guard lock(mutex_);
   if (!quiet_) put(printable(line));
 }
@@ -77,7 +77,7 @@ void Console::show_status(std::string_view line) {
   (void)write_all(STDERR_FILENO, text);
 }
 
-void say_out_of_memory() noexcept {
+void print_out_of_memory() noexcept {
   if (::isatty(STDERR_FILENO) == 1) (void)write_all(STDERR_FILENO, kEraseLine);
   (void)write_all(STDERR_FILENO,
                   "strake: error: out of memory (use a machine with more memory, or a part of the "
@@ -149,7 +149,7 @@ void ProgressLine::show() {
       console_.show_status(progress_text(now, elapsed));
     } else if (elapsed >= next_plain_s) {
       next_plain_s = elapsed + kPlainLineEveryS;
-      console_.say(progress_text(now, elapsed));
+      console_.note(progress_text(now, elapsed));
     }
   }
 }

@@ -25,7 +25,7 @@ class Console {
   [[nodiscard]] bool is_terminal() const { return terminal_; }
 
   /// Prints a line of narration; silent under --quiet.
-  void say(std::string_view line);
+  void note(std::string_view line);
   /// Prints "strake: ...", for what makes the exit code one of failure and standard output does not
   /// show, and for what makes the whole result doubtful; never silent.
   void warn(std::string_view line);
@@ -46,7 +46,7 @@ class Console {
 
 /// Prints the line about ErrorCode::memory on standard error. It takes neither memory nor a lock,
 /// so that it can be called wherever memory runs out.
-void say_out_of_memory() noexcept;
+void print_out_of_memory() noexcept;
 
 /// Writes data to standard output. Errors: output, with the reason (a full disk).
 [[nodiscard]] Status write_stdout(std::string_view text);

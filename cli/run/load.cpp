@@ -41,16 +41,16 @@ constexpr std::array<Mistake, 4> kMistakes{{{1000, "m", "mm", kAlike},
 /// and along two at least by extents that the grid has not made of nothing: two parts seldom are
 /// alike along all axes, and objects in a row often are.
 bool is_alike(const Vec3d& small, const Vec3d& large, const Mistake& mistake) {
-  constexpr double kTelling = 8;
+  constexpr double kSignificant = 8;
   const auto& [factor, small_unit, large_unit, alike] = mistake;
-  int telling = 0;
+  int significant_axes = 0;
   for (int k = 0; k < 3; ++k) {
     // The grid moves each of two ends by half a unit.
     if (large[k] > (small[k] + 1) * factor * alike || large[k] < (small[k] - 1) * factor / alike)
       return false;
-    if (small[k] >= kTelling) ++telling;
+    if (small[k] >= kSignificant) ++significant_axes;
   }
-  return telling >= 2;
+  return significant_axes >= 2;
 }
 
 struct FileExtent {
@@ -182,16 +182,16 @@ void print_diagnostics(Console& console, const Diagnostics& diagnostics,
     std::string line = fmt::format("{} {}", severity_name(count.severity), count.code);
     if (std::find(each.begin(), each.end(), count.code) != each.end()) {
       for (const Diagnostic& d : kept)
-        if (d.code == count.code) console.say(line + words(d));
+        if (d.code == count.code) console.note(line + words(d));
       if (count.count > Diagnostics::kMaxPerCode)
-        console.say(line + fmt::format(", {} in all", count.count));
+        console.note(line + fmt::format(", {} in all", count.count));
       continue;
     }
     if (count.count > 1) line += fmt::format(", first of {}", count.count);
     const auto first = std::find_if(kept.begin(), kept.end(),
                                     [&](const Diagnostic& d) { return d.code == count.code; });
     if (first != kept.end()) line += words(*first);
-    console.say(line);
+    console.note(line);
   }
 }
 
@@ -207,8 +207,8 @@ Result<model::Model> read_model(Session& session, const InputOptions& input) {
   for (const model::Object& object : model->objects) ++objects[object.file];
   for (std::size_t f = 0; f < model->files.size(); ++f) {
     const model::SourceFile& file = model->files[f];
-    session.console().say(fmt::format("{}: {}, {} objects, unit {}, {} up", file.label, file.format,
-                                      objects[f], file.unit, file.up_axis));
+    session.console().note(fmt::format("{}: {}, {} objects, unit {}, {} up", file.label,
+                                       file.format, objects[f], file.unit, file.up_axis));
   }
   print_diagnostics(session.console(), model->diagnostics);
   if (const std::string rest = unread_rest(*model); !rest.empty())
@@ -224,7 +224,7 @@ Result<model::Scene> place_model(Session& session, const model::Model& model,
   note_doubtful_units(*scene);
   print_diagnostics(session.console(), scene->diagnostics);
   if (scene->left_out > 0)
-    session.console().say(fmt::format(
+    session.console().note(fmt::format(
         "left out {} bodies of obstructions and insulation (--obstructions, --insulation)",
         scene->left_out));
   return scene;

@@ -50,7 +50,7 @@ bool memory_ran_out() {
 
 [[noreturn]] void end_program() {
   if (!memory_ran_out()) std::abort();
-  say_out_of_memory();
+  print_out_of_memory();
   ::_exit(static_cast<int>(ExitCode::memory));
 }
 

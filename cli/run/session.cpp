@@ -42,7 +42,7 @@ Status Session::write(const std::filesystem::path& target, Producer producer) {
   if (Status status = producer([&](std::string_view text) { file->write(text); }); !status)
     return status;
   if (Status status = file->commit(); !status) return status;
-  console_.say("wrote " + target.string());
+  console_.note("wrote " + target.string());
   return {};
 }
 

@@ -33,7 +33,7 @@ class Session {
   /// progress while nothing more precise is known.
   [[nodiscard]] Stats::Timer step(std::string_view name);
   [[nodiscard]] bool json() const { return options_.json; }
-  [[nodiscard]] bool wants_stats() const { return options_.stats; }
+  [[nodiscard]] bool has_stats_option() const { return options_.stats; }
 
   /// Names a file that the run will write, so that a cancellation cleans up after it.
   void will_write(const std::filesystem::path& target) { interrupts_.guard(target); }

@@ -48,7 +48,7 @@ Status write_model(Session& session, const model::Model& model, const std::strin
   session.will_write(file);
   const auto timer = session.step("write " + file);
   const Status status = writer->write(model, file, {}, session.context());
-  if (status) session.console().say("wrote " + file);
+  if (status) session.console().note("wrote " + file);
   return status;
 }
 
@@ -77,7 +77,7 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
     return generate::generate_ship(options, session.context());
   }();
   if (!ship) return ship.error();
-  session.console().say(
+  session.console().note(
       fmt::format("a ship section of {} objects, seed {}; {} pairs touch or clash",
                   ship->model.objects.size(), ship->options.seed, ship->truth.pairs.size()));
   if (const Status s = write_model(session, ship->model, given.output); !s) return s.error();

@@ -139,7 +139,7 @@ class Engine {
   void append_regions(std::size_t pair, const Candidate& c, std::vector<PartResult>& found) const {
     const std::uint32_t number = unique_pairs_.of[pair];
     if (regions_.empty() || regions_[number].empty()) {
-      found.push_back({pair, &c.evaluation.answer, nullptr, c.too_near_to_tell});
+      found.push_back({pair, &c.evaluation.answer, nullptr, c.region_count_uncertain});
       return;
     }
     const EvaluatedPairs all = evaluated();

@@ -33,14 +33,14 @@ class OverlapSearch {
 
   /// Returns the state of each pair, none of them open. Errors: cancelled.
   Result<std::vector<OverlapState>> run() {
-    if (const Status s = decide_flush(); !s) return s.error();
+    if (const Status s = decide_coplanar(); !s) return s.error();
     if (const Status s = decide_framed(); !s) return s.error();
     if (const Status s = decide_exactly(); !s) return s.error();
     return std::move(states_);
   }
 
  private:
-  Status decide_flush() {
+  Status decide_coplanar() {
     return parallel::for_each(
         work_.context(), {.name = "flush pairs", .n = work_.size(), .grain = PairTasks::kGrain},
         [&](std::size_t i) {
@@ -82,11 +82,13 @@ class OverlapSearch {
                         [&](std::size_t i) { return states_[i] == OverlapState::open; });
   }
 
-  template <class Judge>
-  Status decide(std::span<const std::size_t> some, std::string_view name, const Judge& judge) {
-    return work_.for_each_of(
-        some, name, PairTasks::kGrain,
-        [&](std::size_t i, const ScenePart& x, const ScenePart& y) { states_[i] = judge(x, y); });
+  template <class StateOf>
+  Status decide(std::span<const std::size_t> subset, std::string_view name,
+                const StateOf& state_of) {
+    return work_.for_each_of(subset, name, PairTasks::kGrain,
+                             [&](std::size_t i, const ScenePart& x, const ScenePart& y) {
+                               states_[i] = state_of(x, y);
+                             });
   }
 
   UniquePairs unique_pairs_;

@@ -12,7 +12,7 @@ namespace {
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-enum Maker : std::int64_t {
+enum ShapeKind : std::int64_t {
   kBox = 1,
   kShellBox,
   kBar,

@@ -26,10 +26,10 @@ Status solve(const ViewJob& job, const parallel::Context& context, Drawing& draw
 
 Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, const View& view,
                      const Options& options, const parallel::Context& context) {
-  Options asked = options;
+  Options adjusted = options;
   // The baseline knows no culling.
-  if (options.solver == Solver::push) asked.culling = false;
-  const Result<ViewJob> job = prepare_view(scene, drawn, view, asked, context);
+  if (options.solver == Solver::push) adjusted.culling = false;
+  const Result<ViewJob> job = prepare_view(scene, drawn, view, adjusted, context);
   if (!job) return job.error();
   Drawing drawing;
   drawing.view = view;

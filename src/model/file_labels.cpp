@@ -23,8 +23,8 @@ using Order = std::vector<std::uint32_t>;
 
 /// Returns the shortest end of `path`, cut before a folder and not shorter than `least`, that none
 /// of the other paths ends in; the whole path where they all end in it.
-std::string_view telling_end(std::string_view path, std::size_t least,
-                             std::span<const std::string> others) {
+std::string_view distinguishing_end(std::string_view path, std::size_t least,
+                                    std::span<const std::string> others) {
   for (std::size_t begin = path.size() - least; begin > 0;) {
     const std::string_view end = path.substr(begin);
     const auto ends_so = [&](const std::string& other) {
@@ -47,7 +47,7 @@ void add_folders(std::vector<SourceFile>& files) {
     std::vector<std::string> paths;
     for (const std::uint32_t f : same) paths.push_back(files[f].folders + label);
     for (std::size_t i = 0; i < same.size(); ++i)
-      files[same[i]].label = telling_end(paths[i], label.size(), paths);
+      files[same[i]].label = distinguishing_end(paths[i], label.size(), paths);
   }
 }
 

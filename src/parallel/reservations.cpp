@@ -127,7 +127,7 @@ class Rounds {
       if (slots_[slot] == Slot::done) return {};
       const std::uint32_t item = items_[slot];
       const std::uint32_t mine = bid_of(item);
-      const std::span<const std::size_t> places = asked(slot);
+      const std::span<const std::size_t> places = places_of(slot);
       const auto held = [&](std::size_t place) {
         return bids_[place].load(std::memory_order_relaxed) == mine;
       };
@@ -143,7 +143,7 @@ class Rounds {
     });
   }
 
-  [[nodiscard]] std::span<const std::size_t> asked(std::size_t slot) const {
+  [[nodiscard]] std::span<const std::size_t> places_of(std::size_t slot) const {
     const std::size_t first = slot % kRun == 0 ? 0 : ends_[slot - 1];
     return std::span(lists_[slot / kRun]).subspan(first, ends_[slot] - first);
   }

@@ -12,7 +12,7 @@ namespace {
 /// takes to wake up. So a wait costs at most twice the better of the two, and one worker's last
 /// block or the caller's few lines between two regions put nobody to sleep. An empty region costs
 /// 0.2 to 0.9 µs while the workers look, 30 to 70 once they sleep (decision 0033).
-constexpr int kLooks = 1000;
+constexpr int kSpins = 1000;
 
 /// Tells the core that this is a loop that waits: its other thread may go first.
 void breathe() noexcept {
@@ -23,8 +23,8 @@ void breathe() noexcept {
 #endif
 }
 
-void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value, int looks) noexcept {
-  for (int i = 0; i < looks; ++i) {
+void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value, int spins) noexcept {
+  for (int i = 0; i < spins; ++i) {
     if (word.load(std::memory_order_acquire) != value) return;
     breathe();
   }
@@ -35,7 +35,7 @@ void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value, int
 
 Team::Team(unsigned workers) : Executor(1) {
   // With more workers than processors the one that looks may keep the other from coming.
-  looks_ = workers <= default_workers() ? kLooks : 0;
+  spins_ = workers <= default_workers() ? kSpins : 0;
   const unsigned wanted = std::clamp(workers, 1U, kMaxWorkers) - 1;
   threads_.reserve(wanted);
   for (unsigned i = 0; i < wanted; ++i) {
@@ -63,14 +63,14 @@ void Team::call_all(FunctionRef<void(Seat)> body) noexcept {
   body(Seat{0, size()});
   for (std::uint32_t left = pending_.load(std::memory_order_acquire); left != 0;
        left = pending_.load(std::memory_order_acquire))
-    wait_while(pending_, left, looks_);
+    wait_while(pending_, left, spins_);
 }
 
 void Team::serve(unsigned index) noexcept {
   // Every worker sees every generation: run() starts the next only when all have reported back.
   std::uint32_t seen = 0;
   for (;;) {
-    wait_while(generation_, seen, looks_);
+    wait_while(generation_, seen, spins_);
     seen = generation_.load(std::memory_order_acquire);
     if (closing_.load(std::memory_order_relaxed)) return;
     (*body_)(Seat{index, size()});

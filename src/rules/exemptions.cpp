@@ -142,15 +142,15 @@ struct Labelling {
   Test operator()(const UnitRule& units) const {
     const std::vector<Object>& objects = rule_context.model().objects;
     std::vector<std::int64_t> unit(objects.size(), -1);
-    std::vector<bool> said(objects.size());
+    std::vector<bool> labelled(objects.size());
     for (const UnitRule::UnitGroup& group : units.groups) {
       const std::vector<bool> picked = rule_context.pick(group.chooser);
       rule_context.check_shadow(
-          picked, [&](std::size_t o) { return !said[o]; }, group.chooser.where,
+          picked, [&](std::size_t o) { return !labelled[o]; }, group.chooser.where,
           "every object that it picks is in an earlier group");
       for (std::size_t o = 0; o < objects.size(); ++o) {
-        if (!picked[o] || said[o]) continue;
-        said[o] = true;
+        if (!picked[o] || labelled[o]) continue;
+        labelled[o] = true;
         unit[o] = group.number;
       }
     }
@@ -158,7 +158,7 @@ struct Labelling {
     for (std::size_t o = 0; o < objects.size() && !units.attribute.empty(); ++o) {
       const auto values = values_of(rule_context.model(), objects[o], units.attribute);
       some = some || !values.empty();
-      if (said[o]) continue;
+      if (labelled[o]) continue;
       for (const std::string_view value : values) {
         if (const auto number = parse_integer(value))
           unit[o] = *number;
@@ -167,7 +167,7 @@ struct Labelling {
                                          "the attribute '" + units.attribute + "' is '" +
                                              std::string(value) + "'; the object is in no unit",
                                          objects[o].id);
-        said[o] = true;
+        labelled[o] = true;
         break;
       }
     }

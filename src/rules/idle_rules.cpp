@@ -36,7 +36,7 @@ std::map<std::string_view, RuleEffect> effects_of(std::span<const clash::Report>
       effects[e.rule].add(e.pairs > 0, e.shadowed_by, test.exempted, kExempted);
     // A rule that was applied to a pair and did not allow the result has done its work.
     for (const clash::AllowedCount& a : test.allowed)
-      effects[a.rule].add(a.pairs + a.places > 0 || (a.candidates > 0 && a.shadowed_by < 0),
+      effects[a.rule].add(a.pairs + a.regions > 0 || (a.candidates > 0 && a.shadowed_by < 0),
                           a.shadowed_by, test.allowed, kAllowed);
   }
   return effects;

@@ -41,9 +41,9 @@ std::optional<Level> level_of(std::string_view value) {
 }
 
 /// Works the rules out for a scene once; each test takes those that it follows.
-class PlanMaker {
+class PlanBuilder {
  public:
-  PlanMaker(const RuleFile& rules, const model::Scene& scene, const parallel::Context& context)
+  PlanBuilder(const RuleFile& rules, const model::Scene& scene, const parallel::Context& context)
       : rules_(rules), rule_context_(scene, choosers_of(rules), context) {}
 
   Result<Plan> run() {
@@ -294,7 +294,7 @@ model::SceneOptions Rules::scene_options() const {
 }
 
 Result<Plan> Rules::plan(const model::Scene& scene, const parallel::Context& context) const {
-  return PlanMaker(*file_, scene, context).run();
+  return PlanBuilder(*file_, scene, context).run();
 }
 
 }  // namespace strake::rules

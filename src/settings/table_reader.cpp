@@ -48,24 +48,24 @@ TableReader::TableReader(ParseContext& reading, const Value& table, std::string 
       at_(table.at),
       what_(std::move(what)) {
   if (table_ != nullptr)
-    asked_.assign(table_->size(), false);
+    read_keys_.assign(table_->size(), false);
   else
     reading.fault(at_, what_ + " is " + std::string(type_name(table)) + ", not a table",
                   "write " + what_ + " on a line of its own and its keys below");
 }
 
 void TableReader::refuse_other_keys() {
-  for (std::size_t k = 0; k < asked_.size(); ++k)
-    if (!asked_[k])
+  for (std::size_t k = 0; k < read_keys_.size(); ++k)
+    if (!read_keys_[k])
       reading_.fault((*table_)[k].at, what_ + " has no key " + in_quotes((*table_)[k].key),
                      "its keys are " + listed(known_));
 }
 
 const Value* TableReader::value(std::string_view key) {
   if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
-  for (std::size_t k = 0; k < asked_.size(); ++k)
+  for (std::size_t k = 0; k < read_keys_.size(); ++k)
     if ((*table_)[k].key == key) {
-      asked_[k] = true;
+      read_keys_[k] = true;
       return &(*table_)[k].value;
     }
   return nullptr;
@@ -73,9 +73,9 @@ const Value* TableReader::value(std::string_view key) {
 
 std::vector<const KeyValue*> TableReader::others() {
   std::vector<const KeyValue*> entries;
-  for (std::size_t k = 0; k < asked_.size(); ++k) {
-    if (!asked_[k]) entries.push_back(&(*table_)[k]);
-    asked_[k] = true;
+  for (std::size_t k = 0; k < read_keys_.size(); ++k) {
+    if (!read_keys_[k]) entries.push_back(&(*table_)[k]);
+    read_keys_[k] = true;
   }
   return entries;
 }

@@ -97,7 +97,7 @@ class TableReader {
   const Table* table_ = nullptr;
   SourcePosition at_;
   std::string what_;
-  std::vector<bool> asked_;
+  std::vector<bool> read_keys_;
   std::vector<std::string> known_;  ///< keys that were read, there or not
 };
 

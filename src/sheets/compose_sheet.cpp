@@ -79,11 +79,12 @@ class Composer {
     Result<Picks> picked = model::pick(selections, scene_, context_);
     if (!picked) return picked.error();
     picks_ = std::move(*picked);
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     for (std::size_t s = 0; s < picks_.size(); ++s) {
       const bool some = std::find(picks_[s].begin(), picks_[s].end(), true) != picks_[s].end();
-      if (some || std::find(told.begin(), told.end(), choosers[s]->where) != told.end()) continue;
-      told.push_back(choosers[s]->where);
+      if (some || std::find(reported.begin(), reported.end(), choosers[s]->where) != reported.end())
+        continue;
+      reported.push_back(choosers[s]->where);
       warn("selection-matches-nothing", model::picks_nothing(choosers[s]->selection, *scene_.model),
            choosers[s]->where);
     }
@@ -337,17 +338,17 @@ class Composer {
                        OccupancyGrid& occupancy) {
     const TagCount count = write_tags(tag, picked, *scene_.model, room_, view, occupancy);
     const std::string where = tag.where + ", the view '" + view.name + "'";
-    const auto say = [&](std::size_t number, const char* code, const std::string& one,
-                         const std::string& many) {
+    const auto warn_of = [&](std::size_t number, const char* code, const std::string& one,
+                             const std::string& many) {
       if (number == 1) warn(code, "1 object " + one, where);
       if (number > 1) warn(code, std::to_string(number) + " objects " + many, where);
     };
     const std::string some = " some of what '" + tag.text + "' names";
-    say(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
-        "have nothing to be tagged with");
-    say(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
-    say(count.crowded, "tag-no-room", "is without its tag: there is no room for it",
-        "are without their tags: there is no room for them");
+    warn_of(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
+            "have nothing to be tagged with");
+    warn_of(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
+    warn_of(count.crowded, "tag-no-room", "is without its tag: there is no room for it",
+            "are without their tags: there is no room for them");
     return static_cast<std::size_t>(std::count(picked.begin(), picked.end(), 1)) - count.unseen;
   }
 

@@ -14,8 +14,8 @@
 #include "strake/geometry/mesh.hpp"
 #include "support/draw.hpp"
 #include "support/meshes.hpp"
-#include "support/revolved.hpp"
-#include "support/tube.hpp"
+#include "support/revolved_meshes.hpp"
+#include "support/tube_mesh.hpp"
 
 namespace strake::test {
 

@@ -81,7 +81,7 @@ Result<clash::Options> test_options(const ClashOptions& given) {
 
 void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   clash::Counters sum;
-  std::uint64_t allowed_places = 0;
+  std::uint64_t allowed_other_regions = 0;
   for (const clash::Report& test : tests) {
     sum.candidate_pairs += test.counters.candidate_pairs;
     sum.allowed_pairs += test.counters.allowed_pairs;
@@ -92,7 +92,7 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
     sum.volume_triangle_pairs += test.counters.volume_triangle_pairs;
     sum.volumes_given_up += test.counters.volumes_given_up;
     sum.regions_given_up += test.counters.regions_given_up;
-    allowed_places += test.count_allowed_regions;
+    allowed_other_regions += test.count_allowed_regions;
   }
   const clash::NotComparedCounts lacks = clash::counts_of(tests);
   stats.count("candidate pairs", sum.candidate_pairs);
@@ -104,7 +104,7 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   stats.count("volume triangle pairs", sum.volume_triangle_pairs);
   stats.count("volumes given up", sum.volumes_given_up);
   stats.count("regions given up", sum.regions_given_up);
-  stats.count("allowed places of others", allowed_places);
+  stats.count("allowed places of others", allowed_other_regions);
   stats.count("pairs not compared", lacks.pairs);
   stats.count("objects not compared whole", lacks.objects);
 }
@@ -220,7 +220,7 @@ Status check_files(const ClashOptions& given) {
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   Result<ClashRequest> request = request_of(given);
   if (!request) return request.error();
-  request->options.engine.log_pairs = !given.result.log_pairs.empty() || session.wants_stats();
+  request->options.engine.log_pairs = !given.result.log_pairs.empty() || session.has_stats_option();
   if (const Status status = check(given.result); !status) return status.error();
   if (const Status status = check_files(given); !status) return status.error();
   const Result<Loaded> loaded = load(session, given.input, request->scene);
@@ -314,7 +314,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
              "How near pairs are found; the result is the same (default tree)")
       ->group("Running");
   add_choice(*command, "--narrow-phase", options->narrow_phase, {"exact", "sphere-subdivision"},
-             "How pairs are judged: exactly, or by the baseline that benchmarks compare with "
+             "How pairs are evaluated: exactly, or by the baseline that benchmarks compare with "
              "(default exact)")
       ->group("Running");
   command

@@ -33,11 +33,11 @@ bool fails(const report::ClashDiff& diff, const std::string& fail_on) {
   return fail_on == "cannot-tell" && !diff.cannot_tell.empty();
 }
 
-void tell_maybe_new(Session& session, const report::ClashDiff& diff, const std::string& fail_on) {
+void print_maybe_new(Session& session, const report::ClashDiff& diff, const std::string& fail_on) {
   if (fail_on.empty() || fail_on == "cannot-tell") return;
   const bool hits_only = fail_on == "new-hit";
   if (const std::size_t count = diff.maybe_new(hits_only); count > 0)
-    session.console().say(
+    session.console().note(
         fmt::format("--fail-on {}: {} among 'cannot tell' that may be new, and count as such: {}",
                     fail_on, hits_only ? "hits" : "results", count));
 }
@@ -75,12 +75,12 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
     });
     if (!status) return status.error();
   }
-  const Status told =
+  const Status written =
       session.json()
           ? session.write_stdout(as_json)
           : session.write_stdout(report::clash_diff_table(diff, {.width = terminal_width()}));
-  if (!told) return told.error();
-  tell_maybe_new(session, diff, given.fail_on);
+  if (!written) return written.error();
+  print_maybe_new(session, diff, given.fail_on);
   return fails(diff, given.fail_on) ? ExitCode::clashes : ExitCode::done;
 }
 
@@ -89,7 +89,7 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
 Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
   const auto options = std::make_shared<ClashDiffOptions>();
   CLI::App* const command = clash.add_subcommand(
-      "diff", "What changed between two results: new, still there, gone, and what cannot be told");
+      "diff", "What changed between two results: new, still there, gone, and what is undecided");
   command->add_option("old", options->before, "Result of the older run, .json")
       ->type_name("OLD")
       ->required();
@@ -99,7 +99,7 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
   add_choice(
       *command, "--fail-on", options->fail_on, {"new-hit", "new", "worse", "cannot-tell"},
       "Exit code 1 where there is a new hit, any new result, a new or worse one, or one that "
-      "cannot be told; one that may be new counts as new, what a rule allows does not count");
+      "is undecided; one that may be new counts as new, what a rule allows does not count");
   add_output_option(*command, options->outputs, "Comparison",
                     formats_of(report::clash_diff_writers()));
   add_common_options(*command, common);

@@ -40,9 +40,10 @@ Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
 
 void add_result_options(CLI::App& command, ClashResultInput& options) {
   constexpr const char* kGroup = "Result";
-  add_choice(command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
-             "Put results together: by the object that most of them share, by place, by test or by "
-             "the files of the two")
+  add_choice(
+      command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
+      "Group results: by the object that most of them share, by proximity, by test or by the "
+      "files of the two")
       ->group(kGroup);
   command
       .add_option("--group-distance", options.group_distance,
@@ -65,8 +66,8 @@ void add_result_options(CLI::App& command, ClashResultInput& options) {
       ->group(kGroup);
   command
       .add_option("--regions", options.regions,
-                  fmt::format("Places of a pair that meets in several that are listed, the worst "
-                              "first; all are counted (default {}; 0: not told apart)",
+                  fmt::format("Contact regions that are listed of a pair with several, the worst "
+                              "first; all are counted (default {}; 0: none are searched for)",
                               clash::EngineOptions{}.most_regions))
       ->type_name("N")
       ->group(kGroup);
@@ -169,15 +170,15 @@ bool has_failing_pair(const clash::Findings& findings, const std::string& fail_o
         ++perhaps;
     }
   if (perhaps > 0)
-    console.say(
+    console.note(
         fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "
                     "besides {} that are",
                     fail_on, perhaps, surely));
   if (lacks.pairs > 0)
-    console.say(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
-                            fail_on, lacks.pairs));
+    console.note(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
+                             fail_on, lacks.pairs));
   if (lacks.objects > 0)
-    console.say(
+    console.note(
         fmt::format("--fail-on {}: does not go by objects that could not be compared whole "
                     "(--strict does): {}",
                     fail_on, lacks.objects));

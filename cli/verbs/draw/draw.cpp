@@ -63,8 +63,8 @@ Result<geometry::Vec3l> direction_of(const std::string& text, const std::string&
   }
   const geometry::Vec3l& v = parsed->vector;
   if (parsed->rounded && parsed->rounding_error > 0)
-    console.say(fmt::format("{} {} is taken as {},{},{}, off by {:.1e} rad", option, text, v.x, v.y,
-                            v.z, parsed->rounding_error));
+    console.note(fmt::format("{} {} is taken as {},{},{}, off by {:.1e} rad", option, text, v.x,
+                             v.y, v.z, parsed->rounding_error));
   return v;
 }
 
@@ -92,8 +92,8 @@ Result<hlr::Section> section_of(const std::string& text, const hlr::View& view, 
   }
   const geometry::Vec3l& n = parsed->section.normal;
   if (parsed->rounded && parsed->rounding_error > 0)
-    console.say(fmt::format("--section {} is taken as normal {},{},{}, off by {:.1e} rad", text,
-                            n.x, n.y, n.z, parsed->rounding_error));
+    console.note(fmt::format("--section {} is taken as normal {},{},{}, off by {:.1e} rad", text,
+                             n.x, n.y, n.z, parsed->rounding_error));
   return parsed->section;
 }
 
@@ -208,21 +208,21 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
                 drawing.count[s]);
 }
 
-void tell_drawing(Console& console, const drawing::NeutralDrawing& drawing,
-                  const model::Model& model) {
+void print_drawing_summary(Console& console, const drawing::NeutralDrawing& drawing,
+                           const model::Model& model) {
   const auto of = [&](drawing::LineState state) {
     return drawing.count[static_cast<std::size_t>(state)];
   };
   const std::uint64_t visible = of(drawing::LineState::visible);
-  console.say(object_summary_line(drawing.account, model));
-  console.say(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
-                          drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
-                          drawing.sheet.height_mm));
+  console.note(object_summary_line(drawing.account, model));
+  console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
+                           drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
+                           drawing.sheet.height_mm));
   if (visible > 0) return;
-  console.say(of(drawing::LineState::clipped) > 0
-                  ? "warning empty-sheet: nothing lies within the limits, the field of view and "
-                    "before the sections"
-                  : "warning empty-sheet: the model has nothing to draw");
+  console.note(of(drawing::LineState::clipped) > 0
+                   ? "warning empty-sheet: nothing lies within the limits, the field of view and "
+                     "before the sections"
+                   : "warning empty-sheet: the model has nothing to draw");
 }
 
 Status write_drawing(Session& session, const DrawOptions& given,
@@ -332,7 +332,7 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   const Result<drawing::NeutralDrawing> drawing = compute(session, *request, loaded->scene);
   if (!drawing) return drawing.error();
   count_work(session.stats(), *drawing);
-  tell_drawing(session.console(), *drawing, *loaded->model);
+  print_drawing_summary(session.console(), *drawing, *loaded->model);
   if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
     return status.error();
   return strict_exit_code(given.input, *loaded);
@@ -411,7 +411,7 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->group("Lines");
   add_choice(command, "--smooth", options.smooth, {"off", "tangent", "on"},
              "Edges where faces turn by less than the sharp angle, as thin lines: none, where a "
-             "curved skin begins or ends, or all (default off)")
+             "curved surface begins or ends, or all (default off)")
       ->group("Lines");
   command
       .add_option("--sharp-angle", options.sharp_angle,
@@ -469,8 +469,8 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->add_option(
           "--bucketing", options->bucketing,
           "How the faces of complex objects are found: in a grid of at most N by N buckets, "
-          "in as many as suit the faces (auto), or each is asked (off); the result is the "
-          "same (default auto)")
+          "in as many as suit the faces (auto), or by testing each face (off); the result is "
+          "the same (default auto)")
       ->type_name("off|N|auto")
       ->group("Running");
   command

@@ -161,7 +161,7 @@ Status set_perspective(const PerspectiveOptions& given, hlr::View& view, Console
   }
   if (direction->rounding_error > 0) {
     const geometry::Vec3l& d = direction->vector;
-    console.say(
+    console.note(
         fmt::format("the paper is square to {},{},{}, off the way to --target by {:.1e} rad", d.x,
                     d.y, d.z, direction->rounding_error));
   }

@@ -19,7 +19,7 @@ namespace strake::cli {
 
 namespace {
 
-void tell_sheet(Session& session, const sheets::Sheet& sheet, const model::Model& model) {
+void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const model::Model& model) {
   Console& console = session.console();
   for (const sheets::PlacedView& view : sheet.views) {
     std::uint64_t lines = 0;
@@ -27,9 +27,10 @@ void tell_sheet(Session& session, const sheets::Sheet& sheet, const model::Model
     const auto of = [&](drawing::LineState state) {
       return view.drawing.count[static_cast<std::size_t>(state)];
     };
-    console.say(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
-                            of(drawing::LineState::visible), lines, view.drawing.sheet.scale_text));
-    console.say(
+    console.note(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
+                             of(drawing::LineState::visible), lines,
+                             view.drawing.sheet.scale_text));
+    console.note(
         fmt::format("view '{}': {}", view.name, object_summary_line(view.drawing.account, model)));
     count_objects(session.stats(), view.drawing.account, view.name + ": ");
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)
@@ -81,7 +82,7 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
     return file->compose(loaded->scene, request.options, session.context());
   }();
   if (!sheet) return sheet.error();
-  tell_sheet(session, *sheet, *loaded->model);
+  print_sheet_summary(session, *sheet, *loaded->model);
   for (const std::string& output : request.outputs) {
     const Result<sheets::SheetWriter> writer = sheets::find_sheet_writer(output);
     if (!writer) return writer.error();

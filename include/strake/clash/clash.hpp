@@ -166,7 +166,7 @@ struct ExemptedPair {
 struct AllowedCount {
   std::string rule;
   std::uint64_t candidates = 0, pairs = 0;
-  std::uint64_t places = 0;       ///< regions that it allows of other pairs (Pair::allowed_regions)
+  std::uint64_t regions = 0;      ///< those that it allows of other pairs (Pair::allowed_regions)
   std::int32_t shadowed_by = -1;  ///< as in Exempted, but into Report::allowed
 };
 

@@ -13,7 +13,8 @@ namespace strake::geometry {
 struct ClosestPoints {
   SquaredDistance squared;  ///< zero when the shapes share a point
   RationalPoint on_a, on_b;
-  FeatureMask place_a = 1, place_b = 1;  ///< the feature whose relative interior holds the point
+  /// The feature whose relative interior holds the point.
+  FeatureMask feature_a = 1, feature_b = 1;
 };
 
 /// Returns the closest points of two shapes on the integer grid.

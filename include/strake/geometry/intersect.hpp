@@ -18,7 +18,7 @@ struct LineStretch {
 /// Intersections of a segment, ray or line with a plane, a triangle, a box or another line:
 ///
 ///     const LineInTriangle hit = intersect(GridLine{eye, target, LineKind::ray}, triangle);
-///     if (hit.at.touch == Touch::point && hit.place_first == 7) ...   // through the interior
+///     if (hit.at.touch == Touch::point && hit.feature_first == 7) ...   // through the interior
 ///     const Vec3d p = point_at(line, hit.at.first).value();
 ///
 /// 1. The class of a result is exact in the range of grid_shapes.hpp: coplanar, through an edge,
@@ -46,14 +46,16 @@ struct LineInTriangle {
   LineStretch at;
   bool coplanar = false;           ///< the line lies in the triangle's plane
   int side_from = 0, side_to = 0;  ///< of the line's two points, against the triangle's plane
-  FeatureMask place_first = 0, place_last = 0;  ///< features of the triangle at the interval's ends
+  /// The features of the triangle at the interval's ends.
+  FeatureMask feature_first = 0, feature_last = 0;
 };
 [[nodiscard]] LineInTriangle intersect(const GridLine& line, const TriangleCorners& triangle);
 
 struct LineInBox {
   LineStretch at;
   bool through_inside = false;  ///< part of the line lies in the open box: more than a touch
-  BoxFeatureMask place_first = 0, place_last = 0;  ///< features of the box at the interval's ends
+  /// The features of the box at the interval's ends.
+  BoxFeatureMask feature_first = 0, feature_last = 0;
 };
 /// Intersects a line with a closed solid box that is not empty; the box may be flat.
 [[nodiscard]] LineInBox intersect(const GridLine& line, const Box3l& box);

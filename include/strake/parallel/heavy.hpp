@@ -76,8 +76,8 @@ template <class Cost, class Body>
   if (!apart) return std::move(apart).error();
   // One phase for all: what is inside a heavy item has none to show.
   const ProgressPhase phase(context.progress, region.name, region.n);
-  Context told = context;
-  if (phase.is_ours()) told.progress = nullptr;
+  Context inner = context;
+  if (phase.is_ours()) inner.progress = nullptr;
   const auto run_one = [&](std::size_t i) {
     Status status = detail::status_of(region.name, i, [&] { return body(i); });
     phase.add(1);
@@ -85,7 +85,7 @@ template <class Cost, class Body>
   };
   Status of_heavy;
   for (const std::uint32_t i : apart->heavy) {
-    of_heavy = for_each(told, {.name = region.name, .n = 1},
+    of_heavy = for_each(inner, {.name = region.name, .n = 1},
                         [&](std::size_t /*only*/) { return run_one(i); });
     if (of_heavy) continue;
     if (context.stop.stop_requested()) return detail::cancelled_error();
@@ -98,7 +98,7 @@ template <class Cost, class Body>
   auto order = apart->longest_first(*costs, others);
   if (!order) return std::move(order).error();
   others.order = *order;
-  Status status = for_each(told, others, [&](std::size_t k) { return run_one(apart->rest[k]); });
+  Status status = for_each(inner, others, [&](std::size_t k) { return run_one(apart->rest[k]); });
   return status ? std::move(of_heavy) : std::move(status);
 }
 

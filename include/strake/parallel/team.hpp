@@ -37,7 +37,7 @@ class Team final : public Executor {
   void call_all(FunctionRef<void(Seat)> body) noexcept override;
   void serve(unsigned index) noexcept;
 
-  int looks_ = 0;  ///< before going to sleep
+  int spins_ = 0;  ///< before going to sleep
   std::vector<std::thread> threads_;
   const FunctionRef<void(Seat)>* body_ = nullptr;
   std::atomic<bool> closing_{false};

@@ -24,7 +24,7 @@ struct DiffEntry {
 
 /// Returns 1 where a result has more separate regions than before, -1 where it has fewer, 0 where
 /// it has as many or a run did not count them.
-[[nodiscard]] int more_places(const DocumentResult& before, const DocumentResult& after);
+[[nodiscard]] int compare_region_counts(const DocumentResult& before, const DocumentResult& after);
 
 struct SettingChange {
   std::string test, setting;

@@ -53,7 +53,7 @@ struct DocumentTest {
   DocumentCounts counts;  ///< as the run gave them
   /// The number of regions that rules allow of results that they do not allow; absent: the run did
   /// not count them.
-  std::optional<std::uint64_t> allowed_places;
+  std::optional<std::uint64_t> allowed_other_regions;
   /// What classes depend on, as text by name: settings, and those of the cells of a matrix.
   std::map<std::string, std::string> settings;
   double clearance_mm = 0, touch_gap_mm = 0;

@@ -38,7 +38,7 @@ Box3d extent_in(const Mat3d& axes, const Part& part) {
 }
 
 /// Returns the volume of a part's box in a frame, with what it is inflated by.
-double room_in(const Mat3d& axes, const Part& part, double reach) {
+double box_volume_in(const Mat3d& axes, const Part& part, double reach) {
   const Box3d box = extent_in(axes, part);
   const Vec3d d = box.hi - box.lo;
   return (d.x + reach) * (d.y + reach) * (d.z + reach);
@@ -46,22 +46,22 @@ double room_in(const Mat3d& axes, const Part& part, double reach) {
 
 struct TiltedPart {
   std::uint32_t unique = 0;
-  double room = 0;  ///< volume of its own box; 0 for a part that is not rotated
+  double volume = 0;  ///< volume of its own box; 0 for a part that is not rotated
   double gain = 0;
   Mat3d axes;
 
   /// The part that gains most goes first; parts that are alike may go in any order.
   [[nodiscard]] bool before(const TiltedPart& other) const {
-    return std::tie(other.gain, room, axes.row) < std::tie(gain, other.room, other.axes.row);
+    return std::tie(other.gain, volume, axes.row) < std::tie(gain, other.volume, other.axes.row);
   }
 };
 
 TiltedPart tighter_box_of(const Part& part, std::uint32_t unique, double reach) {
   if (part.triangles.empty()) return {};
   const Mat3d axes{geometry::orthonormal_axes(geometry::make_oriented_box(part))};
-  const double own = room_in(axes, part, reach), straight = room_in({}, part, reach);
+  const double own = box_volume_in(axes, part, reach), straight = box_volume_in({}, part, reach);
   if (!(own * kGain < straight)) return {};
-  return {.unique = unique, .room = own, .gain = straight / own, .axes = axes};
+  return {.unique = unique, .volume = own, .gain = straight / own, .axes = axes};
 }
 
 /// A frame for each unique part; the first, for parts that are not rotated, is that of the
@@ -72,7 +72,7 @@ struct Frames {
 
   void take(const ScenePartList& list, std::vector<TiltedPart> askew, double reach) {
     of_unique.assign(list.unique.size(), 0);
-    std::erase_if(askew, [](const TiltedPart& a) { return !(a.room > 0); });
+    std::erase_if(askew, [](const TiltedPart& a) { return !(a.volume > 0); });
     std::ranges::sort(askew, [](const TiltedPart& x, const TiltedPart& y) { return x.before(y); });
     for (const TiltedPart& a : askew)
       of_unique[a.unique] = frame_for(a, *list.unique[a.unique], reach);
@@ -80,11 +80,11 @@ struct Frames {
 
  private:
   std::uint32_t frame_for(const TiltedPart& askew, const Part& part, double reach) {
-    std::pair<double, std::uint32_t> tightest{askew.gain * askew.room, 0};
+    std::pair<double, std::uint32_t> tightest{askew.gain * askew.volume, 0};
     for (std::uint32_t f = 1; f < all.size(); ++f) {
-      const double room = room_in(all[f], part, reach);
-      if (room <= kLoss * askew.room) return f;
-      tightest = std::min(tightest, {room, f});
+      const double volume = box_volume_in(all[f], part, reach);
+      if (volume <= kLoss * askew.volume) return f;
+      tightest = std::min(tightest, {volume, f});
     }
     if (all.size() >= kMostFrames) return tightest.second;
     all.push_back(askew.axes);

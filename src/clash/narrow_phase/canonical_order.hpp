@@ -33,11 +33,11 @@ void swap_sides(std::optional<Answer>& answer, const PairOperand& a, const PairO
 }
 
 /// Returns what judge(x, y) gives for two parts in canonical order, as a result about (a, b).
-template <class Judge>
+template <class Evaluate>
 [[nodiscard]] auto evaluate_in_canonical_order(const PairOperand& a, const PairOperand& b,
-                                               Judge&& judge) {
+                                               Evaluate&& evaluate) {
   const bool ordered = in_canonical_order(a.treed, b.treed);
-  auto answer = ordered ? judge(a, b) : judge(b, a);
+  auto answer = ordered ? evaluate(a, b) : evaluate(b, a);
   round_to_witness_grid(answer);
   if (!ordered) swap_sides(answer, a, b);
   return answer;

@@ -244,7 +244,7 @@ bool may_enclose(const ScenePart& around, const ScenePart& within) {
 /// Returns about eight corners of a part, of those in the box of the other, in its coordinates.
 /// Every second corner of a box, in the order of coordinates, may lie on the floor.
 std::vector<Vec3d> corners_in_box(const ScenePart& around, const ScenePart& within) {
-  constexpr std::size_t kAsked = 8;
+  constexpr std::size_t kSampledCorners = 8;
   const geometry::Vec3l shift = within.placed.origin - around.placed.origin;
   const geometry::Box3l box = around.placed.part->box.as<std::int64_t>();
   std::vector<Vec3d> corners;
@@ -252,10 +252,10 @@ std::vector<Vec3d> corners_in_box(const ScenePart& around, const ScenePart& with
     const geometry::Vec3l at = v.as<std::int64_t>() + shift;
     if (box.contains({at, at})) corners.push_back(at.as<double>());
   }
-  const std::size_t step = (corners.size() / kAsked) | 1U;
-  std::vector<Vec3d> asked;
-  for (std::size_t v = 0; v < corners.size(); v += step) asked.push_back(corners[v]);
-  return asked;
+  const std::size_t step = (corners.size() / kSampledCorners) | 1U;
+  std::vector<Vec3d> samples;
+  for (std::size_t v = 0; v < corners.size(); v += step) samples.push_back(corners[v]);
+  return samples;
 }
 
 /// Whether a corner of a part lies within, and not on the surface: then points a little to either
@@ -294,14 +294,14 @@ bool may_be_hit(const Candidate& c) {
 
 Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidates) {
   const PairTasks& work = stage.work;
-  const auto asked = work.filter("pairs within open surfaces", [&](std::size_t i) {
+  const auto enclosable = work.filter("pairs within open surfaces", [&](std::size_t i) {
     return may_be_hit(candidates[i]) &&
            (may_enclose(work.a(i), work.b(i)) || may_enclose(work.b(i), work.a(i)));
   });
-  if (!asked) return asked.error();
-  if (asked->empty()) return {};
+  if (!enclosable) return enclosable.error();
+  if (enclosable->empty()) return {};
   std::vector<const geometry::Part*> parts(work.parts_of({}).size(), nullptr);
-  for (const std::size_t i : *asked) {
+  for (const std::size_t i : *enclosable) {
     const ScenePart &a = work.a(i), &b = work.b(i);
     if (may_enclose(a, b)) parts[a.unique] = a.placed.part;
     if (may_enclose(b, a)) parts[b.unique] = b.placed.part;
@@ -318,7 +318,7 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
       });
   if (!made) return made.error();
   return work.for_each_of(
-      *asked, "pairs within open surfaces", PairTasks::kGrain,
+      *enclosable, "pairs within open surfaces", PairTasks::kGrain,
       [&](std::size_t i, const ScenePart& a, const ScenePart& b) {
         Classification& classification = candidates[i].evaluation.answer.classification;
         const bool touch = classification.cls == Class::contact;

@@ -137,12 +137,12 @@ PartPairResult PairEvaluator::flush(const Vec3d& point) {
 }
 
 std::optional<PartPairResult> PairEvaluator::face_contact(const geometry::SeparationBound& gap,
-                                                          bool& asked) {
-  asked = true;
+                                                          bool& decided) {
+  decided = true;
   if (!may_be_flush(gap.lower)) return std::nullopt;
   const auto found = geometry::slab_proximity(a_.placed, b_.placed, gap.normal,
                                               options_.contact_distance, work_.pair);
-  asked = found.asked;
+  decided = found.decided;
   if (!found.near) return std::nullopt;
   std::optional<PartPairResult> answer(std::in_place);
   nearly_touching(*found.near, gap, *answer);
@@ -405,22 +405,22 @@ void PairEvaluator::conclude(PartPairResult& answer, double sag) const {
 
 std::optional<PartPairResult> evaluate_closed_form(const PairOperand& a, const PairOperand& b,
                                                    const PairTolerances& options) {
-  const auto judge = [&](const PairOperand& x,
-                         const PairOperand& y) -> std::optional<PartPairResult> {
+  const auto evaluate_ordered = [&](const PairOperand& x,
+                                    const PairOperand& y) -> std::optional<PartPairResult> {
     const auto form = closed_form(x, y, reach_of(options));
     if (!form || form->tie) return std::nullopt;
     NarrowWork work;
     return PairEvaluator(x, y, options, work).analytic(*form);
   };
-  return evaluate_in_canonical_order(a, b, judge);
+  return evaluate_in_canonical_order(a, b, evaluate_ordered);
 }
 
 std::optional<PartPairResult> evaluate_axis_plane_contact(const PairOperand& a,
                                                           const PairOperand& b,
                                                           const PairTolerances& options,
                                                           bool& separated) {
-  const auto judge = [&](const PairOperand& x,
-                         const PairOperand& y) -> std::optional<PartPairResult> {
+  const auto evaluate_ordered = [&](const PairOperand& x,
+                                    const PairOperand& y) -> std::optional<PartPairResult> {
     const auto contact = geometry::find_coplanar_contact(x.treed.placed, y.treed.placed);
     separated = contact.separated;
     if (!contact.touching) return std::nullopt;
@@ -432,7 +432,7 @@ std::optional<PartPairResult> evaluate_axis_plane_contact(const PairOperand& a,
     NarrowWork work;
     return PairEvaluator(x, y, options, work).flush(contact.point);
   };
-  return evaluate_in_canonical_order(a, b, judge);
+  return evaluate_in_canonical_order(a, b, evaluate_ordered);
 }
 
 geometry::SeparationBound separation_lower_bound(const PairOperand& a, const PairOperand& b,
@@ -447,9 +447,9 @@ geometry::SeparationBound separation_lower_bound(const PairOperand& a, const Pai
 std::optional<PartPairResult> evaluate_face_contact(const PairOperand& a, const PairOperand& b,
                                                     const PairTolerances& options,
                                                     const geometry::SeparationBound& gap,
-                                                    bool& asked, NarrowWork& work) {
+                                                    bool& decided, NarrowWork& work) {
   return evaluate_in_canonical_order(a, b, [&](const PairOperand& x, const PairOperand& y) {
-    return PairEvaluator(x, y, options, work).face_contact(gap, asked);
+    return PairEvaluator(x, y, options, work).face_contact(gap, decided);
   });
 }
 

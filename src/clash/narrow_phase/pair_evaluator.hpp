@@ -43,10 +43,10 @@ class PairEvaluator {
   /// Returns the result for parts that touch at a point, relative to a's origin.
   [[nodiscard]] PartPairResult flush(const geometry::Vec3d& point);
 
-  /// Returns the result for parts that lie face to face across the gap; `asked`: whether it is
+  /// Returns the result for parts that lie face to face across the gap; `decided`: whether it is
   /// certain that they do not.
   [[nodiscard]] std::optional<PartPairResult> face_contact(const geometry::SeparationBound& gap,
-                                                           bool& asked);
+                                                           bool& decided);
 
   [[nodiscard]] PairEvaluation evaluation(const PriorBounds& known);
 
@@ -102,11 +102,11 @@ class PairEvaluator {
                                                                const PairTolerances& options);
 
 /// Returns the result for a pair that lies face to face within the contact distance, however it is
-/// rotated; it needs no trees. `gap` is that of separation_lower_bound(). `asked` tells whether it
-/// is certain that there is no such contact; then evaluate_intersection() need not test again.
+/// rotated; it needs no trees. `gap` is that of separation_lower_bound(). `decided` tells whether
+/// it is certain that there is no such contact; then evaluate_intersection() need not test again.
 [[nodiscard]] std::optional<PartPairResult> evaluate_face_contact(
     const PairOperand& a, const PairOperand& b, const PairTolerances& options,
-    const geometry::SeparationBound& gap, bool& asked, NarrowWork& work);
+    const geometry::SeparationBound& gap, bool& decided, NarrowWork& work);
 
 /// Returns class, relation, separation and witness of two parts, but for the distance of those that
 /// are apart and the depth of those whose interiors meet. Swapping the parts mirrors the relation

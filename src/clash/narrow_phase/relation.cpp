@@ -23,10 +23,11 @@ constexpr std::size_t kMaxVertices = std::size_t{1} << 21U;
 
 bool box_within(const PartWithBvh& a, const PartWithBvh& b, double band) {
   const Vec3l shift = a.placed.origin - b.placed.origin;
-  const auto room = static_cast<std::int64_t>(std::ceil(band));
+  const auto margin = static_cast<std::int64_t>(std::ceil(band));
   const Box3i &x = a.placed.part->box, &y = b.placed.part->box;
   for (int k = 0; k < 3; ++k)
-    if (x.lo[k] + shift[k] < y.lo[k] - room || x.hi[k] + shift[k] > y.hi[k] + room) return false;
+    if (x.lo[k] + shift[k] < y.lo[k] - margin || x.hi[k] + shift[k] > y.hi[k] + margin)
+      return false;
   return true;
 }
 
@@ -62,8 +63,8 @@ bool sticks_out(const DepthOperand& a, const geometry::Depth& depth, double band
   return a.planes->nearly_convex && depth.upper < a.treed.placed.part->thickness() / 2 - 2 * band;
 }
 
-bool skins_meet(const PartWithBvh& a, const PartWithBvh& b, double band,
-                geometry::QueryContext& work) {
+bool surfaces_meet(const PartWithBvh& a, const PartWithBvh& b, double band,
+                   geometry::QueryContext& work) {
   const auto near = geometry::find_closest_pair(a, b, band + 1, work);
   return near && near->distance <= band;
 }
@@ -109,9 +110,9 @@ Relation relation_of(const DepthOperand& deep_a, const DepthOperand& deep_b,
     return one_sheet(a, b, meeting, band, work) ? Relation::duplicate : Relation::cross;
   }
   if (meeting.meeting == Meeting::a_inside_b)
-    return skins_meet(a, b, band, work) ? Relation::abut_inside : Relation::a_in_b;
+    return surfaces_meet(a, b, band, work) ? Relation::abut_inside : Relation::a_in_b;
   if (meeting.meeting == Meeting::b_inside_a)
-    return skins_meet(a, b, band, work) ? Relation::abut_inside : Relation::b_in_a;
+    return surfaces_meet(a, b, band, work) ? Relation::abut_inside : Relation::b_in_a;
   if (meeting.a_within_b && meeting.b_within_a) return Relation::duplicate;
   // Only slivers as thin as the band may be one and the same, or one in the other, and no deeper.
   if (depth.upper <= band &&

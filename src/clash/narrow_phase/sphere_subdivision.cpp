@@ -77,7 +77,7 @@ class SphereSearch {
     while (!stack_.empty() && !done_) {
       const Box3d cell = stack_.back();
       stack_.pop_back();
-      look(cell);
+      visit_cell(cell);
     }
     return concluded();
   }
@@ -85,18 +85,18 @@ class SphereSearch {
  private:
   [[nodiscard]] double reach() const { return reach_of(options_) + thresholds_.weld; }
 
-  void look(const Box3d& cell) {
+  void visit_cell(const Box3d& cell) {
     if (++cells_ > most_cells_) {
       exhausted_ = done_ = true;
       return;
     }
     const Vec3d centre = (cell.lo + cell.hi) * 0.5, half = (cell.hi - cell.lo) * 0.5;
     const double radius = std::sqrt(dot(half, half));
-    const double room = radius + reach() / 2;
+    const double margin = radius + reach() / 2;
     const double in_a = a_.signed_distance(centre, work_.pair);
-    if (in_a > room) return;
+    if (in_a > margin) return;
     const double in_b = b_.signed_distance(centre, work_.pair);
-    if (in_b > room) return;
+    if (in_b > margin) return;
     const double separation =
         in_a < 0 && in_b < 0 ? std::min(in_a, in_b) : std::max(in_a, 0.0) + std::max(in_b, 0.0);
     if (separation < best_) {

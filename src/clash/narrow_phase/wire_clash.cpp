@@ -72,8 +72,8 @@ Relation relation_of(const LowerDimensionalSeparation& s, const PairOperand& wir
 }
 
 /// Evaluates a pair with the wire first.
-PartPairResult judge_ordered(const PairOperand& wire, const PairOperand& body,
-                             const PairTolerances& options, NarrowWork& work) {
+PartPairResult evaluate_ordered_wire(const PairOperand& wire, const PairOperand& body,
+                                     const PairTolerances& options, NarrowWork& work) {
   const Part &x = *wire.treed.placed.part, &y = *body.treed.placed.part;
   const Thresholds limits = thresholds(x, y, options);
   const WireMeasure m = measure(wire, body, options, limits.overlap, work);
@@ -103,10 +103,10 @@ PartPairResult evaluate_wire(const PairOperand& a, const PairOperand& b,
                              const PairTolerances& options, NarrowWork& work) {
   if (is_wire(a) && is_wire(b))
     return evaluate_in_canonical_order(a, b, [&](const PairOperand& x, const PairOperand& y) {
-      return judge_ordered(x, y, options, work);
+      return evaluate_ordered_wire(x, y, options, work);
     });
-  PartPairResult answer =
-      is_wire(a) ? judge_ordered(a, b, options, work) : judge_ordered(b, a, options, work);
+  PartPairResult answer = is_wire(a) ? evaluate_ordered_wire(a, b, options, work)
+                                     : evaluate_ordered_wire(b, a, options, work);
   round_to_witness_grid(answer);
   if (!is_wire(a)) swap_sides(answer, a, b);
   return answer;

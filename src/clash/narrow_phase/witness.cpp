@@ -16,10 +16,10 @@ constexpr double kLeastLength = 1.0 / 64;
 
 /// Returns the direction from the deepest point to the surface; where they all but coincide, out
 /// through the surface.
-Vec3d way_out(const Vec3d& deepest, const SurfacePoint& skin) {
-  const Vec3d way = skin.point - deepest;
+Vec3d way_out(const Vec3d& deepest, const SurfacePoint& surface) {
+  const Vec3d way = surface.point - deepest;
   const double length = std::sqrt(dot(way, way));
-  return length < kLeastLength ? skin.normal : way * (1 / length);
+  return length < kLeastLength ? surface.normal : way * (1 / length);
 }
 
 }  // namespace

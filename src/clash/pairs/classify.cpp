@@ -36,7 +36,7 @@ Class class_of_nominal(const SignedSeparation& s, const Thresholds& t) {
 }
 
 /// Returns the least class that a result may be which a weld may have moved out of reach.
-Class least_told(Class severest, const Thresholds& t) {
+Class least_certain_class(Class severest, const Thresholds& t) {
   return std::min(severest, t.clearance > t.gap ? Class::clearance_violation : Class::contact);
 }
 
@@ -78,7 +78,8 @@ Classification classify(const SignedSeparation& s, double width, const Threshold
       j.flags |= kUncertain;
     }
   }
-  if (j.cls == Class::no_hit && t.weld > kMostWeldBySnap) j.cls = least_told(j.severest, t);
+  if (j.cls == Class::no_hit && t.weld > kMostWeldBySnap)
+    j.cls = least_certain_class(j.severest, t);
   j.severest = std::max(j.severest, j.cls);
   return j;
 }

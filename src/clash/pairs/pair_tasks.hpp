@@ -48,16 +48,16 @@ struct Candidate {
   bool done = false;
   bool too_large = false;
   bool in_open = false;  ///< one part lies within the other, which is open: see mark_enclosed()
-  bool too_near_to_tell = false;  ///< for knowing whether it has one region or several
+  bool region_count_uncertain = false;  ///< too near: it has one region or several
 };
 
 /// Evaluates a candidate, with a team's help where it is heavy, and adds what it cost:
-/// `judge(NarrowWork&)` returns the result.
-template <class Judge>
-auto with_cost(Candidate& candidate, const parallel::Context& team, Judge&& judge) {
+/// `evaluate(NarrowWork&)` returns the result.
+template <class Evaluate>
+auto with_cost(Candidate& candidate, const parallel::Context& team, Evaluate&& evaluate) {
   NarrowWork work;
   work.pair.team = &team;
-  auto answer = judge(work);
+  auto answer = evaluate(work);
   candidate.cost.add(work);
   return answer;
 }

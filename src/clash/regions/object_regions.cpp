@@ -17,7 +17,7 @@ namespace {
 using geometry::Box3d;
 
 /// A region of one pair of parts.
-struct PlacedResult {
+struct LocatedResult {
   Pair result;
   Box3d box_mm;
   std::size_t candidate = 0;
@@ -35,15 +35,15 @@ struct NotOne {
   Regions regions;
 };
 
-Region region_of(const PlacedResult& place) {
-  const Pair& p = place.result;
+Region region_of(const LocatedResult& located) {
+  const Pair& p = located.result;
   return {.cls = p.cls,
           .flags = p.flags,
           .d_mm = p.d_mm,
           .d_lower_mm = p.d_lower_mm,
           .d_upper_mm = p.d_upper_mm,
           .point_mm = p.point_mm,
-          .box_mm = place.box_mm,
+          .box_mm = located.box_mm,
           .part_a = p.part_a,
           .part_b = p.part_b,
           .allowed = p.allowed,
@@ -51,15 +51,15 @@ Region region_of(const PlacedResult& place) {
 }
 
 /// Whether a region counts for a pair of objects with this result.
-bool counts(const Pair& place, const Pair& whole) {
-  if ((place.allowed < 0) != (whole.allowed < 0)) return false;
-  if (whole.cls == Class::clearance_violation) return place.cls == whole.cls;
-  return place.cls >= Class::contact;
+bool counts(const Pair& located, const Pair& whole) {
+  if ((located.allowed < 0) != (whole.allowed < 0)) return false;
+  if (whole.cls == Class::clearance_violation) return located.cls == whole.cls;
+  return located.cls >= Class::contact;
 }
 
 /// Whether x is worse than y. Of regions that are equally bad, that of the pair's own witness is
 /// the worst.
-bool worse(const PlacedResult& x, const PlacedResult& y, const Pair& whole) {
+bool worse(const LocatedResult& x, const LocatedResult& y, const Pair& whole) {
   const auto is_witness = [&](const Pair& p) {
     return p.part_a == whole.part_a && p.part_b == whole.part_b && p.d_mm == whole.d_mm &&
            p.point_mm == whole.point_mm;
@@ -69,22 +69,26 @@ bool worse(const PlacedResult& x, const PlacedResult& y, const Pair& whole) {
 }
 
 /// Joins regions of different pairs of parts whose boxes meet, in one sweep along x.
-UnionFind joined(const std::vector<PlacedResult>& places) {
-  UnionFind sets(places.size());
-  const auto of_first = [&](const PlacedResult& p) {
-    return p.candidate == places.front().candidate;
+UnionFind joined(const std::vector<LocatedResult>& located_results) {
+  UnionFind sets(located_results.size());
+  const auto of_first = [&](const LocatedResult& p) {
+    return p.candidate == located_results.front().candidate;
   };
-  if (std::ranges::all_of(places, of_first)) return sets;
-  std::vector<std::uint32_t> order(places.size()), open;
+  if (std::ranges::all_of(located_results, of_first)) return sets;
+  std::vector<std::uint32_t> order(located_results.size()), open;
   std::iota(order.begin(), order.end(), std::uint32_t{0});
   std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
-    return std::pair(places[i].box_mm.lo.x, i) < std::pair(places[j].box_mm.lo.x, j);
+    return std::pair(located_results[i].box_mm.lo.x, i) <
+           std::pair(located_results[j].box_mm.lo.x, j);
   });
   for (const std::uint32_t i : order) {
-    const PlacedResult& place = places[i];
-    std::erase_if(open, [&](std::uint32_t j) { return places[j].box_mm.hi.x < place.box_mm.lo.x; });
+    const LocatedResult& located = located_results[i];
+    std::erase_if(open, [&](std::uint32_t j) {
+      return located_results[j].box_mm.hi.x < located.box_mm.lo.x;
+    });
     for (const std::uint32_t j : open)
-      if (places[j].candidate != place.candidate && places[j].box_mm.meets(place.box_mm))
+      if (located_results[j].candidate != located.candidate &&
+          located_results[j].box_mm.meets(located.box_mm))
         sets.join(i, j);
     open.push_back(i);
   }
@@ -99,59 +103,61 @@ class RegionsOfPairs {
   [[nodiscard]] Regions of(const Pair& pair) const {
     const std::size_t first = pair.first_region;
     if (!findings_.has_more(first))
-      return {.count = findings_.found[first].too_near_to_tell ? 0U : 1U};
-    std::vector<PlacedResult> places, allowed;
-    bool too_near_to_tell = false;
+      return {.count = findings_.found[first].region_count_uncertain ? 0U : 1U};
+    std::vector<LocatedResult> located_results, allowed;
+    bool region_count_uncertain = false;
     for (std::size_t i = first; i < findings_.found.size() && findings_.same_objects(first, i);
          ++i) {
-      PlacedResult place = place_of(i);
-      if (pair.allowed < 0 && place.result.allowed >= 0) {
-        allowed.push_back(std::move(place));
-      } else if (counts(place.result, pair)) {
-        too_near_to_tell = too_near_to_tell || findings_.found[i].too_near_to_tell;
-        places.push_back(std::move(place));
+      LocatedResult located = located_result(i);
+      if (pair.allowed < 0 && located.result.allowed >= 0) {
+        allowed.push_back(std::move(located));
+      } else if (counts(located.result, pair)) {
+        region_count_uncertain =
+            region_count_uncertain || findings_.found[i].region_count_uncertain;
+        located_results.push_back(std::move(located));
       }
     }
-    Regions regions{.count = too_near_to_tell ? 0U : 1U};
-    if (!too_near_to_tell && places.size() > 1) take(together(places, pair), regions);
+    Regions regions{.count = region_count_uncertain ? 0U : 1U};
+    if (!region_count_uncertain && located_results.size() > 1)
+      take(together(located_results, pair), regions);
     if (!allowed.empty()) regions.allowed = allowed_of(std::move(allowed), pair);
     return regions;
   }
 
  private:
-  [[nodiscard]] PlacedResult place_of(std::size_t i) const {
-    PlacedResult place{findings_.pair(i), {}, findings_.found[i].candidate};
-    const double apart = std::max(place.result.d_upper_mm, 0.0) * geometry::kGridPerMm;
-    place.box_mm = findings_.extent_mm(i).value_or(
+  [[nodiscard]] LocatedResult located_result(std::size_t i) const {
+    LocatedResult located{findings_.pair(i), {}, findings_.found[i].candidate};
+    const double apart = std::max(located.result.d_upper_mm, 0.0) * geometry::kGridPerMm;
+    located.box_mm = findings_.extent_mm(i).value_or(
         common_box_mm(findings_.a(i), findings_.b(i), search_margin(apart)));
-    return place;
+    return located;
   }
 
   /// Returns one region of each set, the worst first.
-  [[nodiscard]] static std::vector<PlacedResult> together(const std::vector<PlacedResult>& places,
-                                                          const Pair& whole) {
-    UnionFind sets = joined(places);
-    std::vector<PlacedResult> worst;
-    std::vector<std::size_t> number(places.size());
-    for (std::uint32_t i = 0; i < places.size(); ++i) {
+  [[nodiscard]] static std::vector<LocatedResult> together(
+      const std::vector<LocatedResult>& located_results, const Pair& whole) {
+    UnionFind sets = joined(located_results);
+    std::vector<LocatedResult> worst;
+    std::vector<std::size_t> number(located_results.size());
+    for (std::uint32_t i = 0; i < located_results.size(); ++i) {
       const std::uint32_t root = sets.root(i);
       if (root == i) {
         number[i] = worst.size();
-        worst.push_back(places[i]);
+        worst.push_back(located_results[i]);
         continue;
       }
-      PlacedResult& known = worst[number[root]];
+      LocatedResult& known = worst[number[root]];
       Box3d box = known.box_mm;
-      box.include(places[i].box_mm);
-      if (worse(places[i], known, whole)) known = places[i];
+      box.include(located_results[i].box_mm);
+      if (worse(located_results[i], known, whole)) known = located_results[i];
       known.box_mm = box;
     }
     std::ranges::sort(
-        worst, [&](const PlacedResult& x, const PlacedResult& y) { return worse(x, y, whole); });
+        worst, [&](const LocatedResult& x, const LocatedResult& y) { return worse(x, y, whole); });
     return worst;
   }
 
-  void take(const std::vector<PlacedResult>& worst, Regions& regions) const {
+  void take(const std::vector<LocatedResult>& worst, Regions& regions) const {
     regions.count = static_cast<std::uint32_t>(worst.size());
     if (regions.count < 2) return;
     const std::uint64_t listed = std::min<std::uint64_t>(worst.size(), most_);
@@ -161,14 +167,17 @@ class RegionsOfPairs {
   /// Returns what a rule allows of a pair that none allows as a whole. Gaps round a hit or a
   /// contact, be it allowed, do not count, as they do not where nothing is allowed. Where there are
   /// too many triangles to tell regions apart, one stands for all.
-  [[nodiscard]] static std::vector<Region> allowed_of(std::vector<PlacedResult> places,
+  [[nodiscard]] static std::vector<Region> allowed_of(std::vector<LocatedResult> located_results,
                                                       const Pair& whole) {
     Class worst = whole.cls;
-    for (const PlacedResult& place : places) worst = std::max(worst, place.result.cls);
+    for (const LocatedResult& located : located_results)
+      worst = std::max(worst, located.result.cls);
     const Class least = std::min(worst, Class::contact);
-    std::erase_if(places, [&](const PlacedResult& place) { return place.result.cls < least; });
+    std::erase_if(located_results,
+                  [&](const LocatedResult& located) { return located.result.cls < least; });
     std::vector<Region> regions;
-    for (const PlacedResult& place : together(places, whole)) regions.push_back(region_of(place));
+    for (const LocatedResult& located : together(located_results, whole))
+      regions.push_back(region_of(located));
     return regions;
   }
 
@@ -181,14 +190,14 @@ class RegionsOfPairs {
 Status aggregate_regions(const PartResults& findings, const parallel::Context& context,
                          Report& report) {
   constexpr std::size_t kGrain = 256;
-  const bool told = report.options.engine.most_regions > 0;
+  const bool found_regions = report.options.engine.most_regions > 0;
   const RegionsOfPairs regions(findings, report.options.engine.most_regions);
   const auto others = parallel::collect<NotOne>(
       context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<NotOne>& out) {
         Pair& pair = report.pairs[i];
         Regions of = regions.of(pair);
-        pair.regions = told ? of.count : 0;
+        pair.regions = found_regions ? of.count : 0;
         pair.first_region = 0;
         pair.allowed_regions = static_cast<std::uint32_t>(of.allowed.size());
         if (of.count != 1 || !of.allowed.empty()) out.push_back({i, std::move(of)});
@@ -203,9 +212,9 @@ Status aggregate_regions(const PartResults& findings, const parallel::Context& c
     report.regions.insert(report.regions.end(), allowed.begin(),
                           allowed.begin() + static_cast<std::ptrdiff_t>(listed));
     for (const Region& region : allowed)
-      ++report.allowed[static_cast<std::size_t>(region.allowed)].places;
+      ++report.allowed[static_cast<std::size_t>(region.allowed)].regions;
     report.count_allowed_regions += allowed.size();
-    if (told && count == 0) ++report.counters.regions_given_up;
+    if (found_regions && count == 0) ++report.counters.regions_given_up;
   }
   return {};
 }

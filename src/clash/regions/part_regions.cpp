@@ -121,7 +121,7 @@ class PartRegionFinder {
       regions.push_back(only());
     if (!beyond) return regions;
     if (!find(clearance, SingleRegionDetail::described)) return std::nullopt;
-    add_gaps(regions);
+    add_clearance_regions(regions);
     return regions;
   }
 
@@ -162,7 +162,7 @@ class PartRegionFinder {
   }
 
   /// Adds those regions within the clearance that hold none within the touch gap.
-  void add_gaps(std::vector<PartRegion>& regions) {
+  void add_clearance_regions(std::vector<PartRegion>& regions) {
     for (std::size_t n = 0; n < found_.all.size(); ++n) {
       const ContactRegion& region = found_.all[n];
       if (region.nearest.distance > options_.touch_gap && is_gap(region))
@@ -200,11 +200,11 @@ class PartRegionFinder {
   /// Finds where two sheets cross, and the region of each stretch of that.
   void cross_sheets() {
     crossing_.emplace(a_.treed, b_.treed, apart_within(part_a_, part_b_, options_), work_.pair);
-    stretches_.resize(found_.all.size());
-    const auto& all = crossing_->stretches();
+    segments_.resize(found_.all.size());
+    const auto& all = crossing_->crossing_segments();
     for (std::uint32_t i = 0; i < all.size(); ++i)
       if (const auto region = found_.region_of_pair(all[i].triangle_a, all[i].triangle_b))
-        stretches_[*region].push_back(i);
+        segments_[*region].push_back(i);
   }
 
   PartPairResult answer_at(std::size_t number) {
@@ -262,7 +262,7 @@ class PartRegionFinder {
     goal.threshold = thresholds_.overlap;
     goal.known_upper = -whole_.separation.lower;
     const geometry::Depth depth = crossing_
-                                      ? crossing_->depth_along(stretches_[number], goal, work_.pair)
+                                      ? crossing_->depth_along(segments_[number], goal, work_.pair)
                                       : depth_within(number, goal);
     work_.depth_cells += depth.cells;
     answer.separation.lower = -depth.upper;
@@ -295,13 +295,13 @@ class PartRegionFinder {
   /// Gives the result as a whole to the worst region, which holds its witness.
   void give_whole(std::vector<PartRegion>& regions, std::optional<std::uint32_t> deepest) const {
     const Vec3d at = whole_.witness.point();
-    const auto less_likely = [&](const PartRegion& x, const PartRegion& y) {
+    const auto is_less_likely = [&](const PartRegion& x, const PartRegion& y) {
       const bool in_x = x.extent.contains({at, at}), in_y = y.extent.contains({at, at});
       if (in_x != in_y) return in_y;
       return x.answer.separation.d > y.answer.separation.d;
     };
     const auto worst = deepest ? regions.begin() + static_cast<std::ptrdiff_t>(*deepest)
-                               : std::ranges::max_element(regions, less_likely);
+                               : std::ranges::max_element(regions, is_less_likely);
     worst->answer = whole_;
     worst->is_whole = true;
     for (PartRegion& region : regions) {
@@ -334,8 +334,9 @@ class PartRegionFinder {
   geometry::ContactRegions found_;
   Thresholds thresholds_;
   geometry::FaceKdop planes_a_, planes_b_;
-  std::optional<geometry::SheetCrossing> crossing_;    ///< for two sheets with several regions
-  std::vector<std::vector<std::uint32_t>> stretches_;  ///< by region: the stretches in it
+  std::optional<geometry::SheetCrossing> crossing_;  ///< for two sheets with several regions
+  std::vector<std::vector<std::uint32_t>>
+      segments_;  ///< by region: the segments of the crossing in it
 };
 
 }  // namespace
@@ -387,17 +388,17 @@ class RegionStage {
         region_detail_of(evaluated_, stage_.objects, stage_.rules, stage_.options, work_.context());
     if (!detail) return detail.error();
     detail_ = std::move(*detail);
-    std::vector<std::size_t> alone, asking;
+    std::vector<std::size_t> alone, unresolved;
     for (std::size_t i = 0; i < detail_.size(); ++i) {
       if (detail_[i] == RegionDetail::if_several) alone.push_back(i);
-      if (detail_[i] >= RegionDetail::each) asking.push_back(i);
+      if (detail_[i] >= RegionDetail::each) unresolved.push_back(i);
     }
     if (const auto taken = take_simple(alone); !taken) return taken.error();
-    const auto simple = take_simple(asking);
+    const auto simple = take_simple(unresolved);
     if (!simple) return simple.error();
     if (const Status s = measure_simple(*simple); !s) return s.error();
-    asking.insert(asking.end(), alone.begin(), alone.end());
-    if (const Status s = tell(asking); !s) return s.error();
+    unresolved.insert(unresolved.end(), alone.begin(), alone.end());
+    if (const Status s = find_open_regions(unresolved); !s) return s.error();
     return std::move(regions_);
   }
 
@@ -407,7 +408,7 @@ class RegionStage {
   Result<std::vector<std::size_t>> take_simple(std::vector<std::size_t>& some) const {
     const auto flat = parallel::transform(
         work_.context(), {.name = "flat places", .n = some.size(), .grain = PairTasks::kGrain},
-        [&](std::size_t k) { return static_cast<std::uint8_t>(in_flat_place(some[k])); });
+        [&](std::size_t k) { return static_cast<std::uint8_t>(is_planar_region(some[k])); });
     if (!flat) return flat.error();
     std::vector<std::size_t> taken, others;
     for (std::size_t k = 0; k < some.size(); ++k)
@@ -432,7 +433,7 @@ class RegionStage {
             relation == Relation::abut_inside || relation == Relation::duplicate);
   }
 
-  [[nodiscard]] bool in_flat_place(std::size_t i) const {
+  [[nodiscard]] bool is_planar_region(std::size_t i) const {
     const PartPairResult& answer = candidates_[i].evaluation.answer;
     if (answer.separation.interiors_meet || answer.classification.cls != Class::contact)
       return false;
@@ -480,10 +481,10 @@ class RegionStage {
         });
   }
 
-  Status tell(const std::vector<std::size_t>& some) {
+  Status find_open_regions(const std::vector<std::size_t>& some) {
     std::vector<std::size_t> treed;
     for (const std::size_t i : some)
-      if (wants_trees(i)) treed.push_back(i);
+      if (needs_bvhs(i)) treed.push_back(i);
     if (const Status s = cache_.ensure_trees(work_.parts_of(treed), work_.context()); !s) return s;
     return work_.for_each_of(
         some, "places", 1, [&](std::size_t i, const ScenePart& a, const ScenePart& b) {
@@ -492,17 +493,17 @@ class RegionStage {
             return find_part_regions(cache_.planed(a), cache_.planed(b), c.evaluation.answer,
                                      stage_.pair_tolerances.of(a, b), detail_[i], work);
           });
-          c.too_near_to_tell = !found;
+          c.region_count_uncertain = !found;
           if (found) regions_[i] = std::move(*found);
         });
   }
 
   /// Whether a pair needs trees: small parts that only touch are traversed faster than a tree is
   /// built.
-  [[nodiscard]] bool wants_trees(std::size_t i) const {
-    constexpr std::size_t kMostWalked = 512;
+  [[nodiscard]] bool needs_bvhs(std::size_t i) const {
+    constexpr std::size_t kMostTrianglesWithoutBvh = 512;
     return candidates_[i].evaluation.answer.separation.interiors_meet ||
-           work_.triangles(i) > kMostWalked;
+           work_.triangles(i) > kMostTrianglesWithoutBvh;
   }
 
   const StageInputs& stage_;

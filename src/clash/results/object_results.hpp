@@ -17,7 +17,7 @@ struct PartResult {
   std::size_t candidate = 0;
   const PartPairResult* answer = nullptr;
   const geometry::Box3d* extent = nullptr;  ///< the region's box, if known; relative to a's origin
-  bool too_near_to_tell = false;            ///< for knowing whether there is one region or several
+  bool region_count_uncertain = false;      ///< too near: there is one region or several
   /// Whether the result of the two objects depends on it; regions of two parts other than their
   /// worst decide only where a rule may allow that one.
   bool decides = true;

@@ -137,17 +137,18 @@ std::size_t count_between(const Policy& policy) {
 }
 
 /// Finds for each idle rule the first of the rules that did its work before it; kNoLabel if none
-/// did. look(pair, take) calls take(rule, by whom) for what concerns a pair.
-template <class Look>
+/// did. for_rules(pair, take) calls take(rule, by whom) for what concerns a pair.
+template <class ForRules>
 Result<std::vector<std::uint32_t>> first_before(const std::vector<bool>& idle, std::size_t pairs,
-                                                const parallel::Context& context, Look&& look) {
+                                                const parallel::Context& context,
+                                                ForRules&& for_rules) {
   using Firsts = std::vector<std::uint32_t>;
   const bool some = std::ranges::find(idle, true) != idle.end();
   return parallel::reduce(
       context, {.name = "shadowed rules", .n = some ? pairs : 0, .grain = kMatchesPerBlock},
       Firsts(idle.size(), kNoLabel),
       [&](Firsts& partial, std::size_t i) {
-        look(i, [&](std::size_t rule, std::uint32_t by) {
+        for_rules(i, [&](std::size_t rule, std::uint32_t by) {
           if (idle[rule]) partial[rule] = std::min(partial[rule], by);
         });
       },
@@ -278,7 +279,8 @@ Status RuleMatcher::exempt(const ScenePartList& list, std::vector<IndexPair>& pa
   if (!verdicts) return verdicts.error();
   if (const Status s = record_shadowed({list, pairs, *verdicts}, context, report); !s) return s;
   std::size_t kept = 0;
-  std::vector<std::uint32_t> told;  // rules that the current pair of objects counts for already
+  // The rules that the current pair of objects counts for already.
+  std::vector<std::uint32_t> counted_rules;
   const ScenePart *last_a = nullptr, *last_b = nullptr;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const ScenePart &a = list.parts[pairs[i].first], &b = list.parts[pairs[i].second];
@@ -288,11 +290,13 @@ Status RuleMatcher::exempt(const ScenePartList& list, std::vector<IndexPair>& pa
       pairs[kept++] = pairs[i];
       continue;
     }
-    if (last_a == nullptr || last_a->object != a.object || last_b->object != b.object) told.clear();
+    if (last_a == nullptr || last_a->object != a.object || last_b->object != b.object)
+      counted_rules.clear();
     last_a = &a;
     last_b = &b;
-    if (std::find(told.begin(), told.end(), v.rule) != told.end()) continue;
-    told.push_back(v.rule);
+    if (std::find(counted_rules.begin(), counted_rules.end(), v.rule) != counted_rules.end())
+      continue;
+    counted_rules.push_back(v.rule);
     ++report.exempted[v.rule].pairs;
     if (policy_.list_exempted)
       report.exempted_pairs.push_back(
@@ -313,7 +317,7 @@ Status RuleMatcher::record_shadowed(const Verdicts& all, const parallel::Context
   for (const Verdict& v : all.verdicts)
     if (v.rule != kNoLabel && v.rule >= base && v.rule - base < idle.size())
       idle[v.rule - base] = false;
-  const auto asked = [&](std::uint32_t a, std::uint32_t b, auto&& take) {
+  const auto for_each_idle_rule = [&](std::uint32_t a, std::uint32_t b, auto&& take) {
     between_.each(a, b, [&](std::size_t k) {
       take(between_rule_[k]);
       return false;
@@ -331,8 +335,8 @@ Status RuleMatcher::record_shadowed(const Verdicts& all, const parallel::Context
     const std::uint32_t by = all.verdicts[i].rule;
     if (by == kNoLabel) return;
     const geometry::IndexPair& pair = all.pairs[i];
-    asked(all.list.parts[pair.first].object, all.list.parts[pair.second].object,
-          [&](std::size_t e) { take(e, by); });
+    for_each_idle_rule(all.list.parts[pair.first].object, all.list.parts[pair.second].object,
+                       [&](std::size_t e) { take(e, by); });
   });
   if (!first) return first.error();
   for (std::size_t e = 0; e < first->size(); ++e)
@@ -413,11 +417,11 @@ void RuleMatcher::begin_report(const Sets& sets, Report& report) const {
   for (std::uint32_t a = 0; a < n; ++a)
     for (std::uint32_t b = a; b < n; ++b) {
       const std::uint32_t cell = m.cells[a * n + b];
-      CellReport& told = report.cells.emplace_back();
-      told.a = a;
-      told.b = b;
-      told.checked = cell != Matrix::kNotChecked;
-      told.tolerances = tolerances_[cell >= Matrix::kDefault ? 0 : cell + 1];
+      CellReport& cell_report = report.cells.emplace_back();
+      cell_report.a = a;
+      cell_report.b = b;
+      cell_report.checked = cell != Matrix::kNotChecked;
+      cell_report.tolerances = tolerances_[cell >= Matrix::kDefault ? 0 : cell + 1];
     }
 }
 
@@ -451,7 +455,7 @@ Status RuleMatcher::record_shadowed_allowances(const parallel::Context& context,
                                                Report& report) const {
   std::vector<bool> idle;
   for (const AllowedCount& rule : report.allowed)
-    idle.push_back(rule.pairs == 0 && rule.places == 0);
+    idle.push_back(rule.pairs == 0 && rule.regions == 0);
   const auto first =
       first_before(idle, report.pairs.size(), context, [&](std::size_t i, auto&& take) {
         const Pair& pair = report.pairs[i];

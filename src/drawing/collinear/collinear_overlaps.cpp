@@ -43,9 +43,9 @@ void unite(std::vector<ParamInterval>& intervals) {
 /// need not search for long ones, which are everywhere.
 class Finder {
  public:
-  /// `wholly`, by line: marks the lines that one other covers as a whole.
-  Finder(const OverlapRule& rule, const LineIndex& index, parallel::Marks& wholly)
-      : rule_(rule), index_(index), wholly_(wholly) {}
+  /// `fully_covered`, by line: marks the lines that one other covers as a whole.
+  Finder(const OverlapRule& rule, const LineIndex& index, parallel::Marks& fully_covered)
+      : rule_(rule), index_(index), fully_covered_(fully_covered) {}
 
   /// Returns the covered intervals of lines that are covered in part.
   [[nodiscard]] Result<std::vector<Cover>> run(const parallel::Context& context) {
@@ -70,10 +70,10 @@ class Finder {
 
   /// Whether one other line covers a line as a whole: then nothing else matters. When a worker sees
   /// the mark changes the work, not the result.
-  [[nodiscard]] bool is_wholly(std::uint32_t position) {
-    return wholly_.is_set(index_.line(position));
+  [[nodiscard]] bool is_fully_covered(std::uint32_t position) {
+    return fully_covered_.is_set(index_.line(position));
   }
-  void set_wholly(std::uint32_t position) { wholly_.set(index_.line(position)); }
+  void set_fully_covered(std::uint32_t position) { fully_covered_.set(index_.line(position)); }
 
   [[nodiscard]] bool stays_over(std::uint32_t position, std::uint32_t other) const {
     return has_precedence(index_.flat(position), index_.line(position), index_.flat(other),
@@ -85,7 +85,7 @@ class Finder {
     for (std::uint32_t k = leaf.first; k < leaf.last; ++k) {
       List& list = lists[k - leaf.first];
       list.position = k;
-      list.can_be_covered = can_be_covered(index_.flat(k), rule_) && !is_wholly(k);
+      list.can_be_covered = can_be_covered(index_.flat(k), rule_) && !is_fully_covered(k);
       list.covers.clear();
       list.many = kMany;
       any = any || list.can_be_covered;
@@ -118,7 +118,7 @@ class Finder {
     const auto interval = covered(index_.flat(list.position), index_.flat(other), rule_);
     if (!interval) return;
     if (is_all(*interval)) {
-      set_wholly(list.position);
+      set_fully_covered(list.position);
       list.can_be_covered = false;
       return;
     }
@@ -129,12 +129,12 @@ class Finder {
   }
 
   void cover_shorter(std::uint32_t position, std::uint32_t other, std::vector<Cover>& out) {
-    if (!can_be_covered(index_.flat(position), rule_) || is_wholly(position)) return;
+    if (!can_be_covered(index_.flat(position), rule_) || is_fully_covered(position)) return;
     if (!can_cover(index_.flat(other), rule_)) return;
     const auto interval = covered(index_.flat(position), index_.flat(other), rule_);
     if (!interval) return;
     if (is_all(*interval))
-      set_wholly(position);
+      set_fully_covered(position);
     else
       out.push_back({index_.line(position), *interval});
   }
@@ -145,7 +145,7 @@ class Finder {
 
   const OverlapRule& rule_;
   const LineIndex& index_;
-  parallel::Marks& wholly_;
+  parallel::Marks& fully_covered_;
 };
 
 /// Returns the covers by line, as keys with their numbers.
@@ -227,29 +227,29 @@ void append_intervals(LineIntervals& out, std::uint32_t line, std::span<ParamInt
 Result<LineOverlaps> cut_overlaps(std::span<const PlaneSegment> lines, const OverlapRule& rule,
                                   const parallel::Context& context) {
   LineOverlaps found;
-  found.wholly = parallel::Marks(lines.size());
+  found.fully_covered = parallel::Marks(lines.size());
   const Result<std::vector<Cover>> covers = [&]() -> Result<std::vector<Cover>> {
-    const Result<LineIndex> index = LineIndex::build(lines, rule, found.wholly, context);
+    const Result<LineIndex> index = LineIndex::build(lines, rule, found.fully_covered, context);
     if (!index) return index.error();
-    return Finder(rule, *index, found.wholly).run(context);
+    return Finder(rule, *index, found.fully_covered).run(context);
   }();
   if (!covers) return covers.error();
   const Result<std::vector<KeyedItem>> order = by_line(*covers, context);
   if (!order) return order.error();
   const std::span<const KeyedItem> keys = *order;
-  auto stretches = parallel::collect_with<LineInterval>(
+  auto cut_intervals = parallel::collect_with<LineInterval>(
       context, {.name = "cut lines", .n = keys.size(), .grain = 4096},
       [] { return std::vector<ParamInterval>{}; },
       [&](std::vector<ParamInterval>& of_line, std::size_t i, LineIntervals& out) {
         const auto line = static_cast<std::uint32_t>(keys[i].key);
-        if ((i > 0 && keys[i - 1].key == keys[i].key) || found.wholly.is_set(line)) return;
+        if ((i > 0 && keys[i - 1].key == keys[i].key) || found.fully_covered.is_set(line)) return;
         of_line.clear();
         for (std::size_t k = i; k < keys.size() && keys[k].key == keys[i].key; ++k)
           of_line.push_back((*covers)[keys[k].item].interval);
         append_intervals(out, line, of_line, rule.shortest / lines[line].length());
       });
-  if (!stretches) return stretches.error();
-  found.stretches = std::move(*stretches);
+  if (!cut_intervals) return cut_intervals.error();
+  found.cut_intervals = std::move(*cut_intervals);
   return found;
 }
 

@@ -65,8 +65,8 @@ using LineIntervals = std::vector<LineInterval>;
 
 /// The lines, and intervals of lines, that lie on others.
 struct LineOverlaps {
-  parallel::Marks wholly;   ///< by line: one other line covers all of it
-  LineIntervals stretches;  ///< intervals of the other lines that are covered in part
+  parallel::Marks fully_covered;  ///< by line: one other line covers all of it
+  LineIntervals cut_intervals;    ///< intervals of the other lines that are covered in part
 };
 
 /// Cuts lines where they lie on lines that stay: of two coincident lines the one of lower rank

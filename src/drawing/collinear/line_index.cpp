@@ -386,14 +386,14 @@ LineIndex::Query::Query(const LineIndex& index, const Target& target, std::uint3
   all = lines.all();
   // pad_ is half a unit in the last place of a float at the rim; no more than 16 such roundings
   // follow.
-  const auto room = static_cast<float>(slack + 16 * index.pad_);
+  const auto margin = static_cast<float>(slack + 16 * index.pad_);
   const Box2& box = target.box;
   own = {.cosine = static_cast<float>(sector->frame.along(from.frame.x, from.frame.y)),
          .sine = static_cast<float>(sector->frame.across(from.frame.x, from.frame.y)),
          .u = (box.u0 + box.u1) / 2,
          .v = (box.v0 + box.v1) / 2,
-         .hu = (box.u1 - box.u0) / 2 + room,
-         .hv = (box.v1 - box.v0) / 2 + room};
+         .hu = (box.u1 - box.u0) / 2 + margin,
+         .hv = (box.v1 - box.v0) / 2 + margin};
 }
 
 }  // namespace strake::drawing

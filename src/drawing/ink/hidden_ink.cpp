@@ -41,17 +41,17 @@ class LineGrid {
   template <class Visit>
   void along(const PlaneSegment& line, double reach, Visit&& visit) const {
     // The margin is far more than rounding.
-    const double room = reach + size_ * 1e-6;
+    const double margin = reach + size_ * 1e-6;
     const bool turned = line.bx < line.ax;
     const double ax = turned ? line.bx : line.ax, ay = turned ? line.by : line.ay;
     const double bx = turned ? line.ax : line.bx, by = turned ? line.ay : line.by;
-    const std::size_t last = cell(bx + room - left_, columns_);
-    for (std::size_t column = cell(ax - room - left_, columns_); column <= last; ++column) {
+    const std::size_t last = cell(bx + margin - left_, columns_);
+    for (std::size_t column = cell(ax - margin - left_, columns_); column <= last; ++column) {
       const double from = left_ + static_cast<double>(column) * size_;
-      const double y0 = height_at(ax, ay, bx, by, from - room);
-      const double y1 = height_at(ax, ay, bx, by, from + size_ + room);
-      const std::size_t top = cell(std::max(y0, y1) + room - bottom_, rows_);
-      for (std::size_t row = cell(std::min(y0, y1) - room - bottom_, rows_); row <= top; ++row)
+      const double y0 = height_at(ax, ay, bx, by, from - margin);
+      const double y1 = height_at(ax, ay, bx, by, from + size_ + margin);
+      const std::size_t top = cell(std::max(y0, y1) + margin - bottom_, rows_);
+      for (std::size_t row = cell(std::min(y0, y1) - margin - bottom_, rows_); row <= top; ++row)
         visit(row * columns_ + column);
     }
   }
@@ -78,9 +78,9 @@ class LaidLines {
       : cells_(cells), rule_(rule), first_(cells.count(), kNone) {}
 
   void add(const PlaneSegment& flat) {
-    const auto number = static_cast<std::uint32_t>(stretches_.size());
-    stretches_.push_back(flat);
-    asked_by_.push_back(kNone);
+    const auto number = static_cast<std::uint32_t>(segments_.size());
+    segments_.push_back(flat);
+    last_query_.push_back(kNone);
     cells_.along(flat, 0, [&](std::size_t cell) {
       entries_.push_back({number, first_[cell]});
       first_[cell] = static_cast<std::uint32_t>(entries_.size() - 1);
@@ -93,9 +93,9 @@ class LaidLines {
     cells_.along(line.flat, line.flat.reach + reach_, [&](std::size_t cell) {
       for (std::uint32_t e = first_[cell]; e != kNone; e = entries_[e].next) {
         const std::uint32_t number = entries_[e].stretch;
-        if (asked_by_[number] == query) continue;
-        asked_by_[number] = query;
-        if (const auto interval = covered(line.flat, stretches_[number], rule_))
+        if (last_query_[number] == query) continue;
+        last_query_[number] = query;
+        if (const auto interval = covered(line.flat, segments_[number], rule_))
           covers.push_back(*interval);
       }
     });
@@ -110,9 +110,9 @@ class LaidLines {
   const LineGrid& cells_;
   const OverlapRule& rule_;
   double reach_ = 0;
-  std::vector<PlaneSegment> stretches_;
-  std::vector<std::uint32_t> asked_by_;  ///< by entry: the last query that met it
-  std::vector<std::uint32_t> first_;     ///< by cell: the last of its entries
+  std::vector<PlaneSegment> segments_;
+  std::vector<std::uint32_t> last_query_;  ///< by entry: the last query that met it
+  std::vector<std::uint32_t> first_;       ///< by cell: the last of its entries
   std::vector<LaidEntry> entries_;
 };
 

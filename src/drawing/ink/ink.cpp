@@ -158,7 +158,7 @@ class HiddenChooser {
           for (std::size_t i = first; i < lines_.size() && lines_[i].object == lines_[first].object;
                ++i)
             if (flat_[i].rank == Rank::hidden && flat_[i].length() > rule.touch &&
-                !beside_visible_.wholly.is_set(i))
+                !beside_visible_.fully_covered.is_set(i))
               own.push_back(hidden_line(static_cast<std::uint32_t>(i)));
           choose_hidden_lines(own, rule, context.stop, out);
         });
@@ -168,7 +168,7 @@ class HiddenChooser {
   [[nodiscard]] HiddenLine hidden_line(std::uint32_t i) const {
     HiddenLine line{flat_[i], on_paper_.order(lines_[i], flat_[i]), i, {}};
     for (const LineInterval& s : std::ranges::equal_range(
-             beside_visible_.stretches, i, {}, [](const LineInterval& s) { return s.line; }))
+             beside_visible_.cut_intervals, i, {}, [](const LineInterval& s) { return s.line; }))
       if (s.covered) line.covers.push_back({s.from, s.to});
     return line;
   }

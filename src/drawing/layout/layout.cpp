@@ -174,33 +174,33 @@ template <class MakeLine>
 Result<std::vector<Line>> make_lines(std::span<const hlr::EdgePiece> pieces,
                                      const LineOverlaps& overlaps, const PaperAxes& axes,
                                      MakeLine&& make_line, const parallel::Context& context) {
-  const std::span<const LineInterval> stretches = overlaps.stretches;
+  const std::span<const LineInterval> cut_intervals = overlaps.cut_intervals;
   // The first interval of each piece that has any: behind k such pieces there are k lines fewer
   // than pieces and intervals.
   std::vector<std::size_t> firsts;
-  for (std::size_t i = 0; i < stretches.size(); ++i)
-    if (i == 0 || stretches[i].line != stretches[i - 1].line) firsts.push_back(i);
+  for (std::size_t i = 0; i < cut_intervals.size(); ++i)
+    if (i == 0 || cut_intervals[i].line != cut_intervals[i - 1].line) firsts.push_back(i);
   Result<std::vector<Line>> lines =
-      parallel::slots<Line>(pieces.size() + stretches.size() - firsts.size(), context);
+      parallel::slots<Line>(pieces.size() + cut_intervals.size() - firsts.size(), context);
   if (!lines) return lines;
   constexpr std::size_t kPieces = 4096;
   const Status status = parallel::for_each(
       context, {.name = "lines on paper", .n = (pieces.size() + kPieces - 1) / kPieces},
       [&](std::size_t block) {
         const std::size_t begin = block * kPieces;
-        const auto before =
-            std::partition_point(firsts.begin(), firsts.end(),
-                                 [&](std::size_t first) { return stretches[first].line < begin; });
-        std::size_t next = before == firsts.end() ? stretches.size() : *before;
+        const auto before = std::partition_point(
+            firsts.begin(), firsts.end(),
+            [&](std::size_t first) { return cut_intervals[first].line < begin; });
+        std::size_t next = before == firsts.end() ? cut_intervals.size() : *before;
         std::size_t at = begin + next - static_cast<std::size_t>(before - firsts.begin());
         for (std::size_t i = begin; i < std::min(pieces.size(), begin + kPieces); ++i) {
           Line line = make_line(pieces[i]);
-          if (overlaps.wholly.size() > 0 && overlaps.wholly.is_set(i))
+          if (overlaps.fully_covered.size() > 0 && overlaps.fully_covered.is_set(i))
             line.state = LineState::duplicate;
-          if (next == stretches.size() || stretches[next].line != i) (*lines)[at++] = line;
-          for (; next < stretches.size() && stretches[next].line == i; ++next) {
-            (*lines)[at] = part_of(line, axes, stretches[next].from, stretches[next].to);
-            if (stretches[next].covered) (*lines)[at].state = LineState::duplicate;
+          if (next == cut_intervals.size() || cut_intervals[next].line != i) (*lines)[at++] = line;
+          for (; next < cut_intervals.size() && cut_intervals[next].line == i; ++next) {
+            (*lines)[at] = part_of(line, axes, cut_intervals[next].from, cut_intervals[next].to);
+            if (cut_intervals[next].covered) (*lines)[at].state = LineState::duplicate;
             ++at;
           }
         }

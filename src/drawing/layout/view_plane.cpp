@@ -26,7 +26,7 @@ std::optional<Vec3d> unit(const Vec3d& v) {
   return Vec3d{v.x / length, v.y / length, v.z / length};
 }
 
-Size room(const Size& sheet, double margin) {
+Size usable_size(const Size& sheet, double margin) {
   return {sheet.width - 2 * margin, sheet.height - 2 * margin - kTitleStrip};
 }
 
@@ -132,12 +132,13 @@ std::string scale_text(double scale) {
 
 Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options) {
   Sheet sheet;
-  sheet.scale = options.scale.value_or(usual_scale(box, room(kSheets[0], options.margin_mm)));
+  sheet.scale =
+      options.scale.value_or(usual_scale(box, usable_size(kSheets[0], options.margin_mm)));
   sheet.scale_text = scale_text(sheet.scale);
   for (const Size& size : kSheets) {
     sheet.width_mm = size.width;
     sheet.height_mm = size.height;
-    if (fits(box, sheet.scale, room(size, options.margin_mm))) return sheet;
+    if (fits(box, sheet.scale, usable_size(size, options.margin_mm))) return sheet;
   }
   sheet.width_mm =
       std::max(sheet.width_mm, next_ten(box.width() / sheet.scale + 2 * options.margin_mm));

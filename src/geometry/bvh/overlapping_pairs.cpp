@@ -58,7 +58,7 @@ class SelfJoin {
   /// False when there are too many pairs.
   [[nodiscard]] bool run(const JoinTask& task, std::vector<JoinTask>& stack,
                          std::vector<IndexPair>& out, parallel::Allowance& allowance) const {
-    constexpr std::size_t kAskAfter = std::size_t{1} << 14U;
+    constexpr std::size_t kStopCheckInterval = std::size_t{1} << 14U;
     std::size_t counted = out.size();
     stack.assign(1, task);
     while (!stack.empty()) {
@@ -68,7 +68,7 @@ class SelfJoin {
         test_items(p, out);
       else
         expand(p, stack);
-      if (out.size() - counted < kAskAfter) continue;
+      if (out.size() - counted < kStopCheckInterval) continue;
       if (!allowance.take(out.size() - counted)) return false;
       counted = out.size();
     }
@@ -358,7 +358,7 @@ class GroupJoin {
   /// False when there are too many pairs.
   [[nodiscard]] bool run(const FrameNodePair& task, std::vector<IndexPair>& out,
                          parallel::Allowance& allowance) const {
-    constexpr std::size_t kAskAfter = std::size_t{1} << 14U;
+    constexpr std::size_t kStopCheckInterval = std::size_t{1} << 14U;
     std::size_t counted = out.size();
     std::vector<FrameNodePair> stack{task};
     while (!stack.empty()) {
@@ -368,7 +368,7 @@ class GroupJoin {
         test_items(p, out);
       else
         expand(p, stack);
-      if (out.size() - counted < kAskAfter) continue;
+      if (out.size() - counted < kStopCheckInterval) continue;
       if (!allowance.take(out.size() - counted)) return false;
       counted = out.size();
     }

@@ -153,9 +153,9 @@ class DualTraversal {
 template <class Near, class Leaves>
 bool traverse_both(const TriangleBvh& a, const TriangleBvh& b, const Near& near,
                    const Leaves& leaves) {
-  DualTraversal walk(a, b);
-  walk.start();
-  return walk.run(near, leaves) == TraversalEnd::done;
+  DualTraversal traversal(a, b);
+  traversal.start();
+  return traversal.run(near, leaves) == TraversalEnd::done;
 }
 
 }  // namespace strake::geometry

@@ -74,7 +74,7 @@ class InsideLinks {
         sets_(sets.sets),
         first_vertex_(sets.first_vertex),
         work_(work),
-        stretches_(near, sets.sets, work),
+        interior_segments_(near, sets.sets, work),
         inside_(near.side.own.part().vertices.size(), Known::no) {}
 
   void along_edges(std::vector<EdgeHit> stops) {
@@ -89,7 +89,7 @@ class InsideLinks {
       const PartEdge& e = part.edges[stops[first].edge];
       const ParamLine line{place(e.v0), place(e.v1)};
       join_vertex(e.v0, stops[first], line);
-      stretches_.join(line, std::span(stops).subspan(first, last - first));
+      interior_segments_.join(line, std::span(stops).subspan(first, last - first));
       join_vertex(e.v1, stops[last - 1], line);
       first = last;
     }
@@ -129,9 +129,9 @@ class InsideLinks {
                                ? root - first_vertex_
                                : vertex];
     if (known == Known::no)
-      known = stretches_.is_inside(place(vertex)) ? Known::inside : Known::not_inside;
+      known = interior_segments_.is_inside(place(vertex)) ? Known::inside : Known::not_inside;
     if (known == Known::inside)
-      sets_.join(member, stretches_.first_seen(line.at(stop.along), stop.pair));
+      sets_.join(member, interior_segments_.first_seen(line.at(stop.along), stop.pair));
   }
 
   void across_triangle(std::span<const std::uint32_t> pairs) {
@@ -157,9 +157,10 @@ class InsideLinks {
         exact_triangle_distance(own, side_.other.corners(side_.other_of(p)), p.squared.upper).on_a;
     const std::uint32_t corner = side_.own.part().triangles[side_.own_of(p)][0];
     const ParamLine line{from, place(corner)};
-    const std::vector<EdgeHit> stops = stretches_.hits_on(line, pairs, near_.squared_reach());
+    const std::vector<EdgeHit> stops =
+        interior_segments_.hits_on(line, pairs, near_.squared_reach());
     if (stops.empty()) return;
-    stretches_.join(line, stops);
+    interior_segments_.join(line, stops);
     join_vertex(corner, stops.back(), line);
   }
 
@@ -168,7 +169,7 @@ class InsideLinks {
   UnionFind& sets_;
   std::uint32_t first_vertex_;
   QueryContext& work_;
-  InteriorSegments stretches_;
+  InteriorSegments interior_segments_;
   std::vector<Known> inside_;          ///< by vertex: its set's side, where asked for
   std::vector<std::uint32_t> starts_;  ///< a pair of each set in a triangle
 };
@@ -198,7 +199,7 @@ constexpr std::size_t kTries = 8;
 class MaterialLinks {
  public:
   MaterialLinks(const NearSolid& near, UnionFind& sets, QueryContext& work)
-      : near_(near), sets_(sets), work_(work), stretches_(near, sets, work) {}
+      : near_(near), sets_(sets), work_(work), interior_segments_(near, sets, work) {}
 
   /// The pairs of one triangle.
   std::size_t join(std::span<const std::uint32_t> group) {
@@ -262,7 +263,8 @@ class MaterialLinks {
     for (const Spot& spot : spots_round(nearest.on_a, pair, group)) {
       const ParamLine line{nearest.on_b, spot.at};
       constexpr double kMeets = InteriorSegments::kMeets;
-      joins += stretches_.join(line, stretches_.hits_on(line, group, kMeets * kMeets));
+      joins +=
+          interior_segments_.join(line, interior_segments_.hits_on(line, group, kMeets * kMeets));
     }
     return joins;
   }
@@ -270,7 +272,7 @@ class MaterialLinks {
   NearSolid near_;
   UnionFind& sets_;
   QueryContext& work_;
-  InteriorSegments stretches_;
+  InteriorSegments interior_segments_;
 };
 
 }  // namespace

@@ -36,9 +36,9 @@ void include_overlap(const TriangleCorners& a, const TriangleCorners& b, double 
 namespace {
 
 /// Whether some of a box may lie in three slabs.
-bool reaches_into(const Box3d& box, const std::array<Slab, 3>& room) {
+bool reaches_into(const Box3d& box, const std::array<Slab, 3>& slabs) {
   constexpr double kRounding = 1.0 / 1024;
-  return std::ranges::all_of(room, [&](const Slab& slab) {
+  return std::ranges::all_of(slabs, [&](const Slab& slab) {
     const ProjectionInterval along = range_along(box, slab.axis);
     return along.lo <= slab.hi + kRounding && along.hi >= slab.lo - kRounding;
   });
@@ -46,27 +46,27 @@ bool reaches_into(const Box3d& box, const std::array<Slab, 3>& room) {
 
 /// Returns the box of the part's surface within the other's oriented box, in the part's own
 /// coordinates; `shift` takes these to the other's.
-Box3d skin_within(const PartWithObb& framed, const OrientedBox& of_other, const Vec3d& shift,
-                  double reach) {
+Box3d surface_extent_within(const PartWithObb& framed, const OrientedBox& of_other,
+                            const Vec3d& shift, double reach) {
   const Part& part = *framed.placed.part;
-  std::array<Slab, 3> room;
+  std::array<Slab, 3> slabs;
   for (std::size_t i = 0; i < 3; ++i) {
     const double base = dot(of_other.axis[i], shift);
-    room[i] = {of_other.axis[i], of_other.lo[i] - reach - base, of_other.hi[i] + reach - base};
+    slabs[i] = {of_other.axis[i], of_other.lo[i] - reach - base, of_other.hi[i] + reach - base};
   }
   Box3d box = empty_box<double>();
   const auto add = [&](std::uint32_t t) {
     const Corners c = corners_of(part, t);
     bool adds = false;
     for (const Vec3d& p : c) adds = adds || !box.contains({p, p});
-    if (adds) box.include(box_of_clipped(c, room));
+    if (adds) box.include(box_of_clipped(c, slabs));
     return true;
   };
   if (framed.tree != nullptr && part.vertices.size() >= kManyVertices &&
       !framed.tree->nodes().empty()) {
     traverse_bvh(
         *framed.tree,
-        [&](const TriangleBvh::Node& node) { return reaches_into(node.box.as<double>(), room); },
+        [&](const TriangleBvh::Node& node) { return reaches_into(node.box.as<double>(), slabs); },
         add);
   } else {
     for (std::uint32_t t = 0; t < part.triangles.size(); ++t) add(t);
@@ -80,8 +80,8 @@ Box3d overlap_extent(const PartWithObb& a, const PartWithObb& b, double reach) {
   // The extreme points of the intersection lie on the surface of one within the other.
   const double margin = reach + 1;
   const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();
-  Box3d box = skin_within(a, *b.frame, -shift, margin);
-  const Box3d of_b = skin_within(b, *a.frame, shift, margin);
+  Box3d box = surface_extent_within(a, *b.frame, -shift, margin);
+  const Box3d of_b = surface_extent_within(b, *a.frame, shift, margin);
   if (!of_b.empty()) box.include(of_b.moved(shift));
   return box;
 }

@@ -21,7 +21,7 @@ struct Slab {
 
 /// Returns the box of the part of a triangle in three slabs, clipped by one plane after the other.
 /// Empty where nothing lies in them.
-[[nodiscard]] inline Box3d box_of_clipped(const Corners& t, const std::array<Slab, 3>& room) {
+[[nodiscard]] inline Box3d box_of_clipped(const Corners& t, const std::array<Slab, 3>& slabs) {
   struct ClippedPolygon {
     std::array<Vec3d, 9> corner;  // a plane adds one at most
     std::size_t size = 0;
@@ -29,7 +29,7 @@ struct Slab {
   };
   ClippedPolygon polygon;
   for (const Vec3d& p : t) polygon.add(p);
-  for (const Slab& slab : room)
+  for (const Slab& slab : slabs)
     for (const double sign : {1.0, -1.0}) {
       const double limit = sign > 0 ? slab.hi : -slab.lo;
       ClippedPolygon cut;

@@ -188,21 +188,21 @@ using OutlineEdge = PlanarEnd::OutlineEdge;
 /// triangles end to end take 0.2 ms so, 9 triangle by triangle (decision 0012).
 constexpr std::size_t kMostNearTriangles = 16;
 
-struct RimCorner {
+struct OutlineVertex {
   PointInPlane at;
   std::uint32_t vertex = 0;
 };
 
-std::vector<RimCorner> outline_corners(std::span<const OutlineEdge> rim) {
-  std::vector<RimCorner> corners;
+std::vector<OutlineVertex> outline_corners(std::span<const OutlineEdge> rim) {
+  std::vector<OutlineVertex> corners;
   for (const OutlineEdge& e : rim) {
     corners.push_back({e.at_from, e.from});
     corners.push_back({e.at_to, e.to});
   }
-  std::ranges::sort(corners, [](const RimCorner& p, const RimCorner& q) {
+  std::ranges::sort(corners, [](const OutlineVertex& p, const OutlineVertex& q) {
     return std::tie(p.at.x, p.at.y, p.vertex) < std::tie(q.at.x, q.at.y, q.vertex);
   });
-  const auto rest = std::ranges::unique(corners, {}, &RimCorner::vertex);
+  const auto rest = std::ranges::unique(corners, {}, &OutlineVertex::vertex);
   corners.erase(rest.begin(), rest.end());
   return corners;
 }
@@ -210,17 +210,17 @@ std::vector<RimCorner> outline_corners(std::span<const OutlineEdge> rim) {
 /// By vertex of the first part: the only vertex of the second at the same point.
 using MatchingVertices = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-std::optional<MatchingVertices> matching_vertices(std::span<const RimCorner> a,
-                                                  std::span<const RimCorner> b, double room) {
+std::optional<MatchingVertices> matching_vertices(std::span<const OutlineVertex> a,
+                                                  std::span<const OutlineVertex> b, double margin) {
   if (a.size() != b.size()) return std::nullopt;
   MatchingVertices likes;
   std::vector<std::uint32_t> taken;
-  for (const RimCorner& p : a) {
-    const auto first =
-        std::ranges::lower_bound(b, p.at.x - room, {}, [](const RimCorner& q) { return q.at.x; });
+  for (const OutlineVertex& p : a) {
+    const auto first = std::ranges::lower_bound(b, p.at.x - margin, {},
+                                                [](const OutlineVertex& q) { return q.at.x; });
     std::optional<std::uint32_t> like;
-    for (auto q = first; q != b.end() && q->at.x <= p.at.x + room; ++q) {
-      if (std::hypot(q->at.x - p.at.x, q->at.y - p.at.y) > room) continue;
+    for (auto q = first; q != b.end() && q->at.x <= p.at.x + margin; ++q) {
+      if (std::hypot(q->at.x - p.at.x, q->at.y - p.at.y) > margin) continue;
       if (like) return std::nullopt;
       like = q->vertex;
     }
@@ -236,8 +236,8 @@ std::optional<MatchingVertices> matching_vertices(std::span<const RimCorner> a,
 
 /// Whether each edge of the one border has a counterpart in the other.
 bool run_along_each_other(std::span<const OutlineEdge> a, std::span<const OutlineEdge> b,
-                          double room) {
-  const auto likes = matching_vertices(outline_corners(a), outline_corners(b), room);
+                          double margin) {
+  const auto likes = matching_vertices(outline_corners(a), outline_corners(b), margin);
   if (!likes) return false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const OutlineEdge& e : b) edges.emplace_back(e.from, e.to);
@@ -253,11 +253,11 @@ bool run_along_each_other(std::span<const OutlineEdge> a, std::span<const Outlin
 
 /// Whether two border edges without a common vertex are near each other and not their face, but a
 /// gap, lies between them.
-struct RimGap {
+struct OutlineGap {
   bool near = false, open = false;
 };
 
-RimGap outline_gap(const OutlineEdge& e, const OutlineEdge& f, double reach) {
+OutlineGap outline_gap(const OutlineEdge& e, const OutlineEdge& f, double reach) {
   const auto raised = [](const PointInPlane& p) { return Vec3d{p.x, p.y, 0}; };
   const Vec3d p = raised(e.at_from), d = raised(e.at_to) - p;
   const Vec3d q = raised(f.at_from), g = raised(f.at_to) - q;
@@ -284,7 +284,7 @@ bool has_narrow_gap(std::vector<OutlineEdge> rim, double reach) {
   for (std::size_t i = 0; i < rim.size(); ++i)
     for (std::size_t j = i + 1; j < rim.size() && low(rim[j]) <= high(rim[i]) + reach; ++j) {
       if (apart_in_y(rim[i], rim[j]) || share_corner(rim[i], rim[j])) continue;
-      const RimGap gap = outline_gap(rim[i], rim[j], reach);
+      const OutlineGap gap = outline_gap(rim[i], rim[j], reach);
       if (gap.open || (gap.near && left-- == 0)) return true;
     }
   return false;
@@ -297,10 +297,12 @@ bool outlines_coincide(const PlanarEnd& a, const PlanarEnd& b, const PlaneFrame&
   // Points of the two faces may be farther apart than their planes.
   const double across = std::fabs(gap) + 2 * plane.band;
   if (!(across < plane.reach)) return false;
-  const double room = std::min(plane.band, std::sqrt(plane.reach * plane.reach - across * across));
-  const std::vector<OutlineEdge> rim_a = a.rim(), rim_b = b.rim();
-  return rim_a.size() == rim_b.size() && run_along_each_other(rim_a, rim_b, room) &&
-         a.is_one_face() && b.is_one_face() && !has_narrow_gap(rim_a, plane.reach + 2 * room);
+  const double margin =
+      std::min(plane.band, std::sqrt(plane.reach * plane.reach - across * across));
+  const std::vector<OutlineEdge> outline_a = a.rim(), outline_b = b.rim();
+  return outline_a.size() == outline_b.size() &&
+         run_along_each_other(outline_a, outline_b, margin) && a.is_one_face() && b.is_one_face() &&
+         !has_narrow_gap(outline_a, plane.reach + 2 * margin);
 }
 
 }  // namespace strake::geometry

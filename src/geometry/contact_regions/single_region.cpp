@@ -112,11 +112,11 @@ class NearCorners {
         near_vertex_(b.part().vertices.size(), vertices_.size()),
         rows_(triangles.size(), vertices_.size()),
         pieces_(triangles.size()) {
-    std::vector<bool> asked(b.part().vertices.size(), false);
+    std::vector<bool> searched(b.part().vertices.size(), false);
     for (const std::uint32_t t : facing.triangles_b)
       for (const std::uint32_t v : b.part().triangles[t]) {
-        if (!asked[v]) vertices_.near(b.vertex(v).as<double>(), squared, near_vertex_.row(v));
-        asked[v] = true;
+        if (!searched[v]) vertices_.near(b.vertex(v).as<double>(), squared, near_vertex_.row(v));
+        searched[v] = true;
       }
     first_.reserve(triangles.size() + 1);
     std::uint32_t count = 0;

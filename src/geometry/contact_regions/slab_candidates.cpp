@@ -141,7 +141,7 @@ ProximityBoxes::ProximityBoxes(const PairLocalPart& a, const PairLocalPart& b,
     : ProximityBoxes(Framed(a, b, facing), facing, reach + kFrameRounding) {}
 
 ProximityBoxes::ProximityBoxes(const Framed& framed, const SlabCandidates& facing, double margin)
-    : rooms_(framed.b.boxes(facing.triangles_b, margin)),
+    : inflated_boxes_(framed.b.boxes(facing.triangles_b, margin)),
       vertices_(boxes_of_vertices(framed.a.at, facing.vertices_a), facing.vertices_a, margin),
       triangles_(framed.a.boxes(facing.triangles_a, 0), facing.triangles_a, margin) {}
 

@@ -78,12 +78,12 @@ class ProximityBoxes {
   /// reach of the triangle at position `of_b` of facing.triangles_b.
   template <class Visit>
   void vertices_near(std::size_t of_b, const Visit& visit) const {
-    vertices_.for_each_overlapping(rooms_[of_b], visit);
+    vertices_.for_each_overlapping(inflated_boxes_[of_b], visit);
   }
   /// Calls `visit(triangle)` for some of facing.triangles_a, likewise.
   template <class Visit>
   void triangles_near(std::size_t of_b, const Visit& visit) const {
-    triangles_.for_each_overlapping(rooms_[of_b], visit);
+    triangles_.for_each_overlapping(inflated_boxes_[of_b], visit);
   }
 
  private:
@@ -91,7 +91,7 @@ class ProximityBoxes {
   struct Framed;
   ProximityBoxes(const Framed& framed, const SlabCandidates& facing, double margin);
 
-  std::vector<Box3d> rooms_;  ///< by position in facing.triangles_b
+  std::vector<Box3d> inflated_boxes_;  ///< by position in facing.triangles_b
   IntervalSortedBoxes vertices_, triangles_;
 };
 

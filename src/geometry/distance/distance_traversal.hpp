@@ -205,38 +205,39 @@ void adaptive_distance_traversal(const PairLocalPart& a, const PairLocalPart& b,
   };
   std::optional<State> first(begin());
   std::optional<RotatedParts> aligned;
-  std::optional<DistanceTraversal> walk(std::in_place, a, b, first->work, near_enough);
-  walk->start(first->reach);
-  std::uint64_t walked = 0;
+  std::optional<DistanceTraversal> traversal(std::in_place, a, b, first->work, near_enough);
+  traversal->start(first->reach);
+  std::uint64_t node_pairs_visited = 0;
   const auto turn = [&] {
     aligned = rotate_along_slivers(a, b, work.context());
     if (!aligned) return;
     // Start again: little is lost.
     work += first->work;
     first.emplace(begin());
-    walk.emplace(a, b, first->work, near_enough, &*aligned);
-    walk->start(first->reach);
+    traversal.emplace(a, b, first->work, near_enough, &*aligned);
+    traversal->start(first->reach);
   };
   bool heavy = true;
   const bool early = a.part().triangles.size() + b.part().triangles.size() <= kRotatedEarly;
   if (early) {
-    heavy =
-        walk->run(first->reach, *first, node_pairs_before_rotation(a, b)) == TraversalEnd::left_off;
+    heavy = traversal->run(first->reach, *first, node_pairs_before_rotation(a, b)) ==
+            TraversalEnd::left_off;
     if (heavy) turn();
   }
-  for (std::uint64_t pause = node_pairs_before_slabs(a, b); heavy && walked < kSequentialNodePairs;
-       pause *= 4) {
+  for (std::uint64_t pause = node_pairs_before_slabs(a, b);
+       heavy && node_pairs_visited < kSequentialNodePairs; pause *= 4) {
     const std::uint64_t until = std::min(pause, kSequentialNodePairs);
-    heavy = walk->run(first->reach, *first, until - walked) == TraversalEnd::left_off &&
+    heavy = traversal->run(first->reach, *first, until - node_pairs_visited) ==
+                TraversalEnd::left_off &&
             !settled(*first);
-    if (heavy && walked == 0 && !early) turn();
-    walked = until;
+    if (heavy && node_pairs_visited == 0 && !early) turn();
+    node_pairs_visited = until;
   }
   const double reach = first->reach;
   if (!charge(*first) || !heavy) return;
   const RotatedParts* const parts = aligned ? &*aligned : nullptr;
   (void)run_in_doubling_rounds(
-      work.context(), walk->rest(reach, kTraversalPieces),
+      work.context(), traversal->rest(reach, kTraversalPieces),
       [&](std::size_t /*i*/) { return begin(); },
       [&](State& state, const DistanceTraversal::Entry& entry) {
         DistanceTraversal piece(a, b, state.work, near_enough, parts);

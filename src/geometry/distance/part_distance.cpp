@@ -68,14 +68,14 @@ class ClosestSearch {
   bool settle(Found& found);
   double distance_so_far(Found& found, std::optional<Vec3d>& across);
   /// Returns the distance from which on triangles may be left out.
-  [[nodiscard]] double least_of_interest(double distance) const {
+  [[nodiscard]] double pruning_distance(double distance) const {
     return distance < limit_ ? distance - slack_ : limit_;
   }
   void leave_out(double gap, Found& found);
   bool settle_near(Found& found);
   void probe(const SlabPartition::Pair& pair, double limit, Found& found) const;
   static void probe(const Probe& from, const PairLocalPart& to, double limit, Found& found);
-  void walk_pair(const SlabPartition::Pair& pair);
+  void traverse_pair(const SlabPartition::Pair& pair);
   std::optional<ClosestPair> decide();
 
   /// The result of a traversal, or of a subtask of one.
@@ -149,7 +149,7 @@ bool ClosestSearch::settle(Found& found) {
   if (found.enough >= 0) return settle_near(found);
   std::optional<Vec3d> across;
   const double distance = distance_so_far(found, across);
-  SlabOptions question{.apart = least_of_interest(distance), .hint = across};
+  SlabOptions question{.apart = pruning_distance(distance), .hint = across};
   auto pieces = partition_by_height(a_, b_, question);
   if (!pieces && found.candidates.empty()) {
     // So long a traversal without a result: faces of slivers may all be within the limit.
@@ -161,7 +161,7 @@ bool ClosestSearch::settle(Found& found) {
   found_.reach = found.reach;
   if (!found.candidates.empty()) found_.candidates.assign(1, found.candidates.front());
   // The result of the nearest ones separates most of the others.
-  for (const SlabPartition::Pair& pair : pieces->open) walk_pair(pair);
+  for (const SlabPartition::Pair& pair : pieces->open) traverse_pair(pair);
   work_ += found_.work;
   found_.work = {};
   return true;
@@ -219,10 +219,10 @@ void ClosestSearch::probe(const Probe& from, const PairLocalPart& to, double lim
   }
 }
 
-void ClosestSearch::walk_pair(const SlabPartition::Pair& pair) {
+void ClosestSearch::traverse_pair(const SlabPartition::Pair& pair) {
   const auto parted = [&](Found& found) {
     std::optional<Vec3d> across;
-    if (!(pair.gap >= least_of_interest(distance_so_far(found, across)))) return false;
+    if (!(pair.gap >= pruning_distance(distance_so_far(found, across)))) return false;
     leave_out(pair.gap, found);
     return true;
   };

@@ -282,17 +282,17 @@ class CoverSearch {
 
   ToleranceContainment run(QueryContext& work) {
     if (vertices_.size() >= kWorthAFrame) {
-      const Vertices some = look_at_samples();
+      const Vertices some = locate_samples();
       work += some.cost;
       if (!some.cover.within) return some.cover;
       if (some.cost.node_pairs > kSamplePoints * kManyNodes) prepare(work.context());
     }
     if (vertices_.size() < kParallelThreshold) {
-      const Vertices all = look_at(0, vertices_.size());
+      const Vertices all = locate_vertices(0, vertices_.size());
       work += all.cost;
       return all.cover;
     }
-    return look_at_blocks(work);
+    return locate_blocks(work);
   }
 
  private:
@@ -311,43 +311,43 @@ class CoverSearch {
                           [&](std::size_t v) { return turned(frame_->axes, at(v).as<double>()); });
   }
 
-  ToleranceContainment look_at_blocks(QueryContext& work) const {
+  ToleranceContainment locate_blocks(QueryContext& work) const {
     // Stops at the first that lies outside, so that the cost is the same for any team.
-    const auto looks = parallel::transform_until(
+    const auto blocks_located = parallel::transform_until(
         work.context(), {.name = "vertices in a band", .n = blocks()},
         [&](std::size_t block) {
-          return look_at(block * kParallelGrain,
-                         std::min(vertices_.size(), (block + 1) * kParallelGrain));
+          return locate_vertices(block * kParallelGrain,
+                                 std::min(vertices_.size(), (block + 1) * kParallelGrain));
         },
-        [](const Vertices& looked) { return !looked.cover.within; });
+        [](const Vertices& located) { return !located.cover.within; });
     ToleranceContainment cover{.within = true, .on_surface = true};
-    if (!looks) return {};
-    for (const Vertices& looked : *looks) {
-      work += looked.cost;
-      cover.within = looked.cover.within;
-      cover.on_surface = cover.on_surface && looked.cover.on_surface;
+    if (!blocks_located) return {};
+    for (const Vertices& located : *blocks_located) {
+      work += located.cost;
+      cover.within = located.cover.within;
+      cover.on_surface = cover.on_surface && located.cover.on_surface;
     }
     return cover;
   }
 
-  [[nodiscard]] Vertices look_at_samples() const {
-    Vertices looked;
+  [[nodiscard]] Vertices locate_samples() const {
+    Vertices located;
     QueryContext work;
     PointLocator placer(b_, band_, nullptr);
     for (std::size_t i = 0; i < kSamplePoints; ++i)
-      if (!looked.add(placer.location(at(i * vertices_.size() / kSamplePoints), work))) break;
-    looked.cost = work;
-    return looked;
+      if (!located.add(placer.location(at(i * vertices_.size() / kSamplePoints), work))) break;
+    located.cost = work;
+    return located;
   }
 
-  [[nodiscard]] Vertices look_at(std::size_t first, std::size_t end) const {
-    Vertices looked;
+  [[nodiscard]] Vertices locate_vertices(std::size_t first, std::size_t end) const {
+    Vertices located;
     QueryContext work;
     PointLocator placer(b_, band_, frame_ ? &*frame_ : nullptr);
     for (std::size_t i = first; i < end; ++i)
-      if (!looked.add(placer.location(at(order_.empty() ? i : order_[i]), work))) break;
-    looked.cost = work;
-    return looked;
+      if (!located.add(placer.location(at(order_.empty() ? i : order_[i]), work))) break;
+    located.cost = work;
+    return located;
   }
 
   const std::vector<Vec3i>& vertices_;

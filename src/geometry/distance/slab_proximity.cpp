@@ -132,9 +132,9 @@ class SlabPlane {
   std::array<Vec3d, 2> axis_;
 };
 
-bool overlap(const EndTriangle& a, const EndTriangle& b, double room) {
-  return a.lo[0] <= b.hi[0] + room && b.lo[0] <= a.hi[0] + room && a.lo[1] <= b.hi[1] + room &&
-         b.lo[1] <= a.hi[1] + room;
+bool overlap(const EndTriangle& a, const EndTriangle& b, double margin) {
+  return a.lo[0] <= b.hi[0] + margin && b.lo[0] <= a.hi[0] + margin &&
+         a.lo[1] <= b.hi[1] + margin && b.lo[1] <= a.hi[1] + margin;
 }
 
 class SlabSearch {

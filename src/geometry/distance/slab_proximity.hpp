@@ -88,7 +88,7 @@ struct SlabFaces {
 /// The proximity of two parts across a slab.
 struct SlabProximity {
   std::optional<ClosestPair> near;  ///< as find_pair_within() gives it
-  bool asked = false;               ///< false: too many triangles, and nothing is known
+  bool decided = false;             ///< false: too many triangles, and nothing is known
 };
 
 /// find_pair_within() of small parts that lie face to face, without trees. `normal`, a unit vector

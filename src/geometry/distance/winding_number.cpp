@@ -197,12 +197,12 @@ int WindingNumber::crossings(const Vec3d& from, const Vec3d& way) const {
   return met;
 }
 
-WindingNumber::Look WindingNumber::look_round(const Vec3d& from, int rays) const {
+WindingNumber::RayShares WindingNumber::cast_rays(const Vec3d& from, int rays) const {
   // The same in three dimensions, for evenly distributed directions of points in a ball.
   constexpr double kStepX = 0.8191725133961645, kStepY = 0.6710436067037893,
                    kStepZ = 0.5497004779019703;
-  int out = 0, odd = 0, looked = 0;
-  for (int i = 1; looked < rays; ++i) {
+  int out = 0, odd = 0, visited = 0;
+  for (int i = 1; visited < rays; ++i) {
     const Vec3d way{2 * std::fmod(i * kStepX, 1) - 1, 2 * std::fmod(i * kStepY, 1) - 1,
                     2 * std::fmod(i * kStepZ, 1) - 1};
     const double squared = dot(way, way);
@@ -210,7 +210,7 @@ WindingNumber::Look WindingNumber::look_round(const Vec3d& from, int rays) const
     const int met = crossings(from, way);
     out += met == 0 ? 1 : 0;
     odd += met % 2;
-    ++looked;
+    ++visited;
   }
   return {static_cast<double>(out) / rays, static_cast<double>(odd) / rays};
 }
@@ -226,8 +226,8 @@ std::optional<double> WindingNumber::out_of(const Vec3d& at) const {
     return winding > 1 + kHalf ? winding - 1 : 1 - winding;
   }
   constexpr int kRays = 64;
-  const Look look = look_round(at, kRays);
-  return look.out < kHalf && look.odd >= kLeastOdd ? std::optional(look.out) : std::nullopt;
+  const RayShares shares = cast_rays(at, kRays);
+  return shares.out < kHalf && shares.odd >= kLeastOdd ? std::optional(shares.out) : std::nullopt;
 }
 
 bool WindingNumber::surrounds(const Vec3d& at) const {
@@ -235,8 +235,8 @@ bool WindingNumber::surrounds(const Vec3d& at) const {
   constexpr int kRays = 256;
   // Between a fin and the surface that it stands on a quarter of the directions leads out.
   constexpr double kMostOut = 0.2;
-  const Look look = look_round(at, kRays);
-  return look.out < kMostOut && look.odd >= kLeastOdd;
+  const RayShares shares = cast_rays(at, kRays);
+  return shares.out < kMostOut && shares.odd >= kLeastOdd;
 }
 
 double WindingNumber::openness(double most) const {

@@ -58,7 +58,7 @@ class WindingNumber {
 
   /// The shares of the directions from a point that lead out, and that meet an odd number of
   /// triangles.
-  struct Look {
+  struct RayShares {
     double out = 0, odd = 0;
   };
 
@@ -66,7 +66,7 @@ class WindingNumber {
   template <class Visit>
   void along(const Vec3d& from, const Vec3d& way, const double& far, const Visit& visit) const;
   [[nodiscard]] int crossings(const Vec3d& from, const Vec3d& way) const;
-  [[nodiscard]] Look look_round(const Vec3d& from, int rays) const;
+  [[nodiscard]] RayShares cast_rays(const Vec3d& from, int rays) const;
   [[nodiscard]] std::optional<double> out_of(const Vec3d& at) const;
   void split(std::size_t node);
   void measure(Node& node) const;

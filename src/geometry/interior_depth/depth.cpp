@@ -342,13 +342,14 @@ class Centring {
 
   /// To a place or, from there, into the body as deep as the deepest, where that is in the other.
   bool move_deep(const Vec3d& to, const DistanceField& body, Depth& depth) const {
-    const NearestTriangle skin = body.nearest(to);
+    const NearestTriangle closest = body.nearest(to);
     const Vec3d out =
-        nearest_on_triangle(body.local(to), body.corners(skin.triangle)) - body.local(to);
-    const double missing = depth.value - skin.distance;
-    if (!(skin.distance > 0 && missing > 0 && missing < 2 * kSlack)) return move_to(to, depth);
+        nearest_on_triangle(body.local(to), body.corners(closest.triangle)) - body.local(to);
+    const double missing = depth.value - closest.distance;
+    if (!(closest.distance > 0 && missing > 0 && missing < 2 * kSlack)) return move_to(to, depth);
     for (const double less : {0.0, 1.0 / 64, 1.0, 2.0, 3.0})
-      if (move_to(to - out * (std::max(missing - less, 0.0) / skin.distance), depth)) return true;
+      if (move_to(to - out * (std::max(missing - less, 0.0) / closest.distance), depth))
+        return true;
     return move_to(to, depth);
   }
 
@@ -384,10 +385,10 @@ class Centring {
 
 }  // namespace
 
-Depth solid_depth(const DepthOperand& a, const DepthOperand& b, const DepthOptions& asked,
+Depth solid_depth(const DepthOperand& a, const DepthOperand& b, const DepthOptions& options,
                   QueryContext& work) {
-  DepthOptions goal = asked;
-  goal.relative = std::min(asked.relative, kFinely);
+  DepthOptions goal = options;
+  goal.relative = std::min(options.relative, kFinely);
   // Coplanar faces of a rotated model: what the snap made of a touch.
   if (goal.known_upper <= std::min(kTieDepth, goal.threshold))
     return {.upper = goal.known_upper, .value = goal.known_upper, .point = goal.meeting_point};

@@ -31,7 +31,7 @@ constexpr double kShortest = 0.25;
 /// A step that gains less, relative to the depth, was the last of its reach.
 constexpr double kGain = 1e-4;
 /// A point nearer to a triangle, grid units, lies on it.
-constexpr double kOnSkin = 1e-6;
+constexpr double kOnSurface = 1e-6;
 
 struct NearPlane {
   Vec3d away;  ///< unit, from the triangle's nearest point
@@ -43,7 +43,7 @@ struct NearPlane {
 std::optional<NearPlane> near_of(const PreparedTriangle& triangle, const Vec3d& at) {
   const Vec3d way = at - triangle.nearest(at);
   const double distance = length(way);
-  if (distance > kOnSkin) return NearPlane{way * (1 / distance), distance};
+  if (distance > kOnSurface) return NearPlane{way * (1 / distance), distance};
   // On the surface, inwards is away from it.
   if (triangle.size > 0) return NearPlane{-triangle.unit, distance};
   return std::nullopt;
@@ -70,7 +70,9 @@ class InPart {
   explicit InPart(const DistanceField& part) : part_(part) {}
 
   /// Looks round a point; false where there is too much to say.
-  bool look(const Vec3d& at, double reach) { return find_near(part_, at, reach, beside_); }
+  bool find_planes_near(const Vec3d& at, double reach) {
+    return find_near(part_, at, reach, beside_);
+  }
   void add(const Vec3d&, std::vector<BallConstraint>& rows) const {
     for (const NearPlane& near : beside_) rows.push_back({-near.away, 0, near.distance - kInset});
   }
@@ -102,7 +104,7 @@ class OnFlat {
     }
   }
 
-  static bool look(const Vec3d&, double) { return true; }
+  static bool find_planes_near(const Vec3d&, double) { return true; }
   void add(const Vec3d& at, std::vector<BallConstraint>& rows) const {
     for (const BallConstraint& side : sides_)
       rows.push_back({side.normal, 0, side.offset - dot(side.normal, at)});
@@ -128,18 +130,18 @@ class OnFlat {
   std::vector<BallConstraint> sides_;
 };
 
-/// `Room`: what the centre must not leave.
-template <class Room>
+/// `Domain`: what the centre must not leave.
+template <class Domain>
 class LocalAscent {
  public:
-  LocalAscent(const DistanceField& of, Room room, const std::optional<Box3d>& within)
-      : of_(of), room_(std::move(room)), within_(within) {}
+  LocalAscent(const DistanceField& of, Domain domain, const std::optional<Box3d>& within)
+      : of_(of), domain_(std::move(domain)), within_(within) {}
 
   Vec3d run(Vec3d at) {
     double depth = of_.nearest(at).distance;
     double reach = std::max(depth, 64 * kShortest);
     for (int step = 0; step < kMostClimbSteps && reach > kShortest; ++step) {
-      if (!room_.look(at, reach)) {
+      if (!domain_.find_planes_near(at, reach)) {
         reach /= 2;
         continue;
       }
@@ -149,7 +151,7 @@ class LocalAscent {
       if (!all) reach = std::min(reach, depth);
       const InscribedBall next = all ? solve(at, depth, reach) : solve_by_cuts(at, depth, reach);
       if (next.r > depth * (1 + kGain) + kInset) {
-        const Vec3d there = room_.kept(at + next.x);
+        const Vec3d there = domain_.kept(at + next.x);
         const double found = of_.nearest(there).distance;
         if (!(found > depth)) {
           if (all) return at;
@@ -173,11 +175,11 @@ class LocalAscent {
   InscribedBall solve_by_cuts(const Vec3d& at, double depth, double reach) {
     above_.clear();
     InscribedBall next;
-    std::vector<std::uint32_t> asked;
+    std::vector<std::uint32_t> tried;
     std::uint32_t triangle = of_.nearest(at).triangle;
     for (int cut = 0; cut < kMostCuts; ++cut) {
-      if (std::ranges::find(asked, triangle) != asked.end()) break;
-      asked.push_back(triangle);
+      if (std::ranges::find(tried, triangle) != tried.end()) break;
+      tried.push_back(triangle);
       if (const auto near = near_of(of_.triangle(triangle), of_.local(at))) above_.push_back(*near);
       next = solve(at, depth, reach);
       const NearestTriangle there = of_.nearest(at + next.x, triangle);
@@ -202,12 +204,12 @@ class LocalAscent {
           rows.push_back({n, 0, sign > 0 ? within_->hi[k] - at[k] : at[k] - within_->lo[k]});
       }
     for (const NearPlane& near : above_) rows.push_back({-near.away, 1, near.distance});
-    room_.add(at, rows);
+    domain_.add(at, rows);
     return largest_inscribed_ball({rows, depth + 4 * reach});
   }
 
   const DistanceField& of_;
-  Room room_;
+  Domain domain_;
   const std::optional<Box3d>& within_;
   std::vector<NearPlane> above_;
 };

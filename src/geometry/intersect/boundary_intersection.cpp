@@ -29,8 +29,8 @@ constexpr int kPartingTries = 16;
 
 /// Adds what follows from a triangle's corners off the other's plane, where the triangles meet
 /// along a segment through the other's interior: there the other part is a half-space, or itself.
-void judge_corners(const CornerSides& sides, bool crosser_solid, bool face_solid, bool& interiors,
-                   bool& crosser_leaves, bool& face_leaves) {
+void classify_corners(const CornerSides& sides, bool crosser_solid, bool face_solid,
+                      bool& interiors, bool& crosser_leaves, bool& face_leaves) {
   const bool below = sides[0] < 0 || sides[1] < 0 || sides[2] < 0;
   const bool above = sides[0] > 0 || sides[1] > 0 || sides[2] > 0;
   if (face_solid) {
@@ -71,20 +71,20 @@ bool ContactClassifier::parted(const ExactTriangle& a, const ExactTriangle& b,
 bool ContactClassifier::touching(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a,
                                  const ExactTriangle& b, const TriangleContact& c) {
   ++touches_;
-  if (!found_.boundaries_meet) stand_at(ta, tb, common_point(a, b, c));
+  if (!found_.boundaries_meet) record_contact_at(ta, tb, common_point(a, b, c));
   if (whole_ && !found_.overlap.interiors && separation_tries_ < kSeparationTries &&
       separated(a, b)) {
     found_.separated = true;
     return false;
   }
   const bool had_interiors = found_.overlap.interiors;
-  judge(ta, tb, c);
+  classify(ta, tb, c);
   // The point of a crossing is preferred to that of an earlier touch.
-  if (found_.overlap.interiors && !had_interiors) stand_at(ta, tb, common_point(a, b, c));
+  if (found_.overlap.interiors && !had_interiors) record_contact_at(ta, tb, common_point(a, b, c));
   return !found_.overlap.complete();
 }
 
-void ContactClassifier::stand_at(std::uint32_t ta, std::uint32_t tb, const Vec3d& point) {
+void ContactClassifier::record_contact_at(std::uint32_t ta, std::uint32_t tb, const Vec3d& point) {
   found_.boundaries_meet = true;
   found_.triangle_a = ta;
   found_.triangle_b = tb;
@@ -104,23 +104,23 @@ bool ContactClassifier::separated(const ExactTriangle& a, const ExactTriangle& b
          (!b_.solid() && is_separating_plane(b, a_, b_));
 }
 
-void ContactClassifier::judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
+void ContactClassifier::classify(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
   if (c.touch == Touch::point) return;
   insert_linear(ta, tb);
   if (c.coplanar)
-    judge_coplanar(ta, tb, c);
+    classify_coplanar(ta, tb, c);
   else
-    judge_crossing(ta, tb, c);
+    classify_crossing(ta, tb, c);
 }
 
-void ContactClassifier::judge_crossing(std::uint32_t ta, std::uint32_t tb,
-                                       const TriangleContact& c) {
+void ContactClassifier::classify_crossing(std::uint32_t ta, std::uint32_t tb,
+                                          const TriangleContact& c) {
   if (c.edge_b < 0)
-    judge_corners(c.side_a, a_.solid(), b_.solid(), found_.overlap.interiors,
-                  found_.overlap.a_leaves_b, found_.overlap.b_leaves_a);
+    classify_corners(c.side_a, a_.solid(), b_.solid(), found_.overlap.interiors,
+                     found_.overlap.a_leaves_b, found_.overlap.b_leaves_a);
   if (c.edge_a < 0)
-    judge_corners(c.side_b, b_.solid(), a_.solid(), found_.overlap.interiors,
-                  found_.overlap.b_leaves_a, found_.overlap.a_leaves_b);
+    classify_corners(c.side_b, b_.solid(), a_.solid(), found_.overlap.interiors,
+                     found_.overlap.b_leaves_a, found_.overlap.a_leaves_b);
   if (c.edge_a < 0 && c.edge_b < 0) {
     found_.overlap.interiors = true;
   } else if (c.edge_b < 0) {
@@ -132,8 +132,8 @@ void ContactClassifier::judge_crossing(std::uint32_t ta, std::uint32_t tb,
   }
 }
 
-void ContactClassifier::judge_coplanar(std::uint32_t ta, std::uint32_t tb,
-                                       const TriangleContact& c) {
+void ContactClassifier::classify_coplanar(std::uint32_t ta, std::uint32_t tb,
+                                          const TriangleContact& c) {
   found_.flush |= c.touch == Touch::area;
   if (c.touch == Touch::area && a_.solid() && b_.solid()) {
     found_.overlap.interiors |= c.same_normal;
@@ -152,47 +152,47 @@ void ContactClassifier::edge_in_face_of_b(std::uint32_t ta, int edge, std::uint3
   set_axis(sectors_, a_, ta, edge);
   add_edge_star(sectors_, a_, ta, edge, false);
   add_face(sectors_, b_, tb, true);
-  sectors_.judge(a_.solid(), b_.solid(), found_.overlap);
+  sectors_.classify(a_.solid(), b_.solid(), found_.overlap);
 }
 
 void ContactClassifier::edge_in_face_of_a(std::uint32_t ta, std::uint32_t tb, int edge) {
   set_axis(sectors_, b_, tb, edge);
   add_face(sectors_, a_, ta, false);
   add_edge_star(sectors_, b_, tb, edge, true);
-  sectors_.judge(a_.solid(), b_.solid(), found_.overlap);
+  sectors_.classify(a_.solid(), b_.solid(), found_.overlap);
 }
 
 void ContactClassifier::edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t tb, int edge_b) {
   set_axis(sectors_, a_, ta, edge_a);
   add_edge_star(sectors_, a_, ta, edge_a, false);
   add_edge_star(sectors_, b_, tb, edge_b, true);
-  sectors_.judge(a_.solid(), b_.solid(), found_.overlap);
+  sectors_.classify(a_.solid(), b_.solid(), found_.overlap);
 }
 
 /// Classifies an edge whose neighbourhood in either part is given by half-planes round it.
 template <class AddRays>
-void ContactClassifier::judge_rim(std::uint32_t ta, std::uint32_t tb, const Vec3d& point,
-                                  const AddRays& add_rays) {
-  if (!found_.boundaries_meet) stand_at(ta, tb, point);
+void ContactClassifier::classify_boundary_edge(std::uint32_t ta, std::uint32_t tb,
+                                               const Vec3d& point, const AddRays& add_rays) {
+  if (!found_.boundaries_meet) record_contact_at(ta, tb, point);
   insert_linear(ta, tb);
   const bool had_interiors = found_.overlap.interiors;
   add_rays();
-  sectors_.judge(a_.solid(), b_.solid(), found_.overlap);
-  if (found_.overlap.interiors && !had_interiors) stand_at(ta, tb, point);
+  sectors_.classify(a_.solid(), b_.solid(), found_.overlap);
+  if (found_.overlap.interiors && !had_interiors) record_contact_at(ta, tb, point);
 }
 
-void ContactClassifier::rim_in_face_of_b(const TriangleEdge& side, std::uint32_t tb,
-                                         const Vec3d& point) {
-  judge_rim(side.triangle, tb, point, [&] {
+void ContactClassifier::add_boundary_edge_in_face_of_b(const TriangleEdge& side, std::uint32_t tb,
+                                                       const Vec3d& point) {
+  classify_boundary_edge(side.triangle, tb, point, [&] {
     set_axis(sectors_, a_, side.triangle, side.number);
     add_edge_star(sectors_, a_, side.triangle, side.number, false);
     add_coordinate_face(sectors_, b_, tb, true);
   });
 }
 
-void ContactClassifier::rim_in_face_of_a(const TriangleEdge& side, std::uint32_t ta,
-                                         const Vec3d& point) {
-  judge_rim(ta, side.triangle, point, [&] {
+void ContactClassifier::add_boundary_edge_in_face_of_a(const TriangleEdge& side, std::uint32_t ta,
+                                                       const Vec3d& point) {
+  classify_boundary_edge(ta, side.triangle, point, [&] {
     set_axis(sectors_, b_, side.triangle, side.number);
     add_coordinate_face(sectors_, a_, ta, false);
     add_edge_star(sectors_, b_, side.triangle, side.number, true);
@@ -200,10 +200,10 @@ void ContactClassifier::rim_in_face_of_a(const TriangleEdge& side, std::uint32_t
 }
 
 void ContactClassifier::take(const BoundaryIntersection& more) {
-  const bool says_more =
+  const bool adds_contact =
       more.boundaries_meet &&
       (!found_.boundaries_meet || (more.overlap.interiors && !found_.overlap.interiors));
-  if (says_more) {
+  if (adds_contact) {
     found_.boundaries_meet = true;
     found_.triangle_a = more.triangle_a;
     found_.triangle_b = more.triangle_b;
@@ -232,7 +232,7 @@ class BoundaryTraversal {
  public:
   /// `whole`: the views hold all of the parts, so that separating planes may be sought.
   BoundaryTraversal(const PairLocalPart& a, const PairLocalPart& b, bool whole)
-      : a_(a), b_(b), whole_(whole), judge_(a, b, whole) {}
+      : a_(a), b_(b), whole_(whole), classifier_(a, b, whole) {}
 
   /// Traverses everything, with the team where it is heavy.
   BoundaryIntersection run(QueryContext& work);
@@ -245,15 +245,16 @@ class BoundaryTraversal {
     std::array<std::optional<ExactTriangle>, TriangleBvh::kLeafSize> triangle;
   };
 
-  bool settle_by_heights(QueryContext& work);
-  bool settle_flush(QueryContext& work);
-  void walk_some(const SlabPiece& of_a, const SlabPiece& of_b, QueryContext& work);
-  void walk_piece(const PairLocalPart& a, const PairLocalPart& b, QueryContext& work);
-  void judge_rims(const CoplanarFaces& plane, const TriangleBvh& tree_a, const TriangleBvh& tree_b);
-  TraversalEnd go_on(DualTraversal& walk, std::uint64_t most);
-  void finish(DualTraversal& walk, std::uint64_t walked, QueryContext& work);
-  bool walk_aligned(QueryContext& work);
-  void share(DualTraversal& walk, const QueryContext& work);
+  bool traverse_by_heights(QueryContext& work);
+  bool traverse_coplanar_faces(QueryContext& work);
+  void traverse_some(const SlabPiece& of_a, const SlabPiece& of_b, QueryContext& work);
+  void traverse_piece(const PairLocalPart& a, const PairLocalPart& b, QueryContext& work);
+  void classify_boundary_edges(const CoplanarFaces& plane, const TriangleBvh& tree_a,
+                               const TriangleBvh& tree_b);
+  TraversalEnd go_on(DualTraversal& traversal, std::uint64_t most);
+  void finish(DualTraversal& traversal, std::uint64_t node_pairs_visited, QueryContext& work);
+  bool traverse_along_slivers(QueryContext& work);
+  void share(DualTraversal& traversal, const QueryContext& work);
   template <class Entry, class Run>
   void share_out(const std::vector<Entry>& pieces, const QueryContext& work, const Run& run);
   void take(const BoundaryTraversal& piece);
@@ -263,54 +264,57 @@ class BoundaryTraversal {
 
   PairLocalPart a_, b_;
   bool whole_;
-  ContactClassifier judge_;
+  ContactClassifier classifier_;
   QueryStats cost_;
   LoadedLeaf leaf_;
 };
 
 BoundaryIntersection BoundaryTraversal::run(QueryContext& work) {
-  DualTraversal walk(a_.tree(), b_.tree());
-  walk.start();
+  DualTraversal traversal(a_.tree(), b_.tree());
+  traversal.start();
   const std::uint64_t before_flat = std::min(node_pairs_before_slabs(a_, b_), kSequentialNodePairs);
-  if (go_on(walk, before_flat) == TraversalEnd::left_off && !settle_flush(work) &&
-      !settle_by_heights(work))
-    finish(walk, before_flat, work);
+  if (go_on(traversal, before_flat) == TraversalEnd::left_off && !traverse_coplanar_faces(work) &&
+      !traverse_by_heights(work))
+    finish(traversal, before_flat, work);
   work += cost_;
-  return judge_.found();
+  return classifier_.found();
 }
 
 /// Finishes a traversal after so many node pairs.
-void BoundaryTraversal::finish(DualTraversal& walk, std::uint64_t walked, QueryContext& work) {
+void BoundaryTraversal::finish(DualTraversal& traversal, std::uint64_t node_pairs_visited,
+                               QueryContext& work) {
   // Rotating the parts costs as much as a traversal of some node pairs per triangle.
-  const std::uint64_t before_turned =
+  const std::uint64_t before_rotation =
       std::min(8 * node_pairs_before_slabs(a_, b_), kSequentialNodePairs);
-  if (go_on(walk, before_turned - walked) != TraversalEnd::left_off) return;
+  if (go_on(traversal, before_rotation - node_pairs_visited) != TraversalEnd::left_off) return;
   // Where every few pairs of triangles touch, other boxes would overlap nearly as often.
-  if ((kOften * judge_.touches() > cost_.triangle_pairs || !walk_aligned(work)) &&
-      go_on(walk, kSequentialNodePairs - before_turned) == TraversalEnd::left_off)
-    share(walk, work);
+  if ((kOften * classifier_.touches() > cost_.triangle_pairs || !traverse_along_slivers(work)) &&
+      go_on(traversal, kSequentialNodePairs - before_rotation) == TraversalEnd::left_off)
+    share(traversal, work);
 }
 
 /// Traverses everything again in a frame along the parts' slivers, if there are such; what has been
 /// found so far is kept.
-bool BoundaryTraversal::walk_aligned(QueryContext& work) {
+bool BoundaryTraversal::traverse_along_slivers(QueryContext& work) {
   const auto aligned = rotate_along_slivers(a_, b_, work.context());
   if (!aligned) return false;
-  const auto run = [&](BoundaryTraversal& piece, DistanceTraversal& walk, std::uint64_t most) {
-    return walk.run(
+  const auto run = [&](BoundaryTraversal& piece, DistanceTraversal& traversal, std::uint64_t most) {
+    return traversal.run(
         0.0,
-        [&](const NearTrianglePair& pair) { return piece.judge_.classify_pair(pair.a, pair.b); },
+        [&](const NearTrianglePair& pair) {
+          return piece.classifier_.classify_pair(pair.a, pair.b);
+        },
         most);
   };
   // Overlapping boxes suffice to classify a pair: bounds on its distance take longer.
   constexpr double kAny = std::numeric_limits<double>::infinity();
   QueryContext own;
-  DistanceTraversal walk(a_, b_, own, kAny, &*aligned);
-  walk.start(0);
-  const TraversalEnd end = run(*this, walk, kSequentialNodePairs);
+  DistanceTraversal traversal(a_, b_, own, kAny, &*aligned);
+  traversal.start(0);
+  const TraversalEnd end = run(*this, traversal, kSequentialNodePairs);
   cost_ += own;
   if (end != TraversalEnd::left_off) return true;
-  share_out(walk.rest(0, kTraversalPieces), work,
+  share_out(traversal.rest(0, kTraversalPieces), work,
             [&](BoundaryTraversal& piece, const DistanceTraversal::Entry& entry) {
               QueryContext of_piece;
               DistanceTraversal below(a_, b_, of_piece, kAny, &*aligned);
@@ -323,41 +327,41 @@ bool BoundaryTraversal::walk_aligned(QueryContext& work) {
 
 /// Whether the heights of flat faces separate most of two surfaces that have not met so far; pairs
 /// that they leave open are traversed.
-bool BoundaryTraversal::settle_by_heights(QueryContext& work) {
-  if (judge_.found().boundaries_meet) return false;
+bool BoundaryTraversal::traverse_by_heights(QueryContext& work) {
+  if (classifier_.found().boundaries_meet) return false;
   const auto pieces = partition_by_height(a_, b_, {.apart = std::numeric_limits<double>::min()});
   if (!pieces) return false;
   for (const SlabPartition::Pair& pair : pieces->open) {
-    if (judge_.found().decided()) break;
-    walk_piece(pair.a->view(a_.shift()), pair.b->view(b_.shift()), work);
+    if (classifier_.found().decided()) break;
+    traverse_piece(pair.a->view(a_.shift()), pair.b->view(b_.shift()), work);
   }
   return true;
 }
 
 /// Traverses some triangles of either part.
-void BoundaryTraversal::walk_piece(const PairLocalPart& a, const PairLocalPart& b,
-                                   QueryContext& work) {
+void BoundaryTraversal::traverse_piece(const PairLocalPart& a, const PairLocalPart& b,
+                                       QueryContext& work) {
   BoundaryTraversal piece(a, b, false);
-  DualTraversal walk(a.tree(), b.tree());
-  walk.start();
-  piece.finish(walk, 0, work);
+  DualTraversal traversal(a.tree(), b.tree());
+  traversal.start();
+  piece.finish(traversal, 0, work);
   take(piece);
 }
 
 /// Handles coplanar faces of two solids in a coordinate plane. If their triangles fan out from a
 /// corner of each, all pairs of them touch. The boundaries of the faces already give the result:
 /// round any other edge of their triangles either part is just a half-space.
-bool BoundaryTraversal::settle_flush(QueryContext& work) {
+bool BoundaryTraversal::traverse_coplanar_faces(QueryContext& work) {
   if (!a_.solid() || !b_.solid()) return false;
   const std::vector<CoplanarFaces> planes = find_coplanar_faces(a_, b_);
   if (planes.empty()) return false;
   std::vector<bool> done_a(a_.part().triangles.size()), done_b(b_.part().triangles.size());
   for (const CoplanarFaces& plane : planes) {
-    if (judge_.found().decided()) return true;
+    if (classifier_.found().decided()) return true;
     const SlabPiece in_a = piece_of(a_, plane.a), in_b = piece_of(b_, plane.b);
-    judge_rims(plane, in_a.tree, in_b.tree);
-    walk_some(in_a, piece_of(b_, plane.through_b), work);
-    walk_some(piece_of(a_, plane.through_a), in_b, work);
+    classify_boundary_edges(plane, in_a.tree, in_b.tree);
+    traverse_some(in_a, piece_of(b_, plane.through_b), work);
+    traverse_some(piece_of(a_, plane.through_a), in_b, work);
     for (const std::uint32_t t : plane.a) done_a[t] = true;
     for (const std::uint32_t t : plane.b) done_b[t] = true;
   }
@@ -367,27 +371,29 @@ bool BoundaryTraversal::settle_flush(QueryContext& work) {
       if (!done[t]) left.push_back(t);
     return left;
   };
-  walk_some(piece_of(a_, rest(done_a)), piece_of(b_, rest(done_b)), work);
+  traverse_some(piece_of(a_, rest(done_a)), piece_of(b_, rest(done_b)), work);
   // Contacts in single points have not been visited; where there are no others, one is a touch.
-  return judge_.found().boundaries_meet;
+  return classifier_.found().boundaries_meet;
 }
 
-void BoundaryTraversal::walk_some(const SlabPiece& of_a, const SlabPiece& of_b,
-                                  QueryContext& work) {
-  if (judge_.found().decided() || of_a.tree.nodes().empty() || of_b.tree.nodes().empty()) return;
-  walk_piece(of_a.view(a_.shift()), of_b.view(b_.shift()), work);
+void BoundaryTraversal::traverse_some(const SlabPiece& of_a, const SlabPiece& of_b,
+                                      QueryContext& work) {
+  if (classifier_.found().decided() || of_a.tree.nodes().empty() || of_b.tree.nodes().empty())
+    return;
+  traverse_piece(of_a.view(a_.shift()), of_b.view(b_.shift()), work);
 }
 
-void BoundaryTraversal::judge_rims(const CoplanarFaces& plane, const TriangleBvh& tree_a,
-                                   const TriangleBvh& tree_b) {
+void BoundaryTraversal::classify_boundary_edges(const CoplanarFaces& plane,
+                                                const TriangleBvh& tree_a,
+                                                const TriangleBvh& tree_b) {
   const FaceBoundary rim_a(a_, plane.a, plane.axis), rim_b(b_, plane.b, plane.axis);
   // Near the other boundary its triangles are tested; elsewhere an edge lies in one face as a
   // whole, or in none.
-  const auto judge = [&](const FaceBoundary& rim, const FaceBoundary& other,
-                         const PairLocalPart& view, const TriangleBvh& tree,
-                         const auto& judge_triangles, const auto& judge_in_face) {
+  const auto classify = [&](const FaceBoundary& rim, const FaceBoundary& other,
+                            const PairLocalPart& view, const TriangleBvh& tree,
+                            const auto& classify_triangles, const auto& classify_in_face) {
     for (const TriangleEdge& side : rim.sides()) {
-      if (judge_.found().overlap.complete()) return;
+      if (classifier_.found().overlap.complete()) return;
       const std::array<Vec3l, 2> ends = rim.ends(side);
       const Box3l box = box_of(ends);
       if (other.meets(ends)) {
@@ -395,29 +401,29 @@ void BoundaryTraversal::judge_rims(const CoplanarFaces& plane, const TriangleBvh
             tree, [&](const TriangleBvh::Node& node) { return view.box(node.box).meets(box); },
             [&](std::uint32_t t) {
               ++cost_.triangle_pairs;
-              return judge_triangles(side.triangle, t);
+              return classify_triangles(side.triangle, t);
             });
       } else if (const auto face = other.face_containing(ends[0])) {
-        judge_in_face(side, *face, (ends[0] + ends[1]).as<double>() * 0.5);
+        classify_in_face(side, *face, (ends[0] + ends[1]).as<double>() * 0.5);
       }
     }
   };
-  judge(
+  classify(
       rim_a, rim_b, b_, tree_b,
-      [&](std::uint32_t ta, std::uint32_t tb) { return judge_.classify_pair(ta, tb); },
+      [&](std::uint32_t ta, std::uint32_t tb) { return classifier_.classify_pair(ta, tb); },
       [&](const TriangleEdge& side, std::uint32_t tb, const Vec3d& point) {
-        judge_.rim_in_face_of_b(side, tb, point);
+        classifier_.add_boundary_edge_in_face_of_b(side, tb, point);
       });
-  judge(
+  classify(
       rim_b, rim_a, a_, tree_a,
-      [&](std::uint32_t tb, std::uint32_t ta) { return judge_.classify_pair(ta, tb); },
+      [&](std::uint32_t tb, std::uint32_t ta) { return classifier_.classify_pair(ta, tb); },
       [&](const TriangleEdge& side, std::uint32_t ta, const Vec3d& point) {
-        judge_.rim_in_face_of_a(side, ta, point);
+        classifier_.add_boundary_edge_in_face_of_a(side, ta, point);
       });
 }
 
-TraversalEnd BoundaryTraversal::go_on(DualTraversal& walk, std::uint64_t most) {
-  return walk.run(
+TraversalEnd BoundaryTraversal::go_on(DualTraversal& traversal, std::uint64_t most) {
+  return traversal.run(
       [&](const TriangleBvh::Node& na, const TriangleBvh::Node& nb) { return near(na, nb); },
       [&](const TriangleBvh::Node& na, const TriangleBvh::Node& nb) { return leaves(na, nb); },
       most);
@@ -425,8 +431,8 @@ TraversalEnd BoundaryTraversal::go_on(DualTraversal& walk, std::uint64_t most) {
 
 /// Shares the rest: subtasks are classified independently and merged in the order of a sequential
 /// traversal.
-void BoundaryTraversal::share(DualTraversal& walk, const QueryContext& work) {
-  const std::vector<NodePair> pieces = walk.rest(
+void BoundaryTraversal::share(DualTraversal& traversal, const QueryContext& work) {
+  const std::vector<NodePair> pieces = traversal.rest(
       [&](const TriangleBvh::Node& na, const TriangleBvh::Node& nb) { return near(na, nb); },
       kTraversalPieces);
   share_out(pieces, work, [&](BoundaryTraversal& piece, const NodePair& pair) {
@@ -448,13 +454,13 @@ void BoundaryTraversal::share_out(const std::vector<Entry>& pieces, const QueryC
       run,
       [&](const BoundaryTraversal& piece) {
         take(piece);
-        return !judge_.found().decided();
+        return !classifier_.found().decided();
       });
 }
 
 void BoundaryTraversal::take(const BoundaryTraversal& piece) {
   cost_ += piece.cost_;
-  judge_.take(piece.judge_.found());
+  classifier_.take(piece.classifier_.found());
 }
 
 bool BoundaryTraversal::near(const TriangleBvh::Node& na, const TriangleBvh::Node& nb) {
@@ -486,7 +492,7 @@ bool BoundaryTraversal::leaves(const TriangleBvh::Node& na, const TriangleBvh::N
       const std::uint32_t ta = a_.tree().order()[na.first + i];
       if (!leaf_.triangle[i]) leaf_.triangle[i].emplace(a_.corners(ta));
       if (!b) b.emplace(corners);
-      if (!judge_.classify_pair(ta, tb, *leaf_.triangle[i], *b)) return false;
+      if (!classifier_.classify_pair(ta, tb, *leaf_.triangle[i], *b)) return false;
     }
   }
   return true;

@@ -94,8 +94,10 @@ class ContactClassifier {
   /// Adds a boundary edge of a's faces in a coordinate plane, or of b's, that runs inside a
   /// coplanar face of the other part, of which a triangle is given. `point`: some point of the
   /// edge.
-  void rim_in_face_of_b(const TriangleEdge& side, std::uint32_t tb, const Vec3d& point);
-  void rim_in_face_of_a(const TriangleEdge& side, std::uint32_t ta, const Vec3d& point);
+  void add_boundary_edge_in_face_of_b(const TriangleEdge& side, std::uint32_t tb,
+                                      const Vec3d& point);
+  void add_boundary_edge_in_face_of_a(const TriangleEdge& side, std::uint32_t ta,
+                                      const Vec3d& point);
 
   /// Adds the result of other pairs of triangles of the same parts.
   void take(const BoundaryIntersection& more);
@@ -103,19 +105,20 @@ class ContactClassifier {
  private:
   bool touching(std::uint32_t ta, std::uint32_t tb, const ExactTriangle& a, const ExactTriangle& b,
                 const TriangleContact& c);
-  void stand_at(std::uint32_t ta, std::uint32_t tb, const Vec3d& point);
+  void record_contact_at(std::uint32_t ta, std::uint32_t tb, const Vec3d& point);
   void insert_linear(std::uint32_t ta, std::uint32_t tb);
 
   bool separated(const ExactTriangle& a, const ExactTriangle& b);
   bool parted(const ExactTriangle& a, const ExactTriangle& b, const TriangleContact& c);
-  void judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
-  void judge_crossing(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
-  void judge_coplanar(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
+  void classify(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
+  void classify_crossing(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
+  void classify_coplanar(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c);
   void edge_in_face_of_b(std::uint32_t ta, int edge, std::uint32_t tb);
   void edge_in_face_of_a(std::uint32_t ta, std::uint32_t tb, int edge);
   void edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t tb, int edge_b);
   template <class AddRays>
-  void judge_rim(std::uint32_t ta, std::uint32_t tb, const Vec3d& point, const AddRays& add_rays);
+  void classify_boundary_edge(std::uint32_t ta, std::uint32_t tb, const Vec3d& point,
+                              const AddRays& add_rays);
 
   PairLocalPart a_, b_;
   bool whole_;

@@ -24,7 +24,7 @@ namespace strake::geometry {
 namespace {
 
 /// A piece between grid points.
-struct Stretch {
+struct GridSegment {
   Segment at;
   IntersectionSegment of;
 };
@@ -93,9 +93,10 @@ std::optional<Segment> ends_of(const PairLocalPart& a, const PairLocalPart& b, d
 }
 
 /// Returns the segments, sorted and without duplicates.
-std::vector<Stretch> stretches_of(const PairLocalPart& a, const PairLocalPart& b, double flush,
-                                  const std::vector<IntersectionSegment>& pieces) {
-  std::vector<Stretch> all;
+std::vector<GridSegment> grid_segments_of(const PairLocalPart& a, const PairLocalPart& b,
+                                          double flush,
+                                          const std::vector<IntersectionSegment>& pieces) {
+  std::vector<GridSegment> all;
   all.reserve(pieces.size());
   for (const IntersectionSegment& piece : pieces) {
     std::optional<Segment> ends = ends_of(a, b, flush, piece);
@@ -103,11 +104,11 @@ std::vector<Stretch> stretches_of(const PairLocalPart& a, const PairLocalPart& b
     if ((*ends)[1] < (*ends)[0]) std::swap((*ends)[0], (*ends)[1]);
     all.push_back({*ends, piece});
   }
-  std::ranges::sort(all, [](const Stretch& x, const Stretch& y) {
+  std::ranges::sort(all, [](const GridSegment& x, const GridSegment& y) {
     return std::tie(x.at, x.of.a, x.of.b, x.of.edge_a, x.of.edge_b) <
            std::tie(y.at, y.of.a, y.of.b, y.of.edge_a, y.of.edge_b);
   });
-  const auto same = std::ranges::unique(all, {}, &Stretch::at);
+  const auto same = std::ranges::unique(all, {}, &GridSegment::at);
   all.erase(same.begin(), same.end());
   return all;
 }
@@ -140,8 +141,8 @@ std::vector<ExactTriangle> shared_planes(const PairLocalPart& view,
 /// Joins segments end to end where just two meet that share both planes: these are one line.
 class Joiner {
  public:
-  Joiner(const PairLocalPart& a, const PairLocalPart& b, std::vector<Stretch> stretches)
-      : a_(a), b_(b), all_(std::move(stretches)), next_(2 * all_.size(), kEnd) {
+  Joiner(const PairLocalPart& a, const PairLocalPart& b, std::vector<GridSegment> segments)
+      : a_(a), b_(b), all_(std::move(segments)), next_(2 * all_.size(), kEnd) {
     link();
   }
 
@@ -197,13 +198,13 @@ class Joiner {
   }
 
   const PairLocalPart &a_, &b_;
-  std::vector<Stretch> all_;
+  std::vector<GridSegment> all_;
   std::vector<std::size_t> next_;  ///< by end: the end that continues from there
 };
 
 std::vector<Segment> lines_of(const PairLocalPart& a, const PairLocalPart& b, std::int64_t flush,
                               const std::vector<IntersectionSegment>& pieces) {
-  return Joiner(a, b, stretches_of(a, b, static_cast<double>(flush), pieces)).run();
+  return Joiner(a, b, grid_segments_of(a, b, static_cast<double>(flush), pieces)).run();
 }
 
 }  // namespace

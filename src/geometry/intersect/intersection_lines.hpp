@@ -13,7 +13,7 @@
 namespace strake::geometry {
 
 /// Whether a BVH costs less than it saves; for smaller parts the boxes are sorted instead.
-[[nodiscard]] inline bool want_trees(const Part& a, const Part& b) {
+[[nodiscard]] inline bool needs_bvhs(const Part& a, const Part& b) {
   constexpr std::size_t kMostSorted = 4096;
   return a.triangles.size() + b.triangles.size() > kMostSorted;
 }
@@ -27,7 +27,7 @@ namespace strake::geometry {
 /// makes faces that are meant to touch cross anywhere. Ends are the exact ones rounded to the grid,
 /// so that a line is off by no more than half a unit along each axis, and collinear segments that
 /// share two planes are one line, however the faces are triangulated. Lines that shrink to a point
-/// are left out. Both parts need an oriented box, and where want_trees() says so a tree.
+/// are left out. Both parts need an oriented box, and where needs_bvhs() says so a tree.
 [[nodiscard]] std::vector<Segment> part_intersection_lines(const PartWithObb& a,
                                                            const PartWithObb& b, std::int64_t flush,
                                                            QueryContext& work);

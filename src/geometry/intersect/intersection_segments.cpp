@@ -95,9 +95,10 @@ class SegmentFinder {
 
   /// Processes a pair of triangles; each pair that has more than a point in common must be passed
   /// once. Returns whether to go on.
-  bool look(std::uint32_t ta, const ExactTriangle& s, std::uint32_t tb, const ExactTriangle& t) {
+  bool process_pair(std::uint32_t ta, const ExactTriangle& s, std::uint32_t tb,
+                    const ExactTriangle& t) {
     ++triangle_pairs_;
-    judge(ta, tb, contact(s, t));
+    classify(ta, tb, contact(s, t));
     return !found_.truncated;
   }
 
@@ -108,7 +109,7 @@ class SegmentFinder {
   }
 
  private:
-  void judge(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
+  void classify(std::uint32_t ta, std::uint32_t tb, const TriangleContact& c) {
     if (c.touch == Touch::none || c.touch == Touch::point) return;
     if (!c.coplanar) {
       if (c.edge_a < 0 && c.edge_b < 0)
@@ -131,31 +132,31 @@ class SegmentFinder {
 
   /// Whether a triangle represents an edge: each triangle at an edge meets what the edge meets, so
   /// one is enough.
-  static bool speaks_for(const PairLocalPart& view, std::uint32_t triangle, int edge) {
+  static bool represents_edge(const PairLocalPart& view, std::uint32_t triangle, int edge) {
     return edge_star(view.part(), triangle, edge).front() == triangle;
   }
 
   void edge_in_face(const PairLocalPart& x, std::uint32_t tx, int edge, const PairLocalPart& y,
                     std::uint32_t ty, bool edge_of_b) {
-    if (!speaks_for(x, tx, edge)) return;
+    if (!represents_edge(x, tx, edge)) return;
     set_axis(sectors_, x, tx, edge);
     add_edge_star(sectors_, x, tx, edge, edge_of_b);
     add_face(sectors_, y, ty, !edge_of_b);
-    judge_axis(edge_of_b ? IntersectionSegment{.a = ty, .b = tx, .edge_b = edge}
-                         : IntersectionSegment{.a = tx, .b = ty, .edge_a = edge});
+    classify_edge(edge_of_b ? IntersectionSegment{.a = ty, .b = tx, .edge_b = edge}
+                            : IntersectionSegment{.a = tx, .b = ty, .edge_a = edge});
   }
 
   void edge_on_edge(std::uint32_t ta, int edge_a, std::uint32_t tb, int edge_b) {
-    if (!speaks_for(a_, ta, edge_a) || !speaks_for(b_, tb, edge_b)) return;
+    if (!represents_edge(a_, ta, edge_a) || !represents_edge(b_, tb, edge_b)) return;
     set_axis(sectors_, a_, ta, edge_a);
     add_edge_star(sectors_, a_, ta, edge_a, false);
     add_edge_star(sectors_, b_, tb, edge_b, true);
-    judge_axis({.a = ta, .b = tb, .edge_a = edge_a, .edge_b = edge_b});
+    classify_edge({.a = ta, .b = tb, .edge_a = edge_a, .edge_b = edge_b});
   }
 
-  void judge_axis(const IntersectionSegment& piece) {
+  void classify_edge(const IntersectionSegment& piece) {
     Overlap overlap;
-    sectors_.judge(false, false, overlap);
+    sectors_.classify(false, false, overlap);
     if (overlap.interiors) {
       add(piece);
       return;
@@ -217,8 +218,8 @@ class LoadedLeaf {
 };
 
 /// Passes a finder the pairs that the trees of two parts do not separate, until it has enough.
-void walk_trees(const PairLocalPart& a, const PairLocalPart& b, SegmentFinder& finder,
-                QueryContext& work) {
+void traverse_trees(const PairLocalPart& a, const PairLocalPart& b, SegmentFinder& finder,
+                    QueryContext& work) {
   if (!a.has_bvh() || !b.has_bvh()) return;
   LoadedLeaf leaf_a(a), leaf_b(b);
   traverse_both(
@@ -233,7 +234,8 @@ void walk_trees(const PairLocalPart& a, const PairLocalPart& b, SegmentFinder& f
         for (std::uint32_t i = 0; i < x.count; ++i)
           for (std::uint32_t j = 0; j < y.count; ++j)
             if (leaf_a.box(i).meets(leaf_b.box(j)) &&
-                !finder.look(leaf_a.id(i), leaf_a.triangle(i), leaf_b.id(j), leaf_b.triangle(j)))
+                !finder.process_pair(leaf_a.id(i), leaf_a.triangle(i), leaf_b.id(j),
+                                     leaf_b.triangle(j)))
               return false;
         return true;
       });
@@ -269,7 +271,7 @@ IntersectionSegments find_intersection_segments(
     const std::function<bool(const IntersectionSegment&)>& enough) {
   const PairLocalPart x(a, {}), y(b, b.placed.origin - a.placed.origin);
   SegmentFinder finder(x, y, most, enough);
-  walk_trees(x, y, finder, work);
+  traverse_trees(x, y, finder, work);
   return finder.result(work);
 }
 
@@ -278,11 +280,11 @@ IntersectionSegments find_intersection_segments(const PartWithObb& a, const Part
   const PairLocalPart x({a.placed, a.tree}, {});
   const PairLocalPart y({b.placed, b.tree}, b.placed.origin - a.placed.origin);
   SegmentFinder finder(x, y, most);
-  if (want_trees(x.part(), y.part())) {
-    walk_trees(x, y, finder, work);
+  if (needs_bvhs(x.part(), y.part())) {
+    traverse_trees(x, y, finder, work);
   } else {
     sweep_of(x, *a.frame, y, *b.frame).run([&](std::uint32_t ta, std::uint32_t tb) {
-      return finder.look(ta, x.triangle(ta), tb, y.triangle(tb));
+      return finder.process_pair(ta, x.triangle(ta), tb, y.triangle(tb));
     });
   }
   return finder.result(work);
@@ -295,7 +297,7 @@ std::vector<IntersectionSegment> find_intersection_segments_brute_force(const Pl
   SegmentFinder finder(x, y);
   for (std::uint32_t ta = 0; ta < a.part->triangles.size(); ++ta)
     for (std::uint32_t tb = 0; tb < b.part->triangles.size(); ++tb)
-      finder.look(ta, x.triangle(ta), tb, y.triangle(tb));
+      finder.process_pair(ta, x.triangle(ta), tb, y.triangle(tb));
   return finder.result(work).all;
 }
 
@@ -351,7 +353,7 @@ std::optional<DoubleSegment> clipped(const DoubleSegment& s, const Corners& t) {
 }
 
 /// Returns the common part of two collinear segments.
-std::optional<DoubleSegment> common_stretch(const DoubleSegment& s, const DoubleSegment& t) {
+std::optional<DoubleSegment> common_interval(const DoubleSegment& s, const DoubleSegment& t) {
   const Vec3d along = s[1] - s[0];
   const double scale = 1 / dot(along, along);
   const double from = dot(along, t[0] - s[0]) * scale, to = dot(along, t[1] - s[0]) * scale;
@@ -374,7 +376,7 @@ std::optional<DoubleSegment> segment_geometry(const PairLocalPart& a, const Pair
   if (p.edge_a < 0 && p.edge_b < 0) return common_segment(corners(a, p.a), corners(b, p.b));
   if (p.edge_b < 0) return clipped(edge_of(a, p.a, p.edge_a), corners(b, p.b));
   if (p.edge_a < 0) return clipped(edge_of(b, p.b, p.edge_b), corners(a, p.a));
-  return common_stretch(edge_of(a, p.a, p.edge_a), edge_of(b, p.b, p.edge_b));
+  return common_interval(edge_of(a, p.a, p.edge_a), edge_of(b, p.b, p.edge_b));
 }
 
 }  // namespace strake::geometry

@@ -40,7 +40,7 @@ struct IntersectionSegments {
     const std::function<bool(const IntersectionSegment&)>& enough = {});
 
 /// Returns the same segments in any order; cheap also for parts rotated against the coordinate
-/// axes. Both need an oriented box, and where want_trees() says so a tree.
+/// axes. Both need an oriented box, and where needs_bvhs() says so a tree.
 [[nodiscard]] IntersectionSegments find_intersection_segments(const PartWithObb& a,
                                                               const PartWithObb& b,
                                                               std::size_t most, QueryContext& work);

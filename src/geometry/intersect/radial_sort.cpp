@@ -25,8 +25,8 @@ bool same_side(const Vec3l& from, const Vec3l& to, const Vec3l& p, const Vec3l& 
 
 void RadialSort::sort() {
   sorted_.clear();
-  const Vec3l& first = rays_.front().point;
-  for (const HalfPlane& ray : rays_) {
+  const Vec3l& first = half_planes_.front().point;
+  for (const HalfPlane& ray : half_planes_) {
     const int turn = orient3d(from_, to_, first, ray.point);
     const int half = turn > 0 ? 1 : turn < 0 ? 3 : same_side(from_, to_, first, ray.point) ? 0 : 2;
     sorted_.push_back({ray, half, false});
@@ -73,7 +73,7 @@ void RadialSort::gather() {
   }
 }
 
-void RadialSort::judge_sheets(Overlap& overlap) const {
+void RadialSort::classify_sheets(Overlap& overlap) const {
   // If the pure directions alternate a, b, a, b, each passes through the other.
   int changes = 0;
   const Direction* previous = nullptr;
@@ -125,12 +125,12 @@ int RadialSort::find_coincident(std::vector<CoincidentTriangles>& flush) const {
   return count;
 }
 
-void RadialSort::judge(bool a_solid, bool b_solid, Overlap& overlap) {
-  if (rays_.empty()) return;
+void RadialSort::classify(bool a_solid, bool b_solid, Overlap& overlap) {
+  if (half_planes_.empty()) return;
   sort();
   gather();
   if (!a_solid && !b_solid) {
-    judge_sheets(overlap);
+    classify_sheets(overlap);
     return;
   }
   for (std::size_t i = 0; i < directions_.size(); ++i) {

@@ -49,18 +49,18 @@ class RadialSort {
   void start(const Vec3l& axis_from, const Vec3l& axis_to) {
     from_ = axis_from;
     to_ = axis_to;
-    rays_.clear();
+    half_planes_.clear();
   }
   [[nodiscard]] const Vec3l& from() const { return from_; }
   [[nodiscard]] const Vec3l& to() const { return to_; }
-  void add(const HalfPlane& ray) { rays_.push_back(ray); }
+  void add(const HalfPlane& ray) { half_planes_.push_back(ray); }
 
   /// Adds to `overlap` what holds in the open angles between the half-planes. Exact: half-planes
   /// are compared by orientation signs only.
-  void judge(bool a_solid, bool b_solid, Overlap& overlap);
+  void classify(bool a_solid, bool b_solid, Overlap& overlap);
 
-  /// After judge() of two sheets, fills `flush` with the triangles whose half-planes coincide, by
-  /// direction. Returns the number of such directions.
+  /// After classify() of two sheets, fills `flush` with the triangles whose half-planes coincide,
+  /// by direction. Returns the number of such directions.
   int find_coincident(std::vector<CoincidentTriangles>& flush) const;
 
  private:
@@ -78,11 +78,11 @@ class RadialSort {
 
   void sort();
   void gather();
-  void judge_sheets(Overlap& overlap) const;
+  void classify_sheets(Overlap& overlap) const;
   [[nodiscard]] int other_leaves(std::size_t from, std::size_t step, bool b_leaves) const;
 
   Vec3l from_, to_;
-  std::vector<HalfPlane> rays_;
+  std::vector<HalfPlane> half_planes_;
   std::vector<Sorted> sorted_;
   std::vector<Direction> directions_;
 };

@@ -20,10 +20,10 @@ constexpr std::size_t kFewPlaneVertices = 48;
 Vec3d absolute(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 double largest_component(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 
-class SideWalk {
+class SideTraversal {
  public:
   /// side: -1 or 1; strict: points of the plane count as on the wrong side.
-  SideWalk(const ExactTriangle& t, int side, bool strict)
+  SideTraversal(const ExactTriangle& t, int side, bool strict)
       : plane_(t.plane), side_(side), least_(strict ? 1 : 0) {
     anchor_ = t.corner[0].as<double>();
     // Rounding of the normal and of a product with it: below 64 roundings of |u||v| a component.
@@ -50,7 +50,7 @@ class SideWalk {
         dot(absolute(n), half) + slack_ * largest_component(absolute(centre) + half);
     return dot(n, centre) * side_ > reach;
   }
-  [[nodiscard]] bool walk(const PairLocalPart& view);
+  [[nodiscard]] bool traverse(const PairLocalPart& view);
 
   const ExactPlane& plane_;
   Vec3d anchor_;
@@ -59,14 +59,14 @@ class SideWalk {
   bool leaves_plane_ = false;
 };
 
-bool SideWalk::all_on_side(const PairLocalPart& view) {
+bool SideTraversal::all_on_side(const PairLocalPart& view) {
   const std::vector<Vec3i>& vertices = view.part().vertices;
-  if (vertices.size() > kFewPlaneVertices) return walk(view);
+  if (vertices.size() > kFewPlaneVertices) return traverse(view);
   return std::ranges::all_of(
       vertices, [&](const Vec3i& v) { return accept(v.as<std::int64_t>() + view.shift()); });
 }
 
-bool SideWalk::walk(const PairLocalPart& view) {
+bool SideTraversal::traverse(const PairLocalPart& view) {
   return traverse_bvh(
       view.tree(),
       [&](const TriangleBvh::Node& node) {
@@ -81,8 +81,8 @@ bool SideWalk::walk(const PairLocalPart& view) {
 }
 
 bool keeps_to(const ExactTriangle& triangle, int side, const PairLocalPart& view) {
-  SideWalk walk(triangle, side, false);
-  return walk.all_on_side(view) && (view.solid() || walk.leaves_plane());
+  SideTraversal traversal(triangle, side, false);
+  return traversal.all_on_side(view) && (view.solid() || traversal.leaves_plane());
 }
 
 }  // namespace
@@ -94,8 +94,8 @@ bool is_separating_plane(const ExactTriangle& triangle, const PairLocalPart& bel
 
 bool is_strictly_separating_plane(const ExactTriangle& triangle, const PairLocalPart& below,
                                   const PairLocalPart& above) {
-  return SideWalk(triangle, 1, true).all_on_side(above) &&
-         SideWalk(triangle, -1, false).all_on_side(below);
+  return SideTraversal(triangle, 1, true).all_on_side(above) &&
+         SideTraversal(triangle, -1, false).all_on_side(below);
 }
 
 namespace {

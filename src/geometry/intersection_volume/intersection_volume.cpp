@@ -87,7 +87,7 @@ class VolumeSum {
   }
 
   std::optional<IntersectionVolume> run() {
-    if (!choose_axis() || !walk()) return std::nullopt;
+    if (!choose_axis() || !traverse()) return std::nullopt;
     IntersectionVolume result;
     const double error = error_ * (1 + 1e-9) + sum_.error();
     const double most = box_volume() * (1 + 1e-15);
@@ -141,7 +141,7 @@ class VolumeSum {
     return beside(box, column, frame_) || box.hi[frame_.axis] <= common_.lo[frame_.axis];
   }
 
-  bool walk() {
+  bool traverse() {
     bool afforded = true;
     traverse_both(
         a_.tree(), b_.tree(),

@@ -24,7 +24,7 @@ class PiercingSearch {
       : line_(line),
         sheet_(sheet, {}),
         shift_(line.origin - sheet.placed.origin),
-        rim_(boundary_edges(*sheet.placed.part)),
+        boundary_(boundary_edges(*sheet.placed.part)),
         neighbours_(line.vertices.size(), {kNone, kNone}),
         degree_(line.vertices.size(), 0) {
     for (const auto& [u, v] : line.segments) {
@@ -82,7 +82,7 @@ class PiercingSearch {
 
   void offer(const Vec3d& p) {
     double depth = size_;
-    for (const auto& [from, to] : rim_)
+    for (const auto& [from, to] : boundary_)
       depth = std::min(depth, length(p - nearest_on_segment(p, from, to)));
     for (std::uint32_t v = 0; v < degree_.size() && depth > best_.depth; ++v)
       if (degree_[v] == 1) depth = std::min(depth, length(p - place(v).as<double>()));
@@ -92,7 +92,7 @@ class PiercingSearch {
   const LowerDimensionalBody& line_;
   PairLocalPart sheet_;
   Vec3l shift_;
-  std::vector<std::array<Vec3d, 2>> rim_;
+  std::vector<std::array<Vec3d, 2>> boundary_;
   std::vector<std::array<std::uint32_t, 2>> neighbours_;
   std::vector<std::uint32_t> degree_;  ///< segments at each vertex
   double size_ = 0;                    ///< what a crossing without rims and ends counts as

@@ -31,12 +31,12 @@ bool same(const std::vector<T>& a, std::span<const T> b) {
 
 const Connectivity* ConnectivityCache::find(const MeshKey& key) {
   last_hash_ = hash_of(key);
-  wants_last_ = false;
+  should_store_last_ = false;
   const auto at = entries_.find(last_hash_);
   if (at == entries_.end()) {
     // Most meshes of some models come only once: those cost a look and a word.
     std::uint64_t& seen = seen_[last_hash_ % kSeen];
-    wants_last_ = seen == last_hash_ && bytes_ + bytes_of(key) <= kMostBytes;
+    should_store_last_ = seen == last_hash_ && bytes_ + bytes_of(key) <= kMostBytes;
     seen = last_hash_;
     return nullptr;
   }

@@ -44,7 +44,7 @@ class ConnectivityCache {
   [[nodiscard]] const Connectivity* find(const MeshKey& key);
   /// Whether the connectivity should be stored: the last find() was not the first one with this
   /// key.
-  [[nodiscard]] bool should_store_last() const { return wants_last_; }
+  [[nodiscard]] bool should_store_last() const { return should_store_last_; }
   /// Stores the connectivity for the key of the last find().
   void store(const MeshKey& key, Connectivity connectivity);
 
@@ -62,7 +62,7 @@ class ConnectivityCache {
   std::unordered_map<std::uint64_t, std::unique_ptr<Entry>> entries_;
   std::vector<std::uint64_t> seen_ = std::vector<std::uint64_t>(kSeen, 0);
   std::uint64_t last_hash_ = 0;
-  bool wants_last_ = false;
+  bool should_store_last_ = false;
   std::size_t bytes_ = 0;
 };
 

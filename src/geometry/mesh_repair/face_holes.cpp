@@ -19,13 +19,13 @@ namespace {
 constexpr std::uint32_t kNoHole = 0xffffffffU;
 
 /// An edge of one triangle.
-struct RimEdge {
+struct BorderEdge {
   std::uint32_t v0 = 0, v1 = 0;
   std::uint32_t triangle = 0;
 };
 
-std::vector<RimEdge> rim_edges(const Part& part) {
-  std::vector<RimEdge> rim;
+std::vector<BorderEdge> border_edges(const Part& part) {
+  std::vector<BorderEdge> rim;
   for (std::uint32_t e = 0; e + 1 < part.edges.size(); ++e) {
     const std::span<const std::uint32_t> round = incident_triangles(part, e);
     if (round.size() == 1) rim.push_back({part.edges[e].v0, part.edges[e].v1, round[0]});
@@ -38,7 +38,7 @@ struct EdgeEnds {
   std::uint32_t first = kNoHole, second = kNoHole;
 };
 std::optional<std::unordered_map<std::uint32_t, EdgeEnds>> ends_of(
-    const std::vector<RimEdge>& rim) {
+    const std::vector<BorderEdge>& rim) {
   std::unordered_map<std::uint32_t, EdgeEnds> at;
   for (std::uint32_t e = 0; e < rim.size(); ++e)
     for (const std::uint32_t v : {rim[e].v0, rim[e].v1}) {
@@ -99,8 +99,8 @@ bool holds_half(const Part& part, std::uint32_t triangle, std::span<const std::u
 }  // namespace
 
 bool has_incomplete_faces(const Part& part) {
-  constexpr std::size_t kMostCorners = 64, kMostRims = 16;
-  const std::vector<RimEdge> rim = rim_edges(part);
+  constexpr std::size_t kMostCorners = 64, kMostHoleBoundaries = 16;
+  const std::vector<BorderEdge> rim = border_edges(part);
   if (rim.empty()) return false;
   const auto ends = ends_of(rim);
   if (!ends) return false;
@@ -120,7 +120,7 @@ bool has_incomplete_faces(const Part& part) {
       e = at.first == e ? at.second : at.first;
       v = rim[e].v0 == v ? rim[e].v1 : rim[e].v0;
     }
-    if (vertices.size() > kMostCorners || ++rims > kMostRims) return false;
+    if (vertices.size() > kMostCorners || ++rims > kMostHoleBoundaries) return false;
     const auto in_plane = std::ranges::find_if(
         triangles, [&](std::uint32_t t) { return lie_in_plane(part, t, vertices); });
     if (in_plane == triangles.end() || !holds_half(part, *in_plane, vertices)) return false;

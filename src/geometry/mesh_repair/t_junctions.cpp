@@ -78,13 +78,13 @@ TJunctions::TJunctions(std::span<const Vec3i> vertices, std::span<const Triangle
     each_run<std::pair<Line, OpenEdge>>(alike, same_line, [&](const auto& line) {
       on_line.clear();
       for (const auto& [key, edge] : line) on_line.push_back(edge);
-      look_at_line(on_line);
+      split_edges_on_line(on_line);
     });
   });
   cuts_.settle(vertices.size());
 }
 
-void TJunctions::look_at_line(std::span<const OpenEdge> edges) {
+void TJunctions::split_edges_on_line(std::span<const OpenEdge> edges) {
   std::vector<std::uint32_t>& ends = line_points_;
   ends.clear();
   for (const OpenEdge& e : edges) ends.insert(ends.end(), {e.low, e.high});

@@ -112,10 +112,10 @@ class TJunctions {
   [[nodiscard]] const EdgeCuts& cuts() const { return cuts_; }
 
  private:
-  void look_at_line(std::span<const OpenEdge> edges);
+  void split_edges_on_line(std::span<const OpenEdge> edges);
 
   EdgeCuts cuts_;
-  std::vector<std::uint32_t> line_points_;  ///< memory of look_at_line()
+  std::vector<std::uint32_t> line_points_;  ///< memory of split_edges_on_line()
   std::vector<std::int64_t> along_, back_;
 };
 

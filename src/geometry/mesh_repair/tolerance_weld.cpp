@@ -363,7 +363,7 @@ class Welder {
   std::vector<std::uint32_t> joined_edges(const Topology& topology) const {
     const auto all = topology.edges.first(topology.edges.size() - 1);
     std::vector<std::uint32_t> joined;
-    const auto look_at = [&](std::uint32_t p, std::uint32_t q, std::size_t triangles) {
+    const auto add_if_joined = [&](std::uint32_t p, std::uint32_t q, std::size_t triangles) {
       const auto key = std::minmax(p, q);
       const auto e =
           std::lower_bound(all.begin(), all.end(), key, [](const PartEdge& x, const auto& k) {
@@ -378,10 +378,10 @@ class Welder {
       if (low == high) continue;
       std::uint32_t from = low;
       for (const std::uint32_t p : junctions_.cuts.points_on(low, high)) {
-        look_at(from, p, e.along + e.back);
+        add_if_joined(from, p, e.along + e.back);
         from = p;
       }
-      look_at(from, high, e.along + e.back);
+      add_if_joined(from, high, e.along + e.back);
     }
     std::sort(joined.begin(), joined.end());
     joined.erase(std::unique(joined.begin(), joined.end()), joined.end());

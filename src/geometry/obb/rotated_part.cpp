@@ -48,7 +48,7 @@ constexpr std::ptrdiff_t kLeastAlike = 8;
 /// sliver.
 constexpr double kElongation = 3;
 /// Cosine of the angle within which edges count as parallel.
-constexpr double kOneWay = 0.9999;
+constexpr double kSameDirection = 0.9999;
 
 /// A long edge of a sliver.
 struct LongEdge {
@@ -56,10 +56,12 @@ struct LongEdge {
   double squared = 0;  ///< its length
 };
 
-bool one_way(const Vec3d& x, const Vec3d& y) { return std::fabs(dot(x, y)) >= kOneWay; }
+bool in_one_direction(const Vec3d& x, const Vec3d& y) {
+  return std::fabs(dot(x, y)) >= kSameDirection;
+}
 
 bool along_an_axis(const Vec3d& way) {
-  return std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)}) >= kOneWay;
+  return std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)}) >= kSameDirection;
 }
 
 /// Returns the long edges along no axis. A sliver has two; facets of a pipe share the direction of
@@ -89,8 +91,9 @@ const LongEdge* most_common(const std::vector<LongEdge>& edges, Vec3d LongEdge::
   const LongEdge* best = nullptr;
   std::ptrdiff_t most = least;
   for (const LongEdge& edge : edges) {
-    const auto alike = std::ranges::count_if(
-        edges, [&](const LongEdge& other) { return one_way(edge.*direction, other.*direction); });
+    const auto alike = std::ranges::count_if(edges, [&](const LongEdge& other) {
+      return in_one_direction(edge.*direction, other.*direction);
+    });
     if (alike < most || (alike == most && best != nullptr && edge.squared <= best->squared))
       continue;
     most = alike;
@@ -105,7 +108,7 @@ std::optional<Axes> axes_of(std::vector<LongEdge> edges) {
   const LongEdge* const best = most_common(edges, &LongEdge::way, kLeastAlike);
   if (best == nullptr) return std::nullopt;
   const Vec3d z = best->way;
-  std::erase_if(edges, [&](const LongEdge& edge) { return !one_way(edge.way, z); });
+  std::erase_if(edges, [&](const LongEdge& edge) { return !in_one_direction(edge.way, z); });
   const Vec3d y = cross(z, most_common(edges, &LongEdge::normal, 1)->normal);
   const Vec3d unit_y = y * (1 / length(y));
   return Axes{cross(unit_y, z), unit_y, z};

@@ -256,35 +256,35 @@ struct VertexLinks {
 
 }  // namespace
 
-SectionOutline find_outline(std::vector<OutlineSegment> stretches, std::span<const Vec3l> vertices,
+SectionOutline find_outline(std::vector<OutlineSegment> segments, std::span<const Vec3l> vertices,
                             const std::function<bool(std::uint32_t, std::uint32_t)>& coplanar) {
   std::map<std::uint32_t, VertexLinks> meetings;
   std::map<Directed, std::uint32_t> lying;  // how many lie on each other
-  for (const OutlineSegment& s : stretches) ++lying[ascending(s.ends)];
-  for (std::uint32_t i = 0; i < stretches.size(); ++i) {
-    VertexLinks &from = meetings[stretches[i].ends[0]], &to = meetings[stretches[i].ends[1]];
+  for (const OutlineSegment& s : segments) ++lying[ascending(s.ends)];
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
+    VertexLinks &from = meetings[segments[i].ends[0]], &to = meetings[segments[i].ends[1]];
     from.out = i;
     to.in = i;
     ++from.count;
     ++to.count;
   }
   SectionOutline result;
-  std::vector<std::uint32_t> next(stretches.size(), kNone), last(stretches.size(), kNone);
+  std::vector<std::uint32_t> next(segments.size(), kNone), last(segments.size(), kNone);
   for (const auto& [vertex, m] : meetings) {
     if (m.count % 2 != 0) ++result.open_ends;
     if (m.count != 2 || m.in == kNone || m.out == kNone || m.in == m.out) continue;
-    const OutlineSegment &in = stretches[m.in], &out = stretches[m.out];
+    const OutlineSegment &in = segments[m.in], &out = segments[m.out];
     if (lying[ascending(in.ends)] > 1 || lying[ascending(out.ends)] > 1) continue;
     if (!coplanar(in.triangle, out.triangle)) continue;
     next[m.in] = m.out;
     last[m.out] = m.in;
   }
   std::set<Directed> drawn;
-  for (std::uint32_t i = 0; i < stretches.size(); ++i) {
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
     if (last[i] != kNone) continue;
     std::uint32_t end = i;
     while (next[end] != kNone) end = next[end];
-    const Directed ends = ascending({stretches[i].ends[0], stretches[end].ends[1]});
+    const Directed ends = ascending({segments[i].ends[0], segments[end].ends[1]});
     if (!drawn.insert(ends).second) continue;
     const Vec3l &p = vertices[ends[0]], &q = vertices[ends[1]];
     if (p != q) result.lines.push_back({std::min(p, q), std::max(p, q)});

@@ -85,7 +85,7 @@ struct SectionOutline {
 /// segments one is kept. `coplanar(s, t)` says whether two triangles lie in one plane and face one
 /// way.
 [[nodiscard]] SectionOutline find_outline(
-    std::vector<OutlineSegment> stretches, std::span<const Vec3l> vertices,
+    std::vector<OutlineSegment> segments, std::span<const Vec3l> vertices,
     const std::function<bool(std::uint32_t, std::uint32_t)>& coplanar);
 
 }  // namespace strake::geometry::plane_section

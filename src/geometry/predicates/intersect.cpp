@@ -51,8 +51,8 @@ void in_triangles_plane(const GridLine& line, const TriangleCorners& t, int axis
       if (inside[i].sign_at(at) == 0) on_edges |= 1U << i;
     return place_of(on_edges);
   };
-  r.place_first = place(r.at.first);
-  r.place_last = place(r.at.last);
+  r.feature_first = place(r.at.first);
+  r.feature_last = place(r.at.last);
 }
 
 /// num / den with a positive denominator.
@@ -140,7 +140,7 @@ LineInTriangle intersect(const GridLine& line, const TriangleCorners& t) {
     if (turn != 0) facing = turn;
   }
   r.at = plane.at;
-  r.place_first = r.place_last = place_of(on_edges);
+  r.feature_first = r.feature_last = place_of(on_edges);
   return r;
 }
 
@@ -160,8 +160,8 @@ LineInBox intersect(const GridLine& line, const Box3l& box) {
   r.through_inside = r.at.touch == Touch::segment || line.from == line.to;
   for (unsigned i = 0; i < 6; ++i) {
     if (inside[i].at_0 == 0 && inside[i].at_1 == 0) r.through_inside = false;
-    if (r.at.first.den != 0 && inside[i].sign_at(r.at.first) == 0) r.place_first |= 1U << i;
-    if (r.at.last.den != 0 && inside[i].sign_at(r.at.last) == 0) r.place_last |= 1U << i;
+    if (r.at.first.den != 0 && inside[i].sign_at(r.at.first) == 0) r.feature_first |= 1U << i;
+    if (r.at.last.den != 0 && inside[i].sign_at(r.at.last) == 0) r.feature_last |= 1U << i;
   }
   return r;
 }

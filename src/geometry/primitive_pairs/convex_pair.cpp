@@ -33,8 +33,8 @@ class OverlappingPair {
   }
 
   [[nodiscard]] PrimitiveSeparation separation(GjkResult gap) const {
-    look_along_faces(gap, field_a_, 1);
-    look_along_faces(gap, field_b_, -1);
+    raise_bound_along_faces(gap, field_a_, 1);
+    raise_bound_along_faces(gap, field_b_, -1);
     if (gap.lower >= -kTouchDistance && gap.upper <= kTouchDistance)
       return disjoint_separation(gap, gap.lower, gap.upper);
     DeepestPoint depth;
@@ -67,8 +67,8 @@ class OverlappingPair {
 
  private:
   /// For bodies that touch along a flat face no separating plane is better than a face of either.
-  void look_along_faces(GjkResult& gap, const std::optional<InteriorDistance>& field,
-                        double side) const {
+  void raise_bound_along_faces(GjkResult& gap, const std::optional<InteriorDistance>& field,
+                               double side) const {
     for (std::size_t i = 0; field && i < field->planes(); ++i) {
       const Vec3d n = field->normal(i) * -side;
       const double slab = dot(n, support(a_.shape, -n) - support(b_.shape, n));

@@ -87,7 +87,7 @@ class ContouredCap {
     base.insert(base.end(), high.rbegin() + 1, high.rend() - 1);
     builder_.polygon(base, true);
     return std::move(builder_).take(
-        std::max(skin_sag(most, tilts), sagitta(radius_, widest_step(rim))), true);
+        std::max(surface_sag(most, tilts), sagitta(radius_, widest_step(rim))), true);
   }
 
  private:
@@ -252,7 +252,7 @@ class ContouredCap {
     }
   }
 
-  [[nodiscard]] double skin_sag(const Arc& most, const std::vector<double>& tilts) const {
+  [[nodiscard]] double surface_sag(const Arc& most, const std::vector<double>& tilts) const {
     double across = std::max(from_apex_ - tilts.front(), tilts.back() + from_apex_);
     for (std::size_t i = 0; i + 1 < tilts.size(); ++i)
       across = std::max(across, tilts[i] - tilts[i + 1]);

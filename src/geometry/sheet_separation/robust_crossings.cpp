@@ -237,7 +237,7 @@ class Parting {
       MovedSheet moved = moved_sheet();
       if (!fits_pair({&moved.part, placed_.origin}, mover_.other(treed_a_, treed_b_).placed))
         return std::nullopt;
-      IntersectionSegments left = judged(moved);
+      IntersectionSegments left = robust_segments_of(moved);
       if (moving_ > 0 && left.truncated) return std::nullopt;
       if (std::ranges::none_of(plans_, [](const Plan& p) { return p.failed || p.pokes; })) {
         pieces = std::move(left);
@@ -340,7 +340,7 @@ class Parting {
 
   /// The pieces that are left; the plans that fail are marked, and those with ends to hold back.
   /// Only some of them where all fail.
-  IntersectionSegments judged(MovedSheet& sheet) {
+  IntersectionSegments robust_segments_of(MovedSheet& sheet) {
     for (std::uint32_t t = 0; t < part_.triangles.size(); ++t)
       if (sheet.is_flattened(part_.triangles[t])) fail_at(t, sheet);
     if (std::ranges::any_of(plans_, &Plan::failed)) return {};

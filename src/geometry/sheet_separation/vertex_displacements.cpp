@@ -16,7 +16,7 @@ namespace strake::geometry {
 namespace {
 
 /// A constraint on the displacement of a vertex, by a triangle or a further direction.
-struct Say {
+struct DisplacementConstraint {
   std::uint32_t vertex = 0;
   bool leads = false;
   bool besides = false;
@@ -37,15 +37,17 @@ std::vector<Vec3i> moves_up_to(double most) {
   return moves;
 }
 
-Vec3i best_move(std::span<const Say> say, const std::vector<Vec3i>& moves) {
-  const bool led = std::ranges::any_of(say, &Say::leads);
+Vec3i best_move(std::span<const DisplacementConstraint> constraints,
+                const std::vector<Vec3i>& moves) {
+  const bool led = std::ranges::any_of(constraints, &DisplacementConstraint::leads);
   Vec3i best;
   double most = -std::numeric_limits<double>::infinity();
   for (const Vec3i& move : moves) {
     const Vec3d way = move.as<double>();
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < say.size() && least > most; ++i)
-      if (say[i].leads || say[i].besides || !led) least = std::min(least, dot(say[i].way, way));
+    for (std::size_t i = 0; i < constraints.size() && least > most; ++i)
+      if (constraints[i].leads || constraints[i].besides || !led)
+        least = std::min(least, dot(constraints[i].way, way));
     if (least > most) {
       most = least;
       best = move;
@@ -60,24 +62,25 @@ std::vector<VertexDisplacement> vertex_displacements(const Part& part,
                                                      std::span<const MovingTriangle> triangles,
                                                      std::span<const VertexDirection> ways,
                                                      double most) {
-  std::vector<Say> say;
-  say.reserve(3 * triangles.size() + ways.size());
+  std::vector<DisplacementConstraint> constraints;
+  constraints.reserve(3 * triangles.size() + ways.size());
   for (const MovingTriangle& t : triangles) {
     const Triangle& corner = part.triangles[t.triangle];
     const auto at = [&](std::size_t i) { return part.vertices[corner[i]].as<std::int64_t>(); };
     // Exact before it is rounded: the same from whichever corner.
     Vec3d n = cross_exact(at(1) - at(0), at(2) - at(0)).as<double>();
     n = n * ((t.outward ? 1 : -1) / length(n));
-    for (const std::uint32_t v : corner) say.push_back({v, t.leads, false, n});
+    for (const std::uint32_t v : corner) constraints.push_back({v, t.leads, false, n});
   }
-  for (const VertexDirection& w : ways) say.push_back({w.vertex, false, true, w.way});
-  std::ranges::sort(say, {}, &Say::vertex);
+  for (const VertexDirection& w : ways) constraints.push_back({w.vertex, false, true, w.way});
+  std::ranges::sort(constraints, {}, &DisplacementConstraint::vertex);
   const std::vector<Vec3i> moves = moves_up_to(most);
   std::vector<VertexDisplacement> all;
-  for (std::size_t i = 0; i < say.size();) {
+  for (std::size_t i = 0; i < constraints.size();) {
     std::size_t end = i + 1;
-    while (end < say.size() && say[end].vertex == say[i].vertex) ++end;
-    all.push_back({say[i].vertex, best_move(std::span(say).subspan(i, end - i), moves)});
+    while (end < constraints.size() && constraints[end].vertex == constraints[i].vertex) ++end;
+    all.push_back(
+        {constraints[i].vertex, best_move(std::span(constraints).subspan(i, end - i), moves)});
     i = end;
   }
   return all;

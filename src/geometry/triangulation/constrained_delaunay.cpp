@@ -150,13 +150,13 @@ void ConstrainedDelaunay::replace(Cavity& cavity,
   }
   const auto by_edge = [](const Side& x, const Side& y) { return x.edge < y.edge; };
   std::sort(sides.begin(), sides.end(), by_edge);
-  std::sort(cavity.rim.begin(), cavity.rim.end(), [](const RimEdge& x, const RimEdge& y) {
+  std::sort(cavity.rim.begin(), cavity.rim.end(), [](const CavityEdge& x, const CavityEdge& y) {
     return std::pair(x.from, x.to) < std::pair(y.from, y.to);
   });
   for (const Side& at : sides) {
     const auto rim = std::lower_bound(
         cavity.rim.begin(), cavity.rim.end(), at.edge,
-        [](const RimEdge& x, const Edge& edge) { return std::pair(x.from, x.to) < edge; });
+        [](const CavityEdge& x, const Edge& edge) { return std::pair(x.from, x.to) < edge; });
     const bool on_rim = rim != cavity.rim.end() && Edge(rim->from, rim->to) == at.edge;
     // A hanging edge is on the rim twice, with cells of the cavity on both sides.
     const Side turned{{at.edge.second, at.edge.first}, 0, 0};

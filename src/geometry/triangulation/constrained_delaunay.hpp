@@ -32,14 +32,14 @@ class ConstrainedDelaunay {
  private:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   /// An edge of a cavity, counter-clockwise, and what lies beyond.
-  struct RimEdge {
+  struct CavityEdge {
     std::uint32_t from = kNone, to = kNone, neighbour = kNone;
     bool constrained = false, odd = false;
   };
   /// The triangles that a segment runs through, and the vertices on either side of it, along it.
   struct Cavity {
     std::vector<std::uint32_t> cells, left, right;
-    std::vector<RimEdge> rim;
+    std::vector<CavityEdge> rim;
     std::uint32_t end = kNone;
 
     void add(std::uint32_t number, const TriangulationFace& cell, std::uint32_t entered,

@@ -39,25 +39,25 @@ constexpr std::size_t kGrain = 1024;
 constexpr std::uint64_t kMostLines = 1000000, kMostLinesOfTriangle = 100;
 
 /// A part that has faces, with its place.
-struct PlacedSkin {
+struct PlacedSurface {
   geometry::PlacedPart placed;
   std::uint32_t unique = 0;  ///< its number among the parts of all shapes
   std::uint32_t body = 0;
   std::int64_t contact = 0;
 };
 
-struct Skins {
+struct SurfaceList {
   std::vector<const geometry::Part*> unique;  ///< parts of all shapes
-  std::vector<PlacedSkin> placed;             ///< by body
+  std::vector<PlacedSurface> placed;          ///< by body
 };
 
-Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
-                 const std::vector<std::int64_t>& contact) {
-  Skins skins;
+SurfaceList list_surfaces(const model::Scene& scene, const std::vector<bool>& drawn,
+                          const std::vector<std::int64_t>& contact) {
+  SurfaceList surfaces;
   std::vector<std::uint32_t> first;
   for (const model::GridShape& shape : scene.shapes) {
-    first.push_back(static_cast<std::uint32_t>(skins.unique.size()));
-    for (const geometry::Part& part : shape.parts) skins.unique.push_back(&part);
+    first.push_back(static_cast<std::uint32_t>(surfaces.unique.size()));
+    for (const geometry::Part& part : shape.parts) surfaces.unique.push_back(&part);
   }
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     const model::GridBody& body = scene.bodies[b];
@@ -65,11 +65,11 @@ Skins list_skins(const model::Scene& scene, const std::vector<bool>& drawn,
     std::uint32_t number = first[body.grid_shape];
     for (const geometry::Part& part : scene.shapes[body.grid_shape].parts) {
       if (!part.triangles.empty())
-        skins.placed.push_back({{&part, body.origin}, number, b, contact[b]});
+        surfaces.placed.push_back({{&part, body.origin}, number, b, contact[b]});
       ++number;
     }
   }
-  return skins;
+  return surfaces;
 }
 
 /// Groups of parts that are paired as one: of many equal parts at one place that do not cross each
@@ -92,9 +92,9 @@ struct Found {
 
 class Finder {
  public:
-  Finder(const model::Scene& scene, const Skins& skins, const IntersectionRule& rule,
+  Finder(const model::Scene& scene, const SurfaceList& surfaces, const IntersectionRule& rule,
          const parallel::Context& context)
-      : scene_(scene), skins_(skins), rule_(rule), context_(context) {}
+      : scene_(scene), surfaces_(surfaces), rule_(rule), context_(context) {}
 
   Result<IntersectionLines> run() {
     if (const Status s = pair_up(); !s) return s.error();
@@ -115,18 +115,22 @@ class Finder {
   }
 
  private:
-  [[nodiscard]] const PlacedSkin& a(std::size_t i) const { return skins_.placed[pairs_[i].first]; }
-  [[nodiscard]] const PlacedSkin& b(std::size_t i) const { return skins_.placed[pairs_[i].second]; }
+  [[nodiscard]] const PlacedSurface& a(std::size_t i) const {
+    return surfaces_.placed[pairs_[i].first];
+  }
+  [[nodiscard]] const PlacedSurface& b(std::size_t i) const {
+    return surfaces_.placed[pairs_[i].second];
+  }
   [[nodiscard]] Vec3l offset(std::size_t i) const {
     return b(i).placed.origin - a(i).placed.origin;
   }
   [[nodiscard]] std::int64_t contact(std::size_t i) const {
     return std::max(a(i).contact, b(i).contact);
   }
-  [[nodiscard]] model::ObjectId object(const PlacedSkin& skin) const {
-    return scene_.bodies[skin.body].object;
+  [[nodiscard]] model::ObjectId object(const PlacedSurface& surface) const {
+    return scene_.bodies[surface.body].object;
   }
-  [[nodiscard]] bool is_joint(const PlacedSkin& x, const PlacedSkin& y) const {
+  [[nodiscard]] bool is_joint(const PlacedSurface& x, const PlacedSurface& y) const {
     return x.placed.part->primitive && y.placed.part->primitive && object(x) == object(y);
   }
   /// Returns whether the parts of a pair are primitives of one object.
@@ -146,20 +150,21 @@ class Finder {
   /// Returns a number that is equal for parts that are not to be paired, as far as each alone
   /// decides that.
   [[nodiscard]] std::uint32_t owner(std::size_t i) const {
-    const PlacedSkin& skin = skins_.placed[i];
+    const PlacedSurface& surface = surfaces_.placed[i];
     const bool alone = rule_.which == Intersections::parts ||
-                       (rule_.which == Intersections::primitives && skin.placed.part->primitive);
+                       (rule_.which == Intersections::primitives && surface.placed.part->primitive);
     return alone ? static_cast<std::uint32_t>(scene_.model->objects.size() + i)
-                 : model::index(object(skin));
+                 : model::index(object(surface));
   }
 
   /// Returns an owner unlike all others.
   [[nodiscard]] std::uint32_t owner_of_stack(std::size_t stack) const {
-    return static_cast<std::uint32_t>(scene_.model->objects.size() + skins_.placed.size() + stack);
+    return static_cast<std::uint32_t>(scene_.model->objects.size() + surfaces_.placed.size() +
+                                      stack);
   }
 
   /// Returns whether two parts with different owners are to be intersected.
-  [[nodiscard]] bool is_asked(const PlacedSkin& x, const PlacedSkin& y) const {
+  [[nodiscard]] bool is_requested(const PlacedSurface& x, const PlacedSurface& y) const {
     return rule_.which != Intersections::primitives || object(x) != object(y) || is_joint(x, y);
   }
 
@@ -174,24 +179,24 @@ class Finder {
       const std::uint32_t kind = kinds.of[i];
       ++count[kind];
       // Joints have a subset of the lines that other pairs have.
-      if (!is_joint(skins_.placed[kinds.first[kind]], skins_.placed[i])) second[kind] = i;
+      if (!is_joint(surfaces_.placed[kinds.first[kind]], surfaces_.placed[i])) second[kind] = i;
     }
     std::vector<bool> quiet(kinds.first.size());
-    std::vector<std::uint32_t> asked;
+    std::vector<std::uint32_t> requested;
     pairs_.clear();
     for (std::uint32_t kind = 0; kind < count.size(); ++kind) {
       if (count[kind] < kMany || second[kind] <= kinds.first[kind]) continue;
-      asked.push_back(kind);
+      requested.push_back(kind);
       pairs_.push_back({kinds.first[kind], second[kind]});
     }
-    if (asked.empty()) return quiet;
+    if (requested.empty()) return quiet;
     if (const Status s = make_frames(); !s) return s.error();
     std::vector<std::uint32_t> all(pairs_.size());
     std::iota(all.begin(), all.end(), 0U);
     const auto found = find_lines(all);
     if (!found) return found.error();
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-      quiet[asked[k]] = (*found)[k].lines.empty();
+    for (std::size_t k = 0; k < requested.size(); ++k) {
+      quiet[requested[k]] = (*found)[k].lines.empty();
       if (!(*found)[k].lines.empty()) continue;
       ++stacked_.pairs;
       stacked_.tests += (*found)[k].tests;
@@ -200,36 +205,37 @@ class Finder {
   }
 
   Result<Stacks> stack_up() {
-    const std::vector<PlacedSkin>& skins = skins_.placed;
+    const std::vector<PlacedSurface>& surfaces = surfaces_.placed;
     const auto kinds = parallel::distinct(
-        context_, "intersections: parts at one place", skins.size(),
+        context_, "intersections: parts at one place", surfaces.size(),
         [&](std::size_t i) {
           std::uint64_t h =
-              parallel::mixed(skins[i].unique, static_cast<std::uint64_t>(skins[i].contact));
+              parallel::mixed(surfaces[i].unique, static_cast<std::uint64_t>(surfaces[i].contact));
           for (int k = 0; k < 3; ++k)
-            h = parallel::mixed(h, static_cast<std::uint64_t>(skins[i].placed.origin[k]));
+            h = parallel::mixed(h, static_cast<std::uint64_t>(surfaces[i].placed.origin[k]));
           return h;
         },
         [&](std::size_t i, std::size_t j) {
-          return skins[i].unique == skins[j].unique && skins[i].contact == skins[j].contact &&
-                 skins[i].placed.origin == skins[j].placed.origin;
+          return surfaces[i].unique == surfaces[j].unique &&
+                 surfaces[i].contact == surfaces[j].contact &&
+                 surfaces[i].placed.origin == surfaces[j].placed.origin;
         });
     if (!kinds) return kinds.error();
     const auto quiet = find_quiet(*kinds);
     if (!quiet) return quiet.error();
-    std::vector<std::uint32_t> stack(skins.size());
+    std::vector<std::uint32_t> stack(surfaces.size());
     Stacks stacks;
     std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < skins.size(); ++i) {
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
       const std::uint32_t kind = kinds->of[i], first = kinds->first[kind];
       stack[i] = (*quiet)[kind] && first != i ? stack[first] : count++;
     }
     stacks.first.resize(count + 1);
     for (const std::uint32_t s : stack) ++stacks.first[s + 1];
     std::partial_sum(stacks.first.begin(), stacks.first.end(), stacks.first.begin());
-    stacks.members.resize(skins.size());
+    stacks.members.resize(surfaces.size());
     std::vector<std::uint32_t> next = stacks.first;
-    for (std::uint32_t i = 0; i < skins.size(); ++i) stacks.members[next[stack[i]]++] = i;
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i) stacks.members[next[stack[i]]++] = i;
     return stacks;
   }
 
@@ -240,10 +246,10 @@ class Finder {
         context_, {.name = "intersections: boxes", .n = stacks->size(), .grain = kGrain},
         [&](std::size_t s) {
           const std::uint32_t i = stacks->of(s).front();
-          const PlacedSkin& skin = skins_.placed[i];
-          const geometry::Box3l box = skin.placed.part->box.as<std::int64_t>();
+          const PlacedSurface& surface = surfaces_.placed[i];
+          const geometry::Box3l box = surface.placed.part->box.as<std::int64_t>();
           return geometry::BoxItem{
-              .box = box.moved(skin.placed.origin),
+              .box = box.moved(surface.placed.origin),
               .owner = stacks->of(s).size() == 1 ? owner(i) : owner_of_stack(s)};
         });
     if (!items) return items.error();
@@ -256,10 +262,10 @@ class Finder {
       if (only_touch((*items)[pair.first].box, (*items)[pair.second].box)) continue;
       for (const std::uint32_t x : stacks->of(pair.first))
         for (const std::uint32_t y : stacks->of(pair.second))
-          if (owner(x) != owner(y) && is_asked(skins_.placed[x], skins_.placed[y]))
+          if (owner(x) != owner(y) && is_requested(surfaces_.placed[x], surfaces_.placed[y]))
             pairs_.push_back({std::min(x, y), std::max(x, y)});
     }
-    if (stacks->size() < skins_.placed.size()) std::ranges::sort(pairs_);
+    if (stacks->size() < surfaces_.placed.size()) std::ranges::sort(pairs_);
     return {};
   }
 
@@ -271,19 +277,19 @@ class Finder {
     return false;
   }
 
-  /// Returns, by unique part, make(part) for each part of the pairs with wanted(first, second).
-  template <class Wanted, class Make>
-  auto for_parts(std::string_view name, Wanted&& wanted, Make&& make) const {
+  /// Returns, by unique part, make(part) for each part of the pairs with is_needed(first, second).
+  template <class IsNeeded, class Make>
+  auto for_parts(std::string_view name, IsNeeded&& is_needed, Make&& make) const {
     using T = std::invoke_result_t<Make&, const geometry::Part&>;
-    std::vector<bool> asked(skins_.unique.size());
+    std::vector<bool> requested(surfaces_.unique.size());
     for (std::size_t i = 0; i < pairs_.size(); ++i)
-      if (wanted(*a(i).placed.part, *b(i).placed.part))
-        asked[a(i).unique] = asked[b(i).unique] = true;
-    parallel::Precomputed<T> made(skins_.unique.size());
+      if (is_needed(*a(i).placed.part, *b(i).placed.part))
+        requested[a(i).unique] = requested[b(i).unique] = true;
+    parallel::Precomputed<T> made(surfaces_.unique.size());
     const Status status = made.fill_by_weight(
-        context_, {.name = name}, kBigShape, parallel::keys_of(asked),
-        [&](std::size_t u) { return skins_.unique[u]->triangles.size(); },
-        [&](std::size_t u) { return make(*skins_.unique[u]); });
+        context_, {.name = name}, kBigShape, parallel::keys_of(requested),
+        [&](std::size_t u) { return surfaces_.unique[u]->triangles.size(); },
+        [&](std::size_t u) { return make(*surfaces_.unique[u]); });
     return status ? Result(std::move(made)) : Result<parallel::Precomputed<T>>(status.error());
   }
 
@@ -319,12 +325,12 @@ class Finder {
   /// Finds the lines of some pairs.
   Result<std::vector<Found>> find_lines(const std::vector<std::uint32_t>& some) const {
     const auto trees = for_parts(
-        "intersections: trees", geometry::want_trees,
+        "intersections: trees", geometry::needs_bvhs,
         [&](const geometry::Part& part) { return geometry::TriangleBvh(part, context_); });
     if (!trees) return trees.error();
-    const auto whole = [&](const PlacedSkin& skin) {
-      return geometry::PartWithObb{skin.placed, frames_.find(skin.unique),
-                                   trees->find(skin.unique)};
+    const auto whole = [&](const PlacedSurface& surface) {
+      return geometry::PartWithObb{surface.placed, frames_.find(surface.unique),
+                                   trees->find(surface.unique)};
     };
     const auto order = parallel::longest_first(some.size(), [&](std::size_t k) {
       return a(some[k]).placed.part->triangles.size() + b(some[k]).placed.part->triangles.size();
@@ -356,7 +362,8 @@ class Finder {
 
   [[nodiscard]] std::uint64_t most_lines() const {
     std::uint64_t triangles = 0;
-    for (const PlacedSkin& skin : skins_.placed) triangles += skin.placed.part->triangles.size();
+    for (const PlacedSurface& surface : surfaces_.placed)
+      triangles += surface.placed.part->triangles.size();
     return kMostLines + kMostLinesOfTriangle * triangles;
   }
 
@@ -381,7 +388,7 @@ class Finder {
   }
 
   const model::Scene& scene_;
-  const Skins& skins_;
+  const SurfaceList& surfaces_;
   const IntersectionRule& rule_;
   const parallel::Context& context_;
   struct {
@@ -399,8 +406,8 @@ Result<IntersectionLines> find_intersection_lines(const model::Scene& scene,
                                                   const IntersectionRule& rule,
                                                   const parallel::Context& context) {
   if (rule.which == Intersections::off) return IntersectionLines{};
-  const Skins skins = list_skins(scene, drawn, contact);
-  return Finder(scene, skins, rule, context).run();
+  const SurfaceList surfaces = list_surfaces(scene, drawn, contact);
+  return Finder(scene, surfaces, rule, context).run();
 }
 
 }  // namespace strake::hlr

@@ -40,9 +40,9 @@ double distance(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
 }
 
 /// A part in the coordinates of the first of two.
-class Skin {
+class JointSurface {
  public:
-  Skin(const PlacedPart& placed, const Vec3l& origin, std::vector<FeatureEdge> edges)
+  JointSurface(const PlacedPart& placed, const Vec3l& origin, std::vector<FeatureEdge> edges)
       : part_(*placed.part), at_((placed.origin - origin).as<double>()), edges_(std::move(edges)) {}
 
   /// Returns whether all of a line lies that near to edges that are drawn in every view.
@@ -96,7 +96,8 @@ class Skin {
 constexpr double kCosFlush = 1 - 5e-7;
 
 /// Returns whether the skins turn by more than the sharp angle at a line, and are not flush.
-bool turns_sharply(const Skin& a, const Skin& b, const Segment& line, double cos_sharp) {
+bool turns_sharply(const JointSurface& a, const JointSurface& b, const Segment& line,
+                   double cos_sharp) {
   const Vec3d middle = samples(line)[1];
   const std::vector<Vec3d> of_b = b.normals_at(middle);
   return std::ranges::none_of(a.normals_at(middle), [&](const Vec3d& n) {
@@ -184,7 +185,7 @@ Result<std::vector<Segment>> joint_lines(const PlacedPart& a, const PlacedPart& 
   if (!edges_a) return edges_a.error();
   auto edges_b = view_independent_edges(*b.part, cos_sharp);
   if (!edges_b) return edges_b.error();
-  const Skin x(a, a.origin, std::move(*edges_a)), y(b, a.origin, std::move(*edges_b));
+  const JointSurface x(a, a.origin, std::move(*edges_a)), y(b, a.origin, std::move(*edges_b));
   const double within = a.part->sag + b.part->sag + static_cast<double>(contact);
   std::vector<Segment> joints, others;
   std::vector<Vec3l> ends;

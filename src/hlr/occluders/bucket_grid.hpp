@@ -83,16 +83,18 @@ class BucketMarks {
  public:
   void begin(std::size_t items) {
     if (marks_.size() < items) marks_.resize(items, 0);
-    if (++walk_ != 0) return;
+    if (++visit_number_ != 0) return;
     std::ranges::fill(marks_, 0U);
-    walk_ = 1;
+    visit_number_ = 1;
   }
   /// Returns whether an item is met for the first time in this traversal.
-  bool first(std::uint32_t item) { return std::exchange(marks_[item], walk_) != walk_; }
+  bool first(std::uint32_t item) {
+    return std::exchange(marks_[item], visit_number_) != visit_number_;
+  }
 
  private:
   std::vector<std::uint32_t> marks_;
-  std::uint32_t walk_ = 0;
+  std::uint32_t visit_number_ = 0;
 };
 
 /// A grid over the paper whose cells list the boxes that reach into them, the nearest first: the

@@ -197,7 +197,7 @@ class PartMerger {
       return finish({}, false);
     }
     if (const Status s = seen_.find_planes(settings_.context); !s) return s.error();
-    const Result<bool> locally_convex = walk_edges();
+    const Result<bool> locally_convex = traverse_edges();
     if (!locally_convex) return locally_convex.error();
     const bool convex = *locally_convex && bounds_convex_body(part_, seen_.planes);
     if (const Status s = add_groups(maker); !s) return s.error();
@@ -263,7 +263,7 @@ class PartMerger {
   }
 
   // Groups coplanar neighbours; true when every edge is manifold, consistent and not concave.
-  Result<bool> walk_edges() {
+  Result<bool> traverse_edges() {
     const std::size_t edges = part_.edges.empty() ? 0 : part_.edges.size() - 1;
     std::vector<Bend> bends(edges);
     const Status status =

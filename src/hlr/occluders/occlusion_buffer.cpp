@@ -157,14 +157,14 @@ class OcclusionBuffer::Painter {
       const PaperCorner& q = corners[i + 1 < corners.size() ? i + 1 : 0];
       const double up = as_double(q.v - p.v), right = as_double(q.u - p.u);
       const double above = v - as_double(p.v + at.v);
-      const double room = 1 + kShare * (std::fabs(v) + std::fabs(as_double(p.u + at.u)));
+      const double margin = 1 + kShare * (std::fabs(v) + std::fabs(as_double(p.u + at.u)));
       if (up == 0) {
-        if (right > 0 ? above <= room : -above <= room) return {1, -1};
+        if (right > 0 ? above <= margin : -above <= margin) return {1, -1};
         continue;
       }
       const double across = right / up * above;
       const double u = as_double(p.u + at.u) + across;
-      const double slack = room * (1 + std::fabs(right / up)) + kShare * std::fabs(across);
+      const double slack = margin * (1 + std::fabs(right / up)) + kShare * std::fabs(across);
       if (up > 0)
         span.hi = std::min(span.hi, u - slack);
       else
@@ -244,9 +244,9 @@ Result<OcclusionBuffer> OcclusionBuffer::of(std::span<const BodyInstance> placed
 }
 
 /// A segment in units of tiles, along the side of the paper along which it runs.
-class OcclusionBuffer::Walk {
+class OcclusionBuffer::TileTraversal {
  public:
-  Walk(const OcclusionBuffer& occlusion_buffer, const ViewPoint& a, const ViewPoint& b)
+  TileTraversal(const OcclusionBuffer& occlusion_buffer, const ViewPoint& a, const ViewPoint& b)
       : occlusion_buffer_(occlusion_buffer) {
     const double au = (as_double(a.u) - occlusion_buffer.u0_) / occlusion_buffer.width_;
     const double bu = (as_double(b.u) - occlusion_buffer.u0_) / occlusion_buffer.width_;
@@ -317,10 +317,10 @@ class OcclusionBuffer::Walk {
 CoveredEnds OcclusionBuffer::covered_ends(const ViewPoint& a, const ViewPoint& b, double lo,
                                           double hi) const {
   if (empty()) return {lo, hi};
-  const Walk walk(*this, a, b);
-  const double from = walk.covered_from(lo, hi);
+  const TileTraversal traversal(*this, a, b);
+  const double from = traversal.covered_from(lo, hi);
   if (from >= hi) return {hi, hi};
-  return {from, walk.covered_from(hi, lo)};
+  return {from, traversal.covered_from(hi, lo)};
 }
 
 }  // namespace strake::hlr

@@ -46,7 +46,7 @@ class OcclusionBuffer {
 
  private:
   class Painter;
-  class Walk;
+  class TileTraversal;
 
   double u0_ = 0, v0_ = 0;         ///< corner of the first tile
   double width_ = 1, height_ = 1;  ///< size of a tile

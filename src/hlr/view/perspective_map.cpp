@@ -28,15 +28,15 @@ double size_of(const Vec3d& p) {
 
 std::int64_t grid_below(double x) {
   return static_cast<std::int64_t>(
-      std::floor(std::clamp(x, -PerspectiveMap::kRim, PerspectiveMap::kRim)));
+      std::floor(std::clamp(x, -PerspectiveMap::kPaperLimit, PerspectiveMap::kPaperLimit)));
 }
 std::int64_t grid_above(double x) {
   return static_cast<std::int64_t>(
-      std::ceil(std::clamp(x, -PerspectiveMap::kRim, PerspectiveMap::kRim)));
+      std::ceil(std::clamp(x, -PerspectiveMap::kPaperLimit, PerspectiveMap::kPaperLimit)));
 }
 
 struct Range {
-  double lo = PerspectiveMap::kRim, hi = -PerspectiveMap::kRim;
+  double lo = PerspectiveMap::kPaperLimit, hi = -PerspectiveMap::kPaperLimit;
   void include(double x, double error_bound) {
     lo = std::min(lo, x - error_bound);
     hi = std::max(hi, x + error_bound);
@@ -51,8 +51,8 @@ struct Ray {
 /// Opens a range to infinity on the side on which the hull of points before and not before the eye
 /// passes beside the eye.
 void open_towards(double across, double size, Range& range) {
-  if (!(across < -kSideways * size)) range.hi = PerspectiveMap::kRim;
-  if (!(across > kSideways * size)) range.lo = -PerspectiveMap::kRim;
+  if (!(across < -kSideways * size)) range.hi = PerspectiveMap::kPaperLimit;
+  if (!(across > kSideways * size)) range.lo = -PerspectiveMap::kPaperLimit;
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ ViewBox PerspectiveMap::box_of(std::span<const Vec3l> corners) const {
                           });
   if (corners.empty() || all_behind) return {};
   if (before.empty()) {
-    u = v = w = {-kRim, kRim};
+    u = v = w = {-kPaperLimit, kPaperLimit};
   } else if (!beside.empty()) {
     for (const Ray& i : before)
       for (const Ray& j : beside) {
@@ -168,7 +168,7 @@ ViewBox PerspectiveMap::box_of(std::span<const Vec3l> corners) const {
         open_towards(j.x, j.size, u);
         open_towards(j.y, j.size, v);
       }
-    w.hi = kRim;
+    w.hi = kPaperLimit;
   }
   return {{grid_below(u.lo), grid_below(v.lo), grid_below(w.lo)},
           {grid_above(u.hi), grid_above(v.hi), grid_above(w.hi)}};

@@ -55,7 +55,7 @@ class PerspectiveMap {
   /// A unit of x/z.
   static constexpr double kUnit = 1099511627776.0;  // 2^40
   /// Nothing that is drawn lies beyond this: boxes end there.
-  static constexpr double kRim = 64 * kUnit;
+  static constexpr double kPaperLimit = 64 * kUnit;
 
   /// `nearest` is about the least depth of what is drawn.
   PerspectiveMap(const View& view, double nearest) : axes_(axes_of(view)), nearest_(nearest) {}
@@ -71,7 +71,7 @@ class PerspectiveMap {
                                                           double to) const;
 
   /// Returns a box that holds the image of that part of the corners' convex hull that lies before
-  /// the eye, out to kRim; empty where there is none.
+  /// the eye, out to kPaperLimit; empty where there is none.
   [[nodiscard]] ViewBox box_of(std::span<const geometry::Vec3l> corners) const;
 
   [[nodiscard]] const ViewAxes& axes() const { return axes_; }

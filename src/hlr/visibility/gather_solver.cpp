@@ -166,12 +166,12 @@ bool OccluderGatherer::find_neighbours() {
     box.include(own.view->edges[i].a);
     box.include(own.view->edges[i].b);
   }
-  const LooseBox room = rounded_outwards(box.moved(own.at));
+  const LooseBox own_box = rounded_outwards(box.moved(own.at));
   SegmentQuery any;
-  any.u0 = room.u0;
-  any.u1 = room.u1;
-  any.v0 = room.v0;
-  any.v1 = room.v1;
+  any.u0 = own_box.u0;
+  any.u1 = own_box.u1;
+  any.v0 = own_box.v0;
+  any.v1 = own_box.v1;
   const auto deepest = static_cast<double>(box.lo.w + own.at.w);
   any.w0 = deepest - 1e-12 * std::abs(deepest);
   near_.clear();
@@ -198,16 +198,16 @@ void OccluderGatherer::gather_own_body() {
 
 void OccluderGatherer::test_own_body() {
   // Limits may cut away what hides: then the short cut for convex parts does not hold.
-  const bool judged =
+  const bool decided_by_part =
       !edge_.own->cut && (edge_.feature->surely_behind_part || edge_.feature->surely_clear_of_part);
-  if (judged && edge_.feature->surely_behind_part) {
+  if (decided_by_part && edge_.feature->surely_behind_part) {
     add(OcclusionInterval{RationalParam::zero(), RationalParam::one(), kBothSides, true});
     if (job_.options.culling) return;
   }
   const LocalEdge local = localized(*edge_.own);
   for (const OccluderPart& part : edge_.own->view->parts) {
     const bool same = edge_.own->view->polygons[part.first].part == edge_.feature->edge.part;
-    if (same && judged) continue;
+    if (same && decided_by_part) continue;
     const bool forgives = same && edge_.own->forgives_rounding;
     const Rule rule{.contact = same ? edge_.own->within : edge_.own->contact,
                     .lying = forgives && !edge_.feature->edge.away ? kLyingInPlane : 0,
@@ -316,18 +316,19 @@ LocalEdge OccluderGatherer::localized(const BodyInstance& other) {
 
 void OccluderGatherer::project_range(double from, double to) {
   perspective_segment_ = visibility_.perspective_map->segment(edge_.a, edge_.b, from, to);
-  constexpr auto kRim = static_cast<std::int64_t>(PerspectiveMap::kRim);
+  constexpr auto kPaperLimit = static_cast<std::int64_t>(PerspectiveMap::kPaperLimit);
   perspective_box_ = perspective_segment_ ? perspective_segment_->box()
-                                          : ViewBox{{-kRim, -kRim, -kRim}, {kRim, kRim, kRim}};
+                                          : ViewBox{{-kPaperLimit, -kPaperLimit, -kPaperLimit},
+                                                    {kPaperLimit, kPaperLimit, kPaperLimit}};
 }
 
 SegmentQuery OccluderGatherer::make_perspective_query() const {
   if (perspective_segment_)
     return perspective_segment_->make_query(open_.lo().value, open_.hi().value);
-  constexpr double kRim = PerspectiveMap::kRim;
+  constexpr double kPaperLimit = PerspectiveMap::kPaperLimit;
   SegmentQuery everywhere;
-  everywhere.u0 = everywhere.v0 = everywhere.w0 = -kRim;
-  everywhere.u1 = everywhere.v1 = kRim;
+  everywhere.u0 = everywhere.v0 = everywhere.w0 = -kPaperLimit;
+  everywhere.u1 = everywhere.v1 = kPaperLimit;
   return everywhere;
 }
 
@@ -363,7 +364,7 @@ SegmentQuery OccluderGatherer::make_query(const ViewPoint& a, const ViewPoint& b
   return s;
 }
 
-bool PieceMaker::begin(const EdgeQuery& edge) {
+bool EdgePieceBuilder::begin(const EdgeQuery& edge) {
   edge_ = edge;
   lo_ = RationalParam::zero();
   hi_ = RationalParam::one();
@@ -377,9 +378,9 @@ bool PieceMaker::begin(const EdgeQuery& edge) {
   return whole_ == State::visible;
 }
 
-PieceMaker::Absent PieceMaker::finish(std::uint32_t number,
-                                      std::span<const OcclusionInterval> intervals,
-                                      std::vector<EdgePiece>& out) {
+EdgePieceBuilder::Absent EdgePieceBuilder::finish(std::uint32_t number,
+                                                  std::span<const OcclusionInterval> intervals,
+                                                  std::vector<EdgePiece>& out) {
   intervals_.clear();
   if (whole_ != State::visible) {
     intervals_.push_back({RationalParam::zero(), RationalParam::one(), whole_});
@@ -388,7 +389,7 @@ PieceMaker::Absent PieceMaker::finish(std::uint32_t number,
     if (intervals.empty())
       intervals_.push_back({lo_, hi_, State::visible});
     else
-      maker_.run(intervals, lo_, hi_, intervals_);
+      sweep_.run(intervals, lo_, hi_, intervals_);
     if (hi_.num < hi_.den) intervals_.push_back({hi_, RationalParam::one(), State::clipped});
   }
   const geometry::Vec3l& origin = visibility_.job.origin;
@@ -413,7 +414,7 @@ namespace {
 class Drawer {
  public:
   Drawer(const VisibilityScene& visibility, const SpeckRule& rule)
-      : visibility_(visibility), gatherer_(visibility), maker_(visibility, rule) {}
+      : visibility_(visibility), gatherer_(visibility), piece_builder_(visibility, rule) {}
 
   SolverWork run(const EdgeRange& item, std::vector<EdgePiece>& out) {
     gatherer_.start(item);
@@ -430,15 +431,16 @@ class Drawer {
   void draw(const EdgeQuery& edge, std::uint32_t number, std::vector<EdgePiece>& out) {
     ++gatherer_.work.edges;
     std::span<const OcclusionInterval> intervals;
-    if (maker_.begin(edge)) intervals = gatherer_.intervals(edge, maker_.lo(), maker_.hi());
-    const PieceMaker::Absent absent = maker_.finish(number, intervals, out);
+    if (piece_builder_.begin(edge))
+      intervals = gatherer_.intervals(edge, piece_builder_.lo(), piece_builder_.hi());
+    const EdgePieceBuilder::Absent absent = piece_builder_.finish(number, intervals, out);
     gatherer_.work.specks += absent.specks;
     if (absent.left_out) ++gatherer_.work.left_out;
   }
 
   const VisibilityScene& visibility_;
   OccluderGatherer gatherer_;
-  PieceMaker maker_;
+  EdgePieceBuilder piece_builder_;
 };
 
 /// Appends the intervals that a body's own faces hide of some of its edges.

@@ -120,9 +120,9 @@ class OccluderGatherer {
 
 /// Makes the pieces of one edge after another from its hidden intervals. For one worker; it keeps
 /// its memory from edge to edge.
-class PieceMaker {
+class EdgePieceBuilder {
  public:
-  PieceMaker(const VisibilityScene& visibility, const SpeckRule& rule)
+  EdgePieceBuilder(const VisibilityScene& visibility, const SpeckRule& rule)
       : visibility_(visibility), rule_(rule) {}
 
   /// Begins with an edge. True when finish() needs the intervals that are hidden between lo() and
@@ -146,7 +146,7 @@ class PieceMaker {
   RationalParam lo_ = RationalParam::zero(), hi_ = RationalParam::one();
   State whole_ = State::visible;  ///< the state of all of the edge, where it has one
   std::vector<VisibilityInterval> intervals_;
-  IntervalSweep maker_;
+  IntervalSweep sweep_;
   const SpeckRule& rule_;
 };
 

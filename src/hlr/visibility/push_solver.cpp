@@ -32,7 +32,7 @@ struct TargetEdge {
   RationalParam lo = RationalParam::zero(), hi = RationalParam::one();
   OpenRange open;
   std::vector<OcclusionInterval> intervals;
-  bool asked = false;
+  bool needs_intervals = false;
 
   void add(const OcclusionInterval& interval) {
     if (open.empty()) return;
@@ -115,16 +115,16 @@ class Pusher {
 
 /// Returns the edges of an object in their order, with the intervals that its own faces hide.
 TargetObject local_step(const VisibilityScene& visibility, std::uint32_t object,
-                        OccluderGatherer& gatherer, PieceMaker& maker) {
+                        OccluderGatherer& gatherer, EdgePieceBuilder& builder) {
   TargetObject result;
   const auto add = [&](const EdgeQuery& edge) {
     ++gatherer.work.edges;
     TargetEdge under;
     under.edge = edge;
-    under.asked = maker.begin(edge);
-    if (under.asked) {
-      under.lo = maker.lo();
-      under.hi = maker.hi();
+    under.needs_intervals = builder.begin(edge);
+    if (under.needs_intervals) {
+      under.lo = builder.lo();
+      under.hi = builder.hi();
       under.open = OpenRange(under.lo, under.hi);
       const auto intervals = gatherer.self_occlusion(edge, under.lo, under.hi);
       under.intervals.assign(intervals.begin(), intervals.end());
@@ -142,7 +142,7 @@ TargetObject local_step(const VisibilityScene& visibility, std::uint32_t object,
   for (const Line& line : visibility.job.lines.of(object)) add(EdgeQuery(visibility, line));
   result.done = parallel::Marks(result.edges.size());
   for (std::size_t e = 0; e < result.edges.size(); ++e)
-    if (!result.edges[e].asked || result.edges[e].open.empty()) result.done.set(e);
+    if (!result.edges[e].needs_intervals || result.edges[e].open.empty()) result.done.set(e);
   return result;
 }
 
@@ -188,14 +188,15 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
   std::vector<SolverWork> work(objects.size() + visibility.placed.size());
   struct Local {
     OccluderGatherer gatherer;
-    PieceMaker maker;
+    EdgePieceBuilder builder;
   };
   const Status local = parallel::for_each_with(
       context, {.name = "push: local step", .n = objects.size()},
-      [&] { return Local{OccluderGatherer(visibility), PieceMaker(visibility, rule)}; },
+      [&] { return Local{OccluderGatherer(visibility), EdgePieceBuilder(visibility, rule)}; },
       [&](Local& own, std::size_t o) {
         if (!job.drawn[o]) return;
-        objects[o] = local_step(visibility, static_cast<std::uint32_t>(o), own.gatherer, own.maker);
+        objects[o] =
+            local_step(visibility, static_cast<std::uint32_t>(o), own.gatherer, own.builder);
         work[o] = std::exchange(own.gatherer.work, {});
       });
   if (!local) return local;
@@ -213,12 +214,12 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
   }
   Result<std::vector<EdgePiece>> pieces = parallel::collect_with<EdgePiece>(
       context, {.name = "push: pieces", .n = objects.size()},
-      [&] { return PieceMaker(visibility, rule); },
-      [&](PieceMaker& maker, std::size_t o, std::vector<EdgePiece>& out) {
+      [&] { return EdgePieceBuilder(visibility, rule); },
+      [&](EdgePieceBuilder& builder, std::size_t o, std::vector<EdgePiece>& out) {
         for (std::uint32_t e = 0; e < objects[o].edges.size(); ++e) {
           const TargetEdge& under = objects[o].edges[e];
-          static_cast<void>(maker.begin(under.edge));
-          const PieceMaker::Absent absent = maker.finish(e, under.intervals, out);
+          static_cast<void>(builder.begin(under.edge));
+          const EdgePieceBuilder::Absent absent = builder.finish(e, under.intervals, out);
           work[o].specks += absent.specks;
           if (absent.left_out) ++drawing.left_out[o];
         }

@@ -113,7 +113,7 @@ class EdgeSpecks {
     for (std::size_t first = 0; first < pieces_.size();) {
       std::size_t last = first;
       while (last < pieces_.size() && is_hidden(pieces_[last].state)) ++last;
-      if (last > first + 1) specks += absorb_by_whom(first, last);
+      if (last > first + 1) specks += absorb_by_occluder(first, last);
       first = last + 1;
     }
     return specks;
@@ -157,7 +157,7 @@ class EdgeSpecks {
     return State::hidden_by_other;
   }
 
-  std::size_t absorb_by_whom(std::size_t first, std::size_t last) {
+  std::size_t absorb_by_occluder(std::size_t first, std::size_t last) {
     std::vector<Span> by = spans(first, last, [](const EdgePiece& p) {
       return static_cast<std::uint8_t>(p.state == State::hidden_by_self ? 0 : 1);
     });
@@ -188,7 +188,7 @@ class Clusters {
     root_.resize(points_.size());
     std::iota(root_.begin(), root_.end(), std::size_t{0});
     for (const std::size_t s : specks) unite(number(pieces[s].a), number(pieces[s].b));
-    judge();
+    measure_clusters();
   }
 
   /// Returns whether the cluster of a speck joins nothing.
@@ -212,7 +212,7 @@ class Clusters {
     root_[std::max(p, q)] = std::min(p, q);
   }
 
-  void judge() {
+  void measure_clusters() {
     std::int64_t longest = 0;
     for (const std::size_t s : specks_) longest = std::max(longest, rule_.longest(pieces_[s]));
     wide_.resize(points_.size());

@@ -211,7 +211,7 @@ namespace {
 
 // With more intervals than this, going through them all for each new one would cost more than it
 // saves.
-constexpr std::size_t kLookBack = 48;
+constexpr std::size_t kScanBack = 48;
 
 void append(std::vector<VisibilityInterval>& out, std::size_t first, const RationalParam& lo,
             const RationalParam& hi, State state) {
@@ -225,7 +225,7 @@ void append(std::vector<VisibilityInterval>& out, std::size_t first, const Ratio
 
 bool OpenRange::shrink_all(std::span<const OcclusionInterval> intervals) {
   if (intervals.empty() || !shrink(intervals.back())) return false;
-  if (intervals.size() > kLookBack) intervals = intervals.last(kLookBack);
+  if (intervals.size() > kScanBack) intervals = intervals.last(kScanBack);
   for (bool again = true; again && !empty();) {
     again = false;
     for (const OcclusionInterval& interval : intervals) again = shrink(interval) || again;

@@ -46,7 +46,8 @@ struct SelfOcclusion {
 
 /// A job with everything that the solvers query.
 struct VisibilityScene {
-  explicit VisibilityScene(const ViewJob& asked) : job(asked), projection(asked.direction()) {}
+  explicit VisibilityScene(const ViewJob& view_job)
+      : job(view_job), projection(view_job.direction()) {}
   VisibilityScene(const VisibilityScene&) = delete;  // `placed` points into `views`
   VisibilityScene& operator=(const VisibilityScene&) = delete;
   VisibilityScene(VisibilityScene&&) = default;

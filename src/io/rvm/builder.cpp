@@ -20,7 +20,7 @@ std::string_view as_key(Bytes bytes) {
 }
 
 /// Reports what is missing, and what has no area and therefore is not missing.
-void tell_facets(DiagnosticLog& log, const FacetMesh& facets, std::uint64_t offset) {
+void report_facets(DiagnosticLog& log, const FacetMesh& facets, std::uint64_t offset) {
   std::string lost, empty;
   const auto add = [](std::string& text, std::uint32_t count, std::string_view what) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
@@ -91,9 +91,9 @@ void RvmBuilder::add(const PrimitiveChunk& chunk) {
 }
 
 void RvmBuilder::note_loss(std::uint64_t offset) {
-  bool& told = open_.empty() ? lost_outside_ : groups_[open_.back()].lost;
-  if (told) return;
-  told = true;
+  bool& already_lost = open_.empty() ? lost_outside_ : groups_[open_.back()].lost;
+  if (already_lost) return;
+  already_lost = true;
   BodyRecord& record = bodies_.emplace_back();
   record.group = open_.empty() ? kNoGroup : open_.back();
   record.offset = offset;
@@ -170,7 +170,7 @@ Result<std::vector<RvmBuilder::Facets>> RvmBuilder::triangulate(const parallel::
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     FacetMesh& built = (*meshes)[i];
     const FacetJob& job = facets_[i];
-    tell_facets(*log_, built, job.offset);
+    report_facets(*log_, built, job.offset);
     if (built.nonfinite + built.untriangulated > 0) facets[job.shape] = Facets::incomplete;
     if (built.mesh.triangles.empty()) facets[job.shape] = Facets::empty;
     largest_[job.shape] = built.largest;

@@ -80,11 +80,11 @@ void note_left_out(model::Model& model, model::Object& object, const LeftOut& la
 }
 
 void add_body(model::Model& model, model::Object& object, model::Shape shape,
-              const BodyLook& look) {
+              const BodyAttributes& attributes) {
   model::Body body;
   body.shape = static_cast<model::ShapeId>(model.shapes.size());
-  body.precision_um = precision_um(look.half_spacing_mm);
-  body.color = look.color;
+  body.precision_um = precision_um(attributes.half_spacing_mm);
+  body.color = attributes.color;
   model.shapes.push_back(std::move(shape));
   model.bodies.push_back(body);
   ++object.body_count;

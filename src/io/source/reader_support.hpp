@@ -25,7 +25,7 @@ namespace strake::io {
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
 /// What a body has besides its shape and placement.
-struct BodyLook {
+struct BodyAttributes {
   model::Color color = {};
   double half_spacing_mm = 0;  ///< half the spacing of the numbers that say where it is
 };
@@ -42,6 +42,7 @@ struct LeftOut {
 void note_left_out(model::Model& model, model::Object& object, const LeftOut& lacks);
 
 /// Appends a body with a shape of its own to the object that owns the last bodies of the model.
-void add_body(model::Model& model, model::Object& object, model::Shape shape, const BodyLook& look);
+void add_body(model::Model& model, model::Object& object, model::Shape shape,
+              const BodyAttributes& attributes);
 
 }  // namespace strake::io

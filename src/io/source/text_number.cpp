@@ -101,12 +101,13 @@ void compare_with_float32(const Scan& scan, double value, DigitStatistics& digit
   if (off > 0 &&
       off > power_of_ten(scan.exponent - scan.decimals) / 2 + kRounding * std::fabs(value)) {
     digits.beyond_float32 = true;
-  } else if (scan.significant > kFloatDigits && !digits.tells_float32) {
+  } else if (scan.significant > kFloatDigits && !digits.shows_float32) {
     // Zeros at the end of fixed notation are no digits that count.
     std::uint64_t mantissa = scan.mantissa;
-    std::int64_t telling = std::min<std::int64_t>(scan.significant, kMantissaDigits);
-    for (; telling > kFloatDigits && mantissa % 10 == 0; mantissa /= 10) --telling;
-    digits.tells_float32 = telling > kFloatDigits;
+    std::int64_t significant_digits = std::min<std::int64_t>(scan.significant, kMantissaDigits);
+    for (; significant_digits > kFloatDigits && mantissa % 10 == 0; mantissa /= 10)
+      --significant_digits;
+    digits.shows_float32 = significant_digits > kFloatDigits;
   }
 }
 
@@ -132,7 +133,7 @@ bool read_special(const char*& at, const char* end, double& value) {
 void DigitStatistics::merge(const DigitStatistics& other) {
   most_significant_digits = std::max(most_significant_digits, other.most_significant_digits);
   most_decimals = std::max(most_decimals, other.most_decimals);
-  tells_float32 = tells_float32 || other.tells_float32;
+  shows_float32 = shows_float32 || other.shows_float32;
   beyond_float32 = beyond_float32 || other.beyond_float32;
 }
 
@@ -174,7 +175,7 @@ double text_half_spacing(const DigitStatistics& digits, double magnitude) {
   double spacing = 1;
   for (int i = 0; i < decimals; ++i) spacing /= 10;
   for (int i = 0; i > decimals; --i) spacing *= 10;
-  const bool is_float32 = digits.tells_float32 && !digits.beyond_float32;
+  const bool is_float32 = digits.shows_float32 && !digits.beyond_float32;
   return std::max(spacing / 2, is_float32 ? float32_half_spacing(magnitude) : 0.0);
 }
 

@@ -11,7 +11,7 @@ namespace strake::io {
 struct DigitStatistics {
   std::int16_t most_significant_digits = 0;  ///< as written, from the first digit that is not zero
   std::int16_t most_decimals = 0;            ///< digits after the point, exponent applied
-  bool tells_float32 = false;  ///< some number is a float32 value, with more digits than that needs
+  bool shows_float32 = false;  ///< some number is a float32 value, with more digits than that needs
   bool beyond_float32 = false;  ///< some number is no float32 value, as far as its digits go
 
   void merge(const DigitStatistics& other);

@@ -53,8 +53,8 @@ void drop_folds(std::vector<Part>& parts) {
 
 }  // namespace
 
-void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear,
-                              const geometry::Seams& seams, GridShapeResult& result) {
+void GridShapeBuilder::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& linear,
+                                const geometry::Seams& seams, GridShapeResult& result) {
   const geometry::SnappedMesh* placed = placer_.snap_to_grid(mesh, linear);
   if (placed == nullptr) {
     result.fault = kTooWide;
@@ -76,8 +76,8 @@ void GridShapeMaker::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d& l
   }
 }
 
-void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const Mat3d& linear,
-                                   const GridShapeOptions& options, GridShapeResult& result) {
+void GridShapeBuilder::add_primitive(const geometry::Primitive& primitive, const Mat3d& linear,
+                                     const GridShapeOptions& options, GridShapeResult& result) {
   const geometry::Tessellation made =
       geometry::tessellate(primitive, linear, options.sag_mm, options.towards);
   result.fault = made.fault;
@@ -98,8 +98,8 @@ void GridShapeMaker::add_primitive(const geometry::Primitive& primitive, const M
   }
 }
 
-GridShapeResult GridShapeMaker::make(const Shape& shape, const Mat3d& linear,
-                                     const GridShapeOptions& options) {
+GridShapeResult GridShapeBuilder::make(const Shape& shape, const Mat3d& linear,
+                                       const GridShapeOptions& options) {
   GridShapeResult result;
   if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
     add_mesh(*mesh, linear, options.seams, result);

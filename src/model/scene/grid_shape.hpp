@@ -29,7 +29,7 @@ struct GridShapeOptions {
 };
 
 /// Makes shapes one after another in memory that it keeps; each worker has one.
-class GridShapeMaker {
+class GridShapeBuilder {
  public:
   [[nodiscard]] GridShapeResult make(const Shape& shape, const geometry::Mat3d& linear,
                                      const GridShapeOptions& options);

@@ -269,9 +269,9 @@ Result<std::vector<GridShapeResult>> make_shapes(const SceneAssembly& assembly,
   const parallel::Region region{
       .name = "shapes on the grid", .n = uses.size(), .grain = kGrain, .order = order};
   return parallel::transform_with(
-      context, region, [] { return GridShapeMaker(); },
-      [&](GridShapeMaker& maker, std::size_t i) {
-        GridShapeResult made = maker.make(
+      context, region, [] { return GridShapeBuilder(); },
+      [&](GridShapeBuilder& builder, std::size_t i) {
+        GridShapeResult made = builder.make(
             model.shapes[index(uses[i].shape)], model.bodies[uses[i].body].placement.linear,
             {.sag_mm = assembly.options.sag_mm, .seams = uses[i].seams});
         made.shape.shape = uses[i].shape;
@@ -285,15 +285,15 @@ void place_bodies(SceneAssembly& assembly, const std::vector<Use>& uses,
                   const std::vector<GridShapeResult>& made, const parallel::Distinct& kinds) {
   const Model& model = assembly.model;
   Scene& scene = assembly.scene;
-  std::vector<bool> told(made.size(), false);
+  std::vector<bool> reported(made.size(), false);
   std::size_t kept = 0;
   scene.first_body.assign(model.objects.size() + 1, 0);
   for (const GridBody& candidate : scene.bodies) {
     GridBody body = candidate;
     const GridShapeResult& shape = made[body.grid_shape];
-    if (!told[body.grid_shape])
+    if (!reported[body.grid_shape])
       report_findings(shape, uses[body.grid_shape].bodies, model, body.object, scene.diagnostics);
-    told[body.grid_shape] = true;
+    reported[body.grid_shape] = true;
     const auto origin = geometry::snap(model.bodies[body.body].placement.translation);
     if (shape.bad_triangles > 0) scene.lacking.push_back({body.object, "mesh-bad-triangle"});
     if (shape.bad_points > 0) scene.lacking.push_back({body.object, "polyline-bad-point"});

@@ -47,9 +47,9 @@ std::vector<bool> finer_shapes(const Scene& scene, const std::vector<bool>& draw
 
 /// Makes a shape anew, or keeps it as it was where the new one does not fit the grid.
 GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3d& linear,
-                   const GridShapeOptions& wanted, GridShapeMaker& maker) {
+                   const GridShapeOptions& wanted, GridShapeBuilder& builder) {
   const GridShape& old = scene.shapes[shape];
-  GridShapeResult made = maker.make(scene.model->shapes[index(old.shape)], linear, wanted);
+  GridShapeResult made = builder.make(scene.model->shapes[index(old.shape)], linear, wanted);
   if (!made.fault.empty()) return old;
   made.shape.shape = old.shape;
   return std::move(made.shape);
@@ -74,8 +74,8 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
   constexpr std::size_t kGrain = 16;
   auto shapes = parallel::transform_with(
       context, {.name = "shapes of the view", .n = first.size(), .grain = kGrain},
-      [] { return GridShapeMaker(); },
-      [&](GridShapeMaker& maker, std::size_t i) {
+      [] { return GridShapeBuilder(); },
+      [&](GridShapeBuilder& builder, std::size_t i) {
         const auto s = static_cast<std::uint32_t>(i);
         if (first[s] == kNone) {
           GridShape empty;
@@ -87,7 +87,7 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
         GridShapeOptions wanted{.sag_mm = finer[s] ? seen_by.sag_mm : scene.sag_mm};
         if (seen_by.towards) wanted.towards = seen_by.towards->as<double>();
         const Body& body = scene.model->bodies[scene.bodies[first[s]].body];
-        return made_for(scene, s, body.placement.linear, wanted, maker);
+        return made_for(scene, s, body.placement.linear, wanted, builder);
       });
   if (!shapes) return shapes.error();
   Scene seen;

@@ -59,13 +59,13 @@ std::string listed(const Statements& count) {
 std::string picks_nothing(const Selection& selection, const Model& model) {
   std::string message = in_quotes(selection.text());
   message += " picks no object";
-  std::set<std::string_view> asked;
-  add_attributes(*selection.query_, asked);
-  if (asked.empty()) return message;
+  std::set<std::string_view> requested;
+  add_attributes(*selection.query_, requested);
+  if (requested.empty()) return message;
   const Statements stated = statements_of(model);
-  const auto unknown = std::find_if(asked.begin(), asked.end(),
+  const auto unknown = std::find_if(requested.begin(), requested.end(),
                                     [&](std::string_view name) { return !stated.contains(name); });
-  if (unknown == asked.end()) return message;
+  if (unknown == requested.end()) return message;
   message += ": none has an attribute @";
   message += printable(*unknown);
   message += stated.empty() ? std::string(", nor any other") : "; there are " + listed(stated);

@@ -110,12 +110,12 @@ bool quantity_passes(const PropertyTest& test, std::string_view text) {
 /// Evaluates one query for one object.
 class QueryEvaluator {
  public:
-  QueryEvaluator(const SelectionQuery& query, SelectionContext& asked)
+  QueryEvaluator(const SelectionQuery& query, SelectionContext& context)
       : query_(query),
-        asked_(asked),
-        scene_(asked.scene_),
+        context_(context),
+        scene_(context.scene_),
         model_(*scene_.model),
-        object_(model_.object(asked.id_)) {}
+        object_(model_.object(context.id_)) {}
 
   [[nodiscard]] bool evaluate(std::uint32_t index) const {
     const QueryNode& node = query_.nodes[index];
@@ -128,7 +128,7 @@ class QueryEvaluator {
       case QueryNodeKind::box:
         return stands(query_.boxes[node.first]);
       case QueryNodeKind::set:
-        return asked_.picks_set(*query_.sets[node.first]);
+        return context_.picks_set(*query_.sets[node.first]);
       case QueryNodeKind::negation:
         return !evaluate(operands().front());
       case QueryNodeKind::conjunction:
@@ -170,7 +170,7 @@ class QueryEvaluator {
   /// Whether the path passes in either form: "/SITE/ZONE", or "/SITE//ZONE" as the plain joining of
   /// the names has it.
   [[nodiscard]] bool path_passes(const PropertyTest& test) const {
-    const SelectionContext::Path& path = asked_.whole_path();
+    const SelectionContext::Path& path = context_.whole_path();
     return text_passes(test, path.joined) ||
            (!path.slashed.empty() && text_passes(test, path.slashed));
   }
@@ -201,7 +201,7 @@ class QueryEvaluator {
 
   [[nodiscard]] bool stands(const BoxTest& test) const {
     geometry::Box3l box = geometry::empty_box<std::int64_t>();
-    for (const GridBody& body : scene_.bodies_of(asked_.id_)) {
+    for (const GridBody& body : scene_.bodies_of(context_.id_)) {
       const GridShape& shape = scene_.shapes[body.grid_shape];
       if (!shape.box.empty()) box.include(body.box(shape));
     }
@@ -210,7 +210,7 @@ class QueryEvaluator {
   }
 
   const SelectionQuery& query_;
-  SelectionContext& asked_;
+  SelectionContext& context_;
   const Scene& scene_;
   const Model& model_;
   const Object& object_;

@@ -47,9 +47,9 @@ Result<std::vector<std::vector<bool>>> pick(std::span<const Selection> selection
                                                  std::vector<std::uint8_t>(objects));
   const Status status = parallel::for_each(
       context, {.name = "selection", .n = objects, .grain = kGrain}, [&](std::size_t o) {
-        selection::SelectionContext asked(scene, static_cast<ObjectId>(o));
+        selection::SelectionContext selection_context(scene, static_cast<ObjectId>(o));
         for (std::size_t s = 0; s < selections.size(); ++s)
-          answers[s][o] = asked.picks(*selections[s].query_) ? 1 : 0;
+          answers[s][o] = selection_context.picks(*selections[s].query_) ? 1 : 0;
       });
   if (!status) return status.error();
   std::vector<std::vector<bool>> picked;

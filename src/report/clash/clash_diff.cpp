@@ -44,9 +44,9 @@ std::string of_test(const DocumentTest& test) {
 }
 
 /// Tells whether a run checked a pair, and if not, why.
-class Looks {
+class RunCoverage {
  public:
-  explicit Looks(const ClashDocument& run) : run_(run) {
+  explicit RunCoverage(const ClashDocument& run) : run_(run) {
     for (const DocumentTest& test : run.tests) tests_.emplace(test.name, &test);
   }
 
@@ -160,7 +160,7 @@ class Looks {
   std::map<std::string, const DocumentTest*> tests_;
 };
 
-void compare_settings(const Looks& before, const Looks& after, ClashDiff& diff) {
+void compare_settings(const RunCoverage& before, const RunCoverage& after, ClashDiff& diff) {
   for (const DocumentTest& test : diff.before->tests) {
     const DocumentTest* const other = after.test(test.name);
     if (other == nullptr) {
@@ -180,7 +180,7 @@ void compare_settings(const Looks& before, const Looks& after, ClashDiff& diff) 
 
 }  // namespace
 
-int more_places(const DocumentResult& before, const DocumentResult& after) {
+int compare_region_counts(const DocumentResult& before, const DocumentResult& after) {
   const bool counted = before.regions > 0 && after.regions > 0;
   if (!counted || before.regions == after.regions) return 0;
   return before.regions < after.regions ? 1 : -1;
@@ -210,7 +210,8 @@ bool ClashDiff::has_worse() const {
            const DocumentResult &was = *e.before, &is = *e.after;
            if (is.rule != 0) return false;
            if (was.rule != 0 || severity(is.cls) > severity(was.cls)) return true;
-           return is.cls == was.cls && (is.d_mm < was.d_mm - kSameMm || more_places(was, is) > 0);
+           return is.cls == was.cls &&
+                  (is.d_mm < was.d_mm - kSameMm || compare_region_counts(was, is) > 0);
          });
 }
 
@@ -218,11 +219,12 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
   ClashDiff diff;
   diff.before = &before;
   diff.after = &after;
-  const Looks looks_before(before), looks_after(after);
-  compare_settings(looks_before, looks_after, diff);
+  const RunCoverage coverage_before(before), coverage_after(after);
+  compare_settings(coverage_before, coverage_after, diff);
   const auto still_the_same = [&](const DocumentResult& x, const DocumentResult& y) {
-    return x.cls == y.cls && std::fabs(x.d_mm - y.d_mm) <= kSameMm && more_places(x, y) == 0 &&
-           x.allowed_regions == y.allowed_regions && before.allowed(x) == after.allowed(y);
+    return x.cls == y.cls && std::fabs(x.d_mm - y.d_mm) <= kSameMm &&
+           compare_region_counts(x, y) == 0 && x.allowed_regions == y.allowed_regions &&
+           before.allowed(x) == after.allowed(y);
   };
   const auto still_there = [&](DiffEntry&& e) {
     (still_the_same(*e.before, *e.after) ? diff.same : diff.changed).push_back(std::move(e));
@@ -241,9 +243,9 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
     } else if (is && was) {
       still_there({&*x, &*y, {}});
     } else if (is) {
-      diff.added.push_back({nullptr, &*y, looks_before.reason(*y, after)});
+      diff.added.push_back({nullptr, &*y, coverage_before.reason(*y, after)});
     } else {
-      std::string why = looks_after.reason(*x, before);
+      std::string why = coverage_after.reason(*x, before);
       (why.empty() ? diff.gone : diff.cannot_tell).push_back({&*x, nullptr, std::move(why)});
     }
     if (was) ++x;

@@ -13,7 +13,7 @@
 namespace strake::report {
 namespace {
 
-std::string told(const ClashDocument& run, const DocumentResult& r, bool with_places) {
+std::string describe(const ClashDocument& run, const DocumentResult& r, bool with_places) {
   std::string out = std::string(short_class_name(r.cls)) + " " + fixed(r.d_mm, 3);
   if (!r.depth_complete) out += ", depth incomplete";
   if (with_places && r.regions > 0)
@@ -29,10 +29,10 @@ std::string told(const ClashDocument& run, const DocumentResult& r, bool with_pl
 /// changed.
 std::string change(const ClashDiff& diff, const DiffEntry& e) {
   const bool both = e.before != nullptr && e.after != nullptr;
-  const bool places = both && (more_places(*e.before, *e.after) != 0 ||
+  const bool places = both && (compare_region_counts(*e.before, *e.after) != 0 ||
                                e.before->allowed_regions != e.after->allowed_regions);
-  const std::string is = told(diff.run_of(e), e.either(), places);
-  return both ? is + " (was " + told(*diff.before, *e.before, places) + ")" : is;
+  const std::string is = describe(diff.run_of(e), e.either(), places);
+  return both ? is + " (was " + describe(*diff.before, *e.before, places) + ")" : is;
 }
 
 std::string_view label(const DocumentObject& o) { return o.name.empty() ? o.id : o.name; }
@@ -88,8 +88,8 @@ std::string block(std::string_view title, const ClashDiff& diff, const std::vect
     out += "  " + fit_to_columns(label(run.a(r)), names) + "  " +
            fit_to_columns(label(run.b(r)), names) + "  " + change(diff, list[i]) +
            origin.text(list[i]) + "\n";
-    const bool told = i > 0 && list[i].why == list[i - 1].why;
-    if (!list[i].why.empty() && !told)
+    const bool describe = i > 0 && list[i].why == list[i - 1].why;
+    if (!list[i].why.empty() && !describe)
       out += "      " + std::string(of) + printable(list[i].why) + "\n";
   }
   if (shown < list.size()) out += "  … and " + std::to_string(list.size() - shown) + " more\n";

@@ -100,12 +100,12 @@ class ClashDocumentReader {
 
   /// Checks the version at once: results of other versions have another form.
   void version() {
-    std::string said;
-    json_.copy(said);
-    if (said != kClashSchemaVersion)
+    std::string stated;
+    json_.copy(stated);
+    if (stated != kClashSchemaVersion)
       throw DocumentFault{"the document", "is no clash result of schema version " +
                                               std::string(kClashSchemaVersion) +
-                                              ": it says version " + said +
+                                              ": it says version " + stated +
                                               " (drawings are compared by 'strake draw diff')"};
     has_version_ = true;
   }

@@ -33,17 +33,17 @@ void check_counts(const ClashDocument& document) {
   std::vector<DocumentCounts> found(document.tests.size());
   for (const DocumentResult& result : document.results) count(result, found[result.test]);
   for (std::size_t t = 0; t < found.size(); ++t) {
-    const DocumentCounts &is = found[t], &said = document.tests[t].counts;
+    const DocumentCounts &is = found[t], &stated = document.tests[t].counts;
     struct CountCheck {
       const char* name;
-      std::uint64_t said, is;
+      std::uint64_t stated, is;
     };
     for (const CountCheck& c :
-         {CountCheck{"HIT", said.hit, is.hit}, CountCheck{"CONTACT", said.contact, is.contact},
-          CountCheck{"CLEARANCE_VIOLATION", said.clearance_violation, is.clearance_violation},
-          CountCheck{"ALLOWED", said.allowed, is.allowed}})
-      if (c.said != c.is)
-        throw contradiction(of_test(t), "counts " + std::to_string(c.said) + " " + c.name +
+         {CountCheck{"HIT", stated.hit, is.hit}, CountCheck{"CONTACT", stated.contact, is.contact},
+          CountCheck{"CLEARANCE_VIOLATION", stated.clearance_violation, is.clearance_violation},
+          CountCheck{"ALLOWED", stated.allowed, is.allowed}})
+      if (c.stated != c.is)
+        throw contradiction(of_test(t), "counts " + std::to_string(c.stated) + " " + c.name +
                                             ", but \"results\" has " + std::to_string(c.is));
   }
 }
@@ -53,8 +53,8 @@ void check_places(const ClashDocument& document) {
   for (const DocumentResult& result : document.results)
     found[result.test] += result.allowed_regions;
   for (std::size_t t = 0; t < found.size(); ++t)
-    if (const auto& said = document.tests[t].allowed_places; said && *said != found[t])
-      throw contradiction(of_test(t), "counts " + std::to_string(*said) +
+    if (const auto& stated = document.tests[t].allowed_other_regions; stated && *stated != found[t])
+      throw contradiction(of_test(t), "counts " + std::to_string(*stated) +
                                           " places that rules allow, but \"results\" has " +
                                           std::to_string(found[t]));
 }

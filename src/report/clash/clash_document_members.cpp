@@ -152,9 +152,9 @@ double EntryReader::millimetres(const char* key) {
 
 bool EntryReader::truth(const char* key) {
   if (json_.kind() != Kind::boolean) throw wrong_type(where(), key, "true or false");
-  std::string said;
-  json_.copy(said);
-  return said == "true";
+  std::string stated;
+  json_.copy(stated);
+  return stated == "true";
 }
 
 geometry::Vec3d EntryReader::point() {
@@ -185,9 +185,9 @@ Hash128 EntryReader::pair_key() {
 
 clash::Class EntryReader::pair_class() {
   using enum clash::Class;
-  const std::string_view said = text("class");
+  const std::string_view stated = text("class");
   for (const clash::Class cls : {contact, hit, clearance_violation})
-    if (said == clash::name(cls)) return cls;
+    if (stated == clash::name(cls)) return cls;
   throw wrong_type(where(), "class", "class of a result");
 }
 
@@ -300,7 +300,7 @@ DocumentTest read_test(const Json& json, std::size_t elements, const std::string
     t.exempted_pairs += count(rule, "pairs", where);
   for (const Json& rule : held(json, "allowed", Json::value_t::array, where))
     if (rule.contains("places"))
-      t.allowed_places = t.allowed_places.value_or(0) + count(rule, "places", where);
+      t.allowed_other_regions = t.allowed_other_regions.value_or(0) + count(rule, "places", where);
   if (json.contains("matrix"))
     read_matrix(held(json, "matrix", Json::value_t::object, where), t, where);
   return t;

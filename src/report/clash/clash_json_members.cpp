@@ -318,7 +318,7 @@ void allowed(std::string& out, const Report& report) {
     append_json(out, rule.rule);
     out += ", \"candidates\": " + std::to_string(rule.candidates) +
            ", \"pairs\": " + std::to_string(rule.pairs) +
-           ", \"places\": " + std::to_string(rule.places) + "}";
+           ", \"places\": " + std::to_string(rule.regions) + "}";
   });
 }
 

@@ -116,14 +116,14 @@ bool interchangeable(const Cluster cluster) {
         std::ranges::minmax(cluster, {}, [k](const PositionedResult& p) { return p.at[k]; });
     if (most.at[k] - least.at[k] > kSameMm) return false;
   }
-  const auto told = [](const PositionedResult& p) {
+  const auto compared_values = [](const PositionedResult& p) {
     return std::tuple(p.result->regions, p.result->allowed_regions, p.result->rule);
   };
   std::array<const PositionedResult*, 2> first{};
   for (const PositionedResult& p : cluster) {
     const PositionedResult*& one = first[p.is_after ? 1 : 0];
     if (one == nullptr) one = &p;
-    if (told(p) != told(*one)) return false;
+    if (compared_values(p) != compared_values(*one)) return false;
   }
   return true;
 }

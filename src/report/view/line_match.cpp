@@ -210,14 +210,14 @@ Result<std::vector<PieceCoverage>> find_coverage(std::span<const ClassedPiece> p
                                                  double tolerance_mm,
                                                  const parallel::Context& context) {
   const auto margin = static_cast<std::int64_t>(std::ceil(tolerance_mm * 1000));
-  Box3l asked = geometry::empty_box<std::int64_t>();
+  Box3l searched = geometry::empty_box<std::int64_t>();
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (has_equal[i] == 0) asked.include(box_of(*pieces[i].piece, margin));
-  if (asked.empty()) return std::vector<PieceCoverage>{};
+    if (has_equal[i] == 0) searched.include(box_of(*pieces[i].piece, margin));
+  if (searched.empty()) return std::vector<PieceCoverage>{};
   std::vector<geometry::BoxItem> items(pieces.size());
   for (std::uint32_t i = 0; i < pieces.size(); ++i) {
     const Box3l box = box_of(*pieces[i].piece, margin);
-    items[i] = {box.meets(asked) ? box : geometry::empty_box<std::int64_t>(), i,
+    items[i] = {box.meets(searched) ? box : geometry::empty_box<std::int64_t>(), i,
                 static_cast<std::uint8_t>(has_equal[i] != 0 ? geometry::kSetB
                                                             : geometry::kSetA | geometry::kSetB)};
   }
@@ -231,10 +231,10 @@ Result<std::vector<PieceCoverage>> find_coverage(std::span<const ClassedPiece> p
         const auto [first, second] = (*pairs)[i];
         for (const auto& [of, by] : {std::pair(first, second), std::pair(second, first)}) {
           if (has_equal[of] != 0) continue;
-          const auto stretch = common_interval(*pieces[of].piece, *pieces[by].piece, tolerance_mm);
-          if (stretch)
+          const auto interval = common_interval(*pieces[of].piece, *pieces[by].piece, tolerance_mm);
+          if (interval)
             out.push_back(
-                {of, {stretch->first, stretch->second, pieces[by].cls, pieces[by].after}});
+                {of, {interval->first, interval->second, pieces[by].cls, pieces[by].after}});
         }
       });
   if (!covers) return covers.error();

@@ -33,11 +33,12 @@ std::string head(std::string_view title, std::size_t names) {
 
 std::string settings_text(const ViewDiff& diff) {
   std::string out;
-  const auto told = [](const std::string& value) {
+  const auto value_text = [](const std::string& value) {
     return value.empty() ? std::string("absent") : printable(value);
   };
   for (const ViewSettingChange& s : diff.settings)
-    out += printable(s.setting) + ": was " + told(s.before) + ", is " + told(s.after) + "\n";
+    out += printable(s.setting) + ": was " + value_text(s.before) + ", is " + value_text(s.after) +
+           "\n";
   return out.empty() ? out : out + "\n";
 }
 

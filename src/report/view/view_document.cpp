@@ -52,7 +52,7 @@ class ViewDocumentReader {
 
   /// Reads the rows that the text announces.
   void read_rows(std::istream& in, Checksum& before) {
-    document_.pieces = report::read_rows(in, *rows_, said("pieces"), before);
+    document_.pieces = report::read_rows(in, *rows_, stated("pieces"), before);
   }
 
   void check() const {
@@ -87,11 +87,12 @@ class ViewDocumentReader {
 
   /// Checks the version at once: drawings of other versions have another form.
   void version() {
-    std::string said;
-    json_.copy(said);
-    if (said != kVersion)
+    std::string stated;
+    json_.copy(stated);
+    if (stated != kVersion)
       throw DocumentFault{"the document", "is no drawing of schema version " +
-                                              std::string(kVersion) + ": it says version " + said};
+                                              std::string(kVersion) + ": it says version " +
+                                              stated};
   }
 
   void settings(const std::string& section) {
@@ -190,12 +191,12 @@ class ViewDocumentReader {
       there[std::string(drawing::state_name(static_cast<drawing::LineState>(s)))] = of_state.at(s);
     there["pieces"] = document_.pieces.size();
     for (const auto& [key, count] : there)
-      if (said(key) != count)
-        throw contradiction("the document", "counts " + std::to_string(said(key)) + " of \"" + key +
-                                                "\", but lists " + std::to_string(count));
+      if (stated(key) != count)
+        throw contradiction("the document", "counts " + std::to_string(stated(key)) + " of \"" +
+                                                key + "\", but lists " + std::to_string(count));
   }
 
-  [[nodiscard]] std::uint64_t said(const std::string& key) const {
+  [[nodiscard]] std::uint64_t stated(const std::string& key) const {
     const auto at = counted_.find(key);
     if (at == counted_.end()) throw missing_key("counts", key);
     return at->second;

@@ -26,18 +26,18 @@ constexpr std::array<std::string_view, 5> kNames{"name", "id", "path", "file", "
 constexpr double kClearance = 0.7;
 
 /// The directions of leaders: unit vectors, the upper right first.
-constexpr std::array<PaperPoint, 12> kWays{{{0.6, -0.8},
-                                            {-0.6, -0.8},
-                                            {0.8, -0.6},
-                                            {-0.8, -0.6},
-                                            {0.6, 0.8},
-                                            {-0.6, 0.8},
-                                            {0.8, 0.6},
-                                            {-0.8, 0.6},
-                                            {0.28, -0.96},
-                                            {-0.28, -0.96},
-                                            {0.28, 0.96},
-                                            {-0.28, 0.96}}};
+constexpr std::array<PaperPoint, 12> kDirections{{{0.6, -0.8},
+                                                  {-0.6, -0.8},
+                                                  {0.8, -0.6},
+                                                  {-0.8, -0.6},
+                                                  {0.6, 0.8},
+                                                  {-0.6, 0.8},
+                                                  {0.8, 0.6},
+                                                  {-0.8, 0.6},
+                                                  {0.28, -0.96},
+                                                  {-0.28, -0.96},
+                                                  {0.28, 0.96},
+                                                  {-0.28, 0.96}}};
 constexpr std::array<double, 9> kLengths{6, 9, 13, 18, 24, 32, 42, 55, 70};
 
 /// Returns the value of an object for a name in a text; empty where it has none.
@@ -177,7 +177,7 @@ class Writer {
     double least = 0;
     for (const double length : kLengths) {
       if (best && length >= least) break;  // no place farther away can be better
-      for (const PaperPoint& way : kWays) {
+      for (const PaperPoint& way : kDirections) {
         const TagPosition p = place(seen, way, length);
         PaperBox box = box_of(p.text);
         box.bottom = std::max(box.bottom, p.elbow.y);

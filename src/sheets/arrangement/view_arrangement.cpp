@@ -307,8 +307,8 @@ class Placer {
 
   /// Takes the extent of a view: to be called first, view by view.
   void take(std::size_t v, const drawing::PlaneBox& extent) {
-    wanted_.push_back(to_place(v));
-    wanted_.back().extent = extent;
+    requested_.push_back(to_place(v));
+    requested_.back().extent = extent;
   }
 
   Result<std::vector<ViewPlace>> run() {
@@ -349,7 +349,7 @@ class Placer {
 
   Result<double> arrangement(const std::vector<std::size_t>& views) {
     std::vector<UnplacedView> wanted;
-    for (const std::size_t v : views) wanted.push_back(wanted_[v]);
+    for (const std::size_t v : views) wanted.push_back(requested_[v]);
     const double given = what_.views[views.front()].scale.value_or(what_.scale.value_or(0));
     const auto arranged = arrange(wanted, what_.projection, room_, what_.gap_mm, given);
     if (!arranged) {
@@ -365,7 +365,7 @@ class Placer {
   /// Returns where the anchor of a view with a position falls.
   [[nodiscard]] PaperPoint at(std::size_t v, double scale) const {
     const ViewSpec& view = what_.views[v];
-    const drawing::PlaneBox& box = wanted_[v].extent;
+    const drawing::PlaneBox& box = requested_[v].extent;
     PaperPoint p = *view.position;
     if (!view.anchor) {
       p.x -= (box.left + box.right) / 2 / scale;
@@ -380,7 +380,7 @@ class Placer {
     ViewPlace& place = places_[v];
     place.scale = scale;
     place.at = at;
-    UnplacedView lines = wanted_[v];
+    UnplacedView lines = requested_[v];
     place.whole = lines.at(at, scale);
     lines.left_mm = lines.right_mm = lines.top_mm = lines.bottom_mm = lines.least_width_mm = 0;
     place.lines = lines.at(at, scale);
@@ -402,7 +402,7 @@ class Placer {
 
   [[nodiscard]] bool sizes_fit(const std::vector<std::size_t>& views, double scale) const {
     return std::all_of(views.begin(), views.end(), [&](std::size_t v) {
-      const PaperBox box = wanted_[v].at({0, 0}, scale);
+      const PaperBox box = requested_[v].at({0, 0}, scale);
       return box.width() <= room_.area.width() && box.height() <= room_.area.height();
     });
   }
@@ -411,7 +411,7 @@ class Placer {
     std::vector<PaperBox> taken;
     for (const std::size_t v : views) {
       const double own = what_.views[v].scale.value_or(scale);
-      const PaperBox box = wanted_[v].at(at(v, own), own);
+      const PaperBox box = requested_[v].at(at(v, own), own);
       if (!room_.takes(box)) return false;
       for (const PaperBox& other : taken)
         if (other.overlaps(box)) return false;
@@ -423,7 +423,7 @@ class Placer {
   const SheetSpec& what_;
   const SheetArea& room_;
   std::vector<ViewPlace> places_;
-  std::vector<UnplacedView> wanted_;
+  std::vector<UnplacedView> requested_;
 };
 
 }  // namespace

@@ -95,9 +95,9 @@ void References::refer_in_style(std::string target, std::size_t line) {
 
 /// Counts drawn elements, each as often as it is referred to. It has a stack of its own, since
 /// references lead deeper than elements are nested.
-class References::Walk {
+class References::ReferenceVisitor {
  public:
-  explicit Walk(const std::vector<Element>& elements)
+  explicit ReferenceVisitor(const std::vector<Element>& elements)
       : elements_(elements), drawn_(elements.size(), kUnknown) {
     for (std::uint32_t e = 0; e < elements.size(); ++e)
       if (!elements[e].id.empty()) by_id_.emplace(elements[e].id, e);
@@ -193,7 +193,7 @@ class References::Walk {
 };
 
 Status References::check() const {
-  Walk walk(elements_);
+  ReferenceVisitor walk(elements_);
   for (const Reference& reference : in_style_) {
     const Result<std::uint32_t> target = walk.find(reference);
     if (!target) return target.error();

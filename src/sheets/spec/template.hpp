@@ -60,7 +60,7 @@ class References {
     std::vector<Reference> references;
   };
 
-  class Walk;
+  class ReferenceVisitor;
 
   std::vector<Element> elements_;  ///< the outermost first
   std::vector<std::uint32_t> open_;

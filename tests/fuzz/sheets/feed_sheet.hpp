@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "support/sheet_of.hpp"
+#include "support/sheet_models.hpp"
 #include "support/sheet_seeds.hpp"
 
 namespace strake::test {

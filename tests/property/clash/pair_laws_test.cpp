@@ -18,7 +18,7 @@
 #include "support/clash_model.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/random_primitives.hpp"
-#include "support/revolved.hpp"
+#include "support/revolved_meshes.hpp"
 #include "support/rounds.hpp"
 #include "support/solid_pairs.hpp"
 

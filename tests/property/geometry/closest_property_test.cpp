@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "strake/geometry/closest.hpp"
-#include "support/exact_place.hpp"
+#include "support/exact_membership.hpp"
 #include "support/rounds.hpp"
 
 namespace strake::geometry {
@@ -55,8 +55,8 @@ void check(const A& a, const B& b) {
   ASSERT_EQ(exact(c.squared), testing::squared_distance(as_mesh(a), as_mesh(b)));
   const auto gap = testing::minus(exact(c.on_b), exact(c.on_a));
   ASSERT_EQ(testing::inner(gap, gap), exact(c.squared));
-  ASSERT_TRUE(strictly_on(a, c.place_a, c.on_a));
-  ASSERT_TRUE(strictly_on(b, c.place_b, c.on_b));
+  ASSERT_TRUE(strictly_on(a, c.feature_a, c.on_a));
+  ASSERT_TRUE(strictly_on(b, c.feature_b, c.on_b));
 }
 
 template <class A, class B>
@@ -65,9 +65,9 @@ void check_motion(const A& a, const B& b, Lattice& lattice) {
   const ClosestPoints c = ask(a, b), moved = ask(m(a), m(b));
   const mpq_class scale(static_cast<long>(m.scale));
   ASSERT_EQ(exact(moved.squared), exact(c.squared) * scale * scale);
-  ASSERT_EQ(moved.place_a, c.place_a);
-  ASSERT_EQ(moved.place_b, c.place_b);
-  ASSERT_TRUE(strictly_on(m(a), moved.place_a, moved.on_a));
+  ASSERT_EQ(moved.feature_a, c.feature_a);
+  ASSERT_EQ(moved.feature_b, c.feature_b);
+  ASSERT_TRUE(strictly_on(m(a), moved.feature_a, moved.on_a));
   const auto gap = testing::minus(exact(moved.on_b), exact(moved.on_a));
   ASSERT_EQ(testing::inner(gap, gap), exact(moved.squared));
 }
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, ClosestProperty, strake::test::seeds(3));
 TEST(Closest, PlacesAreExactWhereDoublesAreNot) {
   // The foot of (1, 0, 0) on the line through (0, 0, 0) and (1, 2, 3) is a fourteenth of it.
   const ClosestPoints c = closest_points(Vec3l{1, 0, 0}, Segment{Vec3l{0, 0, 0}, Vec3l{1, 2, 3}});
-  EXPECT_EQ(c.place_b, 3);
+  EXPECT_EQ(c.feature_b, 3);
   EXPECT_EQ(exact(c.on_b)[0], mpq_class(1, 14));
   EXPECT_EQ(exact(c.squared), mpq_class(13, 14));
   EXPECT_EQ(c.squared.distance(), std::sqrt(13.0 / 14.0));

@@ -8,7 +8,7 @@
 
 #include "strake/geometry/inside.hpp"
 #include "strake/geometry/part_pair.hpp"
-#include "support/exact_place.hpp"
+#include "support/exact_membership.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/rounds.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "strake/geometry/intersect.hpp"
-#include "support/exact_place.hpp"
+#include "support/exact_membership.hpp"
 #include "support/rounds.hpp"
 
 namespace strake::geometry {
@@ -128,9 +128,9 @@ TEST_P(IntersectProperty, LinesAndTriangles) {
     check_stretch(line, r.at,
                   [&](const RationalPoint& p) { return testing::true_place(t, p) != 0; });
     if (HasFatalFailure()) return;
-    ASSERT_EQ(r.place_first, testing::true_place(t, at(line, exact(r.at.first))));
-    ASSERT_EQ(r.place_last, testing::true_place(t, at(line, exact(r.at.last))));
-    ++places[r.place_first];
+    ASSERT_EQ(r.feature_first, testing::true_place(t, at(line, exact(r.at.first))));
+    ASSERT_EQ(r.feature_last, testing::true_place(t, at(line, exact(r.at.last))));
+    ++places[r.feature_first];
   }
   // The cases that go wrong elsewhere were there.
   for (const int n : counts) EXPECT_GT(n, kRounds / 50);
@@ -169,8 +169,8 @@ TEST_P(IntersectProperty, LinesAndBoxes) {
     check_stretch(line, r.at, inside);
     if (HasFatalFailure()) return;
     const RationalPoint first = at(line, exact(r.at.first)), last = at(line, exact(r.at.last));
-    ASSERT_EQ(r.place_first, place(first));
-    ASSERT_EQ(r.place_last, place(last));
+    ASSERT_EQ(r.feature_first, place(first));
+    ASSERT_EQ(r.feature_last, place(last));
     const RationalPoint middle = testing::plus(first, testing::minus(last, first), mpq_class(1, 2));
     ASSERT_EQ(r.through_inside, place(middle) == 0);
     ++(r.through_inside ? through : touched);
@@ -231,8 +231,8 @@ TEST_P(IntersectProperty, MotionsOfTheGridKeepTheAnswerAtTheEdgeOfTheRange) {
     const TriangleCorners t = triangle();
     const LineInTriangle r = intersect(a, t), s = intersect(moved(a, m), m(t));
     ASSERT_TRUE(same(r.at, s.at));
-    ASSERT_EQ(r.place_first, s.place_first);
-    ASSERT_EQ(r.place_last, s.place_last);
+    ASSERT_EQ(r.feature_first, s.feature_first);
+    ASSERT_EQ(r.feature_last, s.feature_last);
     const LineMeeting x = intersect(a, b), y = intersect(moved(a, m), moved(b, m));
     ASSERT_TRUE(same({x.touch, x.first_a, x.last_a}, {y.touch, y.first_a, y.last_a}));
     ASSERT_TRUE(same({x.touch, x.first_b, x.last_b}, {y.touch, y.first_b, y.last_b}));

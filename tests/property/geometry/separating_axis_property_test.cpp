@@ -8,7 +8,7 @@
 
 #include "strake/geometry/separating_axis.hpp"
 #include "strake/geometry/triangle_contact.hpp"
-#include "support/exact_place.hpp"
+#include "support/exact_membership.hpp"
 #include "support/lattice_solids.hpp"
 #include "support/rounds.hpp"
 

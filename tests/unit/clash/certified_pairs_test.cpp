@@ -16,7 +16,7 @@
 #include "strake/geometry/grid.hpp"
 #include "support/clash_model.hpp"
 #include "support/draw.hpp"
-#include "support/revolved.hpp"
+#include "support/revolved_meshes.hpp"
 
 namespace strake::clash {
 namespace {

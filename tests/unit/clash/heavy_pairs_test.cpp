@@ -14,7 +14,7 @@
 #include "strake/parallel/report.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
-#include "support/revolved.hpp"
+#include "support/revolved_meshes.hpp"
 #include "support/rounds.hpp"
 
 namespace strake::clash {

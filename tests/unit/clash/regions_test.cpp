@@ -195,7 +195,7 @@ TEST(RegionsTest, AnAllowedContactIsAllowedAtItsPlaceAlone) {
   EXPECT_EQ(one.pairs[0].allowed_regions, 1U);
   EXPECT_EQ(one.count_allowed_regions, 1U);
   EXPECT_EQ(one.count_allowed, 0U);
-  EXPECT_EQ(one.allowed[0].places, 1U);
+  EXPECT_EQ(one.allowed[0].regions, 1U);
   EXPECT_EQ(one.allowed[0].pairs, 0U);
   ASSERT_EQ(one.regions.size(), 1U);
   EXPECT_EQ(one.regions[0].allowed, 0);
@@ -233,9 +233,9 @@ TEST(RegionsTest, PlacesThatRulesAllowAreCountedByRule) {
   EXPECT_LT(all.pairs[0].allowed, 0);
   EXPECT_EQ(all.pairs[0].regions, 1U);
   EXPECT_EQ(all.pairs[0].allowed_regions, 2U);
-  EXPECT_EQ(all.allowed[0].places, 1U);
-  EXPECT_EQ(all.allowed[1].places, 1U);
-  EXPECT_EQ(all.allowed[2].places, 0U);
+  EXPECT_EQ(all.allowed[0].regions, 1U);
+  EXPECT_EQ(all.allowed[1].regions, 1U);
+  EXPECT_EQ(all.allowed[2].regions, 0U);
   EXPECT_EQ(all.count_allowed_regions, 2U);
   EXPECT_EQ(all.pairs[0].allowed_regions_listed(options), 2U);
   // The count does not depend on what is listed, nor on whether places are.

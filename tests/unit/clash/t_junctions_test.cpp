@@ -9,7 +9,7 @@
 
 #include "strake/clash/clash.hpp"
 #include "support/clash_model.hpp"
-#include "support/revolved.hpp"
+#include "support/revolved_meshes.hpp"
 #include "support/rounds.hpp"
 
 namespace strake::clash {

@@ -308,12 +308,12 @@ TEST(Witness, LeadsOutOfTheBody) {
     const Draw draw = [&](int lo, int hi) {
       return static_cast<double>(lo + static_cast<int>(random() % static_cast<unsigned>(hi - lo)));
     };
-    const Placement place_a{random() % 2 == 0 ? kTurn : Mat3d{}, {}};
-    const Placement place_b{random() % 2 == 0 ? kTurn : Mat3d{},
-                            {draw(-70, 70), draw(-70, 70), draw(-70, 70)}};
+    const Placement feature_a{random() % 2 == 0 ? kTurn : Mat3d{}, {}};
+    const Placement feature_b{random() % 2 == 0 ? kTurn : Mat3d{},
+                              {draw(-70, 70), draw(-70, 70), draw(-70, 70)}};
     ClashModel m;
-    m.object("a").body(any_shape(random, draw), place_a);
-    m.object("b").body(any_shape(random, draw), place_b);
+    m.object("a").body(any_shape(random, draw), feature_a);
+    m.object("b").body(any_shape(random, draw), feature_b);
     const Report report = m.detect({.tolerances = {.clearance_mm = 60}});
     if (report.pairs.empty()) continue;
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "../../support/depth_subjects.hpp"
+#include "../../support/nonconvex_bodies.hpp"
 #include "geometry/interior_depth/solid_depth_search.hpp"
 
 namespace strake::geometry {
@@ -293,7 +293,7 @@ TEST(FaceKdop, NeedlesOfOneFaceMakeOnePlane) {
   EXPECT_EQ(ends, 2);
 }
 
-TEST(GapBound, IsNoMoreThanTheDistanceAndNoLessThanTheWidestGap) {
+TEST(KdopSeparation, IsNoMoreThanTheDistanceAndNoLessThanTheWidestGap) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     std::mt19937_64 random(seed);
     const auto draw = [&](int lo, int hi) {

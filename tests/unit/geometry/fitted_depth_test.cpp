@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include "../../support/depth_subjects.hpp"
 #include "../../support/draw.hpp"
+#include "../../support/nonconvex_bodies.hpp"
 #include "strake/geometry/depth.hpp"
 
 namespace strake::geometry {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "../../support/depth_subjects.hpp"
+#include "../../support/nonconvex_bodies.hpp"
 #include "geometry/interior_depth/local_depth_maximum.hpp"
 #include "geometry/numeric/vector_math.hpp"
 

@@ -14,7 +14,7 @@
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/team.hpp"
 #include "strake/parallel/transform.hpp"
-#include "support/everywhere.hpp"
+#include "support/every_schedule.hpp"
 
 namespace strake::parallel {
 namespace {

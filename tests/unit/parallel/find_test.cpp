@@ -8,8 +8,8 @@
 #include <string>
 
 #include "strake/parallel/host_executor.hpp"
-#include "support/everywhere.hpp"
-#include "support/second_first.hpp"
+#include "support/every_schedule.hpp"
+#include "support/reversed_executor.hpp"
 
 namespace strake::parallel {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "support/rules_row.hpp"
+#include "support/rules_models.hpp"
 
 namespace strake::rules {
 namespace {

@@ -11,7 +11,7 @@
 #include "strake/parallel/team.hpp"
 #include "strake/rules/rules.hpp"
 #include "support/clash_model.hpp"
-#include "support/rules_row.hpp"
+#include "support/rules_models.hpp"
 
 namespace strake::rules {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/attributes.hpp"
-#include "support/rules_row.hpp"
+#include "support/rules_models.hpp"
 
 namespace strake::rules {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/parallel/team.hpp"
-#include "support/sheet_of.hpp"
+#include "support/sheet_models.hpp"
 
 namespace strake::sheets {
 namespace {

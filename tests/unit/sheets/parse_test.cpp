@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/sheet_of.hpp"
+#include "support/sheet_models.hpp"
 
 namespace strake::sheets {
 namespace {

@@ -19,10 +19,10 @@ class HalfSpaceProgram {
   HalfSpaceProgram(const DepthOperand& a, const DistanceField& fa, const DepthOperand& b,
                    const DistanceField& fb, const std::optional<Box3d>& within)
       : a_(a), b_(b), fa_(fa), fb_(fb), within_(within) {
-    const Box3d x = fa.box(), y = fb.box(), room = within.value_or(x);
+    const Box3d x = fa.box(), y = fb.box(), search_box = within.value_or(x);
     for (int k = 0; k < 3; ++k) {
-      const double lo = std::max({x.lo[k], y.lo[k], room.lo[k]});
-      const double hi = std::min({x.hi[k], y.hi[k], room.hi[k]});
+      const double lo = std::max({x.lo[k], y.lo[k], search_box.lo[k]});
+      const double hi = std::min({x.hi[k], y.hi[k], search_box.hi[k]});
       centre_[k] = std::nearbyint((lo + hi) / 2);
       extent_ = std::max({extent_, x.hi[k] - x.lo[k], y.hi[k] - y.lo[k]});
     }
@@ -59,7 +59,7 @@ class HalfSpaceProgram {
   /// parallel faces: then only the boundaries that they can be away from count.
   [[nodiscard]] InscribedBall centre_on_surface(bool deep_in_a, double depth) const {
     std::vector<BallConstraint> rows = deep_rows(deep_in_a, depth);
-    const std::vector<Vec3d> across = skin_normals(deep_in_a, depth);
+    const std::vector<Vec3d> across = surface_normals(deep_in_a, depth);
     append_beside(rows, a_, fa_, across);
     append_beside(rows, b_, fb_, across);
     return solve(rows);
@@ -93,13 +93,13 @@ class HalfSpaceProgram {
 
   /// Returns the normals of the one body's planes that lie `depth` inside a reversed plane of the
   /// other.
-  [[nodiscard]] std::vector<Vec3d> skin_normals(bool deep_in_a, double depth) const {
+  [[nodiscard]] std::vector<Vec3d> surface_normals(bool deep_in_a, double depth) const {
     constexpr double kWidth = 4;
-    const DepthOperand &ball = deep_in_a ? a_ : b_, &room = deep_in_a ? b_ : a_;
+    const DepthOperand &ball = deep_in_a ? a_ : b_, &container = deep_in_a ? b_ : a_;
     const DistanceField &f = deep_in_a ? fa_ : fb_, &g = deep_in_a ? fb_ : fa_;
     std::vector<Vec3d> normals;
     for (const FaceKdop::Plane& p : ball.planes->planes)
-      for (const FaceKdop::Plane& q : room.planes->planes)
+      for (const FaceKdop::Plane& q : container.planes->planes)
         if (dot(p.normal, q.normal) < 0 && parallel(p.normal, q.normal) &&
             offset(f, p.normal, p.support) + offset(g, q.normal, q.support) < depth + kWidth)
           normals.push_back(p.normal);

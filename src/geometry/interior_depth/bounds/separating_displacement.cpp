@@ -167,10 +167,10 @@ class MovingSurface {
 bool is_clear_somewhere(const PairLocalPart& view, const PartWithBvh& other, const Vec3l& shift,
                         double most, QueryContext& work) {
   const Part& part = view.part();
-  const Box3d room = other.placed.part->box.as<double>().inflated(most + 1);
+  const Box3d search_box = other.placed.part->box.as<double>().inflated(most + 1);
   for (const Vec3i& v : part.vertices) {
     const Vec3d p = (v.as<std::int64_t>() - shift).as<double>();
-    if (!room.contains({p, p})) return true;
+    if (!search_box.contains({p, p})) return true;
   }
   // The middles of triangles.
   const std::size_t n = part.triangles.size(), step = std::max<std::size_t>(1, n / kMostProbes);
@@ -194,8 +194,8 @@ class DisplacementSearch {
         shift_(b.placed.origin - a.placed.origin),
         a_(a, {}),
         b_(b, shift_),
-        skin_a_(a_),
-        skin_b_(b_),
+        surface_a_(a_),
+        surface_b_(b_),
         most_(most),
         work_(work) {}
 
@@ -208,8 +208,8 @@ class DisplacementSearch {
       if (!is_clear_somewhere(a_, treed_b_, shift_, most, work_) ||
           !is_clear_somewhere(b_, treed_a_, Vec3l{} - shift_, most, work_))
         return std::nullopt;
-      return SeparatingDisplacement{std::max(skin_a_.longest_move(), skin_b_.longest_move()),
-                                    skin_a_.corners(), skin_b_.corners()};
+      return SeparatingDisplacement{std::max(surface_a_.longest_move(), surface_b_.longest_move()),
+                                    surface_a_.corners(), surface_b_.corners()};
     }
     return std::nullopt;
   }
@@ -230,10 +230,11 @@ class DisplacementSearch {
 
   /// Whether displacements are found after which no triangle of one meets any of the other.
   bool parts(double most) {
-    if (!skin_a_.shrink(most) || !skin_b_.shrink(most)) return false;
+    if (!surface_a_.shrink(most) || !surface_b_.shrink(most)) return false;
     return std::ranges::none_of(near_, [&](const NodePair& pair) {
-      const std::size_t i = skin_a_.place(pair.a), j = skin_b_.place(pair.b);
-      return skin_a_.meets_after(i, skin_b_, j, work_) || skin_b_.meets_after(j, skin_a_, i, work_);
+      const std::size_t i = surface_a_.place(pair.a), j = surface_b_.place(pair.b);
+      return surface_a_.meets_after(i, surface_b_, j, work_) ||
+             surface_b_.meets_after(j, surface_a_, i, work_);
     });
   }
 
@@ -242,17 +243,17 @@ class DisplacementSearch {
     const std::size_t triangles = a_.part().triangles.size() + b_.part().triangles.size();
     // Whatever is farther stays apart where one of the two moves.
     const double reach = most_ + 1;
-    const auto room = static_cast<std::int64_t>(std::ceil(reach));
+    const auto margin = static_cast<std::int64_t>(std::ceil(reach));
     const auto near = [&](const TriangleBvh::Node& x, const TriangleBvh::Node& y) {
       ++work_.node_pairs;
-      return a_.box(x.box).inflated(room).meets(b_.box(y.box));
+      return a_.box(x.box).inflated(margin).meets(b_.box(y.box));
     };
     const auto leaves = [&](const TriangleBvh::Node& x, const TriangleBvh::Node& y) {
       return add_near(x, y, reach) && near_.size() <= kAlwaysNear + kNearPerTriangle * triangles;
     };
-    DualTraversal walk(a_.tree(), b_.tree());
-    walk.start();
-    return walk.run(near, leaves, kNodesPerTriangle * triangles) == TraversalEnd::done;
+    DualTraversal traversal(a_.tree(), b_.tree());
+    traversal.start();
+    return traversal.run(near, leaves, kNodesPerTriangle * triangles) == TraversalEnd::done;
   }
 
   /// False where some cross.
@@ -263,17 +264,17 @@ class DisplacementSearch {
     for (std::uint32_t j = 0; j < y.count; ++j) {
       const std::uint32_t u = b_.tree().order()[y.first + j];
       const DoubleTriangle of_y(b_.corners(u));
-      const Box3d room = of_y.box.inflated(reach);
+      const Box3d search_box = of_y.box.inflated(reach);
       for (std::uint32_t i = 0; i < x.count; ++i) {
-        if (!of_x[i].box.meets(room)) continue;
+        if (!of_x[i].box.meets(search_box)) continue;
         ++work_.triangle_pairs;
         const TriangleRelation standing = SeparatingAxisTest(of_x[i], of_y, reach).run();
         if (standing == TriangleRelation::crossing) return false;
         if (standing == TriangleRelation::apart) continue;
         const std::uint32_t t = a_.tree().order()[x.first + i];
         near_.push_back({t, u});
-        skin_a_.add(t);
-        skin_b_.add(u);
+        surface_a_.add(t);
+        surface_b_.add(u);
       }
     }
     return true;
@@ -282,7 +283,7 @@ class DisplacementSearch {
   const PartWithBvh &treed_a_, &treed_b_;
   Vec3l shift_;
   PairLocalPart a_, b_;
-  MovingSurface skin_a_, skin_b_;
+  MovingSurface surface_a_, surface_b_;
   double most_;
   QueryContext& work_;
   std::vector<NodePair> near_;  ///< of triangles

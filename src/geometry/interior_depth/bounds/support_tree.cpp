@@ -56,14 +56,14 @@ SupportTree::SupportTree(std::span<const Vec3i> points, const parallel::Context&
 
 SupportTree::SupportPoint SupportTree::support_along(const Vec3d& n) const {
   SupportPoint best{-std::numeric_limits<double>::infinity(), {}};
-  const auto walk = [&](std::span<const Vec3i> points) {
+  const auto test_points = [&](std::span<const Vec3i> points) {
     for (const Vec3i& p : points) {
       const double value = along(n, p);
       if (value > best.value) best = {value, p};
     }
   };
   if (nodes_.empty()) {
-    walk(points_);
+    test_points(points_);
     return best;
   }
   std::array<std::pair<std::uint32_t, double>, kDepth> stack;
@@ -74,7 +74,7 @@ SupportTree::SupportPoint SupportTree::support_along(const Vec3d& n) const {
     if (!(most > best.value)) continue;
     const Node& node = nodes_[index];
     if (node.count > 0) {
-      walk(std::span(points_).subspan(node.first, node.count));
+      test_points(std::span(points_).subspan(node.first, node.count));
       continue;
     }
     std::pair near{node.first, along(n, nodes_[node.first].box)};

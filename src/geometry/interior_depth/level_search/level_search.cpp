@@ -50,8 +50,8 @@ class LevelSearch {
   }
 
   LevelResult run() {
-    answer_.none =
-        clears(skin()) && clears(offset_surface(of_, {room_, q_.hull_in}, q_.level, flat_, work_));
+    answer_.none = clears(boundary_cells()) &&
+                   clears(offset_surface(of_, {room_, q_.hull_in}, q_.level, flat_, work_));
     answer_.cells = cells();
     return answer_;
   }
@@ -67,14 +67,14 @@ class LevelSearch {
   }
 
   /// Returns the surface of the second part.
-  [[nodiscard]] std::optional<std::vector<OffsetCell>> skin() const {
+  [[nodiscard]] std::optional<std::vector<OffsetCell>> boundary_cells() const {
     const auto near = triangles_near(in_, room_, 0);
     if (!near) return std::nullopt;
     std::vector<OffsetCell> cells;
     cells.reserve(near->size());
     for (const std::uint32_t t : *near) {
       cells.push_back(flat_cell(in_.placed(t), {}));
-      cells.back().on_skin = true;
+      cells.back().on_surface = true;
     }
     return cells;
   }
@@ -110,7 +110,7 @@ class LevelSearch {
   /// What of a cell is in the hulls of both, and as deep as the level in that of the first: a ball
   /// so large about any point that is looked for is in the first part.
   [[nodiscard]] std::optional<OffsetCell> part_in_hulls(OffsetCell cell) const {
-    const double slack = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
+    const double slack = cell.slack + q_.slack + (cell.on_surface ? 0 : flat_);
     // A ball round the cell tells for most half-spaces that all of it is inside.
     const Vec3d middle = middle_of(cell);
     const double radius = radius_of(cell, middle);
@@ -132,7 +132,7 @@ class LevelSearch {
   /// Also tells what is known of the parts about the cell, for those that it is cut into.
   bool is_clear(OpenCell& open) {
     const OffsetCell& cell = open.cell;
-    slack_ = cell.slack + q_.slack + (cell.on_skin ? 0 : flat_);
+    slack_ = cell.slack + q_.slack + (cell.on_surface ? 0 : flat_);
     const CellHull hull(cell, slack_);
     if (!hull.box().meets(room_)) return true;
     middle_ = on_field_grid(middle_of(cell));
@@ -144,7 +144,7 @@ class LevelSearch {
     if (near.triangle != kNoIndex) hint_ = near.triangle;
     if (near.distance + radius_ < q_.level) return true;
     if (near.triangle != kNoIndex && is_near_triangle(cell, near.triangle)) return true;
-    if (!cell.on_skin) {
+    if (!cell.on_surface) {
       open.in = about_in_.classify(hull, open.in, middle_, crossing_, work_);
       if (open.in.side == CellCuller::CellSide::outside) return true;
     }
@@ -158,7 +158,7 @@ class LevelSearch {
       return false;
     }
     // The part of the cell in the second is next to the surface, in one piece.
-    const bool one_piece = cell.on_skin || open.in.side != CellCuller::CellSide::both;
+    const bool one_piece = cell.on_surface || open.in.side != CellCuller::CellSide::both;
     if (one_piece && open.of.side != CellCuller::CellSide::both && goal_.belongs &&
         !goal_.belongs(middle_))
       return true;
@@ -193,13 +193,13 @@ class LevelSearch {
 
   /// Cells that are cut from one have most of its corners.
   std::uint32_t nearest_to_corner(const Vec3d& p, std::uint32_t hint) {
-    const auto known = std::ranges::find(asked_, p, &AskedCorner::at);
-    if (known != asked_.end()) return known->nearest;
+    const auto known = std::ranges::find(queried_, p, &QueryCorner::at);
+    if (known != queried_.end()) return known->nearest;
     const std::uint32_t t = nearest(p, hint, q_.level).triangle;
-    if (asked_.size() < kRemembered) {
-      asked_.push_back({p, t});
+    if (queried_.size() < kRemembered) {
+      queried_.push_back({p, t});
     } else {
-      asked_[oldest_] = {p, t};
+      queried_[oldest_] = {p, t};
       oldest_ = (oldest_ + 1) % kRemembered;
     }
     return t;
@@ -248,7 +248,7 @@ class LevelSearch {
         best = plane;
       }
     if (best) return best;
-    for (const Way& way : ways_from(near_)) {
+    for (const DirectionToCell& way : directions_from(near_)) {
       const HalfSpace plane{-way.unit, dot(-way.unit, middle_) + way.distance + clear - q_.level};
       if (goes_through(cell, plane)) return plane;
     }
@@ -256,32 +256,33 @@ class LevelSearch {
   }
 
   /// From a triangle to the middle of the cell.
-  struct Way {
+  struct DirectionToCell {
     Vec3d unit;
     double distance = 0;
   };
 
-  [[nodiscard]] std::vector<Way> ways_from(const std::vector<std::uint32_t>& triangles) const {
-    std::vector<Way> ways;
+  [[nodiscard]] std::vector<DirectionToCell> directions_from(
+      const std::vector<std::uint32_t>& triangles) const {
+    std::vector<DirectionToCell> directions;
     for (const std::uint32_t t : triangles) {
       const Vec3d p = of_.local(middle_);
       const Vec3d way = p - nearest_on_triangle(p, of_.corners(t));
-      if (const double size = length(way); size > 0) ways.push_back({way * (1 / size), size});
+      if (const double size = length(way); size > 0) directions.push_back({way * (1 / size), size});
     }
-    return ways;
+    return directions;
   }
 
   /// Where two triangles are equally near, as it is about the middle: the plane nearest to that.
   [[nodiscard]] std::optional<HalfSpace> plane_between(const OffsetCell& cell) const {
-    const std::vector<Way> ways = ways_from(near_);
+    const std::vector<DirectionToCell> directions = directions_from(near_);
     std::optional<HalfSpace> best;
     double least = radius_;
-    for (std::size_t i = 0; i < ways.size(); ++i)
+    for (std::size_t i = 0; i < directions.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        const Vec3d n = ways[i].unit - ways[j].unit;
+        const Vec3d n = directions[i].unit - directions[j].unit;
         const double size = length(n);
         if (!(size > kLeastTurn)) continue;
-        const double off = (ways[j].distance - ways[i].distance) / size;
+        const double off = (directions[j].distance - directions[i].distance) / size;
         if (!(std::fabs(off) < least)) continue;
         const Vec3d normal = n * (1 / size);
         const HalfSpace plane{normal, dot(normal, middle_) + off};
@@ -314,11 +315,11 @@ class LevelSearch {
   std::vector<Corners> crossing_;
   std::uint32_t hint_ = kNoIndex;
   static constexpr std::size_t kRemembered = 32;
-  struct AskedCorner {
+  struct QueryCorner {
     Vec3d at;
     std::uint32_t nearest = kNoIndex;  ///< none within the level
   };
-  std::vector<AskedCorner> asked_;  ///< the last
+  std::vector<QueryCorner> queried_;  ///< the last
   std::size_t oldest_ = 0;
   std::vector<std::uint32_t> near_;
 };

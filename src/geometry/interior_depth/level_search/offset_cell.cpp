@@ -39,7 +39,7 @@ Vec3d between(const OffsetCell& cell, std::size_t i, std::size_t j, const Vec3d&
 
 /// The corners of a cell that goes round an edge: 0 and 1 at one end, 3 and 2 at the other.
 std::array<OffsetCell, 2> halves_round_edge(const OffsetCell& cell) {
-  const auto& [p, about, slack, on_skin] = cell;
+  const auto& [p, about, slack, on_surface] = cell;
   const Vec3d near = between(cell, 0, 1, about[0]), far = between(cell, 3, 2, about[3]);
   return {curved({p[0], near, far, p[3]}, about), curved({near, p[1], p[2], far}, about)};
 }
@@ -104,7 +104,7 @@ std::array<OffsetCell, 2> halves_of(const OffsetCell& cell) {
 }
 
 OffsetCell clip_to(const OffsetCell& cell, const HalfSpace& space) {
-  OffsetCell part{.corners = {}, .about = {}, .slack = cell.slack, .on_skin = cell.on_skin};
+  OffsetCell part{.corners = {}, .about = {}, .slack = cell.slack, .on_surface = cell.on_surface};
   const auto& p = cell.corners;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vec3d& q = p[(i + 1) % p.size()];

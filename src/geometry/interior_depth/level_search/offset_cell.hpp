@@ -27,7 +27,7 @@ struct OffsetCell {
   /// of that edge or vertex.
   std::vector<Vec3d> about;
   double slack = 0;
-  bool on_skin = false;  ///< of the part that is searched for points
+  bool on_surface = false;  ///< of the part that is searched for points
 };
 
 /// Returns the mean of the corners.

@@ -21,7 +21,7 @@ struct SearchRegion {
 /// where the part overlaps itself. Cells that bend by less than `flat` grid units are left out:
 /// they are that near to the rest. Nothing where there are too many cells.
 [[nodiscard]] std::optional<std::vector<OffsetCell>> offset_surface(const DistanceField& of,
-                                                                    const SearchRegion& room,
+                                                                    const SearchRegion& region,
                                                                     double distance, double flat,
                                                                     QueryContext& work);
 

@@ -20,7 +20,7 @@ namespace {
 /// Maximum number of segments searched for: two sheets that cross all over have about one per
 /// triangle (two surveys of 180,000 triangles each have 290,000, decision 0040), two of slivers
 /// through each other the square of their number.
-constexpr std::size_t kStretchesPerTriangle = 2, kLeastStretches = 20000;
+constexpr std::size_t kSegmentsPerTriangle = 2, kLeastSegments = 20000;
 /// Far above what double arithmetic makes of a distance within a pair, grid units.
 constexpr double kSlack = 1.0 / 256;
 /// Relative width of a bracket: this narrow, it costs a curve only a few halvings more than a wide
@@ -29,30 +29,29 @@ constexpr double kRelative = 1e-4;
 
 double size_of(const Part& p) { return length(p.box.hi.as<double>() - p.box.lo.as<double>()); }
 
-std::size_t most_stretches(const Part& a, const Part& b) {
-  return std::max(kLeastStretches,
-                  kStretchesPerTriangle * (a.triangles.size() + b.triangles.size()));
+std::size_t most_segments(const Part& a, const Part& b) {
+  return std::max(kLeastSegments, kSegmentsPerTriangle * (a.triangles.size() + b.triangles.size()));
 }
 
 }  // namespace
 
 struct SheetCrossing::Curves {
   SheetIntersection crossing;
-  std::vector<Stretch> stretches;  ///< by segment of the crossing
-  Vec3d shift;                     ///< of b's origin off a's
-  SegmentBvh rim_a, rim_b;         ///< the boundary curves, in the parts' own coordinates
-  double ceiling = 0;              ///< no deeper, whatever the curves
+  std::vector<CrossingSegment> crossing_segments;  ///< by segment of the crossing
+  Vec3d shift;                                     ///< of b's origin off a's
+  SegmentBvh boundary_a, boundary_b;  ///< the boundary curves, in the parts' own coordinates
+  double ceiling = 0;                 ///< no deeper, whatever the curves
 
   Curves(const PartWithBvh& a, const PartWithBvh& b, double apart_within, QueryContext& work)
       : crossing(find_sheet_intersection(a, b, apart_within,
-                                         most_stretches(*a.placed.part, *b.placed.part), work)),
+                                         most_segments(*a.placed.part, *b.placed.part), work)),
         shift((b.placed.origin - a.placed.origin).as<double>()),
-        rim_a(boundary_edges(*a.placed.part)),
-        rim_b(boundary_edges(*b.placed.part)),
+        boundary_a(boundary_edges(*a.placed.part)),
+        boundary_b(boundary_edges(*b.placed.part)),
         ceiling(std::min(size_of(*a.placed.part), size_of(*b.placed.part))) {
-    stretches.reserve(crossing.pieces.size());
+    crossing_segments.reserve(crossing.pieces.size());
     for (const IntersectionSegment& piece : crossing.pieces)
-      stretches.push_back({piece.a, piece.b});
+      crossing_segments.push_back({piece.a, piece.b});
   }
 };
 
@@ -75,9 +74,13 @@ struct LessPromising {
 /// bisection.
 class CurveSearch {
  public:
-  CurveSearch(const SegmentBvh& rim_a, const SegmentBvh& rim_b, const Vec3d& shift, double ceiling,
-              const DepthOptions& goal)
-      : rim_a_(rim_a), rim_b_(rim_b), shift_(shift), ceiling_(ceiling), goal_(goal) {
+  CurveSearch(const SegmentBvh& boundary_a, const SegmentBvh& boundary_b, const Vec3d& shift,
+              double ceiling, const DepthOptions& goal)
+      : boundary_a_(boundary_a),
+        boundary_b_(boundary_b),
+        shift_(shift),
+        ceiling_(ceiling),
+        goal_(goal) {
     goal_.relative = std::min(goal.relative, kRelative);
   }
 
@@ -117,8 +120,8 @@ class CurveSearch {
     ++depth_.cells;
     const Vec3d middle = (end[0] + end[1]) * 0.5;
     const double radius = length(end[1] - end[0]) / 2, enough = depth_.value - radius;
-    const auto on_a = rim_a_.nearest(middle, ceiling_, enough);
-    const auto on_b = rim_b_.nearest(middle - shift_, on_a.distance, enough);
+    const auto on_a = boundary_a_.nearest(middle, ceiling_, enough);
+    const auto on_b = boundary_b_.nearest(middle - shift_, on_a.distance, enough);
     const double d = on_b.distance;
     if (d <= enough) return;
     if (d > depth_.value && goal_.counts(middle)) {
@@ -128,9 +131,9 @@ class CurveSearch {
     }
     double upper = std::min(d + radius, ceiling_);
     if (on_b.distance < on_a.distance)
-      upper = std::min(upper, farther_end(end, shift_, rim_b_[on_b.segment]));
+      upper = std::min(upper, farther_end(end, shift_, boundary_b_[on_b.segment]));
     else if (on_a.distance < ceiling_)
-      upper = std::min(upper, farther_end(end, {}, rim_a_[on_a.segment]));
+      upper = std::min(upper, farther_end(end, {}, boundary_a_[on_a.segment]));
     upper += kSlack;
     if (upper > depth_.value + 2 * kSlack) open_.push({end, upper, next_id_++});
   }
@@ -146,7 +149,7 @@ class CurveSearch {
     return most;
   }
 
-  const SegmentBvh &rim_a_, &rim_b_;
+  const SegmentBvh &boundary_a_, &boundary_b_;
   Vec3d shift_;
   double ceiling_;
   DepthOptions goal_;
@@ -162,15 +165,15 @@ SheetCrossing::SheetCrossing(const PartWithBvh& a, const PartWithBvh& b, double 
                              QueryContext& work)
     : curves_(std::make_shared<const Curves>(a, b, apart_within, work)) {}
 
-const std::vector<SheetCrossing::Stretch>& SheetCrossing::stretches() const {
-  return curves_->stretches;
+const std::vector<SheetCrossing::CrossingSegment>& SheetCrossing::crossing_segments() const {
+  return curves_->crossing_segments;
 }
 
 Depth SheetCrossing::depth_along(std::span<const std::uint32_t> some, const DepthOptions& goal,
                                  QueryContext& work) const {
   const Curves& c = *curves_;
   if (!c.crossing.crosses) return {};
-  CurveSearch search(c.rim_a, c.rim_b, c.shift, c.ceiling, goal);
+  CurveSearch search(c.boundary_a, c.boundary_b, c.shift, c.ceiling, goal);
   for (const std::uint32_t i : some) search.add(c.crossing.segments[i]);
   Depth depth = search.run(!c.crossing.truncated);
   work.triangle_pairs += depth.cells;
@@ -179,7 +182,7 @@ Depth SheetCrossing::depth_along(std::span<const std::uint32_t> some, const Dept
 }
 
 Depth SheetCrossing::depth(const DepthOptions& goal, QueryContext& work) const {
-  std::vector<std::uint32_t> all(stretches().size());
+  std::vector<std::uint32_t> all(crossing_segments().size());
   std::iota(all.begin(), all.end(), 0U);
   return depth_along(all, goal, work);
 }

@@ -19,7 +19,7 @@ namespace strake::geometry {
 class SheetCrossing {
  public:
   /// The two triangles that share a segment of the intersection curve.
-  struct Stretch {
+  struct CrossingSegment {
     std::uint32_t triangle_a = 0, triangle_b = 0;
   };
 
@@ -27,7 +27,7 @@ class SheetCrossing {
   SheetCrossing(const PartWithBvh& a, const PartWithBvh& b, double apart_within,
                 QueryContext& work);
 
-  [[nodiscard]] const std::vector<Stretch>& stretches() const;
+  [[nodiscard]] const std::vector<CrossingSegment>& crossing_segments() const;
 
   /// Returns sheet_crossing_depth(); the goal's `apart_within` is the one given to the constructor.
   [[nodiscard]] Depth depth(const DepthOptions& goal, QueryContext& work) const;

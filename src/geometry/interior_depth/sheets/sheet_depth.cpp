@@ -36,10 +36,10 @@ double hull_bound(const DepthOperand& sheet, const DistanceField& fs, const Dept
 }
 
 /// The triangles of a sheet that may reach into a box, in their order; all of a small one.
-std::vector<Corners> pieces_near(const DistanceField& sheet, const Box3d& room) {
+std::vector<Corners> pieces_near(const DistanceField& sheet, const Box3d& search_box) {
   std::vector<std::uint32_t> near;
   if (sheet.has_many_vertices()) {
-    const Box3d own{sheet.local(room.lo), sheet.local(room.hi)};
+    const Box3d own{sheet.local(search_box.lo), sheet.local(search_box.hi)};
     traverse_bvh(
         sheet.tree(),
         [&](const TriangleBvh::Node& node) { return node.box.as<double>().meets(own); },

@@ -23,11 +23,11 @@ constexpr double kNearestRounding = 1e-3;
 /// hint nor the tree's shape shows in the answer.
 class NearestTriangleSearch {
  public:
-  NearestTriangleSearch(const SurfaceBvh& skin, const Vec3d& p)
-      : skin_(skin),
-        tree_(skin.frame == nullptr ? skin.tree : skin.frame->part.tree),
+  NearestTriangleSearch(const SurfaceBvh& surface, const Vec3d& p)
+      : surface_(surface),
+        tree_(surface.frame == nullptr ? surface.tree : surface.frame->part.tree),
         p_(p),
-        in_tree_(skin.frame == nullptr ? p : turned(skin.frame->axes, p)) {}
+        in_tree_(surface.frame == nullptr ? p : turned(surface.frame->axes, p)) {}
 
   NearestTriangle run(std::uint32_t hint, double limit) {
     shrink(limit * limit);
@@ -43,12 +43,12 @@ class NearestTriangleSearch {
 
  private:
   void test(std::uint32_t t) {
-    if (!skin_.prepared.empty()) {
-      const PreparedTriangle& at = skin_.prepared[t];
+    if (!surface_.prepared.empty()) {
+      const PreparedTriangle& at = surface_.prepared[t];
       if (!is_farther_along(at.unit, 1, at.lo, at.hi)) compare(t, at.nearest(p_));
       return;
     }
-    const Corners c = corners_of(skin_.part, t);
+    const Corners c = corners_of(surface_.part, t);
     const Vec3d n = normal_of(c);
     const double x = dot(n, c[0]), y = dot(n, c[1]), z = dot(n, c[2]);
     if (!is_farther_along(n, squared_length(n), std::min({x, y, z}), std::max({x, y, z})))
@@ -74,7 +74,7 @@ class NearestTriangleSearch {
   /// Nothing farther is of interest.
   void shrink(double squared_distance) {
     best_ = reach_ = squared_distance;
-    if (skin_.frame == nullptr) return;
+    if (surface_.frame == nullptr) return;
     const double off = std::sqrt(best_) + kRotationRounding + kFrameRounding;
     reach_ = off * off;
   }
@@ -101,7 +101,7 @@ class NearestTriangleSearch {
     }
   }
 
-  const SurfaceBvh& skin_;
+  const SurfaceBvh& surface_;
   const TriangleBvh& tree_;
   Vec3d p_, in_tree_;
   double best_ = 0, reach_ = 0;  ///< squared; of triangles, of boxes
@@ -164,14 +164,14 @@ Vec3d PreparedTriangle::nearest(const Vec3d& p) const {
   return over ? p - unit * dot(unit, p - corners[0]) : best;
 }
 
-NearestTriangle nearest_triangle(const SurfaceBvh& skin, const Vec3d& p, std::uint32_t hint,
+NearestTriangle nearest_triangle(const SurfaceBvh& surface, const Vec3d& p, std::uint32_t hint,
                                  double limit) {
-  return NearestTriangleSearch(skin, p).run(hint, limit);
+  return NearestTriangleSearch(surface, p).run(hint, limit);
 }
 
-double distance_upper_bound(const SurfaceBvh& skin, const Vec3d& p) {
-  const TriangleBvh& tree = skin.frame == nullptr ? skin.tree : skin.frame->part.tree;
-  const Vec3d in_tree = skin.frame == nullptr ? p : turned(skin.frame->axes, p);
+double distance_upper_bound(const SurfaceBvh& surface, const Vec3d& p) {
+  const TriangleBvh& tree = surface.frame == nullptr ? surface.tree : surface.frame->part.tree;
+  const Vec3d in_tree = surface.frame == nullptr ? p : turned(surface.frame->axes, p);
   double least = std::numeric_limits<double>::infinity();
   if (tree.nodes().empty()) return least;
   const TriangleBvh::Node* node = tree.nodes().data();
@@ -182,7 +182,8 @@ double distance_upper_bound(const SurfaceBvh& skin, const Vec3d& p) {
     node = &tree.nodes()[node->first + (gap(node->first + 1) < gap(node->first) ? 1 : 0)];
   for (std::uint32_t i = node->first; i < node->first + node->count; ++i)
     least = std::min(
-        least, squared_length(nearest_on_triangle(p, corners_of(skin.part, tree.order()[i])) - p));
+        least,
+        squared_length(nearest_on_triangle(p, corners_of(surface.part, tree.order()[i])) - p));
   return std::sqrt(least);
 }
 

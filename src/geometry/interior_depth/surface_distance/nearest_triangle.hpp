@@ -67,10 +67,10 @@ struct SurfaceBvh {
 /// `limit`; `hint` is tried first and changes only the work. Floating point: relative error about
 /// 1e-12.
 [[nodiscard]] NearestTriangle nearest_triangle(
-    const SurfaceBvh& skin, const Vec3d& p, std::uint32_t hint = kNoIndex,
+    const SurfaceBvh& surface, const Vec3d& p, std::uint32_t hint = kNoIndex,
     double limit = std::numeric_limits<double>::infinity());
 
 /// Returns the distance to some near triangle: no less than that to the nearest.
-[[nodiscard]] double distance_upper_bound(const SurfaceBvh& skin, const Vec3d& p);
+[[nodiscard]] double distance_upper_bound(const SurfaceBvh& surface, const Vec3d& p);
 
 }  // namespace strake::geometry

@@ -116,7 +116,7 @@ std::optional<ConvexBody> snout(const SnoutPrimitive& p, const GridFrame& f) {
   return body;
 }
 
-struct ConvexBodyMaker {
+struct ConvexBodyBuilder {
   const GridFrame& f;
 
   std::optional<ConvexBody> operator()(const BoxPrimitive& p) const {
@@ -189,7 +189,7 @@ std::optional<GridFrame> grid_frame(const Placement& placement, const Vec3l& ori
 std::optional<ConvexBody> convex_body(const PlacedPrimitive& p, const Vec3l& origin) {
   const auto frame = grid_frame(*p.placement, origin);
   if (!frame) return std::nullopt;
-  auto body = std::visit(ConvexBodyMaker{*frame}, *p.primitive);
+  auto body = std::visit(ConvexBodyBuilder{*frame}, *p.primitive);
   if (body && !std::isfinite(body->reach)) return std::nullopt;
   return body;
 }

@@ -14,18 +14,18 @@ constexpr int kMaxDescents = 24;
 /// Grid units: a body that sticks out by more is not looked at more closely.
 constexpr double kFarOut = 1e4;
 
-double room(const ConvexBody& inner, const ConvexBody& outer, const Vec3d& n) {
+double clearance(const ConvexBody& inner, const ConvexBody& outer, const Vec3d& n) {
   return dot(n, support(outer.shape, n) - support(inner.shape, n));
 }
 
 /// Alternates between the inner body's farthest point and the face nearest to it, each of which
-/// can only lessen the room.
+/// can only lessen the clearance.
 double descend(const ConvexBody& inner, const ConvexBody& outer, const InteriorDistance& field,
                Vec3d n) {
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMaxDescents; ++step) {
     n = field.nearest(support(inner.shape, n)).normal;
-    const double next = room(inner, outer, n);
+    const double next = clearance(inner, outer, n);
     if (!(next < least)) break;
     least = next;
   }
@@ -153,7 +153,7 @@ double containment_depth(const ConvexBody& inner, const ConvexBody& outer,
                          const InteriorDistance& field) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < field.planes(); ++i)
-    least = std::min(least, room(inner, outer, field.normal(i)));
+    least = std::min(least, clearance(inner, outer, field.normal(i)));
   if (!field.curved()) return least;
   const auto& axes = field.quadric().axes;
   for (int x = -1; x <= 1; ++x)

@@ -38,17 +38,18 @@ constexpr double kSame = 1.0 / 1024;
 /// The points that are as deep as asked.
 class DeepPoints {
  public:
-  DeepPoints(const ConvexInterior& deep, const ConvexInterior& room, double depth)
-      : deep_(deep), room_(room), depth_(depth) {}
+  DeepPoints(const ConvexInterior& deep, const ConvexInterior& domain, double depth)
+      : deep_(deep), domain_(domain), depth_(depth) {}
 
   [[nodiscard]] bool hold(const Vec3d& p) const {
-    return room_.field.nearest(p).depth >= -kSame && deep_.field.nearest(p).depth >= depth_ - kSame;
+    return domain_.field.nearest(p).depth >= -kSame &&
+           deep_.field.nearest(p).depth >= depth_ - kSame;
   }
 
   /// How far one may go from one of them along a unit direction, to a part in 2^kHalvings.
   [[nodiscard]] double reach(const Vec3d& from, const Vec3d& way) const {
     constexpr int kHalvings = 13;
-    double in = 0, out = 2 * std::min(deep_.body.radius, room_.body.radius);
+    double in = 0, out = 2 * std::min(deep_.body.radius, domain_.body.radius);
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = (in + out) / 2;
       (hold(from + way * middle) ? in : out) = middle;
@@ -57,19 +58,19 @@ class DeepPoints {
   }
 
  private:
-  const ConvexInterior &deep_, &room_;
+  const ConvexInterior &deep_, &domain_;
   double depth_ = 0;
 };
 
 }  // namespace
 
-Vec3d centre_of_deep_points(const ConvexInterior& deep, const ConvexInterior& room,
+Vec3d centre_of_deep_points(const ConvexInterior& deep, const ConvexInterior& domain,
                             const Vec3d& from, double depth) {
   constexpr double kSquare = 1e-3;
-  const DeepPoints points(deep, room, depth);
+  const DeepPoints points(deep, domain, depth);
   std::vector<Vec3d> ways;
   add_directions(deep.body, ways);
-  add_directions(room.body, ways);
+  add_directions(domain.body, ways);
   const Vec3d across = deep.field.nearest(from).normal;
   Vec3d at = from;
   for (const Vec3d& way : ways) {

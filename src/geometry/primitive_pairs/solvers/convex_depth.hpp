@@ -47,7 +47,7 @@ struct DepthProbe {
 }
 
 /// Returns the greatest r for which a ball of that radius lies in `measured` with its centre in
-/// `room`: a linear program in four variables over all half-spaces of both, whose cuts (Kelley
+/// `domain`: a linear program in four variables over all half-spaces of both, whose cuts (Kelley
 /// 1960) are generated as needed and added by the dual simplex method. Multipliers prove the upper
 /// bound, a point of the domain with its certain depth the lower one. Ends when they agree to
 /// kDepthTolerance, when the upper one falls to `enough`, or when nothing is violated by more than
@@ -55,10 +55,10 @@ struct DepthProbe {
 ///
 /// Measured: middle(), extent() and bound(n) give a point, a bound on coordinates about it, and a
 /// bound on n·x + r; probe(x, r) is a DepthProbe; certain(x) is the depth at a point of the body.
-/// Room: hull() is a convex set; point_in_body(x) maps one of its points into the body that it
+/// Domain: hull() is a convex set; point_in_body(x) maps one of its points into the body that it
 /// stands for.
-template <class Measured, class Room>
-[[nodiscard]] DeepestPoint maximise_depth(const Measured& measured, const Room& room,
+template <class Measured, class Domain>
+[[nodiscard]] DeepestPoint maximise_depth(const Measured& measured, const Domain& domain,
                                           double enough) {
   constexpr int kMaxSteps = 200;
   const Vec3d from = measured.middle();
@@ -77,19 +77,19 @@ template <class Measured, class Room>
   for (; result.steps < kMaxSteps && simplex.load(); ++result.steps) {
     result.upper = std::min(result.upper, simplex.proven_upper());
     const Vec3d at = simplex.x() + from;
-    const GjkResult to_room = gjk_distance(point_body(at), room.hull());
+    const GjkResult to_domain = gjk_distance(point_body(at), domain.hull());
     const DepthProbe probe = measured.probe(at, simplex.r());
     const Vec3d point_in_body =
-        room.point_in_body(to_room.upper > kGapTolerance ? to_room.on_b : at);
+        domain.point_in_body(to_domain.upper > kGapTolerance ? to_domain.on_b : at);
     // Within the tolerance of the domain: it has a point that near.
     if (point_in_body == at)
-      try_point(at, probe.certain - to_room.upper - room.hull().error);
+      try_point(at, probe.certain - to_domain.upper - domain.hull().error);
     else
-      try_point(point_in_body, measured.certain(point_in_body) - room.hull().error);
+      try_point(point_in_body, measured.certain(point_in_body) - domain.hull().error);
     if (result.upper - result.lower <= kDepthTolerance || result.upper <= enough) break;
     BallConstraint cut = moved(probe.cut, from);
-    if (to_room.lower > simplex.excess(cut))
-      cut = moved(half_space(room.hull(), to_room.normal, 0), from);
+    if (to_domain.lower > simplex.excess(cut))
+      cut = moved(half_space(domain.hull(), to_domain.normal, 0), from);
     if (!(simplex.excess(cut) > kDepthTolerance / 8)) break;
     if (simplex.exchange(cut, static_cast<std::size_t>(result.steps) + 4)) continue;
     // No point of the domain lies where the measured body is measured: an arc beside it.
@@ -134,7 +134,7 @@ struct ConvexInterior {
 /// Moves a point in both, `depth` deep in the first, towards the centre of the points in both that
 /// are as deep: along one direction after another in which either body is measured, perpendicular
 /// to the nearest surface. The result is in both and as deep but for a thousandth of a grid unit.
-[[nodiscard]] Vec3d centre_of_deep_points(const ConvexInterior& deep, const ConvexInterior& room,
+[[nodiscard]] Vec3d centre_of_deep_points(const ConvexInterior& deep, const ConvexInterior& domain,
                                           const Vec3d& from, double depth);
 
 }  // namespace strake::geometry::primitive_pairs

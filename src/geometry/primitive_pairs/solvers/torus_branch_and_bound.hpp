@@ -122,24 +122,24 @@ class TorusDistanceSearch {
   [[nodiscard]] double along_faces(const ArcPair& cell) const {
     const ConvexBody x = a_.hull(cell.a), y = b_.hull(cell.b);
     double widest = -std::numeric_limits<double>::infinity();
-    const auto look = [&](const Vec3d& n) {
+    const auto visit = [&](const Vec3d& n) {
       const double slab = dot(n, support(x.shape, -n) - support(y.shape, n));
       widest = std::max(widest, slab - x.error - y.error);
     };
-    look_along(a_, -1, look);
-    look_along(b_, 1, look);
+    for_each_face_normal(a_, -1, visit);
+    for_each_face_normal(b_, 1, visit);
     return widest;
   }
 
-  template <class Look>
-  static void look_along(const PrimitiveOperand& side, double sign, Look&& look) {
+  template <class Visit>
+  static void for_each_face_normal(const PrimitiveOperand& side, double sign, Visit&& visit) {
     for (std::size_t i = 0; side.field && i < side.field->planes(); ++i)
-      look(side.field->normal(i) * sign);
+      visit(side.field->normal(i) * sign);
     if (!side.torus) return;
     const SinCos end = sin_cos(side.torus->angle());
     for (const Vec3d& n :
          {Vec3d{0, -1, 0}, Vec3d{-end.sin, end.cos, 0}, Vec3d{0, 0, 1}, Vec3d{0, 0, -1}})
-      look(side.torus->turned(n) * sign);
+      visit(side.torus->turned(n) * sign);
   }
 
   const PrimitiveOperand &a_, &b_;
@@ -193,13 +193,13 @@ class TorusDepthSearch {
   [[nodiscard]] DeepestPoint measure(const ArcPair& cell) const {
     const PrimitiveOperand &in = cell.in_a ? a_ : b_, &other = cell.in_a ? b_ : a_;
     const SweptArc &arc = cell.in_a ? cell.a : cell.b, &beside = cell.in_a ? cell.b : cell.a;
-    const auto from_room = [&](const auto& measured) {
+    const auto from_domain = [&](const auto& measured) {
       if (other.torus)
         return maximise_depth(measured, TorusArcDomain(*other.torus, beside), best_.lower);
       return maximise_depth(measured, ConvexDomain{*other.convex}, best_.lower);
     };
-    if (in.torus) return from_room(TorusArcInterior(*in.torus, arc));
-    return from_room(ConvexDepthOracle(*in.convex, *in.field));
+    if (in.torus) return from_domain(TorusArcInterior(*in.torus, arc));
+    return from_domain(ConvexDepthOracle(*in.convex, *in.field));
   }
 
   void evaluate(ArcPair cell) {

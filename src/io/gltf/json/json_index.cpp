@@ -122,7 +122,7 @@ class PieceIndexer {
 
   bool item();
   bool after_item();
-  void tell_outer();
+  void find_enclosing_container();
   bool value();
   bool key();
   bool open(JsonType type);
@@ -256,7 +256,7 @@ bool PieceIndexer::close_outer(JsonType type) {
 }
 
 /// Determines what encloses the fragment: an item of an object begins with a key.
-void PieceIndexer::tell_outer() {
+void PieceIndexer::find_enclosing_container() {
   const std::size_t begin = at_, entries = piece_.entries.size();
   bool is_key = here() == '"' && string();
   skip_space();
@@ -303,7 +303,7 @@ bool PieceIndexer::item() {
   skip_space();
   piece_.behind_comma = at_ == text_.size();
   if (piece_.behind_comma) return false;
-  if (in_ == In::unknown) tell_outer();
+  if (in_ == In::unknown) find_enclosing_container();
   return (in_ != In::object || key()) && value();
 }
 
