@@ -149,14 +149,14 @@ class Engine {
   }
 
   /// Aggregates by objects what was found about parts.
-  Status aggregate(const PartResults& findings, Report& report) {
-    auto joined = aggregate_by_object(findings, context_);
+  Status aggregate(const PartResults& results, Report& report) {
+    auto joined = aggregate_by_object(results, context_);
     if (!joined) return joined.error();
     report.pairs = std::move(*joined);
     if (report.options.engine.most_regions > 0 || !report.allowed.empty())
-      if (const Status s = aggregate_regions(findings, context_, report); !s) return s;
+      if (const Status s = aggregate_regions(results, context_, report); !s) return s;
     if (options_.engine.volumes == Volumes::on)
-      return measure_volumes(findings, cache_, context_, report);
+      return measure_volumes(results, cache_, context_, report);
     return {};
   }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """check_map.py PROJECT: every path that ARCHITECTURE.md, HACKING.md and the index of decisions name is there; what the
-tables of these pages say to look for in a file stands in it; the rooms of each module are all there are; every decision
-is in the index, once, and is named in the code that the index says it explains."""
+tables of these pages say to look for in a file stands in it, and the product calls it; the rooms of each module are all
+there are; every decision is in the index, once, and is named in the code that the index says it explains."""
 import re
 import sys
 from pathlib import Path
@@ -56,6 +56,26 @@ def symbol_faults(project, page, text):
         for name in names:
             if not all(re.search(rf'\b{part}\b', code) for part in name.split('::')):
                 yield f'{page}: {name} is not in {row["file"]}'
+
+
+def without_comments(text):
+    return re.sub(r'//[^\n]*|^#include[^\n]*', '', text, flags=re.MULTILINE)
+
+
+def unused_faults(project, page, text):
+    """A function that the map says to look for is one that the product calls: it stands in another file than the named
+    one and its source, or twice in this."""
+    code = {path: without_comments(path.read_text(encoding='utf-8'))
+            for folder in ('src', 'cli') for path in sorted((project / folder).rglob('*.?pp'))}
+    for row in tables(text):
+        own = [Path(re.sub(r'^include/strake/', 'src/', file)).with_suffix('') for file in in_quotes(row.get('file', ''))]
+        own = [project / path.with_suffix(suffix) for path in own for suffix in ('.hpp', '.cpp')]
+        for name in in_quotes(row.get('look for', '')):
+            if not name[0].islower() or 'library only' in row['what']:
+                continue
+            found = {path: len(re.findall(rf'\b{name}\b', body)) for path, body in code.items()}
+            if not any(n > (1 if path in own else 0) for path, n in found.items()):
+                yield f'{page}: nothing calls {name} of {row["file"]}'
 
 
 def included_rooms(folder, module):
@@ -122,6 +142,7 @@ def faults(project):
         yield from symbol_faults(project, page, text)
     page = 'ARCHITECTURE.md'
     text = (project / page).read_text(encoding='utf-8')
+    yield from unused_faults(project, page, text)
     yield from room_faults(project, page, text)
     concepts = [row for row in tables(text) if 'look for' in row]
     if len(concepts) < 60:

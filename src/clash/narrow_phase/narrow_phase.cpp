@@ -211,8 +211,9 @@ Status run_sphere_narrow_phase(const StageInputs& stage, std::vector<Candidate>&
     candidates[i].too_large = is_too_large(stage.work.a(i), stage.work.b(i));
     if (!candidates[i].too_large) open.push_back(i);
   }
-  const Status planted = stage.cache.ensure_trees(stage.work.parts_of(open), stage.work.context());
-  if (!planted) return planted;
+  const Status trees_made =
+      stage.cache.ensure_trees(stage.work.parts_of(open), stage.work.context());
+  if (!trees_made) return trees_made;
   return stage.work.for_each_of(
       open, "sphere subdivision", 1, [&](std::size_t i, const ScenePart& a, const ScenePart& b) {
         Candidate& c = candidates[i];

@@ -20,7 +20,7 @@ using geometry::Box3d;
 struct LocatedResult {
   Pair result;
   Box3d box_mm;
-  std::size_t candidate = 0;
+  std::size_t pair_index = 0;
 };
 
 struct Regions {
@@ -72,7 +72,7 @@ bool worse(const LocatedResult& x, const LocatedResult& y, const Pair& whole) {
 UnionFind joined(const std::vector<LocatedResult>& located_results) {
   UnionFind sets(located_results.size());
   const auto of_first = [&](const LocatedResult& p) {
-    return p.candidate == located_results.front().candidate;
+    return p.pair_index == located_results.front().pair_index;
   };
   if (std::ranges::all_of(located_results, of_first)) return sets;
   std::vector<std::uint32_t> order(located_results.size()), open;
@@ -87,7 +87,7 @@ UnionFind joined(const std::vector<LocatedResult>& located_results) {
       return located_results[j].box_mm.hi.x < located.box_mm.lo.x;
     });
     for (const std::uint32_t j : open)
-      if (located_results[j].candidate != located.candidate &&
+      if (located_results[j].pair_index != located.pair_index &&
           located_results[j].box_mm.meets(located.box_mm))
         sets.join(i, j);
     open.push_back(i);
@@ -97,23 +97,21 @@ UnionFind joined(const std::vector<LocatedResult>& located_results) {
 
 class RegionsOfPairs {
  public:
-  explicit RegionsOfPairs(const PartResults& findings, std::uint64_t most)
-      : findings_(findings), most_(most) {}
+  explicit RegionsOfPairs(const PartResults& results, std::uint64_t most)
+      : results_(results), most_(most) {}
 
   [[nodiscard]] Regions of(const Pair& pair) const {
     const std::size_t first = pair.first_region;
-    if (!findings_.has_more(first))
-      return {.count = findings_.found[first].region_count_uncertain ? 0U : 1U};
+    if (!results_.has_more(first))
+      return {.count = results_.found[first].region_count_uncertain ? 0U : 1U};
     std::vector<LocatedResult> located_results, allowed;
     bool region_count_uncertain = false;
-    for (std::size_t i = first; i < findings_.found.size() && findings_.same_objects(first, i);
-         ++i) {
+    for (std::size_t i = first; i < results_.found.size() && results_.same_objects(first, i); ++i) {
       LocatedResult located = located_result(i);
       if (pair.allowed < 0 && located.result.allowed >= 0) {
         allowed.push_back(std::move(located));
       } else if (counts(located.result, pair)) {
-        region_count_uncertain =
-            region_count_uncertain || findings_.found[i].region_count_uncertain;
+        region_count_uncertain = region_count_uncertain || results_.found[i].region_count_uncertain;
         located_results.push_back(std::move(located));
       }
     }
@@ -126,10 +124,10 @@ class RegionsOfPairs {
 
  private:
   [[nodiscard]] LocatedResult located_result(std::size_t i) const {
-    LocatedResult located{findings_.pair(i), {}, findings_.found[i].candidate};
+    LocatedResult located{results_.pair(i), {}, results_.found[i].pair_index};
     const double apart = std::max(located.result.d_upper_mm, 0.0) * geometry::kGridPerMm;
-    located.box_mm = findings_.extent_mm(i).value_or(
-        common_box_mm(findings_.a(i), findings_.b(i), search_margin(apart)));
+    located.box_mm = results_.extent_mm(i).value_or(
+        common_box_mm(results_.a(i), results_.b(i), search_margin(apart)));
     return located;
   }
 
@@ -181,17 +179,17 @@ class RegionsOfPairs {
     return regions;
   }
 
-  const PartResults& findings_;
+  const PartResults& results_;
   std::uint64_t most_;
 };
 
 }  // namespace
 
-Status aggregate_regions(const PartResults& findings, const parallel::Context& context,
+Status aggregate_regions(const PartResults& results, const parallel::Context& context,
                          Report& report) {
   constexpr std::size_t kGrain = 256;
   const bool found_regions = report.options.engine.most_regions > 0;
-  const RegionsOfPairs regions(findings, report.options.engine.most_regions);
+  const RegionsOfPairs regions(results, report.options.engine.most_regions);
   const auto others = parallel::collect<NotOne>(
       context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<NotOne>& out) {

@@ -14,7 +14,7 @@ namespace strake::clash {
 /// 0. Regions of different pairs of parts are one where their boxes meet, as parts of an object
 /// hang together there. `pairs` of the report still carry the number of their first result in
 /// Pair::first_region, as aggregate_by_object() leaves them. Errors: cancelled.
-[[nodiscard]] Status aggregate_regions(const PartResults& findings,
-                                       const parallel::Context& context, Report& report);
+[[nodiscard]] Status aggregate_regions(const PartResults& results, const parallel::Context& context,
+                                       Report& report);
 
 }  // namespace strake::clash

@@ -32,16 +32,16 @@ std::uint64_t most_work(const Part& a, const Part& b) {
   return kLeastWork + kWorkPerTriangle * (a.triangles.size() + b.triangles.size());
 }
 
-std::vector<SolidOverlap> overlaps_of_hits(const PartResults& findings,
+std::vector<SolidOverlap> overlaps_of_hits(const PartResults& results,
                                            const std::vector<Pair>& pairs) {
   std::vector<SolidOverlap> overlaps;
   std::size_t pair = 0, last = std::numeric_limits<std::size_t>::max();
-  for (std::size_t i = 0; i < findings.found.size(); ++i) {
-    const PartResult& f = findings.found[i];
+  for (std::size_t i = 0; i < results.found.size(); ++i) {
+    const PartResult& f = results.found[i];
     if (!f.answer->separation.interiors_meet) continue;
-    if (f.candidate == last) continue;  // another region of the same parts
-    last = f.candidate;
-    const ScenePart &a = findings.a(i), &b = findings.b(i);
+    if (f.pair_index == last) continue;  // another region of the same parts
+    last = f.pair_index;
+    const ScenePart &a = results.a(i), &b = results.b(i);
     const auto before = [&](const Pair& p) {
       return index(p.a) != a.object ? index(p.a) < a.object : index(p.b) < b.object;
     };
@@ -69,12 +69,12 @@ struct VolumeMeasure {
 
 }  // namespace
 
-Status measure_volumes(const PartResults& findings, AccelerationCache& cache,
+Status measure_volumes(const PartResults& results, AccelerationCache& cache,
                        const parallel::Context& context, Report& report) {
-  const std::vector<SolidOverlap> overlaps = overlaps_of_hits(findings, report.pairs);
-  const Status planted =
-      cache.ensure_trees(parts_of(overlaps, findings.list.unique.size()), context);
-  if (!planted) return planted;
+  const std::vector<SolidOverlap> overlaps = overlaps_of_hits(results, report.pairs);
+  const Status trees_made =
+      cache.ensure_trees(parts_of(overlaps, results.list.unique.size()), context);
+  if (!trees_made) return trees_made;
   const auto order = parallel::longest_first(overlaps.size(), [&](std::size_t i) {
     return most_work(*overlaps[i].a->placed.part, *overlaps[i].b->placed.part);
   });

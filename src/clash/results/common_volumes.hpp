@@ -8,7 +8,7 @@ namespace strake::clash {
 
 /// Computes Pair::volume_mm3 of every HIT of the report: the common volumes of its pairs of solid
 /// parts whose interiors meet, added up in their order.
-[[nodiscard]] Status measure_volumes(const PartResults& findings, AccelerationCache& cache,
+[[nodiscard]] Status measure_volumes(const PartResults& results, AccelerationCache& cache,
                                      const parallel::Context& context, Report& report);
 
 }  // namespace strake::clash

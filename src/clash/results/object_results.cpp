@@ -120,20 +120,20 @@ Class severest_open(const std::vector<Answer>& answers) {
 
 /// Whether the results of a pair of objects begin at `i` and it is not NO_HIT: any result that is
 /// not NO_HIT is worse than those that are.
-bool begins(const PartResults& findings, std::size_t i) {
-  if (i > 0 && findings.same_objects(i - 1, i)) return false;
+bool begins(const PartResults& results, std::size_t i) {
+  if (i > 0 && results.same_objects(i - 1, i)) return false;
   const std::size_t first = i;
-  for (; i < findings.found.size() && findings.same_objects(first, i); ++i)
-    if (findings.found[i].answer->classification.cls != Class::no_hit) return true;
+  for (; i < results.found.size() && results.same_objects(first, i); ++i)
+    if (results.found[i].answer->classification.cls != Class::no_hit) return true;
   return false;
 }
 
 /// Returns the pair of objects whose results begin at `first`; of the regions of two parts one
 /// decides.
-Pair join(const PartResults& findings, std::size_t first) {
+Pair join(const PartResults& results, std::size_t first) {
   std::vector<Answer> answers;
-  for (std::size_t i = first; i < findings.found.size() && findings.same_objects(first, i); ++i)
-    if (findings.found[i].decides) answers.push_back({findings.pair(i), findings.found[i].answer});
+  for (std::size_t i = first; i < results.found.size() && results.same_objects(first, i); ++i)
+    if (results.found[i].decides) answers.push_back({results.pair(i), results.found[i].answer});
   const Class severest = severest_open(answers);
   Pair pair = std::ranges::min_element(answers, is_more_severe, &Answer::pair)->pair;
   if (answers.size() > 1) {
@@ -199,14 +199,14 @@ Pair PartResults::pair(std::size_t i) const {
   return pair;
 }
 
-Result<std::vector<Pair>> aggregate_by_object(const PartResults& findings,
+Result<std::vector<Pair>> aggregate_by_object(const PartResults& results,
                                               const parallel::Context& context) {
   constexpr std::size_t kGrain = 4096;
   auto pairs = parallel::count_fill<Pair>(
-      context, {.name = "join by objects", .n = findings.found.size(), .grain = kGrain},
-      [&](std::size_t i) { return std::size_t{begins(findings, i) ? 1U : 0U}; },
+      context, {.name = "join by objects", .n = results.found.size(), .grain = kGrain},
+      [&](std::size_t i) { return std::size_t{begins(results, i) ? 1U : 0U}; },
       [&](std::size_t i, std::span<Pair> out) {
-        if (!out.empty()) out.front() = join(findings, i);
+        if (!out.empty()) out.front() = join(results, i);
       });
   if (!pairs) return pairs.error();
   return std::move(pairs->values);

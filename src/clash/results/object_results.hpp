@@ -11,10 +11,10 @@
 
 namespace strake::clash {
 
-/// The result for one pair of parts, or for one region of it, by its index among the candidates;
+/// The result for one pair of parts, or for one region of it, by the number of the pair;
 /// not null.
 struct PartResult {
-  std::size_t candidate = 0;
+  std::size_t pair_index = 0;
   const PartPairResult* answer = nullptr;
   const geometry::Box3d* extent = nullptr;  ///< the region's box, if known; relative to a's origin
   bool region_count_uncertain = false;      ///< too near: there is one region or several
@@ -25,16 +25,16 @@ struct PartResult {
 
 /// What was found about parts, and what is needed to aggregate it by objects.
 struct PartResults {
-  const std::vector<PartResult>& found;  ///< by candidate
-  const std::vector<geometry::IndexPair>& candidates;
+  const std::vector<PartResult>& found;  ///< by pair
+  const std::vector<geometry::IndexPair>& pairs;
   const ScenePartList& list;
   const RuleMatcher& rules;
 
   [[nodiscard]] const ScenePart& a(std::size_t i) const {
-    return list.parts[candidates[found[i].candidate].first];
+    return list.parts[pairs[found[i].pair_index].first];
   }
   [[nodiscard]] const ScenePart& b(std::size_t i) const {
-    return list.parts[candidates[found[i].candidate].second];
+    return list.parts[pairs[found[i].pair_index].second];
   }
   [[nodiscard]] bool same_objects(std::size_t i, std::size_t j) const {
     return a(i).object == a(j).object && b(i).object == b(j).object;
@@ -57,7 +57,7 @@ struct PartResults {
 /// worst, the weightiest relation counts; then d, witness and part numbers: a function of the set
 /// of results. Whether regions were told apart shows in it only through rules. Pair::first_region
 /// is the number of the pair's first result. Errors: cancelled.
-[[nodiscard]] Result<std::vector<Pair>> aggregate_by_object(const PartResults& findings,
+[[nodiscard]] Result<std::vector<Pair>> aggregate_by_object(const PartResults& results,
                                                             const parallel::Context& context);
 
 }  // namespace strake::clash

@@ -29,7 +29,7 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
       << "\" data-file=\"" << xml_escaped(model.files[object.file].label) << "\"><path d=\"";
   for (const JoinedLines& chain : chains) {
     append_svg_path(out.text(), chain, curves);
-    out << "";
+    out.done();
   }
   out << "\"/></g>\n";
 }

@@ -105,12 +105,12 @@ class TopDownBuilder {
       }
       level = std::move(next);
     }
-    return plant(nodes, pieces, context);
+    return build_subtrees(nodes, pieces, context);
   }
 
   /// Builds the subtrees in parallel and joins them.
-  Status plant(std::vector<Node>& nodes, const std::vector<BuildRange>& pieces,
-               const parallel::Context& context) const {
+  Status build_subtrees(std::vector<Node>& nodes, const std::vector<BuildRange>& pieces,
+                        const parallel::Context& context) const {
     const auto order =
         parallel::longest_first(pieces.size(), [&](std::size_t i) { return pieces[i].size(); });
     const auto grown = parallel::transform(

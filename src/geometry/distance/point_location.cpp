@@ -333,9 +333,9 @@ class CoverSearch {
   [[nodiscard]] Vertices locate_samples() const {
     Vertices located;
     QueryContext work;
-    PointLocator placer(b_, band_, nullptr);
+    PointLocator locator(b_, band_, nullptr);
     for (std::size_t i = 0; i < kSamplePoints; ++i)
-      if (!located.add(placer.location(at(i * vertices_.size() / kSamplePoints), work))) break;
+      if (!located.add(locator.location(at(i * vertices_.size() / kSamplePoints), work))) break;
     located.cost = work;
     return located;
   }
@@ -343,9 +343,9 @@ class CoverSearch {
   [[nodiscard]] Vertices locate_vertices(std::size_t first, std::size_t end) const {
     Vertices located;
     QueryContext work;
-    PointLocator placer(b_, band_, frame_ ? &*frame_ : nullptr);
+    PointLocator locator(b_, band_, frame_ ? &*frame_ : nullptr);
     for (std::size_t i = first; i < end; ++i)
-      if (!located.add(placer.location(at(order_.empty() ? i : order_[i]), work))) break;
+      if (!located.add(locator.location(at(order_.empty() ? i : order_[i]), work))) break;
     located.cost = work;
     return located;
   }

@@ -102,9 +102,9 @@ const SnappedMesh* GridSnapper::snap_to_grid(const TriangleMesh& mesh, const Mat
 }
 
 std::optional<SnappedMesh> snap_to_grid(const TriangleMesh& mesh, const Mat3d& linear) {
-  GridSnapper placer;
-  if (placer.snap_to_grid(mesh, linear) == nullptr) return std::nullopt;
-  return std::move(placer.placed_);
+  GridSnapper snapper;
+  if (snapper.snap_to_grid(mesh, linear) == nullptr) return std::nullopt;
+  return std::move(snapper.placed_);
 }
 
 std::optional<SnappedWire> snap_to_grid(const Polylines& lines, const Mat3d& linear) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/geometry/primitive.hpp"
 
-#include <array>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 #include <variant>
 
 #include "geometry/numeric/trig.hpp"
@@ -11,33 +12,46 @@
 
 namespace strake::geometry {
 
-bool is_round(const Primitive& primitive) {
-  return std::holds_alternative<CylinderPrimitive>(primitive) ||
-         std::holds_alternative<SnoutPrimitive>(primitive) ||
-         std::holds_alternative<SpherePrimitive>(primitive) ||
-         std::holds_alternative<EllipticalDishPrimitive>(primitive) ||
-         std::holds_alternative<SphericalDishPrimitive>(primitive) ||
-         std::holds_alternative<CircularTorusPrimitive>(primitive);
-}
+namespace {
 
-bool is_curved(const Primitive& primitive) {
-  return is_round(primitive) || std::holds_alternative<RectangularTorusPrimitive>(primitive);
-}
+enum class Surface : std::uint8_t { flat, partly_curved, round };
 
-std::string_view kind_name(const Primitive& primitive) {
-  static constexpr std::array<std::string_view, std::variant_size_v<Primitive>> kNames{
-      "box",
-      "pyramid",
-      "cylinder",
-      "snout",
-      "sphere",
-      "elliptical_dish",
-      "spherical_dish",
-      "circular_torus",
-      "rectangular_torus",
-      "line"};
-  return kNames[primitive.index()];
-}
+struct Kind {
+  std::string_view name;
+  Surface surface = Surface::flat;
+};
+
+/// What holds for all primitives of a kind.
+struct KindOf {
+  Kind operator()(const BoxPrimitive& /*p*/) const { return {"box"}; }
+  Kind operator()(const PyramidPrimitive& /*p*/) const { return {"pyramid"}; }
+  Kind operator()(const CylinderPrimitive& /*p*/) const { return {"cylinder", Surface::round}; }
+  Kind operator()(const SnoutPrimitive& /*p*/) const { return {"snout", Surface::round}; }
+  Kind operator()(const SpherePrimitive& /*p*/) const { return {"sphere", Surface::round}; }
+  Kind operator()(const EllipticalDishPrimitive& /*p*/) const {
+    return {"elliptical_dish", Surface::round};
+  }
+  Kind operator()(const SphericalDishPrimitive& /*p*/) const {
+    return {"spherical_dish", Surface::round};
+  }
+  Kind operator()(const CircularTorusPrimitive& /*p*/) const {
+    return {"circular_torus", Surface::round};
+  }
+  Kind operator()(const RectangularTorusPrimitive& /*p*/) const {
+    return {"rectangular_torus", Surface::partly_curved};
+  }
+  Kind operator()(const LinePrimitive& /*p*/) const { return {"line"}; }
+};
+
+Kind kind_of(const Primitive& primitive) { return std::visit(KindOf{}, primitive); }
+
+}  // namespace
+
+bool is_round(const Primitive& primitive) { return kind_of(primitive).surface == Surface::round; }
+
+bool is_curved(const Primitive& primitive) { return kind_of(primitive).surface != Surface::flat; }
+
+std::string_view kind_name(const Primitive& primitive) { return kind_of(primitive).name; }
 
 namespace {
 

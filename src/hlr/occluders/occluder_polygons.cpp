@@ -176,24 +176,24 @@ enum class Bend : std::uint8_t {
 class PartMerger {
  public:
   PartMerger(const Part& part, std::uint32_t part_index, const ProjectionSettings& settings,
-             std::span<const ProjectedEdge> edges, ProjectedShape& view)
+             std::span<const ProjectedEdge> edges, ProjectedShape& shape)
       : part_(part),
         part_index_(part_index),
         settings_(settings),
         viewer_(settings.features.viewer),
         edges_(edges),
-        view_(view),
+        shape_(shape),
         seen_{.part = part,
               .viewer = settings.features.viewer,
               .find_edge_on = settings.find_edge_on} {}
 
   Result<bool> run() {
-    first_ = static_cast<std::uint32_t>(view_.polygons.size());
+    first_ = static_cast<std::uint32_t>(shape_.polygons.size());
     if (const Status s = seen_.project(settings_.projection, settings_.context); !s)
       return s.error();
     OccluderBuilder maker(seen_, part_index_, settings_.perspective_map);
     if (!narrow()) {
-      for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) maker.add_wide(t, view_);
+      for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) maker.add_wide(t, shape_);
       return finish({}, false);
     }
     if (const Status s = seen_.find_planes(settings_.context); !s) return s.error();
@@ -215,9 +215,9 @@ class PartMerger {
 
   Result<bool> finish(OccluderPart part, bool convex) {
     part.first = first_;
-    part.last = static_cast<std::uint32_t>(view_.polygons.size());
+    part.last = static_cast<std::uint32_t>(shape_.polygons.size());
     if (part.first == part.last) return convex;
-    const auto polygons = std::span(view_.polygons).subspan(first_);
+    const auto polygons = std::span(shape_.polygons).subspan(first_);
     const Result<ViewBox> box = parallel::reduce(
         settings_.context, over_elements("hidden lines: box of a part", polygons.size()), ViewBox{},
         [&](ViewBox& all, std::size_t i) { all.include(polygons[i].box); },
@@ -226,9 +226,9 @@ class PartMerger {
     part.box = *box;
     part.outline.box = part.box;
     part.edge_on = std::ranges::any_of(polygons, &OccluderPolygon::edge_on);
-    if (const Status s = build_occluder_index(view_, edges_, hubs(), convex, settings_, part); !s)
+    if (const Status s = build_occluder_index(shape_, edges_, hubs(), convex, settings_, part); !s)
       return s.error();
-    view_.parts.push_back(std::move(part));
+    shape_.parts.push_back(std::move(part));
     return convex;
   }
 
@@ -294,12 +294,12 @@ class PartMerger {
 
   // Adds the outline of a certified convex part, as one polygon.
   void add_outline(OccluderBuilder& maker, OccluderPart& part) {
-    if (!maker.make_outline(part.outline, view_)) return;
+    if (!maker.make_outline(part.outline, shape_)) return;
     double steepest = 0;
-    for (const OccluderPolygon& p : std::span(view_.polygons).subspan(first_)) {
+    for (const OccluderPolygon& p : std::span(shape_.polygons).subspan(first_)) {
       const geometry::Vec3d n = geometry::Vec3l{p.normal[0], p.normal[1], p.normal[2]}.as<double>();
       const auto facing =
-          static_cast<double>(viewer_.facing(view_.normal(p), p.at.as<std::int64_t>()));
+          static_cast<double>(viewer_.facing(shape_.normal(p), p.at.as<std::int64_t>()));
       steepest = std::max(steepest, (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) / facing);
     }
     // Rounding of the few operations above is far below the fraction added.
@@ -349,7 +349,7 @@ class PartMerger {
       }
     };
     if (order.size() < kBigShape) {
-      add(maker, 0, order.size(), view_);
+      add(maker, 0, order.size(), shape_);
       return {};
     }
     // The runs hold whole groups.
@@ -369,7 +369,7 @@ class PartMerger {
           return out;
         });
     if (!runs) return runs.error();
-    return append(view_, *runs, settings_.context);
+    return append(shape_, *runs, settings_.context);
   }
 
   const Part& part_;
@@ -378,7 +378,7 @@ class PartMerger {
   const ProjectionSettings& settings_;
   const Viewer& viewer_;
   std::span<const ProjectedEdge> edges_;
-  ProjectedShape& view_;
+  ProjectedShape& shape_;
   ProjectedPart seen_;
   std::vector<std::uint32_t> group_;
 };
@@ -387,8 +387,8 @@ class PartMerger {
 
 Result<bool> add_polygons(const Part& part, std::uint32_t part_index,
                           const ProjectionSettings& settings, std::span<const ProjectedEdge> edges,
-                          ProjectedShape& view) {
-  return PartMerger(part, part_index, settings, edges, view).run();
+                          ProjectedShape& shape) {
+  return PartMerger(part, part_index, settings, edges, shape).run();
 }
 
 }  // namespace strake::hlr

@@ -95,10 +95,10 @@ class OcclusionBuffer::Painter {
   /// Lists the polygons of a body whose box holds a tile.
   void list(std::uint32_t body, std::vector<Large>& out) const {
     const BodyInstance& placed = placed_[body];
-    if (placed.view == nullptr || !placed.opaque || placed.cut || placed.repeated ||
-        !large(placed.view->box))
+    if (placed.shape == nullptr || !placed.opaque || placed.cut || placed.repeated ||
+        !large(placed.shape->box))
       return;
-    const auto& polygons = placed.view->polygons;
+    const auto& polygons = placed.shape->polygons;
     for (std::uint32_t i = 0; i < polygons.size(); ++i)
       if (large(polygons[i].box) && !polygons[i].edge_on)
         out.push_back({body, i, as_double(polygons[i].box.lo.v + placed.at.v),
@@ -126,10 +126,10 @@ class OcclusionBuffer::Painter {
 
   void paint(const Large& large, std::size_t first_row, std::size_t last_row) const {
     const BodyInstance& placed = placed_[large.body];
-    const ProjectedShape& view = *placed.view;
-    const OccluderPolygon& polygon = view.polygons[large.polygon];
-    const auto corners = std::span(view.corners).subspan(polygon.first_corner, polygon.corners);
-    const Slope slope = planes_.of(view.normal(polygon));
+    const ProjectedShape& shape = *placed.shape;
+    const OccluderPolygon& polygon = shape.polygons[large.polygon];
+    const auto corners = std::span(shape.corners).subspan(polygon.first_corner, polygon.corners);
+    const Slope slope = planes_.of(shape.normal(polygon));
     if (!std::isfinite(slope.by_u) || !std::isfinite(slope.by_v) || !std::isfinite(slope.behind))
       return;
     const auto row_of = [&](double v) {
@@ -213,7 +213,8 @@ Result<OcclusionBuffer> OcclusionBuffer::of(std::span<const BodyInstance> placed
   OcclusionBuffer occlusion_buffer;
   ViewBox box;
   for (const BodyInstance& p : placed)
-    if (p.view != nullptr && p.opaque && !p.view->box.empty()) box.include(p.view->box.moved(p.at));
+    if (p.shape != nullptr && p.opaque && !p.shape->box.empty())
+      box.include(p.shape->box.moved(p.at));
   if (box.empty() || box.lo.u == box.hi.u || box.lo.v == box.hi.v) return occlusion_buffer;
   const auto across = static_cast<std::size_t>(std::sqrt(static_cast<double>(tiles)));
   occlusion_buffer.columns_ = occlusion_buffer.rows_ =

@@ -47,21 +47,22 @@ void classify_edges(const geometry::Part& part, const Viewer& viewer,
 
 }  // namespace
 
-Result<ProjectedShape> view_of(const SectionedShape& seen, const ProjectionSettings& settings) {
-  const model::GridShape& shape = seen.shape();
+Result<ProjectedShape> project_shape(const SectionedShape& seen,
+                                     const ProjectionSettings& settings) {
+  const model::GridShape& grid_shape = seen.shape();
   const Viewer& viewer = settings.features.viewer;
-  ProjectedShape view;
-  view.viewer = viewer;
+  ProjectedShape shape;
+  shape.viewer = viewer;
   const auto found = sectioned_edges(seen, settings.features, settings.context);
   if (!found) return found.error();
   const std::vector<FeatureEdge>& edges = *found;
   auto on_paper = parallel::slots<ProjectedEdge>(edges.size(), settings.context);
   if (!on_paper) return on_paper.error();
-  view.edges = std::move(*on_paper);
+  shape.edges = std::move(*on_paper);
   const Status placed = parallel::for_each(
       settings.context, over_elements("hidden lines: edges on paper", edges.size()),
       [&](std::size_t i) {
-        ProjectedEdge& e = view.edges[i];
+        ProjectedEdge& e = shape.edges[i];
         e.edge = edges[i];
         if (viewer.eye) return;
         e.a = settings.projection(e.edge.a.as<std::int64_t>());
@@ -70,25 +71,25 @@ Result<ProjectedShape> view_of(const SectionedShape& seen, const ProjectionSetti
   if (!placed) return placed.error();
 
   std::size_t begin = 0;
-  for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
+  for (std::uint32_t p = 0; p < grid_shape.parts.size(); ++p) {
     std::size_t end = begin;
     while (end < edges.size() && edges[end].part == p) ++end;
-    const geometry::Part& part = shape.parts[p];
-    const std::span<ProjectedEdge> own = std::span(view.edges).subspan(begin, end - begin);
+    const geometry::Part& part = grid_shape.parts[p];
+    const std::span<ProjectedEdge> own = std::span(shape.edges).subspan(begin, end - begin);
     begin = end;
     if (part.kind == geometry::PartKind::wire) continue;
-    const Result<bool> convex = add_polygons(part, p, settings, own, view);
+    const Result<bool> convex = add_polygons(part, p, settings, own, shape);
     if (!convex) return convex.error();
     // A part that was rounded has a contact distance within itself, and some facets are edge-on but
     // for rounding: the signs account for neither.
-    const bool exact = seen.within == 0 && (view.parts.empty() || !view.parts.back().edge_on);
+    const bool exact = seen.within == 0 && (shape.parts.empty() || !shape.parts.back().edge_on);
     if (*convex && exact && is_outside(part, viewer)) classify_edges(part, viewer, own);
   }
-  for (const OccluderPart& part : view.parts) view.box.include(part.box);
-  if (!viewer.eye && !view.box.empty())
-    view.reach = std::max({std::abs(view.box.lo.u), std::abs(view.box.hi.u),
-                           std::abs(view.box.lo.v), std::abs(view.box.hi.v)});
-  return view;
+  for (const OccluderPart& part : shape.parts) shape.box.include(part.box);
+  if (!viewer.eye && !shape.box.empty())
+    shape.reach = std::max({std::abs(shape.box.lo.u), std::abs(shape.box.hi.u),
+                            std::abs(shape.box.lo.v), std::abs(shape.box.hi.v)});
+  return shape;
 }
 
 }  // namespace strake::hlr

@@ -69,18 +69,19 @@ struct ProjectedShape : OccluderPolygons {
 };
 
 /// Projects a shape and makes its occluders and edges. Errors: cancelled.
-[[nodiscard]] Result<ProjectedShape> view_of(const SectionedShape& seen,
-                                             const ProjectionSettings& settings);
+[[nodiscard]] Result<ProjectedShape> project_shape(const SectionedShape& seen,
+                                                   const ProjectionSettings& settings);
 
 /// Appends the polygons of one part; true when the part is exactly convex and closed. `edges` are
 /// those of the part: its buckets are chosen by them.
 [[nodiscard]] Result<bool> add_polygons(const geometry::Part& part, std::uint32_t part_index,
                                         const ProjectionSettings& settings,
-                                        std::span<const ProjectedEdge> edges, ProjectedShape& view);
+                                        std::span<const ProjectedEdge> edges,
+                                        ProjectedShape& shape);
 
 /// A body that places a projected shape, as the solvers use it.
 struct BodyInstance {
-  const ProjectedShape* view = nullptr;  ///< null: the body is not drawn
+  const ProjectedShape* shape = nullptr;  ///< null: the body is not drawn
   geometry::Vec3l offset;
   ViewPoint at;
   std::uint32_t object = 0;

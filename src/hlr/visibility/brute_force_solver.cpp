@@ -349,7 +349,7 @@ void solve_edge(const SolverInput& input, const Edge& e, ObjectLines& result) {
     result.pieces.push_back({scene.bodies[e.body].object, number, e.kind, s.state,
                              scene.bodies[e.other_body].object, at(s.range.lo), at(s.range.hi)});
   result.specks += absorb_specks(rule, first, result.pieces);
-  result.left_out += leave_out_unasked(job.options, first, result.pieces) ? 1U : 0U;
+  result.left_out += leave_out_unwanted(job.options, first, result.pieces) ? 1U : 0U;
 }
 
 Result<ObjectLines> solve_object(const ViewJob& job, const SpeckRule& rule, std::uint32_t object) {

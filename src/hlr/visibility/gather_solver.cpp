@@ -163,8 +163,8 @@ bool OccluderGatherer::find_neighbours() {
   const BodyInstance& own = visibility_.placed[item_->body];
   ViewBox box;
   for (std::uint32_t i = item_->first; i < item_->last; ++i) {
-    box.include(own.view->edges[i].a);
-    box.include(own.view->edges[i].b);
+    box.include(own.shape->edges[i].a);
+    box.include(own.shape->edges[i].b);
   }
   const LooseBox own_box = rounded_outwards(box.moved(own.at));
   SegmentQuery any;
@@ -192,7 +192,7 @@ void OccluderGatherer::gather_own_body() {
   if (!edge_.own->shares_self_occlusion) return test_own_body();
   const SelfOcclusion& known = visibility_.self_occlusion[job_.seen.of[edge_.body]];
   for (const OcclusionInterval& interval :
-       known.of(static_cast<std::uint32_t>(edge_.feature - edge_.own->view->edges.data())))
+       known.of(static_cast<std::uint32_t>(edge_.feature - edge_.own->shape->edges.data())))
     if (!add(interval)) return;
 }
 
@@ -205,15 +205,15 @@ void OccluderGatherer::test_own_body() {
     if (job_.options.culling) return;
   }
   const LocalEdge local = localized(*edge_.own);
-  for (const OccluderPart& part : edge_.own->view->parts) {
-    const bool same = edge_.own->view->polygons[part.first].part == edge_.feature->edge.part;
+  for (const OccluderPart& part : edge_.own->shape->parts) {
+    const bool same = edge_.own->shape->polygons[part.first].part == edge_.feature->edge.part;
     if (same && decided_by_part) continue;
     const bool forgives = same && edge_.own->forgives_rounding;
     const Rule rule{.contact = same ? edge_.own->within : edge_.own->contact,
                     .lying = forgives && !edge_.feature->edge.away ? kLyingInPlane : 0,
                     .self = true,
                     .edge_on = !forgives};
-    if (!test_part(local, *edge_.own->view, part, rule)) return;
+    if (!test_part(local, *edge_.own->shape, part, rule)) return;
   }
 }
 
@@ -223,12 +223,12 @@ bool OccluderGatherer::gather_body(std::uint32_t b, bool self) {
   if (!other.opaque) return true;
   const LocalEdge local = localized(other);
   const std::int64_t contact = std::max(edge_.contact, other.contact);
-  for (const OccluderPart& part : other.view->parts)
-    if (!test_part(local, *other.view, part, {.contact = contact, .self = self})) return false;
+  for (const OccluderPart& part : other.shape->parts)
+    if (!test_part(local, *other.shape, part, {.contact = contact, .self = self})) return false;
   return true;
 }
 
-bool OccluderGatherer::test_part(const LocalEdge& local, const ProjectedShape& view,
+bool OccluderGatherer::test_part(const LocalEdge& local, const ProjectedShape& shape,
                                  const OccluderPart& part, const Rule& rule) {
   if (!may_be_hidden_by(local, part.box)) return true;
   if (!part.turn.is_none() &&
@@ -237,11 +237,11 @@ bool OccluderGatherer::test_part(const LocalEdge& local, const ProjectedShape& v
   if (is_deep_under(local, part, std::max(rule.contact, rule.lying))) {
     ++work.tests;
     work.wide_tests += local.narrow ? 0 : 1;
-    return add(occluded_by_silhouette(local, view, part.outline), rule.self);
+    return add(clip_to_outline(local, shape, part.outline), rule.self);
   }
   bool more = true;
   const auto test = [&](std::uint32_t i) {
-    return more = test_polygon(local, view, view.polygons[part.first + i], rule);
+    return more = test_polygon(local, shape, shape.polygons[part.first + i], rule);
   };
   if (!part.tree.empty()) {
     part.tree.traverse(make_query(local.va, local.vb, part.turn), test);
@@ -256,12 +256,12 @@ bool OccluderGatherer::test_part(const LocalEdge& local, const ProjectedShape& v
   return more;
 }
 
-bool OccluderGatherer::test_polygon(const LocalEdge& local, const ProjectedShape& view,
+bool OccluderGatherer::test_polygon(const LocalEdge& local, const ProjectedShape& shape,
                                     const OccluderPolygon& p, const Rule& rule) {
   if (!may_be_hidden_by(local, p.box) || (p.edge_on && !rule.edge_on)) return true;
   ++work.tests;
   work.wide_tests += local.narrow ? 0 : 1;
-  return add(occluded_by_polygon(local, view, p, rule.contact, rule.lying), rule.self);
+  return add(occluded_by_polygon(local, shape, p, rule.contact, rule.lying), rule.self);
 }
 
 bool OccluderGatherer::is_deep_under(const LocalEdge& local, const OccluderPart& part,
@@ -309,7 +309,7 @@ LocalEdge OccluderGatherer::localized(const BodyInstance& other) {
   local.nearest = local.box.hi.w;
   const std::int64_t reach =
       std::max({std::abs(local.va.u), std::abs(local.va.v), std::abs(local.vb.u),
-                std::abs(local.vb.v), other.view->reach});
+                std::abs(local.vb.v), other.shape->reach});
   local.narrow = fits_narrow(reach);
   return local;
 }
@@ -399,7 +399,7 @@ EdgePieceBuilder::Absent EdgePieceBuilder::finish(std::uint32_t number,
                    model::ObjectId{edge_.other->object}, edge_.at(s.lo, origin),
                    edge_.at(s.hi, origin)});
   const std::size_t specks = absorb_specks(rule_, first, out);
-  return {leave_out_unasked(visibility_.job.options, first, out), specks};
+  return {leave_out_unwanted(visibility_.job.options, first, out), specks};
 }
 
 }  // namespace strake::hlr
@@ -422,7 +422,7 @@ class Drawer {
     for (std::uint32_t i = item.first; i < item.last; ++i)
       draw(item.lines
                ? EdgeQuery(visibility_, lines[i])
-               : EdgeQuery(visibility_, item.body, visibility_.placed[item.body].view->edges[i]),
+               : EdgeQuery(visibility_, item.body, visibility_.placed[item.body].shape->edges[i]),
            item.number + (i - item.first), out);
     return std::exchange(gatherer_.work, {});
   }
@@ -446,7 +446,7 @@ class Drawer {
 /// Appends the intervals that a body's own faces hide of some of its edges.
 void append_self_occlusion(const VisibilityScene& visibility, OccluderGatherer& gatherer,
                            const EdgeRange& item, SelfOcclusion& out) {
-  const auto& edges = visibility.placed[item.body].view->edges;
+  const auto& edges = visibility.placed[item.body].shape->edges;
   for (std::uint32_t i = item.first; i < item.last; ++i) {
     out.first.push_back(static_cast<std::uint32_t>(out.intervals.size()));
     const auto intervals =
@@ -472,7 +472,7 @@ Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Conte
         parts[i].work = std::exchange(gatherer.work, {});
       });
   if (!done) return done;
-  visibility.self_occlusion.resize(visibility.views.size());
+  visibility.self_occlusion.resize(visibility.shapes.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
     SelfOcclusion& all = visibility.self_occlusion[visibility.job.seen.of[items[i].body]];
     if (!all.first.empty()) all.first.pop_back();

@@ -79,9 +79,9 @@ class OccluderGatherer {
 
   // These return false when nothing of the edge is left.
   bool gather_body(std::uint32_t body, bool self);
-  bool test_part(const LocalEdge& local, const ProjectedShape& view, const OccluderPart& part,
+  bool test_part(const LocalEdge& local, const ProjectedShape& shape, const OccluderPart& part,
                  const Rule& rule);
-  bool test_polygon(const LocalEdge& local, const ProjectedShape& view,
+  bool test_polygon(const LocalEdge& local, const ProjectedShape& shape,
                     const OccluderPolygon& polygon, const Rule& rule);
   bool add(std::optional<OcclusionInterval> interval, bool self);
   bool add(const OcclusionInterval& interval);

@@ -68,8 +68,8 @@ class Pusher {
 
   SolverWork run(std::uint32_t over) {
     const BodyInstance& placed = visibility_.placed[over];
-    if (!placed.opaque || placed.view->box.empty()) return {};
-    const ViewBox box = placed.view->box.moved(placed.at);
+    if (!placed.opaque || placed.shape->box.empty()) return {};
+    const ViewBox box = placed.shape->box.moved(placed.at);
     SegmentQuery query;
     query.u0 = rounded_down(box.lo.u);
     query.u1 = -rounded_down(-box.hi.u);
@@ -135,8 +135,8 @@ TargetObject local_step(const VisibilityScene& visibility, std::uint32_t object,
   };
   const auto& first = visibility.job.scene->first_body;
   for (std::uint32_t b = first[object]; b < first[object + 1]; ++b) {
-    if (visibility.placed[b].view == nullptr) continue;
-    for (const ProjectedEdge& e : visibility.placed[b].view->edges)
+    if (visibility.placed[b].shape == nullptr) continue;
+    for (const ProjectedEdge& e : visibility.placed[b].shape->edges)
       add(EdgeQuery(visibility, b, e));
   }
   for (const Line& line : visibility.job.lines.of(object)) add(EdgeQuery(visibility, line));
@@ -166,9 +166,9 @@ std::vector<std::uint32_t> nearest_first(const VisibilityScene& visibility) {
   std::iota(order.begin(), order.end(), 0U);
   const auto depth = [&](std::uint32_t b) {
     const BodyInstance& placed = visibility.placed[b];
-    return placed.view == nullptr || placed.view->box.empty()
+    return placed.shape == nullptr || placed.shape->box.empty()
                ? std::numeric_limits<std::int64_t>::min()
-               : placed.view->box.hi.w + placed.at.w;
+               : placed.shape->box.hi.w + placed.at.w;
   };
   std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     const std::int64_t at_a = depth(a), at_b = depth(b);

@@ -293,7 +293,7 @@ std::size_t absorb_specks(const SpeckRule& rule, std::size_t first,
   return specks;
 }
 
-bool leave_out_unasked(const Options& options, std::size_t first, std::vector<EdgePiece>& pieces) {
+bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<EdgePiece>& pieces) {
   const auto begin = pieces.begin() + static_cast<std::ptrdiff_t>(first);
   const auto kept = std::remove_if(
       begin, pieces.end(), [&](const EdgePiece& piece) { return !keeps(options, piece.state); });

@@ -54,7 +54,7 @@ class SpeckRule {
 std::size_t absorb_specks(const SpeckRule& rule, std::size_t first, std::vector<EdgePiece>& pieces);
 
 /// Removes the pieces from `first` on that the options do not ask for; true when there are any.
-bool leave_out_unasked(const Options& options, std::size_t first, std::vector<EdgePiece>& pieces);
+bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<EdgePiece>& pieces);
 
 /// Makes visible specks that join nothing, of those that absorb_specks() left, points on paper:
 /// specks of an object that hang together by their ends within the length of a speck, with no more

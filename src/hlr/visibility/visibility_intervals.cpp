@@ -169,9 +169,8 @@ bool clip_limits(const LocalEdge& e, const Depth& depth, Int128 facing, const Vi
 
 }  // namespace
 
-std::optional<OcclusionInterval> occluded_by_silhouette(const LocalEdge& edge,
-                                                        const ProjectedShape& shape,
-                                                        const OccluderPolygon& outline) {
+std::optional<OcclusionInterval> clip_to_outline(const LocalEdge& edge, const ProjectedShape& shape,
+                                                 const OccluderPolygon& outline) {
   OcclusionInterval interval{
       .lo = RationalParam::zero(), .hi = RationalParam::one(), .sides = kBothSides};
   if (shape.viewer.eye) {
@@ -196,7 +195,7 @@ std::optional<OcclusionInterval> occluded_by_polygon(const LocalEdge& edge,
   const Int128 least = contact * depth.size;
   const Int128 beside = std::max(least, lying * depth.size);
   if (depth.at_a <= beside && depth.at_b <= beside) return std::nullopt;
-  std::optional<OcclusionInterval> found = occluded_by_silhouette(edge, shape, polygon);
+  std::optional<OcclusionInterval> found = clip_to_outline(edge, shape, polygon);
   if (!found) return found;
   OcclusionInterval& interval = *found;
   if (!clip_affine(depth.at_a - least, depth.at_b - least, false, interval)) return std::nullopt;

@@ -103,8 +103,9 @@ struct LocalEdge {
 
 /// Returns the interval of an edge that lies under an outline (OccluderPart::outline), for an edge
 /// deep under it.
-[[nodiscard]] std::optional<OcclusionInterval> occluded_by_silhouette(
-    const LocalEdge& edge, const ProjectedShape& shape, const OccluderPolygon& outline);
+[[nodiscard]] std::optional<OcclusionInterval> clip_to_outline(const LocalEdge& edge,
+                                                               const ProjectedShape& shape,
+                                                               const OccluderPolygon& outline);
 
 /// Returns false when the boxes alone show that nothing in `box` hides any of the edge.
 [[nodiscard]] inline bool may_be_hidden_by(const LocalEdge& e, const ViewBox& box) {

@@ -47,34 +47,35 @@ double nearest_depth(const ViewJob& job) {
 }
 
 /// Projects each shape for all bodies that share it; in perspective, for each body.
-Status make_views(VisibilityScene& visibility, const parallel::Context& context) {
+Status project_shapes(VisibilityScene& visibility, const parallel::Context& context) {
   const ViewJob& job = visibility.job;
   const model::Scene& scene = *job.scene;
-  const std::size_t views = visibility.perspective_map ? scene.bodies.size() : job.seen.all.size();
-  std::vector<std::uint32_t> body_of(views);
-  std::vector<bool> wanted(views);
+  const std::size_t shapes = visibility.perspective_map ? scene.bodies.size() : job.seen.all.size();
+  std::vector<std::uint32_t> body_of(shapes);
+  std::vector<bool> wanted(shapes);
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     if (!job.drawn[model::index(scene.bodies[b].object)]) continue;
-    const std::uint32_t view = visibility.view_of(b);
-    if (!wanted[view]) body_of[view] = b;
-    wanted[view] = true;
+    const std::uint32_t shape = visibility.shape_number(b);
+    if (!wanted[shape]) body_of[shape] = b;
+    wanted[shape] = true;
   }
-  const auto edges = [&](std::size_t view) {
+  const auto edges = [&](std::size_t shape) {
     std::size_t sum = 0;
-    for (const geometry::Part& part : job.sectioned_shape_of(body_of[view]).source->parts)
+    for (const geometry::Part& part : job.sectioned_shape_of(body_of[shape]).source->parts)
       sum += part.edges.size();
     return sum;
   };
-  visibility.views = parallel::Precomputed<ProjectedShape>(views);
+  visibility.shapes = parallel::Precomputed<ProjectedShape>(shapes);
   const PerspectiveMap* const perspective_map =
       visibility.perspective_map ? &*visibility.perspective_map : nullptr;
-  return visibility.views.fill_by_weight(
+  return visibility.shapes.fill_by_weight(
       context, {.name = "hidden lines: shapes"}, kBigShape, parallel::keys_of(wanted), edges,
-      [&](std::size_t view) {
-        const std::uint32_t body = body_of[view];
-        return view_of(job.sectioned_shape_of(body),
-                       {visibility.projection, job.features_of(scene.bodies[body]), perspective_map,
-                        job.options.bucketing, job.may_forgive_rounding(), context});
+      [&](std::size_t shape) {
+        const std::uint32_t body = body_of[shape];
+        return project_shape(
+            job.sectioned_shape_of(body),
+            {visibility.projection, job.features_of(scene.bodies[body]), perspective_map,
+             job.options.bucketing, job.may_forgive_rounding(), context});
       });
 }
 
@@ -135,7 +136,7 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
     const SectionedShape& seen = job.sectioned_shape_of(b);
     const model::GridShape& shape = seen.shape();
     BodyInstance& placed = visibility.placed[b];
-    placed = {visibility.views.find(visibility.view_of(b)),
+    placed = {visibility.shapes.find(visibility.shape_number(b)),
               job.offset(body),
               visibility.perspective_map ? ViewPoint{} : visibility.projection(job.offset(body)),
               object,
@@ -153,7 +154,7 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
       placed.cut = !within(box, *job.limits);
       placed.opaque = placed.opaque && box.meets(*job.limits);
     }
-    if (placed.opaque && !placed.view->box.empty()) boxes[b] = placed.view->box.moved(placed.at);
+    if (placed.opaque && !placed.shape->box.empty()) boxes[b] = placed.shape->box.moved(placed.at);
   }
   if (job.options.culling)
     if (const Status status = drop_equal_bodies(visibility, boxes, context); !status) return status;
@@ -169,7 +170,7 @@ void mark_shared_self_occlusion(VisibilityScene& visibility) {
   std::vector<std::uint32_t> first(shapes.all.size(), kNoShape);
   for (std::uint32_t b = 0; b < visibility.placed.size(); ++b) {
     BodyInstance& placed = visibility.placed[b];
-    if (placed.view == nullptr || !placed.opaque || placed.cut) continue;
+    if (placed.shape == nullptr || !placed.opaque || placed.cut) continue;
     std::uint32_t& one = first[shapes.of[b]];
     if (one == kNoShape) {
       one = b;
@@ -185,7 +186,7 @@ Status make_occlusion_buffer(VisibilityScene& visibility, const parallel::Contex
     return {};
   std::size_t edges = 0;
   for (const BodyInstance& placed : visibility.placed)
-    if (placed.view != nullptr) edges += placed.view->edges.size();
+    if (placed.shape != nullptr) edges += placed.shape->edges.size();
   std::int64_t contact = job.lines.contact;
   for (const std::int64_t c : job.contact) contact = std::max(contact, c);
   auto occlusion_buffer = OcclusionBuffer::of(visibility.placed, visibility.projection, contact,
@@ -206,10 +207,10 @@ void make_items(VisibilityScene& visibility) {
     number += edges;
   };
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    if (visibility.placed[b].view == nullptr) continue;
+    if (visibility.placed[b].shape == nullptr) continue;
     const std::uint32_t object = visibility.placed[b].object;
     if (b == scene.first_body[object]) number = 0;
-    add(b, visibility.placed[b].view->edges.size(), false);
+    add(b, visibility.placed[b].shape->edges.size(), false);
     if (b + 1 == scene.first_body[object + 1]) add(b, visibility.job.lines.of(object).size(), true);
   }
 }
@@ -223,7 +224,7 @@ std::vector<EdgeRange> self_occlusion_ranges(const VisibilityScene& visibility) 
   for (std::uint32_t b = 0; b < visibility.placed.size(); ++b) {
     if (!visibility.placed[b].shares_self_occlusion || known[shapes.of[b]]) continue;
     known[shapes.of[b]] = true;
-    const auto edges = static_cast<std::uint32_t>(visibility.placed[b].view->edges.size());
+    const auto edges = static_cast<std::uint32_t>(visibility.placed[b].shape->edges.size());
     parallel::cut_evenly(edges, kEdgesPerItem, [&](std::uint32_t first, std::uint32_t last) {
       items.push_back({.body = b, .first = first, .last = last});
     });
@@ -235,7 +236,7 @@ Result<VisibilityScene> make_visibility_scene(const ViewJob& job,
                                               const parallel::Context& context) {
   VisibilityScene visibility(job);
   if (job.view.perspective) visibility.perspective_map.emplace(job.view, nearest_depth(job));
-  if (const Status status = make_views(visibility, context); !status) return status.error();
+  if (const Status status = project_shapes(visibility, context); !status) return status.error();
   if (const Status status = place_bodies(visibility, context); !status) return status.error();
   if (job.options.culling && job.options.stage != Stage::none && !visibility.perspective_map)
     mark_shared_self_occlusion(visibility);

@@ -58,7 +58,7 @@ struct VisibilityScene {
   ViewProjection projection;
   std::optional<PerspectiveMap> perspective_map;  ///< in perspective
   parallel::Precomputed<ProjectedShape>
-      views;  ///< shapes of drawn bodies, by sectioned shape or, in perspective, by body
+      shapes;  ///< shapes of drawn bodies, by sectioned shape or, in perspective, by body
   std::vector<SelfOcclusion>
       self_occlusion;                ///< per sectioned shape; empty where no two bodies share it
   std::vector<BodyInstance> placed;  ///< per body
@@ -68,8 +68,8 @@ struct VisibilityScene {
   OcclusionBuffer occlusion_buffer;  ///< covers those bodies; empty without culling
   std::vector<EdgeRange> items;
 
-  /// Returns the number of a body's view.
-  [[nodiscard]] std::uint32_t view_of(std::uint32_t body) const {
+  /// Returns the number of a body's projected shape.
+  [[nodiscard]] std::uint32_t shape_number(std::uint32_t body) const {
     return perspective_map ? body : job.seen.of[body];
   }
 };

@@ -157,25 +157,35 @@ DecodedPrimitive decode_line(Parameters& in, const std::array<float, 6>& box) {
 
 }  // namespace
 
+namespace {
+
+struct ChunkKind {
+  std::string_view with_article;
+  std::size_t parameters = 0;  ///< numbers after the frame; a facet group has lists instead
+};
+
+/// By number of the kind in files; decode_primitive() takes the same numbers.
+constexpr std::array kKinds{ChunkKind{"a primitive", 0},
+                            ChunkKind{"a pyramid", 7},
+                            ChunkKind{"a box", 3},
+                            ChunkKind{"a rectangular torus", 4},
+                            ChunkKind{"a circular torus", 3},
+                            ChunkKind{"an elliptical dish", 2},
+                            ChunkKind{"a spherical dish", 2},
+                            ChunkKind{"a snout", 9},
+                            ChunkKind{"a cylinder", 2},
+                            ChunkKind{"a sphere", 1},
+                            ChunkKind{"a line", 2},
+                            ChunkKind{"a facet group", 0}};
+
+}  // namespace
+
 std::size_t parameter_count(std::uint32_t kind) {
-  static constexpr std::array<std::uint8_t, 11> kCounts = {0, 7, 3, 4, 3, 2, 2, 9, 2, 1, 2};
-  return kind < kCounts.size() ? kCounts[kind] : 0;
+  return kind < kKinds.size() ? kKinds[kind].parameters : 0;
 }
 
 std::string_view kind_with_article(std::uint32_t kind) {
-  static constexpr std::array<std::string_view, 12> kNames = {"a primitive",
-                                                              "a pyramid",
-                                                              "a box",
-                                                              "a rectangular torus",
-                                                              "a circular torus",
-                                                              "an elliptical dish",
-                                                              "a spherical dish",
-                                                              "a snout",
-                                                              "a cylinder",
-                                                              "a sphere",
-                                                              "a line",
-                                                              "a facet group"};
-  return kNames[kind < kNames.size() ? kind : 0];
+  return kKinds[kind < kKinds.size() ? kind : 0].with_article;
 }
 
 bool is_plausible_frame(const std::array<float, 12>& matrix) {
