@@ -26,11 +26,10 @@ enum class PartKind : std::uint8_t {
 /// What mesh repair found in a part; each flag is passed on to the results that the part takes part
 /// in.
 struct PartFlags {
-  bool inverted : 1 = false;       ///< came inside out (negative exact volume) and was flipped
-  bool open : 1 = false;           ///< a sheet because edges lack their partners
-  bool non_manifold : 1 = false;   ///< an edge with other than two triangles
-  bool unknown_sag : 1 = false;    ///< how far the mesh lies from its surface is not known
-  bool convex_source : 1 = false;  ///< convex before the snap: a filter, never a decision
+  bool inverted : 1 = false;      ///< came inside out (negative exact volume) and was flipped
+  bool open : 1 = false;          ///< a sheet because edges lack their partners
+  bool non_manifold : 1 = false;  ///< an edge with other than two triangles
+  bool unknown_sag : 1 = false;   ///< how far the mesh lies from its surface is not known
 };
 
 /// An edge of a part between two welded vertices, v0 < v1. Its triangles are

@@ -87,7 +87,7 @@ class ContouredCap {
     base.insert(base.end(), high.rbegin() + 1, high.rend() - 1);
     builder_.polygon(base, true);
     return std::move(builder_).take(
-        std::max(surface_sag(most, tilts), sagitta(radius_, widest_step(rim))), true);
+        std::max(surface_sag(most, tilts), sagitta(radius_, widest_step(rim))));
   }
 
  private:
@@ -378,7 +378,7 @@ Tessellation dome(const std::vector<ProfilePoint>& profile, int segments,
   const auto grid = revolve(builder, sweep, profile.size(), false,
                             [&](std::size_t i, std::size_t) { return profile[i]; });
   builder.polygon(grid[0], true);
-  return std::move(builder).take(sag, true);
+  return std::move(builder).take(sag);
 }
 
 /// Only the base disc: a surface.
@@ -389,7 +389,7 @@ Tessellation disc(double radius, const TessellationTarget& target) {
   for (const SinCos& a : rim(n, rim_phase(target)))
     ring.push_back(builder.vertex({radius * a.cos, radius * a.sin, 0}));
   builder.polygon(ring);
-  return std::move(builder).take(sagitta(radius, 2 * kPi / n), true);
+  return std::move(builder).take(sagitta(radius, 2 * kPi / n));
 }
 
 /// Half an ellipsoid of revolution over its base disc, whose contour runs from rim to rim: it is
@@ -424,7 +424,7 @@ class ContouredDome {
     builder_.polygon(base, true);
     const double axis = std::max(radius_, height_);
     const double along = 2 * kPi / static_cast<double>(rim_.size()), step = kPi / (2 * rows_);
-    return std::move(builder_).take(axis * (along * along + step * step) / 8, true);
+    return std::move(builder_).take(axis * (along * along + step * step) / 8);
   }
 
  private:
@@ -480,7 +480,7 @@ Tessellation make(const SpherePrimitive& p, const TessellationTarget& target) {
                   return ProfilePoint{pole ? 0 : radius * a.cos,
                                       (k < 0 ? -radius : radius) * (pole ? 1 : a.sin)};
                 });
-  Tessellation t = std::move(builder).take(rim_sag + sagitta(radius, kPi / rows), true);
+  Tessellation t = std::move(builder).take(rim_sag + sagitta(radius, kPi / rows));
   const Basis b =
       target.towards ? view_basis(target.linear, *target.towards) : world_basis(target.linear);
   for (Vec3d& v : t.mesh.vertices) v = b.x * v.x + b.y * v.y + b.z * v.z;

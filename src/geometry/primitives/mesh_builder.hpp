@@ -80,7 +80,7 @@ class MeshBuilder {
   void quad_of(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c,
                std::uint32_t d);
   [[nodiscard]] std::uint32_t face() { return faces_++; }
-  [[nodiscard]] Tessellation take(double sag, bool convex) &&;
+  [[nodiscard]] Tessellation take(double sag) &&;
 
  private:
   void triangle(std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c);

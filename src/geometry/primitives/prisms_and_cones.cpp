@@ -19,7 +19,7 @@ Tessellation hexahedron(const std::array<Vec3d, 8>& corners) {
   MeshBuilder builder;
   for (const Vec3d& c : corners) builder.vertex(c);
   for (const auto& q : kQuads) builder.quad(q[0], q[1], q[2], q[3]);
-  return std::move(builder).take(0, true);
+  return std::move(builder).take(0);
 }
 
 double pick(std::size_t corner, std::size_t bit, double length) {
@@ -76,7 +76,7 @@ Tessellation frustum(const std::vector<Vec3d>& lower, const std::vector<Vec3d>& 
     const std::size_t next = k + 1 == low.size() ? 0 : k + 1;
     builder.quad(low[k], low[next], high[next], high[k]);
   }
-  return std::move(builder).take(sag, true);
+  return std::move(builder).take(sag);
 }
 
 /// z = slope_x·dx + slope_y·dy above the centre of an end circle.

@@ -158,11 +158,10 @@ void MeshBuilder::quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::u
   quad_of(face(), a, b, c, d);
 }
 
-Tessellation MeshBuilder::take(double sag, bool convex) && {
+Tessellation MeshBuilder::take(double sag) && {
   Tessellation t;
   t.mesh = std::move(mesh_);
   t.mesh.sag_mm = sag;
-  t.convex = convex;
   return t;
 }
 

@@ -15,7 +15,6 @@ namespace strake::geometry {
 struct Tessellation {
   TriangleMesh mesh;  ///< millimetres under the given linear map; sag_mm is the certified bound
   Polylines lines;
-  bool convex = false;     ///< before the snap
   std::string_view fault;  ///< why there is nothing: "not finite", "no extent" …; empty when fine
 };
 

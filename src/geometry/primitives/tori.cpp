@@ -53,7 +53,7 @@ Tessellation clipped(const CircularTorusPrimitive& p, const TessellationTarget& 
         return ProfilePoint{pole ? 0 : std::max(0.0, p.centre_radius + p.tube_radius * a.cos),
                             p.tube_radius * a.sin};
       });
-  return std::move(builder).take(rim_sag + sagitta(outer, step_of(sweep, p.angle)), false);
+  return std::move(builder).take(rim_sag + sagitta(outer, step_of(sweep, p.angle)));
 }
 
 /// Where the section's vertices start at both ends of an elbow, as angles in the section.
@@ -114,7 +114,7 @@ class ContouredTorus {
       return ProfilePoint{p_.centre_radius + p_.tube_radius * (c.cos * s.cos - c.sin * s.sin),
                           p_.tube_radius * (c.sin * s.cos + c.cos * s.sin)};
     });
-    return std::move(builder).take(sag(), false);
+    return std::move(builder).take(sag());
   }
 
  private:
@@ -260,7 +260,7 @@ Tessellation make(const CircularTorusPrimitive& p, const TessellationTarget& tar
     return ProfilePoint{p.centre_radius + p.tube_radius * (c.cos * s.cos - c.sin * s.sin),
                         p.tube_radius * (c.sin * s.cos + c.cos * s.sin)};
   });
-  return std::move(builder).take(rim_sag + sweep_sag, false);
+  return std::move(builder).take(rim_sag + sweep_sag);
 }
 
 Tessellation make(const RectangularTorusPrimitive& p, const TessellationTarget& target) {
@@ -279,8 +279,7 @@ Tessellation make(const RectangularTorusPrimitive& p, const TessellationTarget& 
   MeshBuilder builder;
   (void)revolve(builder, sweep, corners.size(), true,
                 [&](std::size_t i, std::size_t) { return corners[i]; });
-  const bool convex = p.inner_radius == 0 && (is_full_turn(p.angle) || p.angle <= kPi);
-  return std::move(builder).take(sagitta(p.outer_radius, step_of(sweep, p.angle)), convex);
+  return std::move(builder).take(sagitta(p.outer_radius, step_of(sweep, p.angle)));
 }
 
 }  // namespace strake::geometry::tessellation

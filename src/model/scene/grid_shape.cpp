@@ -94,7 +94,6 @@ void GridShapeBuilder::add_primitive(const geometry::Primitive& primitive, const
     part.sag += moved;
     part.primitive = primitive;
     part.flags.unknown_sag = false;
-    part.flags.convex_source = made.convex;
   }
 }
 

@@ -25,7 +25,7 @@ Vec3l anchor(const GridShape& shape) { return shape.parts[0].vertices[0].as<std:
 
 bool same_flags(const geometry::PartFlags& a, const geometry::PartFlags& b) {
   return a.inverted == b.inverted && a.open == b.open && a.non_manifold == b.non_manifold &&
-         a.unknown_sag == b.unknown_sag && a.convex_source == b.convex_source;
+         a.unknown_sag == b.unknown_sag;
 }
 
 // Edges and boxes follow from what is compared.
