@@ -246,9 +246,6 @@ geometry::TriangleMesh to_mesh(const MicrometreMesh& mesh) {
 
 namespace {
 
-using geometry::Triangle;
-using geometry::Vec3d;
-
 /// A polygon as a ring of indices into a table of points; holes are joined to it by bridges.
 struct Loop {
   std::vector<ProfilePoint> points;

@@ -20,6 +20,9 @@ namespace strake::clash {
 
 using geometry::DepthOperand;
 using geometry::DepthOptions;
+using geometry::Meeting;
+using geometry::MeetingResult;
+using geometry::Part;
 using geometry::PartKind;
 using geometry::Vec3d;
 
@@ -41,9 +44,6 @@ geometry::Depth depth_of(const PairOperand& a, const PairOperand& b, const Depth
   }
   return geometry::solid_depth(x, y, goal, work.pair);
 }
-
-using geometry::Part;
-using geometry::PartKind;
 
 std::optional<ClosedForm> closed_form(const PairOperand& a, const PairOperand& b, double enough) {
   const Part &x = *a.treed.placed.part, &y = *b.treed.placed.part;
@@ -71,13 +71,6 @@ Relation relation_of(const geometry::PrimitiveSeparation& s, double band) {
   return std::max(s.a_inside_b, s.b_inside_a) >= -band ? Relation::abut_inside
                                                        : Relation::interfere;
 }
-
-using geometry::DepthOptions;
-using geometry::Meeting;
-using geometry::MeetingResult;
-using geometry::Part;
-using geometry::PartKind;
-using geometry::Vec3d;
 
 namespace {
 
@@ -112,7 +105,7 @@ PairEvaluator::PairEvaluator(const PairOperand& a, const PairOperand& b,
       work_(work),
       thresholds_(thresholds(*a.treed.placed.part, *b.treed.placed.part, options)) {}
 
-PartPairResult PairEvaluator::analytic(const ClosedForm& form) const {
+PartPairResult PairEvaluator::closed_form_result(const ClosedForm& form) const {
   const geometry::PrimitiveSeparation& s = form.separation;
   PartPairResult answer;
   answer.separation = {.d = s.d,
@@ -165,7 +158,7 @@ PairEvaluation PairEvaluator::evaluation(const PriorBounds& known) {
     return evaluation;
   }
   if (const auto form = closed_form(part_a_, part_b_, reach_of(options_))) {
-    evaluation.answer = analytic(*form);
+    evaluation.answer = closed_form_result(*form);
     return evaluation;
   }
   if (evaluation.meeting.meeting == Meeting::apart)
@@ -182,7 +175,7 @@ bool PairEvaluator::hulls_part() const {
 
 PartPairResult PairEvaluator::distance(double reach) {
   PartPairResult answer;
-  conclude(answer, apart(reach, answer));
+  conclude(answer, measure_gap(reach, answer));
   return answer;
 }
 
@@ -194,7 +187,7 @@ PartPairResult PairEvaluator::depth(const PairEvaluation& evaluation, const Prio
 }
 
 /// Measures parts that are apart; returns the sag that the result has to count with.
-double PairEvaluator::apart(double limit, PartPairResult& answer) {
+double PairEvaluator::measure_gap(double limit, PartPairResult& answer) {
   // What a weld moved out of reach is reported: see classify().
   const double reach = std::min(limit + 1, reach_of(options_) + thresholds_.weld);
   const double parting = reach + sag();
@@ -203,11 +196,11 @@ double PairEvaluator::apart(double limit, PartPairResult& answer) {
     answer.separation = separated_by(std::numeric_limits<double>::infinity());
     return sag();
   }
-  if (apart_from_mesh(reach, answer))
+  if (measure_gap_to_mesh(reach, answer))
     return a_.placed.part->primitive ? b_.placed.part->sag : a_.placed.part->sag;
   const auto way = hulls.lower > 0 ? std::optional(hulls.normal) : std::nullopt;
   auto near = geometry::find_closest_pair(a_, b_, reach, work_.pair, kSnapSlack, way);
-  if (near && !all_one(near->lower, near->distance))
+  if (near && !decide_alike(near->lower, near->distance))
     near = geometry::find_closest_pair(a_, b_, reach, work_.pair, 0, way);
   if (!near) {
     answer.separation = separated_by(std::numeric_limits<double>::infinity());
@@ -223,7 +216,8 @@ double PairEvaluator::apart(double limit, PartPairResult& answer) {
 }
 
 /// Narrows the bracket of true surfaces by that of their triangles.
-void PairEvaluator::within(const SignedSeparation& meshes, geometry::PrimitiveSeparation& s) const {
+void PairEvaluator::narrow_bracket(const SignedSeparation& meshes,
+                                   geometry::PrimitiveSeparation& s) const {
   const double lower = std::max(s.lower, meshes.lower - sag());
   const double upper = std::min(s.upper, meshes.upper + sag());
   if (!(lower <= upper)) return;
@@ -234,7 +228,7 @@ void PairEvaluator::within(const SignedSeparation& meshes, geometry::PrimitiveSe
 }
 
 /// Whether any distance in a bracket gives the same result.
-bool PairEvaluator::all_one(double lower, double upper) const {
+bool PairEvaluator::decide_alike(double lower, double upper) const {
   const double band = options_.contact_distance;
   if (lower == upper) return true;
   if (lower <= band && band < upper) return false;
@@ -249,7 +243,7 @@ bool PairEvaluator::all_one(double lower, double upper) const {
 
 /// Evaluates a primitive beside a mesh by its true surface; returns false where that is not
 /// certainly clear of the mesh, and the sag of its triangles has to be counted.
-bool PairEvaluator::apart_from_mesh(double reach, PartPairResult& answer) {
+bool PairEvaluator::measure_gap_to_mesh(double reach, PartPairResult& answer) {
   const bool a_is_primitive = a_.placed.part->primitive.has_value();
   const PairOperand &p = a_is_primitive ? part_a_ : part_b_,
                     &m = a_is_primitive ? part_b_ : part_a_;
@@ -319,8 +313,8 @@ void PairEvaluator::nearly_touching(const geometry::ClosestPair& near,
   SignedSeparation meshes = separated_by(near.distance);
   meshes.lower = std::min(gap.lower, meshes.lower);
   if (auto form = closed_form(part_a_, part_b_, reach_of(options_))) {
-    within(meshes, form->separation);
-    answer = analytic(*form);
+    narrow_bracket(meshes, form->separation);
+    answer = closed_form_result(*form);
     answer.relation = Relation::abut_outside;
     return;
   }
@@ -410,7 +404,7 @@ std::optional<PartPairResult> evaluate_closed_form(const PairOperand& a, const P
     const auto form = closed_form(x, y, reach_of(options));
     if (!form || form->tie) return std::nullopt;
     NarrowWork work;
-    return PairEvaluator(x, y, options, work).analytic(*form);
+    return PairEvaluator(x, y, options, work).closed_form_result(*form);
   };
   return evaluate_in_canonical_order(a, b, evaluate_ordered);
 }

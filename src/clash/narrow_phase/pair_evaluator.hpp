@@ -38,7 +38,7 @@ class PairEvaluator {
   PairEvaluator(const PairOperand& a, const PairOperand& b, const PairTolerances& options,
                 NarrowWork& work);
 
-  [[nodiscard]] PartPairResult analytic(const ClosedForm& form) const;
+  [[nodiscard]] PartPairResult closed_form_result(const ClosedForm& form) const;
 
   /// Returns the result for parts that touch at a point, relative to a's origin.
   [[nodiscard]] PartPairResult flush(const geometry::Vec3d& point);
@@ -55,10 +55,10 @@ class PairEvaluator {
   [[nodiscard]] PartPairResult depth(const PairEvaluation& evaluation, const PriorBounds& known);
 
  private:
-  double apart(double limit, PartPairResult& answer);
-  void within(const SignedSeparation& meshes, geometry::PrimitiveSeparation& form) const;
-  [[nodiscard]] bool all_one(double lower, double upper) const;
-  bool apart_from_mesh(double reach, PartPairResult& answer);
+  double measure_gap(double limit, PartPairResult& answer);
+  void narrow_bracket(const SignedSeparation& meshes, geometry::PrimitiveSeparation& form) const;
+  [[nodiscard]] bool decide_alike(double lower, double upper) const;
+  bool measure_gap_to_mesh(double reach, PartPairResult& answer);
   [[nodiscard]] bool hulls_part() const;
   [[nodiscard]] bool equal_solids() const;
   [[nodiscard]] geometry::MeetingResult meeting_of_equals() const;

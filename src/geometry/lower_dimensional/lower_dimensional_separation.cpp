@@ -143,11 +143,6 @@ std::optional<LowerDimensionalSeparation> lower_dimensional_separation(
 
 namespace {
 
-using lower_dimensional::BodySimplex;
-using lower_dimensional::BodySimplices;
-using lower_dimensional::ExactMinDistance;
-using lower_dimensional::MinDistanceBracket;
-using primitive_pairs::PrimitiveOperand;
 using primitive_pairs::Torus;
 
 /// Grid units: farther from the surface than this, the grid point next to a point is on its side.

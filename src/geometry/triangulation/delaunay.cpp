@@ -198,9 +198,6 @@ std::vector<TriangulationFace> delaunay(std::span<const Point2> points) {
   return Halves(points).cells();
 }
 
-}  // namespace strake::geometry::triangulation
-
-namespace strake::geometry::triangulation {
 namespace {
 
 class Sweep {

@@ -14,10 +14,6 @@ namespace strake::geometry::triangulation {
 /// conquer (L. Guibas and J. Stolfi, 1985).
 [[nodiscard]] std::vector<TriangulationFace> delaunay(std::span<const Point2> points);
 
-}  // namespace strake::geometry::triangulation
-
-namespace strake::geometry::triangulation {
-
 /// Returns the Delaunay triangulation of distinct points in ascending order; no triangles when all
 /// are collinear. Points are inserted one by one: fast for the few of most faces, and quadratic
 /// where the front is long, as in a comb swept along its teeth.

@@ -69,11 +69,6 @@ bool bounds_convex_body(const Part& part, std::span<const TrianglePlane> planes)
 
 namespace {
 
-using geometry::Part;
-using geometry::Triangle;
-using geometry::Vec3i;
-using geometry::Vec3l;
-
 struct LoopPoint {
   std::int64_t u = 0, v = 0;
 };

@@ -213,7 +213,6 @@ std::vector<Segment> HatchGrid::within(std::span<const Segment> rim,
 namespace {
 
 using geometry::Box3l;
-using geometry::Vec3l;
 
 /// The usual spacing is this fraction of the drawing's largest side: 2.5 mm or so of paper.
 constexpr double kUsualShare = 150;

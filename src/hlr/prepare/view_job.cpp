@@ -84,7 +84,6 @@ Result<Lines> derive_lines(const ViewJob& job, std::span<const IntersectionLine>
 namespace {
 
 using geometry::Box3l;
-using geometry::Vec3l;
 
 constexpr std::int64_t kMaxDirection = std::int64_t{1} << 20;
 constexpr double kMaxContactMm = 1e6;

@@ -155,10 +155,6 @@ DecodedPrimitive decode_line(Parameters& in, const std::array<float, 6>& box) {
   return {geometry::LinePrimitive{a, length}, length > 0 && std::isfinite(length) ? "" : kNoExtent};
 }
 
-}  // namespace
-
-namespace {
-
 struct ChunkKind {
   std::string_view with_article;
   std::size_t parameters = 0;  ///< numbers after the frame; a facet group has lists instead

@@ -270,8 +270,6 @@ void append_not_compared(std::string& out, const ClashContents& contents, std::s
 
 namespace {
 
-using clash::Report;
-
 void tolerances(std::string& out, const clash::Tolerances& t) {
   for (const clash::ToleranceLength& length : clash::kToleranceLengths) {
     out.append("\"").append(length.name).append("_mm\": ");

@@ -157,7 +157,6 @@ void append_diff_intervals(std::vector<DiffInterval>& out, std::uint32_t piece, 
 namespace {
 
 using geometry::Box3l;
-using geometry::Vec3l;
 
 /// The most pairs of boxes that overlap, 8 bytes each.
 constexpr std::uint64_t kMostPairs = std::uint64_t{1} << 28U;

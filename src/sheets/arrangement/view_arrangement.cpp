@@ -275,7 +275,6 @@ Result<Arranged> arrange(std::span<const UnplacedView> views, Projection project
 namespace {
 
 using drawing::rounded_paper;
-using geometry::Vec3l;
 
 class Placer {
  public:

@@ -267,10 +267,7 @@ void ViewReader::content(TableReader& table, ViewSpec& view) {
 
 namespace {
 
-using settings::Array;
 using settings::KeyValue;
-using settings::TableReader;
-using settings::Value;
 
 constexpr std::size_t kMostPlanes = 10000;
 constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
