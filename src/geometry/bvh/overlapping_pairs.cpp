@@ -11,118 +11,14 @@
 #include <vector>
 
 #include "geometry/bvh/scene_bvh.hpp"
+#include "geometry/bvh/tree_join.hpp"
 #include "strake/parallel/allowance.hpp"
-#include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::geometry {
 namespace {
-
-using Node = SceneBvh::Node;
-
-/// Number of subtasks that the self-join is expanded into before it is shared: enough for any team,
-/// and the same for every team.
-constexpr std::size_t kSubtasks = 1024;
-
-struct JoinTask {
-  std::uint32_t a = 0, b = 0;  ///< a == b: the pairs within one node
-};
-
-class SelfJoin {
- public:
-  explicit SelfJoin(const SceneBvh& tree) : tree_(tree), nodes_(tree.nodes()) {}
-
-  /// Returns the root pair, expanded breadth first.
-  [[nodiscard]] std::vector<JoinTask> subtasks() const {
-    std::vector<JoinTask> tasks;
-    if (nodes_.empty()) return tasks;
-    tasks.push_back({0, 0});
-    for (bool grew = true; grew && tasks.size() < kSubtasks;) {
-      grew = false;
-      std::vector<JoinTask> next;
-      for (const JoinTask& p : tasks) {
-        if (leaves(p)) {
-          next.push_back(p);
-        } else {
-          grew = true;
-          expand(p, next);
-        }
-      }
-      tasks.swap(next);
-    }
-    return tasks;
-  }
-
-  /// False when there are too many pairs.
-  [[nodiscard]] bool run(const JoinTask& task, std::vector<JoinTask>& stack,
-                         std::vector<IndexPair>& out, parallel::Allowance& allowance) const {
-    constexpr std::size_t kStopCheckInterval = std::size_t{1} << 14U;
-    std::size_t counted = out.size();
-    stack.assign(1, task);
-    while (!stack.empty()) {
-      const JoinTask p = stack.back();
-      stack.pop_back();
-      if (leaves(p))
-        test_items(p, out);
-      else
-        expand(p, stack);
-      if (out.size() - counted < kStopCheckInterval) continue;
-      if (!allowance.take(out.size() - counted)) return false;
-      counted = out.size();
-    }
-    return allowance.take(out.size() - counted);
-  }
-
- private:
-  [[nodiscard]] bool leaves(const JoinTask& p) const {
-    return nodes_[p.a].count > 0 && nodes_[p.b].count > 0;
-  }
-
-  void push(std::uint32_t a, std::uint32_t b, std::vector<JoinTask>& out) const {
-    const Node &x = nodes_[a], &y = nodes_[b];
-    if (sets_match(x.sets, y.sets) && (a == b || x.box.meets(y.box))) out.push_back({a, b});
-  }
-
-  void expand(const JoinTask& p, std::vector<JoinTask>& out) const {
-    const Node &x = nodes_[p.a], &y = nodes_[p.b];
-    if (p.a == p.b) {
-      push(x.first, x.first, out);
-      push(x.first + 1, x.first + 1, out);
-      push(x.first, x.first + 1, out);
-    } else if (y.count > 0 || (x.count == 0 && size(x) >= size(y))) {
-      push(x.first, p.b, out);
-      push(x.first + 1, p.b, out);
-    } else {
-      push(p.a, y.first, out);
-      push(p.a, y.first + 1, out);
-    }
-  }
-
-  static std::int64_t size(const Node& n) {
-    return (std::int64_t{n.box.hi.x} - n.box.lo.x) + (std::int64_t{n.box.hi.y} - n.box.lo.y) +
-           (std::int64_t{n.box.hi.z} - n.box.lo.z);
-  }
-
-  void test_items(const JoinTask& p, std::vector<IndexPair>& out) const {
-    const Node &x = nodes_[p.a], &y = nodes_[p.b];
-    for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
-      const BoxItem& item = tree_.items()[i];
-      for (std::uint32_t j = p.a == p.b ? i + 1 : y.first; j < y.first + y.count; ++j) {
-        const BoxItem& other = tree_.items()[j];
-        if (item.owner == other.owner || !sets_match(item.sets, other.sets) ||
-            !item.box.meets(other.box))
-          continue;
-        const std::uint32_t a = tree_.order()[i], b = tree_.order()[j];
-        out.push_back({std::min(a, b), std::max(a, b)});
-      }
-    }
-  }
-
-  const SceneBvh& tree_;
-  const std::vector<Node>& nodes_;
-};
 
 /// Sorts pairs by counting: first into lots by ranges of their first item, then each lot by first
 /// item, and the few seconds of each. All blocks are independent of the team.
@@ -215,18 +111,31 @@ Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& contex
   return PairSorter(pairs, std::size_t{*last} + 1).run(context);
 }
 
+namespace {
+
+/// Pairs of boxes along the axes of one tree.
+struct WithinTree {
+  const SceneBvh& tree;
+
+  static bool nodes_meet(const SceneBvh::Node& x, const SceneBvh::Node& y) {
+    return x.box.meets(y.box);
+  }
+  [[nodiscard]] bool items_meet(std::uint32_t i, std::uint32_t j) const {
+    return tree.items()[i].box.meets(tree.items()[j].box);
+  }
+  [[nodiscard]] IndexPair numbers(std::uint32_t i, std::uint32_t j) const {
+    return {tree.order()[i], tree.order()[j]};
+  }
+};
+
+}  // namespace
+
 Result<std::vector<IndexPair>> overlapping_box_pairs(const SceneBvh& tree,
                                                      const parallel::Context& context,
                                                      std::uint64_t most) {
   parallel::Allowance allowance(most);
-  const SelfJoin join(tree);
-  const std::vector<JoinTask> tasks = join.subtasks();
-  auto pairs = parallel::collect_with<IndexPair>(
-      context, {.name = "broad phase", .n = tasks.size()}, [] { return std::vector<JoinTask>(); },
-      [&](std::vector<JoinTask>& stack, std::size_t i, std::vector<IndexPair>& out) -> Status {
-        if (join.run(tasks[i], stack, out, allowance)) return {};
-        return too_many(allowance);
-      });
+  const WithinTree rule{tree};
+  auto pairs = TreeJoin(tree, tree, rule).run("broad phase", context, allowance);
   if (!pairs) return pairs.error();
   if (const Status s = sort_pairs(*pairs, context); !s) return s.error();
   return pairs;
@@ -242,8 +151,6 @@ Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(std::span<const
 }
 
 namespace {
-
-using Node = SceneBvh::Node;
 
 /// Two frames, with the separating-axis tests for boxes in the one against boxes in the other.
 class FramePair {
@@ -319,113 +226,33 @@ struct Group {
   SceneBvh tree = {};
 };
 
-struct FrameNodePair {
-  std::uint32_t a = 0, b = 0;
-};
-
-/// Finds the pairs of two groups, or those within one.
-class GroupJoin {
+/// Pairs of two groups, or those within one.
+class BetweenFrames {
  public:
-  GroupJoin(std::span<const BoxItem> items, const BoxesInFrames& framed,
-            const std::vector<Group>& groups, std::size_t x, std::size_t y)
+  using Node = SceneBvh::Node;
+
+  BetweenFrames(std::span<const BoxItem> items, const BoxesInFrames& framed,
+                const std::vector<Group>& groups, std::size_t x, std::size_t y)
       : items_(items),
         x_(groups[x]),
         y_(groups[y]),
         frames_(framed.frames[x], framed.frames[y]),
         within_(x == y) {}
 
-  /// Returns the root pair, expanded breadth first.
-  [[nodiscard]] std::vector<FrameNodePair> subtasks() const {
-    constexpr std::size_t kGroupSubtasks = 1024;
-    std::vector<FrameNodePair> tasks;
-    if (!x_.tree.nodes().empty() && !y_.tree.nodes().empty()) push(0, 0, tasks);
-    for (bool grew = true; grew && tasks.size() < kGroupSubtasks;) {
-      grew = false;
-      std::vector<FrameNodePair> next;
-      for (const FrameNodePair& p : tasks) {
-        if (leaves(p)) {
-          next.push_back(p);
-        } else {
-          grew = true;
-          expand(p, next);
-        }
-      }
-      tasks.swap(next);
-    }
-    return tasks;
+  /// Boxes of one tree compare as they are.
+  [[nodiscard]] bool nodes_meet(const Node& x, const Node& y) const {
+    return within_ ? x.box.meets(y.box) : !frames_.parted(x_.tree.box(x), y_.tree.box(y));
   }
-
-  /// False when there are too many pairs.
-  [[nodiscard]] bool run(const FrameNodePair& task, std::vector<IndexPair>& out,
-                         parallel::Allowance& allowance) const {
-    constexpr std::size_t kStopCheckInterval = std::size_t{1} << 14U;
-    std::size_t counted = out.size();
-    std::vector<FrameNodePair> stack{task};
-    while (!stack.empty()) {
-      const FrameNodePair p = stack.back();
-      stack.pop_back();
-      if (leaves(p))
-        test_items(p, out);
-      else
-        expand(p, stack);
-      if (out.size() - counted < kStopCheckInterval) continue;
-      if (!allowance.take(out.size() - counted)) return false;
-      counted = out.size();
-    }
-    return allowance.take(out.size() - counted);
+  [[nodiscard]] bool items_meet(std::uint32_t i, std::uint32_t j) const {
+    const IndexPair of = numbers(i, j);
+    return items_[of.first].box.meets(items_[of.second].box) &&
+           !frames_.parted(x_.tree.items()[i].box, y_.tree.items()[j].box);
+  }
+  [[nodiscard]] IndexPair numbers(std::uint32_t i, std::uint32_t j) const {
+    return {x_.items[x_.tree.order()[i]], y_.items[y_.tree.order()[j]]};
   }
 
  private:
-  [[nodiscard]] const Node& node_x(std::uint32_t i) const { return x_.tree.nodes()[i]; }
-  [[nodiscard]] const Node& node_y(std::uint32_t i) const { return y_.tree.nodes()[i]; }
-  [[nodiscard]] bool leaves(const FrameNodePair& p) const {
-    return node_x(p.a).count > 0 && node_y(p.b).count > 0;
-  }
-  [[nodiscard]] bool is_one(const FrameNodePair& p) const { return within_ && p.a == p.b; }
-
-  void push(std::uint32_t a, std::uint32_t b, std::vector<FrameNodePair>& out) const {
-    const Node &x = node_x(a), &y = node_y(b);
-    if (sets_match(x.sets, y.sets) && (is_one({a, b}) || near(x, y))) out.push_back({a, b});
-  }
-
-  /// Boxes of one tree compare as they are.
-  [[nodiscard]] bool near(const Node& x, const Node& y) const {
-    return within_ ? x.box.meets(y.box) : !frames_.parted(x_.tree.box(x), y_.tree.box(y));
-  }
-
-  void expand(const FrameNodePair& p, std::vector<FrameNodePair>& out) const {
-    const Node &x = node_x(p.a), &y = node_y(p.b);
-    if (is_one(p)) {
-      push(x.first, x.first, out);
-      push(x.first + 1, x.first + 1, out);
-      push(x.first, x.first + 1, out);
-    } else if (y.count > 0 || (x.count == 0 && extent(x_.tree, x) >= extent(y_.tree, y))) {
-      push(x.first, p.b, out);
-      push(x.first + 1, p.b, out);
-    } else {
-      push(p.a, y.first, out);
-      push(p.a, y.first + 1, out);
-    }
-  }
-
-  static std::int64_t extent(const SceneBvh& tree, const Node& node) {
-    const Box3l box = tree.box(node);
-    const Vec3l d = box.hi - box.lo;
-    return d.x + d.y + d.z;
-  }
-
-  void test_items(const FrameNodePair& p, std::vector<IndexPair>& out) const {
-    const Node &x = node_x(p.a), &y = node_y(p.b);
-    for (std::uint32_t i = x.first; i < x.first + x.count; ++i)
-      for (std::uint32_t j = is_one(p) ? i + 1 : y.first; j < y.first + y.count; ++j) {
-        const std::uint32_t a = x_.items[x_.tree.order()[i]], b = y_.items[y_.tree.order()[j]];
-        if (items_[a].owner != items_[b].owner && sets_match(items_[a].sets, items_[b].sets) &&
-            items_[a].box.meets(items_[b].box) &&
-            !frames_.parted(x_.tree.items()[i].box, y_.tree.items()[j].box))
-          out.push_back({std::min(a, b), std::max(a, b)});
-      }
-  }
-
   std::span<const BoxItem> items_;
   const Group &x_, &y_;
   FramePair frames_;
@@ -462,14 +289,9 @@ Result<std::vector<IndexPair>> overlapping_box_pairs(std::span<const BoxItem> it
   std::vector<IndexPair> pairs;
   for (std::size_t x = 0; x < groups->size(); ++x)
     for (std::size_t y = x; y < groups->size(); ++y) {
-      const GroupJoin join(items, framed, *groups, x, y);
-      const std::vector<FrameNodePair> tasks = join.subtasks();
-      const auto found =
-          parallel::collect<IndexPair>(context, {.name = "broad phase, askew", .n = tasks.size()},
-                                       [&](std::size_t i, std::vector<IndexPair>& out) -> Status {
-                                         if (join.run(tasks[i], out, allowance)) return {};
-                                         return too_many(allowance);
-                                       });
+      const BetweenFrames rule(items, framed, *groups, x, y);
+      const auto found = TreeJoin((*groups)[x].tree, (*groups)[y].tree, rule)
+                             .run("broad phase, askew", context, allowance);
       if (!found) return found.error();
       pairs.insert(pairs.end(), found->begin(), found->end());
     }
