@@ -10,10 +10,6 @@
 
 namespace strake::test {
 
-[[nodiscard]] inline bool is_finite(const geometry::Vec3d& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// What is wrong with a shape that a reader gave out, whatever the file: empty when nothing is.
 [[nodiscard]] inline std::string shape_fault(const model::Shape& shape) {
   if (const auto* const mesh = std::get_if<geometry::TriangleMesh>(&shape)) {
