@@ -26,7 +26,10 @@ strake::Status find_clashes(const std::vector<std::filesystem::path>& files) {
 
   clash::Findings findings;
   findings.tests.push_back(std::move(*report));
-  const report::ClashContents contents{.findings = findings, .model = *model};
+  // What reading and placing noticed, objects that were skipped among it, belongs to the result.
+  Diagnostics loading = model->diagnostics;
+  loading.append(scene->diagnostics);
+  const report::ClashContents contents{.findings = findings, .model = *model, .loading = &loading};
   std::puts(report::clash_table(contents, {}).c_str());
   Result<AtomicFile> file = AtomicFile::create("clashes.json");
   if (!file) return file.error();

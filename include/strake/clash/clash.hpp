@@ -60,7 +60,8 @@ struct Region {
   bool depth_complete = true;            ///< as in Pair
 };
 
-/// One pair of objects that is not NO_HIT; a < b in the durable order.
+/// One pair of objects that is not NO_HIT; a < b in the durable order, whichever set they are in:
+/// Report::in_a and in_b tell.
 struct Pair {
   model::ObjectId a{}, b{};
   Class cls = Class::no_hit;
@@ -266,9 +267,6 @@ struct Sets {
 [[nodiscard]] model::SceneOptions scene_options(const Options& options);
 
 /// Returns every pair of objects, one of set A and one of set B, that is not NO_HIT.
-///
-/// 1. A pair's result is a function of the pair alone: neither the team, nor the broad phase, nor
-///    other objects, nor the order of the sets show in it.
 ///
 /// 1. A pair's result is a function of the pair alone: neither the team, nor the broad phase, nor
 ///    other objects, nor the order of the sets show in it.

@@ -128,8 +128,8 @@ struct NeutralDrawing {
 /// paper (hlr::Options::sag_mm), model mm: 0.05 mm at the scale of the drawing, in perspective in
 /// the plane of the target; no less than the grid's 1 µm, nor than 0.05 mm on an A0 sheet that
 /// holds the whole view. Where the scale is yet to be chosen, it is estimated from the corners of
-/// the objects: exactly, or nearly where limits or sections cut them. 0 for an empty view. Errors:
-/// cancelled.
+/// the objects: exactly, or nearly where limits or sections cut them. 0 for an empty view. `drawn`
+/// as in hlr::draw(). Errors: usage for a selection of the wrong size; cancelled.
 [[nodiscard]] Result<double> sag_for_paper(const model::Scene& scene,
                                            const std::vector<bool>& drawn, const hlr::View& view,
                                            const LayoutOptions& options,

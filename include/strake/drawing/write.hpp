@@ -13,7 +13,8 @@
 
 namespace strake::drawing {
 
-/// Takes text in chunks of some kilobytes, in order: AtomicFile::write, a string's append.
+/// Takes text in chunks of some kilobytes to some hundreds, in order:
+/// `[&](std::string_view text) { file.write(text); }` for an AtomicFile.
 using Sink = parallel::FunctionRef<void(std::string_view)>;
 
 /// Writes SVG in millimetres of paper: one Inkscape layer per class of line, in each layer one

@@ -237,7 +237,9 @@ struct Drawing {
 };
 
 /// Returns the lines of the scene in one view, each piece with its state. `drawn` selects the
-/// objects (empty: all); bodies whose colour is transparent are hidden but hide nothing.
+/// objects, one entry each (empty: all); the others are neither drawn nor hide anything. Bodies
+/// whose colour is transparent can be hidden by others, but hide nothing. Errors: usage for a
+/// selection of the wrong size, input for a view that cannot be drawn; cancelled.
 [[nodiscard]] Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn,
                                    const View& view, const Options& options,
                                    const parallel::Context& context);

@@ -31,7 +31,7 @@ using Shape = std::variant<geometry::TriangleMesh, geometry::Primitive, geometry
 
 struct Color {
   std::uint8_t red = 170, green = 170, blue = 170;
-  std::uint8_t alpha = 255;  ///< below 255 is transparent: hidden, but hides nothing
+  std::uint8_t alpha = 255;  ///< below 255 is transparent: it hides nothing
   friend bool operator==(const Color&, const Color&) = default;
 };
 

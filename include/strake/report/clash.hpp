@@ -40,7 +40,9 @@ struct ClashContents {
   const model::Model& model;
   const clash::Grouping* grouping = nullptr;  ///< the grouping of these findings, if asked for
   const RulesSource* rules = nullptr;         ///< the rules, if there were any
-  const Diagnostics* loading = nullptr;       ///< what reading and placing the model noticed
+  /// What reading and placing the model noticed (model::Model::diagnostics, then
+  /// model::Scene::diagnostics). Without it the result does not say what is missing.
+  const Diagnostics* loading = nullptr;
 };
 
 /// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not

@@ -95,6 +95,9 @@ class PaperExtent {
 Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bool>& drawn,
                                  const hlr::View& view, const Vec3l& origin,
                                  const parallel::Context& context) {
+  if (!drawn.empty() && drawn.size() != scene.model->objects.size())
+    return Error{ErrorCode::usage, "the selection and the model differ in size", "view",
+                 "give one entry per object of the scene"};
   const auto axes = paper_axes(view);
   const auto sections = hlr::section_planes(view.sections);
   // hlr::draw reports what is wrong with the view.

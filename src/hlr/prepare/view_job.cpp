@@ -229,7 +229,8 @@ Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>&
     return Error{ErrorCode::internal, "the scene has no model", "view", ""};
   const std::size_t objects = scene.model->objects.size();
   if (!drawn.empty() && drawn.size() != objects)
-    return Error{ErrorCode::internal, "the selection and the model differ in size", "view", ""};
+    return Error{ErrorCode::usage, "the selection and the model differ in size", "view",
+                 "give one entry per object of the scene"};
 
   ViewJob job;
   job.view = view;

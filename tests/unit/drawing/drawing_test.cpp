@@ -171,6 +171,15 @@ model::Model pipe(double length_mm) {
   return model;
 }
 
+TEST(SagForPaper, RefusesASelectionOfTheWrongSize) {
+  const model::Model model = pipe(1500);
+  const auto scene = model::make_scene(model, {}, {});
+  ASSERT_TRUE(scene);
+  const auto sag = sag_for_paper(*scene, {true, true}, {}, {}, {});
+  ASSERT_FALSE(sag);
+  EXPECT_EQ(sag.error().code, ErrorCode::usage);
+}
+
 TEST(SagForPaper, FollowsTheScale) {
   const model::Model model = pipe(1500);
   const auto scene = model::make_scene(model, {.sag_mm = 0.5}, {});

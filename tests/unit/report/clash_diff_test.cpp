@@ -260,14 +260,9 @@ TEST(ClashDiff, OnlySettingsThatDifferAreBlamed) {
   Folder folder;
   const ClashModel m = row();
   const clash::Findings here = run(m, {.tolerances = {.clearance_mm = 5}});
-  clash::Findings other = here;
   // A pair farther apart than the settings of both report, as after a change of the engine.
-  clash::Pair stray = other.tests[0].pairs[0];
-  stray.a = model::ObjectId{2};
-  stray.b = model::ObjectId{3};
-  stray.cls = clash::Class::clearance_violation;
-  stray.d_mm = 20;
-  other.tests[0].pairs.push_back(stray);
+  clash::Findings other = run(m, {.tolerances = {.clearance_mm = 25}});
+  other.tests[0].options.tolerances.clearance_mm = 5;
   const ClashDocument& with = document(folder, "s.json", other, m.model);
   const ClashDocument& without = document(folder, "h.json", here, m.model);
   const ClashDiff diff = compare(with, without);
