@@ -44,8 +44,10 @@ class BufferedWriter {
 
  private:
   void flush() {
-    if (!text_.empty()) sink_(text_);
-    text_.clear();
+    if (text_.empty()) return;
+    // A sink that throws gets no text twice.
+    const std::string full = std::exchange(text_, {});
+    sink_(full);
   }
   static constexpr std::size_t kFull = std::size_t{1} << 16U;
   Sink sink_;
@@ -54,7 +56,8 @@ class BufferedWriter {
 };
 
 /// Writes n items in order and makes their bytes in parallel: encode(begin, end, out) appends those
-/// of a run. The bytes of 65,536 items are held at a time. Errors: cancelled, out of memory.
+/// of a run. The bytes of 65,536 items are held at a time. What the sink throws comes out. Errors:
+/// cancelled, out of memory.
 template <class Encode>
 [[nodiscard]] Status write_in_batches(std::string_view name, std::size_t n, Encode&& encode,
                                       Sink sink, const parallel::Context& context) {
@@ -65,7 +68,8 @@ template <class Encode>
   constexpr std::size_t kRun = 1024, kRuns = 64;
   const parallel::ProgressPhase phase(context.progress, name, n);
   std::size_t next = 0;
-  return parallel::pipeline(
+  std::exception_ptr thrown;
+  const Status status = parallel::pipeline(
       context, {.name = name, .in_flight = kRuns},
       [&]() -> std::optional<std::size_t> {
         if (next >= n) return std::nullopt;
@@ -76,10 +80,18 @@ template <class Encode>
         encode(begin, begin + run.items, run.text);
         return run;
       },
-      [&](const Run& run) {
-        sink(run.text);
+      [&](const Run& run) -> Status {
+        try {
+          sink(run.text);
+        } catch (...) {
+          thrown = std::current_exception();
+          return Error{ErrorCode::internal, "the sink threw", {}, {}};
+        }
         phase.add(run.items);
+        return {};
       });
+  if (thrown) std::rethrow_exception(thrown);
+  return status;
 }
 
 }  // namespace strake::drawing

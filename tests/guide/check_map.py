@@ -62,6 +62,18 @@ def without_comments(text):
     return re.sub(r'//[^\n]*|^#include[^\n]*', '', text, flags=re.MULTILINE)
 
 
+def name_faults(project, page, text):
+    """A name of the code that the page gives in quotes stands somewhere in it."""
+    code = '\n'.join(path.read_text(encoding='utf-8')
+                     for folder in ('src', 'include', 'cli', 'tests', 'cmake', 'scripts', 'bench')
+                     for path in sorted((project / folder).rglob('*')) if path.suffix in ('.hpp', '.cpp', '.cmake', '.py', '.txt'))
+    words = set(re.findall(r'\w+', code))
+    for name in in_quotes(text):
+        if re.fullmatch(r'[A-Za-z]\w*(::\w+)*', name) and re.search(r'[a-z][A-Z]|_', name):
+            if not set(name.split('::')) <= words:
+                yield f'{page}: nothing is called {name}'
+
+
 def unused_faults(project, page, text):
     """A function that the map says to look for is one that the product calls: it stands in another file than the named
     one and its source, or twice in this."""
@@ -140,6 +152,7 @@ def faults(project):
         text = (project / page).read_text(encoding='utf-8')
         yield from path_faults(project, page, text)
         yield from symbol_faults(project, page, text)
+        yield from name_faults(project, page, text)
     page = 'ARCHITECTURE.md'
     text = (project / page).read_text(encoding='utf-8')
     yield from unused_faults(project, page, text)

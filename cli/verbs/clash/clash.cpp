@@ -286,7 +286,7 @@ void add_rules(CLI::App& command, ClashOptions& options) {
       ->group("Rules");
   command
       .add_flag("--curves", options.curves,
-                "Judge lines and polylines too, as bodies without thickness (default: they are "
+                "Check lines and polylines too, as bodies without thickness (default: they are "
                 "drawn, but never clash)")
       ->group("Rules");
   add_choice(

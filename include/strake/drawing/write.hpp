@@ -14,7 +14,8 @@
 namespace strake::drawing {
 
 /// Takes text in chunks of some kilobytes to some hundreds, in order:
-/// `[&](std::string_view text) { file.write(text); }` for an AtomicFile.
+/// `[&](std::string_view text) { file.write(text); }` for an AtomicFile. It is called by any worker
+/// of the team, by one at a time. What it throws comes out of the call that writes.
 using Sink = parallel::FunctionRef<void(std::string_view)>;
 
 /// Writes SVG in millimetres of paper: one Inkscape layer per class of line, in each layer one

@@ -32,7 +32,7 @@ void swap_sides(std::optional<Answer>& answer, const PairOperand& a, const PairO
   if (answer) swap_sides(*answer, a, b);
 }
 
-/// Returns what judge(x, y) gives for two parts in canonical order, as a result about (a, b).
+/// Returns what evaluate(x, y) gives for two parts in canonical order, as a result about (a, b).
 template <class Evaluate>
 [[nodiscard]] auto evaluate_in_canonical_order(const PairOperand& a, const PairOperand& b,
                                                Evaluate&& evaluate) {

@@ -44,7 +44,7 @@ Status check(const Options& o, const Sets& sets, std::size_t objects) {
     return Error{ErrorCode::usage, "the sets do not have one entry per object of the scene", "sets",
                  "build them from the same scene"};
   if (o.engine.curves == Curves::on && o.engine.narrow_phase != NarrowPhase::exact)
-    return Error{ErrorCode::usage, "lines are judged by the exact narrow phase only", "curves",
+    return Error{ErrorCode::usage, "lines are checked by the exact narrow phase only", "curves",
                  "leave out --curves or --narrow-phase"};
   return {};
 }

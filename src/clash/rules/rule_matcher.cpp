@@ -75,8 +75,9 @@ Status check(const Policy& policy, std::size_t objects) {
   for (const Allowed& a : policy.allowed)
     if (!has_meaning(a))
       return Error{ErrorCode::usage,
-                   "a depth, a region or a plane is not a number, or a normal is 0",
-                   "rule '" + a.rule + "'", "state finite lengths and directions"};
+                   "a depth or a region is not a number, or a plane is not finite or has no normal",
+                   "rule '" + a.rule + "'",
+                   "state numbers, and a point and a direction for each plane"};
   return {};
 }
 

@@ -77,7 +77,7 @@ class TreeJoin {
   /// Returns false when there are too many pairs.
   [[nodiscard]] bool run_task(const Task& task, std::vector<Task>& stack,
                               std::vector<IndexPair>& out, parallel::Allowance& allowance) const {
-    constexpr std::size_t kStopCheckInterval = std::size_t{1} << 14U;
+    constexpr std::size_t kPairsPerCharge = std::size_t{1} << 14U;
     std::size_t counted = out.size();
     stack.assign(1, task);
     while (!stack.empty()) {
@@ -87,7 +87,7 @@ class TreeJoin {
         test_items(p, out);
       else
         expand(p, stack);
-      if (out.size() - counted < kStopCheckInterval) continue;
+      if (out.size() - counted < kPairsPerCharge) continue;
       if (!allowance.take(out.size() - counted)) return false;
       counted = out.size();
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 // Decision 0002 says why contacts in coordinate planes need no tree.
-// Decision 0024 says why large coplanar faces are judged by their boundaries.
+// Decision 0024 says why large coplanar faces are compared by their boundaries.
 
 #include <array>
 #include <cstdint>

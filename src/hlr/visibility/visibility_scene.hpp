@@ -48,7 +48,7 @@ struct SelfOcclusion {
 struct VisibilityScene {
   explicit VisibilityScene(const ViewJob& view_job)
       : job(view_job), projection(view_job.direction()) {}
-  VisibilityScene(const VisibilityScene&) = delete;  // `placed` points into `views`
+  VisibilityScene(const VisibilityScene&) = delete;  // `placed` points into `shapes`
   VisibilityScene& operator=(const VisibilityScene&) = delete;
   VisibilityScene(VisibilityScene&&) = default;
   VisibilityScene& operator=(VisibilityScene&&) = delete;

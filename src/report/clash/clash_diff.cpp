@@ -145,15 +145,19 @@ class RunCoverage {
       }
       return {};
     }
-    const auto curves = [](const DocumentTest& test) {
-      const auto it = test.settings.find("curves");
-      return it != test.settings.end() && it->second == "true";
-    };
+    const auto curves = [](const DocumentTest& test) { return setting(test, "curves") == "true"; };
     if (!curves(here) && curves(other)) return "settings differ: curves";
     if (r.d_mm <= here.touch_gap_mm || r.d_mm < here.clearance_mm) return {};
     if (here.clearance_mm < other.clearance_mm) return "settings differ: clearance_mm";
     if (here.touch_gap_mm < other.touch_gap_mm) return "settings differ: touch_gap_mm";
-    return {};
+    // What welding moved out of reach is a result, too.
+    if (setting(here, "weld_mm") != setting(other, "weld_mm")) return "settings differ: weld_mm";
+    return "it was farther apart than the tolerances of either run";
+  }
+
+  [[nodiscard]] static std::string setting(const DocumentTest& test, const std::string& name) {
+    const auto it = test.settings.find(name);
+    return it == test.settings.end() ? std::string() : it->second;
   }
 
   const ClashDocument& run_;

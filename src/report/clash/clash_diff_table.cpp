@@ -88,8 +88,8 @@ std::string block(std::string_view title, const ClashDiff& diff, const std::vect
     out += "  " + fit_to_columns(label(run.a(r)), names) + "  " +
            fit_to_columns(label(run.b(r)), names) + "  " + change(diff, list[i]) +
            origin.text(list[i]) + "\n";
-    const bool describe = i > 0 && list[i].why == list[i - 1].why;
-    if (!list[i].why.empty() && !describe)
+    const bool same_reason = i > 0 && list[i].why == list[i - 1].why;
+    if (!list[i].why.empty() && !same_reason)
       out += "      " + std::string(of) + printable(list[i].why) + "\n";
   }
   if (shown < list.size()) out += "  … and " + std::to_string(list.size() - shown) + " more\n";

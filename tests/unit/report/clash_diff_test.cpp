@@ -267,8 +267,23 @@ TEST(ClashDiff, OnlySettingsThatDifferAreBlamed) {
   const ClashDocument& without = document(folder, "h.json", here, m.model);
   const ClashDiff diff = compare(with, without);
   EXPECT_TRUE(diff.settings.empty());
-  EXPECT_EQ(names(diff, diff.gone), Names{"c-d"});
-  EXPECT_TRUE(diff.cannot_tell.empty());
+  EXPECT_EQ(names(diff, diff.cannot_tell), Names{"c-d"});
+  EXPECT_EQ(diff.cannot_tell[0].why, "it was farther apart than the tolerances of either run");
+  EXPECT_TRUE(diff.gone.empty());
+}
+
+TEST(ClashDiff, WeldingThatMovedAPairOutOfReach) {
+  Folder folder;
+  const ClashModel m = row();
+  clash::Findings wide = run(m, {.tolerances = {.clearance_mm = 25}});
+  wide.tests[0].options.tolerances.clearance_mm = 0;
+  wide.tests[0].weld_mm = 0.1;
+  clash::Findings narrow = run(m);
+  narrow.tests[0].weld_mm = 0.02;
+  const ClashDiff diff = compare(document(folder, "w.json", wide, m.model),
+                                 document(folder, "n.json", narrow, m.model));
+  EXPECT_EQ(names(diff, diff.cannot_tell), Names{"c-d"});
+  EXPECT_EQ(diff.cannot_tell[0].why, "settings differ: weld_mm");
 }
 
 TEST(ClashDiff, RulesThatAreNotTheSameAreTold) {

@@ -275,6 +275,24 @@ TEST(ClashJson, StreamsInPieces) {
   EXPECT_LT(largest, total / 3);
 }
 
+TEST(ClashReports, WhatASinkThrowsComesOutOnce) {
+  struct Full {};
+  ClashModel m;
+  for (int i = 0; i < 4000; ++i)
+    m.box("box number " + std::to_string(i), {i * 10.0, 0, 0}, {i * 10.0 + 10, 10, 10});
+  const clash::Findings findings{{m.detect({.engine = {.log_pairs = true}})}, {}};
+  parallel::Team team(3);
+  for (const parallel::Context& context : {parallel::Context{}, parallel::Context{.team = &team}})
+    for (const auto write : {write_clash_json, write_clash_csv, write_pair_log}) {
+      int calls = 0;
+      const auto full_at_second = [&](std::string_view) {
+        if (++calls == 2) throw Full();
+      };
+      EXPECT_THROW((void)write({findings, m.model}, full_at_second, context), Full);
+      EXPECT_EQ(calls, 2);
+    }
+}
+
 TEST(ClashReports, BytesAreThoseOfOneThread) {
   ClashModel m;
   for (int i = 0; i < 900; ++i)
