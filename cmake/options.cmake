@@ -7,8 +7,7 @@ option(STRAKE_ONLY_PARALLEL "Build strake::parallel and nothing else: needs no o
 option(BUILD_SHARED_LIBS "Make shared libraries" OFF)
 # For who works on the sources: another compiler than ours warns of more, which must not keep anyone
 # from a build.
-option(STRAKE_WARNINGS "Warn as lint demands" OFF)
-option(STRAKE_WERROR "Warnings are errors" ${STRAKE_WARNINGS})
+option(STRAKE_WARNINGS "Warnings, as errors" OFF)
 set(STRAKE_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -30,12 +29,11 @@ endif()
 add_library(strake_flags INTERFACE)
 target_compile_options(strake_flags INTERFACE
   -ffp-contract=off
-  $<$<BOOL:${STRAKE_WERROR}>:-Werror>
   # GCC 12's std::stable_sort uses what it deprecates itself; Clang blames its caller.
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>)
 if(STRAKE_WARNINGS)
   target_compile_options(strake_flags INTERFACE
-    -Wall -Wextra -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+    -Werror -Wall -Wextra -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
     -Wcast-align -Wundef
     # GCC 12 sees an overlap in "text" + std::string that cannot happen (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
