@@ -2,9 +2,10 @@
 // The one source that includes toml++, which is large: everything else sees plain values.
 #include "settings/toml_document.hpp"
 
-// Versions 3.3 and 3.4 of the library assert things about their input that they turn into an error a few lines
-// later ("[[[" for one), and their table of blanks ends where no compiler need return (any letter
-// that is not ASCII): neither may end the program or be taken for granted by the optimiser.
+// Versions 3.3 and 3.4 of the library assert things about their input that they turn into an error
+// a few lines later ("[[[" for one), and their table of blanks ends where no compiler need return
+// (any letter that is not ASCII): neither may end the program or be taken for granted by the
+// optimiser.
 #undef NDEBUG
 #define TOML_ASSERT(condition) static_assert(true)
 #define TOML_EXCEPTIONS 0
