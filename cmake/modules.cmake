@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
-# strake_module(NAME [COLD] SOURCES... DEPENDS modules... [LIBS private libraries...])
+# strake_module(NAME [COLD|HOT] SOURCES... DEPENDS modules... [LIBS private libraries...])
 # One layer of the library: library strake_NAME, alias strake::NAME; static, unless
 # BUILD_SHARED_LIBS. Position-independent when static, too: it may end up in a plug-in. What is COLD
-# reads what a person wrote, and is compiled quickly rather than to run quickly.
+# reads what a person wrote, and is compiled quickly rather than to run quickly. In what is HOT
+# functions are inlined as if each source were compiled alone.
 function(strake_module name)
-  cmake_parse_arguments(arg "COLD" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "COLD;HOT" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
   add_library(strake_${name} ${arg_SOURCES})
   add_library(strake::${name} ALIAS strake_${name})
   target_include_directories(strake_${name}
@@ -25,6 +26,9 @@ function(strake_module name)
     POSITION_INDEPENDENT_CODE ON
     INSTALL_RPATH $ORIGIN)
   strake_unite(strake_${name})
+  if(arg_HOT)
+    strake_inline_fully(strake_${name})
+  endif()
   if(arg_COLD)
     strake_compile_quickly(strake_${name})
     strake_precompile(strake_${name} cold_modules)
