@@ -60,8 +60,8 @@ function(strake_unite target)
   if(STRAKE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # A source's hidden types in its own classes are warned of in what a source includes alone.
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
-    # GCC collects garbage from 128 MB on; the largest run needs 1 GB without (decision 0060).
-    target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-heapsize=2097152")
+    # GCC collects garbage from 128 MB on, where the larger runs hold several times that anyway.
+    target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-heapsize=524288")
   endif()
 endfunction()
 
