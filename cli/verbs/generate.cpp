@@ -43,7 +43,7 @@ class SinkBuffer : public std::streambuf {
 };
 
 Status write_model(Session& session, const model::Model& model, const std::string& file) {
-  const Result<io::ModelWriter> writer = io::find_model_writer(file);
+  const Result<io::ModelWriter> writer = find_writer(io::model_writers(), file);
   if (!writer) return writer.error();
   session.will_write(file);
   const auto timer = session.step("write " + file);

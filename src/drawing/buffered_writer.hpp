@@ -45,13 +45,14 @@ class BufferedWriter {
  private:
   void flush() {
     if (text_.empty()) return;
-    // A sink that throws gets no text twice.
-    const std::string full = std::exchange(text_, {});
-    sink_(full);
+    // A sink that throws gets no text twice. Both buffers keep their memory.
+    handed_over_.clear();
+    handed_over_.swap(text_);
+    sink_(handed_over_);
   }
   static constexpr std::size_t kFull = std::size_t{1} << 16U;
   Sink sink_;
-  std::string text_;
+  std::string text_, handed_over_;
   int exceptions_ = std::uncaught_exceptions();
 };
 

@@ -29,8 +29,4 @@ constexpr std::array kWriters{
 
 std::span<const DrawingWriter> drawing_writers() { return kWriters; }
 
-Result<DrawingWriter> find_drawing_writer(const std::string& file) {
-  return find_writer(drawing_writers(), file);
-}
-
 }  // namespace strake::drawing

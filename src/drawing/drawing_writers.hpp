@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "core/output_format.hpp"
 #include "strake/core/result.hpp"
@@ -27,8 +26,5 @@ struct DrawingWriter {
 
 /// All of them, in the order of help and errors.
 [[nodiscard]] std::span<const DrawingWriter> drawing_writers();
-
-/// The one that a file's name asks for. Errors: usage, for a suffix that none has.
-[[nodiscard]] Result<DrawingWriter> find_drawing_writer(const std::string& file);
 
 }  // namespace strake::drawing

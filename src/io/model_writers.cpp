@@ -15,8 +15,4 @@ constexpr std::array kWriters{
 
 std::span<const ModelWriter> model_writers() { return kWriters; }
 
-Result<ModelWriter> find_model_writer(const std::string& file) {
-  return find_writer(model_writers(), file);
-}
-
 }  // namespace strake::io

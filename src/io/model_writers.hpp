@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "core/output_format.hpp"
 #include "strake/core/result.hpp"
@@ -20,8 +19,5 @@ struct ModelWriter {
 
 /// All of them, in the order of help and errors.
 [[nodiscard]] std::span<const ModelWriter> model_writers();
-
-/// The one that a file's name asks for. Errors: usage, for a suffix that none has.
-[[nodiscard]] Result<ModelWriter> find_model_writer(const std::string& file);
 
 }  // namespace strake::io

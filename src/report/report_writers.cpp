@@ -28,16 +28,4 @@ std::span<const ClashDiffWriter> clash_diff_writers() { return kClashDiffWriters
 
 std::span<const ViewDiffWriter> view_diff_writers() { return kViewDiffWriters; }
 
-Result<ClashWriter> find_clash_writer(const std::string& file) {
-  return find_writer(clash_writers(), file);
-}
-
-Result<ClashDiffWriter> find_clash_diff_writer(const std::string& file) {
-  return find_writer(clash_diff_writers(), file);
-}
-
-Result<ViewDiffWriter> find_view_diff_writer(const std::string& file) {
-  return find_writer(view_diff_writers(), file);
-}
-
 }  // namespace strake::report

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "core/output_format.hpp"
 #include "strake/core/result.hpp"
@@ -37,12 +36,5 @@ struct ViewDiffWriter {
 [[nodiscard]] std::span<const ClashDiffWriter> clash_diff_writers();
 /// All of them, in the order of help and errors.
 [[nodiscard]] std::span<const ViewDiffWriter> view_diff_writers();
-
-/// The one that a file's name asks for. Errors: usage, for a suffix that none has.
-[[nodiscard]] Result<ClashWriter> find_clash_writer(const std::string& file);
-/// The one that a file's name asks for. Errors: usage, for a suffix that none has.
-[[nodiscard]] Result<ClashDiffWriter> find_clash_diff_writer(const std::string& file);
-/// The one that a file's name asks for. Errors: usage, for a suffix that none has.
-[[nodiscard]] Result<ViewDiffWriter> find_view_diff_writer(const std::string& file);
 
 }  // namespace strake::report

@@ -112,7 +112,7 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
 Status write_report(Session& session, const ClashOptions& given,
                     const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
-    const Result<report::ClashWriter> writer = report::find_clash_writer(file);
+    const Result<report::ClashWriter> writer = find_writer(report::clash_writers(), file);
     if (!writer) return writer.error();
     const Status status = session.write(
         file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });

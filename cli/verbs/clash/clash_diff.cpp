@@ -67,7 +67,7 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
     return Status{};
   };
   for (const std::string& file : given.outputs) {
-    const Result<report::ClashDiffWriter> writer = report::find_clash_diff_writer(file);
+    const Result<report::ClashDiffWriter> writer = find_writer(report::clash_diff_writers(), file);
     if (!writer) return writer.error();
     const Status status = session.write(file, [&](Session::Sink sink) {
       writer->write(diff, sink);

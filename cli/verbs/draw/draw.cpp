@@ -231,7 +231,7 @@ Status write_drawing(Session& session, const DrawOptions& given,
                                     .clean_up = given.hidden != "all"};
   std::vector<drawing::DrawingWriter> writers;
   for (const std::string& file : given.outputs) {
-    const Result<drawing::DrawingWriter> writer = drawing::find_drawing_writer(file);
+    const Result<drawing::DrawingWriter> writer = find_writer(drawing::drawing_writers(), file);
     if (!writer) return writer.error();
     writers.push_back(*writer);
   }

@@ -36,7 +36,7 @@ Result<std::vector<report::ViewDocument>> read(Session& session, const DrawDiffO
 
 Status write(Session& session, const DrawDiffOptions& given, const report::ViewDiff& diff) {
   for (const std::string& file : given.outputs) {
-    const Result<report::ViewDiffWriter> writer = report::find_view_diff_writer(file);
+    const Result<report::ViewDiffWriter> writer = find_writer(report::view_diff_writers(), file);
     if (!writer) return writer.error();
     const Status status = session.write(file, [&](Session::Sink sink) {
       writer->write(diff, sink);

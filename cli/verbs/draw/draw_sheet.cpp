@@ -84,7 +84,7 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
   if (!sheet) return sheet.error();
   print_sheet_summary(session, *sheet, *loaded->model);
   for (const std::string& output : request.outputs) {
-    const Result<sheets::SheetWriter> writer = sheets::find_sheet_writer(output);
+    const Result<sheets::SheetWriter> writer = find_writer(sheets::sheet_writers(), output);
     if (!writer) return writer.error();
     const Status written = session.write(
         output, [&](Session::Sink sink) { return writer->write(*sheet, *loaded->model, sink); });

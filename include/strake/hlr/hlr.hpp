@@ -239,7 +239,8 @@ struct Drawing {
 /// Returns the lines of the scene in one view, each piece with its state. `drawn` selects the
 /// objects, one entry each (empty: all); the others are neither drawn nor hide anything. Bodies
 /// whose colour is transparent can be hidden by others, but hide nothing. Errors: usage for a
-/// selection of the wrong size, input for a view that cannot be drawn; cancelled.
+/// selection of the wrong size and a view that makes no sense, input for one that reaches too far;
+/// cancelled.
 [[nodiscard]] Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn,
                                    const View& view, const Options& options,
                                    const parallel::Context& context);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geometry/numeric/trig.hpp"
+#include "hlr/prepare/drawn_objects.hpp"
 #include "hlr/sections/section_planes.hpp"
 #include "hlr/view/view_frustum.hpp"
 #include "strake/parallel/reduce.hpp"
@@ -95,9 +96,7 @@ class PaperExtent {
 Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bool>& drawn,
                                  const hlr::View& view, const Vec3l& origin,
                                  const parallel::Context& context) {
-  if (!drawn.empty() && drawn.size() != scene.model->objects.size())
-    return Error{ErrorCode::usage, "the selection and the model differ in size", "view",
-                 "give one entry per object of the scene"};
+  if (const Status status = hlr::check_drawn(scene, drawn); !status) return status.error();
   const auto axes = paper_axes(view);
   const auto sections = hlr::section_planes(view.sections);
   // hlr::draw reports what is wrong with the view.

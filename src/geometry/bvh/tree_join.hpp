@@ -16,7 +16,7 @@ namespace strake::geometry {
 /// Finds the pairs of items of two scene trees, or those within one, by dual-tree traversal.
 ///
 /// Rule decides what is near: `nodes_meet(node of x, node of y)` may say yes too often,
-/// `items_meet(i, j)` is asked for positions in the trees' items(), and `numbers(i, j)` names the
+/// `items_meet(i, j)` takes positions in the trees' items(), and `numbers(i, j)` names the
 /// two items. All must outlive the join.
 template <class Rule>
 class TreeJoin {

@@ -263,7 +263,8 @@ Status check(const ViewJob& job, double usual_mm, double side_mm) {
                    "45 is the usual angle");
   }
   if (!job.options.hatches.empty() && job.options.hatches.size() != job.drawn.size())
-    return Error{ErrorCode::internal, "the hatches and the model differ in size", "hatch", ""};
+    return Error{ErrorCode::usage, "the hatches and the model differ in size", "hatch",
+                 "give one entry per object of the scene"};
   return {};
 }
 

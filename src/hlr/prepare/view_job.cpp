@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "hlr/prepare/drawn_objects.hpp"
 #include "hlr/prepare/hatch.hpp"
 #include "hlr/prepare/view_diagnostics.hpp"
 #include "hlr/sections/section_planes.hpp"
@@ -225,12 +226,7 @@ Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>&
   if (const Status status = check(view, options); !status) return status.error();
   const auto planes = section_planes(view.sections);
   if (!planes) return planes.error();
-  if (scene.model == nullptr)
-    return Error{ErrorCode::internal, "the scene has no model", "view", ""};
-  const std::size_t objects = scene.model->objects.size();
-  if (!drawn.empty() && drawn.size() != objects)
-    return Error{ErrorCode::usage, "the selection and the model differ in size", "view",
-                 "give one entry per object of the scene"};
+  if (const Status status = check_drawn(scene, drawn); !status) return status.error();
 
   ViewJob job;
   job.view = view;
@@ -239,7 +235,7 @@ Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>&
   if (view.perspective) job.viewer.eye = Vec3l{};
   job.cos_sharp = cosine_of_degrees(options.sharp_angle_deg);
   job.window = window(view);
-  job.drawn = drawn.empty() ? std::vector<bool>(objects, true) : drawn;
+  job.drawn = drawn.empty() ? std::vector<bool>(scene.model->objects.size(), true) : drawn;
   // Contours for a direction are no contours for an eye.
   const auto towards = view.perspective ? std::nullopt : std::optional(job.direction());
   const ViewVolume shown(view, *planes);

@@ -17,8 +17,4 @@ constexpr std::array kWriters{SheetWriter{{".svg"}, "SVG", as_svg}};
 
 std::span<const SheetWriter> sheet_writers() { return kWriters; }
 
-Result<SheetWriter> find_sheet_writer(const std::string& file) {
-  return find_writer(sheet_writers(), file);
-}
-
 }  // namespace strake::sheets

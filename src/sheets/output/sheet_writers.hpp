@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "core/output_format.hpp"
@@ -21,8 +20,5 @@ struct SheetWriter {
 
 /// All of them, in the order of errors.
 [[nodiscard]] std::span<const SheetWriter> sheet_writers();
-
-/// The one that a file's name asks for. Errors: usage, for a suffix that none has.
-[[nodiscard]] Result<SheetWriter> find_sheet_writer(const std::string& file);
 
 }  // namespace strake::sheets
