@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <ostream>
 #include <streambuf>
@@ -17,7 +18,7 @@ namespace strake::cli {
 namespace {
 
 struct GenerateOptions {
-  std::string objects, seed, imported_detail, imported_triangles, output, truth;
+  std::string objects, seed, kind, imported_detail, imported_triangles, output, truth;
   bool turned = false;
 };
 
@@ -55,6 +56,9 @@ Status write_model(Session& session, const model::Model& model, const std::strin
 Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
   generate::ShipOptions options;
   options.turned = given.turned;
+  const auto kind = std::ranges::find(generate::kShipKinds, given.kind);
+  if (kind != generate::kShipKinds.end())
+    options.kind = static_cast<generate::ShipKind>(kind - generate::kShipKinds.begin());
   if (const Status s = whole_number(options.objects, given.objects, "--objects"); !s)
     return s.error();
   if (const Status s = whole_number(options.seed, given.seed, "--seed"); !s) return s.error();
@@ -114,6 +118,11 @@ Verb add_generate(CLI::App& program, CommonOptions& common) {
       ->type_name("N");
   command->add_flag("--turned", options->turned,
                     "Turn the whole ship so that no face lies along an axis");
+  add_choice(*command, "--kind", options->kind,
+             {generate::kShipKinds.begin(), generate::kShipKinds.end()},
+             "What it is like: slender (three lanes and levels), dense (engine rooms only), "
+             "repeated (cabins only: few shapes at many places), unlike (every eighth body a mesh "
+             "like no other) (default usual)");
   CLI::Option* const imported =
       command
           ->add_option("--imported-detail", options->imported_detail,

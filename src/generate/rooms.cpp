@@ -22,6 +22,8 @@ RoomBuilder choose_contents(int level, const ShipPlan& plan, Random& random) {
   constexpr std::array<RoomBuilder, 9> kOnlyLevel{build_genset, build_cabin,        build_pumps,
                                                   build_store,  build_pipe_chest,   build_tank,
                                                   build_cabin,  build_control_room, build_genset};
+  if (plan.kind == ShipKind::dense) return kEngineRoom[random.below(kEngineRoom.size())];
+  if (plan.kind == ShipKind::repeated) return build_cabin;
   if (plan.levels == 1) return kOnlyLevel[random.below(kOnlyLevel.size())];
   if (level == 0) return kEngineRoom[random.below(kEngineRoom.size())];
   if (level + 1 == plan.levels && plan.levels > 1) return kUpper[random.below(kUpper.size())];

@@ -23,9 +23,9 @@ namespace {
 using geometry::Placement;
 using geometry::Vec3d;
 
-/// Returns a general rotation with rational entries (quaternion 9, 2, -3, 5 over 119).
-constexpr geometry::Mat3d general_rotation() {
-  const double w = 9, x = 2, y = -3, z = 5, n = w * w + x * x + y * y + z * z;
+/// Returns the rotation of a quaternion of any length, whose entries are rational.
+constexpr geometry::Mat3d rotation(double w, double x, double y, double z) {
+  const double n = w * w + x * x + y * y + z * z;
   return {
       {Vec3d{(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n},
        Vec3d{2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n},
@@ -38,15 +38,18 @@ constexpr geometry::Mat3d general_rotation() {
 /// wins.
 std::vector<ShipPlan> candidate_plans(const ShipOptions& options) {
   constexpr std::uint64_t kSmall = 6000;
+  constexpr int kSlender = 3;
   const double rooms = static_cast<double>(options.objects) / 75;
   int size = 1;
   while ((size + 1.0) * (size + 1.0) * (size + 1.0) * 3 <= rooms) ++size;
+  if (options.kind == ShipKind::slender) size = std::min(size, kSlender);
   const int more = options.objects < kSmall ? 1 : 0;
   std::vector<ShipPlan> plans;
   for (int levels = size; levels <= size + more; ++levels)
     for (int lanes = std::max(2, size); lanes <= std::max(2, size) + more; ++lanes) {
       ShipPlan plan;
       plan.seed = options.seed;
+      plan.kind = options.kind;
       plan.imported = options.imported_detail;
       plan.imported_triangles = options.imported_triangles;
       plan.lanes = lanes;
@@ -190,7 +193,8 @@ Placement placement_of(const AxisFrame& frame, bool turned) {
   placement.translation = {static_cast<double>(frame.t.x) / 1000,
                            static_cast<double>(frame.t.y) / 1000,
                            static_cast<double>(frame.t.z) / 1000};
-  return turned ? Placement{general_rotation(), {}} * placement : placement;
+  // A general one: quaternion 9, 2, -3, 5 over 119.
+  return turned ? Placement{rotation(9, 2, -3, 5), {}} * placement : placement;
 }
 
 model::Model assemble(ShipBuilder& builder, const std::vector<Handle>& order,
@@ -257,6 +261,39 @@ void drop_unused_shapes(model::Model& model) {
   model.shapes = std::move(used);
 }
 
+/// Rotates a mesh and rounds it to whole micrometres again.
+geometry::TriangleMesh rotated(const geometry::TriangleMesh& mesh, const geometry::Mat3d& by) {
+  constexpr double kMicrometres = 1000;
+  geometry::TriangleMesh result = mesh;
+  for (Vec3d& vertex : result.vertices) {
+    const Vec3d um = by * vertex * kMicrometres;
+    vertex = {std::round(um.x) / kMicrometres, std::round(um.y) / kMicrometres,
+              std::round(um.z) / kMicrometres};
+  }
+  return result;
+}
+
+/// Gives every eighth body a mesh of its own: its shape is rotated, which the rounding makes unlike
+/// any other, and its placement rotates it back. The truth holds, since nothing moves by more than
+/// a micrometre.
+void make_unlike(model::Model& model, std::uint64_t seed) {
+  constexpr std::size_t kEvery = 8;
+  constexpr int kWidest = 40;
+  for (std::size_t b = 0; b < model.bodies.size(); b += kEvery) {
+    model::Body& body = model.bodies[b];
+    const auto* const mesh =
+        std::get_if<geometry::TriangleMesh>(&model.shapes[model::index(body.shape)]);
+    if (mesh == nullptr) continue;
+    Random random = Random(seed).at(61).at(b);
+    const auto part = [&] { return static_cast<double>(random.between(-kWidest, kWidest)); };
+    const double x = part(), y = part(), z = part();
+    const geometry::Mat3d turn = rotation(kWidest, x, y, z);
+    model.shapes.emplace_back(rotated(*mesh, turn));
+    body.shape = model::ShapeId{static_cast<std::uint32_t>(model.shapes.size() - 1)};
+    body.placement.linear = body.placement.linear * rotation(kWidest, -x, -y, -z);
+  }
+}
+
 Status check(const ShipOptions& options) {
   if (options.objects < ShipOptions::kMinObjects || options.objects > ShipOptions::kMaxObjects)
     return Error{ErrorCode::usage,
@@ -294,6 +331,7 @@ Result<Ship> generate_ship(const ShipOptions& options, const parallel::Context& 
   ship.options = options;
   ship.model = assemble(*builder, order, options);
   ship.truth = assemble_truth(*builder, order);
+  if (options.kind == ShipKind::unlike) make_unlike(ship.model, options.seed);
   drop_unused_shapes(ship.model);
   return ship;
 }
@@ -313,10 +351,15 @@ std::string_view class_text(clash::Class cls) {
   }
 }
 
-std::string imported_text(const ShipOptions& options) {
-  if (options.imported_detail == 0) return {};
-  return fmt::format(", \"imported_detail\": {}, \"imported_triangles\": {}",
-                     options.imported_detail, options.imported_triangles);
+/// Returns the settings that are not the usual ones.
+std::string unusual_settings(const ShipOptions& options) {
+  std::string text;
+  if (options.kind != ShipKind::usual)
+    text = fmt::format(", \"ship\": \"{}\"", kShipKinds[static_cast<std::size_t>(options.kind)]);
+  if (options.imported_detail > 0)
+    text += fmt::format(", \"imported_detail\": {}, \"imported_triangles\": {}",
+                        options.imported_detail, options.imported_triangles);
+  return text;
 }
 
 void write_head(const Ship& ship, fmt::memory_buffer& text) {
@@ -330,7 +373,8 @@ void write_head(const Ship& ship, fmt::memory_buffer& text) {
                  "\"touch_overlap_mm\": 1, \"thickness_cap\": true}},\n"
                  "  \"counts\": {{\"HIT\": {}, \"CONTACT\": {}, \"CLEARANCE_VIOLATION\": {}}},\n",
                  ship.options.objects, ship.options.seed, ship.options.turned,
-                 imported_text(ship.options), Truth::kClearanceMm, counts[3], counts[2], counts[1]);
+                 unusual_settings(ship.options), Truth::kClearanceMm, counts[3], counts[2],
+                 counts[1]);
 }
 
 }  // namespace

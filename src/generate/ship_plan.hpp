@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "generate/ship_builder.hpp"
+#include "strake/generate/ship.hpp"
 
 /// The plan of a generated ship, and the functions that build each part of it.
 namespace strake::generate {
@@ -69,6 +70,7 @@ inline constexpr int kLongitudinals = 5;
 struct ShipPlan {
   int bays = 1, lanes = 2, levels = 1;
   std::uint64_t seed = 1;
+  ShipKind kind = ShipKind::usual;
   std::uint64_t imported = 0, imported_triangles = 0;  ///< see ShipOptions
 
   /// Returns how many bays deck k (0: inner bottom, levels: weather deck) covers, from bay 0; rooms

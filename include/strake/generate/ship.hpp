@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <iosfwd>
 #include <string>
@@ -13,6 +14,17 @@
 #include "strake/parallel/context.hpp"
 
 namespace strake::generate {
+
+/// What a generated ship is like. Each is a load of another kind for clash detection and drawings.
+enum class ShipKind : std::uint8_t {
+  usual,
+  slender,   ///< three lanes and three levels only, whatever its length
+  dense,     ///< engine rooms on every level
+  repeated,  ///< cabins on every level: few shapes, each at many places
+  unlike,    ///< every eighth body with a mesh like no other, as programs without instances write
+};
+inline constexpr std::array<std::string_view, 5> kShipKinds{"usual", "slender", "dense", "repeated",
+                                                            "unlike"};
 
 struct ShipOptions {
   static constexpr std::uint64_t kMinObjects = 100;
@@ -29,6 +41,7 @@ struct ShipOptions {
   static constexpr std::uint64_t kMinTriangles = 1000;
   static constexpr std::uint64_t kMaxTriangles = 20'000'000;
   std::uint64_t imported_triangles = 1'000'000;  ///< about this many triangles each
+  ShipKind kind = ShipKind::usual;
 };
 
 /// A pair of objects that is not NO_HIT; a < b in the model's order.

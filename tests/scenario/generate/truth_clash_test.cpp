@@ -33,6 +33,7 @@ struct Case {
   bool turned;
   bool through_file = false;   ///< written as GLB and read again
   std::uint64_t imported = 0;  ///< objects that are one heavy mesh
+  ShipKind kind = ShipKind::usual;
 };
 
 class TruthAgainstEngine : public testing::TestWithParam<Case> {
@@ -42,6 +43,7 @@ class TruthAgainstEngine : public testing::TestWithParam<Case> {
     ShipOptions options{c.objects, c.seed, c.turned};
     options.imported_detail = c.imported;
     options.imported_triangles = 20'000;
+    options.kind = c.kind;
     Result<Ship> made = generate_ship(options, {});
     ASSERT_TRUE(made.has_value()) << made.error().text();
     ship_ = std::move(made.value());
@@ -128,9 +130,17 @@ INSTANTIATE_TEST_SUITE_P(ships, TruthAgainstEngine,
                                          Case{1000, 2, false}, Case{1000, 3, false, true},
                                          Case{1000, 3, true, true}, Case{1000, 4, false, true, 3},
                                          Case{1000, 4, true, true, 3}, Case{20000, 1, false, true},
-                                         Case{20000, 1, true, true}),
+                                         Case{20000, 1, true, true},
+                                         Case{3000, 1, false, false, 0, ShipKind::slender},
+                                         Case{3000, 1, false, true, 0, ShipKind::dense},
+                                         Case{3000, 1, true, false, 0, ShipKind::dense},
+                                         Case{3000, 1, false, false, 0, ShipKind::repeated},
+                                         Case{3000, 1, false, true, 0, ShipKind::unlike},
+                                         Case{3000, 1, true, false, 0, ShipKind::unlike}),
                          [](const auto& test_case) {
-                           return "of_" + std::to_string(test_case.param.objects) + "_seed_" +
+                           const auto kind = static_cast<std::size_t>(test_case.param.kind);
+                           return std::string(kShipKinds[kind]) + "_of_" +
+                                  std::to_string(test_case.param.objects) + "_seed_" +
                                   std::to_string(test_case.param.seed) +
                                   (test_case.param.turned ? "_turned" : "") +
                                   (test_case.param.imported > 0 ? "_with_imported" : "") +
