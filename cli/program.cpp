@@ -28,12 +28,13 @@ Examples:
   strake draw ship.glb --view iso --hidden dashed -o ship.svg
   strake draw diff monday.json tuesday.json -o changes.svg
   strake generate ship --objects 20000 --seed 1 -o ship.glb --truth ship.truth.json
+  strake evaluate --scale 0.02
 
 'strake VERB --help' tells the options of a verb.
 
-Exit codes: 0 done, 1 clashes found (--fail-on), 2 wrong command line, 3 a file cannot be read or
-written, 4 something was skipped or a set is empty (--strict), 5 a fault of the program, 6 out of
-memory, 130 cancelled.)";
+Exit codes: 0 done, 1 clashes found (--fail-on) or a fault found (evaluate), 2 wrong command line,
+3 a file cannot be read or written, 4 something was skipped or a set is empty (--strict), 5 a fault
+of the program, 6 out of memory, 130 cancelled.)";
 
 /// Prints why the program ends, and returns the exit code.
 int ended_by(const Error& error, Console& console) {
@@ -114,6 +115,7 @@ int run(int argc, char** argv) {
                                 draw,
                                 add_info(program, common),
                                 add_generate(program, common),
+                                add_evaluate(program, common),
                                 add_man(program),
                                 add_completion(program)};
   try {

@@ -78,6 +78,8 @@ TOKENS = re.compile(r'(?P<kept>#\s*include\s*(<[^>\n]*>|"[^"\n]*")|\b\d[\w.\']*)
                     r'|//[^\n]*|/\*(?s:.*?)\*/')
 # What has threads, locks, atomics or signals of its own, though it is not of the patterns, and why.
 OWN_CONCURRENCY = {
+    'cli/evaluate/time_limit.cpp': 'a run that may take too long is stopped from outside',
+    'cli/evaluate/time_limit.hpp': 'a run that may take too long is stopped from outside',
     'cli/output/console.cpp': 'lines of several threads on one terminal, one of them the progress of a run',
     'cli/output/console.hpp': 'lines of several threads on one terminal, one of them the progress of a run',
     'cli/run/interrupts.cpp': 'waits for signals',

@@ -8,12 +8,12 @@ namespace strake::cli {
 /// What the program returns to the shell; scripts rely on the numbers.
 enum class ExitCode : int {
   done = 0,
-  clashes = 1,   ///< clashes as severe as --fail-on says
-  usage = 2,     ///< the command line makes no sense
-  input = 3,     ///< a file cannot be read or written
-  partial = 4,   ///< under --strict: done, but something was skipped
-  internal = 5,  ///< a fault of the program itself
-  memory = 6,    ///< out of memory
+  check_failed = 1,  ///< clashes as severe as --fail-on says, or an evaluation that found a fault
+  usage = 2,         ///< the command line makes no sense
+  input = 3,         ///< a file cannot be read or written
+  partial = 4,       ///< under --strict: done, but something was skipped
+  internal = 5,      ///< a fault of the program itself
+  memory = 6,        ///< out of memory
   cancelled = 130,
 };
 

@@ -81,7 +81,7 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
           : session.write_stdout(report::clash_diff_table(diff, {.width = terminal_width()}));
   if (!written) return written.error();
   print_maybe_new(session, diff, given.fail_on);
-  return fails(diff, given.fail_on) ? ExitCode::clashes : ExitCode::done;
+  return fails(diff, given.fail_on) ? ExitCode::check_failed : ExitCode::done;
 }
 
 }  // namespace

@@ -231,7 +231,7 @@ ExitCode clash_exit_code(const clash::Findings& findings, const std::string& fai
       console.warn(fmt::format("--fail-on {}: not everything was compared: {}", fail_on, rest));
     if (!tests.empty())
       console.warn(fmt::format("--fail-on {}: nothing was compared: {}", fail_on, first_of(tests)));
-    if (fails || !tests.empty() || !rest.empty()) return ExitCode::clashes;
+    if (fails || !tests.empty() || !rest.empty()) return ExitCode::check_failed;
   }
   if (input.strict) {
     if (!tests.empty())

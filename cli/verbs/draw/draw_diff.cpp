@@ -69,7 +69,7 @@ Result<ExitCode> run_diff(Session& session, const DrawDiffOptions& given) {
   }();
   if (!diff) return diff.error();
   if (const Status status = write(session, given, *diff); !status) return status.error();
-  return fails(*diff, given.fail_on) ? ExitCode::clashes : ExitCode::done;
+  return fails(*diff, given.fail_on) ? ExitCode::check_failed : ExitCode::done;
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/evaluate/record.hpp"
+#include "strake/core/result.hpp"
+
+namespace strake::cli {
+
+/// What became of the cases of an earlier evaluation, a line each.
+struct Comparison {
+  std::vector<std::string> more_work;  ///< counters that grew by more than 1 %
+  std::vector<std::string> less_work;
+  /// Times, as ratios to the reference kernel of their own run, that grew by more than 15 % and
+  /// what the two machines can tell.
+  std::vector<std::string> slower;
+  std::vector<std::string> missing;  ///< cases of the earlier one that this one does not have
+  std::size_t compared = 0;          ///< counters
+};
+
+/// Compares the sequential runs. Errors: usage where the two have not the same scale, and so not
+/// the same input.
+[[nodiscard]] Result<Comparison> compare_evaluations(const EvaluationRecord& before,
+                                                     const EvaluationRecord& now);
+
+}  // namespace strake::cli

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/evaluate/evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "cli/evaluate/cases.hpp"
+#include "cli/evaluate/contender.hpp"
+#include "cli/evaluate/measure.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+/// A generated ship on the grid.
+struct PlacedShip {
+  generate::Ship ship;
+  model::Scene scene;
+  geometry::Box3l box = geometry::empty_box<std::int64_t>();
+  std::uint64_t triangles = 0;
+};
+
+Result<std::unique_ptr<PlacedShip>> place(const generate::ShipOptions& options,
+                                          const model::SceneOptions& scene,
+                                          const std::stop_token& stop) {
+  parallel::Team team(parallel::default_workers());
+  const parallel::Context context{.team = &team, .stop = stop};
+  auto placed = std::make_unique<PlacedShip>();
+  Result<generate::Ship> ship = generate::generate_ship(options, context);
+  if (!ship) return ship.error();
+  placed->ship = std::move(*ship);
+  Result<model::Scene> made = model::make_scene(placed->ship.model, scene, context);
+  if (!made) return made.error();
+  placed->scene = std::move(*made);
+  for (const model::GridBody& body : placed->scene.bodies) {
+    const model::GridShape& shape = placed->scene.shapes[body.grid_shape];
+    placed->box.include(body.box(shape));
+    for (const geometry::Part& part : shape.parts) placed->triangles += part.triangles.size();
+  }
+  return placed;
+}
+
+CaseRecord case_of(std::string_view name, std::string_view title, const PlacedShip& ship) {
+  CaseRecord one;
+  one.name = name;
+  one.title = title;
+  one.objects = ship.ship.model.objects.size();
+  one.bodies = ship.scene.bodies.size();
+  one.triangles = ship.triangles;
+  return one;
+}
+
+/// Runs the cases that are asked for.
+class Evaluation {
+ public:
+  Evaluation(const std::vector<std::string>& names, EvaluationRecord& record,
+             const std::stop_token& stop, const EvaluationHooks& hooks)
+      : record_(record), stop_(stop), hooks_(hooks), wanted_(names.begin(), names.end()) {
+    for (const CaseRecord& one : record.cases) wanted_.erase(one.name);
+    for (const ViewCase& view : view_cases())
+      if (wanted_.contains(std::string(view.name))) to_do_ += weight_of(view);
+    for (const ShipCase& ship : ship_cases())
+      if (wanted_.contains(std::string(ship.name))) to_do_ += kShipWeight;
+  }
+
+  Status run() {
+    for (const ViewedShip ship : {ViewedShip::whole, ViewedShip::crowd})
+      if (const Status status = views_of(ship); !status) return status;
+    for (const ShipCase& ship : ship_cases())
+      if (wanted_.contains(std::string(ship.name)))
+        if (const Status status = clash(ship); !status) return status;
+    return {};
+  }
+
+ private:
+  // How much of the time a case takes, for the time to go; of a view of the whole ship: 1.
+  static constexpr double kShipWeight = 6, kPartWeight = 0.4;
+  static double weight_of(const ViewCase& view) { return view.limits ? kPartWeight : 1; }
+
+  Status views_of(ViewedShip which) {
+    const auto is_wanted = [&](const ViewCase& view) {
+      return view.ship == which && wanted_.contains(std::string(view.name));
+    };
+    if (std::ranges::none_of(view_cases(), is_wanted)) return {};
+    narrate("generating a ship");
+    const auto ship = place(viewed_ship(which, record_.settings.scale), {}, stop_);
+    if (!ship) return ship.error();
+    for (const ViewCase& view : view_cases())
+      if (is_wanted(view))
+        if (const Status status = draw(view, **ship); !status) return status;
+    return {};
+  }
+
+  Status draw(const ViewCase& view, const PlacedShip& ship) {
+    CaseRecord one = case_of(view.name, view.title, ship);
+    const hlr::View seen = view_of(view, ship.box);
+    for (const auto& [stage, name] :
+         {std::pair(hlr::Stage::local, "local"), std::pair(hlr::Stage::global, "global")}) {
+      Result<StageRecord> measured = measure(
+          view.name, name, drawing_contenders(ship.scene, seen, stage, record_.settings.threads));
+      if (!measured) return measured.error();
+      one.stages.push_back(std::move(*measured));
+    }
+    return finish(std::move(one), weight_of(view));
+  }
+
+  Status clash(const ShipCase& kind) {
+    const clash::Options options{.tolerances = {.clearance_mm = generate::Truth::kClearanceMm}};
+    narrate("generating a ship");
+    const auto ship =
+        place(clashing_ship(kind, record_.settings.scale), clash::scene_options(options), stop_);
+    if (!ship) return ship.error();
+    CaseRecord one = case_of(kind.name, kind.title, **ship);
+    Result<StageRecord> measured = measure(
+        kind.name, "clash", clash_contenders((*ship)->scene, options, record_.settings.threads));
+    if (!measured) return measured.error();
+    one.stages.push_back(std::move(*measured));
+    return finish(std::move(one), kShipWeight);
+  }
+
+  Result<StageRecord> measure(std::string_view name, std::string_view stage,
+                              const std::vector<Contender>& contenders) {
+    return measure_stage(
+        std::string(stage), contenders, record_.settings, stop_,
+        [&](const std::string& what) { narrate(fmt::format("{}, {}: {}", name, stage, what)); });
+  }
+
+  /// Adds a case to the record in its place, and saves.
+  Status finish(CaseRecord one, double weight) {
+    done_ += weight;
+    const std::vector<std::string> order = case_names();
+    const auto rank = [&](const CaseRecord& x) { return std::ranges::find(order, x.name); };
+    const auto place = std::ranges::find_if(
+        record_.cases, [&](const CaseRecord& other) { return rank(one) < rank(other); });
+    return hooks_.save(*record_.cases.insert(place, std::move(one)), record_);
+  }
+
+  void narrate(const std::string& what) const {
+    if (done_ == 0) return hooks_.narrate(what);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
+    hooks_.narrate(
+        fmt::format("{}; about {:.0f} s to go", what, taken.count() * (to_do_ - done_) / done_));
+  }
+
+  EvaluationRecord& record_;
+  std::stop_token stop_;
+  const EvaluationHooks& hooks_;
+  std::set<std::string> wanted_;
+  double to_do_ = 0, done_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  for (const ViewCase& view : view_cases()) names.emplace_back(view.name);
+  for (const ShipCase& ship : ship_cases()) names.emplace_back(ship.name);
+  return names;
+}
+
+Status evaluate(const std::vector<std::string>& names, EvaluationRecord& record,
+                const std::stop_token& stop, const EvaluationHooks& hooks) {
+  return Evaluation(names, record, stop, hooks).run();
+}
+
+}  // namespace strake::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "cli/evaluate/record.hpp"
+
+namespace strake::cli {
+
+/// Returns what can be told of the machine and the program; what cannot stays empty.
+[[nodiscard]] Machine this_machine();
+
+/// Forgets the peak memory of the process so far; false where the system does not allow it.
+bool reset_peak_memory();
+/// Returns the most memory that the process held since; 0: unknown.
+[[nodiscard]] std::uint64_t peak_memory_since_reset();
+
+/// Does a fixed amount of work on one core, for ratios that another machine understands: sorts
+/// pseudo-random numbers. Returns the seconds that it took.
+[[nodiscard]] double reference_seconds();
+
+}  // namespace strake::cli

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/evaluate/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "cli/evaluate/machine.hpp"
+#include "cli/evaluate/statistics.hpp"
+#include "cli/evaluate/time_limit.hpp"
+#include "strake/parallel/context.hpp"
+#include "strake/parallel/report.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+constexpr double kLeastShownRegion_s = 0.001;
+
+/// Notes of the regions of a run what is worth keeping.
+void keep_regions(const parallel::RunReport& report, ContenderRecord& record) {
+  record.regions.clear();
+  record.shared_wall_s = 0;
+  for (parallel::RegionReport& region : report.regions()) {
+    if (region.runs > 0) record.shared_wall_s += region.wall_s;
+    if (region.wall_s + region.nested_cpu_s >= kLeastShownRegion_s)
+      record.regions.push_back(std::move(region));
+  }
+}
+
+/// Measures one stage.
+class StageMeter {
+ public:
+  StageMeter(const std::vector<Contender>& contenders, const EvaluationSettings& settings,
+             const std::stop_token& stop)
+      : contenders_(contenders), settings_(settings), stop_(stop) {
+    for (const Contender& contender : contenders) {
+      ContenderRecord record;
+      record.name = contender.name;
+      record.threads = contender.threads;
+      stage_.contenders.push_back(std::move(record));
+    }
+  }
+
+  Status round(bool first, const std::function<void(const std::string&)>& narrate) {
+    references_.push_back(reference_seconds());
+    for (std::size_t i = 0; i < contenders_.size(); ++i) {
+      if (contenders_[i].limited && !first) continue;
+      narrate(fmt::format("{}, {} {}", contenders_[i].name, contenders_[i].threads,
+                          contenders_[i].threads == 1 ? "thread" : "threads"));
+      if (const Status status = run(i, first); !status) return status;
+    }
+    return {};
+  }
+
+  /// Returns how far the two runs of the same are apart, as part of their time.
+  [[nodiscard]] double noise() const { return noise_of(stage_); }
+
+  StageRecord take(std::string name) {
+    stage_.name = std::move(name);
+    stage_.reference_s = median(references_);
+    return std::move(stage_);
+  }
+
+ private:
+  Status run(std::size_t i, bool publish) {
+    const Contender& contender = contenders_[i];
+    ContenderRecord& record = stage_.contenders[i];
+    std::optional<TimeLimit> limit;
+    if (contender.limited) limit.emplace(stop_, settings_.limit_s);
+    std::optional<parallel::Team> team;
+    if (contender.threads > 1) team.emplace(contender.threads);
+    parallel::RunReport report;
+    const parallel::Context context{.team = team ? &*team : nullptr,
+                                    .stop = limit ? limit->token() : stop_,
+                                    .progress = nullptr,
+                                    .report = &report};
+    const bool has_peak = reset_peak_memory();
+    const double cpu = parallel::process_cpu_s();
+    const auto start = std::chrono::steady_clock::now();
+    const Result<Computed> computed = contender.compute(context);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    if (!computed) return without_result(contender, record, computed.error());
+    record.seconds.push_back(took.count());
+    record.cpu_s = parallel::process_cpu_s() - cpu;
+    if (has_peak) record.peak_bytes = std::max(record.peak_bytes, peak_memory_since_reset());
+    keep_regions(report, record);
+    record.counters = computed->counters;
+    parallel::Context publishing = context;
+    publishing.report = nullptr;
+    publishing.stop = stop_;
+    return compare(contender, record, *computed, publish ? &publishing : nullptr);
+  }
+
+  /// Takes it that a contender with a limit has no result.
+  Status without_result(const Contender& contender, ContenderRecord& record, const Error& error) {
+    if (!contender.limited || stop_.stop_requested()) return error;
+    record.unfinished = error.code == ErrorCode::cancelled
+                            ? fmt::format("stopped after {:g} s", settings_.limit_s)
+                            : error.message;
+    return {};
+  }
+
+  Status compare(const Contender& contender, ContenderRecord& record, const Computed& computed,
+                 const parallel::Context* publishing) {
+    const ContenderRecord& first = stage_.contenders.front();
+    record.hash = computed.hash();
+    if (publishing != nullptr && contender.must_equal == MustEqual::bytes) {
+      const Result<std::string> published = computed.published_hash(*publishing);
+      if (!published) return published.error();
+      record.published_hash = *published;
+    }
+    if (contender.must_equal != MustEqual::bytes) return {};
+    const auto differs = [&](const char* what) {
+      stage_.differences.push_back(fmt::format("{} of '{}' on {} threads is not that of the {} run",
+                                               what, contender.name, contender.threads,
+                                               first.name));
+    };
+    if (record.hash != first.hash) differs("the result");
+    if (record.published_hash != first.published_hash) differs("the published document");
+    return {};
+  }
+
+  const std::vector<Contender>& contenders_;
+  const EvaluationSettings& settings_;
+  std::stop_token stop_;
+  StageRecord stage_;
+  std::vector<double> references_;
+};
+
+}  // namespace
+
+Result<StageRecord> measure_stage(std::string name, const std::vector<Contender>& contenders,
+                                  const EvaluationSettings& settings, const std::stop_token& stop,
+                                  const std::function<void(const std::string&)>& narrate) {
+  constexpr double kQuiet = 0.02;
+  constexpr std::uint64_t kMostRounds = 3;
+  StageMeter meter(contenders, settings, stop);
+  for (std::uint64_t round = 0; round < kMostRounds * settings.repeat; ++round) {
+    if (round >= settings.repeat && meter.noise() <= kQuiet) break;
+    if (const Status status = meter.round(round == 0, narrate); !status) return status.error();
+  }
+  return meter.take(std::move(name));
+}
+
+}  // namespace strake::cli

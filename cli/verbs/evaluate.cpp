@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "cli/evaluate/compare.hpp"
+#include "cli/evaluate/evaluation.hpp"
+#include "cli/evaluate/machine.hpp"
+#include "cli/evaluate/pages/bar_chart.hpp"
+#include "cli/evaluate/pages/pages.hpp"
+#include "cli/evaluate/pages/tables.hpp"
+#include "cli/evaluate/record_json.hpp"
+#include "cli/evaluate/statistics.hpp"
+#include "cli/verbs/verb.hpp"
+#include "core/number.hpp"
+#include "strake/core/atomic_file.hpp"
+#include "strake/parallel/team.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct EvaluateOptions {
+  std::string folder, scale, threads, repeat, limit, only, compare;
+  bool fresh = false;
+};
+
+/// Returns what stands between the commas of a list.
+std::vector<std::string> parts_of(const std::string& list) {
+  std::vector<std::string> parts(1);
+  for (const char c : list) {
+    if (c == ',')
+      parts.emplace_back();
+    else if (c != ' ')
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// Reads a positive number; overwrites `value` where it was given.
+Status positive_number(double& value, const std::string& text, const std::string& option,
+                       double most) {
+  if (text.empty()) return {};
+  const std::optional<double> number = parse_number(text);
+  if (!number || !(*number > 0) || !(*number <= most))
+    return Error{ErrorCode::usage, "'" + text + "' cannot be taken", option,
+                 fmt::format("write a number above 0, {:g} at most", most)};
+  value = *number;
+  return {};
+}
+
+/// Returns the numbers of workers, ascending, one among them: by default 1, 2, 4 and so on, up to
+/// the cores.
+Result<std::vector<unsigned>> team_sizes(const std::string& text) {
+  std::vector<unsigned> sizes{1};
+  if (text.empty()) {
+    const unsigned most = parallel::default_workers();
+    for (unsigned n = 2; n < most; n *= 2) sizes.push_back(n);
+    sizes.push_back(most);
+  } else {
+    for (const std::string& part : parts_of(text)) {
+      std::uint64_t size = 0;
+      if (!whole_number(size, part, "--threads") || size < 1 || size > parallel::Team::kMaxWorkers)
+        return Error{ErrorCode::usage, "'" + part + "' is no number of workers", "--threads",
+                     fmt::format("write numbers from 1 to {}: 1,2,4", parallel::Team::kMaxWorkers)};
+      sizes.push_back(static_cast<unsigned>(size));
+    }
+  }
+  std::ranges::sort(sizes);
+  sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+  return sizes;
+}
+
+Result<std::vector<std::string>> chosen_cases(const std::string& only) {
+  const std::vector<std::string> all = case_names();
+  if (only.empty()) return all;
+  std::vector<std::string> chosen;
+  for (const std::string& part : parts_of(only)) {
+    if (std::ranges::find(all, part) == all.end())
+      return Error{ErrorCode::usage, "there is no case '" + part + "'", "--only",
+                   fmt::format("there are {}", fmt::join(all, ", "))};
+    chosen.push_back(part);
+  }
+  return chosen;
+}
+
+Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
+  constexpr double kLargestScale = 4, kLongestLimit_s = 1e6;
+  EvaluationSettings settings;
+  if (const Status s = positive_number(settings.scale, given.scale, "--scale", kLargestScale); !s)
+    return s.error();
+  if (const Status s = positive_number(settings.limit_s, given.limit, "--limit", kLongestLimit_s);
+      !s)
+    return s.error();
+  if (const Status s = whole_number(settings.repeat, given.repeat, "--repeat"); !s)
+    return s.error();
+  constexpr std::uint64_t kMostRounds = 1000;
+  if (settings.repeat < 1 || settings.repeat > kMostRounds)
+    return Error{ErrorCode::usage, "'" + given.repeat + "' is no number of rounds", "--repeat",
+                 fmt::format("write a number from 1 to {}", kMostRounds)};
+  const Result<std::vector<unsigned>> threads = team_sizes(given.threads);
+  if (!threads) return threads.error();
+  settings.threads = *threads;
+  return settings;
+}
+
+bool is_of(const Machine& x, const Machine& y) {
+  return x.processor == y.processor && x.system == y.system && x.compiler == y.compiler &&
+         x.version == y.version && x.hardware_threads == y.hardware_threads;
+}
+
+/// Returns what the folder holds already of this evaluation, or an empty one.
+Result<EvaluationRecord> begun_record(const EvaluateOptions& given, const fs::path& file,
+                                      const EvaluationSettings& settings) {
+  EvaluationRecord empty;
+  empty.machine = this_machine();
+  empty.settings = settings;
+  std::error_code failure;
+  if (given.fresh || !fs::exists(file, failure)) return empty;
+  Result<EvaluationRecord> record = read_evaluation(file.string());
+  if (!record) return record.error();
+  if (record->settings != settings || !is_of(record->machine, empty.machine))
+    return Error{ErrorCode::usage,
+                 "it was made with other settings, by another program or on another machine",
+                 file.string(), "give --fresh to begin again, or another -o"};
+  return record;
+}
+
+Status write_pages(Session& session, const fs::path& folder, const EvaluationRecord& record) {
+  const auto write = [&](const std::string& name, const std::string& text) {
+    return session.write(folder / name, [&](Session::Sink sink) {
+      sink(text);
+      return Status{};
+    });
+  };
+  const std::vector<Section> sections = sections_of(record);
+  for (std::size_t s = 0; s < sections.size(); ++s)
+    for (std::size_t n = 0; n < sections[s].charts.size(); ++n) {
+      const fs::path file = folder / chart_file(s, n);
+      session.will_write(file);
+      if (const Status status = write_file(file, bar_chart_svg(sections[s].charts[n])); !status)
+        return status;
+    }
+  if (const Status status = write("evaluation.csv", evaluation_csv(record)); !status) return status;
+  if (const Status status = write("evaluation.md", evaluation_markdown(record)); !status)
+    return status;
+  return write("evaluation.html", evaluation_html(record));
+}
+
+/// Prints what became of an earlier evaluation; false where work grew.
+bool print_comparison(Console& console, const Comparison& comparison, const std::string& file) {
+  console.note(fmt::format(
+      "{} counters of work compared with {}: {} grew by more than 1 %, {} "
+      "shrank",
+      comparison.compared, file, comparison.more_work.size(), comparison.less_work.size()));
+  for (const std::string& line : comparison.less_work) console.note("less work: " + line);
+  for (const std::string& line : comparison.slower) console.note("slower: " + line);
+  for (const std::string& name : comparison.missing) console.note("not measured here: " + name);
+  for (const std::string& line : comparison.more_work) console.warn("more work: " + line);
+  return comparison.more_work.empty();
+}
+
+/// Returns "iso: local 0.62 s, 1.85 x on 2 threads, global ...".
+std::string outcome_line(const CaseRecord& one, const EvaluationSettings& settings) {
+  const unsigned threads = settings.threads.back();
+  std::vector<std::string> stages;
+  for (const StageRecord& stage : one.stages) {
+    std::string text = stage.name;
+    if (const std::optional<Speedup> speedup = speedup_of(stage, threads))
+      text += fmt::format(" {:.3f} s, {:.2f} x on {} threads", speedup->sequential_s,
+                          speedup->speedup, threads);
+    if (!stage.differences.empty()) text += ", DIFFERENT";
+    stages.push_back(std::move(text));
+  }
+  return fmt::format("{}: {}", one.name, fmt::join(stages, "; "));
+}
+
+Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
+  const Result<EvaluationSettings> settings = settings_of(given);
+  if (!settings) return settings.error();
+  const Result<std::vector<std::string>> names = chosen_cases(given.only);
+  if (!names) return names.error();
+  std::optional<EvaluationRecord> before;
+  if (!given.compare.empty()) {
+    Result<EvaluationRecord> read = read_evaluation(given.compare);
+    if (!read) return read.error();
+    before = std::move(*read);
+  }
+  const fs::path folder = given.folder.empty() ? "evaluation" : given.folder;
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure)
+    return Error{ErrorCode::output, "the folder cannot be made: " + failure.message(),
+                 folder.string(), "give -o another folder"};
+  const fs::path state = folder / "evaluation.json";
+  Result<EvaluationRecord> record = begun_record(given, state, *settings);
+  if (!record) return record.error();
+  if (!record->cases.empty())
+    session.console().note(fmt::format("{} holds {} cases, which are not measured again",
+                                       state.string(), record->cases.size()));
+  const EvaluationHooks hooks{[&](const std::string& what) { (void)session.step(what); },
+                              [&](const CaseRecord& done, const EvaluationRecord& now) {
+                                session.console().note(outcome_line(done, now.settings));
+                                session.will_write(state);
+                                return write_file(state, evaluation_json(now));
+                              }};
+  if (const Status status = evaluate(*names, *record, session.context().stop, hooks); !status)
+    return status.error();
+  if (const Status status = write_pages(session, folder, *record); !status) return status.error();
+  if (session.json())
+    if (const Status status = session.write_stdout(evaluation_json(*record)); !status)
+      return status.error();
+  bool good = true;
+  for (const std::string& line : differences_of(*record)) {
+    session.console().warn("different: " + line);
+    good = false;
+  }
+  if (before) {
+    const Result<Comparison> comparison = compare_evaluations(*before, *record);
+    if (!comparison) return comparison.error();
+    good = print_comparison(session.console(), *comparison, given.compare) && good;
+  }
+  return good ? ExitCode::done : ExitCode::check_failed;
+}
+
+}  // namespace
+
+Verb add_evaluate(CLI::App& program, CommonOptions& common) {
+  const auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* const command = program.add_subcommand(
+      "evaluate",
+      "Speed-ups, equality and work on 13 views and 4 ships, beside the thesis's figures");
+  command
+      ->add_option("-o,--output", options->folder,
+                   "The folder for the page (.html), its parts (.md, .svg), the figures (.csv) and "
+                   "all of it (.json); what it holds already is not measured again (default "
+                   "evaluation)")
+      ->type_name("FOLDER")
+      ->group("Output");
+  command
+      ->add_option("--scale", options->scale,
+                   "Size of the ships: 1 is 100,000 objects for views and more than a million for "
+                   "clashes, 0.02 takes a minute (default 1)")
+      ->type_name("NUMBER");
+  command
+      ->add_option("--only", options->only,
+                   fmt::format("The cases to measure, of {}", fmt::join(case_names(), ", ")))
+      ->type_name("NAMES");
+  command
+      ->add_option("--threads", options->threads,
+                   "Numbers of workers to measure besides 1 (default: 2, 4 and so on, up to the "
+                   "cores)")
+      ->type_name("N,N,...");
+  command
+      ->add_option("--repeat", options->repeat,
+                   "Rounds at least; up to three times as many on a noisy machine (default 3)")
+      ->type_name("N");
+  command
+      ->add_option("--limit", options->limit,
+                   "Seconds after which a run of the thesis's own way is stopped (default 60)")
+      ->type_name("SECONDS");
+  command
+      ->add_option("--compare", options->compare,
+                   "An evaluation.json from before: says what takes more work or time since; exit "
+                   "code 1 where it is work")
+      ->type_name("FILE");
+  command->add_flag("--fresh", options->fresh, "Measure again what the folder holds already");
+  command->add_flag("--quiet", common.quiet, "No narration and no progress, errors only")
+      ->group("Running");
+  command->add_flag("--json", common.json, "The evaluation on standard output as JSON")
+      ->group("Output");
+  command->footer(R"(
+Every result is compared with that of the sequential run, byte by byte; a difference is exit code 1.
+An interrupted evaluation goes on where it was. docs/evaluation.md explains the tables.
+
+Examples:
+  strake evaluate --scale 0.02
+  strake evaluate --threads 1,2,4,8,16 -o sixteen
+  strake evaluate --scale 0.02 --only iso,dense --compare before/evaluation.json)");
+  return {command, [options](Session& session) { return run_evaluate(session, *options); }};
+}
+
+}  // namespace strake::cli
