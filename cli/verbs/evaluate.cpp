@@ -97,10 +97,11 @@ Result<std::vector<std::string>> chosen_cases(const std::string& only) {
 }
 
 Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
-  constexpr double kLargestScale = 4, kLongestLimit_s = 1e6;
+  constexpr double kLargestScale = 4, kLongestLimit_s = 1e6, kLimitAtFullScale_s = 60;
   EvaluationSettings settings;
   if (const Status s = positive_number(settings.scale, given.scale, "--scale", kLargestScale); !s)
     return s.error();
+  settings.limit_s = std::max(2.0, kLimitAtFullScale_s * settings.scale);
   if (const Status s = positive_number(settings.limit_s, given.limit, "--limit", kLongestLimit_s);
       !s)
     return s.error();
@@ -268,8 +269,10 @@ Verb add_evaluate(CLI::App& program, CommonOptions& common) {
                    "Rounds at least; up to three times as many on a noisy machine (default 3)")
       ->type_name("N");
   command
-      ->add_option("--limit", options->limit,
-                   "Seconds after which a run of the thesis's own way is stopped (default 60)")
+      ->add_option(
+          "--limit", options->limit,
+          "Seconds after which a run of the thesis's own way is stopped (default 60 at scale 1, "
+          "less at smaller ones)")
       ->type_name("SECONDS");
   command
       ->add_option("--compare", options->compare,

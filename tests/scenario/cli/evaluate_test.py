@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""evaluate_test.py STRAKE SCHEMAS: an evaluation of two cases, as a user runs, resumes and compares it."""
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import jsonschema
+
+STRAKE = SCHEMAS = None
+
+
+class Evaluate(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.keep = tempfile.TemporaryDirectory(prefix='strake-evaluate-')
+        cls.folder = Path(cls.keep.name)
+        cls.first = cls.evaluate('-o', 'first', '--only', 'detail,repeated')
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.keep.cleanup()
+
+    @classmethod
+    def evaluate(cls, *arguments, expect=0):
+        done = subprocess.run([STRAKE, 'evaluate', '--scale', '0.001', '--threads', '1,2,3', '--repeat', '1', '--limit',
+                               '0.2', *map(str, arguments)], capture_output=True, text=True, cwd=cls.folder, timeout=300)
+        assert done.returncode == expect, (done.returncode, done.stderr)
+        return done
+
+    def record(self, folder='first'):
+        return json.loads((self.folder / folder / 'evaluation.json').read_text(encoding='utf-8'))
+
+    def test_all_files_are_written_and_follow_their_forms(self):
+        record = self.record()
+        schema = json.loads((SCHEMAS / 'evaluation.schema.json').read_text(encoding='utf-8'))
+        jsonschema.validate(record, schema)
+        self.assertEqual([c['name'] for c in record['cases']], ['detail', 'repeated'])
+        folder = self.folder / 'first'
+        page = (folder / 'evaluation.html').read_text(encoding='utf-8')
+        self.assertIn('byte by byte', page)
+        self.assertNotIn('src=', page)
+        charts = sorted(path.name for path in folder.glob('*.svg'))
+        self.assertTrue(charts)
+        text = (folder / 'evaluation.md').read_text(encoding='utf-8')
+        for chart in charts:
+            self.assertIn(f']({chart})', text)
+        with (folder / 'evaluation.csv').open(encoding='utf-8', newline='') as file:
+            rows = list(csv.DictReader(file))
+        contenders = sum(len(s['contenders']) for c in record['cases'] for s in c['stages'])
+        self.assertEqual(len(rows), contenders)
+
+    def test_results_of_all_teams_are_equal(self):
+        for case in self.record()['cases']:
+            for stage in case['stages']:
+                self.assertEqual(stage['differences'], [])
+                exact = [c for c in stage['contenders'] if c['published_hash']]
+                self.assertGreaterEqual(len(exact), 4)
+                self.assertEqual(len({(c['hash'], c['published_hash']) for c in exact}), 1)
+
+    def test_views_of_different_stages_differ(self):
+        stages = self.record()['cases'][0]['stages']
+        self.assertNotEqual(stages[0]['contenders'][0]['hash'], stages[1]['contenders'][0]['hash'])
+
+    def test_what_is_there_is_not_measured_again(self):
+        before = self.record()
+        done = self.evaluate('-o', 'first', '--only', 'detail,repeated')
+        self.assertIn('2 cases, which are not measured again', done.stderr)
+        self.assertEqual(self.record(), before)
+
+    def test_other_settings_want_another_folder(self):
+        done = subprocess.run([STRAKE, 'evaluate', '--scale', '0.002', '-o', 'first', '--only', 'detail'],
+                              capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('--fresh', done.stderr)
+
+    def test_work_that_grew_is_named(self):
+        before = self.record()
+        same = self.evaluate('-o', 'first', '--only', 'detail,repeated', '--compare', 'first/evaluation.json')
+        self.assertIn('0 grew', same.stderr)
+        for contender in before['cases'][0]['stages'][1]['contenders']:
+            contender['counters']['face tests'] //= 2
+        (self.folder / 'less.json').write_text(json.dumps(before), encoding='utf-8')
+        more = self.evaluate('-o', 'first', '--only', 'detail,repeated', '--compare', 'less.json', expect=1)
+        self.assertIn('more work: detail, global: face tests', more.stderr)
+
+    def test_wrong_values_are_named(self):
+        for arguments, word in ((('--only', 'nothing'), 'section-long'), (('--scale', '0'), '--scale'),
+                                (('--scale', 'nan'), '--scale'), (('--threads', '1,x'), '--threads'),
+                                (('--repeat', '0'), '--repeat'), (('--limit', '-1'), '--limit')):
+            done = subprocess.run([STRAKE, 'evaluate', '-o', 'wrong', *arguments], capture_output=True, text=True,
+                                  cwd=self.folder)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(word, done.stderr)
+        for text in ('', '{', '[]', '{"schema_version": 1}'):
+            (self.folder / 'bad.json').write_text(text, encoding='utf-8')
+            done = subprocess.run([STRAKE, 'evaluate', '-o', 'wrong', '--only', 'detail', '--compare', 'bad.json'],
+                                  capture_output=True, text=True, cwd=self.folder)
+            self.assertEqual(done.returncode, 3, text)
+        self.assertFalse((self.folder / 'wrong').exists())
+
+
+if __name__ == '__main__':
+    STRAKE = Path(sys.argv.pop(1)).resolve()
+    SCHEMAS = Path(sys.argv.pop(1)).resolve()
+    unittest.main(verbosity=2)

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/evaluate/cases.hpp"
+#include "cli/evaluate/compare.hpp"
+#include "cli/evaluate/measure.hpp"
+#include "cli/evaluate/pages/bar_chart.hpp"
+#include "cli/evaluate/pages/pages.hpp"
+#include "cli/evaluate/pages/tables.hpp"
+#include "cli/evaluate/record_json.hpp"
+#include "cli/evaluate/statistics.hpp"
+
+namespace strake::cli {
+namespace {
+
+ContenderRecord contender(std::string name, unsigned threads, std::vector<double> seconds) {
+  ContenderRecord one;
+  one.name = std::move(name);
+  one.threads = threads;
+  one.seconds = std::move(seconds);
+  one.counters = {{"face tests", 1000}};
+  one.hash = "abc";
+  one.published_hash = "def";
+  return one;
+}
+
+/// A case of one stage that took 2 s, twice, and 1.1 s on two threads.
+CaseRecord example_case(std::string name, std::string stage) {
+  CaseRecord one;
+  one.name = std::move(name);
+  one.title = "A case | with a bar & <marks>";
+  one.objects = 10;
+  StageRecord measured;
+  measured.name = std::move(stage);
+  measured.reference_s = 0.1;
+  measured.contenders = {contender(kSequential, 1, {2, 2.1, 1.9}),
+                         contender(kAgain, 1, {2, 2.1, 1.9}), contender(kOurs, 2, {1.1, 1.0, 1.2})};
+  parallel::RegionReport region;
+  region.name = "edges";
+  region.runs = 1;
+  region.wall_s = 1.0;
+  region.busy_s = {1.0, 0.9};
+  region.share_s = 0.95;
+  region.least_s = 0.95;
+  measured.contenders.back().regions = {region};
+  measured.contenders.back().shared_wall_s = 1.0;
+  one.stages.push_back(std::move(measured));
+  return one;
+}
+
+EvaluationRecord example() {
+  EvaluationRecord record;
+  record.settings.threads = {1, 2};
+  record.machine.processor = "a processor";
+  record.cases = {example_case("iso", "global"), example_case("dense", "clash")};
+  return record;
+}
+
+TEST(Evaluate, SpeedupBalanceAndSerialShareAreThoseOfTheRuns) {
+  const EvaluationRecord record = example();
+  const auto s = speedup_of(record.cases[0].stages[0], 2);
+  ASSERT_TRUE(s.has_value());
+  EXPECT_DOUBLE_EQ(s->sequential_s, 2.0);
+  EXPECT_DOUBLE_EQ(s->parallel_s, 1.1);
+  EXPECT_NEAR(s->speedup, 2.0 / 1.1, 1e-12);
+  EXPECT_NEAR(s->load_balance, 1.9 / 2.0, 1e-12);
+  EXPECT_EQ(s->worst_region, "edges");
+  EXPECT_NEAR(s->serial_share, 0.1 / 2.0, 1e-12);
+  EXPECT_NEAR(s->amdahl, 1 / (0.05 + 0.95 / 2), 1e-12);
+  EXPECT_NEAR(s->bound, 2.0 / (0.1 + 0.95), 1e-12);
+  EXPECT_FALSE(speedup_of(record.cases[0].stages[0], 4).has_value());
+}
+
+TEST(Evaluate, SpreadIsThatOfASample) {
+  const std::vector<double> values{1, 2, 3, 4};
+  const Spread spread = spread_of(values);
+  EXPECT_DOUBLE_EQ(spread.mean, 2.5);
+  EXPECT_NEAR(spread.deviation, std::sqrt(5.0 / 3.0), 1e-12);
+  EXPECT_DOUBLE_EQ(spread.least, 1);
+  EXPECT_DOUBLE_EQ(spread.greatest, 4);
+  EXPECT_EQ(spread_of(std::vector<double>{}).count, 0U);
+}
+
+TEST(Evaluate, NoiseIsHowFarTheSameContenderIsApart) {
+  StageRecord stage;
+  stage.contenders = {contender(kSequential, 1, {1.0}), contender(kAgain, 1, {1.1})};
+  EXPECT_NEAR(noise_of(stage), 0.1, 1e-12);
+}
+
+TEST(Evaluate, ARecordComesBackFromItsJson) {
+  const EvaluationRecord record = example();
+  const std::string text = evaluation_json(record);
+  const auto read = parse_evaluation(text, "x");
+  ASSERT_TRUE(read.has_value()) << read.error().text();
+  EXPECT_EQ(evaluation_json(*read), text);
+}
+
+TEST(Evaluate, ADamagedRecordIsAnError) {
+  const std::string text = evaluation_json(example());
+  for (const std::size_t size : {std::size_t{0}, text.size() / 3, text.size() - 4})
+    EXPECT_FALSE(parse_evaluation(text.substr(0, size), "x").has_value()) << size;
+  EXPECT_FALSE(parse_evaluation("[]", "x").has_value());
+  EXPECT_FALSE(parse_evaluation(R"({"schema_version": 2})", "x").has_value());
+  std::string wrong = text;
+  wrong.replace(wrong.find("\"threads\""), 9, "\"threats\"");
+  EXPECT_FALSE(parse_evaluation(wrong, "x").has_value());
+}
+
+TEST(Evaluate, MoreWorkIsNamedAndLessIsNot) {
+  const EvaluationRecord before = example();
+  EvaluationRecord now = example();
+  now.cases[0].stages[0].contenders[0].counters["face tests"] = 1200;
+  now.cases[1].stages[0].contenders[0].counters["face tests"] = 500;
+  const auto comparison = compare_evaluations(before, now);
+  ASSERT_TRUE(comparison.has_value());
+  EXPECT_EQ(comparison->more_work,
+            std::vector<std::string>{"iso, global: face tests 1000 -> 1200 (+20.0 %)"});
+  EXPECT_EQ(comparison->less_work.size(), 1U);
+  EXPECT_TRUE(comparison->slower.empty());
+  now.settings.scale = 2;
+  EXPECT_FALSE(compare_evaluations(before, now).has_value());
+}
+
+TEST(Evaluate, TimesAreComparedAsRatiosToTheReferenceKernel) {
+  const EvaluationRecord before = example();
+  EvaluationRecord now = example();
+  // A machine of half the speed is no slower program.
+  for (CaseRecord& one : now.cases) {
+    one.stages[0].reference_s *= 2;
+    for (ContenderRecord& run : one.stages[0].contenders)
+      for (double& s : run.seconds) s *= 2;
+  }
+  EXPECT_TRUE(compare_evaluations(before, now)->slower.empty());
+  for (double& s : now.cases[0].stages[0].contenders[0].seconds) s *= 1.3;
+  for (double& s : now.cases[0].stages[0].contenders[1].seconds) s *= 1.3;
+  EXPECT_EQ(compare_evaluations(before, now)->slower.size(), 1U);
+}
+
+TEST(Evaluate, ACaseThatIsMissingIsNamed) {
+  EvaluationRecord now = example();
+  now.cases.pop_back();
+  EXPECT_EQ(compare_evaluations(example(), now)->missing, std::vector<std::string>{"dense"});
+}
+
+TEST(Evaluate, PagesEscapeWhatTheyShow) {
+  const EvaluationRecord record = example();
+  const std::string html = evaluation_html(record);
+  EXPECT_EQ(html.find("<marks>"), std::string::npos);
+  EXPECT_NE(html.find("&lt;marks&gt;"), std::string::npos);
+  EXPECT_NE(html.find("2.911"), std::string::npos) << "the thesis's figures stand beside";
+  EXPECT_NE(evaluation_markdown(record).find("A case \\| with a bar"), std::string::npos);
+  EXPECT_NE(evaluation_csv(record).find("iso,10,0,0,global,\"sequential, again\",1,3,2,1.9"),
+            std::string::npos)
+      << evaluation_csv(record);
+}
+
+TEST(Evaluate, ADifferenceStandsOnThePage) {
+  EvaluationRecord record = example();
+  record.cases[0].stages[0].differences = {"the result differs"};
+  EXPECT_EQ(differences_of(record).size(), 1U);
+  EXPECT_NE(evaluation_html(record).find(">NO<"), std::string::npos);
+  EXPECT_NE(evaluation_markdown(record).find("1 results differ"), std::string::npos);
+}
+
+TEST(Evaluate, AChartOfNothingIsStillAChart) {
+  const std::string svg = bar_chart_svg({"empty", "x", {"a"}, {{"s", {0.0}}}});
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+Contender fake(std::string name, std::string hash) {
+  Contender one;
+  one.name = std::move(name);
+  one.compute = [hash](const parallel::Context&) -> Result<Computed> {
+    return Computed{{},
+                    [hash] { return hash; },
+                    [hash](const parallel::Context&) -> Result<std::string> { return hash; }};
+  };
+  return one;
+}
+
+TEST(Evaluate, AResultThatDiffersIsTold) {
+  EvaluationSettings settings;
+  settings.threads = {1};
+  settings.repeat = 1;
+  const std::vector<Contender> equal{fake(kSequential, "a"), fake(kAgain, "a")};
+  const std::vector<Contender> other{fake(kSequential, "a"), fake("thesis: push", "b")};
+  const auto narrate = [](const std::string&) {};
+  const auto same = measure_stage("global", equal, settings, {}, narrate);
+  ASSERT_TRUE(same.has_value());
+  EXPECT_TRUE(same->differences.empty());
+  const auto different = measure_stage("global", other, settings, {}, narrate);
+  ASSERT_TRUE(different.has_value());
+  EXPECT_EQ(different->differences.size(), 2U) << "the result, and what is published";
+}
+
+TEST(Evaluate, AContenderWithALimitIsStoppedAndSaidToBe) {
+  EvaluationSettings settings;
+  settings.threads = {1};
+  settings.repeat = 1;
+  settings.limit_s = 0.05;
+  std::vector<Contender> contenders{fake(kSequential, "a"), fake("thesis: spheres", "a")};
+  contenders.back().limited = true;
+  contenders.back().compute = [](const parallel::Context& context) -> Result<Computed> {
+    while (!context.stop.stop_requested()) continue;
+    return Error{ErrorCode::cancelled, "cancelled", {}, {}};
+  };
+  const auto stage = measure_stage("clash", contenders, settings, {}, [](const std::string&) {});
+  ASSERT_TRUE(stage.has_value()) << stage.error().text();
+  EXPECT_EQ(stage->contenders.back().unfinished, "stopped after 0.05 s");
+  EXPECT_TRUE(stage->differences.empty());
+}
+
+TEST(Evaluate, AFailureOfAContenderThatMustEndIsTheEvaluations) {
+  EvaluationSettings settings;
+  settings.threads = {1};
+  std::vector<Contender> contenders{fake(kSequential, "a")};
+  contenders.front().compute = [](const parallel::Context&) -> Result<Computed> {
+    return Error{ErrorCode::input, "no", {}, {}};
+  };
+  EXPECT_FALSE(
+      measure_stage("clash", contenders, settings, {}, [](const std::string&) {}).has_value());
+}
+
+TEST(Evaluate, EveryViewIsOneThatCanBeDrawn) {
+  const geometry::Box3l box{{0, -5'000'000, 0}, {90'000'000, 5'000'000, 20'000'000}};
+  for (const ViewCase& view : view_cases()) {
+    const hlr::View seen = view_of(view, box);
+    EXPECT_NE(seen.direction, (geometry::Vec3l{0, 0, 0})) << view.name;
+    EXPECT_TRUE(!seen.limits || !seen.limits->empty()) << view.name;
+  }
+  EXPECT_EQ(view_cases().size(), 13U);
+  EXPECT_EQ(ship_cases().size(), 4U);
+  for (const ShipCase& ship : ship_cases())
+    EXPECT_GT(clashing_ship(ship, 1).objects, 1'000'000U) << ship.name;
+}
+
+}  // namespace
+}  // namespace strake::cli
