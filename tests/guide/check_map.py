@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """check_map.py PROJECT: every path that ARCHITECTURE.md, HACKING.md and the index of decisions name is there; what the
-tables of these pages say to look for in a file stands in it, and the product calls it; the rooms of each module are all
-there are; every decision is in the index, once, and is named in the code that the index says it explains."""
+tables of these pages say to look for in a file is declared in it, and the product uses it; the rooms of each module are
+all there are; every decision is in the index, once, and is named in the code that the index says it explains."""
 import re
 import sys
 from pathlib import Path
@@ -13,6 +13,8 @@ ROOTS = ['', 'src', 'include/strake', 'tests']
 # What a name stands for that the reader is to choose, and what a build makes.
 MADE_UP = re.compile(r'\b[A-Z]{4,}\b(?!\.)|^build/|^\$|^-')
 A_PATH = re.compile(r'[\w.-]+(/[\w.-]+)+/?|[\w-]+\.(md|json|py|hpp|cpp|toml|cmake|sh|txt)')
+# What stands before the name of a function that is declared.
+A_RETURN_TYPE = r'(?:\b(?!(?:return|else|throw|case|new|co_return)\b)\w+|(?<=\S)>)[&*]*\s+'
 
 
 def in_quotes(text):
@@ -51,13 +53,11 @@ def without_comments(text):
     return re.sub(r'//[^\n]*|^#include[^\n]*', '', text, flags=re.MULTILINE)
 
 
-def declarations(name, code):
-    """The declarations and definitions of types and functions of this name in code without comments. A function stands
-    behind the type that it returns, where a call stands behind a sign, or a word that is no type."""
+def declaration_of(name):
+    """What declares or defines a type or a function of this name. A function stands behind the type that it returns, where
+    a call stands behind a sign, or a word that is no type."""
     a_type = rf'\b(?:class|struct|union|using|concept)\s+{name}\b(?!\s*;)'
-    returned = r'(?:\b(?!(?:return|else|throw|case|new|co_return)\b)\w+|(?<=\S)>)[&*]*\s+'
-    a_function = rf'{returned}(?:\w+::)*{name}(?=\s*\()'
-    return list(re.finditer(f'{a_type}|{a_function}', code))
+    return rf'{a_type}|{A_RETURN_TYPE}(?:\w+::)*{name}(?=\s*\()'
 
 
 def symbol_faults(project, page, text):
@@ -68,8 +68,8 @@ def symbol_faults(project, page, text):
         code = '\n'.join(without_comments(file.read_text(encoding='utf-8')) for file in files)
         for name in names:
             *scopes, last = name.split('::')
-            scoped = all(declarations(scope, code) or re.search(rf'\b{scope}::', code) for scope in scopes)
-            if not (scoped and declarations(last, code)):
+            scoped = all(re.search(rf'{declaration_of(scope)}|\b{scope}::', code) for scope in scopes)
+            if not (scoped and re.search(declaration_of(last), code)):
                 yield f'{page}: {name} is not declared in {row["file"]}'
 
 
@@ -85,10 +85,11 @@ def name_faults(project, page, text):
                 yield f'{page}: nothing is called {name}'
 
 
-def uses(name, code):
-    """How often code without comments has a name other than to declare it."""
-    not_uses = rf'\b(?:class|struct) {name};|\busing [\w:]*::{name};'
-    return len(re.findall(rf'\b{name}\b', code)) - len(declarations(name, code)) - len(re.findall(not_uses, code))
+def is_used(name, code):
+    """Whether code without comments has a name other than to declare it, or to define what belongs to it."""
+    no_use = '|'.join([declaration_of(name), rf'\b(?:class|struct) {name};', rf'\busing [\w:]*::{name};',
+                       rf'^{name}::~?{name}\(', rf'{A_RETURN_TYPE}{name}::'])
+    return re.search(rf'\b{name}\b', re.sub(no_use, '', code, flags=re.MULTILINE))
 
 
 def unused_faults(project, page, text):
@@ -109,7 +110,7 @@ def unused_faults(project, page, text):
         for name in in_quotes(row.get('look for', '')):
             made = re.compile(rf'\b{name} \w+[({{;]|(?:\breturn|=) {name}[({{]')
             if not any(made.search(body) if name[0].isupper() and place(path.relative_to(project)) in own
-                       else uses(name, body) for path, body in code.items() if name in body):
+                       else is_used(name, body) for path, body in code.items() if name in body):
                 yield f'{page}: the product does not use {name} of {row["file"]}'
 
 
