@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """check_map.py PROJECT: every path that ARCHITECTURE.md, HACKING.md and the index of decisions name is there; what the
-tables of these pages say to look for in a file stands in it, and the product calls it; the rooms of each module are all
-there are; every decision is in the index, once, and is named in the code that the index says it explains."""
+tables of these pages say to look for in a file is declared in it, and the product uses it; the rooms of each module are
+all there are; every decision is in the index, once, and is named in the code that the index says it explains."""
 import re
 import sys
 from pathlib import Path
@@ -13,6 +13,8 @@ ROOTS = ['', 'src', 'include/strake', 'tests']
 # What a name stands for that the reader is to choose, and what a build makes.
 MADE_UP = re.compile(r'\b[A-Z]{4,}\b(?!\.)|^build/|^\$|^-')
 A_PATH = re.compile(r'[\w.-]+(/[\w.-]+)+/?|[\w-]+\.(md|json|py|hpp|cpp|toml|cmake|sh|txt)')
+# What stands before the name of a function that is declared.
+A_RETURN_TYPE = r'(?:\b(?!(?:return|else|throw|case|new|co_return)\b)\w+|(?<=\S)>)[&*]*\s+'
 
 
 def in_quotes(text):
@@ -47,19 +49,28 @@ def path_faults(project, page, text):
             yield f'{page}: a link leads to {target}, which is not there'
 
 
+def without_comments(text):
+    return re.sub(r'//[^\n]*|^#include[^\n]*', '', text, flags=re.MULTILINE)
+
+
+def declaration_of(name):
+    """What declares or defines a type or a function of this name. A function stands behind the type that it returns, where
+    a call stands behind a sign, or a word that is no type."""
+    a_type = rf'\b(?:class|struct|union|using|concept)\s+{name}\b(?!\s*;)'
+    return rf'{a_type}|{A_RETURN_TYPE}(?:\w+::)*{name}(?=\s*\()'
+
+
 def symbol_faults(project, page, text):
-    """What a table says to look for, or to break on, stands in the files beside it."""
+    """What a table says to look for, or to break on, is declared or defined in the files beside it."""
     for row in tables(text):
         names = in_quotes(row.get('look for') or row.get('break on') or '')
         files = [project / name for name in in_quotes(row.get('file', '')) if (project / name).is_file()]
-        code = '\n'.join(file.read_text(encoding='utf-8') for file in files)
+        code = '\n'.join(without_comments(file.read_text(encoding='utf-8')) for file in files)
         for name in names:
-            if not all(re.search(rf'\b{part}\b', code) for part in name.split('::')):
-                yield f'{page}: {name} is not in {row["file"]}'
-
-
-def without_comments(text):
-    return re.sub(r'//[^\n]*|^#include[^\n]*', '', text, flags=re.MULTILINE)
+            *scopes, last = name.split('::')
+            scoped = all(re.search(rf'{declaration_of(scope)}|\b{scope}::', code) for scope in scopes)
+            if not (scoped and re.search(declaration_of(last), code)):
+                yield f'{page}: {name} is not declared in {row["file"]}'
 
 
 def name_faults(project, page, text):
@@ -74,20 +85,33 @@ def name_faults(project, page, text):
                 yield f'{page}: nothing is called {name}'
 
 
+def is_used(name, code):
+    """Whether code without comments has a name other than to declare it, or to define what belongs to it."""
+    no_use = '|'.join([declaration_of(name), rf'\b(?:class|struct) {name};', rf'\busing [\w:]*::{name};',
+                       rf'^{name}::~?{name}\(', rf'{A_RETURN_TYPE}{name}::'])
+    return re.search(rf'\b{name}\b', re.sub(no_use, '', code, flags=re.MULTILINE))
+
+
 def unused_faults(project, page, text):
-    """A function that the map says to look for is one that the product calls: it stands in another file than the named
-    one and its source, or twice in this."""
+    """A function or type that the map says to look for is one that the product uses. A type is used in another file than
+    the named one and its source, or the source itself makes an object of it."""
     code = {path: without_comments(path.read_text(encoding='utf-8'))
             for folder in ('src', 'cli') for path in sorted((project / folder).rglob('*.?pp'))}
+
+    def place(path):
+        """The module of a file and its name: the same for a header and its source."""
+        parts = path.parts
+        return parts[2 if parts[0] == 'include' else 1], path.stem
+
     for row in tables(text):
-        own = [Path(re.sub(r'^include/strake/', 'src/', file)).with_suffix('') for file in in_quotes(row.get('file', ''))]
-        own = [project / path.with_suffix(suffix) for path in own for suffix in ('.hpp', '.cpp')]
+        if 'library only' in row.get('what', ''):
+            continue
+        own = {place(Path(file)) for file in in_quotes(row.get('file', ''))}
         for name in in_quotes(row.get('look for', '')):
-            if not name[0].islower() or 'library only' in row['what']:
-                continue
-            found = {path: len(re.findall(rf'\b{name}\b', body)) for path, body in code.items()}
-            if not any(n > (1 if path in own else 0) for path, n in found.items()):
-                yield f'{page}: nothing calls {name} of {row["file"]}'
+            made = re.compile(rf'\b{name} \w+[({{;]|(?:\breturn|=) {name}[({{]')
+            if not any(made.search(body) if name[0].isupper() and place(path.relative_to(project)) in own
+                       else is_used(name, body) for path, body in code.items() if name in body):
+                yield f'{page}: the product does not use {name} of {row["file"]}'
 
 
 def included_rooms(folder, module):

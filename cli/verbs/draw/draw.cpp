@@ -45,12 +45,13 @@ struct DrawOptions {
   bool visible_only = false;
 };
 
-/// Those that hold the whole drawing, whatever of it is shown.
-std::vector<OutputFormat> formats_without_ink() {
+/// Those that show what got ink, or those that hold the whole drawing, whatever of it is shown:
+/// ".json and .view".
+std::string suffixes_by_ink(bool needs_ink) {
   std::vector<OutputFormat> formats;
   for (const drawing::DrawingWriter& writer : drawing::drawing_writers())
-    if (!writer.needs_ink) formats.push_back(writer.format);
-  return formats;
+    if (writer.needs_ink == needs_ink) formats.push_back(writer.format);
+  return list_suffixes(formats, "and");
 }
 
 Result<geometry::Vec3l> direction_of(const std::string& text, const std::string& option,
@@ -393,13 +394,14 @@ void add_view(CLI::App& command, DrawOptions& options) {
 
 void add_lines(CLI::App& command, DrawOptions& options) {
   add_choice(command, "--hidden", options.hidden, {"off", "dashed", "all"},
-             "Hidden lines in the SVG: none, dashed where no line runs beside them, or all "
-             "(default off)")
+             fmt::format("Hidden lines in {}: none, dashed where no line runs beside them, or all "
+                         "(default off)",
+                         suffixes_by_ink(true)))
       ->group("Lines");
   command
       .add_flag("--visible-only", options.visible_only,
                 fmt::format("Leave hidden lines out of everything, of {} too: less time and memory",
-                            list_suffixes(formats_without_ink(), "and")))
+                            suffixes_by_ink(false)))
       ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")

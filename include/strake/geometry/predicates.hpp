@@ -9,12 +9,13 @@
 
 namespace strake::geometry {
 
-/// Exact orientation predicates on grid coordinates whose differences are at most 2^31 units.
+/// Exact orientation predicates, with a floating-point filter, on grid coordinates whose
+/// differences are at most 2^31 units.
 ///
-/// Each evaluates a 3x3 determinant twice: in double, and in 64-bit arithmetic that wraps. The
-/// double is off by less than 32·2^-53·2^93 = 2^45, so where it is below 2^62 the true value fits
-/// 63 bits and the wrapped value *is* the true value; elsewhere the sign of the double is certain.
-/// So a sign never needs wide arithmetic.
+/// Each evaluates a 3x3 determinant twice: in double, which is the filter, and in 64-bit arithmetic
+/// that wraps. The double is off by less than 32·2^-53·2^93 = 2^45, so where it is below 2^62 the
+/// true value fits 63 bits and the wrapped value *is* the true value; elsewhere the sign of the
+/// double is certain. So a sign never needs wide arithmetic.
 
 /// A determinant as a number whose sign is exact; the magnitude is exact below 2^53, else rounded.
 class SignedDet {

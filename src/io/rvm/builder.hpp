@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -40,7 +39,8 @@ struct RvmModel {
 /// Collects groups and primitives in file order and makes a model of them.
 class RvmBuilder {
  public:
-  RvmBuilder(DiagnosticLog& log, SourceFrame frame) : log_(&log), frame_(frame) {}
+  RvmBuilder(DiagnosticLog& log, SourceFrame frame)
+      : log_(&log), frame_(frame), known_(kind_count()) {}
 
   void begin_group(std::string name, std::uint32_t material, std::uint8_t transparency,
                    std::uint64_t offset);
@@ -97,9 +97,8 @@ class RvmBuilder {
   std::vector<model::Shape> shapes_;
   std::vector<float> largest_;  ///< per shape: its largest number, local units
   std::vector<FacetJob> facets_;
-  /// Equal parameters of a kind are one shape; keys are views of the file.
-  std::array<std::unordered_map<std::string_view, model::ShapeId, SeededHash>, kFacetKind + 1>
-      known_;
+  /// By kind: equal parameters are one shape; keys are views of the file.
+  std::vector<std::unordered_map<std::string_view, model::ShapeId, SeededHash>> known_;
   std::set<std::uint32_t> reported_materials_;
 };
 

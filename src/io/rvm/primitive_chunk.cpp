@@ -176,6 +176,8 @@ constexpr std::array kKinds{ChunkKind{"a primitive", 0},
 
 }  // namespace
 
+std::size_t kind_count() { return kKinds.size(); }
+
 std::size_t parameter_count(std::uint32_t kind) {
   return kind < kKinds.size() ? kKinds[kind].parameters : 0;
 }

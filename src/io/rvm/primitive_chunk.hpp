@@ -29,6 +29,9 @@ struct PrimitiveChunk {
   Bytes parameters;                ///< the parameters of the kind, big-endian
 };
 
+/// Returns one more than the greatest kind that is known.
+[[nodiscard]] std::size_t kind_count();
+
 /// Returns the number of float parameters of kinds 1 to 10; 0 for any other kind.
 [[nodiscard]] std::size_t parameter_count(std::uint32_t kind);
 

@@ -38,7 +38,10 @@ class Files(Scenario):
     # Every kind of file that the program writes: the command line up to its name, and its ending.
     OUTPUTS = [(['clash', 'a.obj', '-o'], '.json'), (['clash', 'a.obj', '-o'], '.csv'),
                (['clash', 'a.obj', '--log-pairs'], '.csv'), (['clash', 'diff', 'old.json', 'old.json', '-o'], '.json'),
-               (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.json'),
+               (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
+               (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.svg'),
+               (['draw', 'diff', 'old.view', 'old.view', '-o'], '.json'),
+               (['draw', 'diff', 'old.view', 'old.view', '-o'], '.svg'),
                (['generate', 'ship', '--objects', '100', '-o'], '.glb'),
                (['generate', 'ship', '--objects', '100', '-o'], '.obj'),
                (['generate', 'ship', '--objects', '100', '-o', 'null.glb', '--truth'], '.json')]
@@ -47,7 +50,9 @@ class Files(Scenario):
         """A file larger than the limit on files, and a full disk."""
         self.two_files()
         os.symlink('/dev/null', self.folder / 'null.glb')
+        self.write('sheet.toml', 'arrangement = "first-angle"\n')
         self.assertEqual(self.run_strake('clash', 'a.obj', '-o', 'old.json').returncode, 0)
+        self.assertEqual(self.run_strake('draw', 'a.obj', '-o', 'old.view').returncode, 0)
         before = self.files()
 
         def small_files_only():
