@@ -15,6 +15,7 @@
 #include "clash/results/object_results.hpp"
 #include "clash/results/result_counts.hpp"
 #include "clash/results/result_hash.hpp"
+#include "clash/results/unlisted_contacts.hpp"
 #include "clash/rules/options.hpp"
 #include "clash/rules/rule_matcher.hpp"
 #include "strake/geometry/grid.hpp"
@@ -176,6 +177,8 @@ class Engine {
     if (const Status s = warn_of_unknown_sag(list_, *scene_.model, context_, report.diagnostics);
         !s)
       return s.error();
+    if (options_.engine.contacts == Contacts::count)
+      if (const Status s = leave_out_contacts(context_, report); !s) return s;
     return options_.engine.log_pairs ? log_pairs(evaluated(), objects_, rules_, context_, report)
                                      : Status{};
   }

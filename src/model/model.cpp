@@ -118,6 +118,18 @@ void reorder(Model& model, const BodyOrder& order) {
   model.bodies = std::move(bodies);
 }
 
+/// Whether reorder() would change nothing. Many programs write objects in the order of their ids,
+/// and a copy of a million objects takes a fifteenth of the time of loading them.
+bool is_in_order(const Model& model, const BodyOrder& order) {
+  std::size_t bodies = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Object& object = model.objects[i];
+    if (order[i] != i || object.first_body != bodies) return false;
+    bodies += object.body_count;
+  }
+  return bodies == model.bodies.size();
+}
+
 }  // namespace
 
 std::string_view kind_name(const Shape& shape) {
@@ -200,7 +212,7 @@ void finish(Model& model) {
     separate_ids(model, order);
     static_cast<void>(sort_objects(model, order));
   }
-  reorder(model, order);
+  if (!is_in_order(model, order)) reorder(model, order);
 }
 
 void append(Model& model, Model&& other) {

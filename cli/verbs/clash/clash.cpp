@@ -34,11 +34,20 @@ struct ClashOptions {
   SetInput sets;
   std::array<std::string, clash::kToleranceLengths.size()> tolerances;
   std::string contact_distance;
-  std::string broad_phase, narrow_phase, thickness_cap, fail_on, most_pairs, most_spheres, rules;
+  std::string broad_phase, narrow_phase, thickness_cap, contacts, fail_on, most_pairs, most_spheres,
+      rules;
   bool list_exempted = false, curves = false;
   ClashResultInput result;
   std::vector<std::string> outputs;
 };
+
+/// Most contacts are meant: they are counted, unless the command line is about them.
+clash::Contacts contacts_of(const ClashOptions& given) {
+  if (given.contacts == "list") return clash::Contacts::list;
+  const bool about_contacts = given.result.group_contacts || given.fail_on == "contact" ||
+                              given.fail_on == "clearance_violation";
+  return given.contacts.empty() && about_contacts ? clash::Contacts::list : clash::Contacts::count;
+}
 
 Result<clash::EngineOptions> engine_options(const ClashOptions& given) {
   clash::EngineOptions engine;
@@ -56,6 +65,7 @@ Result<clash::EngineOptions> engine_options(const ClashOptions& given) {
     engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
   if (given.result.wants_volumes()) engine.volumes = clash::Volumes::on;
   if (given.curves) engine.curves = clash::Curves::on;
+  engine.contacts = contacts_of(given);
   return engine;
 }
 
@@ -222,6 +232,9 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (!request) return request.error();
   request->options.engine.log_pairs = !given.result.log_pairs.empty() || session.has_stats_option();
   if (const Status status = check(given.result); !status) return status.error();
+  if (given.contacts == "count" && given.result.group_contacts)
+    return Error{ErrorCode::usage, "contacts that are only counted cannot be put into groups",
+                 "--group-contacts", "leave out --group-contacts or --contacts count"};
   if (const Status status = check_files(given); !status) return status.error();
   const Result<Loaded> loaded = load(session, given.input, request->scene);
   if (!loaded) return loaded.error();
@@ -289,6 +302,11 @@ void add_rules(CLI::App& command, ClashOptions& options) {
                 "Check lines and polylines too, as bodies without thickness (default: they are "
                 "drawn, but never clash)")
       ->group("Rules");
+  add_choice(command, "--contacts", options.contacts, {"list", "count"},
+             "List contacts as other results, or only count them; those that may be something else "
+             "are listed all the same (default count; list with --group-contacts, and with "
+             "--fail-on contact or clearance_violation)")
+      ->group("Result");
   add_choice(
       command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},
       "Exit code 1 where a pair is of this class or worse, or may be: flag UNCERTAIN, or it "

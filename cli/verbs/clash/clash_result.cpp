@@ -162,13 +162,15 @@ bool has_failing_pair(const clash::Findings& findings, const std::string& fail_o
   const clash::Class worst = failing_class(fail_on);
   std::uint64_t surely = 0, perhaps = 0;
   const clash::NotComparedCounts lacks = clash::counts_of(findings.tests);
-  for (const clash::Report& test : findings.tests)
+  for (const clash::Report& test : findings.tests) {
+    if (worst <= clash::Class::contact) surely += test.unlisted.contacts;
     for (const clash::Pair& pair : test.pairs) {
       if (pair.allowed < 0 && pair.cls >= worst)
         ++surely;
       else if (pair.severest >= worst)
         ++perhaps;
     }
+  }
   if (perhaps > 0)
     console.note(
         fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "

@@ -199,11 +199,20 @@ struct NotComparedCounts {
 };
 
 /// What one test found.
+/// Contacts that are counted but not listed.
+struct UnlistedContacts {
+  std::uint64_t contacts = 0;  ///< of Report::count_contact
+  std::uint64_t allowed = 0;   ///< of Report::count_allowed
+};
+
 struct Report {
   std::string name;          ///< the name of the test; empty where a run has only one
   std::string set_a, set_b;  ///< how the sets were chosen, as in Sets
   Options options;
   std::vector<Pair> pairs;  ///< by (a, b); NO_HIT pairs are not kept
+  /// With Contacts::count, those that are not among the pairs. A contact whose bracket leaves its
+  /// class open is.
+  UnlistedContacts unlisted;
   /// The regions of pairs with several or with allowed ones, in the order of the pairs; of each
   /// pair the worst first.
   std::vector<Region> regions;

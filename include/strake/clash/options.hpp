@@ -10,6 +10,7 @@ enum class NarrowPhase : std::uint8_t { exact, sphere_subdivision };
 enum class ThicknessCap : std::uint8_t { on, off };
 enum class Volumes : std::uint8_t { off, on };
 enum class Curves : std::uint8_t { off, on };
+enum class Contacts : std::uint8_t { list, count };
 
 /// What the classes of a pair depend on.
 struct Tolerances {
@@ -34,6 +35,10 @@ struct EngineOptions {
   /// Whether lines and polylines are checked, as bodies without thickness; with the exact narrow
   /// phase only.
   Curves curves = Curves::off;
+  /// Whether contacts stand in Report::pairs or are only counted (Report::unlisted): most contacts
+  /// are meant, and a ship of a million objects has 1.5 million. Counts and the hash of the result
+  /// are the same.
+  Contacts contacts = Contacts::list;
   /// How many of the separate regions of a pair are listed; 0: they are not looked for.
   std::uint64_t most_regions = 8;
   /// Whether Report::log is filled.

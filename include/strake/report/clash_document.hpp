@@ -51,6 +51,9 @@ struct DocumentTest {
   std::string name;
   std::string hash;       ///< the hash of its results, as the run gave it
   DocumentCounts counts;  ///< as the run gave them
+  /// The contacts that the run counted but did not list, and those of them that a rule allows;
+  /// absent: it listed all.
+  std::optional<DocumentCounts> unlisted;
   /// The number of regions that rules allow of results that they do not allow; absent: the run did
   /// not count them.
   std::optional<std::uint64_t> allowed_other_regions;

@@ -14,6 +14,8 @@
 namespace strake::geometry {
 namespace {
 
+// In clash detection of 3,000 objects 4 bins take 2.3 % fewer instructions on a straight ship
+// and 1.1 % more on a turned one, 16 bins the same and 0.9 % more.
 constexpr std::size_t kTriangleBins = 8;
 /// Ranges up to this size are halved by sorting: binning them costs more than it gains.
 constexpr std::size_t kFewTriangles = 12;

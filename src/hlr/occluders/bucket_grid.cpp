@@ -19,7 +19,8 @@ namespace {
 /// 1,024 buckets along a side; 256 are chosen, since making a million takes longer than they spare
 /// (decision 0029).
 constexpr double kMostPerBox = 64, kChosenPerBox = 8;
-/// The cost of a step to the next bucket, in boxes examined.
+/// The cost of a step to the next bucket, in boxes examined. With 1 and 4 an isometric view of
+/// 3,000 objects takes the same instructions.
 constexpr double kStep = 2;
 
 double length(std::int64_t lo, std::int64_t hi) {

@@ -17,7 +17,8 @@ namespace strake::hlr {
 namespace {
 
 // An index pays from this many polygons on. The faces of convex parts are seldom tested: their
-// outline is.
+// outline is. Half and twice of either are within 0.2 % in instructions of an isometric view of
+// 3,000 objects, with and without imported detail.
 constexpr std::size_t kIndexFrom = 12, kIndexFromIfConvex = 64;
 // The BucketGrid::crowding() from which on a tree is better: where faces crowd in few buckets, or
 // are much longer than wide. A traversal examines fewer: it leaves a bucket where nothing nearer is

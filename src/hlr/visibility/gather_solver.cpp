@@ -18,7 +18,8 @@ namespace strake::hlr {
 namespace {
 
 // Up to this many neighbours of an item are searched one by one for each of its edges: more are
-// found faster by the tree.
+// found faster by the tree. An isometric view of 3,000 objects takes 2.9 % more instructions with
+// 16, 0.6 % fewer with 256.
 constexpr std::size_t kFewNeighbours = 64;
 constexpr std::uint32_t kNoBody = 0xffffffffU;
 // Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.

@@ -77,6 +77,11 @@ class RunCoverage {
     if (!run_.lists_exempted && here->exempted_pairs > 0)
       return "may be among the " + std::to_string(here->exempted_pairs) +
              " exempted pairs, which are not listed";
+    if (r.cls == clash::Class::contact && here->unlisted &&
+        (here->unlisted->contact > 0 || here->unlisted->allowed > 0))
+      return "may be among the " +
+             std::to_string(here->unlisted->contact + here->unlisted->allowed) +
+             " contacts, which are not listed";
     return by_settings(r, *here, other);
   }
 

@@ -33,7 +33,12 @@ void check_counts(const ClashDocument& document) {
   std::vector<DocumentCounts> found(document.tests.size());
   for (const DocumentResult& result : document.results) count(result, found[result.test]);
   for (std::size_t t = 0; t < found.size(); ++t) {
-    const DocumentCounts &is = found[t], &stated = document.tests[t].counts;
+    DocumentCounts& is = found[t];
+    const DocumentCounts& stated = document.tests[t].counts;
+    if (const auto& unlisted = document.tests[t].unlisted) {
+      is.contact += unlisted->contact;
+      is.allowed += unlisted->allowed;
+    }
     struct CountCheck {
       const char* name;
       std::uint64_t stated, is;

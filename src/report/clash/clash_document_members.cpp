@@ -284,6 +284,12 @@ DocumentTest read_test(const Json& json, std::size_t elements, const std::string
   const Json& counts = held(json, "counts", Json::value_t::object, where);
   t.counts = {count(counts, "HIT", where), count(counts, "CONTACT", where),
               count(counts, "CLEARANCE_VIOLATION", where), count(counts, "ALLOWED", where)};
+  if (json.contains("unlisted")) {
+    const Json& unlisted = held(json, "unlisted", Json::value_t::object, where);
+    t.unlisted.emplace();
+    t.unlisted->contact = count(unlisted, "CONTACT", where);
+    t.unlisted->allowed = count(unlisted, "ALLOWED", where);
+  }
   const Json& settings = held(json, "settings", Json::value_t::object, where);
   t.settings["curves"] = "false";  // older results do not state it
   for (const auto& [key, value] : settings.items()) t.settings[key] = value.dump();

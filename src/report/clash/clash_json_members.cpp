@@ -302,6 +302,13 @@ void sets(std::string& out, const Report& report) {
          ", \"b\": " + std::to_string(report.objects_b) + "}";
 }
 
+/// Appends the contacts that are only counted, if they are.
+void unlisted(std::string& out, const Report& report) {
+  if (report.options.engine.contacts != clash::Contacts::count) return;
+  out += "\"unlisted\": {\"CONTACT\": " + std::to_string(report.unlisted.contacts) +
+         ", \"ALLOWED\": " + std::to_string(report.unlisted.allowed) + "}, ";
+}
+
 void exempted(std::string& out, const Report& report) {
   append_list(out, "exempted", report.exempted, [&](const clash::Exempted& rule) {
     out += "{\"rule\": ";
@@ -393,6 +400,7 @@ void test(std::string& out, const Report& report, const ElementHashes& elements)
   append_counts(out, report.count_hit, report.count_contact, report.count_clearance,
                 report.count_allowed);
   out += ", ";
+  unlisted(out, report);
   exempted(out, report);
   out += ", ";
   allowed(out, report);

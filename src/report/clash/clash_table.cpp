@@ -55,7 +55,7 @@ TableBlock worst_of(const Report& report, clash::Class cls, std::size_t rows, cl
 struct ClassRows {
   clash::Class cls;
   std::string_view one, many;
-  std::size_t count, rows;
+  std::size_t count, listed, rows;
 };
 
 /// Returns the rows of each class: a fifth for each, so that none hides the others, and the rest to
@@ -63,13 +63,14 @@ struct ClassRows {
 std::array<ClassRows, 3> shares(const Report& report, std::size_t rows) {
   constexpr std::size_t kParts = 5;
   std::array<ClassRows, 3> all{{
-      {clash::Class::hit, "hit", "hits", report.count_hit, 0},
-      {clash::Class::contact, "contact", "contacts", report.count_contact, 0},
+      {clash::Class::hit, "hit", "hits", report.count_hit, report.count_hit, 0},
+      {clash::Class::contact, "contact", "contacts", report.count_contact,
+       report.count_contact - report.unlisted.contacts, 0},
       {clash::Class::clearance_violation, "clearance violation", "clearance violations",
-       report.count_clearance, 0},
+       report.count_clearance, report.count_clearance, 0},
   }};
   const auto give = [&](ClassRows& c, std::size_t most) {
-    const std::size_t given = std::min({most, rows, c.count - c.rows});
+    const std::size_t given = std::min({most, rows, c.listed - c.rows});
     c.rows += given;
     rows -= given;
   };
@@ -164,7 +165,10 @@ std::string not_compared(const Report& report, const model::Model& model) {
 std::string summary_of(const Report& report, const model::Model& model,
                        const std::array<ClassRows, 3>& classes) {
   std::string summary;
-  for (const ClassRows& c : classes) summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
+  for (const ClassRows& c : classes) {
+    summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
+    if (c.listed < c.count) summary += " (not listed)";
+  }
   if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
   if (report.count_allowed_regions > 0)
     summary +=

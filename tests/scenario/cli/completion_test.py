@@ -13,7 +13,7 @@ from pathlib import Path
 
 from scenario import VERBS, Scenario, main
 
-PROGRAM_VERBS = {'clash', 'draw', 'info', 'generate', 'man', 'completion'}
+PROGRAM_VERBS = {'clash', 'draw', 'info', 'evaluate', 'generate', 'man', 'completion'}
 
 
 class Completion:

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "strake/clash/clash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::clash {
+
+/// Takes the contacts out of a report's pairs and counts them in `unlisted`. Those that may be
+/// something else stay: where the bracket leaves the class open, and where a rule allows some of
+/// the regions. Errors: cancelled.
+[[nodiscard]] Status leave_out_contacts(const parallel::Context& context, Report& report);
+
+}  // namespace strake::clash
