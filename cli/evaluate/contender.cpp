@@ -142,6 +142,15 @@ Contender clash_contender(std::string name, unsigned threads, const model::Scene
 
 }  // namespace
 
+Contender drawing_way(const model::Scene& scene, const hlr::View& view, const hlr::Options& options,
+                      unsigned threads) {
+  return drawing_contender({}, threads, scene, view, options);
+}
+
+Contender clash_way(const model::Scene& scene, const clash::Options& options, unsigned threads) {
+  return clash_contender({}, threads, scene, options);
+}
+
 std::vector<Contender> drawing_contenders(const model::Scene& scene, const hlr::View& view,
                                           hlr::Stage stage, const std::vector<unsigned>& threads) {
   hlr::Options options;

@@ -12,6 +12,8 @@
 #include "cli/evaluate/cases.hpp"
 #include "cli/evaluate/contender.hpp"
 #include "cli/evaluate/measure.hpp"
+#include "cli/evaluate/statistics.hpp"
+#include "cli/evaluate/studies/studies.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/team.hpp"
@@ -65,10 +67,13 @@ class Evaluation {
              const std::stop_token& stop, const EvaluationHooks& hooks)
       : record_(record), stop_(stop), hooks_(hooks), wanted_(names.begin(), names.end()) {
     for (const CaseRecord& one : record.cases) wanted_.erase(one.name);
+    for (const StudyRecord& study : record.studies) wanted_.erase(study.name);
     for (const ViewCase& view : view_cases())
       if (wanted_.contains(std::string(view.name))) to_do_ += weight_of(view);
     for (const ShipCase& ship : ship_cases())
       if (wanted_.contains(std::string(ship.name))) to_do_ += kShipWeight;
+    for (const StudyCase& study : study_cases())
+      if (wanted_.contains(std::string(study.name))) to_do_ += kStudyWeight;
   }
 
   Status run() {
@@ -77,12 +82,15 @@ class Evaluation {
     for (const ShipCase& ship : ship_cases())
       if (wanted_.contains(std::string(ship.name)))
         if (const Status status = clash(ship); !status) return status;
+    for (const StudyCase& study : study_cases())
+      if (wanted_.contains(std::string(study.name)))
+        if (const Status status = run_study(study); !status) return status;
     return {};
   }
 
  private:
   // How much of the time a case takes, for the time to go; of a view of the whole ship: 1.
-  static constexpr double kShipWeight = 6, kPartWeight = 0.4;
+  static constexpr double kShipWeight = 6, kStudyWeight = 3, kPartWeight = 0.4;
   static double weight_of(const ViewCase& view) { return view.limits ? kPartWeight : 1; }
 
   Status views_of(ViewedShip which) {
@@ -133,6 +141,19 @@ class Evaluation {
         [&](const std::string& what) { narrate(fmt::format("{}, {}: {}", name, stage, what)); });
   }
 
+  Status run_study(const StudyCase& study) {
+    StudyRecord one;
+    one.name = study.name;
+    one.title = study.title;
+    one.question = study.question;
+    const StudyInput input{record_.settings, stop_,
+                           [&](const std::string& what) { narrate(what); }};
+    if (const Status status = study.run(input, one); !status) return status;
+    done_ += kStudyWeight;
+    record_.studies.push_back(std::move(one));
+    return hooks_.save("study " + std::string(study.name) + " done", record_);
+  }
+
   /// Adds a case to the record in its place, and saves.
   Status finish(CaseRecord one, double weight) {
     done_ += weight;
@@ -140,7 +161,8 @@ class Evaluation {
     const auto rank = [&](const CaseRecord& x) { return std::ranges::find(order, x.name); };
     const auto place = std::ranges::find_if(
         record_.cases, [&](const CaseRecord& other) { return rank(one) < rank(other); });
-    return hooks_.save(*record_.cases.insert(place, std::move(one)), record_);
+    return hooks_.save(outcome_line(*record_.cases.insert(place, std::move(one)), record_.settings),
+                       record_);
   }
 
   void narrate(const std::string& what) const {
@@ -164,6 +186,7 @@ std::vector<std::string> case_names() {
   std::vector<std::string> names;
   for (const ViewCase& view : view_cases()) names.emplace_back(view.name);
   for (const ShipCase& ship : ship_cases()) names.emplace_back(ship.name);
+  for (const StudyCase& study : study_cases()) names.emplace_back(study.name);
   return names;
 }
 

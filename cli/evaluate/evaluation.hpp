@@ -11,15 +11,15 @@
 
 namespace strake::cli {
 
-/// Returns the names of all cases, those of the views first.
+/// Returns the names of all cases: views, ships, studies.
 [[nodiscard]] std::vector<std::string> case_names();
 
 /// What an evaluation tells and asks while it runs.
 struct EvaluationHooks {
   /// Something runs: "iso, global: strake, 2 threads; about 40 s to go".
   std::function<void(const std::string&)> narrate;
-  /// A case is complete and stands in the record, which should be saved.
-  std::function<Status(const CaseRecord&, const EvaluationRecord&)> save;
+  /// A case is complete, in a line, and stands in the record, which should be saved.
+  std::function<Status(const std::string&, const EvaluationRecord&)> save;
 };
 
 /// Measures the cases of these names that the record does not have yet, and adds them in the order

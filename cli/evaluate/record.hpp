@@ -60,10 +60,18 @@ struct CaseRecord {
   std::vector<StageRecord> stages;
 };
 
+/// The answer to a question, as a table.
+struct StudyRecord {
+  std::string name, title, question;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
 struct EvaluationRecord {
   Machine machine;
   EvaluationSettings settings;
   std::vector<CaseRecord> cases;
+  std::vector<StudyRecord> studies;
 };
 
 }  // namespace strake::cli

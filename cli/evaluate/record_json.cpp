@@ -103,6 +103,16 @@ CaseRecord case_of(const Json& json) {
   return one;
 }
 
+StudyRecord study_of(const Json& json) {
+  StudyRecord study;
+  json.at("name").get_to(study.name);
+  json.at("title").get_to(study.title);
+  json.at("question").get_to(study.question);
+  json.at("columns").get_to(study.columns);
+  json.at("rows").get_to(study.rows);
+  return study;
+}
+
 Error damaged(const std::string& name, const std::string& what) {
   return Error{ErrorCode::input, "this is no evaluation: " + what, name,
                "name a file evaluation.json that 'strake evaluate' wrote"};
@@ -113,6 +123,13 @@ Error damaged(const std::string& name, const std::string& what) {
 std::string evaluation_json(const EvaluationRecord& record) {
   Json cases = Json::array();
   for (const CaseRecord& one : record.cases) cases.push_back(to_json(one));
+  Json studies = Json::array();
+  for (const StudyRecord& study : record.studies)
+    studies.push_back({{"name", study.name},
+                       {"title", study.title},
+                       {"question", study.question},
+                       {"columns", study.columns},
+                       {"rows", study.rows}});
   const Json document{{"schema_version", kSchemaVersion},
                       {"machine",
                        {{"processor", record.machine.processor},
@@ -126,7 +143,8 @@ std::string evaluation_json(const EvaluationRecord& record) {
                         {"threads", record.settings.threads},
                         {"repeat", record.settings.repeat},
                         {"limit_s", record.settings.limit_s}}},
-                      {"cases", std::move(cases)}};
+                      {"cases", std::move(cases)},
+                      {"studies", std::move(studies)}};
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -150,6 +168,7 @@ Result<EvaluationRecord> parse_evaluation(std::string_view text, const std::stri
     settings.at("repeat").get_to(record.settings.repeat);
     settings.at("limit_s").get_to(record.settings.limit_s);
     for (const Json& one : json.at("cases")) record.cases.push_back(case_of(one));
+    for (const Json& one : json.at("studies")) record.studies.push_back(study_of(one));
     return record;
   } catch (const Json::exception& error) {
     return damaged(name, error.what());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/evaluate/statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,6 +89,20 @@ std::optional<Speedup> speedup_of(const StageRecord& stage, unsigned threads) {
   add_balance(*run, result);
   add_bounds(*run, result);
   return result;
+}
+
+std::string outcome_line(const CaseRecord& one, const EvaluationSettings& settings) {
+  const unsigned threads = settings.threads.back();
+  std::vector<std::string> stages;
+  for (const StageRecord& stage : one.stages) {
+    std::string text = stage.name;
+    if (const std::optional<Speedup> speedup = speedup_of(stage, threads))
+      text += fmt::format(" {:.3f} s, {:.2f} x on {} threads", speedup->sequential_s,
+                          speedup->speedup, threads);
+    if (!stage.differences.empty()) text += ", DIFFERENT";
+    stages.push_back(std::move(text));
+  }
+  return fmt::format("{}: {}", one.name, fmt::join(stages, "; "));
 }
 
 Spread spread_of(std::span<const double> values) {

@@ -45,6 +45,9 @@ struct Speedup {
 /// Returns the speed-up of ours on so many threads; none where it was not measured.
 [[nodiscard]] std::optional<Speedup> speedup_of(const StageRecord& stage, unsigned threads);
 
+/// Returns "iso: local 0.62 s, 1.85 x on 2 threads; global ...".
+[[nodiscard]] std::string outcome_line(const CaseRecord& one, const EvaluationSettings& settings);
+
 struct Spread {
   std::size_t count = 0;
   double mean = 0, deviation = 0, least = 0, greatest = 0;

@@ -20,7 +20,6 @@
 #include "cli/evaluate/pages/pages.hpp"
 #include "cli/evaluate/pages/tables.hpp"
 #include "cli/evaluate/record_json.hpp"
-#include "cli/evaluate/statistics.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
 #include "strake/core/atomic_file.hpp"
@@ -173,21 +172,6 @@ bool print_comparison(Console& console, const Comparison& comparison, const std:
   return comparison.more_work.empty();
 }
 
-/// Returns "iso: local 0.62 s, 1.85 x on 2 threads, global ...".
-std::string outcome_line(const CaseRecord& one, const EvaluationSettings& settings) {
-  const unsigned threads = settings.threads.back();
-  std::vector<std::string> stages;
-  for (const StageRecord& stage : one.stages) {
-    std::string text = stage.name;
-    if (const std::optional<Speedup> speedup = speedup_of(stage, threads))
-      text += fmt::format(" {:.3f} s, {:.2f} x on {} threads", speedup->sequential_s,
-                          speedup->speedup, threads);
-    if (!stage.differences.empty()) text += ", DIFFERENT";
-    stages.push_back(std::move(text));
-  }
-  return fmt::format("{}: {}", one.name, fmt::join(stages, "; "));
-}
-
 Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
   const Result<EvaluationSettings> settings = settings_of(given);
   if (!settings) return settings.error();
@@ -212,8 +196,8 @@ Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
     session.console().note(fmt::format("{} holds {} cases, which are not measured again",
                                        state.string(), record->cases.size()));
   const EvaluationHooks hooks{[&](const std::string& what) { (void)session.step(what); },
-                              [&](const CaseRecord& done, const EvaluationRecord& now) {
-                                session.console().note(outcome_line(done, now.settings));
+                              [&](const std::string& done, const EvaluationRecord& now) {
+                                session.console().note(done);
                                 session.will_write(state);
                                 return write_file(state, evaluation_json(now));
                               }};

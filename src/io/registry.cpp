@@ -35,7 +35,7 @@ Error unknown_format(const Readers& readers, const FileBytes& file) {
 
 Result<model::Model> read_one(const Readers& readers, const std::filesystem::path& path,
                               const ReadOptions& options, const parallel::Context& context) {
-  const Result<FileContent> content = FileContent::read(path);
+  const Result<FileContent> content = FileContent::read(path, context);
   if (!content) return content.error();
   const FileBytes file{path, content->bytes()};
   if (file.bytes.empty())

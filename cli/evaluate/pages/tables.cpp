@@ -275,6 +275,8 @@ std::vector<Section> sections_of(const EvaluationRecord& record) {
   sections.push_back(thesis_ways(record));
   sections.push_back(by_threads(record));
   sections.push_back(distribution(record));
+  for (const StudyRecord& study : record.studies)
+    sections.push_back({{study.title, study.question, study.columns, study.rows}, {}});
   sections.push_back(memory(record));
   sections.push_back(work(record));
   sections.push_back(machine(record));

@@ -11,6 +11,8 @@
 #include <string>
 #include <system_error>
 
+#include "strake/parallel/transform.hpp"
+
 namespace strake::io {
 namespace {
 
@@ -40,9 +42,24 @@ class Descriptor {
   int number_;
 };
 
+/// Reads `size` bytes from a place in a file on, fewer where it ends; nothing, with errno set,
+/// where it cannot be read.
+std::optional<std::size_t> read_at(int file, std::byte* to, std::size_t size, std::size_t at) {
+  std::size_t done = 0;
+  while (done < size) {
+    const auto got = ::pread(file, to + done, size - done, static_cast<off_t>(at + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return std::nullopt;
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  return done;
+}
+
 }  // namespace
 
-Result<FileContent> FileContent::read(const std::filesystem::path& path) {
+Result<FileContent> FileContent::read(const std::filesystem::path& path,
+                                      const parallel::Context& context) {
   const Descriptor file(path);
   if (file.number() < 0) return cannot_read(path, errno);
   struct stat facts{};
@@ -56,14 +73,21 @@ Result<FileContent> FileContent::read(const std::filesystem::path& path) {
   const auto size = static_cast<std::size_t>(facts.st_size);
   content.data_.reset(new (std::nothrow) std::byte[size]);
   if (content.data_ == nullptr) return out_of_memory();
-  while (content.size_ < size) {
-    constexpr std::size_t kMost = std::size_t{1} << 30;  // one read() takes no more than 2 GiB
-    const auto got = ::read(file.number(), content.data_.get() + content.size_,
-                            std::min(size - content.size_, kMost));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return cannot_read(path, errno);
-    if (got == 0) break;
-    content.size_ += static_cast<std::size_t>(got);
+  constexpr std::size_t kPiece = std::size_t{4} << 20U;
+  const auto pieces =
+      parallel::transform(context, {.name = "read file", .n = (size + kPiece - 1) / kPiece},
+                          [&](std::size_t i) -> Result<std::size_t> {
+                            const std::size_t at = i * kPiece;
+                            const auto got = read_at(file.number(), content.data_.get() + at,
+                                                     std::min(kPiece, size - at), at);
+                            if (!got) return cannot_read(path, errno);
+                            return *got;
+                          });
+  if (!pieces) return pieces.error();
+  // A file that another program shortens meanwhile ends where the first piece does.
+  for (const std::size_t got : *pieces) {
+    content.size_ += got;
+    if (got < kPiece) break;
   }
   return content;
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
 
 /// Input files in memory, and the paths of files that they name.
 namespace strake::io {
@@ -17,7 +18,9 @@ namespace strake::io {
 /// while we read it would end this program.
 class FileContent {
  public:
-  [[nodiscard]] static Result<FileContent> read(const std::filesystem::path& path);
+  /// Reads a file, long ones in pieces by the whole team. Errors: input, memory, cancelled.
+  [[nodiscard]] static Result<FileContent> read(const std::filesystem::path& path,
+                                                const parallel::Context& context = {});
 
   [[nodiscard]] std::span<const std::byte> bytes() const { return {data_.get(), size_}; }
 

@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/gltf/json/json.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/text_encoding.hpp"
 #include "io/source/text_number.hpp"
 
 namespace strake::io::gltf {
 
-JsonValue JsonDocument::root() const { return {this, 0, static_cast<std::uint32_t>(size_)}; }
+JsonValue JsonDocument::root() const { return {this, settled(0), first_of_piece(pieces_.size())}; }
+
+bool JsonDocument::adopt(std::vector<std::vector<JsonEntry>> pieces) {
+  constexpr unsigned kNumberBits = 32;
+  std::size_t most = 0;
+  for (const std::vector<JsonEntry>& piece : pieces) most = std::max(most, piece.size());
+  const auto shift = static_cast<unsigned>(std::bit_width(most));
+  if (shift + static_cast<unsigned>(std::bit_width(pieces.size())) > kNumberBits) return false;
+  pieces_ = std::move(pieces);
+  shift_ = shift;
+  return true;
+}
 
 JsonValue JsonValue::operator[](std::string_view key) const { return pick<1>({key}).front(); }
 

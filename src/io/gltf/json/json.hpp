@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,7 +22,8 @@ class JsonValue;
 struct JsonEntry {
   std::uint32_t begin;  ///< begin of the value in the text, without quotes
   std::uint32_t end;
-  std::uint32_t next;  ///< the entry behind this value and all within it
+  /// The entry behind this value and all within it, counted from the first of this one's piece.
+  std::uint32_t next;
   JsonType type;
   bool escaped;  ///< a string that holds a backslash
 };
@@ -52,9 +52,38 @@ class JsonDocument {
 
  private:
   friend class JsonValue;
+  friend class FragmentJoiner;
+
+  /// Takes the pieces of the index as they are: copied into one they took half the time that
+  /// making them takes, and a fifth of the peak memory of loading a ship of a million nodes. False
+  /// where their entries cannot all be numbered.
+  bool adopt(std::vector<std::vector<JsonEntry>> pieces);
+
+  // An entry's number: that of its piece above `shift_` bits, its own in the piece below.
+  [[nodiscard]] std::uint32_t first_of_piece(std::size_t piece) const {
+    return static_cast<std::uint32_t>(piece << shift_);
+  }
+  [[nodiscard]] std::uint32_t first_of_its_piece(std::uint32_t entry) const {
+    return entry >> shift_ << shift_;
+  }
+  [[nodiscard]] const JsonEntry& at(std::uint32_t entry) const {
+    return pieces_[entry >> shift_][entry - first_of_its_piece(entry)];
+  }
+  /// Returns the number of what stands at a place: behind the last entry of a piece that is the
+  /// first of a later one, or the end.
+  [[nodiscard]] std::uint32_t settled(std::uint32_t place) const {
+    std::size_t piece = place >> shift_;
+    while (piece < pieces_.size() && place - first_of_piece(piece) == pieces_[piece].size())
+      place = first_of_piece(++piece);
+    return place;
+  }
+  [[nodiscard]] std::uint32_t next(std::uint32_t entry) const {
+    return settled(first_of_its_piece(entry) + at(entry).next);
+  }
+
   std::string_view text_;
-  std::unique_ptr<JsonEntry[]> entries_;
-  std::size_t size_ = 0;
+  std::vector<std::vector<JsonEntry>> pieces_;
+  unsigned shift_ = 0;
 };
 
 /// A value of a document, or the absence of one: every function may be called for any value and
@@ -125,14 +154,14 @@ class JsonValue {
   friend class JsonDocument;
   JsonValue(const JsonDocument* document, std::uint32_t entry, std::uint32_t end)
       : document_(document), entry_(entry), end_(end) {}
-  [[nodiscard]] const JsonEntry& entry() const { return document_->entries_[entry_]; }
+  [[nodiscard]] const JsonEntry& entry() const { return document_->at(entry_); }
   [[nodiscard]] JsonValue first_child() const {
     if (!is_object() && !is_array()) return {};
-    const std::uint32_t next = entry().next;
-    return entry_ + 1 == next ? JsonValue{} : JsonValue{document_, entry_ + 1, next};
+    const std::uint32_t first = document_->settled(entry_ + 1), next = document_->next(entry_);
+    return first == next ? JsonValue{} : JsonValue{document_, first, next};
   }
   [[nodiscard]] JsonValue after() const {
-    const std::uint32_t next = entry().next;
+    const std::uint32_t next = document_->next(entry_);
     return next == end_ ? JsonValue{} : JsonValue{document_, next, end_};
   }
 

@@ -338,39 +338,45 @@ JsonFragment index_json_fragment(std::string_view text, std::size_t begin, std::
   return PieceIndexer(text, begin, end).run();
 }
 
-namespace {
-
-using Fragments = std::vector<JsonFragment>;
-
-/// Joins what one fragment opened to what a later one closed. Returns false if the fragments are no
-/// document.
+/// Joins what one piece of a document opened to what a later one closed. Returns false if the
+/// pieces are no document.
 class FragmentJoiner {
  public:
-  explicit FragmentJoiner(JsonEntry* entries) : entries_(entries) {}
+  explicit FragmentJoiner(JsonDocument& document) : document_(document) {}
 
-  bool add(const JsonFragment& piece, std::uint32_t base) {
-    if (open_.size() + piece.deepest > JsonDocument::kMaxDepth) return false;
-    for (const JsonFragment::Close& close : piece.closes) {
+  bool add(const JsonFragment& fragment, std::size_t piece) {
+    if (open_.size() + fragment.deepest > JsonDocument::kMaxDepth) return false;
+    const std::uint32_t base = document_.first_of_piece(piece);
+    for (const JsonFragment::Close& close : fragment.closes) {
       if (!top_is(close.type)) return false;
-      JsonEntry& opened = entries_[open_.back()];
+      JsonEntry& opened = top();
       opened.end = close.text_end;
-      opened.next = base + close.entries;
+      opened.next = base + close.entries - document_.first_of_its_piece(open_.back());
       open_.pop_back();
     }
-    if (piece.outer != JsonType::absent && !top_is(piece.outer)) return false;
-    for (const std::uint32_t entry : piece.open) open_.push_back(base + entry);
+    if (fragment.outer != JsonType::absent && !top_is(fragment.outer)) return false;
+    for (const std::uint32_t entry : fragment.open) open_.push_back(base + entry);
     return true;
   }
   [[nodiscard]] bool is_complete() const { return open_.empty(); }
 
  private:
+  [[nodiscard]] JsonEntry& top() {
+    const std::uint32_t entry = open_.back();
+    return document_
+        .pieces_[entry >> document_.shift_][entry - document_.first_of_its_piece(entry)];
+  }
   [[nodiscard]] bool top_is(JsonType type) const {
-    return !open_.empty() && entries_[open_.back()].type == type;
+    return !open_.empty() && document_.at(open_.back()).type == type;
   }
 
-  JsonEntry* entries_;
+  JsonDocument& document_;
   std::vector<std::uint32_t> open_;  ///< what earlier pieces left open, outermost first
 };
+
+namespace {
+
+using Fragments = std::vector<JsonFragment>;
 
 Error invalid(const char* message, std::size_t at) {
   return {ErrorCode::input, fmt::format("is not valid JSON: {}", message),
@@ -408,27 +414,15 @@ Result<JsonDocument> JsonDocument::parse(std::string_view text, const parallel::
 
   JsonDocument document;
   document.text_ = text;
-  std::vector<std::uint32_t> bases{0};
-  for (const JsonFragment& piece : *pieces)
-    bases.push_back(bases.back() + static_cast<std::uint32_t>(piece.entries.size()));
-  document.size_ = bases.back();
-  document.entries_ = std::make_unique_for_overwrite<JsonEntry[]>(document.size_);
-  const Status gathered = parallel::for_each(
-      context, {.name = "gather glTF index", .n = pieces->size()}, [&](std::size_t k) {
-        JsonEntry* out = document.entries_.get() + bases[k];
-        for (const JsonEntry& entry : (*pieces)[k].entries) {
-          *out = entry;
-          out++->next += bases[k];
-        }
-        std::vector<JsonEntry>().swap((*pieces)[k].entries);
-      });
-  if (!gathered) return gathered.error();
-
-  FragmentJoiner joiner(document.entries_.get());
-  bool good = !pieces->back().behind_comma;
+  std::vector<std::vector<JsonEntry>> entries;
+  entries.reserve(pieces->size());
+  for (JsonFragment& piece : *pieces) entries.push_back(std::move(piece.entries));
+  bool good = document.adopt(std::move(entries)) && !pieces->back().behind_comma;
+  FragmentJoiner joiner(document);
   for (std::size_t k = 0; k < pieces->size() && good; ++k)
-    good = (*pieces)[k].message == nullptr && joiner.add((*pieces)[k], bases[k]);
+    good = (*pieces)[k].message == nullptr && joiner.add((*pieces)[k], k);
   if (good && joiner.is_complete()) return document;
+  if (pieces->size() == 1) return invalid("it has too many values", 0);
   // As one fragment the text is parsed in order, and the error says where the fault is.
   return parse(text, context, std::max<std::size_t>(text.size(), 1));
 }

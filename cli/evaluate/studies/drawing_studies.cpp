@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cli/evaluate/cases.hpp"
+#include "cli/evaluate/studies/study_runs.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+const ViewCase& view_named(std::string_view name) {
+  return *std::ranges::find(view_cases(), name, &ViewCase::name);
+}
+
+std::string times(const StudyRun& slower, const StudyRun& faster) {
+  if (!slower.unfinished.empty() || !faster.unfinished.empty()) return "-";
+  return fmt::format("{:.1f}", slower.seconds / faster.seconds);
+}
+
+/// Returns whether two runs came to the same result, where both did.
+std::string equal(const StudyRun& x, const StudyRun& y) {
+  if (!x.unfinished.empty() || !y.unfinished.empty()) return "-";
+  return x.computed.hash() == y.computed.hash() ? "yes" : "NO";
+}
+
+}  // namespace
+
+Status study_bucketing(const StudyInput& input, StudyRecord& study) {
+  constexpr double kPartOfScale = 0.2;
+  constexpr std::array<std::int32_t, 6> kSides{
+      hlr::Options::kBucketsByData, hlr::Options::kNoBuckets, 4, 16, 64, 256};
+  study.columns = {"View", "Buckets a side", "s", "Face tests", "Equal"};
+  for (const std::string_view name : {"iso", "plan-upper", "crowd"}) {
+    const ViewCase& view = view_named(name);
+    const auto scene =
+        place_ship(input, viewed_ship(view.ship, kPartOfScale * input.settings.scale));
+    if (!scene) return scene.error();
+    StudyRun by_data;
+    for (const std::int32_t side : kSides) {
+      hlr::Options options;
+      options.bucketing = side;
+      const std::string text = side == hlr::Options::kBucketsByData ? "auto"
+                               : side == hlr::Options::kNoBuckets   ? "off"
+                                                                    : std::to_string(side);
+      input.narrate(fmt::format("bucketing, {}: {}", name, text));
+      Result<StudyRun> run =
+          run_for_study(input, drawing_way(scene->scene, view_of(view, scene->box), options,
+                                           input.settings.threads.back()));
+      if (!run) return run.error();
+      if (side == hlr::Options::kBucketsByData) by_data = *run;
+      study.rows.push_back({std::string(view.title), text, run->text(), run->counter("face tests"),
+                            equal(*run, by_data)});
+    }
+  }
+  return {};
+}
+
+Status study_push_and_gather(const StudyInput& input, StudyRecord& study) {
+  constexpr double kMostObjects = 16'000;
+  study.columns = {"Objects",    "Gather s",           "Push s", "Times",
+                   "Face tests", "Face tests of push", "Equal"};
+  const ViewCase& view = view_named("iso");
+  for (const double part : {0.125, 0.25, 0.5, 1.0}) {
+    generate::ShipOptions ship = viewed_ship(ViewedShip::whole, 1);
+    ship.objects = std::max(
+        std::uint64_t{500},
+        static_cast<std::uint64_t>(kMostObjects * part * std::min(1.0, input.settings.scale)));
+    const auto scene = place_ship(input, ship);
+    if (!scene) return scene.error();
+    std::array<StudyRun, 2> runs;
+    for (const bool push : {false, true}) {
+      hlr::Options options;
+      if (push) options.solver = hlr::Solver::push;
+      input.narrate(
+          fmt::format("push-gather, {} objects: {}", ship.objects, push ? "push" : "gather"));
+      Result<StudyRun> run =
+          run_for_study(input, drawing_way(scene->scene, view_of(view, scene->box), options,
+                                           input.settings.threads.back()));
+      if (!run) return run.error();
+      runs[push ? 1 : 0] = std::move(*run);
+    }
+    const auto& [gather, push] = runs;
+    study.rows.push_back({std::to_string(ship.objects), gather.text(), push.text(),
+                          times(push, gather), gather.counter("face tests"),
+                          push.counter("face tests"), equal(push, gather)});
+  }
+  return {};
+}
+
+Status study_imported(const StudyInput& input, StudyRecord& study) {
+  study.columns = {"Triangles each", "Buckets auto s", "Off s",
+                   "Face tests",     "Face tests off", "Equal"};
+  const ViewCase& view = view_named("crowd");
+  for (const double triangles : {10'000.0, 40'000.0, 160'000.0}) {
+    generate::ShipOptions ship = viewed_ship(ViewedShip::crowd, input.settings.scale);
+    ship.imported_triangles =
+        std::max(std::uint64_t{2000},
+                 static_cast<std::uint64_t>(triangles * std::min(1.0, input.settings.scale)));
+    const auto scene = place_ship(input, ship);
+    if (!scene) return scene.error();
+    std::array<StudyRun, 2> runs;
+    for (const bool off : {false, true}) {
+      hlr::Options options;
+      if (off) options.bucketing = hlr::Options::kNoBuckets;
+      input.narrate(fmt::format("imported, {} triangles each: buckets {}", ship.imported_triangles,
+                                off ? "off" : "auto"));
+      Result<StudyRun> run =
+          run_for_study(input, drawing_way(scene->scene, view_of(view, scene->box), options,
+                                           input.settings.threads.back()));
+      if (!run) return run.error();
+      runs[off ? 1 : 0] = std::move(*run);
+    }
+    const auto& [by_data, off] = runs;
+    study.rows.push_back({std::to_string(ship.imported_triangles), by_data.text(), off.text(),
+                          by_data.counter("face tests"), off.counter("face tests"),
+                          equal(off, by_data)});
+  }
+  return {};
+}
+
+}  // namespace strake::cli
