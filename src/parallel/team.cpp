@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <exception>
 
+// Decision 0063 says why a team neither grows nor shrinks, and sets no priorities.
+
 namespace strake::parallel {
 
 namespace {

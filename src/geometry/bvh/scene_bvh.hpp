@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0061 says why there are trees of boxes, and no octree, spheres or fixed k-DOPs.
+
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0062 says what would have to be shown before this join ran on a GPU.
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

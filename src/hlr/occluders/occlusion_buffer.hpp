@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0062 says what would have to be shown before this buffer were filled on a GPU.
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>

@@ -93,7 +93,7 @@ std::span<const OcclusionInterval> OccluderGatherer::intervals_of_own_body(const
 }
 
 // Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
-// edge wholly, completely.
+// edge wholly, completely. It hides none of its wires (decision 0063).
 void OccluderGatherer::gather_own_objects() {
   if (edge_.kind == EdgeKind::polyline || job_.options.stage == Stage::none) return;
   if (edge_.feature != nullptr && edge_.own->opaque) gather_own_body();
