@@ -65,6 +65,7 @@ set(manual
   docs/clash.md
   docs/decisions
   docs/drawing.md
+  docs/evaluation.md
   docs/hidden-line-algorithms.md
   docs/hlr.md
   docs/pictures

@@ -17,7 +17,7 @@ STYLES = ['doxygen-awesome.css', 'doxygen-awesome-sidebar-only.css']
 # The parts of the navigation, each of a folder: (label, title, folder, the pages to begin with); others follow by name.
 PARTS = [
     ('guide', 'Using Strake', 'docs', ['library', 'clash', 'rules', 'selection', 'reading-results', 'hlr',
-                                        'hidden-line-algorithms', 'drawing', 'sheets']),
+                                        'hidden-line-algorithms', 'drawing', 'sheets', 'evaluation']),
     ('patterns', 'Parallel patterns', 'docs/patterns', []),
     ('decisions', 'Decisions', 'docs/decisions', []),
     ('project', 'The project', '.', ['ARCHITECTURE', 'HACKING', 'CONTRIBUTING', 'SECURITY', 'CHANGELOG']),

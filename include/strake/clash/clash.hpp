@@ -185,8 +185,7 @@ struct CellReport {
   std::uint64_t hit = 0, contact = 0, clearance_violation = 0, allowed = 0;
 };
 
-/// What a test should have compared but could not, or not whole: a clash that it does not report
-/// may be there all the same.
+/// What a test could not compare, or not whole: a clash that it does not report may be there.
 struct NotCompared {
   model::ObjectId a{};
   std::optional<model::ObjectId> b = {};  ///< absent: a lacks geometry, so any pair of it is meant
@@ -199,20 +198,17 @@ struct NotComparedCounts {
 };
 
 /// What one test found.
-/// Contacts that are counted but not listed.
+/// Contacts of Report::count_contact and of Report::count_allowed that are not listed.
 struct UnlistedContacts {
-  std::uint64_t contacts = 0;  ///< of Report::count_contact
-  std::uint64_t allowed = 0;   ///< of Report::count_allowed
+  std::uint64_t contacts = 0, allowed = 0;
 };
 
 struct Report {
   std::string name;          ///< the name of the test; empty where a run has only one
   std::string set_a, set_b;  ///< how the sets were chosen, as in Sets
   Options options;
-  std::vector<Pair> pairs;  ///< by (a, b); NO_HIT pairs are not kept
-  /// With Contacts::count, those that are not among the pairs. A contact whose bracket leaves its
-  /// class open is.
-  UnlistedContacts unlisted;
+  std::vector<Pair> pairs;    ///< by (a, b); NO_HIT pairs are not kept
+  UnlistedContacts unlisted;  ///< those not among the pairs, with Contacts::count
   /// The regions of pairs with several or with allowed ones, in the order of the pairs; of each
   /// pair the worst first.
   std::vector<Region> regions;
@@ -230,8 +226,7 @@ struct Report {
   std::vector<CellReport> cells;             ///< by (a, b)
   std::vector<std::uint32_t> discipline;     ///< an entry per object; kNoLabel: in no discipline
   std::vector<bool> in_a, in_b;              ///< the sets, with an entry per object
-  /// For each object of the sets: how many of its parts are surfaces without an inside, 255 for
-  /// more.
+  /// How many parts of each object of the sets are surfaces without an inside, 255 for more.
   std::vector<std::uint8_t> sheets;
   bool within_files = true;  ///< whether pairs of objects of one file were checked
   /// Objects of the sets in their order, then pairs by (a, b).

@@ -74,7 +74,7 @@ class SphereSearch {
     const Box3d root = a_.box().common(b_.box()).inflated(reach() / 2);
     if (root.empty()) return concluded();
     stack_.push_back(root);
-    while (!stack_.empty() && !done_) {
+    while (!stack_.empty() && !done_ && !is_stopped()) {
       const Box3d cell = stack_.back();
       stack_.pop_back();
       visit_cell(cell);
@@ -84,6 +84,13 @@ class SphereSearch {
 
  private:
   [[nodiscard]] double reach() const { return reach_of(options_) + thresholds_.weld; }
+
+  /// Whether the run was cancelled: one pair may take hours, and its answer is dropped then.
+  [[nodiscard]] bool is_stopped() const {
+    constexpr std::uint64_t kBetweenLooks = 1024;
+    return cells_ % kBetweenLooks == 0 && work_.pair.team != nullptr &&
+           work_.pair.team->stop.stop_requested();
+  }
 
   void visit_cell(const Box3d& cell) {
     if (++cells_ > most_cells_) {

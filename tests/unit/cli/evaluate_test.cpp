@@ -15,6 +15,9 @@
 #include "cli/evaluate/pages/tables.hpp"
 #include "cli/evaluate/record_json.hpp"
 #include "cli/evaluate/statistics.hpp"
+#include "cli/evaluate/time_limit.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/model/scene.hpp"
 
 namespace strake::cli {
 namespace {
@@ -216,6 +219,45 @@ TEST(Evaluate, AContenderWithALimitIsStoppedAndSaidToBe) {
   ASSERT_TRUE(stage.has_value()) << stage.error().text();
   EXPECT_EQ(stage->contenders.back().unfinished, "stopped after 0.05 s");
   EXPECT_TRUE(stage->differences.empty());
+}
+
+/// Returns a cube of side 100 mm, from x on.
+geometry::TriangleMesh cube_from(double x) {
+  geometry::TriangleMesh mesh;
+  for (unsigned corner = 0; corner < 8; ++corner)
+    mesh.vertices.push_back({x + ((corner & 1U) != 0 ? 100.0 : 0), (corner & 2U) != 0 ? 100.0 : 0,
+                             (corner & 4U) != 0 ? 100.0 : 0});
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+TEST(Evaluate, ALimitEndsSphereSubdivisionWithinAPair) {
+  model::Model model;
+  model.files.push_back({"cubes", "made", "mm", "z", 0, 0});
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    model::Object object;
+    object.id = object.name = i == 0 ? "a" : "b";
+    object.first_body = i;
+    object.body_count = 1;
+    model.objects.push_back(object);
+    model::Body body;
+    body.shape = model::ShapeId{i};
+    model.bodies.push_back(body);
+    model.shapes.emplace_back(cube_from(i == 0 ? 0 : 100.5));
+  }
+  model::finish(model);
+  const auto scene = model::make_scene(model, {}, {});
+  ASSERT_TRUE(scene.has_value());
+  clash::Options options{.tolerances = {.touch_gap_mm = 0.002, .touch_overlap_mm = 0.002}};
+  options.tolerances.clearance_mm = 5;
+  options.engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
+  options.engine.most_spheres = std::uint64_t{1} << 50U;
+  const TimeLimit limit({}, 0.05);
+  const auto report =
+      clash::detect(*scene, clash::one_set(*scene), options, {.stop = limit.token()});
+  ASSERT_FALSE(report.has_value());
+  EXPECT_EQ(report.error().code, ErrorCode::cancelled);
 }
 
 TEST(Evaluate, AFailureOfAContenderThatMustEndIsTheEvaluations) {
