@@ -157,7 +157,9 @@ class Evaluation {
   /// Adds a case to the record in its place, and saves.
   Status finish(CaseRecord one, double weight) {
     done_ += weight;
-    const std::vector<std::string> order = case_names();
+    std::vector<std::string> order;
+    for (const CaseGroup& group : case_groups())
+      order.insert(order.end(), group.cases.begin(), group.cases.end());
     const auto rank = [&](const CaseRecord& x) { return std::ranges::find(order, x.name); };
     const auto place = std::ranges::find_if(
         record_.cases, [&](const CaseRecord& other) { return rank(one) < rank(other); });
@@ -182,12 +184,12 @@ class Evaluation {
 
 }  // namespace
 
-std::vector<std::string> case_names() {
-  std::vector<std::string> names;
-  for (const ViewCase& view : view_cases()) names.emplace_back(view.name);
-  for (const ShipCase& ship : ship_cases()) names.emplace_back(ship.name);
-  for (const StudyCase& study : study_cases()) names.emplace_back(study.name);
-  return names;
+std::vector<CaseGroup> case_groups() {
+  std::vector<CaseGroup> groups{{"views", {}}, {"ships", {}}, {"studies", {}}};
+  for (const ViewCase& view : view_cases()) groups[0].cases.emplace_back(view.name);
+  for (const ShipCase& ship : ship_cases()) groups[1].cases.emplace_back(ship.name);
+  for (const StudyCase& study : study_cases()) groups[2].cases.emplace_back(study.name);
+  return groups;
 }
 
 Status evaluate(const std::vector<std::string>& names, EvaluationRecord& record,

@@ -83,16 +83,33 @@ Result<std::vector<unsigned>> team_sizes(const std::string& text) {
 }
 
 Result<std::vector<std::string>> chosen_cases(const std::string& only) {
-  const std::vector<std::string> all = case_names();
-  if (only.empty()) return all;
-  std::vector<std::string> chosen;
-  for (const std::string& part : parts_of(only)) {
-    if (std::ranges::find(all, part) == all.end())
+  const std::vector<CaseGroup> groups = case_groups();
+  std::vector<std::string> chosen, known;
+  for (const CaseGroup& group : groups) {
+    known.push_back(group.name);
+    known.insert(known.end(), group.cases.begin(), group.cases.end());
+  }
+  for (const std::string& part : only.empty() ? std::vector<std::string>{} : parts_of(only)) {
+    if (std::ranges::find(known, part) == known.end())
       return Error{ErrorCode::usage, "there is no case '" + part + "'", "--only",
-                   fmt::format("there are {}", fmt::join(all, ", "))};
+                   fmt::format("there are {}", fmt::join(known, ", "))};
     chosen.push_back(part);
   }
-  return chosen;
+  std::vector<std::string> cases;
+  for (const CaseGroup& group : groups) {
+    const bool whole = only.empty() || std::ranges::find(chosen, group.name) != chosen.end();
+    for (const std::string& one : group.cases)
+      if (whole || std::ranges::find(chosen, one) != chosen.end()) cases.push_back(one);
+  }
+  return cases;
+}
+
+/// Returns "views (plan-lower, ...), ships (...)".
+std::string described_groups() {
+  std::vector<std::string> texts;
+  for (const CaseGroup& group : case_groups())
+    texts.push_back(fmt::format("{} ({})", group.name, fmt::join(group.cases, ", ")));
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
@@ -241,7 +258,7 @@ Verb add_evaluate(CLI::App& program, CommonOptions& common) {
       ->type_name("NUMBER");
   command
       ->add_option("--only", options->only,
-                   fmt::format("The cases to measure, of {}", fmt::join(case_names(), ", ")))
+                   "The cases to measure, or groups of them: " + described_groups())
       ->type_name("NAMES");
   command
       ->add_option("--threads", options->threads,

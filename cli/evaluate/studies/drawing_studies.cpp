@@ -66,9 +66,9 @@ Status study_push_and_gather(const StudyInput& input, StudyRecord& study) {
   const ViewCase& view = view_named("iso");
   for (const double part : {0.125, 0.25, 0.5, 1.0}) {
     generate::ShipOptions ship = viewed_ship(ViewedShip::whole, 1);
-    ship.objects = std::max(
-        std::uint64_t{500},
-        static_cast<std::uint64_t>(kMostObjects * part * std::min(1.0, input.settings.scale)));
+    // At any scale the sizes differ.
+    const double scale = std::clamp(input.settings.scale, 0.0625, 1.0);
+    ship.objects = static_cast<std::uint64_t>(kMostObjects * part * scale);
     const auto scene = place_ship(input, ship);
     if (!scene) return scene.error();
     std::array<StudyRun, 2> runs;
@@ -97,9 +97,9 @@ Status study_imported(const StudyInput& input, StudyRecord& study) {
   const ViewCase& view = view_named("crowd");
   for (const double triangles : {10'000.0, 40'000.0, 160'000.0}) {
     generate::ShipOptions ship = viewed_ship(ViewedShip::crowd, input.settings.scale);
-    ship.imported_triangles =
-        std::max(std::uint64_t{2000},
-                 static_cast<std::uint64_t>(triangles * std::min(1.0, input.settings.scale)));
+    // At any scale the sizes differ.
+    const double scale = std::clamp(input.settings.scale, 0.1, 1.0);
+    ship.imported_triangles = static_cast<std::uint64_t>(triangles * scale);
     const auto scene = place_ship(input, ship);
     if (!scene) return scene.error();
     std::array<StudyRun, 2> runs;
