@@ -7,6 +7,7 @@
 #include "cli/evaluate/record.hpp"
 #include "strake/core/result.hpp"
 
+// Decision 0064 says why counters guard and seconds are only told.
 namespace strake::cli {
 
 /// What became of the cases of an earlier evaluation, a line each.

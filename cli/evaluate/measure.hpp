@@ -11,6 +11,8 @@
 #include "cli/evaluate/record.hpp"
 #include "strake/core/result.hpp"
 
+// Decision 0064 says why the same contender takes part twice, and why results are compared by
+// bytes.
 namespace strake::cli {
 
 /// Runs the contenders of a stage in turn, round after round: what else the machine does hits all

@@ -5,6 +5,7 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
+// Decision 0065 says why contacts are counted and not listed, and which stay.
 namespace strake::clash {
 
 /// Takes the contacts out of a report's pairs and counts them in `unlisted`. Those that may be
