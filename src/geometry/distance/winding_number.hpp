@@ -20,7 +20,7 @@ namespace strake::geometry {
 ///
 /// 1. Floating point, the same on every machine: far triangles count together as a small flat one
 ///    (G. Barill et al., Fast Winding Numbers for Soups and Clouds, 2018), which is off by about a
-///    hundredth. Use it for reports, not for decisions.
+///    hundredth. Use it for marks such as UNCERTAIN, not for classes.
 /// 2. Where triangles do not all face the same way, more than two meet at an edge, or there are
 ///    several surfaces, as with a shelf inside or a fin outside, the sum is meaningless. Then rays
 ///    decide: the directions that lead out meet no triangle, and from inside a good part of the
