@@ -22,7 +22,10 @@ void compare_counters(const std::string& where, const ContenderRecord& before,
                       const ContenderRecord& now, Comparison& result) {
   for (const auto& [name, old_value] : before.counters) {
     const auto found = now.counters.find(name);
-    if (found == now.counters.end()) continue;
+    if (found == now.counters.end()) {
+      result.missing.push_back(where + ": " + name);
+      continue;
+    }
     ++result.compared;
     const auto was = static_cast<double>(old_value), is = static_cast<double>(found->second);
     const std::string line =
@@ -46,13 +49,18 @@ void compare_times(const std::string& where, const StageRecord& before, const St
 
 }  // namespace
 
+Status check_comparable(const EvaluationSettings& before, const EvaluationSettings& now) {
+  if (before.scale == now.scale) return {};
+  return Error{ErrorCode::usage,
+               fmt::format("it was made at scale {:g}, this one at {:g}: their ships differ",
+                           before.scale, now.scale),
+               "--compare", fmt::format("give --scale {:g}", before.scale)};
+}
+
 Result<Comparison> compare_evaluations(const EvaluationRecord& before,
                                        const EvaluationRecord& now) {
-  if (before.settings.scale != now.settings.scale)
-    return Error{ErrorCode::usage,
-                 fmt::format("it was made at scale {:g}, this one at {:g}: their ships differ",
-                             before.settings.scale, now.settings.scale),
-                 "--compare", fmt::format("give --scale {:g}", before.settings.scale)};
+  if (const Status status = check_comparable(before.settings, now.settings); !status)
+    return status.error();
   Comparison result;
   for (const CaseRecord& old_case : before.cases) {
     const auto one = std::ranges::find(now.cases, old_case.name, &CaseRecord::name);
@@ -62,11 +70,18 @@ Result<Comparison> compare_evaluations(const EvaluationRecord& before,
     }
     for (const StageRecord& old_stage : old_case.stages) {
       const auto stage = std::ranges::find(one->stages, old_stage.name, &StageRecord::name);
-      if (stage == one->stages.end()) continue;
       const std::string where = old_case.name + ", " + old_stage.name;
+      if (stage == one->stages.end()) {
+        result.missing.push_back(where);
+        continue;
+      }
       const ContenderRecord* const was = find_contender(old_stage, kSequential, 1);
       const ContenderRecord* const is = find_contender(*stage, kSequential, 1);
-      if (was != nullptr && is != nullptr) compare_counters(where, *was, *is, result);
+      if (was != nullptr && is != nullptr) {
+        compare_counters(where, *was, *is, result);
+        if (was->hash != is->hash || was->published_hash != is->published_hash)
+          result.other_results.push_back(where);
+      }
       compare_times(where, old_stage, *stage, result);
     }
   }

@@ -17,12 +17,17 @@ struct Comparison {
   /// Times, as ratios to the reference kernel of their own run, that grew by more than 15 % and
   /// what the two machines can tell.
   std::vector<std::string> slower;
-  std::vector<std::string> missing;  ///< cases of the earlier one that this one does not have
-  std::size_t compared = 0;          ///< counters
+  /// Cases, stages and counters of the earlier one that this one does not have.
+  std::vector<std::string> missing;
+  std::vector<std::string> other_results;  ///< results that are not those of the earlier one
+  std::size_t compared = 0;                ///< counters
 };
 
-/// Compares the sequential runs. Errors: usage where the two have not the same scale, and so not
-/// the same input.
+/// Whether the two have the same input. Errors: usage, where they have not the same scale.
+[[nodiscard]] Status check_comparable(const EvaluationSettings& before,
+                                      const EvaluationSettings& now);
+
+/// Compares the sequential runs. Errors: those of check_comparable().
 [[nodiscard]] Result<Comparison> compare_evaluations(const EvaluationRecord& before,
                                                      const EvaluationRecord& now);
 

@@ -5,11 +5,20 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "strake/core/hash.hpp"
 #include "strake/core/version.hpp"
 #include "strake/parallel/team.hpp"
 
@@ -30,6 +39,13 @@ std::string value_of(const char* file, std::string_view key) {
   return {};
 }
 
+std::string hash_of_program() {
+  std::ifstream in("/proc/self/exe", std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return Hasher().add(std::string_view(bytes.view())).value().text();
+}
+
 }  // namespace
 
 Machine this_machine() {
@@ -47,10 +63,15 @@ Machine this_machine() {
   machine.compiler = "GCC " __VERSION__;
 #endif
   machine.version = version();
+  machine.program = hash_of_program();
   return machine;
 }
 
 bool reset_peak_memory() {
+#ifdef __GLIBC__
+  // The program keeps what it freed (keep_freed_memory()): that is not the next one's.
+  malloc_trim(0);
+#endif
   std::ofstream out("/proc/self/clear_refs");
   out << "5";
   return static_cast<bool>(out.flush());

@@ -10,7 +10,8 @@ namespace strake::cli {
 /// Returns what can be told of the machine and the program; what cannot stays empty.
 [[nodiscard]] Machine this_machine();
 
-/// Forgets the peak memory of the process so far; false where the system does not allow it.
+/// Gives freed memory back and forgets the peak of the process so far; false where the system does
+/// not allow it.
 bool reset_peak_memory();
 /// Returns the most memory that the process held since; 0: unknown.
 [[nodiscard]] std::uint64_t peak_memory_since_reset();

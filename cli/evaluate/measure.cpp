@@ -87,7 +87,7 @@ class StageMeter {
     if (!computed) return without_result(contender, record, computed.error());
     record.seconds.push_back(took.count());
     record.cpu_s = parallel::process_cpu_s() - cpu;
-    if (has_peak) record.peak_bytes = std::max(record.peak_bytes, peak_memory_since_reset());
+    if (has_peak && publish) record.peak_bytes = peak_memory_since_reset();
     keep_regions(report, record);
     record.counters = computed->counters;
     parallel::Context publishing = context;
@@ -98,7 +98,9 @@ class StageMeter {
 
   /// Takes it that a contender with a limit has no result.
   Status without_result(const Contender& contender, ContenderRecord& record, const Error& error) {
-    if (!contender.limited || stop_.stop_requested()) return error;
+    const bool expected = error.code == ErrorCode::cancelled || error.code == ErrorCode::memory ||
+                          error.code == ErrorCode::input;
+    if (!contender.limited || !expected || stop_.stop_requested()) return error;
     record.unfinished = error.code == ErrorCode::cancelled
                             ? fmt::format("stopped after {:g} s", settings_.limit_s)
                             : error.message;
@@ -116,9 +118,10 @@ class StageMeter {
     }
     if (contender.must_equal != MustEqual::bytes) return {};
     const auto differs = [&](const char* what) {
-      stage_.differences.push_back(fmt::format("{} of '{}' on {} threads is not that of the {} run",
-                                               what, contender.name, contender.threads,
-                                               first.name));
+      std::string line = fmt::format("{} of '{}' on {} threads is not that of the {} run", what,
+                                     contender.name, contender.threads, first.name);
+      if (std::ranges::find(stage_.differences, line) == stage_.differences.end())
+        stage_.differences.push_back(std::move(line));
     };
     if (record.hash != first.hash) differs("the result");
     if (record.published_hash != first.published_hash) differs("the published document");

@@ -14,6 +14,7 @@ namespace strake::cli {
 /// The machine and the program that measured.
 struct Machine {
   std::string processor, system, compiler, version;
+  std::string program;  ///< the hash of the program's file: another build is another program
   unsigned hardware_threads = 0;  ///< those that this process may use
   std::uint64_t memory_bytes = 0;
 };
@@ -65,6 +66,7 @@ struct StudyRecord {
   std::string name, title, question;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> differences;  ///< as of a StageRecord
 };
 
 struct EvaluationRecord {

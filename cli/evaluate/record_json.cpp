@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
 
 namespace strake::cli {
 
@@ -110,6 +112,7 @@ StudyRecord study_of(const Json& json) {
   json.at("question").get_to(study.question);
   json.at("columns").get_to(study.columns);
   json.at("rows").get_to(study.rows);
+  json.at("differences").get_to(study.differences);
   return study;
 }
 
@@ -129,7 +132,8 @@ std::string evaluation_json(const EvaluationRecord& record) {
                        {"title", study.title},
                        {"question", study.question},
                        {"columns", study.columns},
-                       {"rows", study.rows}});
+                       {"rows", study.rows},
+                       {"differences", study.differences}});
   const Json document{{"schema_version", kSchemaVersion},
                       {"machine",
                        {{"processor", record.machine.processor},
@@ -137,7 +141,8 @@ std::string evaluation_json(const EvaluationRecord& record) {
                         {"memory_bytes", record.machine.memory_bytes},
                         {"system", record.machine.system},
                         {"compiler", record.machine.compiler},
-                        {"version", record.machine.version}}},
+                        {"version", record.machine.version},
+                        {"program", record.machine.program}}},
                       {"settings",
                        {{"scale", record.settings.scale},
                         {"threads", record.settings.threads},
@@ -162,6 +167,7 @@ Result<EvaluationRecord> parse_evaluation(std::string_view text, const std::stri
     machine.at("system").get_to(record.machine.system);
     machine.at("compiler").get_to(record.machine.compiler);
     machine.at("version").get_to(record.machine.version);
+    machine.at("program").get_to(record.machine.program);
     const Json& settings = json.at("settings");
     settings.at("scale").get_to(record.settings.scale);
     settings.at("threads").get_to(record.settings.threads);
@@ -176,11 +182,13 @@ Result<EvaluationRecord> parse_evaluation(std::string_view text, const std::stri
 }
 
 Result<EvaluationRecord> read_evaluation(const std::string& file) {
+  std::error_code failure;
   std::ifstream in(file, std::ios::binary);
-  if (!in)
-    return Error{ErrorCode::input, "cannot be read", file, "check the name and its permissions"};
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return parse_evaluation(text, file);
+  std::ostringstream text;
+  if (!in || std::filesystem::is_directory(file, failure) || !(text << in.rdbuf()))
+    return Error{ErrorCode::input, "cannot be read, or is empty", file,
+                 "name a file evaluation.json that 'strake evaluate' wrote"};
+  return parse_evaluation(text.view(), file);
 }
 
 }  // namespace strake::cli

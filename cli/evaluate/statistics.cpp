@@ -61,7 +61,8 @@ void add_balance(const ContenderRecord& run, Speedup& result) {
 }
 
 void add_bounds(const ContenderRecord& run, Speedup& result) {
-  const double serial_s = std::max(0.0, result.parallel_s - run.shared_wall_s);
+  // The regions are those of the last round.
+  const double serial_s = std::max(0.0, run.seconds.back() - run.shared_wall_s);
   if (result.sequential_s <= 0) return;
   result.serial_share = std::min(1.0, serial_s / result.sequential_s);
   const auto threads = static_cast<double>(run.threads);
@@ -69,7 +70,10 @@ void add_bounds(const ContenderRecord& run, Speedup& result) {
   double least_s = 0, longest_serial_s = 0;
   for (const parallel::RegionReport& region : run.regions) {
     least_s += region.least_s;
-    if (region.runs > 0 || region.nested_cpu_s <= longest_serial_s) continue;
+    // What takes longer than all that is serial ran within another region, on several workers.
+    if (region.runs > 0 || region.nested_cpu_s <= longest_serial_s ||
+        region.nested_cpu_s > serial_s)
+      continue;
     longest_serial_s = region.nested_cpu_s;
     result.serial_region = region.name;
   }

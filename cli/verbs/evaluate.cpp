@@ -135,24 +135,53 @@ Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
 
 bool is_of(const Machine& x, const Machine& y) {
   return x.processor == y.processor && x.system == y.system && x.compiler == y.compiler &&
-         x.version == y.version && x.hardware_threads == y.hardware_threads;
+         x.version == y.version && x.program == y.program &&
+         x.hardware_threads == y.hardware_threads;
 }
 
-/// Returns what the folder holds already of this evaluation, or an empty one.
+/// Returns what the folder holds already of this evaluation, or an empty one; with --fresh without
+/// the cases that are to be measured.
 Result<EvaluationRecord> begun_record(const EvaluateOptions& given, const fs::path& file,
+                                      const std::vector<std::string>& names,
                                       const EvaluationSettings& settings) {
   EvaluationRecord empty;
   empty.machine = this_machine();
   empty.settings = settings;
   std::error_code failure;
-  if (given.fresh || !fs::exists(file, failure)) return empty;
+  if (!fs::exists(file, failure)) return empty;
   Result<EvaluationRecord> record = read_evaluation(file.string());
-  if (!record) return record.error();
-  if (record->settings != settings || !is_of(record->machine, empty.machine))
+  const bool goes_on =
+      record && record->settings == settings && is_of(record->machine, empty.machine);
+  if (!given.fresh) {
+    if (!record) return record.error();
+    if (goes_on) return record;
     return Error{ErrorCode::usage,
-                 "it was made with other settings, by another program or on another machine",
+                 "it was made with other settings, by another build or on another machine",
                  file.string(), "give --fresh to begin again, or another -o"};
+  }
+  if (!goes_on) return empty;
+  const auto is_asked_for = [&](const auto& one) {
+    return std::ranges::find(names, one.name) != names.end();
+  };
+  std::erase_if(record->cases, is_asked_for);
+  std::erase_if(record->studies, is_asked_for);
   return record;
+}
+
+/// Returns the evaluation to compare with, if one is named.
+Result<std::optional<EvaluationRecord>> earlier_record(const EvaluateOptions& given,
+                                                       const fs::path& state,
+                                                       const EvaluationSettings& settings) {
+  if (given.compare.empty()) return std::optional<EvaluationRecord>();
+  std::error_code failure;
+  if (!given.fresh && fs::equivalent(given.compare, state, failure))
+    return Error{ErrorCode::usage, "it is the evaluation that is gone on with", given.compare,
+                 "keep a copy of the earlier one, or give another -o"};
+  Result<EvaluationRecord> record = read_evaluation(given.compare);
+  if (!record) return record.error();
+  if (const Status status = check_comparable(record->settings, settings); !status)
+    return status.error();
+  return std::optional(std::move(*record));
 }
 
 Status write_pages(Session& session, const fs::path& folder, const EvaluationRecord& record) {
@@ -176,7 +205,7 @@ Status write_pages(Session& session, const fs::path& folder, const EvaluationRec
   return write("evaluation.html", evaluation_html(record));
 }
 
-/// Prints what became of an earlier evaluation; false where work grew.
+/// Prints what became of an earlier evaluation; false where work grew, or nothing was compared.
 bool print_comparison(Console& console, const Comparison& comparison, const std::string& file) {
   console.note(fmt::format(
       "{} counters of work compared with {}: {} grew by more than 1 %, {} "
@@ -184,9 +213,13 @@ bool print_comparison(Console& console, const Comparison& comparison, const std:
       comparison.compared, file, comparison.more_work.size(), comparison.less_work.size()));
   for (const std::string& line : comparison.less_work) console.note("less work: " + line);
   for (const std::string& line : comparison.slower) console.note("slower: " + line);
-  for (const std::string& name : comparison.missing) console.note("not measured here: " + name);
+  for (const std::string& line : comparison.missing) console.note("not measured here: " + line);
+  for (const std::string& line : comparison.other_results)
+    console.warn("another result than before: " + line);
   for (const std::string& line : comparison.more_work) console.warn("more work: " + line);
-  return comparison.more_work.empty();
+  if (comparison.compared == 0) console.warn("nothing could be compared with " + file);
+  return comparison.more_work.empty() && comparison.other_results.empty() &&
+         comparison.compared > 0;
 }
 
 Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
@@ -194,20 +227,16 @@ Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
   if (!settings) return settings.error();
   const Result<std::vector<std::string>> names = chosen_cases(given.only);
   if (!names) return names.error();
-  std::optional<EvaluationRecord> before;
-  if (!given.compare.empty()) {
-    Result<EvaluationRecord> read = read_evaluation(given.compare);
-    if (!read) return read.error();
-    before = std::move(*read);
-  }
   const fs::path folder = given.folder.empty() ? "evaluation" : given.folder;
+  const fs::path state = folder / "evaluation.json";
+  const Result<std::optional<EvaluationRecord>> before = earlier_record(given, state, *settings);
+  if (!before) return before.error();
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure)
     return Error{ErrorCode::output, "the folder cannot be made: " + failure.message(),
                  folder.string(), "give -o another folder"};
-  const fs::path state = folder / "evaluation.json";
-  Result<EvaluationRecord> record = begun_record(given, state, *settings);
+  Result<EvaluationRecord> record = begun_record(given, state, *names, *settings);
   if (!record) return record.error();
   if (!record->cases.empty())
     session.console().note(fmt::format("{} holds {} cases, which are not measured again",
@@ -229,8 +258,8 @@ Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
     session.console().warn("different: " + line);
     good = false;
   }
-  if (before) {
-    const Result<Comparison> comparison = compare_evaluations(*before, *record);
+  if (*before) {
+    const Result<Comparison> comparison = compare_evaluations(**before, *record);
     if (!comparison) return comparison.error();
     good = print_comparison(session.console(), *comparison, given.compare) && good;
   }
@@ -277,8 +306,8 @@ Verb add_evaluate(CLI::App& program, CommonOptions& common) {
       ->type_name("SECONDS");
   command
       ->add_option("--compare", options->compare,
-                   "An evaluation.json from before: says what takes more work or time since; exit "
-                   "code 1 where it is work")
+                   "An evaluation.json from before: says what takes more work or time since, and "
+                   "which results are others; exit code 1 but for time")
       ->type_name("FILE");
   command->add_flag("--fresh", options->fresh, "Measure again what the folder holds already");
   command->add_flag("--quiet", common.quiet, "No narration and no progress, errors only")

@@ -120,7 +120,8 @@ Verb add_generate(CLI::App& program, CommonOptions& common) {
                     "Turn the whole ship so that no face lies along an axis");
   add_choice(*command, "--kind", options->kind,
              {generate::kShipKinds.begin(), generate::kShipKinds.end()},
-             "What it is like: slender (three lanes and levels), dense (engine rooms only), "
+             "What it is like: slender (half as many lanes and levels, three at most), dense "
+             "(engine rooms only), "
              "repeated (cabins only: few shapes at many places), unlike (every eighth body a mesh "
              "like no other) (default usual)");
   CLI::Option* const imported =

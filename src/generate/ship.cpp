@@ -42,7 +42,7 @@ std::vector<ShipPlan> candidate_plans(const ShipOptions& options) {
   const double rooms = static_cast<double>(options.objects) / 75;
   int size = 1;
   while ((size + 1.0) * (size + 1.0) * (size + 1.0) * 3 <= rooms) ++size;
-  if (options.kind == ShipKind::slender) size = std::min(size, kSlender);
+  if (options.kind == ShipKind::slender) size = std::clamp(size / 2, 1, kSlender);
   const int more = options.objects < kSmall ? 1 : 0;
   std::vector<ShipPlan> plans;
   for (int levels = size; levels <= size + more; ++levels)

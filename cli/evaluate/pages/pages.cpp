@@ -37,16 +37,20 @@ std::string verdict(const EvaluationRecord& record) {
   const std::size_t differences = differences_of(record).size();
   if (differences > 0)
     return fmt::format("{} results differ that must be equal: see below.", differences);
-  std::size_t compared = 0;
+  std::size_t compared = 0, unfinished = 0;
   for (const CaseRecord& one : record.cases)
     for (const StageRecord& stage : one.stages)
-      compared += static_cast<std::size_t>(std::ranges::count_if(
-          stage.contenders,
-          [](const ContenderRecord& run) { return !run.published_hash.empty(); }));
+      for (const ContenderRecord& run : stage.contenders) {
+        if (!run.unfinished.empty()) ++unfinished;
+        if (!run.published_hash.empty() && &run != &stage.contenders.front()) ++compared;
+      }
+  if (compared == 0) return "No results were compared.";
   return fmt::format(
-      "All {} results and published documents are equal to those of the sequential "
-      "runs, byte by byte.",
-      compared);
+      "All {} results and published documents that were compared are equal to those of "
+      "the first sequential run, byte by byte.{}",
+      compared,
+      unfinished == 0 ? std::string()
+                      : fmt::format(" {} runs were stopped before they had a result.", unfinished));
 }
 
 /// Says how far this machine can tell.

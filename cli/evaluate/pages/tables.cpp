@@ -290,6 +290,9 @@ std::vector<std::string> differences_of(const EvaluationRecord& record) {
     for (const StageRecord& stage : one.stages)
       for (const std::string& difference : stage.differences)
         lines.push_back(fmt::format("{}, {}: {}", one.name, stage.name, difference));
+  for (const StudyRecord& study : record.studies)
+    for (const std::string& difference : study.differences)
+      lines.push_back(fmt::format("{}: {}", study.name, difference));
   return lines;
 }
 

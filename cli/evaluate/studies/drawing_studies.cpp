@@ -21,10 +21,13 @@ std::string times(const StudyRun& slower, const StudyRun& faster) {
   return fmt::format("{:.1f}", slower.seconds / faster.seconds);
 }
 
-/// Returns whether two runs came to the same result, where both did.
-std::string equal(const StudyRun& x, const StudyRun& y) {
+/// Returns whether two runs came to the same result, where both did; a difference is the study's.
+std::string equal(const StudyRun& x, const StudyRun& y, const std::string& what,
+                  StudyRecord& study) {
   if (!x.unfinished.empty() || !y.unfinished.empty()) return "-";
-  return x.computed.hash() == y.computed.hash() ? "yes" : "NO";
+  if (x.computed.hash() == y.computed.hash()) return "yes";
+  study.differences.push_back(what);
+  return "NO";
 }
 
 }  // namespace
@@ -52,8 +55,11 @@ Status study_bucketing(const StudyInput& input, StudyRecord& study) {
                                            input.settings.threads.back()));
       if (!run) return run.error();
       if (side == hlr::Options::kBucketsByData) by_data = *run;
-      study.rows.push_back({std::string(view.title), text, run->text(), run->counter("face tests"),
-                            equal(*run, by_data)});
+      study.rows.push_back(
+          {std::string(view.title), text, run->text(), run->counter("face tests"),
+           side == hlr::Options::kBucketsByData
+               ? "-"
+               : equal(*run, by_data, fmt::format("{}, buckets {}", name, text), study)});
     }
   }
   return {};
@@ -86,7 +92,8 @@ Status study_push_and_gather(const StudyInput& input, StudyRecord& study) {
     const auto& [gather, push] = runs;
     study.rows.push_back({std::to_string(ship.objects), gather.text(), push.text(),
                           times(push, gather), gather.counter("face tests"),
-                          push.counter("face tests"), equal(push, gather)});
+                          push.counter("face tests"),
+                          equal(push, gather, fmt::format("{} objects", ship.objects), study)});
   }
   return {};
 }
@@ -115,9 +122,10 @@ Status study_imported(const StudyInput& input, StudyRecord& study) {
       runs[off ? 1 : 0] = std::move(*run);
     }
     const auto& [by_data, off] = runs;
-    study.rows.push_back({std::to_string(ship.imported_triangles), by_data.text(), off.text(),
-                          by_data.counter("face tests"), off.counter("face tests"),
-                          equal(off, by_data)});
+    study.rows.push_back(
+        {std::to_string(ship.imported_triangles), by_data.text(), off.text(),
+         by_data.counter("face tests"), off.counter("face tests"),
+         equal(off, by_data, fmt::format("{} triangles", ship.imported_triangles), study)});
   }
   return {};
 }

@@ -13,8 +13,7 @@ namespace {
 
 constexpr double kSize_mm = 2000, kThick_mm = 40, kWave_mm = 30;
 
-/// Returns a slab whose upper face (or, if `upper` is false, lower face) is a field of waves with
-/// so many squares along each side.
+/// Returns a slab with a field of waves above or below, of so many squares along each side.
 geometry::TriangleMesh wavy_slab(std::uint32_t squares, double z_mm, bool waves_above) {
   geometry::TriangleMesh mesh;
   const std::uint32_t row = squares + 1;
@@ -22,7 +21,7 @@ geometry::TriangleMesh wavy_slab(std::uint32_t squares, double z_mm, bool waves_
     for (std::uint32_t j = 0; j < row; ++j)
       for (std::uint32_t i = 0; i < row; ++i) {
         const double x = kSize_mm * i / squares, y = kSize_mm * j / squares;
-        // Sixths of a millimetre and coarser: the vertices are the same on every machine.
+        // Whole micrometres.
         const double wave =
             std::round(kWave_mm * std::sin(x / 90) * std::sin(y / 110) * 1000) / 1000;
         const double flat = top ? kThick_mm + kWave_mm : -kThick_mm - kWave_mm;

@@ -25,7 +25,7 @@ struct StudyScene {
 [[nodiscard]] Result<StudyScene> place_ship(const StudyInput& input,
                                             const generate::ShipOptions& options);
 
-/// One timed run on the most workers of the evaluation.
+/// Timed runs of one contender.
 struct StudyRun {
   double seconds = 0;  ///< the median
   Computed computed;

@@ -41,14 +41,6 @@ struct ClashOptions {
   std::vector<std::string> outputs;
 };
 
-/// Most contacts are meant: they are counted, unless the command line is about them.
-clash::Contacts contacts_of(const ClashOptions& given) {
-  if (given.contacts == "list") return clash::Contacts::list;
-  const bool about_contacts = given.result.group_contacts || given.fail_on == "contact" ||
-                              given.fail_on == "clearance_violation";
-  return given.contacts.empty() && about_contacts ? clash::Contacts::list : clash::Contacts::count;
-}
-
 Result<clash::EngineOptions> engine_options(const ClashOptions& given) {
   clash::EngineOptions engine;
   if (const Status status = whole_number(engine.most_pairs, given.most_pairs, "--most-pairs");
@@ -65,7 +57,7 @@ Result<clash::EngineOptions> engine_options(const ClashOptions& given) {
     engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
   if (given.result.wants_volumes()) engine.volumes = clash::Volumes::on;
   if (given.curves) engine.curves = clash::Curves::on;
-  engine.contacts = contacts_of(given);
+  if (given.contacts == "count") engine.contacts = clash::Contacts::count;
   return engine;
 }
 
@@ -303,9 +295,8 @@ void add_rules(CLI::App& command, ClashOptions& options) {
                 "drawn, but never clash)")
       ->group("Rules");
   add_choice(command, "--contacts", options.contacts, {"list", "count"},
-             "List contacts as other results, or only count them; those that may be something else "
-             "are listed all the same (default count; list with --group-contacts, and with "
-             "--fail-on contact or clearance_violation)")
+             "List contacts that lie side by side as other results, or only count them; a contact "
+             "that may be something else is listed all the same (default list)")
       ->group("Result");
   add_choice(
       command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},

@@ -197,12 +197,12 @@ struct NotComparedCounts {
   std::uint64_t objects = 0, pairs = 0;
 };
 
-/// What one test found.
 /// Contacts of Report::count_contact and of Report::count_allowed that are not listed.
 struct UnlistedContacts {
   std::uint64_t contacts = 0, allowed = 0;
 };
 
+/// What one test found.
 struct Report {
   std::string name;          ///< the name of the test; empty where a run has only one
   std::string set_a, set_b;  ///< how the sets were chosen, as in Sets

@@ -37,7 +37,7 @@ struct EngineOptions {
   Curves curves = Curves::off;
   /// Whether contacts stand in Report::pairs or are only counted (Report::unlisted): most contacts
   /// are meant, and a ship of a million objects has 1.5 million. Counts and the hash of the result
-  /// are the same. A contact whose bracket leaves its class open is listed all the same.
+  /// are the same. Contacts that may be something else are listed all the same.
   Contacts contacts = Contacts::list;
   /// How many of the separate regions of a pair are listed; 0: they are not looked for.
   std::uint64_t most_regions = 8;

@@ -18,7 +18,7 @@ namespace strake::generate {
 /// What a generated ship is like. Each is a load of another kind for clash detection and drawings.
 enum class ShipKind : std::uint8_t {
   usual,
-  slender,   ///< three lanes and three levels only, whatever its length
+  slender,   ///< half as many lanes and levels, three at most, and so longer
   dense,     ///< engine rooms on every level
   repeated,  ///< cabins on every level: few shapes, each at many places
   unlike,    ///< every eighth body with a mesh like no other, as programs without instances write

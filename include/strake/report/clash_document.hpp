@@ -51,8 +51,8 @@ struct DocumentTest {
   std::string name;
   std::string hash;       ///< the hash of its results, as the run gave it
   DocumentCounts counts;  ///< as the run gave them
-  /// The contacts that the run counted but did not list, and those of them that a rule allows;
-  /// absent: it listed all.
+  /// The contacts that the run counted but did not list: those that no rule allows, and those that
+  /// one does; absent: it listed all.
   std::optional<DocumentCounts> unlisted;
   /// The number of regions that rules allow of results that they do not allow; absent: the run did
   /// not count them.

@@ -12,9 +12,16 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
+/// Parts side by side: the same sheet twice, or one within the other, is a contact that is seldom
+/// meant.
+bool is_side_by_side(Relation relation) {
+  return relation == Relation::abut_outside || relation == Relation::separate;
+}
+
 bool is_left_out(const Pair& pair) {
-  return pair.cls == Class::contact && pair.severest <= Class::contact &&
-         (pair.flags & kUncertain) == 0 && pair.allowed_regions == 0;
+  return is_side_by_side(pair.relation) && pair.cls == Class::contact &&
+         pair.severest <= Class::contact && (pair.flags & kUncertain) == 0 &&
+         pair.allowed_regions == 0;
 }
 
 }  // namespace

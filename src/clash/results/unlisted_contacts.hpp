@@ -5,12 +5,12 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
-// Decision 0065 says why contacts are counted and not listed, and which stay.
+// Decision 0065 says which contacts stay, and why counting is not the default.
 namespace strake::clash {
 
 /// Takes the contacts out of a report's pairs and counts them in `unlisted`. Those that may be
-/// something else stay: where the bracket leaves the class open, and where a rule allows some of
-/// the regions. Errors: cancelled.
+/// something else stay: where the two do not lie side by side, where the bracket leaves the class
+/// open, and where a rule allows some of the regions. Errors: cancelled.
 [[nodiscard]] Status leave_out_contacts(const parallel::Context& context, Report& report);
 
 }  // namespace strake::clash

@@ -84,7 +84,7 @@ Result<FileContent> FileContent::read(const std::filesystem::path& path,
                             return *got;
                           });
   if (!pieces) return pieces.error();
-  // A file that another program shortens meanwhile ends where the first piece does.
+  // A file that another program shortens meanwhile ends where the first short piece does.
   for (const std::size_t got : *pieces) {
     content.size_ += got;
     if (got < kPiece) break;

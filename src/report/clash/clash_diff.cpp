@@ -77,11 +77,8 @@ class RunCoverage {
     if (!run_.lists_exempted && here->exempted_pairs > 0)
       return "may be among the " + std::to_string(here->exempted_pairs) +
              " exempted pairs, which are not listed";
-    if (r.cls == clash::Class::contact && here->unlisted &&
-        (here->unlisted->contact > 0 || here->unlisted->allowed > 0))
-      return "may be among the " +
-             std::to_string(here->unlisted->contact + here->unlisted->allowed) +
-             " contacts, which are not listed";
+    if (const std::uint64_t contacts = unlisted(*here); contacts > 0)
+      return "may be among the " + std::to_string(contacts) + " contacts, which are not listed";
     return by_settings(r, *here, other);
   }
 
@@ -92,6 +89,11 @@ class RunCoverage {
     std::uint64_t element = 0;
     bool there = false, in_a = false, in_b = false;
   };
+
+  /// Returns how many contacts the run counted but did not list.
+  [[nodiscard]] static std::uint64_t unlisted(const DocumentTest& here) {
+    return here.unlisted ? here.unlisted->contact + here.unlisted->allowed : 0;
+  }
 
   /// Returns why an object could not be compared whole; null if it was.
   [[nodiscard]] const std::string* lacks(const ObjectPresence& side,

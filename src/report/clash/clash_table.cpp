@@ -167,7 +167,7 @@ std::string summary_of(const Report& report, const model::Model& model,
   std::string summary;
   for (const ClassRows& c : classes) {
     summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
-    if (c.listed < c.count) summary += " (not listed)";
+    if (c.listed < c.count) summary += " (" + std::to_string(c.count - c.listed) + " not listed)";
   }
   if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
   if (report.count_allowed_regions > 0)

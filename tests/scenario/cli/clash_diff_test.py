@@ -21,7 +21,7 @@ class ClashDiff(Scenario):
     def test_a_run_is_compared_with_an_older_one(self):
         """A ship, and the same with one object removed, one moved away and one renamed."""
         self.generate('ship.obj')
-        run = ['clash', 'ship.obj', '--contacts', 'list', '-o']
+        run = ['clash', 'ship.obj', '-o']
         self.assertEqual(self.run_strake(*run, 'old.json').returncode, 0)
         self.assertEqual(self.run_strake(*run, 'new.json').returncode, 0)
         same = self.diff('--fail-on', 'worse')

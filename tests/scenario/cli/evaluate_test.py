@@ -80,13 +80,29 @@ class Evaluate(unittest.TestCase):
 
     def test_work_that_grew_is_named(self):
         before = self.record()
-        same = self.evaluate('-o', 'first', '--only', 'detail,repeated', '--compare', 'first/evaluation.json')
+        (self.folder / 'same.json').write_text(json.dumps(before), encoding='utf-8')
+        same = self.evaluate('-o', 'first', '--only', 'detail,repeated', '--compare', 'same.json')
         self.assertIn('0 grew', same.stderr)
+        itself = self.evaluate('-o', 'first', '--only', 'detail', '--compare', 'first/evaluation.json', expect=2)
+        self.assertIn('gone on with', itself.stderr)
+        before['cases'][1]['stages'][0]['contenders'][0]['hash'] = 'another'
+        (self.folder / 'other.json').write_text(json.dumps(before), encoding='utf-8')
+        other = self.evaluate('-o', 'first', '--only', 'detail,repeated', '--compare', 'other.json', expect=1)
+        self.assertIn('another result than before: repeated, clash', other.stderr)
         for contender in before['cases'][0]['stages'][1]['contenders']:
             contender['counters']['face tests'] //= 2
         (self.folder / 'less.json').write_text(json.dumps(before), encoding='utf-8')
         more = self.evaluate('-o', 'first', '--only', 'detail,repeated', '--compare', 'less.json', expect=1)
         self.assertIn('more work: detail, global: face tests', more.stderr)
+
+    def test_fresh_measures_again_what_is_named(self):
+        self.evaluate('-o', 'third', '--only', 'detail,repeated')
+        before = self.record('third')
+        self.evaluate('-o', 'third', '--only', 'detail', '--fresh')
+        after = self.record('third')
+        self.assertEqual([c['name'] for c in after['cases']], ['detail', 'repeated'])
+        self.assertEqual(after['cases'][1], before['cases'][1])
+        self.assertNotEqual(after['cases'][0], before['cases'][0])
 
     def test_wrong_values_are_named(self):
         for arguments, word in ((('--only', 'nothing'), 'section-long'), (('--scale', '0'), '--scale'),
@@ -101,6 +117,9 @@ class Evaluate(unittest.TestCase):
             done = subprocess.run([STRAKE, 'evaluate', '-o', 'wrong', '--only', 'detail', '--compare', 'bad.json'],
                                   capture_output=True, text=True, cwd=self.folder)
             self.assertEqual(done.returncode, 3, text)
+        done = subprocess.run([STRAKE, 'evaluate', '-o', 'wrong', '--compare', '.'], capture_output=True, text=True,
+                              cwd=self.folder)
+        self.assertEqual(done.returncode, 3)
         self.assertFalse((self.folder / 'wrong').exists())
 
 

@@ -43,7 +43,7 @@ CaseRecord example_case(std::string name, std::string stage) {
   measured.name = std::move(stage);
   measured.reference_s = 0.1;
   measured.contenders = {contender(kSequential, 1, {2, 2.1, 1.9}),
-                         contender(kAgain, 1, {2, 2.1, 1.9}), contender(kOurs, 2, {1.1, 1.0, 1.2})};
+                         contender(kAgain, 1, {2, 2.1, 1.9}), contender(kOurs, 2, {1.0, 1.2, 1.1})};
   parallel::RegionReport region;
   region.name = "edges";
   region.runs = 1;
@@ -157,6 +157,7 @@ TEST(Evaluate, PagesEscapeWhatTheyShow) {
   EXPECT_EQ(html.find("<marks>"), std::string::npos);
   EXPECT_NE(html.find("&lt;marks&gt;"), std::string::npos);
   EXPECT_NE(html.find("2.911"), std::string::npos) << "the thesis's figures stand beside";
+  EXPECT_NE(html.find("All 4 results"), std::string::npos) << "the first of each is none of them";
   EXPECT_NE(evaluation_markdown(record).find("A case \\| with a bar"), std::string::npos);
   EXPECT_NE(evaluation_csv(record).find("iso,10,0,0,global,\"sequential, again\",1,3,2,1.9"),
             std::string::npos)
