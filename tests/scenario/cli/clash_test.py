@@ -176,7 +176,7 @@ class Clash(Scenario):
             self.assertIn('2 contacts, which are not listed', entry['why'])
         told = json.loads(self.run_strake('clash', 'diff', 'touching.json', 'near.json', '--json').stdout)
         self.assertEqual(told['counts']['new'], 2)
-        for entry in told['new']:
+        for entry in told['added']:
             self.assertIn('2 contacts, which are not listed', entry['why'])
 
     def test_contacts_that_rules_allow_are_counted_as_such(self):
