@@ -191,12 +191,11 @@ Status write_pages(Session& session, const fs::path& folder, const EvaluationRec
       return Status{};
     });
   };
-  const std::vector<Section> sections = sections_of(record);
-  for (std::size_t s = 0; s < sections.size(); ++s)
-    for (std::size_t n = 0; n < sections[s].charts.size(); ++n) {
-      const fs::path file = folder / chart_file(s, n);
+  for (const Section& section : sections_of(record))
+    for (std::size_t n = 0; n < section.charts.size(); ++n) {
+      const fs::path file = folder / chart_file(section, n);
       session.will_write(file);
-      if (const Status status = write_file(file, bar_chart_svg(sections[s].charts[n])); !status)
+      if (const Status status = write_file(file, bar_chart_svg(section.charts[n])); !status)
         return status;
     }
   if (const Status status = write("evaluation.csv", evaluation_csv(record)); !status) return status;

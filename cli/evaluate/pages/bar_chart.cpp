@@ -116,10 +116,12 @@ class ChartWriter {
   }
 
   void write_legend() {
-    constexpr double kEach = 210;
+    constexpr double kWidest = 210;
+    const double each =
+        std::min(kWidest, (kChartWidth - kMarginLeft) / static_cast<double>(chart_.series.size()));
     double x = kMarginLeft;
     const double at = kMarginTop + kPlotHeight + kNamesHeight + 4;
-    for (std::size_t s = 0; s < chart_.series.size(); ++s, x += kEach) {
+    for (std::size_t s = 0; s < chart_.series.size(); ++s, x += each) {
       put(R"(<rect x="{}" y="{}" width="12" height="12" fill="{}"/>)", x, at,
           kColours[s % kColours.size()]);
       put(R"(<text x="{}" y="{}">{}</text>)", x + 18, at + 11, text(chart_.series[s].name));

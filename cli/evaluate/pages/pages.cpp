@@ -122,19 +122,18 @@ std::string evaluation_html(const EvaluationRecord& record) {
   return out;
 }
 
-std::string chart_file(std::size_t section, std::size_t n) {
-  return fmt::format("chart-{}-{}.svg", section + 1, n + 1);
+std::string chart_file(const Section& section, std::size_t n) {
+  return fmt::format("chart-{}-{}.svg", section.id, n + 1);
 }
 
 std::string evaluation_markdown(const EvaluationRecord& record) {
   std::string out = fmt::format("# {}\n\n{}\n\n{}\n", kTitle, verdict(record), resolution(record));
   for (const std::string& line : differences_of(record)) out += "\n- " + line;
-  const std::vector<Section> sections = sections_of(record);
-  for (std::size_t s = 0; s < sections.size(); ++s) {
-    const auto& [table, charts] = sections[s];
+  for (const Section& section : sections_of(record)) {
+    const auto& [id, table, charts] = section;
     out += "\n## " + table.title + "\n\n";
     for (std::size_t n = 0; n < charts.size(); ++n)
-      out += fmt::format("![{}]({})\n\n", charts[n].title, chart_file(s, n));
+      out += fmt::format("![{}]({})\n\n", charts[n].title, chart_file(section, n));
     if (!table.note.empty()) out += table.note + "\n\n";
     put_row(table.columns, out);
     out += '|';

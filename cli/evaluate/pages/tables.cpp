@@ -37,6 +37,7 @@ std::string title_of(const std::string& stage) {
 Section summary(const EvaluationRecord& record) {
   const unsigned threads = most_threads(record);
   Section section;
+  section.id = "summary";
   section.table = {
       "Speed-ups beside the thesis's",
       fmt::format("Sequential time over time on {} threads. The thesis measured on four cores with "
@@ -75,6 +76,7 @@ std::pair<std::string, std::string> thesis_way(const StageRecord& stage, double 
 Section speedups(const EvaluationRecord& record, const std::string& stage) {
   const unsigned threads = most_threads(record);
   Section section;
+  section.id = "speed-up-" + stage;
   section.table = {
       title_of(stage),
       "Sequential and parallel: median seconds. Balance: mean over maximum of the workers' busy "
@@ -114,6 +116,7 @@ Section speedups(const EvaluationRecord& record, const std::string& stage) {
 
 Section thesis_ways(const EvaluationRecord& record) {
   Section section;
+  section.id = "thesis";
   section.table = {"The thesis's own way on the same input",
                    "Seconds of one run, and how many times as long as ours on as many threads as "
                    "there are.",
@@ -135,6 +138,7 @@ Section thesis_ways(const EvaluationRecord& record) {
 
 Section by_threads(const EvaluationRecord& record) {
   Section section;
+  section.id = "threads";
   section.table = {
       "Speed-up by number of threads", "Mean, and the least of all cases.", {"Stage"}, {}};
   BarChart chart{"Mean speed-up by number of threads", "x", {}, {}};
@@ -166,6 +170,7 @@ Section by_threads(const EvaluationRecord& record) {
 Section distribution(const EvaluationRecord& record) {
   const unsigned threads = most_threads(record);
   Section section;
+  section.id = "workers";
   section.table = {"Distribution over the workers",
                    "Busy seconds of each worker in all regions, least and greatest.",
                    {"Case", "Stage", "Least s", "Greatest s"},
@@ -197,6 +202,7 @@ Section distribution(const EvaluationRecord& record) {
 
 Section memory(const EvaluationRecord& record) {
   Section section;
+  section.id = "memory";
   section.table = {"Peak memory by number of threads",
                    "Mebibytes of the process while the contender ran; model and scene are among "
                    "them.",
@@ -224,11 +230,13 @@ Section memory(const EvaluationRecord& record) {
 
 Section work(const EvaluationRecord& record) {
   Section section;
-  section.table = {"Work",
-                   "Counters of the sequential run and of the thesis's way: they do not depend on "
-                   "the machine.",
-                   {"Case", "Stage", "Contender", "Counters"},
-                   {}};
+  section.id = "work";
+  section.table = {
+      "Work",
+      "Counters of the sequential run and of the thesis's way. They do not depend on the "
+      "machine, but for those of push on several threads, which depend on the schedule.",
+      {"Case", "Stage", "Contender", "Counters"},
+      {}};
   for (const CaseRecord& one : record.cases)
     for (const StageRecord& stage : one.stages) {
       std::set<std::string> seen{kAgain, kOurs};
@@ -249,6 +257,7 @@ Section machine(const EvaluationRecord& record) {
   for (const unsigned n : record.settings.threads)
     threads += fmt::format("{}{}", threads.empty() ? "" : ", ", n);
   Section section;
+  section.id = "machine";
   section.table = {
       "Machine and settings",
       {},
@@ -276,7 +285,7 @@ std::vector<Section> sections_of(const EvaluationRecord& record) {
   sections.push_back(by_threads(record));
   sections.push_back(distribution(record));
   for (const StudyRecord& study : record.studies)
-    sections.push_back({{study.title, study.question, study.columns, study.rows}, {}});
+    sections.push_back({study.name, {study.title, study.question, study.columns, study.rows}, {}});
   sections.push_back(memory(record));
   sections.push_back(work(record));
   sections.push_back(machine(record));

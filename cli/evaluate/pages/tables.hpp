@@ -18,6 +18,7 @@ struct Table {
 
 /// A part of the page: a chart, if there is something to show, and a table.
 struct Section {
+  std::string id;  ///< in names of files: "speed-up-local"
   Table table;
   std::vector<BarChart> charts;
 };
