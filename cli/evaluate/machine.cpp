@@ -40,7 +40,7 @@ std::string value_of(const char* file, std::string_view key) {
 }
 
 std::string hash_of_program() {
-  std::ifstream in("/proc/self/exe", std::ios::binary);
+  const std::ifstream in("/proc/self/exe", std::ios::binary);
   std::ostringstream bytes;
   bytes << in.rdbuf();
   return Hasher().add(std::string_view(bytes.view())).value().text();

@@ -19,7 +19,7 @@ namespace strake::cli {
 
 namespace {
 
-constexpr double kLeastShownRegion_s = 0.001;
+constexpr double kLeastShownSeconds = 0.001;
 
 /// Notes of the regions of a run what is worth keeping.
 void keep_regions(const parallel::RunReport& report, ContenderRecord& record) {
@@ -27,7 +27,7 @@ void keep_regions(const parallel::RunReport& report, ContenderRecord& record) {
   record.shared_wall_s = 0;
   for (parallel::RegionReport& region : report.regions()) {
     if (region.runs > 0) record.shared_wall_s += region.wall_s;
-    if (region.wall_s + region.nested_cpu_s >= kLeastShownRegion_s)
+    if (region.wall_s + region.nested_cpu_s >= kLeastShownSeconds)
       record.regions.push_back(std::move(region));
   }
 }

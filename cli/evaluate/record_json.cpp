@@ -183,7 +183,7 @@ Result<EvaluationRecord> parse_evaluation(std::string_view text, const std::stri
 
 Result<EvaluationRecord> read_evaluation(const std::string& file) {
   std::error_code failure;
-  std::ifstream in(file, std::ios::binary);
+  const std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || std::filesystem::is_directory(file, failure) || !(text << in.rdbuf()))
     return Error{ErrorCode::input, "cannot be read, or is empty", file,

@@ -45,13 +45,13 @@ double sequential_seconds(const StageRecord& stage) {
 }
 
 void add_balance(const ContenderRecord& run, Speedup& result) {
-  constexpr double kLong_s = 0.05;
+  constexpr double kLongSeconds = 0.05;
   std::vector<double> busy(run.threads);
   for (const parallel::RegionReport& region : run.regions) {
     if (region.runs == 0) continue;
     for (std::size_t w = 0; w < std::min(busy.size(), region.busy_s.size()); ++w)
       busy[w] += region.busy_s[w];
-    if (region.wall_s < kLong_s || region.load_balance() >= result.worst_balance) continue;
+    if (region.wall_s < kLongSeconds || region.load_balance() >= result.worst_balance) continue;
     result.worst_balance = region.load_balance();
     result.worst_region = region.name;
   }

@@ -113,12 +113,13 @@ std::string described_groups() {
 }
 
 Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
-  constexpr double kLargestScale = 4, kLongestLimit_s = 1e6, kLimitAtFullScale_s = 60;
+  constexpr double kLargestScale = 4, kLongestLimitSeconds = 1e6, kLimitAtFullScaleSeconds = 60;
   EvaluationSettings settings;
   if (const Status s = positive_number(settings.scale, given.scale, "--scale", kLargestScale); !s)
     return s.error();
-  settings.limit_s = std::max(2.0, kLimitAtFullScale_s * settings.scale);
-  if (const Status s = positive_number(settings.limit_s, given.limit, "--limit", kLongestLimit_s);
+  settings.limit_s = std::max(2.0, kLimitAtFullScaleSeconds * settings.scale);
+  if (const Status s =
+          positive_number(settings.limit_s, given.limit, "--limit", kLongestLimitSeconds);
       !s)
     return s.error();
   if (const Status s = whole_number(settings.repeat, given.repeat, "--repeat"); !s)

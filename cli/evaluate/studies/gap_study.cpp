@@ -11,7 +11,7 @@ namespace strake::cli {
 
 namespace {
 
-constexpr double kSize_mm = 2000, kThick_mm = 40, kWave_mm = 30;
+constexpr double kSizeMm = 2000, kThickMm = 40, kWaveMm = 30;
 
 /// Returns a slab with a field of waves above or below, of so many squares along each side.
 geometry::TriangleMesh wavy_slab(std::uint32_t squares, double z_mm, bool waves_above) {
@@ -20,11 +20,11 @@ geometry::TriangleMesh wavy_slab(std::uint32_t squares, double z_mm, bool waves_
   for (const bool top : {false, true})
     for (std::uint32_t j = 0; j < row; ++j)
       for (std::uint32_t i = 0; i < row; ++i) {
-        const double x = kSize_mm * i / squares, y = kSize_mm * j / squares;
+        const double x = kSizeMm * i / squares, y = kSizeMm * j / squares;
         // Whole micrometres.
         const double wave =
-            std::round(kWave_mm * std::sin(x / 90) * std::sin(y / 110) * 1000) / 1000;
-        const double flat = top ? kThick_mm + kWave_mm : -kThick_mm - kWave_mm;
+            std::round(kWaveMm * std::sin(x / 90) * std::sin(y / 110) * 1000) / 1000;
+        const double flat = top ? kThickMm + kWaveMm : -kThickMm - kWaveMm;
         mesh.vertices.push_back({x, y, z_mm + (top == waves_above ? wave : flat)});
       }
   const auto at = [&](bool top, std::uint32_t i, std::uint32_t j) {
@@ -81,13 +81,13 @@ std::string class_of(const StudyRun& run) {
 }  // namespace
 
 Status study_gap(const StudyInput& input, StudyRecord& study) {
-  constexpr double kClearance_mm = 25;
+  constexpr double kClearanceMm = 25;
   const auto squares = static_cast<std::uint32_t>(
       std::lround(std::clamp(150 * std::sqrt(input.settings.scale), 20.0, 150.0)));
   study.columns = {"Gap mm",      "Ours s",         "Spheres s",
                    "Ours: found", "Spheres: found", "Triangle pairs"};
   for (const double gap : {20.0, 10.0, 5.0, 2.5, 1.25}) {
-    const clash::Options exact{.tolerances = {.clearance_mm = kClearance_mm}};
+    const clash::Options exact{.tolerances = {.clearance_mm = kClearanceMm}};
     const auto scene = place_model(input, two_slabs(squares, gap), clash::scene_options(exact));
     if (!scene) return scene.error();
     clash::Options spheres = exact;

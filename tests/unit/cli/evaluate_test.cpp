@@ -179,7 +179,7 @@ TEST(Evaluate, AChartOfNothingIsStillAChart) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-Contender fake(std::string name, std::string hash) {
+Contender fake(std::string name, const std::string& hash) {
   Contender one;
   one.name = std::move(name);
   one.compute = [hash](const parallel::Context&) -> Result<Computed> {

@@ -47,7 +47,7 @@ TEST(FileContent, IsCancelledWithItsRun) {
   const test::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "x";
   std::ofstream(path, std::ios::binary) << bytes_of(std::size_t{9} << 20U);
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   const Result<FileContent> content = FileContent::read(path, {.stop = stop.get_token()});
   ASSERT_FALSE(content);
