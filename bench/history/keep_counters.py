@@ -6,7 +6,7 @@ import json
 import sys
 
 record = json.load(open(sys.argv[1], encoding='utf-8'))
-record['machine'].update(processor='', system='', memory_bytes=0)
+record['machine'].update(processor='', system='', program='', memory_bytes=0)
 record['studies'] = []
 for case in record['cases']:
     for stage in case['stages']:

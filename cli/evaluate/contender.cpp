@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/evaluate/contender.hpp"
 
-#include <algorithm>
-#include <cstddef>
 #include <memory>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "cli/evaluate/record.hpp"
+#include "core/checksum.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/drawing/drawing.hpp"
@@ -23,32 +22,6 @@ namespace {
 Hasher& add(Hasher& hasher, const geometry::Vec3l& point) {
   return hasher.add(point.x).add(point.y).add(point.z);
 }
-
-/// The hash of a text that comes in pieces, however it is cut.
-class TextHash {
- public:
-  void add(std::string_view text) {
-    while (!text.empty()) {
-      const std::size_t taken = std::min(text.size(), kBlock - block_.size());
-      block_.append(text.substr(0, taken));
-      text.remove_prefix(taken);
-      if (block_.size() == kBlock) flush();
-    }
-  }
-  [[nodiscard]] std::string text() {
-    flush();
-    return hasher_.value().text();
-  }
-
- private:
-  static constexpr std::size_t kBlock = 1U << 16U;
-  void flush() {
-    hasher_.add(std::string_view(block_));
-    block_.clear();
-  }
-  Hasher hasher_;
-  std::string block_;
-};
 
 std::string hash_of(const hlr::Drawing& drawing) {
   Hasher hasher;
@@ -68,9 +41,9 @@ Result<std::string> published(const hlr::Drawing& drawing, const model::Model& m
   const Result<drawing::Ink> ink =
       drawing::choose_ink(*sheet, {.hidden = true, .clean_up = false}, context);
   if (!ink) return ink.error();
-  TextHash hash;
+  Checksum hash;
   drawing::write_svg(*sheet, *ink, model, [&](std::string_view text) { hash.add(text); });
-  return hash.text();
+  return hash.value().text();
 }
 
 std::map<std::string, std::uint64_t> counters_of(const hlr::Drawing& drawing) {
@@ -83,6 +56,27 @@ std::map<std::string, std::uint64_t> counters_of(const hlr::Drawing& drawing) {
           {"intersection tests", work.crossing_tests},
           {"pieces", drawing.pieces.size()}};
 }
+
+std::map<std::string, std::uint64_t> counters_of(const clash::Report& report) {
+  const clash::Counters& work = report.counters;
+  return {
+      {"candidate pairs", work.candidate_pairs}, {"part pairs", work.part_pairs},
+      {"triangle pairs", work.triangle_pairs},   {"exact fall-backs", work.exact_fallbacks},
+      {"depth cells", work.depth_cells},         {"hits", report.count_hit},
+      {"contacts", report.count_contact},        {"clearance violations", report.count_clearance}};
+}
+
+/// Returns the hash of the result as JSON.
+Result<std::string> published(const clash::Findings& findings, const model::Model& model,
+                              const parallel::Context& context) {
+  Checksum hash;
+  const Status status = report::write_clash_json(
+      {findings, model}, [&](std::string_view text) { hash.add(text); }, context);
+  if (!status) return status.error();
+  return hash.value().text();
+}
+
+}  // namespace
 
 Contender drawing_contender(std::string name, unsigned threads, const model::Scene& scene,
                             const hlr::View& view, const hlr::Options& options) {
@@ -102,25 +96,6 @@ Contender drawing_contender(std::string name, unsigned threads, const model::Sce
   return contender;
 }
 
-std::map<std::string, std::uint64_t> counters_of(const clash::Report& report) {
-  const clash::Counters& work = report.counters;
-  return {
-      {"candidate pairs", work.candidate_pairs}, {"part pairs", work.part_pairs},
-      {"triangle pairs", work.triangle_pairs},   {"exact fall-backs", work.exact_fallbacks},
-      {"depth cells", work.depth_cells},         {"hits", report.count_hit},
-      {"contacts", report.count_contact},        {"clearance violations", report.count_clearance}};
-}
-
-/// Returns the hash of the result as JSON.
-Result<std::string> published(const clash::Findings& findings, const model::Model& model,
-                              const parallel::Context& context) {
-  TextHash hash;
-  const Status status = report::write_clash_json(
-      {findings, model}, [&](std::string_view text) { hash.add(text); }, context);
-  if (!status) return status.error();
-  return hash.text();
-}
-
 Contender clash_contender(std::string name, unsigned threads, const model::Scene& scene,
                           const clash::Options& options) {
   Contender contender;
@@ -138,17 +113,6 @@ Contender clash_contender(std::string name, unsigned threads, const model::Scene
                     }};
   };
   return contender;
-}
-
-}  // namespace
-
-Contender drawing_way(const model::Scene& scene, const hlr::View& view, const hlr::Options& options,
-                      unsigned threads) {
-  return drawing_contender({}, threads, scene, view, options);
-}
-
-Contender clash_way(const model::Scene& scene, const clash::Options& options, unsigned threads) {
-  return clash_contender({}, threads, scene, options);
 }
 
 std::vector<Contender> drawing_contenders(const model::Scene& scene, const hlr::View& view,

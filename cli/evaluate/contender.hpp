@@ -38,11 +38,12 @@ struct Contender {
   std::function<Result<Computed>(const parallel::Context&)> compute;
 };
 
-/// Return one way to do a stage, for studies of its options.
-[[nodiscard]] Contender drawing_way(const model::Scene& scene, const hlr::View& view,
-                                    const hlr::Options& options, unsigned threads);
-[[nodiscard]] Contender clash_way(const model::Scene& scene, const clash::Options& options,
-                                  unsigned threads);
+/// Return one way to do a stage.
+[[nodiscard]] Contender drawing_contender(std::string name, unsigned threads,
+                                          const model::Scene& scene, const hlr::View& view,
+                                          const hlr::Options& options);
+[[nodiscard]] Contender clash_contender(std::string name, unsigned threads,
+                                        const model::Scene& scene, const clash::Options& options);
 
 /// Returns who takes part in a stage of drawing: the sequential path, again, ours on each number of
 /// workers above one, and the thesis's push, without culling, on one and on the most workers.

@@ -5,56 +5,26 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <set>
 #include <utility>
 
 #include "cli/evaluate/cases.hpp"
 #include "cli/evaluate/contender.hpp"
 #include "cli/evaluate/measure.hpp"
+#include "cli/evaluate/placed_model.hpp"
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/studies/studies.hpp"
 #include "strake/clash/clash.hpp"
-#include "strake/model/scene.hpp"
-#include "strake/parallel/team.hpp"
 
 namespace strake::cli {
 
 namespace {
 
-/// A generated ship on the grid.
-struct PlacedShip {
-  generate::Ship ship;
-  model::Scene scene;
-  geometry::Box3l box = geometry::empty_box<std::int64_t>();
-  std::uint64_t triangles = 0;
-};
-
-Result<std::unique_ptr<PlacedShip>> place(const generate::ShipOptions& options,
-                                          const model::SceneOptions& scene,
-                                          const std::stop_token& stop) {
-  parallel::Team team(parallel::default_workers());
-  const parallel::Context context{.team = &team, .stop = stop};
-  auto placed = std::make_unique<PlacedShip>();
-  Result<generate::Ship> ship = generate::generate_ship(options, context);
-  if (!ship) return ship.error();
-  placed->ship = std::move(*ship);
-  Result<model::Scene> made = model::make_scene(placed->ship.model, scene, context);
-  if (!made) return made.error();
-  placed->scene = std::move(*made);
-  for (const model::GridBody& body : placed->scene.bodies) {
-    const model::GridShape& shape = placed->scene.shapes[body.grid_shape];
-    placed->box.include(body.box(shape));
-    for (const geometry::Part& part : shape.parts) placed->triangles += part.triangles.size();
-  }
-  return placed;
-}
-
-CaseRecord case_of(std::string_view name, std::string_view title, const PlacedShip& ship) {
+CaseRecord case_of(std::string_view name, std::string_view title, const PlacedModel& ship) {
   CaseRecord one;
   one.name = name;
   one.title = title;
-  one.objects = ship.ship.model.objects.size();
+  one.objects = ship.model->objects.size();
   one.bodies = ship.scene.bodies.size();
   one.triangles = ship.triangles;
   return one;
@@ -99,15 +69,15 @@ class Evaluation {
     };
     if (std::ranges::none_of(view_cases(), is_wanted)) return {};
     narrate("generating a ship");
-    const auto ship = place(viewed_ship(which, record_.settings.scale), {}, stop_);
+    const auto ship = place_ship(viewed_ship(which, record_.settings.scale), {}, stop_);
     if (!ship) return ship.error();
     for (const ViewCase& view : view_cases())
       if (is_wanted(view))
-        if (const Status status = draw(view, **ship); !status) return status;
+        if (const Status status = draw(view, *ship); !status) return status;
     return {};
   }
 
-  Status draw(const ViewCase& view, const PlacedShip& ship) {
+  Status draw(const ViewCase& view, const PlacedModel& ship) {
     CaseRecord one = case_of(view.name, view.title, ship);
     const hlr::View seen = view_of(view, ship.box);
     for (const auto& [stage, name] :
@@ -123,12 +93,12 @@ class Evaluation {
   Status clash(const ShipCase& kind) {
     const clash::Options options{.tolerances = {.clearance_mm = generate::Truth::kClearanceMm}};
     narrate("generating a ship");
-    const auto ship =
-        place(clashing_ship(kind, record_.settings.scale), clash::scene_options(options), stop_);
+    const auto ship = place_ship(clashing_ship(kind, record_.settings.scale),
+                                 clash::scene_options(options), stop_);
     if (!ship) return ship.error();
-    CaseRecord one = case_of(kind.name, kind.title, **ship);
+    CaseRecord one = case_of(kind.name, kind.title, *ship);
     Result<StageRecord> measured = measure(
-        kind.name, "clash", clash_contenders((*ship)->scene, options, record_.settings.threads));
+        kind.name, "clash", clash_contenders(ship->scene, options, record_.settings.threads));
     if (!measured) return measured.error();
     one.stages.push_back(std::move(*measured));
     return finish(std::move(one), kShipWeight);

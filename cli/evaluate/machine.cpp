@@ -13,11 +13,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/source/input_file.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/version.hpp"
 #include "strake/parallel/team.hpp"
@@ -40,10 +40,8 @@ std::string value_of(const char* file, std::string_view key) {
 }
 
 std::string hash_of_program() {
-  const std::ifstream in("/proc/self/exe", std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return Hasher().add(std::string_view(bytes.view())).value().text();
+  const Result<io::FileContent> content = io::FileContent::read("/proc/self/exe");
+  return content ? hash_bytes(content->bytes()).text() : std::string();
 }
 
 }  // namespace

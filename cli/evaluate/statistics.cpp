@@ -33,6 +33,14 @@ double noise_of(const StageRecord& stage) {
   return a > 0 && b > 0 ? std::fabs(a - b) / std::min(a, b) : 0;
 }
 
+std::vector<double> busy_seconds(const ContenderRecord& run) {
+  std::vector<double> busy(run.threads);
+  for (const parallel::RegionReport& region : run.regions)
+    for (std::size_t w = 0; w < std::min(busy.size(), region.busy_s.size()); ++w)
+      if (region.runs > 0) busy[w] += region.busy_s[w];
+  return busy;
+}
+
 namespace {
 
 /// Returns the median over both sequential contenders.
@@ -46,15 +54,14 @@ double sequential_seconds(const StageRecord& stage) {
 
 void add_balance(const ContenderRecord& run, Speedup& result) {
   constexpr double kLongSeconds = 0.05;
-  std::vector<double> busy(run.threads);
   for (const parallel::RegionReport& region : run.regions) {
-    if (region.runs == 0) continue;
-    for (std::size_t w = 0; w < std::min(busy.size(), region.busy_s.size()); ++w)
-      busy[w] += region.busy_s[w];
-    if (region.wall_s < kLongSeconds || region.load_balance() >= result.worst_balance) continue;
+    if (region.runs == 0 || region.wall_s < kLongSeconds ||
+        region.load_balance() >= result.worst_balance)
+      continue;
     result.worst_balance = region.load_balance();
     result.worst_region = region.name;
   }
+  const std::vector<double> busy = busy_seconds(run);
   const double most = *std::ranges::max_element(busy);
   const double total = std::accumulate(busy.begin(), busy.end(), 0.0);
   if (most > 0) result.load_balance = total / (static_cast<double>(busy.size()) * most);

@@ -24,6 +24,9 @@ namespace strake::cli {
 /// differs by less cannot be told on this machine. 0 where there was only one.
 [[nodiscard]] double noise_of(const StageRecord& stage);
 
+/// Returns the busy seconds of each worker in all regions of the team.
+[[nodiscard]] std::vector<double> busy_seconds(const ContenderRecord& run);
+
 /// What one parallel run came to beside the sequential one.
 struct Speedup {
   double sequential_s = 0, parallel_s = 0;

@@ -307,7 +307,7 @@ Verb add_evaluate(CLI::App& program, CommonOptions& common) {
   command
       ->add_option("--compare", options->compare,
                    "An evaluation.json from before: says what takes more work or time since, and "
-                   "which results are others; exit code 1 but for time")
+                   "which results are others; exit code 1 for work and results")
       ->type_name("FILE");
   command->add_flag("--fresh", options->fresh, "Measure again what the folder holds already");
   command->add_flag("--quiet", common.quiet, "No narration and no progress, errors only")

@@ -44,7 +44,7 @@ std::string verdict(const EvaluationRecord& record) {
         if (!run.unfinished.empty()) ++unfinished;
         if (!run.published_hash.empty() && &run != &stage.contenders.front()) ++compared;
       }
-  if (compared == 0) return "No results were compared.";
+  if (compared == 0) return "No cases were measured whose results are compared.";
   return fmt::format(
       "All {} results and published documents that were compared are equal to those of "
       "the first sequential run, byte by byte.{}",

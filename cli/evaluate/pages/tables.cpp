@@ -82,9 +82,8 @@ Section speedups(const EvaluationRecord& record, const std::string& stage) {
       "Sequential and parallel: median seconds. Balance: mean over maximum of the workers' busy "
       "time, of all regions together and of the worst above 50 ms. Serial: the part of the "
       "sequential time that no team shares, with the speed-up that it allows (Amdahl), and what "
-      "the "
-      "longest item of each region allows besides. Noise: how far two sequential contenders are "
-      "apart.",
+      "the longest item of each region allows besides. Noise: how far two sequential contenders "
+      "are apart.",
       {"Case", "Objects", "Sequential s", fmt::format("{} threads s", threads), "Speed-up",
        "Balance", "Worst balance", "Serial", "Amdahl", "Bound", "Noise", "Equal"},
       {}};
@@ -181,10 +180,7 @@ Section distribution(const EvaluationRecord& record) {
     for_each_stage(record, thesis.stage, [&](const CaseRecord& one, const StageRecord& stage) {
       const ContenderRecord* const run = find_contender(stage, kOurs, threads);
       if (run == nullptr) return;
-      std::vector<double> busy(threads);
-      for (const parallel::RegionReport& region : run->regions)
-        for (std::size_t w = 0; w < std::min(busy.size(), region.busy_s.size()); ++w)
-          if (region.runs > 0) busy[w] += region.busy_s[w];
+      const std::vector<double> busy = busy_seconds(*run);
       const auto [least, most] = std::ranges::minmax(busy);
       section.table.rows.push_back({one.title, stage.name, number(least, 3), number(most, 3)});
       if (most <= longest_s) return;

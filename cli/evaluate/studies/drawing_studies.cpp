@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 #include "cli/evaluate/cases.hpp"
+#include "cli/evaluate/placed_model.hpp"
 #include "cli/evaluate/studies/study_runs.hpp"
 
 namespace strake::cli {
@@ -14,6 +15,42 @@ namespace {
 
 const ViewCase& view_named(std::string_view name) {
   return *std::ranges::find(view_cases(), name, &ViewCase::name);
+}
+
+/// A ship in a view, to be drawn in several ways.
+struct StudyView {
+  PlacedModel ship;
+  hlr::View view;
+};
+
+Result<StudyView> place_view(const StudyInput& input, const ViewCase& view,
+                             const generate::ShipOptions& options) {
+  Result<PlacedModel> ship = place_ship(options, {}, input.stop);
+  if (!ship) return ship.error();
+  const hlr::View seen = view_of(view, ship->box);
+  return StudyView{std::move(*ship), seen};
+}
+
+/// Draws in one way on the most workers; `what` is told.
+Result<StudyRun> draw(const StudyInput& input, const StudyView& view, const hlr::Options& options,
+                      const std::string& what) {
+  input.narrate(what);
+  return run_for_study(input, drawing_contender({}, input.settings.threads.back(), view.ship.scene,
+                                                view.view, options));
+}
+
+/// Draws a ship by the usual options and by others.
+Result<std::pair<StudyRun, StudyRun>> draw_both(const StudyInput& input, const ViewCase& view,
+                                                const generate::ShipOptions& ship,
+                                                const hlr::Options& others,
+                                                const std::string& what) {
+  const Result<StudyView> scene = place_view(input, view, ship);
+  if (!scene) return scene.error();
+  Result<StudyRun> usual = draw(input, *scene, {}, what);
+  if (!usual) return usual.error();
+  Result<StudyRun> other = draw(input, *scene, others, what + ", the other way");
+  if (!other) return other.error();
+  return std::pair(std::move(*usual), std::move(*other));
 }
 
 std::string times(const StudyRun& slower, const StudyRun& faster) {
@@ -26,7 +63,7 @@ std::string equal(const StudyRun& x, const StudyRun& y, const std::string& what,
                   StudyRecord& study) {
   if (!x.unfinished.empty() || !y.unfinished.empty()) return "-";
   if (x.computed.hash() == y.computed.hash()) return "yes";
-  study.differences.push_back(what);
+  study.differences.push_back("the results differ: " + what);
   return "NO";
 }
 
@@ -39,8 +76,8 @@ Status study_bucketing(const StudyInput& input, StudyRecord& study) {
   study.columns = {"View", "Buckets a side", "s", "Face tests", "Equal"};
   for (const std::string_view name : {"iso", "plan-upper", "crowd"}) {
     const ViewCase& view = view_named(name);
-    const auto scene =
-        place_ship(input, viewed_ship(view.ship, kPartOfScale * input.settings.scale));
+    const Result<StudyView> scene =
+        place_view(input, view, viewed_ship(view.ship, kPartOfScale * input.settings.scale));
     if (!scene) return scene.error();
     StudyRun by_data;
     for (const std::int32_t side : kSides) {
@@ -49,10 +86,8 @@ Status study_bucketing(const StudyInput& input, StudyRecord& study) {
       const std::string text = side == hlr::Options::kBucketsByData ? "auto"
                                : side == hlr::Options::kNoBuckets   ? "off"
                                                                     : std::to_string(side);
-      input.narrate(fmt::format("bucketing, {}: {}", name, text));
-      Result<StudyRun> run =
-          run_for_study(input, drawing_way(scene->scene, view_of(view, scene->box), options,
-                                           input.settings.threads.back()));
+      const Result<StudyRun> run =
+          draw(input, *scene, options, fmt::format("bucketing, {}: {}", name, text));
       if (!run) return run.error();
       if (side == hlr::Options::kBucketsByData) by_data = *run;
       study.rows.push_back(
@@ -75,21 +110,12 @@ Status study_push_and_gather(const StudyInput& input, StudyRecord& study) {
     // At any scale the sizes differ.
     const double scale = std::clamp(input.settings.scale, 0.0625, 1.0);
     ship.objects = static_cast<std::uint64_t>(kMostObjects * part * scale);
-    const auto scene = place_ship(input, ship);
-    if (!scene) return scene.error();
-    std::array<StudyRun, 2> runs;
-    for (const bool push : {false, true}) {
-      hlr::Options options;
-      if (push) options.solver = hlr::Solver::push;
-      input.narrate(
-          fmt::format("push-gather, {} objects: {}", ship.objects, push ? "push" : "gather"));
-      Result<StudyRun> run =
-          run_for_study(input, drawing_way(scene->scene, view_of(view, scene->box), options,
-                                           input.settings.threads.back()));
-      if (!run) return run.error();
-      runs[push ? 1 : 0] = std::move(*run);
-    }
-    const auto& [gather, push] = runs;
+    hlr::Options by_push;
+    by_push.solver = hlr::Solver::push;
+    const auto runs =
+        draw_both(input, view, ship, by_push, fmt::format("push-gather, {} objects", ship.objects));
+    if (!runs) return runs.error();
+    const auto& [gather, push] = *runs;
     study.rows.push_back({std::to_string(ship.objects), gather.text(), push.text(),
                           times(push, gather), gather.counter("face tests"),
                           push.counter("face tests"),
@@ -107,21 +133,13 @@ Status study_imported(const StudyInput& input, StudyRecord& study) {
     // At any scale the sizes differ.
     const double scale = std::clamp(input.settings.scale, 0.1, 1.0);
     ship.imported_triangles = static_cast<std::uint64_t>(triangles * scale);
-    const auto scene = place_ship(input, ship);
-    if (!scene) return scene.error();
-    std::array<StudyRun, 2> runs;
-    for (const bool off : {false, true}) {
-      hlr::Options options;
-      if (off) options.bucketing = hlr::Options::kNoBuckets;
-      input.narrate(fmt::format("imported, {} triangles each: buckets {}", ship.imported_triangles,
-                                off ? "off" : "auto"));
-      Result<StudyRun> run =
-          run_for_study(input, drawing_way(scene->scene, view_of(view, scene->box), options,
-                                           input.settings.threads.back()));
-      if (!run) return run.error();
-      runs[off ? 1 : 0] = std::move(*run);
-    }
-    const auto& [by_data, off] = runs;
+    hlr::Options without;
+    without.bucketing = hlr::Options::kNoBuckets;
+    const auto runs =
+        draw_both(input, view, ship, without,
+                  fmt::format("imported, {} triangles each", ship.imported_triangles));
+    if (!runs) return runs.error();
+    const auto& [by_data, off] = *runs;
     study.rows.push_back(
         {std::to_string(ship.imported_triangles), by_data.text(), off.text(),
          by_data.counter("face tests"), off.counter("face tests"),

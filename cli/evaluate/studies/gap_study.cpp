@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "cli/evaluate/placed_model.hpp"
 #include "cli/evaluate/studies/study_runs.hpp"
+#include "strake/clash/clash.hpp"
 
 namespace strake::cli {
 
@@ -88,7 +91,8 @@ Status study_gap(const StudyInput& input, StudyRecord& study) {
                    "Ours: found", "Spheres: found", "Triangle pairs"};
   for (const double gap : {20.0, 10.0, 5.0, 2.5, 1.25}) {
     const clash::Options exact{.tolerances = {.clearance_mm = kClearanceMm}};
-    const auto scene = place_model(input, two_slabs(squares, gap), clash::scene_options(exact));
+    const auto scene =
+        place_model(two_slabs(squares, gap), clash::scene_options(exact), input.stop);
     if (!scene) return scene.error();
     clash::Options spheres = exact;
     spheres.engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
@@ -97,7 +101,7 @@ Status study_gap(const StudyInput& input, StudyRecord& study) {
     for (std::size_t way = 0; way < runs.size(); ++way) {
       input.narrate(fmt::format("gap, {:g} mm: {}", gap, way == 0 ? "ours" : "spheres"));
       Result<StudyRun> run =
-          run_for_study(input, clash_way(scene->scene, way == 0 ? exact : spheres, 1));
+          run_for_study(input, clash_contender({}, 1, scene->scene, way == 0 ? exact : spheres));
       if (!run) return run.error();
       runs[way] = std::move(*run);
     }

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cli/evaluate/statistics.hpp"
@@ -12,28 +13,6 @@
 #include "strake/parallel/team.hpp"
 
 namespace strake::cli {
-
-Result<StudyScene> place_model(const StudyInput& input, model::Model model,
-                               const model::SceneOptions& options) {
-  parallel::Team team(input.settings.threads.back());
-  StudyScene placed;
-  placed.model = std::make_unique<const model::Model>(std::move(model));
-  Result<model::Scene> scene =
-      model::make_scene(*placed.model, options, {.team = &team, .stop = input.stop});
-  if (!scene) return scene.error();
-  placed.scene = std::move(*scene);
-  for (const model::GridBody& body : placed.scene.bodies)
-    placed.box.include(body.box(placed.scene.shapes[body.grid_shape]));
-  return placed;
-}
-
-Result<StudyScene> place_ship(const StudyInput& input, const generate::ShipOptions& options) {
-  parallel::Team team(input.settings.threads.back());
-  Result<generate::Ship> ship =
-      generate::generate_ship(options, {.team = &team, .stop = input.stop});
-  if (!ship) return ship.error();
-  return place_model(input, std::move(ship->model), {});
-}
 
 std::string StudyRun::text() const {
   return unfinished.empty() ? fmt::format("{:.3f}", seconds) : unfinished;

@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <string>
-#include <utility>
 
 #include "cli/evaluate/contender.hpp"
 #include "cli/evaluate/studies/studies.hpp"
-#include "strake/generate/ship.hpp"
-#include "strake/model/scene.hpp"
 
 /// What studies are made of.
 namespace strake::cli {
-
-/// A model on the grid with all that its scene refers to.
-struct StudyScene {
-  std::unique_ptr<const model::Model> model;
-  model::Scene scene;
-  geometry::Box3l box = geometry::empty_box<std::int64_t>();
-};
-
-[[nodiscard]] Result<StudyScene> place_model(const StudyInput& input, model::Model model,
-                                             const model::SceneOptions& options);
-[[nodiscard]] Result<StudyScene> place_ship(const StudyInput& input,
-                                            const generate::ShipOptions& options);
 
 /// Timed runs of one contender.
 struct StudyRun {

@@ -54,9 +54,8 @@ class JsonDocument {
   friend class JsonValue;
   friend class FragmentJoiner;
 
-  /// Takes the pieces of the index as they are: copied into one they took half the time that
-  /// making them takes, and a fifth of the peak memory of loading a ship of a million nodes. False
-  /// where their entries cannot all be numbered.
+  /// Takes the pieces of the index as they are: copying them into one took more than half the time
+  /// that making them takes. False where their entries cannot all be numbered.
   bool adopt(std::vector<std::vector<JsonEntry>> pieces);
 
   // An entry's number: that of its piece above `shift_` bits, its own in the piece below.
