@@ -46,9 +46,9 @@ void count_costs(Stats& stats, const clash::Findings& findings, const model::Mod
 /// given. Prints on standard error those reasons that standard output does not show.
 ///
 /// The code is `check_failed` where a result is, or may be as far as its brackets tell, of the
-/// class of --fail-on or a worse one, where a pair was not compared, where a file ends early and where a
-/// test compared nothing, as a set of it is empty. Else it is `partial` where --strict is given and
-/// something was skipped, or a set or a discipline that a matrix checks is empty.
+/// class of --fail-on or a worse one, where a pair was not compared, where a file ends early and
+/// where a test compared nothing, as a set of it is empty. Else it is `partial` where --strict is
+/// given and something was skipped, or a set or a discipline that a matrix checks is empty.
 [[nodiscard]] ExitCode clash_exit_code(const clash::Findings& findings, const std::string& fail_on,
                                        const InputOptions& input, const Loaded& loaded,
                                        Console& console);
