@@ -127,6 +127,10 @@ void TextSorter::split_equal(const TextRange& range) {
 }  // namespace
 
 bool sort_strings(std::span<const std::string_view> texts, std::span<std::uint32_t> order) {
+  // Many programs write objects in the order of their ids.
+  const auto unsorted = std::ranges::adjacent_find(
+      order, [&](std::uint32_t a, std::uint32_t b) { return !(texts[a] < texts[b]); });
+  if (unsorted == order.end()) return true;
   return TextSorter(texts, order).run();
 }
 

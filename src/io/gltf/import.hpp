@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/gltf/container.hpp"
-#include "io/gltf/json/json.hpp"
+#include "io/gltf/document.hpp"
 #include "strake/io/reader.hpp"
 
 namespace strake::io::gltf {
@@ -16,6 +16,9 @@ struct ImportInput {
 /// Turns a document whose version and extensions were checked into a model.
 [[nodiscard]] Result<model::Model> import_document(const ImportInput& input,
                                                    const Container& container,
-                                                   const JsonValue& root);
+                                                   const Document& document);
+
+/// Puts the file before the byte offset of an error of Document.
+[[nodiscard]] Error error_in_json(const FileBytes& file, Error error);
 
 }  // namespace strake::io::gltf

@@ -12,6 +12,8 @@
 
 #include "io/source/precision.hpp"
 #include "io/source/units_and_axes.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::io::gltf {
 namespace {
@@ -101,6 +103,16 @@ std::optional<Placement> placement_of(const Vec3d& translation, const double* qu
   return result;
 }
 
+namespace {
+
+/// Returns what few nodes have, if it is anything.
+std::unique_ptr<GltfNode::Unusual> kept_if_any(GltfNode::Unusual unusual) {
+  if (!unusual.instancing.exists() && !unusual.instance_extras.exists() &&
+      !unusual.weights.exists() && !unusual.fault)
+    return nullptr;
+  return std::make_unique<GltfNode::Unusual>(std::move(unusual));
+}
+
 GltfNode parse_node(const JsonValue& json, std::size_t index,
                     const std::vector<JsonValue>& mesh_names) {
   const auto [name, mesh, children, matrix, translation, rotation, scale, extras, extensions, skin,
@@ -108,11 +120,12 @@ GltfNode parse_node(const JsonValue& json, std::size_t index,
       json.pick<11>({"name", "mesh", "children", "matrix", "translation", "rotation", "scale",
                      "extras", "extensions", "skin", "weights"});
   GltfNode node;
+  std::optional<GltfFault> fault;
   node.name = name.text_value();
   if (mesh.exists()) {
     node.mesh = mesh.index().value_or(UINT64_MAX);
     if (*node.mesh >= mesh_names.size())
-      node.fault = GltfFault{fmt::format("/nodes/{}/mesh", index), "does not exist"};
+      fault = GltfFault{fmt::format("/nodes/{}/mesh", index), "does not exist"};
     else if (node.name.empty())
       node.name = mesh_names[*node.mesh].text_value();
   }
@@ -123,24 +136,62 @@ GltfNode parse_node(const JsonValue& json, std::size_t index,
   if (const auto local = parse_transform({matrix, translation, rotation, scale}))
     node.local = *local;
   else
-    node.fault =
+    fault =
         GltfFault{fmt::format("/nodes/{}", index), "its transformation is not a finite affine one"};
+  const auto [id, instance_extras] = extras.pick<2>({"id", "instances"});
+  node.id = id.text_value();
   if (extras.is_object()) {
     constexpr std::size_t kUsual = 4;  // what one allocation holds as well as half of it
     node.attributes.reserve(kUsual);
-    node.id = extras["id"].text_value();
-    node.instance_extras = extras["instances"];
     add_attributes(extras, "", 0, node.attributes);
   }
-  node.instancing = extensions["EXT_mesh_gpu_instancing"];
   node.skinned = skin.exists();
-  node.weights = weights;
+  node.unusual = kept_if_any({JsonText(extensions["EXT_mesh_gpu_instancing"]),
+                              JsonText(instance_extras), JsonText(weights), std::move(fault)});
   return node;
+}
+
+/// Returns the nodes of a piece; fewer or more than there should be when it is no valid JSON.
+std::vector<GltfNode> parse_nodes(const ArrayPiece& piece,
+                                  const std::vector<JsonValue>& mesh_names) {
+  std::vector<GltfNode> nodes;
+  const std::optional<JsonDocument> document = JsonDocument::parse_items(piece.text, kNodeDepth);
+  if (!document) return nodes;
+  nodes.reserve(piece.count);
+  document->each_item([&](const JsonValue& item) {
+    nodes.push_back(parse_node(item, piece.first + nodes.size(), mesh_names));
+  });
+  return nodes;
+}
+
+}  // namespace
+
+Result<std::optional<NodeTable>> NodeTable::read(std::span<const ArrayPiece> pieces,
+                                                 const std::vector<JsonValue>& mesh_names,
+                                                 const parallel::Context& context) {
+  NodeTable table;
+  Result<std::vector<std::vector<GltfNode>>> read =
+      parallel::transform(context, {.name = "read glTF nodes", .n = pieces.size()},
+                          [&](std::size_t k) { return parse_nodes(pieces[k], mesh_names); });
+  if (!read) return read.error();
+  table.pieces_ = std::move(*read);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (table.pieces_[k].size() != pieces[k].count) return std::optional<NodeTable>();
+    for (GltfNode& node : table.pieces_[k]) table.at_.push_back(&node);
+  }
+  return std::optional<NodeTable>(std::move(table));
+}
+
+Status NodeTable::clear(const parallel::Context& context) {
+  at_.clear();
+  return parallel::for_each(context, {.name = "forget glTF nodes", .n = pieces_.size()},
+                            [&](std::size_t k) { std::vector<GltfNode>().swap(pieces_[k]); });
 }
 
 std::uint64_t stated_instances(const GltfNode& node, const Accessors& accessors) {
   std::uint64_t most = 0;
-  for (const JsonValue& attribute : node.instancing["attributes"].items())
+  const JsonDocument instancing = node.instancing().parse();
+  for (const JsonValue& attribute : instancing.root()["attributes"].items())
     most = std::max(most, accessors.stated_count(attribute.index().value_or(UINT64_MAX)));
   return most;
 }
@@ -186,7 +237,8 @@ double Instances::half_spacing(std::size_t instance) const {
 
 Instances read_instances(const GltfNode& node, const Accessors& accessors) {
   Instances result;
-  const JsonValue attributes = node.instancing["attributes"];
+  const JsonDocument instancing = node.instancing().parse();
+  const JsonValue attributes = instancing.root()["attributes"];
   std::optional<Accessor> translation, rotation, scale;
   for (auto fault : {open_attribute(attributes, "TRANSLATION", 3, accessors, translation),
                      open_attribute(attributes, "ROTATION", 4, accessors, rotation),
@@ -219,7 +271,8 @@ Instances read_instances(const GltfNode& node, const Accessors& accessors) {
     }
     result.placements.push_back(*placement);
   }
-  read_names(node.instance_extras, result.placements.size(), result);
+  const JsonDocument extras = node.instance_extras().parse();
+  read_names(extras.root(), result.placements.size(), result);
   return result;
 }
 
@@ -230,7 +283,7 @@ Error refused(std::string pointer, std::string message,
   return {ErrorCode::input, std::move(message), std::move(pointer), std::move(mend)};
 }
 
-Result<std::vector<std::uint32_t>> parents_of(const std::vector<GltfNode>& nodes) {
+Result<std::vector<std::uint32_t>> parents_of(const NodeTable& nodes) {
   std::vector<std::uint32_t> parents(nodes.size(), kNoParent);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const std::uint64_t child : nodes[i].children) {
@@ -245,7 +298,7 @@ Result<std::vector<std::uint32_t>> parents_of(const std::vector<GltfNode>& nodes
 }
 
 /// Checks for cycles: with one parent at most for each, nodes that no root leads to form a cycle.
-Status check_cycles(const std::vector<GltfNode>& nodes, const std::vector<std::uint32_t>& parents) {
+Status check_cycles(const NodeTable& nodes, const std::vector<std::uint32_t>& parents) {
   std::vector<std::uint32_t> open;
   std::vector<bool> reached(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -262,8 +315,7 @@ Status check_cycles(const std::vector<GltfNode>& nodes, const std::vector<std::u
   return {};
 }
 
-Result<std::vector<std::uint32_t>> roots_of(const JsonValue& root,
-                                            const std::vector<GltfNode>& nodes,
+Result<std::vector<std::uint32_t>> roots_of(const JsonValue& root, const NodeTable& nodes,
                                             const std::vector<std::uint32_t>& parents) {
   std::vector<std::uint32_t> roots;
   const std::vector<JsonValue> scenes = root["scenes"].items();
@@ -292,8 +344,7 @@ Result<std::vector<std::uint32_t>> roots_of(const JsonValue& root,
 
 }  // namespace
 
-Result<std::vector<VisitedNode>> visit_order(const JsonValue& root,
-                                             const std::vector<GltfNode>& nodes) {
+Result<std::vector<VisitedNode>> visit_order(const JsonValue& root, const NodeTable& nodes) {
   const Result<std::vector<std::uint32_t>> parents = parents_of(nodes);
   if (!parents) return parents.error();
   if (const Status acyclic = check_cycles(nodes, *parents); !acyclic) return acyclic.error();

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "io/gltf/accessor.hpp"
+#include "io/gltf/document.hpp"
 #include "io/gltf/json/json.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
@@ -16,23 +19,63 @@ namespace strake::io::gltf {
 
 /// A node as the document has it, in the file's own frame.
 struct GltfNode {
+  /// What few nodes have.
+  struct Unusual {
+    JsonText instancing;       ///< EXT_mesh_gpu_instancing
+    JsonText instance_extras;  ///< extras.instances
+    JsonText weights;          ///< weights of morph targets, in place of the mesh's own
+    std::optional<GltfFault> fault;
+  };
+
   std::string name;              ///< its own, else its mesh's, else "node 12"
-  bool counted = false;          ///< the name is "node 12"
   std::string id;                ///< extras.id, where it is a string
   model::Attributes attributes;  ///< the rest of its extras, nested keys joined by '.'
-  std::optional<std::uint64_t> mesh;
   std::vector<std::uint64_t> children;
   geometry::Placement local;
-  JsonValue instancing;       ///< EXT_mesh_gpu_instancing
-  JsonValue instance_extras;  ///< extras.instances
+  std::optional<std::uint64_t> mesh;
+  bool counted = false;  ///< the name is "node 12"
   bool skinned = false;
-  JsonValue weights;               ///< weights of morph targets, in place of the mesh's own
-  std::optional<GltfFault> fault;  ///< if set, it and what is below it cannot be placed
+  std::unique_ptr<Unusual> unusual;
+
+  [[nodiscard]] JsonText instancing() const { return unusual ? unusual->instancing : JsonText(); }
+  [[nodiscard]] JsonText instance_extras() const {
+    return unusual ? unusual->instance_extras : JsonText();
+  }
+  [[nodiscard]] JsonText weights() const { return unusual ? unusual->weights : JsonText(); }
+  /// If there is one, the node and what is below it cannot be placed.
+  [[nodiscard]] const GltfFault* fault() const {
+    return unusual && unusual->fault ? &*unusual->fault : nullptr;
+  }
 };
 
-/// Parses a node; `mesh_names` are the names that the meshes of the document state.
-[[nodiscard]] GltfNode parse_node(const JsonValue& json, std::size_t index,
-                                  const std::vector<JsonValue>& mesh_names);
+/// The nodes of a document, each piece in memory of its own: it is provided and given back by the
+/// team, which for one block of hundreds of megabytes took as long as reading the nodes.
+class NodeTable {
+ public:
+  NodeTable() = default;
+  NodeTable(const NodeTable&) = delete;
+  NodeTable& operator=(const NodeTable&) = delete;
+  NodeTable(NodeTable&&) = default;
+  NodeTable& operator=(NodeTable&&) = default;
+  ~NodeTable() = default;
+
+  /// Parses all nodes of the pieces; `mesh_names` are the names that the meshes of the document
+  /// state. Nothing when a piece is not valid JSON. Errors: cancelled, out of memory.
+  [[nodiscard]] static Result<std::optional<NodeTable>> read(
+      std::span<const ArrayPiece> pieces, const std::vector<JsonValue>& mesh_names,
+      const parallel::Context& context);
+
+  [[nodiscard]] std::size_t size() const { return at_.size(); }
+  [[nodiscard]] const GltfNode& operator[](std::size_t node) const { return *at_[node]; }
+  [[nodiscard]] GltfNode& operator[](std::size_t node) { return *at_[node]; }
+
+  /// Forgets the nodes.
+  [[nodiscard]] Status clear(const parallel::Context& context);
+
+ private:
+  std::vector<std::vector<GltfNode>> pieces_;
+  std::vector<GltfNode*> at_;
+};
 
 /// The instances of a node, in the node's frame.
 struct Instances {
@@ -73,6 +116,6 @@ inline constexpr std::uint32_t kMaxNodeDepth = 1000;
 /// first. Nodes with two parents, cycles, and references to nodes that do not exist are errors,
 /// whose `where` is the JSON pointer alone.
 [[nodiscard]] Result<std::vector<VisitedNode>> visit_order(const JsonValue& root,
-                                                           const std::vector<GltfNode>& nodes);
+                                                           const NodeTable& nodes);
 
 }  // namespace strake::io::gltf

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "io/gltf/container.hpp"
+#include "io/gltf/document.hpp"
 #include "io/gltf/import.hpp"
-#include "io/gltf/json/json.hpp"
 #include "io/source/input_file.hpp"
 #include "io/source/reader_support.hpp"
 
@@ -77,18 +77,12 @@ class GltfReader final : public Reader {
                                           const parallel::Context& context) const override {
     const Result<gltf::Container> container = gltf::open_container(file);
     if (!container) return container.error();
-    const Result<gltf::JsonDocument> document = gltf::JsonDocument::parse(container->json, context);
-    if (!document) {
-      Error error = document.error();
-      if (error.code == ErrorCode::cancelled) return cancelled(file);
-      if (error.code == ErrorCode::memory) return error;
-      error.where = fmt::format("{}, {} of its JSON", file.path.string(), error.where);
-      return error;
-    }
+    const Result<gltf::Document> document = gltf::Document::open(container->json, context);
+    if (!document) return gltf::error_in_json(file, document.error());
     const gltf::JsonValue root = document->root();
     if (const Status version = check_version(file, root); !version) return version.error();
     if (const Status known = check_extensions(file, root); !known) return known.error();
-    return gltf::import_document({file, options, context}, *container, root);
+    return gltf::import_document({file, options, context}, *container, *document);
   }
 };
 

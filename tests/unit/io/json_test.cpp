@@ -5,9 +5,11 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <string>
 
+#include "io/gltf/document.hpp"
 #include "strake/parallel/team.hpp"
 
 namespace strake::io::gltf {
@@ -192,6 +194,99 @@ TEST(JsonValue, AgreesWithAnotherParserOnMutatedText) {
         text[at] = c;
     }
     ASSERT_EQ(static_cast<bool>(JsonDocument::parse(text)), nlohmann::json::accept(text)) << text;
+  }
+}
+
+/// What a document says, its nodes put together from their pieces; "no JSON" where it is none.
+std::string answer_of_document(const std::string& text, std::size_t piece_bytes,
+                               const parallel::Context& context = {}) {
+  const Result<Document> document = Document::open(text, context, piece_bytes);
+  if (!document) return "no JSON";
+  std::string out;
+  std::size_t count = 0;
+  for (const ArrayPiece& piece : document->node_pieces()) {
+    const std::optional<JsonDocument> items = JsonDocument::parse_items(piece.text, kNodeDepth);
+    if (!items) return "no JSON";
+    EXPECT_EQ(piece.first, count);
+    items->each_item([&](const JsonValue& item) {
+      dump(item, out);
+      ++count;
+    });
+    EXPECT_EQ(piece.first + piece.count, count);
+  }
+  EXPECT_EQ(document->node_count(), count);
+  document->root().members([&](const JsonValue& key, const JsonValue& value) {
+    out += "|" + key.text_value() + ":";
+    if (!key.is_text("nodes")) dump(value, out);
+  });
+  return out;
+}
+
+/// An outermost object with nodes, and much that could be taken for nodes.
+std::string random_document(std::mt19937& random) {
+  static constexpr std::array<const char*, 5> kKeys{"\"nodes\"", R"("n\u006fdes")", R"("a\"nodes")",
+                                                    "\"meshes\"", "\"node\""};
+  std::string text = "{";
+  const auto members = 1 + random() % 4;
+  for (std::size_t m = 0; m < members; ++m) {
+    if (m != 0) text += ",\n";
+    text += kKeys[m == members / 2 ? 0 : random() % kKeys.size()];
+    text += random() % 2 == 0 ? ":" : " : ";
+    if (random() % 8 == 0) {
+      append_random(random, 3, text);
+      continue;
+    }
+    text += random() % 2 == 0 ? "[" : "[ ";
+    for (auto count = random() % 30, i = 0 * count; i < count; ++i) {
+      if (i != 0) text += ",";
+      append_random(random, 4, text);
+    }
+    text += "]";
+  }
+  return text + "}";
+}
+
+TEST(Document, SaysTheSameInPiecesOfAnySize) {
+  parallel::Team team(3);
+  const parallel::Context context{.team = &team};
+  std::size_t split = 0;
+  for (unsigned number = 1; number <= 300; ++number) {
+    SCOPED_TRACE(number);
+    std::mt19937 random(number);
+    const std::string text = random_document(random);
+    ASSERT_TRUE(nlohmann::json::accept(text)) << text;
+    const std::string whole = answer_of_document(text, text.size() + 1);
+    for (const std::size_t piece : {1U, 2U, 7U, 30U, 63U, 64U, 65U, 128U, 200U})
+      ASSERT_EQ(answer_of_document(text, piece, context), whole) << piece << " in " << text;
+    const Result<Document> pieces = Document::open(text, {}, 64);
+    if (pieces && pieces->node_pieces().size() > 1) ++split;
+  }
+  EXPECT_GT(split, 100U);
+}
+
+TEST(Document, RefusesTheSameInPiecesOfAnySize) {
+  for (unsigned number = 1; number <= 2000; ++number) {
+    SCOPED_TRACE(number);
+    std::mt19937 random(number);
+    std::string text = random_document(random);
+    const std::string pool = "{}[]\",:0 \\";
+    for (auto k = random() % 3; k > 0; --k)
+      text.insert(random() % (text.size() + 1), 1, pool[random() % pool.size()]);
+    const std::string whole = answer_of_document(text, text.size() + 1);
+    ASSERT_EQ(whole == "no JSON", !nlohmann::json::accept(text)) << text;
+    for (const std::size_t piece : {1U, 5U, 64U, 100U})
+      ASSERT_EQ(answer_of_document(text, piece), whole) << piece << " in " << text;
+  }
+}
+
+TEST(Document, BoundsTheNestingOfNodesAsOfAllValues) {
+  const auto nested = [](std::size_t depth) {
+    std::string text = "{\"nodes\":[0," + std::string(depth - 2, '[');
+    return text + std::string(depth - 2, ']') + ",0]}";
+  };
+  for (const std::size_t piece : {64U, 10000U}) {
+    EXPECT_NE(answer_of_document(nested(512), piece), "no JSON");
+    EXPECT_EQ(answer_of_document(nested(513), piece), "no JSON");
   }
 }
 

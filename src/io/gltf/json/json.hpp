@@ -48,7 +48,15 @@ class JsonDocument {
                                                   const parallel::Context& context = {},
                                                   std::size_t piece_bytes = kPieceBytes);
 
+  /// Parses the elements of an array with the commas between them, where the array has `depth`
+  /// values around them, itself among them. Nothing when they are not valid, or none.
+  [[nodiscard]] static std::optional<JsonDocument> parse_items(std::string_view items,
+                                                               std::size_t depth);
+
   [[nodiscard]] JsonValue root() const;
+  /// Calls visit(item) for each of what parse_items() parsed.
+  template <class Visit>
+  void each_item(Visit&& visit) const;
 
  private:
   friend class JsonValue;
@@ -105,8 +113,12 @@ class JsonValue {
   [[nodiscard]] std::array<JsonValue, N> pick(const std::array<std::string_view, N>& keys) const {
     std::array<JsonValue, N> found;
     members([&](const JsonValue& key, const JsonValue& value) {
+      // A key is compared with all of them: what it says is looked up once.
+      std::string decoded;
+      const std::string_view text =
+          key.entry().escaped ? std::string_view(decoded = key.text_value()) : key.raw();
       for (std::size_t i = 0; i < N; ++i)
-        if (!found[i].exists() && key.is_text(keys[i])) found[i] = value;
+        if (text == keys[i] && !found[i].exists()) found[i] = value;
     });
     return found;
   }
@@ -168,5 +180,31 @@ class JsonValue {
   std::uint32_t entry_ = 0;
   std::uint32_t end_ = 0;  ///< the entry behind the last sibling
 };
+
+/// The text of an array or object, which outlives the index that it was found by.
+class JsonText {
+ public:
+  JsonText() = default;
+  /// Anything else counts as null.
+  explicit JsonText(const JsonValue& value)
+      : text_(!value.exists()                         ? std::string_view()
+              : value.is_array() || value.is_object() ? value.raw()
+                                                      : std::string_view("null")) {}
+
+  [[nodiscard]] bool exists() const { return !text_.empty(); }
+  [[nodiscard]] bool is_array() const { return text_.starts_with('['); }
+  /// Makes an index of what was valid once; of null where there is nothing.
+  [[nodiscard]] JsonDocument parse() const {
+    return JsonDocument::parse(exists() ? text_ : std::string_view("null")).value();
+  }
+
+ private:
+  std::string_view text_;
+};
+
+template <class Visit>
+void JsonDocument::each_item(Visit&& visit) const {
+  for (JsonValue item = root(); item.exists(); item = item.after()) visit(item);
+}
 
 }  // namespace strake::io::gltf

@@ -11,32 +11,12 @@
 #include <utility>
 
 #include "io/gltf/json/json.hpp"
+#include "io/gltf/json/quote_state.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::io::gltf {
 namespace {
-
-/// The state of a text between two of its bytes.
-struct QuoteState {
-  bool in_string = false;
-  bool escaped = false;  ///< behind a backslash that the next byte belongs to
-};
-
-/// Returns the state behind a block that begins outside strings. Backslashes occur in strings only,
-/// so it does not matter here where they are.
-QuoteState pass(std::string_view block, bool escaped) {
-  QuoteState place{false, escaped};
-  if (!escaped && block.find('\\') == std::string_view::npos) {
-    place.in_string = std::count(block.begin(), block.end(), '"') % 2 != 0;
-    return place;
-  }
-  for (const char c : block) {
-    place.in_string ^= c == '"' && !place.escaped;
-    place.escaped = c == '\\' && !place.escaped;
-  }
-  return place;
-}
 
 /// Returns the offset behind the first comma of the block that is not in a string; 0 when there is
 /// none.
@@ -44,8 +24,7 @@ std::size_t first_cut(std::string_view text, std::size_t begin, std::size_t end,
   for (std::size_t at = begin; at < end; ++at) {
     const char c = text[at];
     if (c == ',' && !place.in_string) return at + 1;
-    place.in_string ^= c == '"' && !place.escaped;
-    place.escaped = c == '\\' && !place.escaped;
+    place.pass(c);
   }
   return 0;
 }
@@ -56,22 +35,12 @@ Result<std::vector<std::size_t>> json_split_points(std::string_view text, std::s
                                                    const parallel::Context& context) {
   const std::size_t blocks = text.size() / piece_bytes;
   if (blocks < 2) return std::vector<std::size_t>{};
-  const auto block = [&](std::size_t k) { return text.substr(k * piece_bytes, piece_bytes); };
-  const Result<std::vector<QuoteState>> passed =
-      parallel::transform(context, {.name = "find glTF strings", .n = blocks},
-                          [&](std::size_t k) { return pass(block(k), false); });
-  if (!passed) return passed.error();
-  std::vector<QuoteState> begins(blocks);
-  for (std::size_t k = 1; k < blocks; ++k) {
-    const QuoteState before = begins[k - 1];
-    // A block that begins behind a backslash is rare enough to look at twice.
-    const QuoteState change = before.escaped ? pass(block(k - 1), true) : (*passed)[k - 1];
-    begins[k] = {before.in_string != change.in_string, change.escaped};
-  }
+  const Result<std::vector<QuoteState>> begins = quote_states(text, piece_bytes, context);
+  if (!begins) return begins.error();
   Result<std::vector<std::size_t>> cuts =
       parallel::transform(context, {.name = "cut glTF text", .n = blocks}, [&](std::size_t k) {
         if (k == 0) return std::size_t{0};
-        return first_cut(text, k * piece_bytes, (k + 1) * piece_bytes, begins[k]);
+        return first_cut(text, k * piece_bytes, (k + 1) * piece_bytes, (*begins)[k]);
       });
   if (cuts) std::erase(*cuts, std::size_t{0});
   return cuts;
@@ -108,18 +77,17 @@ std::size_t string_stop(std::string_view text, std::size_t at) {
 /// Indexes a fragment in a loop over the items of the text with an explicit stack of what is open.
 class PieceIndexer {
  public:
-  PieceIndexer(std::string_view text, std::size_t begin, std::size_t end)
-      : text_(text.substr(0, end)), at_(begin), in_(begin == 0 ? In::document : In::unknown) {
-    outer_ = in_;
+  /// What encloses the next item.
+  enum class In : std::uint8_t { document, array, object, unknown };
+
+  PieceIndexer(std::string_view text, std::size_t begin, std::size_t end, In in)
+      : text_(text.substr(0, end)), at_(begin), in_(in), outer_(in) {
     // Dense documents have a value every five or six bytes.
     piece_.entries.reserve((end - begin) / 6 + 8);
   }
   JsonFragment run();
 
  private:
-  /// What encloses the next item.
-  enum class In : std::uint8_t { document, array, object, unknown };
-
   bool item();
   bool after_item();
   void find_enclosing_container();
@@ -335,7 +303,8 @@ JsonFragment PieceIndexer::run() {
 }  // namespace
 
 JsonFragment index_json_fragment(std::string_view text, std::size_t begin, std::size_t end) {
-  return PieceIndexer(text, begin, end).run();
+  using In = PieceIndexer::In;
+  return PieceIndexer(text, begin, end, begin == 0 ? In::document : In::unknown).run();
 }
 
 /// Joins what one piece of a document opened to what a later one closed. Returns false if the
@@ -402,6 +371,21 @@ std::optional<Error> fault_of(const JsonFragment& only) {
 }
 
 }  // namespace
+
+std::optional<JsonDocument> JsonDocument::parse_items(std::string_view items, std::size_t depth) {
+  if (items.size() >= std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
+  JsonFragment fragment = PieceIndexer(items, 0, items.size(), PieceIndexer::In::array).run();
+  const bool good = fragment.message == nullptr && fragment.closes.empty() &&
+                    fragment.open.empty() && !fragment.behind_comma &&
+                    fragment.deepest + depth <= kMaxDepth;
+  if (!good) return std::nullopt;
+  JsonDocument document;
+  document.text_ = items;
+  std::vector<std::vector<JsonEntry>> pieces;
+  pieces.push_back(std::move(fragment.entries));
+  if (!document.adopt(std::move(pieces))) return std::nullopt;
+  return document;
+}
 
 Result<JsonDocument> JsonDocument::parse(std::string_view text, const parallel::Context& context,
                                          std::size_t piece_bytes) {
