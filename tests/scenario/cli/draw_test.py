@@ -67,7 +67,7 @@ class Draw(Scenario):
 
     def test_polylines_are_hidden_by_their_own_faces_if_asked_for(self):
         # Of one object: a line inside the cube, and one on its upper face.
-        lines = 'v 20 50 50\nv 80 50 50\nv 20 50 100\nv 80 50 100\nl 9 10\nl 11 12\n'
+        lines = 'v 20 40 50\nv 80 40 50\nv 20 40 100\nv 80 40 100\nl 9 10\nl 11 12\n'
         self.write('pipe.obj', cube('pipe', 0, (0, 0, 0), 100) + lines)
 
         def drawn(*more):
