@@ -46,6 +46,7 @@ strake_component(geometry
     geometry/mesh.hpp
     geometry/part.hpp
     geometry/part_pair.hpp
+    geometry/plane_intersection.hpp
     geometry/triangle_bvh.hpp
     geometry/predicates.hpp
     geometry/primitive.hpp

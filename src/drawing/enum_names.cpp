@@ -99,6 +99,10 @@ std::string_view intersections_name(hlr::Intersections intersections) {
   return "";
 }
 
+std::string_view own_polylines_name(hlr::OwnPolylines polylines) {
+  return polylines == hlr::OwnPolylines::hidden ? "hidden" : "visible";
+}
+
 std::string_view fate_name(hlr::Fate fate) {
   switch (fate) {
     case hlr::Fate::unselected:

@@ -39,7 +39,8 @@ template <class N, class D>
 [[nodiscard]] inline mpq_class exact(const geometry::SquaredDistance& s) {
   return quotient(s.numerator, s.denominator);
 }
-[[nodiscard]] inline RationalPoint exact(const geometry::RationalPoint& p) {
+template <std::size_t N>
+[[nodiscard]] RationalPoint exact(const geometry::BasicRationalPoint<N>& p) {
   return {quotient(p.numerator.x, p.denominator), quotient(p.numerator.y, p.denominator),
           quotient(p.numerator.z, p.denominator)};
 }

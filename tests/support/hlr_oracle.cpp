@@ -365,7 +365,7 @@ class Oracle {
     bool self[2] = {false, false}, any[2] = {false, false};
     for (const Tile& tile : tiles_) {
       const bool own = tile.object == object || (e.crosses() && tile.object == e.other);
-      if (own && e.wire) continue;
+      if (own && e.wire && options_.own_polylines == hlr::OwnPolylines::visible) continue;
       if (!own && options_.stage == hlr::Stage::local) continue;
       if (any[0] && any[1] && (!own || (self[0] && self[1]))) continue;
       const std::optional<mpq_class> h = height(tile, p);

@@ -265,7 +265,9 @@ void check_lines(const PixelView& view, const hlr::Drawing& drawing, std::vector
       last_y = y;
       inked[view.index(x, y)] = true;
       // A wire may be seen through the solids of its own object.
-      if (piece.kind == hlr::EdgeKind::polyline) return;
+      if (piece.kind == hlr::EdgeKind::polyline &&
+          drawing.options.own_polylines == hlr::OwnPolylines::visible)
+        return;
       ++check.line_pixels;
       const Seen how = seen(view, p);
       if (how == Seen::magnified) ++check.magnified;

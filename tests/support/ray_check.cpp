@@ -323,7 +323,7 @@ class Checker {
     for (const std::uint32_t i : squares_.at(near)) {
       const Facet& f = facets_[i];
       const bool same = f.object == object;
-      if (same && wire) continue;
+      if (same && wire && options_.own_polylines == hlr::OwnPolylines::visible) continue;
       const std::optional<unsigned> sides = sides_under(f, d_, p);
       if (sides == kNeither) continue;
       const std::int64_t contact =

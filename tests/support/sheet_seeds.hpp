@@ -67,6 +67,7 @@ position = ["200mm", "150mm"]
 anchor = ["1m", "2m", "-3m"]
 stage = "local"
 intersections = "off"
+own_polylines = "hidden"
 [[tag]]
 select = "type = mesh"
 text = "{{path}}"

@@ -39,8 +39,8 @@ struct DrawOptions {
   PerspectiveOptions perspective;
   std::string sheet;
   std::string view, direction, up, limits, scale, title;
-  std::string stage, solver, global, culling, bucketing, hidden, intersections, smooth, sharp_angle,
-      contact_distance;
+  std::string stage, solver, global, culling, bucketing, hidden, intersections, own_polylines,
+      smooth, sharp_angle, contact_distance;
   std::vector<std::string> select, outputs, sections, hatches;
   bool visible_only = false;
 };
@@ -160,6 +160,8 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
   for (const Intersections which : {Intersections::off, Intersections::objects,
                                     Intersections::primitives, Intersections::parts})
     if (given.intersections == drawing::intersections_name(which)) options.intersections = which;
+  if (given.own_polylines == drawing::own_polylines_name(hlr::OwnPolylines::hidden))
+    options.own_polylines = hlr::OwnPolylines::hidden;
   for (const Smooth which : {Smooth::off, Smooth::tangent, Smooth::all})
     if (given.smooth == drawing::smooth_name(which)) options.smooth = which;
   if (!given.sharp_angle.empty()) {
@@ -411,6 +413,10 @@ void add_lines(CLI::App& command, DrawOptions& options) {
              "Lines where bodies pass through each other: none, those of different objects, those "
              "and of primitives within an object, or of all parts (default primitives)")
       ->group("Lines");
+  add_choice(command, "--own-polylines", options.own_polylines, {"visible", "hidden"},
+             "Polylines behind or inside faces of their own object, as centre lines in pipes: seen "
+             "through them, or hidden by them (default visible)")
+      ->group("Lines");
   add_choice(command, "--smooth", options.smooth, {"off", "tangent", "on"},
              "Edges where faces turn by less than the sharp angle, as thin lines: none, where a "
              "curved surface begins or ends, or all (default off)")
@@ -438,8 +444,8 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
           ->group("Output");
   for (const char* const other :
        {"--view", "--direction", "--eye", "--up", "--limits", "--section", "--hatch", "--select",
-        "--hidden", "--visible-only", "--stage", "--intersections", "--smooth", "--sharp-angle",
-        "--contact-distance", "--scale", "--title"})
+        "--hidden", "--visible-only", "--stage", "--intersections", "--own-polylines", "--smooth",
+        "--sharp-angle", "--contact-distance", "--scale", "--title"})
     sheet->excludes(other);
 }
 

@@ -38,6 +38,7 @@ inline constexpr std::size_t kLineStates = 6;
 [[nodiscard]] std::string_view fate_name(hlr::Fate fate);
 [[nodiscard]] std::string_view smooth_name(hlr::Smooth smooth);
 [[nodiscard]] std::string_view intersections_name(hlr::Intersections intersections);
+[[nodiscard]] std::string_view own_polylines_name(hlr::OwnPolylines polylines);
 
 /// A point on the sheet in millimetres: x to the right, y down, from the upper left corner.
 struct PaperPoint {
@@ -112,6 +113,7 @@ struct NeutralDrawing {
   double sharp_angle_deg = 20;
   hlr::Smooth smooth = hlr::Smooth::off;
   hlr::Intersections intersections = hlr::Intersections::primitives;
+  hlr::OwnPolylines own_polylines = hlr::OwnPolylines::visible;
   double contact_distance_mm = 0;
   double sag_mm = 0;    ///< the sag asked for of curved primitives; 0: unknown
   double weld_mm = -1;  ///< seams were closed within it; negative: the precision of each body

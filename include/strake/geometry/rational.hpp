@@ -29,34 +29,41 @@ struct Rational {
 };
 
 /// An exact point in grid units, numerator / denominator, not reduced; the denominator is positive.
-/// In results of the exact tests, numerators are below 2^182, denominators below 2^128.
-struct RationalPoint {
-  Vec3<Int192> numerator;
+/// Numerators have N limbs of 64 bits.
+template <std::size_t N>
+struct BasicRationalPoint {
+  Vec3<WideInt<N>> numerator;
   Int192 denominator = Int192(Int128{1});
 
-  RationalPoint() = default;
-  RationalPoint(const Vec3<Int192>& n, const Int192& d) : numerator(n), denominator(d) {}
-  explicit RationalPoint(const Vec3l& p)
-      : numerator{Int192(Int128{p.x}), Int192(Int128{p.y}), Int192(Int128{p.z})} {}
+  BasicRationalPoint() = default;
+  BasicRationalPoint(const Vec3<WideInt<N>>& n, const Int192& d) : numerator(n), denominator(d) {}
+  explicit BasicRationalPoint(const Vec3l& p)
+      : numerator{WideInt<N>(Int128{p.x}), WideInt<N>(Int128{p.y}), WideInt<N>(Int128{p.z})} {}
 
   /// Returns each coordinate rounded to the nearest double.
   [[nodiscard]] Vec3d value() const {
     return {ratio_to_double(numerator.x, denominator), ratio_to_double(numerator.y, denominator),
             ratio_to_double(numerator.z, denominator)};
   }
-  /// Returns each coordinate rounded to the nearest grid unit, ties away from zero.
+  /// Returns each coordinate rounded to the nearest grid unit, ties away from zero. The coordinates
+  /// fit 63 bits.
   [[nodiscard]] Vec3l rounded() const {
     return {round_div(numerator.x, denominator), round_div(numerator.y, denominator),
             round_div(numerator.z, denominator)};
   }
   /// Whether both are the same point, in whatever fractions.
-  friend bool operator==(const RationalPoint& p, const RationalPoint& q) {
+  friend bool operator==(const BasicRationalPoint& p, const BasicRationalPoint& q) {
     for (int k = 0; k < 3; ++k)
       if (compare_fractions(p.numerator[k], p.denominator, q.numerator[k], q.denominator) != 0)
         return false;
     return true;
   }
 };
+
+/// In results of the exact tests, numerators are below 2^182, denominators below 2^128.
+using RationalPoint = BasicRationalPoint<3>;
+/// The point of three planes: numerators are below 2^240, denominators below 2^189.
+using WideRationalPoint = BasicRationalPoint<4>;
 
 /// Returns from + direction · num / den, exactly; den > 0, and the result within the bounds above.
 template <std::size_t N, std::size_t M>

@@ -33,6 +33,13 @@ enum class Intersections : std::uint8_t {
   parts,       ///< those of all parts
 };
 
+/// What the faces of an object do to the polylines of the same object; those of others hide them in
+/// any case. A polyline on a face, within the contact distance, is in no case hidden by that face.
+enum class OwnPolylines : std::uint8_t {
+  visible,  ///< they hide none: a centre line is seen through its pipe
+  hidden,   ///< they hide them as they hide the edges of the object's other parts
+};
+
 /// Which smooth edges are drawn. An edge is smooth where its faces turn by no more than the sharp
 /// angle.
 enum class Smooth : std::uint8_t {
@@ -113,6 +120,7 @@ struct Options {
   /// The contact distance δ, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
   Intersections intersections = Intersections::primitives;
+  OwnPolylines own_polylines = OwnPolylines::visible;
   /// The largest distance of tessellated curved primitives from their true surfaces, as far as the
   /// most segments of each kind allow. Meshes of the scene that are coarser are made anew where the
   /// view may show them; 0: as in the scene. See drawing::sag_for_paper.

@@ -279,6 +279,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.sharp_angle_deg = drawing.options.sharp_angle_deg;
   out.smooth = drawing.options.smooth;
   out.intersections = drawing.options.intersections;
+  out.own_polylines = drawing.options.own_polylines;
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.sag_mm = drawing.sag_mm;
   out.weld_mm = drawing.weld_mm;

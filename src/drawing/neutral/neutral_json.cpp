@@ -62,8 +62,10 @@ void write_view(BufferedWriter& out, const NeutralDrawing& drawing) {
       << "\",\"hidden_lines\":" << (drawing.hidden_lines ? "true" : "false")
       << ",\"sharp_angle_deg\":" << shortest(drawing.sharp_angle_deg) << ",\"smooth\":\""
       << smooth_name(drawing.smooth) << "\",\"intersections\":\""
-      << intersections_name(drawing.intersections) << "\""
-      << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
+      << intersections_name(drawing.intersections) << "\"";
+  if (drawing.own_polylines != hlr::OwnPolylines::visible)
+    out << ",\"own_polylines\":\"" << own_polylines_name(drawing.own_polylines) << "\"";
+  out << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
   if (drawing.sag_mm > 0) out << ",\"sag_mm\":" << shortest(drawing.sag_mm);
   if (drawing.weld_mm >= 0) out << ",\"weld_mm\":" << shortest(drawing.weld_mm);
   out << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)

@@ -82,6 +82,11 @@ struct ViewJob {
   [[nodiscard]] geometry::Vec3l offset(const model::GridBody& body) const {
     return body.origin - origin;
   }
+  /// Returns whether the object of an edge of this kind hides nothing of it, see
+  /// Options::own_polylines.
+  [[nodiscard]] bool spares_own(EdgeKind kind) const {
+    return kind == EdgeKind::polyline && options.own_polylines == OwnPolylines::visible;
+  }
   /// Returns whether facets of a part of a body hide none of the part's own edges where rounding to
   /// the grid alone has them do so: facets that may be edge-on, and edges that lie in the facet's
   /// plane (see kLyingInPlane and FeatureEdge::away). Not where exact states are asked for.

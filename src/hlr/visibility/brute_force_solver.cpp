@@ -312,7 +312,7 @@ std::vector<StateInterval> solve(const ViewJob& job, const Solver& solver, const
     for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
       const bool own = scene.bodies[b].object == scene.bodies[e.body].object ||
                        scene.bodies[b].object == scene.bodies[e.other_body].object;
-      if (!job.opaque[b] || (own && e.kind == EdgeKind::polyline)) continue;
+      if (!job.opaque[b] || (own && job.spares_own(e.kind))) continue;
       if (!own && job.options.stage == Stage::local) continue;
       const auto& parts = job.sectioned_shape_of(b).shape().parts;
       for (std::uint32_t p = 0; p < parts.size(); ++p) {

@@ -88,14 +88,14 @@ std::span<const OcclusionInterval> OccluderGatherer::intervals_of_own_body(const
   edge_ = edge;
   intervals_.clear();
   open_ = OpenRange();
-  if (edge_.kind != EdgeKind::polyline && !edge_.projecting) test_own_body();
+  if (!job_.spares_own(edge_.kind) && !edge_.projecting) test_own_body();
   return intervals_;
 }
 
 // Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
-// edge wholly, completely. It hides none of its wires (decision 0063).
+// edge wholly, completely. Decision 0066 says why it hides none of its wires unless asked to.
 void OccluderGatherer::gather_own_objects() {
-  if (edge_.kind == EdgeKind::polyline || job_.options.stage == Stage::none) return;
+  if (job_.spares_own(edge_.kind) || job_.options.stage == Stage::none) return;
   if (edge_.feature != nullptr && edge_.own->opaque) gather_own_body();
   gather_object(edge_.own->object);
   if (edge_.other->object != edge_.own->object) gather_object(edge_.other->object);
@@ -120,10 +120,10 @@ void OccluderGatherer::gather_object(std::uint32_t object) {
   }
 }
 
-/// Hides either end as far as the occlusion buffer covers it. Not for wires: they are seen through
+/// Hides either end as far as the occlusion buffer covers it. Not for wires that are seen through
 /// the solids of their own object, which are in the buffer, too.
 void OccluderGatherer::apply_occlusion_buffer() {
-  if (visibility_.occlusion_buffer.empty() || edge_.kind == EdgeKind::polyline) return;
+  if (visibility_.occlusion_buffer.empty() || job_.spares_own(edge_.kind)) return;
   const double lo = open_.lo().value, hi = open_.hi().value;
   const CoveredEnds ends = visibility_.occlusion_buffer.covered_ends(edge_.va, edge_.vb, lo, hi);
   if (ends.from >= ends.to) {

@@ -248,6 +248,10 @@ void ViewReader::content(TableReader& table, ViewSpec& view) {
                                  : *word == "objects" ? hlr::Intersections::objects
                                  : *word == "parts"   ? hlr::Intersections::parts
                                                       : hlr::Intersections::primitives;
+  constexpr std::array<std::string_view, 2> kOwnPolylines{"visible", "hidden"};
+  if (const auto word = table.word("own_polylines", kOwnPolylines))
+    view.options.own_polylines =
+        *word == "hidden" ? hlr::OwnPolylines::hidden : hlr::OwnPolylines::visible;
   constexpr std::array<std::string_view, 3> kSmooth{"off", "tangent", "on"};
   if (const auto word = table.word("smooth", kSmooth))
     view.options.smooth = *word == "on"        ? hlr::Smooth::all

@@ -18,6 +18,7 @@ struct Case {
   std::int32_t unit = 1;
   double contact_mm = 0;
   bool perspective = false;
+  hlr::OwnPolylines own_polylines = hlr::OwnPolylines::visible;
 };
 
 /// The intersections from end to end, where the window cuts them too.
@@ -49,6 +50,7 @@ std::string run(const Case& c, std::size_t& crossings) {
   view.limits = test::random_limits(random, lattice);
   hlr::Options options{.solver = hlr::Solver::brute_force, .contact_distance_mm = c.contact_mm};
   options.keep_specks = true;
+  options.own_polylines = c.own_polylines;
   options.intersections = static_cast<hlr::Intersections>(c.seed % 4);
   if (random.one_in(6)) options.stage = random.one_in(2) ? hlr::Stage::local : hlr::Stage::none;
   const auto drawing = hlr::draw(scene.scene(), {}, view, options, {});
@@ -116,6 +118,18 @@ TEST(BruteForceAgainstOracle, PerspectiveAndContactDistance) {
               "")
         << "seed " << seed;
   }
+  EXPECT_GT(crossings, 0U);
+}
+
+TEST(BruteForceAgainstOracle, PolylinesHiddenByTheirOwnObject) {
+  constexpr auto kHidden = hlr::OwnPolylines::hidden;
+  std::size_t crossings = 0;
+  for (std::uint64_t seed = 1; seed <= count(8); ++seed)
+    for (const Case& c :
+         {Case{.seed = seed, .own_polylines = kHidden},
+          Case{.seed = seed, .unit = 6, .contact_mm = 0.003, .own_polylines = kHidden},
+          Case{.seed = seed, .perspective = true, .own_polylines = kHidden}})
+      ASSERT_EQ(run(c, crossings), "") << "seed " << seed << ", unit " << c.unit;
   EXPECT_GT(crossings, 0U);
 }
 

@@ -28,6 +28,7 @@ struct Settings {
   std::uint32_t most_objects = 6;
   std::uint32_t sections = 0;
   bool perspective = false;
+  hlr::OwnPolylines own_polylines = hlr::OwnPolylines::visible;
 };
 
 /// `pushers`: the team of the baseline, whose workers write into each other's edges.
@@ -45,7 +46,8 @@ std::string run(std::uint64_t seed, const Settings& settings, parallel::Team& pu
   view.limits = test::random_limits(random, lattice);
   for (std::uint32_t i = 0; i < settings.sections; ++i)
     view.sections.push_back(test::random_section(random, lattice));
-  hlr::Options options{.contact_distance_mm = settings.contact_mm};
+  hlr::Options options{.contact_distance_mm = settings.contact_mm,
+                       .own_polylines = settings.own_polylines};
   if (random.one_in(8)) options.stage = random.one_in(2) ? hlr::Stage::local : hlr::Stage::none;
   if (random.one_in(4)) options.sharp_angle_deg = random.one_in(2) ? 0 : 180;
   options.solver = hlr::Solver::brute_force;
@@ -173,6 +175,19 @@ TEST(GatherAgainstBruteForce, PerspectiveOfALargeCrowd) {
   const Settings settings{
       .unit = 1 << 20, .contact_mm = -1, .most_objects = 16, .perspective = true};
   EXPECT_EQ(first_wrong(count(400), settings), "");
+}
+
+TEST(GatherAgainstBruteForce, PolylinesHiddenByTheirOwnObject) {
+  const auto settings_of = [](std::uint64_t seed) {
+    Several all = with_sections(seed);
+    all.push_back({.most_objects = 12});
+    all.push_back({.unit = 1 << 20, .contact_mm = -1, .most_objects = 12});
+    all.push_back({.perspective = true});
+    all.push_back({.unit = 1000, .contact_mm = -1, .sections = 1, .perspective = true});
+    for (Settings& settings : all) settings.own_polylines = hlr::OwnPolylines::hidden;
+    return all;
+  };
+  EXPECT_EQ(first_wrong_of(count(400), settings_of), "");
 }
 
 // Seed 245 has a plane that is square to the horizontal of the paper.

@@ -65,6 +65,30 @@ class Draw(Scenario):
         cut = pieces('--limits', '0,0,0,40,40,40')
         self.assertTrue(any(piece['state'] == 'clipped' for piece in cut))
 
+    def test_polylines_are_hidden_by_their_own_faces_if_asked_for(self):
+        # Of one object: a line inside the cube, and one on its upper face.
+        lines = 'v 20 40 50\nv 80 40 50\nv 20 40 100\nv 80 40 100\nl 9 10\nl 11 12\n'
+        self.write('pipe.obj', cube('pipe', 0, (0, 0, 0), 100) + lines)
+
+        def drawn(*more):
+            done = self.run_strake('draw', 'pipe.obj', '--unit', 'mm', '--up-axis', 'z', *more, '--json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawing = json.loads(done.stdout)
+            states = {piece['a_mm'][2]: piece['state'] for piece in drawing['pieces'] if piece['kind'] == 'polyline'}
+            return drawing, states
+
+        plain, states = drawn()
+        self.assertEqual(states, {50: 'visible', 100: 'visible'})
+        self.assertEqual(drawn('--own-polylines', 'visible')[0], plain)
+        self.assertNotIn('own_polylines', plain['settings'])
+        for more in ((), ('--stage', 'local'), ('--global', 'push'), ('--solver', 'brute-force'), ('--bucketing', 'off')):
+            drawing, states = drawn('--own-polylines', 'hidden', *more)
+            self.assertEqual(states, {50: 'hidden_by_self', 100: 'visible'}, more)
+            self.assertEqual(drawing['settings']['own_polylines'], 'hidden')
+        self.assertEqual(drawn('--own-polylines', 'hidden', '--stage', 'none')[1], {50: 'visible', 100: 'visible'})
+        done = self.run_strake('draw', 'pipe.obj', '--own-polylines', 'seen', '-o', 'x.svg')
+        self.assertEqual(done.returncode, 2, done.stderr)
+
     def test_visible_only_leaves_out_the_rest_and_nothing_else(self):
         self.two_files()
         found = []

@@ -207,7 +207,7 @@ class Schemas(unittest.TestCase):
         rows = (self.folder / 'rows.view').read_bytes()
         self.follows(rows[16:16 + int.from_bytes(rows[8:16], 'little')], 'view')
         self.run_strake('draw', 'ship.glb', '--view', 'top', '--section', 'z=4500mm', '--section', '1,2,0>9m',
-                        '-o', 'cut.json')
+                        '--own-polylines', 'hidden', '-o', 'cut.json')
         cut = self.follows((self.folder / 'cut.json').read_text(encoding='utf-8'), 'view')
         self.assertEqual([s['normal'] for s in cut['view']['sections']], [[0, 0, 1], [1, 2, 0]])
         self.assertLessEqual({'section', 'hatch'}, {p['kind'] for p in cut['pieces']})

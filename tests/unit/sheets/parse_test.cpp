@@ -47,6 +47,7 @@ title = "PLAN"
 hidden = "all"
 stage = "local"
 intersections = "parts"
+own_polylines = "hidden"
 [[view]]
 name = "detail"
 title = ""
