@@ -25,7 +25,7 @@ struct Way {
 };
 
 /// A stage that is shared out in two ways; the first is what the engine does.
-struct Comparison {
+struct TwoWays {
   const Contender& stage;
   std::string title;
   std::array<Way, 2> ways;
@@ -46,8 +46,9 @@ std::vector<double> of_all_workers(const RegionReport& region) {
   return busy_s;
 }
 
-void add_row(const std::string& stage, const std::string& region, std::string_view way,
-             const RegionReport& times, std::string seconds, std::string same, StudyRecord& study) {
+void add_region_row(const std::string& stage, const std::string& region, std::string_view way,
+                    const RegionReport& times, std::string seconds, std::string same,
+                    StudyRecord& study) {
   std::vector<std::string> row{stage, region, std::string(way), std::move(seconds)};
   for (std::string& cell : cells_of(times)) row.push_back(std::move(cell));
   row.push_back(std::move(same));
@@ -56,7 +57,7 @@ void add_row(const std::string& stage, const std::string& region, std::string_vi
 
 /// Runs a stage in both ways and adds a row for all its regions and for one of them, each way, and
 /// a chart of all.
-Status compare(const StudyInput& input, const Comparison& comparison, StudyRecord& study) {
+Status compare_ways(const StudyInput& input, const TwoWays& comparison, StudyRecord& study) {
   std::array<StudyRun, 2> runs;
   for (std::size_t w = 0; w < runs.size(); ++w) {
     const Way& way = comparison.ways[w];
@@ -73,15 +74,16 @@ Status compare(const StudyInput& input, const Comparison& comparison, StudyRecor
     const std::string same = w == 0 ? "-" : equal(runs[w], runs[0], comparison.title, study);
     const std::string_view way = comparison.ways[w].name;
     const RegionReport whole = whole_of(runs[w].regions);
-    add_row(comparison.title, "all", way, whole, runs[w].text(), same, study);
-    add_row(comparison.title, region, way, region_named(runs[w].regions, region), "-", same, study);
+    add_region_row(comparison.title, "all", way, whole, runs[w].text(), same, study);
+    add_region_row(comparison.title, region, way, region_named(runs[w].regions, region), "-", same,
+                   study);
     chart.series.push_back({std::string(way), of_all_workers(whole)});
   }
   study.charts.push_back(std::move(chart));
   return {};
 }
 
-std::vector<std::string> columns() {
+std::vector<std::string> columns_of_ways() {
   std::vector<std::string> names{"Stage", "Region", "Distribution", "Wall s"};
   for (std::string& name : region_columns()) names.push_back(std::move(name));
   names.emplace_back("Equal");
@@ -93,14 +95,14 @@ std::vector<std::string> columns() {
 Status study_distribution(const StudyInput& input, StudyRecord& study) {
   constexpr std::array<Way, 2> kWays{
       {{"competitive", Distribution::planned}, {"equal ranges", Distribution::equal_ranges}}};
-  study.columns = columns();
+  study.columns = columns_of_ways();
   const Result<SkewedScene> scene = place_skewed_scene(input);
   if (!scene) return scene.error();
   for (const Contender& stage : skewed_stages(*scene, kWorkersOfExample))
-    if (const Status s = compare(input, {stage, stage.name, kWays}, study); !s) return s;
+    if (const Status s = compare_ways(input, {stage, stage.name, kWays}, study); !s) return s;
   const Contender all_pairs =
       skewed_clashes(*scene, clash::BroadPhase::all_pairs, kWorkersOfExample);
-  return compare(
+  return compare_ways(
       input, {all_pairs, all_pairs.name + ", all pairs of boxes", kWays, "broad phase, all pairs"},
       study);
 }
@@ -108,11 +110,11 @@ Status study_distribution(const StudyInput& input, StudyRecord& study) {
 Status study_longest_first(const StudyInput& input, StudyRecord& study) {
   constexpr std::array<Way, 2> kWays{
       {{"longest first", Distribution::planned}, {"as it comes", Distribution::in_order}}};
-  study.columns = columns();
+  study.columns = columns_of_ways();
   const Result<SkewedScene> scene = place_skewed_scene(input);
   if (!scene) return scene.error();
   for (const Contender& stage : skewed_stages(*scene, kWorkersOfExample))
-    if (const Status s = compare(input, {stage, stage.name, kWays}, study); !s) return s;
+    if (const Status s = compare_ways(input, {stage, stage.name, kWays}, study); !s) return s;
   return {};
 }
 

@@ -52,8 +52,8 @@ constexpr std::array<Forbidden, 5> kForbidden{{
 }};
 
 /// Returns the seven cells of a unit that was run.
-std::vector<std::string> cells_of(const StudyRun& run, const parallel::RegionReport& region,
-                                  std::string same) {
+std::vector<std::string> unit_cells(const StudyRun& run, const parallel::RegionReport& region,
+                                    std::string same) {
   std::vector<std::string> cells{run.text(),
                                  region.items == 0 ? "-" : std::to_string(region.items)};
   const std::vector<std::string> times = cli::cells_of(region);
@@ -62,8 +62,8 @@ std::vector<std::string> cells_of(const StudyRun& run, const parallel::RegionRep
   return cells;
 }
 
-void add_row(std::string_view algorithm, std::string_view unit, std::vector<std::string> cells,
-             std::string note, StudyRecord& study) {
+void add_unit_row(std::string_view algorithm, std::string_view unit, std::vector<std::string> cells,
+                  std::string note, StudyRecord& study) {
   std::vector<std::string> row{std::string(algorithm), std::string(unit)};
   cells.resize(kCells, "-");
   for (std::string& cell : cells) row.push_back(std::move(cell));
@@ -86,8 +86,8 @@ Status run_units(const StudyInput& input, const std::vector<Unit>& units, StudyR
         unit.region.empty() ? longest_of(done.regions) : region_named(done.regions, unit.region);
     std::string same =
         is_first ? "-" : equal(done, first, unit.algorithm + ", " + unit.name, study);
-    add_row(unit.algorithm, unit.name, cells_of(done, region, std::move(same)),
-            region.name.empty() ? std::string() : "region '" + region.name + "'", study);
+    add_unit_row(unit.algorithm, unit.name, unit_cells(done, region, std::move(same)),
+                 region.name.empty() ? std::string() : "region '" + region.name + "'", study);
   }
   return {};
 }
@@ -139,10 +139,11 @@ Status add_object_pairs(const StudyInput& input, const SkewedScene& scene, Study
   std::vector<std::string> cells(kCells, "-");
   cells[1] = std::to_string(report->log.size());
   if (most > 0) cells[5] = fmt::format("{:.2f}", std::min(1.0, share / most));
-  add_row(kClash, "pair of objects", std::move(cells),
-          "by counted work: equal pairs of parts are evaluated once for all objects, so that no "
-          "pair of objects is an item",
-          study);
+  add_unit_row(
+      kClash, "pair of objects", std::move(cells),
+      "by counted work: equal pairs of parts are evaluated once for all objects, so that no "
+      "pair of objects is an item",
+      study);
   return {};
 }
 
@@ -157,7 +158,7 @@ Status study_granularity(const StudyInput& input, StudyRecord& study) {
     if (const Status s = run_units(input, units_of_lines(*scene, stage), study); !s) return s;
     for (const Forbidden& one : kForbidden)
       if (one.algorithm == (stage == hlr::Stage::local ? kLocal : kGlobal))
-        add_row(one.algorithm, one.name, {}, "not run: " + std::string(one.reason), study);
+        add_unit_row(one.algorithm, one.name, {}, "not run: " + std::string(one.reason), study);
   }
   if (const Status s = run_units(input, units_of_clashes(*scene), study); !s) return s;
   return add_object_pairs(input, *scene, study);

@@ -16,12 +16,12 @@ namespace strake::cli {
 
 namespace {
 
-constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20U;
+constexpr std::uint64_t kBytesPerMebibyte = std::uint64_t{1} << 20U;
 
 /// Returns the memory that a run on so many threads may take: the sequential run's, 5 % and 16 MiB
 /// a thread.
 std::uint64_t allowed_bytes(std::uint64_t sequential_bytes, unsigned threads) {
-  constexpr std::uint64_t kPart = 20, kThreadBytes = 16 * kMebibyte;
+  constexpr std::uint64_t kPart = 20, kThreadBytes = 16 * kBytesPerMebibyte;
   return sequential_bytes + sequential_bytes / kPart + threads * kThreadBytes;
 }
 
@@ -45,7 +45,7 @@ Result<std::uint64_t> peak_of(const StudyInput& input, const Contender& contende
 }
 
 std::string mebibytes(std::uint64_t bytes) {
-  return fmt::format("{:.1f}", static_cast<double>(bytes) / static_cast<double>(kMebibyte));
+  return fmt::format("{:.1f}", static_cast<double>(bytes) / static_cast<double>(kBytesPerMebibyte));
 }
 
 /// Returns the stage of a number that runs on so many threads.

@@ -55,6 +55,6 @@ struct StudyRun {
 [[nodiscard]] Status study_memory(const StudyInput& input, StudyRecord& study);
 [[nodiscard]] Status study_push_and_gather(const StudyInput& input, StudyRecord& study);
 [[nodiscard]] Status study_stage_one(const StudyInput& input, StudyRecord& study);
-[[nodiscard]] Status study_trees(const StudyInput& input, StudyRecord& study);
+[[nodiscard]] Status study_octree(const StudyInput& input, StudyRecord& study);
 
 }  // namespace strake::cli
