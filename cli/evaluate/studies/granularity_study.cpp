@@ -38,17 +38,19 @@ constexpr std::string_view kLocal = "local hidden lines", kGlobal = "global hidd
 
 constexpr std::array<Forbidden, 5> kForbidden{{
     {kLocal, "reference plane",
-     "all planes of an object shorten the same lines: what one leaves of a line the next begins "
-     "with, so that a line has to be locked, or its intervals joined after"},
+     "all planes of an object write to the same lines, which would have to be locked for each "
+     "test, or joined after"},
     {kLocal, "line and plane",
-     "the same, and the item is a test of some ten nanoseconds, less than to hand it out takes"},
+     "feedback: what one plane leaves of a line is what the next begins with; and a test takes "
+     "less than to hand it out"},
     {kGlobal, "plane of an object above",
-     "its planes have the same objects under them: as for whole objects each write wants a lock, "
-     "and there are as many more of them as an object has planes"},
+     "its planes have the same objects under them, so that each write wants their locks: those of "
+     "whole objects above, as many more as an object has planes"},
     {kGlobal, "object under one object",
-     "planes of one object above that are spread over those under it: a region for each object "
-     "above, of some items, with a barrier behind each, as the next begins with what it leaves"},
-    {kGlobal, "line under one plane", "the same, and the item is one test"},
+     "all objects under one have to be found first, and the next above begins with what this one "
+     "leaves: a barrier behind each, at which all wait for the slowest"},
+    {kGlobal, "plane or line under one plane",
+     "feedback, as within an object: each begins with what the one before leaves"},
 }};
 
 /// Returns the seven cells of a unit that was run.
