@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -48,9 +49,24 @@ std::string mebibytes(std::uint64_t bytes) {
   return fmt::format("{:.1f}", static_cast<double>(bytes) / static_cast<double>(kBytesPerMebibyte));
 }
 
-/// Returns the stage of a number that runs on so many threads.
-Contender stage_of(const SkewedScene& scene, std::size_t stage, unsigned threads) {
-  return skewed_stages(scene, threads)[stage];
+/// What the rows of a stage are compared with.
+struct Sequential {
+  std::uint64_t peak_bytes = 0;
+  std::string hash;
+};
+
+void add_memory_row(const Contender& contender, std::uint64_t peak, const std::string& hash,
+                    const Sequential& sequential, StudyRecord& study) {
+  const bool known = peak > 0 && sequential.peak_bytes > 0;
+  const std::uint64_t allowed = allowed_bytes(sequential.peak_bytes, contender.threads);
+  const bool same = hash == sequential.hash;
+  if (!same)
+    study.differences.push_back(
+        fmt::format("the results differ: {} on {} threads", contender.name, contender.threads));
+  const std::string within = peak <= allowed ? "yes" : "NO";
+  study.rows.push_back({contender.name, std::to_string(contender.threads),
+                        known ? mebibytes(peak) : "unknown", known ? mebibytes(allowed) : "-",
+                        known ? within : "-", same ? "yes" : "NO"});
 }
 
 }  // namespace
@@ -62,30 +78,15 @@ Status study_memory(const StudyInput& input, StudyRecord& study) {
   if (!scene) return scene.error();
   const std::size_t stages = skewed_stages(*scene, 1).size();
   for (std::size_t stage = 0; stage < stages; ++stage) {
-    std::uint64_t sequential = 0;
-    std::string expected;
+    Sequential sequential;
     for (const unsigned threads : kThreads) {
-      const Contender contender = stage_of(*scene, stage, threads);
+      const Contender contender = skewed_stages(*scene, threads)[stage];
       input.narrate(fmt::format("memory, {}: {} threads", contender.name, threads));
       std::string hash;
       const Result<std::uint64_t> peak = peak_of(input, contender, hash);
       if (!peak) return peak.error();
-      if (threads == 1) {
-        sequential = *peak;
-        expected = hash;
-      }
-      const std::uint64_t allowed = allowed_bytes(sequential, threads);
-      if (hash != expected)
-        study.differences.push_back(
-            fmt::format("the results differ: {} on {} threads", contender.name, threads));
-      const bool unknown = *peak == 0 || sequential == 0;
-      study.rows.push_back({contender.name, std::to_string(threads),
-                            unknown ? "unknown" : mebibytes(*peak),
-                            unknown ? "-" : mebibytes(allowed),
-                            unknown            ? "-"
-                            : *peak <= allowed ? "yes"
-                                               : "NO",
-                            hash == expected ? "yes" : "NO"});
+      if (threads == 1) sequential = {*peak, hash};
+      add_memory_row(contender, *peak, hash, sequential, study);
     }
   }
   return {};

@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,81 +74,92 @@ TreeSearch search_all(std::size_t boxes, const std::stop_token& stop, const Find
   return search;
 }
 
-/// One tree over the boxes of a ship.
+/// A tree over the boxes of a ship.
 struct TreeFigures {
+  std::string name, ship;
   double build_s = 0, query_s = 0;
-  TreeSearch search;
+  std::optional<double> join_s;  ///< of a tree that can be joined with itself
+  TreeSearch search;             ///< of all boxes
+  std::string hash;              ///< of the pairs that it found
 };
+
+/// Has a tree answer the query of every box.
+template <class Find>
+void query(const StudyInput& input, std::size_t boxes, const Find& find, TreeFigures& figures) {
+  figures.query_s = seconds_of(input.settings.repeat,
+                               [&] { figures.search = search_all(boxes, input.stop, find); });
+  figures.hash = computed_of(figures.search.pairs).hash();
+}
 
 TreeFigures figures_of_octree(const StudyInput& input, const std::vector<Box3l>& boxes) {
   TreeFigures figures;
+  figures.name = "loose octree";
   figures.build_s =
       seconds_of(input.settings.repeat, [&] { const LooseOctree tree{std::span(boxes)}; });
   const LooseOctree tree{std::span(boxes)};
-  figures.query_s = seconds_of(input.settings.repeat, [&] {
-    figures.search = search_all(boxes.size(), input.stop,
-                                [&](std::uint32_t i, TreeSearch& search) { tree.find(i, search); });
-  });
+  query(
+      input, boxes.size(), [&](std::uint32_t i, TreeSearch& search) { tree.find(i, search); },
+      figures);
   return figures;
 }
 
-TreeFigures figures_of_bvh(const StudyInput& input, const std::vector<Box3l>& boxes,
-                           const SceneBvh& tree) {
+/// Returns the figures of the hierarchy over boxes; `joined` is told the hash of the pairs that the
+/// engine finds by it.
+Result<TreeFigures> figures_of_hierarchy(const StudyInput& input, const std::vector<Box3l>& boxes,
+                                         std::string& joined) {
+  std::vector<geometry::BoxItem> items(boxes.size());
+  for (std::uint32_t i = 0; i < items.size(); ++i) items[i] = {.box = boxes[i], .owner = i};
+  const parallel::Context context{.stop = input.stop};
+  const auto tree = SceneBvh::build(items, context);
+  if (!tree) return tree.error();
+  Result<std::vector<IndexPair>> pairs = geometry::overlapping_box_pairs(*tree, context);
+  if (!pairs) return pairs.error();
+  joined = computed_of(std::move(*pairs)).hash();
   TreeFigures figures;
-  figures.query_s = seconds_of(input.settings.repeat, [&] {
-    figures.search = search_all(boxes.size(), input.stop, [&](std::uint32_t i, TreeSearch& search) {
-      find_in_hierarchy(tree, boxes, i, search);
-    });
-  });
+  figures.name = "boxes (BVH)";
+  figures.build_s =
+      seconds_of(input.settings.repeat, [&] { (void)SceneBvh::build(items, context); });
+  figures.join_s = seconds_of(input.settings.repeat,
+                              [&] { (void)geometry::overlapping_box_pairs(*tree, context); });
+  query(
+      input, boxes.size(),
+      [&](std::uint32_t i, TreeSearch& search) { find_in_hierarchy(*tree, boxes, i, search); },
+      figures);
   return figures;
 }
 
-void add_tree_row(const std::string& ship, const std::string& tree, const TreeFigures& figures,
-                  const std::string& join, std::string same, std::size_t objects,
+void add_tree_row(const TreeFigures& tree, std::size_t objects, const std::string& joined,
                   StudyRecord& study) {
   const auto per_object = [&](std::uint64_t tests) {
     return fmt::format("{:.1f}", static_cast<double>(tests) / static_cast<double>(objects));
   };
+  const bool same = tree.hash == joined;
+  if (!same)
+    study.differences.push_back(
+        fmt::format("{}: the pairs of '{}' are not those of the join", tree.ship, tree.name));
   study.rows.push_back(
-      {ship, std::to_string(objects), tree, std::to_string(figures.search.pairs.size()),
-       fmt::format("{:.3f}", figures.build_s), fmt::format("{:.3f}", figures.query_s),
-       per_object(figures.search.node_tests), per_object(figures.search.box_tests), join,
-       std::move(same)});
+      {tree.ship, std::to_string(objects), tree.name, std::to_string(tree.search.pairs.size()),
+       fmt::format("{:.3f}", tree.build_s), fmt::format("{:.3f}", tree.query_s),
+       per_object(tree.search.node_tests), per_object(tree.search.box_tests),
+       tree.join_s ? fmt::format("{:.3f}", *tree.join_s) : "-", same ? "yes" : "NO"});
 }
 
-/// Adds the rows of a ship: the hierarchy over boxes with the join that the engine uses, and the
-/// octree.
+/// Adds the rows of a ship: the hierarchy over boxes, and the octree.
 Status add_ship(const StudyInput& input, const ShipCase& ship, StudyRecord& study) {
   input.narrate(fmt::format("octree, {}", ship.name));
   const auto placed = place_ship(clashing_ship(ship, input.settings.scale), {}, input.stop);
   if (!placed) return placed.error();
   const std::vector<Box3l> boxes = object_boxes(*placed, generate::Truth::kClearanceMm);
-  std::vector<geometry::BoxItem> items(boxes.size());
-  for (std::uint32_t i = 0; i < items.size(); ++i) items[i] = {.box = boxes[i], .owner = i};
-  const parallel::Context context{.stop = input.stop};
-  auto tree = SceneBvh::build(items, context);
-  if (!tree) return tree.error();
-  const double build_s =
-      seconds_of(input.settings.repeat, [&] { (void)SceneBvh::build(items, context); });
-  Result<std::vector<IndexPair>> joined = geometry::overlapping_box_pairs(*tree, context);
-  if (!joined) return joined.error();
-  const double join_s = seconds_of(input.settings.repeat,
-                                   [&] { (void)geometry::overlapping_box_pairs(*tree, context); });
-  TreeFigures bvh = figures_of_bvh(input, boxes, *tree);
-  bvh.build_s = build_s;
-  const TreeFigures octree = figures_of_octree(input, boxes);
+  std::string joined;
+  Result<TreeFigures> hierarchy = figures_of_hierarchy(input, boxes, joined);
+  if (!hierarchy) return hierarchy.error();
+  TreeFigures octree = figures_of_octree(input, boxes);
+  // What was stopped half way has pairs that mean nothing.
   if (input.stop.stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
-  const std::string expected = computed_of(std::move(*joined)).hash();
-  const auto same = [&](const TreeFigures& figures, const char* which) -> std::string {
-    if (computed_of(figures.search.pairs).hash() == expected) return "yes";
-    study.differences.push_back(
-        fmt::format("the pairs of the {} are not those of the join: {}", which, ship.name));
-    return "NO";
-  };
-  const std::string title(ship.title);
-  add_tree_row(title, "boxes (BVH)", bvh, fmt::format("{:.3f}", join_s), same(bvh, "queries"),
-               boxes.size(), study);
-  add_tree_row(title, "loose octree", octree, "-", same(octree, "octree"), boxes.size(), study);
+  for (TreeFigures* const tree : {&*hierarchy, &octree}) {
+    tree->ship = ship.title;
+    add_tree_row(*tree, boxes.size(), joined, study);
+  }
   return {};
 }
 
