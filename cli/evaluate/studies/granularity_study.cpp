@@ -25,7 +25,7 @@ struct Unit {
   std::string algorithm, name;
   Contender contender;
   std::size_t least_chunk = 1;
-  std::string_view region = {};  ///< that has these items; empty: the one that takes longest
+  std::vector<std::string_view> regions = {};  ///< that have these items
 };
 
 /// A unit of work that no run has, and why.
@@ -84,12 +84,11 @@ Status run_units(const StudyInput& input, const std::vector<Unit>& units, StudyR
     const bool is_first = &unit == &units.front();
     if (is_first) first = std::move(*run);
     const StudyRun& done = is_first ? first : *run;
-    const parallel::RegionReport region =
-        unit.region.empty() ? longest_of(done.regions) : region_named(done.regions, unit.region);
+    const parallel::RegionReport region = whole_of(done.regions, unit.regions);
     std::string same =
         is_first ? "-" : equal(done, first, unit.algorithm + ", " + unit.name, study);
     add_unit_row(unit.algorithm, unit.name, unit_cells(done, region, std::move(same)),
-                 region.name.empty() ? std::string() : "region '" + region.name + "'", study);
+                 fmt::format("{}", fmt::join(unit.regions, ", ")), study);
   }
   return {};
 }
@@ -101,15 +100,20 @@ std::vector<Unit> units_of_lines(const SkewedScene& scene, hlr::Stage stage) {
   const std::string algorithm(local ? kLocal : kGlobal);
   std::vector<Unit> units;
   for (const std::size_t chunk : {1U, 16U, 256U})
-    units.push_back({algorithm, fmt::format("up to {} edges", kEdges * chunk),
-                     skewed_lines(scene, stage, kWorkersOfExample), chunk, "hidden lines: edges"});
+    units.push_back({algorithm,
+                     fmt::format("up to {} edges", kEdges * chunk),
+                     skewed_lines(scene, stage, kWorkersOfExample),
+                     chunk,
+                     {"hidden lines: edges"}});
   hlr::Options push;
   push.stage = stage;
   push.solver = hlr::Solver::push;
-  units.push_back({algorithm, local ? "object" : "object above (push)",
+  units.push_back({algorithm,
+                   local ? "object" : "object above (push)",
                    drawing_contender(algorithm, kWorkersOfExample, scene.view.ship.scene,
                                      scene.view.view, push),
-                   1, local ? "push: local step" : "push: global step"});
+                   1,
+                   {local ? "push: local step" : "push: global step"}});
   return units;
 }
 
@@ -117,8 +121,11 @@ std::vector<Unit> units_of_clashes(const SkewedScene& scene) {
   constexpr unsigned kPairs = 8;  // of a block of the engine
   std::vector<Unit> units;
   for (const std::size_t chunk : {1U, 16U, 256U})
-    units.push_back({std::string(kClash), fmt::format("up to {} pairs of parts", kPairs * chunk),
-                     skewed_clashes(scene, clash::BroadPhase::tree, kWorkersOfExample), chunk});
+    units.push_back({std::string(kClash),
+                     fmt::format("up to {} pairs of parts", kPairs * chunk),
+                     skewed_clashes(scene, clash::BroadPhase::tree, kWorkersOfExample),
+                     chunk,
+                     {"simple pairs", "parting planes", "narrow phase", "depth", "distance"}});
   return units;
 }
 

@@ -25,6 +25,14 @@ parallel::RegionReport whole_of(std::span<const parallel::RegionReport> regions)
   return whole;
 }
 
+parallel::RegionReport whole_of(std::span<const parallel::RegionReport> regions,
+                                std::span<const std::string_view> names) {
+  std::vector<parallel::RegionReport> some;
+  for (const parallel::RegionReport& region : regions)
+    if (std::ranges::find(names, region.name) != names.end()) some.push_back(region);
+  return whole_of(some);
+}
+
 parallel::RegionReport longest_of(std::span<const parallel::RegionReport> regions) {
   const auto longest = std::ranges::max_element(
       regions, {}, [](const auto& region) { return region.runs == 0 ? 0 : region.total_busy_s(); });

@@ -41,7 +41,7 @@ constexpr std::array<StudyCase, 10> kStudies{{
     {"granularity", "Units of work",
      "The thesis weighs segment, plane and line as units of local hidden lines, over-segment, "
      "over-plane and under-edge as those of global ones, pairs of objects and of their parts as "
-     "those of clash detection. Rows say what the region of that unit took with 7 workers, or "
+     "those of clash detection. Rows say what the regions of a unit took with 7 workers, or "
      "which dependency is in the way.",
      study_granularity},
     {"memory", "Memory by number of threads",

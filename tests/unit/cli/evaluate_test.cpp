@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -242,6 +243,8 @@ TEST(Evaluate, RegionsOfATeamAddUpByWorker) {
   EXPECT_EQ(longest_of(regions).name, "a");
   EXPECT_EQ(region_named(regions, "b").busy_s, (std::vector<double>{2, 1}));
   EXPECT_TRUE(region_named(regions, "c").name.empty());
+  const std::vector<std::string_view> names{"b", "c"};
+  EXPECT_EQ(whole_of(regions, names).busy_s, (std::vector<double>{2, 1}));
   EXPECT_EQ(cells_of(regions[0]).front(), "1.000");
   EXPECT_EQ(cells_of(regions[0]).size(), region_columns().size());
   EXPECT_EQ(cells_of(regions[2]).front(), "-");

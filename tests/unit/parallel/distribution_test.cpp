@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +20,8 @@
 namespace strake::parallel {
 namespace {
 
-constexpr Distribution kAll[] = {Distribution::planned, Distribution::in_order,
-                                 Distribution::equal_ranges};
+constexpr std::array kAll{Distribution::planned, Distribution::in_order,
+                          Distribution::equal_ranges};
 
 std::string named(Distribution distribution, unsigned threads) {
   return "distribution " + std::to_string(static_cast<int>(distribution)) + ", threads " +
