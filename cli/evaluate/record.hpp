@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/evaluate/chart.hpp"
 #include "strake/parallel/report.hpp"
 
 namespace strake::cli {
@@ -61,11 +62,12 @@ struct CaseRecord {
   std::vector<StageRecord> stages;
 };
 
-/// The answer to a question, as a table.
+/// The answer to a question, as a table and charts.
 struct StudyRecord {
   std::string name, title, question;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
+  std::vector<BarChart> charts;
   std::vector<std::string> differences;  ///< as of a StageRecord
 };
 

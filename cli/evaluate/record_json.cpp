@@ -23,7 +23,11 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContenderRecord, name, threads, seconds, cpu_
                                    regions)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StageRecord, name, reference_s, differences, contenders)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CaseRecord, name, title, objects, bodies, triangles, stages)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyRecord, name, title, question, columns, rows, differences)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BarChart::Series, name, values)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BarChart::Level, label, value)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BarChart, title, unit, names, series, levels)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyRecord, name, title, question, columns, rows, charts,
+                                   differences)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EvaluationRecord, machine, settings, cases, studies)
 
 namespace {

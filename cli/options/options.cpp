@@ -72,6 +72,15 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       ->group("Output");
 }
 
+void add_distribution_option(CLI::App& command, CommonOptions& options) {
+  add_choice(command, "--distribution", options.distribution,
+             {"planned", "in-order", "equal-ranges"},
+             "How workers share the work out, for comparisons; the result is the same: whoever is "
+             "free takes the next, the longest first (planned) or as it comes (in-order), or each "
+             "has its range, all of the same number of items (equal-ranges) (default planned)")
+      ->group("Running");
+}
+
 void add_input_options(CLI::App& command, InputOptions& options) {
   command.add_option("files", options.files, "RVM, glTF, GLB, OBJ or STL files")
       ->required()
@@ -133,6 +142,12 @@ Result<unsigned> worker_count(const CommonOptions& options) {
     return usage(fmt::format("'{}' is no number of workers", options.threads), "--threads",
                  fmt::format("write a whole number from 1 to {}", parallel::Team::kMaxWorkers));
   return static_cast<unsigned>(*number);
+}
+
+parallel::Distribution distribution_of(const CommonOptions& options) {
+  if (options.distribution == "in-order") return parallel::Distribution::in_order;
+  if (options.distribution == "equal-ranges") return parallel::Distribution::equal_ranges;
+  return parallel::Distribution::planned;
 }
 
 namespace {

@@ -10,6 +10,7 @@
 #include "core/output_format.hpp"
 #include "strake/core/result.hpp"
 #include "strake/io/reader.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
 class App;
@@ -18,9 +19,9 @@ class Option;
 
 namespace strake::cli {
 
-/// The options that every verb has, as written.
+/// The options that every verb has, as written; `distribution` is of some only.
 struct CommonOptions {
-  std::string threads;
+  std::string threads, distribution;
   bool quiet = false, stats = false, json = false;
 };
 
@@ -32,6 +33,8 @@ struct InputOptions {
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);
+/// Adds --distribution, for verbs whose work is worth a comparison.
+void add_distribution_option(CLI::App& command, CommonOptions& options);
 void add_input_options(CLI::App& command, InputOptions& options);
 /// Adds -o FILE, which may be given several times: "`what` as .json or .csv; may be repeated".
 void add_output_option(CLI::App& command, std::vector<std::string>& files, std::string_view what,
@@ -46,6 +49,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
 
 /// Returns the number of workers asked for, or the machine's own.
 [[nodiscard]] Result<unsigned> worker_count(const CommonOptions& options);
+/// Returns how the regions of the run share their items out.
+[[nodiscard]] parallel::Distribution distribution_of(const CommonOptions& options);
 /// Returns the files, each with the options given for it or for all.
 [[nodiscard]] Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options);
 

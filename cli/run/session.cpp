@@ -29,7 +29,8 @@ parallel::Context Session::context() {
   return {.team = team_.get(),
           .stop = interrupts_.token(),
           .progress = options_.quiet ? nullptr : &progress_,
-          .report = options_.stats ? &report_ : nullptr};
+          .report = options_.stats ? &report_ : nullptr,
+          .distribution = distribution_of(options_)};
 }
 
 Status Session::write(const std::filesystem::path& target, Producer producer) {

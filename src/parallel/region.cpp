@@ -169,16 +169,19 @@ Status RegionRun::start() {
                       std::to_string(blocks_) + " blocks");
   if (ordered_ && !is_permutation(region_.order))
     return misordered("that does not name each of " + std::to_string(blocks_) + " blocks once");
+  ordered_ = ordered_ && context_.distribution == Distribution::planned;
   return {};
 }
 
 void RegionRun::deal(const Executor* team) {
   const std::size_t workers = team != nullptr ? team->size() : 1;
-  if (team == nullptr || region_.schedule == Schedule::static_blocks)
+  if (team == nullptr || region_.schedule == Schedule::static_blocks ||
+      context_.distribution == Distribution::equal_ranges)
     return shares_.deal(blocks_, workers, blocks_, WorkStealingShares::Rest::kept);
   // A counter may pass the last block by a chunk for each worker, and must not come round again.
   const std::size_t room = (std::numeric_limits<std::size_t>::max() - blocks_) / (workers + 1);
-  const std::size_t chunk = std::max<std::size_t>(std::min({region_.chunk, blocks_, room}), 1);
+  const std::size_t asked = std::max(region_.chunk, context_.least_chunk);
+  const std::size_t chunk = std::max<std::size_t>(std::min({asked, blocks_, room}), 1);
   const bool ascending = ordered_ || visit_ == Visit::ascending || blocks_ / workers < kFewBlocks;
   shares_.deal(blocks_, ascending ? 1 : workers, chunk, WorkStealingShares::Rest::free);
 }

@@ -2,26 +2,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
+
+#include "cli/evaluate/chart.hpp"
 
 namespace strake::cli {
-
-/// Bars over names, in groups of one bar per series.
-struct BarChart {
-  std::string title, unit;
-  std::vector<std::string> names;
-  struct Series {
-    std::string name;
-    std::vector<double> values;  ///< one per name
-  };
-  std::vector<Series> series;
-  /// Horizontal lines with a label.
-  struct Level {
-    std::string label;
-    double value = 0;
-  };
-  std::vector<Level> levels = {};
-};
 
 /// Returns the chart as an SVG element, which may stand in an HTML page or be a file.
 [[nodiscard]] std::string bar_chart_svg(const BarChart& chart);

@@ -281,7 +281,8 @@ std::vector<Section> sections_of(const EvaluationRecord& record) {
   sections.push_back(by_threads(record));
   sections.push_back(distribution(record));
   for (const StudyRecord& study : record.studies)
-    sections.push_back({study.name, {study.title, study.question, study.columns, study.rows}, {}});
+    sections.push_back(
+        {study.name, {study.title, study.question, study.columns, study.rows}, study.charts});
   sections.push_back(memory(record));
   sections.push_back(work(record));
   sections.push_back(machine(record));

@@ -3,33 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "cli/evaluate/cases.hpp"
-#include "cli/evaluate/placed_model.hpp"
 #include "cli/evaluate/studies/study_runs.hpp"
+#include "cli/evaluate/studies/study_scenes.hpp"
 
 namespace strake::cli {
 
 namespace {
-
-const ViewCase& view_named(std::string_view name) {
-  return *std::ranges::find(view_cases(), name, &ViewCase::name);
-}
-
-/// A ship in a view, to be drawn in several ways.
-struct StudyView {
-  PlacedModel ship;
-  hlr::View view;
-};
-
-Result<StudyView> place_view(const StudyInput& input, const ViewCase& view,
-                             const generate::ShipOptions& options) {
-  Result<PlacedModel> ship = place_ship(options, {}, input.stop);
-  if (!ship) return ship.error();
-  const hlr::View seen = view_of(view, ship->box);
-  return StudyView{std::move(*ship), seen};
-}
 
 /// Draws in one way on the most workers; `what` is told.
 Result<StudyRun> draw(const StudyInput& input, const StudyView& view, const hlr::Options& options,
@@ -51,20 +34,6 @@ Result<std::pair<StudyRun, StudyRun>> draw_both(const StudyInput& input, const V
   Result<StudyRun> other = draw(input, *scene, others, what + ", the other way");
   if (!other) return other.error();
   return std::pair(std::move(*usual), std::move(*other));
-}
-
-std::string times(const StudyRun& slower, const StudyRun& faster) {
-  if (!slower.unfinished.empty() || !faster.unfinished.empty()) return "-";
-  return fmt::format("{:.1f}", slower.seconds / faster.seconds);
-}
-
-/// Returns whether two runs came to the same result, where both did; a difference is the study's.
-std::string equal(const StudyRun& x, const StudyRun& y, const std::string& what,
-                  StudyRecord& study) {
-  if (!x.unfinished.empty() || !y.unfinished.empty()) return "-";
-  if (x.computed.hash() == y.computed.hash()) return "yes";
-  study.differences.push_back("the results differ: " + what);
-  return "NO";
 }
 
 }  // namespace

@@ -87,8 +87,8 @@ Status study_gap(const StudyInput& input, StudyRecord& study) {
   constexpr double kClearanceMm = 25;
   const auto squares = static_cast<std::uint32_t>(
       std::lround(std::clamp(150 * std::sqrt(input.settings.scale), 20.0, 150.0)));
-  study.columns = {"Gap mm",      "Ours s",         "Spheres s",
-                   "Ours: found", "Spheres: found", "Triangle pairs"};
+  study.columns = {"Gap mm",         "Ours s",         "Spheres s",     "Ours: found",
+                   "Spheres: found", "Triangle pairs", "Spheres tested"};
   for (const double gap : {20.0, 10.0, 5.0, 2.5, 1.25}) {
     const clash::Options exact{.tolerances = {.clearance_mm = kClearanceMm}};
     const auto scene =
@@ -106,7 +106,8 @@ Status study_gap(const StudyInput& input, StudyRecord& study) {
       runs[way] = std::move(*run);
     }
     study.rows.push_back({fmt::format("{:g}", gap), runs[0].text(), runs[1].text(),
-                          class_of(runs[0]), class_of(runs[1]), runs[0].counter("triangle pairs")});
+                          class_of(runs[0]), class_of(runs[1]), runs[0].counter("triangle pairs"),
+                          runs[1].counter("depth cells")});
   }
   return {};
 }

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/time_limit.hpp"
@@ -23,16 +23,22 @@ std::string StudyRun::counter(const std::string& name) const {
   return found == computed.counters.end() ? "-" : std::to_string(found->second);
 }
 
-Result<StudyRun> run_for_study(const StudyInput& input, const Contender& contender) {
+Result<StudyRun> run_for_study(const StudyInput& input, const Contender& contender,
+                               const StudyConditions& conditions) {
   std::optional<parallel::Team> team;
   if (contender.threads > 1) team.emplace(contender.threads);
   const TimeLimit limit(input.stop, input.settings.limit_s);
   StudyRun run;
   std::vector<double> seconds;
   for (std::uint64_t round = 0; round < input.settings.repeat; ++round) {
+    parallel::RunReport report;
+    const parallel::Context context{.team = team ? &*team : nullptr,
+                                    .stop = limit.token(),
+                                    .report = conditions.with_regions ? &report : nullptr,
+                                    .distribution = conditions.distribution,
+                                    .least_chunk = conditions.least_chunk};
     const auto start = std::chrono::steady_clock::now();
-    Result<Computed> computed =
-        contender.compute({.team = team ? &*team : nullptr, .stop = limit.token()});
+    Result<Computed> computed = contender.compute(context);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (!computed) {
       if (input.stop.stop_requested() || computed.error().code != ErrorCode::cancelled)
@@ -41,11 +47,26 @@ Result<StudyRun> run_for_study(const StudyInput& input, const Contender& contend
       if (seconds.empty()) run.unfinished = fmt::format("over {:g} s", input.settings.limit_s);
       break;
     }
+    if (seconds.empty() || took.count() < *std::ranges::min_element(seconds))
+      run.regions = report.regions();
     seconds.push_back(took.count());
     run.computed = std::move(*computed);
   }
   run.seconds = median(std::move(seconds));
   return run;
+}
+
+std::string times(const StudyRun& slower, const StudyRun& faster) {
+  if (!slower.unfinished.empty() || !faster.unfinished.empty()) return "-";
+  return fmt::format("{:.1f}", slower.seconds / faster.seconds);
+}
+
+std::string equal(const StudyRun& x, const StudyRun& y, const std::string& what,
+                  StudyRecord& study) {
+  if (!x.unfinished.empty() || !y.unfinished.empty()) return "-";
+  if (x.computed.hash() == y.computed.hash()) return "yes";
+  study.differences.push_back("the results differ: " + what);
+  return "NO";
 }
 
 }  // namespace strake::cli

@@ -341,6 +341,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
       ->type_name("N")
       ->group("Running");
   add_output_option(*command, options->outputs, "Result", formats_of(report::clash_writers()));
+  add_distribution_option(*command, common);
   add_common_options(*command, common);
   command->footer(R"(
 One file is checked against itself, several each against the others. With --a and --b it is what

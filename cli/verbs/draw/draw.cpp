@@ -489,6 +489,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");
   add_output_option(*command, options->outputs, "Drawing", formats_of(drawing::drawing_writers()));
   add_sheet(*command, *options);
+  add_distribution_option(*command, common);
   add_common_options(*command, common);
   command->footer(R"(
 Examples:

@@ -71,7 +71,8 @@ template <class Cost, class Body>
         detail::status_of(region.name, i, [&] { (*costs)[i] = static_cast<double>(cost(i)); });
     if (!status) return status;
   }
-  const unsigned workers = context.team == nullptr ? 1 : context.team->size();
+  const bool alike = context.team == nullptr || context.distribution == Distribution::equal_ranges;
+  const unsigned workers = alike ? 1 : context.team->size();
   auto apart = detail::split_off_heavy(*costs, least, workers, region);
   if (!apart) return std::move(apart).error();
   // One phase for all: what is inside a heavy item has none to show.

@@ -171,7 +171,7 @@ class RegionRun {
   const Region& region_;
   std::size_t blocks_ = 0;
   Visit visit_;
-  bool ordered_ = false;   ///< by the region's order
+  bool ordered_ = false;   ///< by the region's order, which the run heeds
   bool observed_ = false;  ///< somebody wants progress or times: ranges are single blocks then
   bool counting_ = false;  ///< this region is the one whose progress is shown
   alignas(64) std::atomic<std::size_t> limit_{std::numeric_limits<std::size_t>::max()};

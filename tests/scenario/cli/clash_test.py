@@ -44,7 +44,9 @@ class Clash(Scenario):
         arguments = ['clash', 'a.obj', 'b.obj', '--self', '--clearance', '25mm', *self.SETTINGS]
         self.assertEqual(self.run_strake(*arguments, '-o', 'x.json', '-o', 'x.csv').returncode, 0)
         expected = (self.folder / 'x.json').read_bytes()
-        for more in (['--threads', 1], ['--threads', 3], ['--threads', 64], ['--broad-phase', 'all-pairs']):
+        for more in (['--threads', 1], ['--threads', 3], ['--threads', 64], ['--broad-phase', 'all-pairs'],
+                     ['--threads', 3, '--distribution', 'equal-ranges'], ['--threads', 3, '--distribution', 'in-order'],
+                     ['--threads', 7, '--broad-phase', 'all-pairs', '--distribution', 'equal-ranges']):
             with self.subTest(more):
                 self.assertEqual(self.run_strake(*arguments, *more, '-o', 'y.json').returncode, 0)
                 self.assertEqual((self.folder / 'y.json').read_bytes(), expected)

@@ -55,6 +55,9 @@ class Draw(Scenario):
             self.assertIn('--bucketing', done.stderr)
         for threads in (1, 3):
             self.assertEqual(whole, pieces('--global', 'push', '--threads', threads))
+        for distribution in ('planned', 'in-order', 'equal-ranges'):
+            for threads in (1, 3, 7):
+                self.assertEqual(whole, pieces('--distribution', distribution, '--threads', threads))
         self.assertEqual(pieces('--view', 'front'), pieces('--direction', '0,-7,0'))
         one = pieces('--select', 'a0')
         self.assertLess(len(one), len(whole))

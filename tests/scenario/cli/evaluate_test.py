@@ -121,6 +121,40 @@ class Evaluate(unittest.TestCase):
         self.assertEqual(done.returncode, 3)
         self.assertFalse((self.folder / 'wrong').exists())
 
+    def test_studies_answer_with_tables_of_equal_results(self):
+        names = ['distribution', 'longest-first', 'granularity', 'memory', 'stage-one', 'octree']
+        done = subprocess.run([STRAKE, 'evaluate', '--scale', '0.001', '--threads', '1', '--repeat', '1', '--limit', '60',
+                               '--only', ','.join(names), '-o', 'studies'],
+                              capture_output=True, text=True, cwd=self.folder, timeout=500)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        record = self.record('studies')
+        jsonschema.validate(record, json.loads((SCHEMAS / 'evaluation.schema.json').read_text(encoding='utf-8')))
+        studies = {study['name']: study for study in record['studies']}
+        self.assertEqual(sorted(studies), sorted(names))
+        for name, study in studies.items():
+            with self.subTest(name):
+                self.assertEqual(study['differences'], [])
+                self.assertGreater(len(study['rows']), 4)
+                for row in study['rows']:
+                    self.assertEqual(len(row), len(study['columns']), row)
+                    self.assertIn(row[study['columns'].index('Equal')], ('yes', '-'), row)
+        self.worker_charts(studies['distribution'], 4)
+        self.worker_charts(studies['longest-first'], 3)
+        pairs = studies['octree']['columns'].index('Pairs')
+        found = [row[pairs] for row in studies['octree']['rows']]
+        self.assertEqual(found[::2], found[1::2], 'either tree')
+        self.assertEqual(len(found), 8)
+        self.assertEqual([row[1] for row in studies['memory']['rows']], ['1', '2', '4', '8', '16'] * 3)
+        page = (self.folder / 'studies' / 'evaluation.md').read_text(encoding='utf-8')
+        self.assertIn('(chart-distribution-4.svg)', page)
+        self.assertTrue((self.folder / 'studies' / 'chart-distribution-4.svg').is_file())
+
+    def worker_charts(self, study, count):
+        self.assertEqual(len(study['charts']), count)
+        for chart in study['charts']:
+            self.assertEqual(len(chart['names']), 7)
+            self.assertEqual([len(series['values']) for series in chart['series']], [7, 7])
+
 
 if __name__ == '__main__':
     STRAKE = Path(sys.argv.pop(1)).resolve()

@@ -45,6 +45,8 @@ class Usage(Scenario):
                 (['draw', 'a.obj', '-o', 'a.svg', '--limits', ''], '--limits: the value is empty'),
                 (['info', 'a.obj', '--sag', '1e-30mm'], '1um or more'),
                 (['clash', 'a.obj', '--fail-on', 'sometimes'], 'hit|contact'),
+                (['clash', 'a.obj', '--distribution', 'fair'], 'planned|in-order|equal-ranges'),
+                (['info', 'a.obj', '--distribution', 'planned'], '--distribution'),
                 (['clash', 'a.obj', '-o', 'report.doc'], '.json or .csv'),
                 (['clash', 'a.obj', '--a', 'name ='], '--a, selection, column 7'),
                 (['clash', 'a.obj', '--b', 'x', '--self'], '--b excludes --self'),

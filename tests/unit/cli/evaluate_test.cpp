@@ -1,23 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
+#include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cli/evaluate/cases.hpp"
 #include "cli/evaluate/compare.hpp"
+#include "cli/evaluate/evaluation.hpp"
 #include "cli/evaluate/measure.hpp"
 #include "cli/evaluate/pages/bar_chart.hpp"
 #include "cli/evaluate/pages/pages.hpp"
 #include "cli/evaluate/pages/tables.hpp"
 #include "cli/evaluate/record_json.hpp"
 #include "cli/evaluate/statistics.hpp"
+#include "cli/evaluate/studies/loose_octree.hpp"
+#include "cli/evaluate/studies/object_boxes.hpp"
+#include "cli/evaluate/studies/region_times.hpp"
+#include "cli/evaluate/studies/study_runs.hpp"
 #include "cli/evaluate/time_limit.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/model/scene.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::cli {
 namespace {
@@ -62,7 +73,25 @@ EvaluationRecord example() {
   record.settings.threads = {1, 2};
   record.machine.processor = "a processor";
   record.cases = {example_case("iso", "global"), example_case("dense", "clash")};
+  record.studies = {{"distribution",
+                     "Ranges",
+                     "Which?",
+                     {"Stage", "s"},
+                     {{"clash", "1.5"}},
+                     {{"busy", "s", {"worker 1", "worker 2"}, {{"ranges", {0.5, 1}}}, {{"x", 1}}}},
+                     {}}};
   return record;
+}
+
+Contender fake(std::string name, const std::string& hash) {
+  Contender one;
+  one.name = std::move(name);
+  one.compute = [hash](const parallel::Context&) -> Result<Computed> {
+    return Computed{{},
+                    [hash] { return hash; },
+                    [hash](const parallel::Context&) -> Result<std::string> { return hash; }};
+  };
+  return one;
 }
 
 TEST(Evaluate, SpeedupBalanceAndSerialShareAreThoseOfTheRuns) {
@@ -172,22 +201,139 @@ TEST(Evaluate, ADifferenceStandsOnThePage) {
   EXPECT_NE(evaluation_markdown(record).find("1 results differ"), std::string::npos);
 }
 
+TEST(Evaluate, AChartOfAStudyStandsWithItsTable) {
+  const EvaluationRecord record = example();
+  EXPECT_NE(evaluation_html(record).find("busy"), std::string::npos);
+  EXPECT_NE(evaluation_markdown(record).find("(chart-distribution-1.svg)"), std::string::npos);
+}
+
+TEST(Evaluate, NoTwoCasesShareAName) {
+  std::set<std::string> names;
+  for (const CaseGroup& group : case_groups()) {
+    EXPECT_TRUE(names.insert(group.name).second) << group.name;
+    for (const std::string& name : group.cases) EXPECT_TRUE(names.insert(name).second) << name;
+  }
+}
+
+/// Returns a region of a team whose workers were busy for so long.
+parallel::RegionReport region_of(std::string name, std::vector<double> busy_s, double longest_s) {
+  parallel::RegionReport region;
+  region.name = std::move(name);
+  region.runs = 1;
+  region.items = 10;
+  region.busy_s = std::move(busy_s);
+  region.longest_s = longest_s;
+  region.share_s = region.total_busy_s() / static_cast<double>(region.busy_s.size());
+  region.least_s = std::max(region.share_s, longest_s);
+  return region;
+}
+
+TEST(Evaluate, RegionsOfATeamAddUpByWorker) {
+  std::vector<parallel::RegionReport> regions{region_of("a", {1, 3}, 2), region_of("b", {2, 1}, 1)};
+  parallel::RegionReport nested;
+  nested.nested_runs = 5;
+  nested.nested_cpu_s = 100;
+  regions.push_back(nested);
+  const parallel::RegionReport whole = whole_of(regions);
+  EXPECT_EQ(whole.busy_s, (std::vector<double>{3, 4}));
+  EXPECT_EQ(whole.items, 20U);
+  EXPECT_DOUBLE_EQ(whole.load_balance(), 3.5 / 4);
+  EXPECT_DOUBLE_EQ(whole.longest_s, 2);
+  EXPECT_DOUBLE_EQ(whole.bound(), 1);
+  EXPECT_EQ(longest_of(regions).name, "a");
+  EXPECT_EQ(region_named(regions, "b").busy_s, (std::vector<double>{2, 1}));
+  EXPECT_TRUE(region_named(regions, "c").name.empty());
+  const std::vector<std::string_view> names{"b", "c"};
+  EXPECT_EQ(whole_of(regions, names).busy_s, (std::vector<double>{2, 1}));
+  EXPECT_EQ(cells_of(regions[0]).front(), "1.000");
+  EXPECT_EQ(cells_of(regions[0]).size(), region_columns().size());
+  EXPECT_EQ(cells_of(regions[2]).front(), "-");
+  EXPECT_TRUE(whole_of({}).busy_s.empty());
+  EXPECT_TRUE(longest_of({}).name.empty());
+}
+
+/// Returns boxes of very unequal size, some of them empty, points, or alike.
+std::vector<geometry::Box3l> uneven_boxes(unsigned seed) {
+  std::minstd_rand random(seed);
+  const auto up_to = [&](std::int64_t most) {
+    return static_cast<std::int64_t>(random()) % (most + 1);
+  };
+  std::vector<geometry::Box3l> boxes;
+  for (int i = 0; i < 400; ++i) {
+    geometry::Box3l box;
+    const std::int64_t longest = std::int64_t{1} << up_to(24);
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = up_to(20'000'000) - 10'000'000;
+      box.hi[k] = box.lo[k] + up_to(longest);
+    }
+    if (i % 50 == 0) box = geometry::empty_box<std::int64_t>();
+    if (i % 50 == 1) box.hi = box.lo;
+    if (i % 50 == 2) box = boxes.back();
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+TEST(Evaluate, ALooseOctreeFindsAllPairsOfBoxes) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    const std::vector<geometry::Box3l> boxes = uneven_boxes(seed);
+    const LooseOctree tree{std::span(boxes)};
+    TreeSearch search;
+    std::vector<geometry::IndexPair> expected;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      tree.find(i, search);
+      for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
+        if (!boxes[i].empty() && !boxes[j].empty() && meet(boxes[i], boxes[j]))
+          expected.push_back({i, j});
+    }
+    ASSERT_GT(expected.size(), 100U);
+    EXPECT_EQ(search.pairs.size(), expected.size()) << "seed " << seed;
+    EXPECT_EQ(computed_of(search.pairs).hash(), computed_of(expected).hash()) << "seed " << seed;
+  }
+  const LooseOctree none{std::span<const geometry::Box3l>()};
+  const std::vector<geometry::Box3l> empty(3, geometry::empty_box<std::int64_t>());
+  TreeSearch search;
+  LooseOctree{std::span(empty)}.find(1, search);
+  EXPECT_TRUE(search.pairs.empty());
+}
+
+TEST(Evaluate, AStudyRunsUnderItsConditions) {
+  EvaluationSettings settings;
+  settings.threads = {1};
+  settings.repeat = 2;
+  settings.limit_s = 60;
+  const StudyInput input{settings, {}, [](const std::string&) {}};
+  Contender contender = fake("x", "a");
+  contender.threads = 3;
+  contender.compute = [](const parallel::Context& context) -> Result<Computed> {
+    EXPECT_EQ(context.distribution, parallel::Distribution::equal_ranges);
+    EXPECT_EQ(context.least_chunk, 4U);
+    const Status status =
+        parallel::for_each(context, {.name = "loop", .n = 300}, [](std::size_t) {});
+    if (!status) return status.error();
+    return Computed{{{"tests", 7}}, [] { return std::string("a"); }, {}};
+  };
+  const auto run = run_for_study(input, contender,
+                                 {.distribution = parallel::Distribution::equal_ranges,
+                                  .least_chunk = 4,
+                                  .with_regions = true});
+  ASSERT_TRUE(run.has_value()) << run.error().text();
+  EXPECT_EQ(region_named(run->regions, "loop").busy_s.size(), 3U);
+  EXPECT_EQ(run->counter("tests"), "7");
+  StudyRun other = *run;
+  other.computed.hash = [] { return std::string("b"); };
+  StudyRecord study;
+  EXPECT_EQ(equal(*run, *run, "same", study), "yes");
+  EXPECT_TRUE(study.differences.empty());
+  EXPECT_EQ(equal(*run, other, "another", study), "NO");
+  EXPECT_EQ(study.differences.size(), 1U);
+}
+
 TEST(Evaluate, AChartOfNothingIsStillAChart) {
   const std::string svg = bar_chart_svg({"empty", "x", {"a"}, {{"s", {0.0}}}});
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
-}
-
-Contender fake(std::string name, const std::string& hash) {
-  Contender one;
-  one.name = std::move(name);
-  one.compute = [hash](const parallel::Context&) -> Result<Computed> {
-    return Computed{{},
-                    [hash] { return hash; },
-                    [hash](const parallel::Context&) -> Result<std::string> { return hash; }};
-  };
-  return one;
 }
 
 TEST(Evaluate, AResultThatDiffersIsTold) {
