@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/evaluate/peers/peer_row.hpp"
 #include "strake/parallel/report.hpp"
 
 namespace strake::cli {
@@ -69,11 +70,18 @@ struct StudyRecord {
   std::vector<std::string> differences;  ///< as of a StageRecord
 };
 
+/// What one peer did, on each scene that it was asked about.
+struct PeerRecord {
+  std::string name;
+  std::vector<PeerRow> rows;
+};
+
 struct EvaluationRecord {
   Machine machine;
   EvaluationSettings settings;
   std::vector<CaseRecord> cases;
   std::vector<StudyRecord> studies;
+  std::vector<PeerRecord> peers;
 };
 
 }  // namespace strake::cli
