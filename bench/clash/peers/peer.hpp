@@ -20,6 +20,7 @@ struct PeerObject {
 };
 
 struct PeerAnswer {
+  std::string version;
   std::vector<geometry::IndexPair> pairs;  ///< ascending
   double build_s = 0, query_s = 0;         ///< CPU seconds of all threads
   double wall_s = 0;
@@ -39,5 +40,10 @@ struct PeerAnswer {
 /// Exact predicates: a tree over each object's triangles, asked about those of its smaller partner.
 [[nodiscard]] PeerAnswer cgal_overlaps(std::span<const PeerObject> objects,
                                        const parallel::Context& context);
+
+/// Bullet's boxes in a dynamic tree, and GImpact's trees of triangles; double precision, no margin.
+/// Made for physics: it takes two triangles for touching where each reaches behind the plane of the
+/// other and their boxes meet, which holds for more pairs than cross. One thread.
+[[nodiscard]] PeerAnswer bullet_overlaps(std::span<const PeerObject> objects);
 
 }  // namespace strake::bench
