@@ -14,7 +14,8 @@ namespace {
 
 // Drawings as large as bench_hidden_lines_peers has them by default: what hides lines by pairs of
 // faces is not through with more in an hour.
-constexpr std::array<PeerCase, 9> kPeers{{
+constexpr std::array<PeerCase, 10> kPeers{{
+    {"pairs-strake", "Strake, overlaps alone", PeerJob::pairs, "strake", 100'000},
     {"pairs-embree", "Embree", PeerJob::pairs, "embree", 100'000},
     {"pairs-fcl", "FCL", PeerJob::pairs, "fcl", 100'000},
     {"pairs-cgal", "CGAL", PeerJob::pairs, "cgal", 100'000},
