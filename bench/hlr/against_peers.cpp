@@ -429,9 +429,9 @@ class Bench {
     if (answer.reply.outcome != cli::kMeasured) {
       fmt::print("  {:<41}{}\n", peer.title, answer.reply.why);
       const bool absent = answer.reply.outcome == cli::kNotThere;
-      return keep(
-          row, answer.reply.outcome,
-          answer.reply.why + (absent ? ": './run bench hidden_lines_peers' installs it" : ""));
+      return keep(row, answer.reply.outcome,
+                  answer.reply.why +
+                      (absent ? ": './run bench --build hidden_lines_peers' installs it" : ""));
     }
     const std::vector<PaperLine> visible = paper_.visible(answer);
     const bench::Common common = bench::compare(of_kinds(ours.visible, peer.compared),

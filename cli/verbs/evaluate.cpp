@@ -107,7 +107,7 @@ Result<std::vector<std::string>> chosen_cases(const std::string& only, bool has_
       if (!whole && std::ranges::find(chosen, one) == chosen.end()) continue;
       if (needs_peers)
         return Error{ErrorCode::usage, "'" + one + "' needs programs of its own", "--only",
-                     "give --peers the folder of the programs that './run bench' builds"};
+                     "give --peers the folder of the programs that './run bench --build' builds"};
       cases.push_back(one);
     }
   }
@@ -159,7 +159,7 @@ Result<std::optional<PeerPrograms>> peer_programs(const EvaluateOptions& given,
   std::error_code failure;
   if (!fs::is_directory(programs.folder, failure))
     return Error{ErrorCode::usage, "there is no such folder", given.peers,
-                 "give --peers the folder of the programs that './run bench' builds"};
+                 "give --peers the folder of the programs that './run bench --build' builds"};
   return std::optional(std::move(programs));
 }
 

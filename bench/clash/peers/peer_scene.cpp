@@ -29,16 +29,18 @@ std::vector<PeerObject> peer_objects(const model::Scene& scene) {
 model::Model as_meshes(const model::Model& from, const std::vector<PeerObject>& objects) {
   model::Model meshes;
   meshes.files = from.files;
+  meshes.groups = from.groups;
+  meshes.group_attributes = from.group_attributes;
   meshes.objects = from.objects;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     model::Object& o = meshes.objects[i];
     o.first_body = static_cast<std::uint32_t>(meshes.bodies.size());
-    o.body_count = 1;
+    o.body_count = objects[i].triangles.empty() ? 0 : 1;
+    if (o.body_count == 0) continue;
     model::Body body;
     body.shape = model::ShapeId{static_cast<std::uint32_t>(meshes.shapes.size())};
     // About the object's own corner, as a placement in a file would have it.
-    const geometry::Vec3d corner =
-        objects[i].triangles.empty() ? geometry::Vec3d{} : objects[i].box.lo;
+    const geometry::Vec3d corner = objects[i].box.lo;
     body.placement.translation = corner;
     geometry::TriangleMesh mesh;
     for (const geometry::Vec3d& p : objects[i].points) mesh.vertices.push_back(p - corner);

@@ -13,19 +13,19 @@ namespace strake::cli {
 
 namespace {
 
-std::string seconds(double value) { return value > 0 ? fmt::format("{:.3f}", value) : "-"; }
+std::string seconds_text(double value) { return value > 0 ? fmt::format("{:.3f}", value) : "-"; }
 
 /// Returns the ratio with two digits that count, as far as it is measured; "-" without a time.
-std::string times(double theirs, double ours) {
+std::string ratio_text(double theirs, double ours) {
   constexpr double kExact = 10;
   if (theirs <= 0 || ours <= 0) return "-";
   return fmt::format("{:.{}f}", theirs / ours, theirs / ours < kExact ? 1 : 0);
 }
 
-std::string count(std::uint64_t value) { return value > 0 ? std::to_string(value) : "-"; }
+std::string count_text(std::uint64_t value) { return value > 0 ? std::to_string(value) : "-"; }
 
 /// Returns how the results compare, or why there is none; what is an error begins with "NO: ".
-std::string result_of(const PeerRow& row) {
+std::string result_text(const PeerRow& row) {
   if (row.outcome == kMeasured) return row.result;
   if (row.outcome == kDisagrees) return "NO: " + row.result;
   return fmt::format("{}: {}", row.outcome, row.result);
@@ -33,17 +33,17 @@ std::string result_of(const PeerRow& row) {
 
 std::vector<std::string> cells_of(const PeerRow& row) {
   return {row.scene,
-          count(row.objects),
-          count(row.triangles),
+          count_text(row.objects),
+          count_text(row.triangles),
           row.who,
           row.version,
-          count(row.threads),
+          count_text(row.threads),
           row.answers,
-          seconds(row.cpu_s),
-          seconds(row.wall_s),
-          seconds(row.ours_cpu_s),
-          times(row.cpu_s, row.ours_cpu_s),
-          result_of(row)};
+          seconds_text(row.cpu_s),
+          seconds_text(row.wall_s),
+          seconds_text(row.ours_cpu_s),
+          ratio_text(row.cpu_s, row.ours_cpu_s),
+          result_text(row)};
 }
 
 }  // namespace

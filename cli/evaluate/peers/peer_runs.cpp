@@ -71,7 +71,7 @@ class PeerRun {
     constexpr std::size_t kTail = 300;
     switch (end.how) {
       case ChildEnd::How::not_started:
-        return fmt::format("{} cannot be run: './run bench' builds it", program_.string());
+        return fmt::format("{} cannot be run: './run bench --build' builds it", program_.string());
       case ChildEnd::How::over_limit:
         return fmt::format("no answer within {:g} s (--peer-limit)", limit_s_);
       case ChildEnd::How::killed:
