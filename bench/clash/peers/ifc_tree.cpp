@@ -22,6 +22,7 @@ PeerAnswer ifc_tree_overlaps(const std::filesystem::path& scene, unsigned thread
   answer.version = std::move(reply.version);
   answer.query_s = reply.cpu_s;
   answer.wall_s = reply.wall_s;
+  answer.load_s = reply.load_s;
   if (answer.outcome != cli::kMeasured) return answer;
   std::ifstream in(pairs);
   for (geometry::IndexPair pair; in >> pair.first >> pair.second;) answer.pairs.push_back(pair);

@@ -29,6 +29,7 @@ struct PeerAnswer {
   std::vector<geometry::IndexPair> pairs;  ///< ascending
   double build_s = 0, query_s = 0;         ///< CPU seconds of all threads
   double wall_s = 0;
+  double load_s = 0;  ///< before: of reading files, by a peer that reads some
 };
 
 /// rtcCollide finds the boxes that meet, a test of separating axes the triangles that do: with

@@ -15,11 +15,11 @@ namespace {
 
 std::string seconds_text(double value) { return value > 0 ? fmt::format("{:.3f}", value) : "-"; }
 
-/// Returns the ratio with two digits that count, as far as it is measured; "-" without a time.
+/// Returns the ratio with two digits that count; "-" without a time.
 std::string ratio_text(double theirs, double ours) {
-  constexpr double kExact = 10;
   if (theirs <= 0 || ours <= 0) return "-";
-  return fmt::format("{:.{}f}", theirs / ours, theirs / ours < kExact ? 1 : 0);
+  const double ratio = theirs / ours;
+  return fmt::format("{:.{}f}", ratio, ratio < 1 ? 2 : ratio < 10 ? 1 : 0);
 }
 
 std::string count_text(std::uint64_t value) { return value > 0 ? std::to_string(value) : "-"; }
