@@ -415,10 +415,22 @@ class Bench {
     return ours;
   }
 
-  /// False where the peer's lines are not Strake's, so that its time says nothing.
+  /// Asks a peer, and prints and keeps what became of it; false where its lines are not Strake's.
   bool ask(const Peer& peer, const Asked& asked, const Ours& ours) {
     const PeerAnswer answer = bench::ask(peer, {file_, subject_.direction, kSharp_deg, kThreads,
                                                 arguments_.run.limit_s, folder_.path()});
+    const cli::PeerRow row = row_of(peer, answer, ours);
+    if (answer.reply.outcome != cli::kMeasured) return without_answer(row, answer.reply);
+    const std::vector<PaperLine> visible = paper_.visible(answer);
+    const Compared compared{peer, asked, ours, answer,
+                            bench::compare(of_kinds(ours.visible, peer.compared),
+                                           of_kinds(visible, peer.compared), context_)};
+    compared.print(visible);
+    return judge(row, compared);
+  }
+
+  [[nodiscard]] cli::PeerRow row_of(const Peer& peer, const PeerAnswer& answer,
+                                    const Ours& ours) const {
     cli::PeerRow row = scene_row_;
     row.who = peer.title;
     row.version = answer.reply.version;
@@ -426,23 +438,24 @@ class Bench {
     row.threads = peer.name.starts_with("line_art") ? kThreads : 1;
     row.ours_cpu_s = ours.one.cpu;
     row.ours_wall_s = ours.team.wall;
-    if (answer.reply.outcome != cli::kMeasured) {
-      fmt::print("  {:<41}{}\n", peer.title, answer.reply.why);
-      const bool absent = answer.reply.outcome == cli::kNotThere;
-      return keep(row, answer.reply.outcome,
-                  answer.reply.why +
-                      (absent ? ": './run bench --build hidden_lines_peers' installs it" : ""));
+    return row;
+  }
+  bool without_answer(const cli::PeerRow& row, const bench::ProgramReply& reply) {
+    fmt::print("  {:<41}{}\n", row.who, reply.why);
+    const bool absent = reply.outcome == cli::kNotThere;
+    return keep(
+        row, reply.outcome,
+        reply.why + (absent ? ": './run bench --build hidden_lines_peers' installs it" : ""));
+  }
+  /// A time counts where the lines are the same, but for what is stated.
+  bool judge(cli::PeerRow row, const Compared& compared) {
+    if (!compared.same()) {
+      (void)keep(std::move(row), cli::kDisagrees, compared.text() + compared.known());
+      return false;
     }
-    const std::vector<PaperLine> visible = paper_.visible(answer);
-    const bench::Common common = bench::compare(of_kinds(ours.visible, peer.compared),
-                                                of_kinds(visible, peer.compared), context_);
-    const Compared compared{peer, asked, ours, answer, common};
-    compared.print(visible);
-    if (!compared.same())
-      return (void)keep(row, cli::kDisagrees, compared.text() + compared.known()), false;
-    row.cpu_s = answer.reply.cpu_s;
-    row.wall_s = answer.reply.wall_s;
-    return keep(row, cli::kMeasured, compared.text());
+    row.cpu_s = compared.theirs.reply.cpu_s;
+    row.wall_s = compared.theirs.reply.wall_s;
+    return keep(std::move(row), cli::kMeasured, compared.text());
   }
 
   const Subject& subject_;

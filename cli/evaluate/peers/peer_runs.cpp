@@ -73,7 +73,7 @@ class PeerRun {
       case ChildEnd::How::not_started:
         return fmt::format("{} cannot be run: './run bench --build' builds it", program_.string());
       case ChildEnd::How::over_limit:
-        return fmt::format("no answer within {:g} s (--peer-limit)", limit_s_);
+        return fmt::format("no answer within {:g} s, several times --peer-limit", limit_s_);
       case ChildEnd::How::killed:
         return fmt::format("ended by signal {}: {}", end.code, tail_of(end.output, kTail));
       case ChildEnd::How::stopped:
